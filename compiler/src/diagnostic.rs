@@ -1,0 +1,131 @@
+//! Diagnostics are data; they are rendered once, at the edge.
+
+use crate::source::{Sources, Span};
+use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
+
+/// Something wrong with the input. All are errors: a line that may run is right, one that may not is not.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Diagnostic {
+    /// Stable, such as `E0104`; every code stands in `docs/errors.md`.
+    pub code: &'static str,
+    /// What is wrong, in one line that stands alone.
+    pub message: String,
+    pub place: Span,
+    /// What is at `place`, in a few words; may be empty.
+    pub label: String,
+    /// Other places that matter, in any file.
+    pub others: Vec<(Span, String)>,
+    /// Facts, a line each.
+    pub notes: Vec<String>,
+    /// How to mend it.
+    pub help: String,
+}
+
+impl Diagnostic {
+    pub fn new(code: &'static str, place: Span, message: impl Into<String>) -> Self {
+        Self {
+            code,
+            message: message.into(),
+            place,
+            label: String::new(),
+            others: Vec::new(),
+            notes: Vec::new(),
+            help: String::new(),
+        }
+    }
+
+    pub fn label(mut self, text: impl Into<String>) -> Self {
+        self.label = text.into();
+        self
+    }
+
+    pub fn other(mut self, place: Span, text: impl Into<String>) -> Self {
+        self.others.push((place, text.into()));
+        self
+    }
+
+    pub fn note(mut self, text: impl Into<String>) -> Self {
+        self.notes.push(text.into());
+        self
+    }
+
+    pub fn help(mut self, text: impl Into<String>) -> Self {
+        self.help = text.into();
+        self
+    }
+}
+
+/// Places in reading order, so that output never depends on the order of the checks.
+pub fn sort(diagnostics: &mut Vec<Diagnostic>) {
+    diagnostics.sort_by(|a, b| (a.place, a.code, &a.message).cmp(&(b.place, b.code, &b.message)));
+    diagnostics.dedup();
+}
+
+/// The name among `known` that is nearest to `name`, if it is near enough to be meant.
+pub fn suggestion<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    known
+        .into_iter()
+        .map(|candidate| (edit_distance(&name.to_lowercase(), &candidate.to_lowercase()), candidate))
+        .filter(|(distance, candidate)| *distance <= 1 + candidate.len().min(name.len()) / 3)
+        .min()
+        .map(|(_, candidate)| candidate)
+}
+
+fn edit_distance(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, x) in a.chars().enumerate() {
+        let mut corner = row[0];
+        row[0] = i + 1;
+        for (j, y) in b.iter().enumerate() {
+            let change = corner + usize::from(x != *y);
+            corner = row[j + 1];
+            row[j + 1] = change.min(corner + 1).min(row[j] + 1);
+        }
+    }
+    row[b.len()]
+}
+
+/// All diagnostics as text for people.
+pub fn render(sources: &Sources, diagnostics: &[Diagnostic], renderer: &Renderer) -> String {
+    let mut out = String::new();
+    for diagnostic in diagnostics {
+        let mut group =
+            Group::with_title(Level::ERROR.primary_title(diagnostic.message.as_str()).id(diagnostic.code));
+        let mut files = vec![diagnostic.place.file];
+        for (span, _) in &diagnostic.others {
+            if !files.contains(&span.file) {
+                files.push(span.file);
+            }
+        }
+        for file in files {
+            let source = sources.file(file);
+            let mut snippet = Snippet::source(source.text.as_str()).path(source.name.as_str()).fold(true);
+            if file == diagnostic.place.file {
+                let span = range(diagnostic.place, source.text.len());
+                snippet =
+                    snippet.annotation(AnnotationKind::Primary.span(span).label(diagnostic.label.as_str()));
+            }
+            for (span, text) in diagnostic.others.iter().filter(|(s, _)| s.file == file) {
+                snippet = snippet.annotation(
+                    AnnotationKind::Context.span(range(*span, source.text.len())).label(text.as_str()),
+                );
+            }
+            group = group.element(snippet);
+        }
+        for note in &diagnostic.notes {
+            group = group.element(Level::NOTE.message(note.as_str()));
+        }
+        if !diagnostic.help.is_empty() {
+            group = group.element(Level::HELP.message(diagnostic.help.as_str()));
+        }
+        out.push_str(&renderer.render(&[group]));
+        out.push_str("\n\n");
+    }
+    out
+}
+
+fn range(span: Span, len: usize) -> std::ops::Range<usize> {
+    let start = (span.start as usize).min(len);
+    start..(span.end as usize).clamp(start, len)
+}

@@ -1,0 +1,4 @@
+//! The compiler: layout and automata in, controllers out. Pure: nothing here reads or writes files.
+
+pub mod diagnostic;
+pub mod source;

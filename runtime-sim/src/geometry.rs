@@ -1,0 +1,196 @@
+//! Where a machine stands and which places it has, as the layout gives them.
+
+use crate::point::{Axis, Point};
+
+/// What the layout fixes for one machine: the keys of its JSON object.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Geometry {
+    /// A belt along `orient`; parts travel towards the lower end of `orient_range`.
+    Belt { pose: Point, orient: Axis, orient_range: [f64; 2] },
+    /// A vehicle that starts at `pose`; `destinations` are its near and its far stop.
+    Vehicle { pose: Point, destinations: [Point; 2] },
+    /// A UR10 on a rail; `pose` is its shoulder-lift axis with the rail at the middle of the world's origin.
+    RailArm { pose: Point, rail_dim: Axis, rail_range: [f64; 2] },
+    /// A UR10 under a torso on two rails; `pose.z` is the height of its shoulder.
+    Gantry { pose: Point, x_rail_range: [f64; 2], y_rail_range: [f64; 2] },
+    /// An assembly station with its briefcase.
+    Station { pose: Point },
+    /// A bin that holds parts.
+    Bin { pose: Point },
+}
+
+/// A place at which an item changes hands, with its name for reports, such as `slot 3 at stops[0]`.
+/// The point is where the item's underside rests.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Place {
+    pub name: String,
+    pub point: Point,
+}
+
+/// Height of the belt's surface over its pose (collision box of the belt model: centre 0.75, height 0.25).
+pub const BELT_SURFACE: f64 = 0.875;
+/// Half of the pick zone's length: the field of the camera over the belt, 0.6 * tan(0.75 rad).
+pub const PICK_ZONE_HALF: f64 = 0.56;
+/// Where parts appear, before the upper end of `orient_range` (spawn at y = 4.3 of a belt that ends at 5).
+pub const SPAWN_INSET: f64 = 0.7;
+/// Where parts leave the belt, after the lower end of `orient_range` (deletion wall at -4.53 of -5).
+pub const END_INSET: f64 = 0.47;
+/// Height of a vehicle's tray over its pose (kit tray: top at 0.755).
+pub const TRAY_SURFACE: f64 = 0.755;
+/// Number of slots of a tray: three rows of four.
+pub const SLOTS: usize = 12;
+/// Where the middle of the briefcase's floor lies, from the station's pose
+/// (briefcase at (0.08, 0.095839, 1.20), lowest part pose 0.15 over it).
+pub const BRIEFCASE: Point = Point::new(0.08, 0.095839, 1.35);
+/// Height of a bin's inner floor over its pose.
+pub const BIN_FLOOR: f64 = 0.725;
+
+/// Slot `i` of a tray, from the vehicle's pose: rows 0.20 m apart in x, columns 0.12 m in y
+/// (the prototype's twelve-slot tray).
+pub fn slot_offset(i: usize) -> Point {
+    Point::new(-0.014 + 0.20 * (i / 4) as f64, -0.18 + 0.12 * (i % 4) as f64, TRAY_SURFACE)
+}
+
+/// Place `i` of a bin, from the bin's pose: the same grid, centred on the bin.
+pub fn bin_offset(i: usize) -> Point {
+    Point::new(-0.2 + 0.20 * (i / 4) as f64, -0.18 + 0.12 * (i % 4) as f64, BIN_FLOOR)
+}
+
+/// Where kind number `kind` lies in a briefcase, from the station's pose: two columns 0.2 m apart.
+pub fn briefcase_offset(kind: usize) -> Point {
+    BRIEFCASE + Point::new(-0.1 + 0.2 * (kind % 2) as f64, -0.12 + 0.24 * (kind / 2 % 2) as f64, 0.0)
+}
+
+impl Geometry {
+    /// Name of the device of this machine in [`crate::device::DEVICES`].
+    pub fn device(&self) -> &'static str {
+        match self {
+            Geometry::Belt { .. } => "belt",
+            Geometry::Vehicle { .. } => "vehicle",
+            Geometry::RailArm { .. } => "rail_arm",
+            Geometry::Gantry { .. } => "gantry",
+            Geometry::Station { .. } => "station",
+            Geometry::Bin { .. } => "bin",
+        }
+    }
+
+    pub fn pose(&self) -> Point {
+        match *self {
+            Geometry::Belt { pose, .. }
+            | Geometry::Vehicle { pose, .. }
+            | Geometry::RailArm { pose, .. }
+            | Geometry::Gantry { pose, .. }
+            | Geometry::Station { pose }
+            | Geometry::Bin { pose } => pose,
+        }
+    }
+
+    /// Stops of a vehicle: its start, then its destinations. Empty for every other machine.
+    pub fn stops(&self) -> Vec<Point> {
+        match self {
+            Geometry::Vehicle { pose, destinations } => {
+                vec![*pose, destinations[0], destinations[1]]
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    /// Both ends of a belt's pick zone, on its surface, lower coordinate first.
+    pub fn pick_zone(&self) -> Option<[Point; 2]> {
+        let Geometry::Belt { pose, orient, .. } = *self else { return None };
+        let along = match orient {
+            Axis::X => Point::new(PICK_ZONE_HALF, 0.0, 0.0),
+            Axis::Y => Point::new(0.0, PICK_ZONE_HALF, 0.0),
+        };
+        let middle = pose.up(BELT_SURFACE);
+        Some([middle - along, middle + along])
+    }
+
+    /// The values of a device constant (see [`crate::device::Constant`]), flattened; `None` if this device has no such constant.
+    /// `heights` are the heights of the kinds, in order.
+    pub fn constant(&self, name: &str, heights: &[f64]) -> Option<Vec<f64>> {
+        let points = |list: Vec<Point>| list.iter().flat_map(|p| [p.x, p.y, p.z]).collect();
+        match (self, name) {
+            (Geometry::Belt { .. }, "pick_zone") => self.pick_zone().map(|z| points(z.to_vec())),
+            (Geometry::Vehicle { .. }, "stops") => Some(points(self.stops())),
+            (Geometry::Vehicle { .. }, "offsets") => Some(points((0..SLOTS).map(slot_offset).collect())),
+            (Geometry::Vehicle { pose, .. }, "places") => {
+                Some(points((0..SLOTS).map(|i| *pose + slot_offset(i)).collect()))
+            }
+            (Geometry::Vehicle { pose, .. }, "place") => Some(points(vec![*pose])),
+            (Geometry::RailArm { .. } | Geometry::Gantry { .. }, "heights") => Some(heights.to_vec()),
+            (Geometry::RailArm { .. } | Geometry::Gantry { .. }, "rest") => Some(points(vec![self.rest()])),
+            (Geometry::Station { pose }, "places") => {
+                Some(points((0..heights.len()).map(|k| *pose + briefcase_offset(k)).collect()))
+            }
+            (Geometry::Station { pose } | Geometry::Bin { pose }, "place") => Some(points(vec![*pose])),
+            (Geometry::Bin { pose }, "places") => {
+                Some(points((0..SLOTS).map(|i| *pose + bin_offset(i)).collect()))
+            }
+            _ => None,
+        }
+    }
+
+    /// Where an arm's tool rests when nothing is to be done: its spawn pose from the rail's middle.
+    /// (Kitting robot: (0.574, 0.163, 0.402) from its shoulder; gantry: near the middle of its range, below its shoulder.)
+    pub fn rest(&self) -> Point {
+        match *self {
+            Geometry::RailArm { pose, rail_dim, rail_range } => {
+                let middle = (rail_range[0] + rail_range[1]) / 2.0;
+                match rail_dim {
+                    Axis::Y => Point::new(pose.x + 0.574, middle + 0.163, pose.z + 0.402),
+                    Axis::X => Point::new(middle + 0.163, pose.y + 0.574, pose.z + 0.402),
+                }
+            }
+            Geometry::Gantry { pose, x_rail_range, y_rail_range } => Point::new(
+                (x_rail_range[0] + x_rail_range[1]) / 2.0,
+                (y_rail_range[0] + y_rail_range[1]) / 2.0,
+                pose.z - 0.776,
+            ),
+            _ => self.pose(),
+        }
+    }
+
+    /// The places of a handover that a type names, such as `stops[0]`, `pick_zone` or `places`:
+    /// a vehicle hands over at the first `capacity` slots of its tray at that stop.
+    /// `None` if this device has no such handover.
+    pub fn handover(
+        &self,
+        name: &str,
+        index: Option<usize>,
+        capacity: usize,
+        kinds: &[String],
+    ) -> Option<Vec<Place>> {
+        let place = |name: String, point: Point| Place { name, point };
+        match (self, name, index) {
+            (Geometry::Vehicle { .. }, "stops", Some(stop)) => {
+                let at = *self.stops().get(stop)?;
+                Some(
+                    (0..capacity.min(SLOTS))
+                        .map(|i| place(format!("slot {i} at stops[{stop}]"), at + slot_offset(i)))
+                        .collect(),
+                )
+            }
+            (Geometry::Belt { .. }, "pick_zone", None) => {
+                let [low, high] = self.pick_zone()?;
+                Some(vec![
+                    place("lower end of the pick zone".into(), low),
+                    place("upper end of the pick zone".into(), high),
+                ])
+            }
+            (Geometry::Station { pose }, "places", None) => Some(
+                kinds
+                    .iter()
+                    .enumerate()
+                    .map(|(k, kind)| place(format!("place of the {kind}"), *pose + briefcase_offset(k)))
+                    .collect(),
+            ),
+            (Geometry::Bin { pose }, "places", None) => Some(
+                (0..capacity.min(SLOTS))
+                    .map(|i| place(format!("place {i}"), *pose + bin_offset(i)))
+                    .collect(),
+            ),
+            _ => None,
+        }
+    }
+}
