@@ -1,4 +1,7 @@
 //! The compiler: layout and automata in, controllers out. Pure: nothing here reads or writes files.
 
+pub mod check;
 pub mod diagnostic;
+pub mod ir;
 pub mod source;
+pub mod spec;

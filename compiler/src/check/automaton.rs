@@ -1,0 +1,412 @@
+//! One automaton: its names, then its parts.
+
+use super::facts::Facts;
+use super::{Checker, state};
+use crate::diagnostic::{Diagnostic, suggestion};
+use crate::ir::{self, Extent, Scalar, Type, VariableId};
+use crate::source::Span;
+use crate::spec::ast;
+use runtime_sim::device::{DEVICES, Device, PortType};
+use std::collections::BTreeMap;
+
+/// What a name means in an automaton.
+#[derive(Clone, Debug)]
+pub enum Symbol {
+    Local(usize),
+    Cell(ir::InterfaceId, usize),
+    Port(usize),
+    Parameter(usize),
+    /// Becomes a parameter when it is first read.
+    DeviceConstant(usize),
+    Define(usize),
+    Role(ir::RoleId),
+}
+
+/// An automaton under construction and what is known at the present place of its text.
+pub struct Context<'c, 'a> {
+    pub(super) checker: &'c mut Checker<'a>,
+    pub(super) automaton: ir::Automaton,
+    pub(super) id: ir::AutomatonId,
+    pub(super) symbols: BTreeMap<String, Symbol>,
+    /// Variables in scope, innermost last.
+    pub(super) variables: Vec<(String, VariableId, Scalar)>,
+    pub(super) facts: Facts,
+    /// `after` has a meaning.
+    pub(super) in_guard: bool,
+    /// Own interface, if the automaton shows something that no declared interface has.
+    own_interface: Option<ir::InterfaceId>,
+}
+
+pub(super) fn check(checker: &mut Checker, tree: &ast::Automaton) {
+    let Some(device) = device(checker, &tree.device) else { return };
+    let automaton = ir::Automaton {
+        name: tree.name.value.clone(),
+        doc: tree.doc.clone(),
+        place: tree.name.span,
+        device,
+        implements: Vec::new(),
+        parameters: Vec::new(),
+        roles: Vec::new(),
+        locals: Vec::new(),
+        defines: Vec::new(),
+        variables: Vec::new(),
+        states: Vec::new(),
+        invariants: Vec::new(),
+        requires: Vec::new(),
+    };
+    let id = ir::AutomatonId(checker.model.automata.len());
+    let own_interface = checker
+        .model
+        .interfaces
+        .iter()
+        .position(|i| i.name == tree.name.value)
+        .map(ir::InterfaceId)
+        .filter(|_| !checker.declarations.interfaces.iter().any(|i| i.name.value == tree.name.value));
+    let mut context = Context {
+        checker,
+        automaton,
+        id,
+        symbols: BTreeMap::new(),
+        variables: Vec::new(),
+        facts: Facts::default(),
+        in_guard: false,
+        own_interface,
+    };
+    context.names(tree);
+    context.implements(tree);
+    context.defines(tree);
+    for require in &tree.requires {
+        if let Some(condition) = context.typed(&require.condition, Scalar::Bool) {
+            if reads_changing(&context.automaton, &condition) {
+                context.report(
+                    Diagnostic::new("E0325", require.span, "a requirement is decided before the line runs")
+                        .help("name parameters, device constants and roles only; what changes belongs into an `invariant`"),
+                );
+            }
+            let text = require.text.clone();
+            context.automaton.requires.push(ir::Require { place: require.span, condition, text });
+        }
+    }
+    state::check(&mut context, tree);
+    for invariant in &tree.invariants {
+        if let Some(condition) = context.typed(&invariant.value, Scalar::Bool) {
+            let text = context.checker.sources.text(invariant.span).split_whitespace().collect::<Vec<_>>().join(" ");
+            let fault = context.fault(ir::FaultKind::InvariantFails, invariant.span, format!("not: {text}"));
+            context.automaton.invariants.push(ir::Invariant { place: invariant.span, text, condition, fault });
+        }
+    }
+    let automaton = context.automaton;
+    checker.model.automata.push(automaton);
+}
+
+fn device(checker: &mut Checker, name: &ast::Name) -> Option<&'static Device> {
+    let found = Device::find(&name.value);
+    if found.is_none() && !name.value.is_empty() {
+        let help = suggestion(&name.value, DEVICES.iter().map(|d| d.name)).map_or(
+            format!("devices are {}", DEVICES.iter().map(|d| d.name).collect::<Vec<_>>().join(", ")),
+            |n| format!("is `{n}` meant?"),
+        );
+        checker.report(Diagnostic::new("E0321", name.span, format!("there is no device `{}`", name.value)).help(help));
+    }
+    found
+}
+
+fn reads_changing(automaton: &ir::Automaton, expr: &ir::Expr) -> bool {
+    use ir::ExprKind as Kind;
+    match &expr.kind {
+        Kind::Read(place) => !matches!(place, ir::Place::Parameter { .. } | ir::Place::Shown { .. }),
+        Kind::Define(define) => reads_changing(automaton, &automaton.defines[*define].value),
+        Kind::After(_) | Kind::Done | Kind::Failed => true,
+        Kind::Not(a) | Kind::Negate(a) | Kind::Absolute(a) | Kind::ToReal(a) | Kind::Coordinate(a, _) | Kind::IsMember(a, _) => {
+            reads_changing(automaton, a)
+        }
+        Kind::Binary(_, a, b) | Kind::Min(a, b) | Kind::Max(a, b) | Kind::SquaredDistance(a, b) | Kind::Reaches(_, a, b) => {
+            reads_changing(automaton, a) || reads_changing(automaton, b)
+        }
+        Kind::MakePoint(parts) => parts.iter().any(|p| reads_changing(automaton, p)),
+        Kind::Exists { body, domain, .. }
+        | Kind::Forall { body, domain, .. }
+        | Kind::Count { body, domain, .. }
+        | Kind::Sum { body, domain, .. } => {
+            let ends = match &**domain {
+                ir::Domain::Range(a, b) => reads_changing(automaton, a) || reads_changing(automaton, b),
+                _ => false,
+            };
+            ends || reads_changing(automaton, body)
+        }
+        Kind::Constant(_) | Kind::Variable(_) | Kind::Own(_) | Kind::Members(_) => false,
+    }
+}
+
+impl Context<'_, '_> {
+    pub(super) fn report(&mut self, diagnostic: Diagnostic) {
+        self.checker.report(diagnostic);
+    }
+
+    pub(super) fn fault(&mut self, kind: ir::FaultKind, place: Span, text: String) -> ir::FaultId {
+        self.checker.model.faults.push(ir::FaultSite { automaton: self.id, kind, place, text });
+        ir::FaultId(self.checker.model.faults.len() - 1)
+    }
+
+    fn declare(&mut self, name: &ast::Name, symbol: Symbol) {
+        if name.value == "self" || self.symbols.contains_key(&name.value) {
+            let meaning = match self.symbols.get(&name.value) {
+                Some(Symbol::Port(_)) => "a port of the device",
+                Some(Symbol::DeviceConstant(_)) => "a constant of the device",
+                Some(Symbol::Cell(..)) => "a cell of an interface",
+                _ => "something else",
+            };
+            self.report(
+                Diagnostic::new("E0301", name.span, format!("`{}` names {meaning} already", name.value))
+                    .help("choose another name"),
+            );
+            return;
+        }
+        self.symbols.insert(name.value.clone(), symbol);
+    }
+
+    fn names(&mut self, tree: &ast::Automaton) {
+        let device = self.automaton.device;
+        for (index, port) in device.ports.iter().enumerate() {
+            self.symbols.insert(port.name.into(), Symbol::Port(index));
+        }
+        for (index, constant) in device.constants.iter().enumerate() {
+            self.symbols.insert(constant.name.into(), Symbol::DeviceConstant(index));
+        }
+        let declared: Vec<ir::InterfaceId> = tree
+            .implements
+            .iter()
+            .filter_map(|i| self.checker.interface_or_report(&i.interface))
+            .chain(self.own_interface)
+            .collect();
+        for id in declared {
+            let cells: Vec<String> = self.checker.model.interfaces[id.0].cells.iter().map(|c| c.name.clone()).collect();
+            for (index, cell) in cells.into_iter().enumerate() {
+                let span = tree.cells.iter().find(|c| c.name.value == cell).map_or(tree.name.span, |c| c.name.span);
+                self.declare(&ast::Name { value: cell, span }, Symbol::Cell(id, index));
+            }
+        }
+        for parameter in &tree.parameters {
+            let Some(ty) = self.checker.resolve_type(&parameter.ty) else { continue };
+            let default = match &parameter.default {
+                Some(expr) => match self.checker.constant(ty.scalar, expr) {
+                    Some(value) => Some(value),
+                    None => continue,
+                },
+                None => None,
+            };
+            self.declare(&parameter.name, Symbol::Parameter(self.automaton.parameters.len()));
+            self.automaton.parameters.push(ir::Parameter {
+                name: parameter.name.value.clone(),
+                doc: parameter.doc.clone(),
+                ty,
+                source: ir::ParameterSource::Layout(default),
+                place: parameter.name.span,
+            });
+        }
+        for role in &tree.roles {
+            self.role(role);
+        }
+        for local in &tree.locals {
+            let Some(ty) = self.checker.resolve_type(&local.ty) else { continue };
+            let Some(initial) = self.checker.initial(ty, local.initial.as_ref()) else { continue };
+            self.declare(&local.name, Symbol::Local(self.automaton.locals.len()));
+            self.automaton.locals.push(ir::Local {
+                name: local.name.value.clone(),
+                doc: local.doc.clone(),
+                ty,
+                initial,
+            });
+        }
+    }
+
+    fn role(&mut self, tree: &ast::Role) {
+        let Some(interface) = self.checker.interface_or_report(&tree.interface) else { return };
+        let also = tree.also.iter().filter_map(|n| self.checker.interface_or_report(n)).collect();
+        self.declare(&tree.name, Symbol::Role(ir::RoleId(self.automaton.roles.len())));
+        let kind = match tree.kind {
+            ast::RoleKind::Takes => ir::RoleKind::Takes,
+            ast::RoleKind::Hands => ir::RoleKind::Hands,
+            ast::RoleKind::Serves => ir::RoleKind::Serves,
+            ast::RoleKind::Knows => ir::RoleKind::Knows,
+        };
+        let is_active = matches!(kind, ir::RoleKind::Takes | ir::RoleKind::Hands);
+        if is_active && !matches!(self.automaton.device.name, "rail_arm" | "gantry") {
+            let message = format!("a `{}` has no arm to take or to put with", self.automaton.device.name);
+            self.report(
+                Diagnostic::new("E0322", tree.name.span, message)
+                    .help("`takes from` and `hands to` belong to the arm; a passive place says `is ... accepts at` or `offers at`"),
+            );
+        }
+        self.automaton.roles.push(ir::Role {
+            name: tree.name.value.clone(),
+            doc: tree.doc.clone(),
+            kind,
+            interface,
+            also,
+            min: tree.min,
+            max: tree.max,
+            place: tree.name.span,
+        });
+    }
+
+    fn implements(&mut self, tree: &ast::Automaton) {
+        for clause in &tree.implements {
+            let Some(interface) = self.checker.interface_named(&clause.interface.value) else { continue };
+            let handover = clause.handover.as_ref().and_then(|h| self.handover(h));
+            let parameters = self.supplied(interface, &clause.interface);
+            self.automaton.implements.push(ir::Implements { interface, parameters, handover });
+        }
+        if let Some(interface) = self.own_interface {
+            let parameters = self.supplied(interface, &tree.name);
+            self.automaton.implements.push(ir::Implements { interface, parameters, handover: None });
+        }
+    }
+
+    /// Which parameter of the automaton supplies each parameter of an interface: the one of the same name.
+    fn supplied(&mut self, interface: ir::InterfaceId, clause: &ast::Name) -> Vec<usize> {
+        let wanted = self.checker.model.interfaces[interface.0].parameters.clone();
+        let mut supplied = Vec::new();
+        for parameter in wanted {
+            let index = match self.symbols.get(&parameter.name) {
+                Some(Symbol::Parameter(index)) => *index,
+                Some(Symbol::DeviceConstant(index)) => {
+                    let index = *index;
+                    self.device_parameter(index)
+                }
+                _ => {
+                    let message = format!("`{}` shows no `{}`, which `{}` has", self.automaton.name, parameter.name, clause.value);
+                    self.report(
+                        Diagnostic::new("E0323", clause.span, message).help(format!(
+                            "declare `parameter {}: {};`",
+                            parameter.name,
+                            self.checker.type_name(parameter.ty.scalar)
+                        )),
+                    );
+                    continue;
+                }
+            };
+            let found = self.automaton.parameters[index].ty;
+            let fits = found.extent == parameter.ty.extent
+                && match (found.scalar, parameter.ty.scalar) {
+                    (Scalar::Int { lo, hi }, Scalar::Int { lo: low, hi: high }) => lo >= low && hi <= high,
+                    (a, b) => a == b,
+                };
+            if !fits {
+                let (have, want) = (self.checker.type_name(found.scalar), self.checker.type_name(parameter.ty.scalar));
+                let place = self.automaton.parameters[index].place;
+                self.report(
+                    Diagnostic::new("E0323", clause.span, format!("`{}` is {have}, `{}` wants {want}", parameter.name, clause.value))
+                        .other(place, "declared here")
+                        .help("give both the same type and size"),
+                );
+            }
+            supplied.push(index);
+        }
+        supplied
+    }
+
+    fn handover(&mut self, tree: &ast::Handover) -> Option<ir::Handover> {
+        let known = self.automaton.device.handovers;
+        let Some(found) = known.iter().find(|h| h.name == tree.place.value) else {
+            let names: Vec<&str> = known.iter().map(|h| h.name).collect();
+            let help = if names.is_empty() { "this device hands nothing over".into() } else { format!("its places are {}", names.join(", ")) };
+            let message = format!("a `{}` has no place `{}` at which items change hands", self.automaton.device.name, tree.place.value);
+            self.report(Diagnostic::new("E0324", tree.place.span, message).help(help));
+            return None;
+        };
+        let index = match (&tree.index, found.indexed) {
+            (None, None) => None,
+            (Some(ast::Expr { kind: ast::ExprKind::Int(i), .. }), Some(n)) if (0..n as i64).contains(i) => Some(*i as usize),
+            (_, Some(n)) => {
+                self.report(
+                    Diagnostic::new("E0324", tree.span, format!("one of the {n} places must be named"))
+                        .help(format!("write `{}[0]` to `{}[{}]`", found.name, found.name, n - 1)),
+                );
+                return None;
+            }
+            (Some(index), None) => {
+                self.report(
+                    Diagnostic::new("E0324", index.span, format!("`{}` is one place", found.name)).help("remove the index"),
+                );
+                return None;
+            }
+        };
+        let approach = match &tree.approach {
+            None => 0.0,
+            Some(expr) => match self.checker.constant(Scalar::Real, expr)? {
+                ir::Value::Real(height) if height >= 0.0 => height,
+                _ => {
+                    self.report(
+                        Diagnostic::new("E0324", expr.span, "an approach height is 0 m or more").help("write it in metres"),
+                    );
+                    return None;
+                }
+            },
+        };
+        let way = match tree.way {
+            ast::Way::Accepts => ir::Way::Accepts,
+            ast::Way::Offers => ir::Way::Offers,
+        };
+        Some(ir::Handover { place: tree.span, way, name: found.name.into(), index, approach })
+    }
+
+    /// The parameter that holds a device constant.
+    pub(super) fn device_parameter(&mut self, constant: usize) -> usize {
+        let declared = &self.automaton.device.constants[constant];
+        let index = self.automaton.parameters.len();
+        self.automaton.parameters.push(ir::Parameter {
+            name: declared.name.into(),
+            doc: vec![sentence(declared.meaning, declared.unit)],
+            ty: Type { scalar: port_scalar(declared.ty), extent: port_extent(declared.extent) },
+            source: ir::ParameterSource::Device,
+            place: self.automaton.place,
+        });
+        self.symbols.insert(declared.name.into(), Symbol::Parameter(index));
+        index
+    }
+
+    pub(super) fn port_type(&self, port: usize) -> Type {
+        let port = &self.automaton.device.ports[port];
+        Type { scalar: port_scalar(port.ty), extent: port_extent(port.extent) }
+    }
+
+    fn defines(&mut self, tree: &ast::Automaton) {
+        for define in &tree.defines {
+            let Some(value) = self.expr(&define.value, None) else { continue };
+            self.declare(&define.name, Symbol::Define(self.automaton.defines.len()));
+            self.automaton.defines.push(ir::Define {
+                name: define.name.value.clone(),
+                doc: define.doc.clone(),
+                place: define.name.span,
+                ty: value.ty,
+                value,
+            });
+        }
+    }
+}
+
+fn sentence(meaning: &str, unit: &str) -> String {
+    let mut text: String = meaning.chars().take(1).flat_map(char::to_uppercase).chain(meaning.chars().skip(1)).collect();
+    if !unit.is_empty() {
+        text.push_str(&format!(" [{unit}]"));
+    }
+    text + "."
+}
+
+pub fn port_scalar(ty: PortType) -> Scalar {
+    match ty {
+        PortType::Bool => Scalar::Bool,
+        PortType::Int { lo, hi } => Scalar::Int { lo, hi },
+        PortType::Real => Scalar::Real,
+        PortType::Point => Scalar::Point,
+    }
+}
+
+pub fn port_extent(extent: runtime_sim::device::Extent) -> Extent {
+    match extent {
+        runtime_sim::device::Extent::One => Extent::One,
+        runtime_sim::device::Extent::PerKind => Extent::By(ir::KIND),
+        runtime_sim::device::Extent::Times(n) => Extent::Count(n),
+    }
+}

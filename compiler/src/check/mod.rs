@@ -1,0 +1,349 @@
+//! From trees to a [`Model`]: names, types, proofs of indices and bounds, rules of writing.
+
+mod automaton;
+mod expression;
+mod facts;
+mod path;
+mod rule;
+mod sequence;
+mod state;
+mod types;
+mod update;
+mod used;
+
+pub use used::used;
+
+use crate::diagnostic::{Diagnostic, suggestion};
+use crate::ir;
+use crate::source::{FileId, Sources, Span};
+use crate::spec::ast;
+use std::collections::BTreeMap;
+
+/// A model that has passed every check; only [`check`] makes one.
+#[derive(Clone, Debug)]
+pub struct Checked {
+    model: ir::Model,
+}
+
+impl Checked {
+    pub fn model(&self) -> &ir::Model {
+        &self.model
+    }
+
+    pub fn into_model(self) -> ir::Model {
+        self.model
+    }
+}
+
+/// Checks all types of the files. A type of a later file replaces one of the same name of an earlier file.
+/// `kinds` are the kinds of part, from the scenario; at least one.
+pub fn check(sources: &Sources, files: &[(FileId, ast::File)], kinds: &[String]) -> Result<Checked, Vec<Diagnostic>> {
+    let mut diagnostics = Vec::new();
+    let declarations = declarations(files, &mut diagnostics);
+    let mut checker = Checker { sources, diagnostics, declarations, model: empty_model(kinds), rules: Vec::new() };
+    checker.enums();
+    checker.interfaces();
+    for index in 0..checker.declarations.automata.len() {
+        let automaton = checker.declarations.automata[index].clone();
+        automaton::check(&mut checker, &automaton);
+    }
+    checker.infinite_types();
+    if checker.diagnostics.is_empty() {
+        Ok(Checked { model: checker.model })
+    } else {
+        crate::diagnostic::sort(&mut checker.diagnostics);
+        Err(checker.diagnostics)
+    }
+}
+
+fn empty_model(kinds: &[String]) -> ir::Model {
+    let kind = ir::Enum {
+        name: "Kind".into(),
+        doc: vec!["The kinds of part, from the scenario.".into()],
+        members: kinds.to_vec(),
+    };
+    ir::Model {
+        enums: vec![kind],
+        interfaces: Vec::new(),
+        automata: Vec::new(),
+        faults: Vec::new(),
+        relations: Vec::new(),
+    }
+}
+
+/// The declarations that count, after replacement.
+#[derive(Clone, Debug, Default)]
+struct Declarations {
+    enums: Vec<ast::Enum>,
+    interfaces: Vec<ast::Interface>,
+    automata: Vec<ast::Automaton>,
+}
+
+fn declarations(files: &[(FileId, ast::File)], diagnostics: &mut Vec<Diagnostic>) -> Declarations {
+    let mut result = Declarations::default();
+    let mut seen: BTreeMap<String, (FileId, Span)> = BTreeMap::new();
+    for (file, tree) in files {
+        let names = (tree.enums.iter().map(|e| &e.name))
+            .chain(tree.interfaces.iter().map(|i| &i.name))
+            .chain(tree.automata.iter().map(|a| &a.name));
+        for name in names {
+            if name.value == "Kind" {
+                diagnostics.push(
+                    Diagnostic::new("E0301", name.span, "`Kind` is the enumeration of the parts")
+                        .help("the scenario declares the kinds; choose another name"),
+                );
+            }
+            match seen.get(&name.value) {
+                Some((before, span)) if before == file => diagnostics.push(
+                    Diagnostic::new("E0301", name.span, format!("`{}` is declared twice", name.value))
+                        .other(*span, "first here")
+                        .help("rename or remove one of them"),
+                ),
+                _ => {
+                    seen.insert(name.value.clone(), (*file, name.span));
+                }
+            }
+        }
+        for tree in &tree.enums {
+            replace(&mut result, &tree.name.value);
+            result.enums.push(tree.clone());
+        }
+        for tree in &tree.interfaces {
+            replace(&mut result, &tree.name.value);
+            result.interfaces.push(tree.clone());
+        }
+        for tree in &tree.automata {
+            replace(&mut result, &tree.name.value);
+            result.automata.push(tree.clone());
+        }
+    }
+    result
+}
+
+fn replace(declarations: &mut Declarations, name: &str) {
+    declarations.enums.retain(|e| e.name.value != name);
+    declarations.interfaces.retain(|i| i.name.value != name);
+    declarations.automata.retain(|a| a.name.value != name);
+}
+
+/// Who may write a cell, resolved.
+#[derive(Clone, Debug)]
+enum Rule {
+    Owner,
+    Handshake,
+    Lock,
+    Counter,
+    /// Who may write, for each ordinal of the cell's enumeration.
+    Token(Vec<ast::Side>),
+    /// As cell number so-and-so of the same interface.
+    With(usize),
+}
+
+struct Checker<'a> {
+    sources: &'a Sources,
+    diagnostics: Vec<Diagnostic>,
+    declarations: Declarations,
+    model: ir::Model,
+    /// For each interface the rules of its cells.
+    rules: Vec<Vec<Rule>>,
+}
+
+impl Checker<'_> {
+    fn report(&mut self, diagnostic: Diagnostic) {
+        self.diagnostics.push(diagnostic);
+    }
+
+    fn enums(&mut self) {
+        for tree in self.declarations.enums.clone() {
+            let mut members: Vec<String> = Vec::new();
+            for member in &tree.members {
+                if members.contains(&member.value) {
+                    self.report(
+                        Diagnostic::new("E0301", member.span, format!("`{}` is a member twice", member.value))
+                            .help("remove one"),
+                    );
+                } else {
+                    members.push(member.value.clone());
+                }
+            }
+            if members.is_empty() {
+                self.report(
+                    Diagnostic::new("E0302", tree.name.span, format!("the enumeration `{}` has no members", tree.name.value))
+                        .help("write its members between the braces"),
+                );
+                members.push("Nothing".into());
+            }
+            self.model.enums.push(ir::Enum { name: tree.name.value, doc: tree.doc, members });
+        }
+    }
+
+    /// Declared interfaces, then one for each automaton that shows something of its own:
+    /// its name is the automaton's.
+    fn interfaces(&mut self) {
+        let mut declared: Vec<(ast::Interface, bool)> =
+            self.declarations.interfaces.iter().map(|i| (i.clone(), true)).collect();
+        for automaton in &self.declarations.automata {
+            if !automaton.cells.is_empty() || self.named_as_type(&automaton.name.value) {
+                let own = ast::Interface {
+                    doc: automaton.doc.clone(),
+                    name: automaton.name.clone(),
+                    parameters: automaton.parameters.clone(),
+                    cells: automaton.cells.clone(),
+                };
+                declared.push((own, false));
+            }
+        }
+        for (tree, _) in &declared {
+            self.model.interfaces.push(ir::Interface {
+                name: tree.name.value.clone(),
+                doc: tree.doc.clone(),
+                parameters: Vec::new(),
+                cells: Vec::new(),
+            });
+        }
+        for (index, (tree, is_declared)) in declared.iter().enumerate() {
+            let mut names: Vec<&ast::Name> = Vec::new();
+            for name in tree.parameters.iter().map(|p| &p.name).chain(tree.cells.iter().map(|c| &c.name)) {
+                if *is_declared && let Some(before) = names.iter().find(|n| n.value == name.value) {
+                    let diagnostic = Diagnostic::new("E0301", name.span, format!("`{}` is declared twice", name.value))
+                        .other(before.span, "first here")
+                        .help("rename or remove one of them");
+                    self.report(diagnostic);
+                }
+                names.push(name);
+            }
+            for parameter in &tree.parameters {
+                if let Some(ty) = self.resolve_type(&parameter.ty) {
+                    self.model.interfaces[index].parameters.push(ir::Variable {
+                        name: parameter.name.value.clone(),
+                        doc: parameter.doc.clone(),
+                        ty,
+                    });
+                }
+            }
+            for cell in &tree.cells {
+                if let Some(cell) = self.cell(cell) {
+                    self.model.interfaces[index].cells.push(cell);
+                }
+            }
+            let rules = tree.cells.iter().map(|cell| self.rule(cell, tree, index)).collect();
+            self.rules.push(rules);
+        }
+    }
+
+    fn named_as_type(&self, name: &str) -> bool {
+        let in_type = |ty: &ast::Type| matches!(&ty.scalar, ast::Scalar::Named(n) if n.value == name);
+        self.declarations.interfaces.iter().any(|i| {
+            i.parameters.iter().any(|p| in_type(&p.ty)) || i.cells.iter().any(|c| in_type(&c.ty))
+        }) || self.declarations.automata.iter().any(|a| {
+            a.roles.iter().any(|r| r.interface.value == name || r.also.iter().any(|n| n.value == name))
+                || a.locals.iter().any(|l| in_type(&l.ty))
+                || a.cells.iter().any(|c| in_type(&c.ty))
+                || a.parameters.iter().any(|p| in_type(&p.ty))
+        })
+    }
+
+    fn cell(&mut self, tree: &ast::Cell) -> Option<ir::Cell> {
+        let ty = self.resolve_type(&tree.ty)?;
+        let initial = self.initial(ty, tree.initial.as_ref())?;
+        Some(ir::Cell { name: tree.name.value.clone(), doc: tree.doc.clone(), ty, initial })
+    }
+
+    fn rule(&mut self, cell: &ast::Cell, interface: &ast::Interface, index: usize) -> Rule {
+        match &cell.rule {
+            None | Some(ast::Rule::Owner) => Rule::Owner,
+            Some(ast::Rule::Handshake) => {
+                self.expect_bool_cell(cell, "handshake");
+                Rule::Handshake
+            }
+            Some(ast::Rule::Lock) => {
+                self.expect_bool_cell(cell, "lock");
+                Rule::Lock
+            }
+            Some(ast::Rule::Counter) => {
+                if !matches!(cell.ty.scalar, ast::Scalar::Int { .. }) {
+                    let diagnostic = Diagnostic::new("E0303", cell.name.span, "a counter counts whole numbers")
+                        .help("give it a type such as `int 0..12`");
+                    self.report(diagnostic);
+                }
+                Rule::Counter
+            }
+            Some(ast::Rule::With(name)) => match interface.cells.iter().position(|c| c.name.value == name.value) {
+                Some(other) if matches!(interface.cells[other].rule, Some(ast::Rule::Token(_))) => Rule::With(other),
+                _ => {
+                    let known = interface.cells.iter().map(|c| c.name.value.as_str());
+                    let help = suggestion(&name.value, known)
+                        .map_or("name a cell of this interface that has a `token`".into(), |n| format!("is `{n}` meant?"));
+                    let diagnostic =
+                        Diagnostic::new("E0303", name.span, format!("`{}` is no token of `{}`", name.value, interface.name.value))
+                            .help(help);
+                    self.report(diagnostic);
+                    Rule::Owner
+                }
+            },
+            Some(ast::Rule::Token(sides)) => self.token(cell, sides, index),
+        }
+    }
+
+    fn expect_bool_cell(&mut self, cell: &ast::Cell, rule: &str) {
+        let is_plain = matches!(cell.initial.as_ref().map(|e| &e.kind), None | Some(ast::ExprKind::Bool(false)));
+        if !matches!(cell.ty.scalar, ast::Scalar::Bool) || !is_plain {
+            let diagnostic =
+                Diagnostic::new("E0303", cell.name.span, format!("a {rule} is a `bool` that begins as false"))
+                    .help("write `bool := false`, or choose another rule");
+            self.report(diagnostic);
+        }
+    }
+
+    fn token(&mut self, cell: &ast::Cell, sides: &[(ast::Name, ast::Side)], interface: usize) -> Rule {
+        let found = self.model.interfaces[interface].cells.iter().find(|c| c.name == cell.name.value);
+        let Some(ir::Scalar::Enum(id)) = found.map(|c| c.ty.scalar) else {
+            let diagnostic = Diagnostic::new("E0303", cell.name.span, "a token has the type of an enumeration")
+                .help("declare an `enum` of its values");
+            self.report(diagnostic);
+            return Rule::Owner;
+        };
+        let members = self.model.enums[id.0].members.clone();
+        for (name, _) in sides {
+            if !members.contains(&name.value) {
+                let diagnostic = Diagnostic::new(
+                    "E0303",
+                    name.span,
+                    format!("`{}` is no value of `{}`", name.value, cell.name.value),
+                )
+                .help(format!("its values are {}", members.join(", ")));
+                self.report(diagnostic);
+            }
+        }
+        let side_of = |member: &String| sides.iter().find(|(n, _)| n.value == *member).map(|(_, s)| *s);
+        if let Some(missing) = members.iter().find(|m| side_of(m).is_none()) {
+            let diagnostic = Diagnostic::new(
+                "E0303",
+                cell.name.span,
+                format!("the token does not say who may write when it is `{missing}`"),
+            )
+            .help(format!("add `{missing}: owner` or `{missing}: others`"));
+            self.report(diagnostic);
+        }
+        Rule::Token(members.iter().map(|m| side_of(m).unwrap_or(ast::Side::Owner)).collect())
+    }
+
+    /// A reference needs somebody to refer to.
+    fn infinite_types(&mut self) {
+        for interface in 0..self.model.interfaces.len() {
+            let id = ir::InterfaceId(interface);
+            let is_read = self.model.automata.iter().any(|a| a.roles.iter().any(|r| r.interface == id));
+            let is_implemented = self.model.automata.iter().any(|a| a.implementing(id).is_some());
+            if is_read && !is_implemented {
+                let name = self.model.interfaces[interface].name.clone();
+                let place = self.declarations.interfaces.iter().find(|i| i.name.value == name).map(|i| i.name.span);
+                if let Some(place) = place {
+                    self.report(
+                        Diagnostic::new("E0304", place, format!("no automaton is `{name}`"))
+                            .help(format!("write `automaton ... is {name}`")),
+                    );
+                }
+            }
+        }
+    }
+}

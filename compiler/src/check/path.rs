@@ -1,0 +1,232 @@
+//! Names and accesses: `slot[i]`, `tray.open`, `stops[0].x`.
+
+use super::automaton::{Context, Symbol};
+use super::facts;
+use crate::diagnostic::{Diagnostic, suggestion};
+use crate::ir::{self, Expr, ExprKind, Extent, Place, Scalar, Type, Value};
+use crate::source::Span;
+use crate::spec::ast;
+
+/// What an access leads to.
+pub enum Path {
+    /// Something that is kept, perhaps a whole array.
+    Place(Place, Type),
+    /// A value.
+    Value(Expr),
+}
+
+impl Context<'_, '_> {
+    /// `None` has been reported. `expected` helps to choose among members of enumerations with the same name.
+    pub(super) fn path(&mut self, tree: &ast::Expr, expected: Option<Scalar>) -> Option<Path> {
+        match &tree.kind {
+            ast::ExprKind::Name(name) => self.name(name, tree.span, expected),
+            ast::ExprKind::Member(base, member) => self.member(base, member, tree.span),
+            ast::ExprKind::Index(base, index) => self.index(base, index),
+            _ => self.expr(tree, expected).map(Path::Value),
+        }
+    }
+
+    fn name(&mut self, name: &str, span: Span, expected: Option<Scalar>) -> Option<Path> {
+        if let Some((_, id, ty)) = self.variables.iter().rev().find(|(n, _, _)| n == name) {
+            return Some(Path::Value(Expr { ty: *ty, kind: ExprKind::Variable(*id) }));
+        }
+        if name == "self" {
+            return self.own_reference(span, expected).map(Path::Value);
+        }
+        match self.symbols.get(name).cloned() {
+            Some(Symbol::Local(local)) => {
+                Some(Path::Place(Place::Local { local, index: None }, self.automaton.locals[local].ty))
+            }
+            Some(Symbol::Cell(interface, cell)) => {
+                let ty = self.checker.model.interfaces[interface.0].cells[cell].ty;
+                Some(Path::Place(Place::Cell { interface, cell, of: None, index: None }, ty))
+            }
+            Some(Symbol::Port(port)) => Some(Path::Place(Place::Port { port, index: None }, self.port_type(port))),
+            Some(Symbol::Parameter(parameter)) => {
+                let ty = self.automaton.parameters[parameter].ty;
+                Some(Path::Place(Place::Parameter { parameter, index: None }, ty))
+            }
+            Some(Symbol::DeviceConstant(constant)) => {
+                let parameter = self.device_parameter(constant);
+                let ty = self.automaton.parameters[parameter].ty;
+                Some(Path::Place(Place::Parameter { parameter, index: None }, ty))
+            }
+            Some(Symbol::Define(define)) => {
+                let ty = self.automaton.defines[define].ty;
+                Some(Path::Value(Expr { ty, kind: ExprKind::Define(define) }))
+            }
+            Some(Symbol::Role(_)) => {
+                self.report(
+                    Diagnostic::new("E0310", span, format!("`{name}` is a role, not one robot"))
+                        .help(format!("choose one with `first x in {name}`, or ask `exists x in {name}: ...`")),
+                );
+                None
+            }
+            None => self.enum_member(name, span, expected),
+        }
+    }
+
+    fn own_reference(&mut self, span: Span, expected: Option<Scalar>) -> Option<Expr> {
+        if let Some(Scalar::Ref(interface)) = expected
+            && self.automaton.implementing(interface).is_some()
+        {
+            return Some(Expr { ty: Scalar::Ref(interface), kind: ExprKind::Own(interface) });
+        }
+        self.report(
+            Diagnostic::new("E0310", span, "`self` has no meaning here")
+                .help("`self` is a reference to this robot, where one to an interface it has is wanted"),
+        );
+        None
+    }
+
+    fn enum_member(&mut self, name: &str, span: Span, expected: Option<Scalar>) -> Option<Path> {
+        let mut found: Vec<(ir::EnumId, usize)> = Vec::new();
+        for (id, e) in self.checker.model.enums.iter().enumerate() {
+            if let Some(ordinal) = e.members.iter().position(|m| m == name) {
+                found.push((ir::EnumId(id), ordinal));
+            }
+        }
+        if let Some(Scalar::Enum(id)) = expected
+            && let Some(fit) = found.iter().find(|(e, _)| *e == id)
+        {
+            found = vec![*fit];
+        }
+        match found.as_slice() {
+            [(id, ordinal)] => Some(Path::Value(Expr {
+                ty: Scalar::Enum(*id),
+                kind: ExprKind::Constant(Value::Int(*ordinal as i32)),
+            })),
+            [] => {
+                self.unknown_name(name, span);
+                None
+            }
+            _ => {
+                let names: Vec<String> =
+                    found.iter().map(|(id, _)| format!("`{}.{name}`", self.checker.model.enums[id.0].name)).collect();
+                self.report(
+                    Diagnostic::new("E0310", span, format!("`{name}` is a member of several enumerations"))
+                        .help(format!("write {}", names.join(" or "))),
+                );
+                None
+            }
+        }
+    }
+
+    fn unknown_name(&mut self, name: &str, span: Span) {
+        let mut known: Vec<String> = self.symbols.keys().cloned().collect();
+        known.extend(self.variables.iter().map(|(n, _, _)| n.clone()));
+        known.extend(self.checker.model.enums.iter().flat_map(|e| e.members.iter().cloned()));
+        let diagnostic = Diagnostic::new("E0311", span, format!("there is no `{name}` here"));
+        let help = match suggestion(name, known.iter().map(String::as_str)) {
+            Some(near) => format!("is `{near}` meant?"),
+            None => format!(
+                "names are those of `{}`, of its interfaces, of the ports and constants of its device `{}`",
+                self.automaton.name, self.automaton.device.name
+            ),
+        };
+        self.report(diagnostic.help(help));
+    }
+
+    fn member(&mut self, base: &ast::Expr, member: &ast::Name, span: Span) -> Option<Path> {
+        if let ast::ExprKind::Name(name) = &base.kind
+            && !self.symbols.contains_key(name)
+            && !self.variables.iter().any(|(n, _, _)| n == name)
+            && let Some(id) = self.checker.enum_named(name)
+        {
+            let members = &self.checker.model.enums[id.0].members;
+            let Some(ordinal) = members.iter().position(|m| *m == member.value) else {
+                let help = format!("its members are {}", members.join(", "));
+                self.report(
+                    Diagnostic::new("E0311", member.span, format!("`{name}` has no member `{}`", member.value)).help(help),
+                );
+                return None;
+            };
+            let kind = ExprKind::Constant(Value::Int(ordinal as i32));
+            return Some(Path::Value(Expr { ty: Scalar::Enum(id), kind }));
+        }
+        let of = self.expr(base, None)?;
+        match of.ty {
+            Scalar::Point => {
+                let Some(axis) = ["x", "y", "z"].iter().position(|a| *a == member.value) else {
+                    self.report(
+                        Diagnostic::new("E0311", member.span, format!("a point has no `{}`", member.value))
+                            .help("a point has `x`, `y` and `z`"),
+                    );
+                    return None;
+                };
+                Some(Path::Value(Expr { ty: Scalar::Real, kind: ExprKind::Coordinate(Box::new(of), axis) }))
+            }
+            Scalar::Ref(interface) => self.shown(of, interface, member),
+            ty => {
+                let name = self.checker.type_name(ty);
+                self.report(
+                    Diagnostic::new("E0311", span, format!("a value of type {name} has no `{}`", member.value))
+                        .help("only robots and points have members"),
+                );
+                None
+            }
+        }
+    }
+
+    fn shown(&mut self, of: Expr, interface: ir::InterfaceId, member: &ast::Name) -> Option<Path> {
+        let of = Box::new(of);
+        let shown = &self.checker.model.interfaces[interface.0];
+        if let Some(cell) = shown.cells.iter().position(|c| c.name == member.value) {
+            let ty = shown.cells[cell].ty;
+            return Some(Path::Place(Place::Cell { interface, cell, of: Some(of), index: None }, ty));
+        }
+        if let Some(parameter) = shown.parameters.iter().position(|p| p.name == member.value) {
+            let ty = shown.parameters[parameter].ty;
+            return Some(Path::Place(Place::Shown { interface, parameter, of, index: None }, ty));
+        }
+        let known = shown.cells.iter().map(|c| c.name.as_str()).chain(shown.parameters.iter().map(|p| p.name.as_str()));
+        let help = suggestion(&member.value, known).map_or(
+            "a neighbour shows the cells and parameters of its interface, never its ports or locals".into(),
+            |n| format!("is `{n}` meant?"),
+        );
+        let message = format!("`{}` shows no `{}`", shown.name, member.value);
+        self.report(Diagnostic::new("E0311", member.span, message).help(help));
+        None
+    }
+
+    fn index(&mut self, base: &ast::Expr, index: &ast::Expr) -> Option<Path> {
+        let path = self.path(base, None)?;
+        let Path::Place(mut place, ty) = path else {
+            self.report(Diagnostic::new("E0312", base.span, "this is no array").help("remove the index"));
+            return None;
+        };
+        if ty.extent == Extent::One || slot(&mut place).is_some() {
+            self.report(Diagnostic::new("E0312", base.span, "this is no array").help("remove the index"));
+            return None;
+        }
+        let expr = match ty.extent {
+            Extent::By(id) => self.typed(index, Scalar::Enum(id))?,
+            Extent::Count(_) | Extent::One => self.whole(index)?,
+        };
+        if let Extent::Count(n) = ty.extent {
+            let known = self.facts.of(&expr);
+            let allowed = facts::Interval::new(0.0, n as f64 - 1.0);
+            if !known.is_within(allowed) {
+                self.report(
+                    Diagnostic::new("E0313", index.span, format!("this index is not proved to be in 0..{}", n - 1))
+                        .label(format!("it is in {}..{} for all that is known", known.lo, known.hi))
+                        .help("declare the variable with these bounds, or compare it in the guard of this transition"),
+                );
+                return None;
+            }
+        }
+        *slot(&mut place) = Some(Box::new(expr));
+        Some(Path::Place(place, Type { scalar: ty.scalar, extent: Extent::One }))
+    }
+}
+
+/// Where the index of a place is kept.
+fn slot(place: &mut Place) -> &mut Option<Box<Expr>> {
+    match place {
+        Place::Local { index, .. }
+        | Place::Cell { index, .. }
+        | Place::Port { index, .. }
+        | Place::Parameter { index, .. }
+        | Place::Shown { index, .. } => index,
+    }
+}

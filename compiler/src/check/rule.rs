@@ -1,0 +1,100 @@
+//! Rules of writing: what a write of a shared cell may do, as far as it can be decided.
+
+use super::Rule;
+use super::automaton::Context;
+use super::facts::{self, Interval};
+use crate::diagnostic::Diagnostic;
+use crate::ir::{self, Expr, ExprKind, Place, Value};
+use crate::source::Span;
+use crate::spec::ast::{Assign, Side};
+
+impl Context<'_, '_> {
+    /// `None` has been reported.
+    pub(super) fn check_rule(&mut self, place: &Place, how: Assign, value: &Expr, span: Span) -> Option<()> {
+        let Place::Cell { interface, cell, of, .. } = place else { return Some(()) };
+        let rule = self.checker.rules[interface.0][*cell].clone();
+        let side = if of.is_none() { Side::Owner } else { Side::Others };
+        let name = self.checker.model.interfaces[interface.0].cells[*cell].name.clone();
+        let wrong = |message: String, help: &str| Some(Diagnostic::new("E0333", span, message).help(help));
+        let constant = match &value.kind {
+            ExprKind::Constant(Value::Bool(b)) => Some(*b),
+            _ => None,
+        };
+        let known = self.known(place);
+        let diagnostic = match (&rule, side) {
+            (Rule::Owner, Side::Others) => wrong(
+                format!("only its owner writes `{name}`"),
+                "ask the owner through a cell that others may set, or change the rule of the cell with `by ...`",
+            ),
+            (Rule::Handshake, Side::Others) if constant != Some(true) => {
+                wrong(format!("others only set `{name}`"), "write `:= true`; the owner resets it")
+            }
+            (Rule::Handshake, Side::Owner) if constant != Some(false) => {
+                wrong(format!("the owner only resets `{name}`"), "write `:= false`; others set it")
+            }
+            (Rule::Lock, _) => match constant {
+                Some(true) if known.holds(1.0) => wrong(
+                    format!("`{name}` may be held by somebody else here"),
+                    "a lock is taken when it is free: add `not` of it to the guard of this transition",
+                ),
+                None => wrong(format!("a lock is taken or given back: `{name}` is true or false"), "write `:= true` or `:= false`"),
+                _ => None,
+            },
+            (Rule::Counter, Side::Others) if how == Assign::Set => {
+                wrong(format!("`{name}` is a counter"), "others count with `+=` and `-=`; the owner may set it")
+            }
+            (Rule::Token(sides), _) => self.token_holder(sides, known, side, &name, span, place),
+            (Rule::With(token), _) => {
+                let token = *token;
+                let mut of_token = place.clone();
+                if let Place::Cell { cell, .. } = &mut of_token {
+                    *cell = token;
+                }
+                let known = self.known(&of_token);
+                match self.checker.rules[interface.0][token].clone() {
+                    Rule::Token(sides) => self.token_holder(&sides, known, side, &name, span, &of_token),
+                    _ => None,
+                }
+            }
+            _ => None,
+        };
+        match diagnostic {
+            Some(diagnostic) => {
+                self.report(diagnostic);
+                None
+            }
+            None => Some(()),
+        }
+    }
+
+    /// What the guard and the updates so far say of a cell's value before this write.
+    fn known(&self, place: &Place) -> Interval {
+        let Place::Cell { interface, cell, .. } = place else { return Interval::ALL };
+        let ty = self.checker.model.interfaces[interface.0].cells[*cell].ty.scalar;
+        self.facts.of(&Expr { ty, kind: ExprKind::Read(place.clone()) })
+    }
+
+    fn token_holder(
+        &self,
+        sides: &[Side],
+        known: Interval,
+        side: Side,
+        name: &str,
+        span: Span,
+        place: &Place,
+    ) -> Option<Diagnostic> {
+        let possible: Vec<usize> = (0..sides.len()).filter(|v| known.holds(*v as f64)).collect();
+        let is_decided = possible.len() < sides.len() || facts::of_type(ir::Scalar::Bool) == known;
+        if !is_decided || possible.iter().any(|v| sides[*v] == side) {
+            return None;
+        }
+        let Place::Cell { interface, cell, .. } = place else { return None };
+        let ir::Scalar::Enum(id) = self.checker.model.interfaces[interface.0].cells[*cell].ty.scalar else { return None };
+        let value = possible.first().map(|v| self.checker.model.enums[id.0].members[*v].clone()).unwrap_or_default();
+        let who = if side == Side::Owner { "others write" } else { "the owner writes" };
+        Some(
+            Diagnostic::new("E0333", span, format!("while the token is `{value}`, {who} `{name}`"))
+                .help("wait in the guard for a value that gives the right to write, or change the rule of the token"),
+        )
+    }
+}

@@ -1,0 +1,236 @@
+//! States and transitions.
+
+use super::automaton::{Context, Symbol};
+use super::{facts, sequence};
+use crate::diagnostic::{Diagnostic, suggestion};
+use crate::ir::{self, Scalar, StateId};
+use crate::spec::ast;
+use std::collections::BTreeMap;
+
+/// The beginning, before the first step.
+const BEGINNING: &str = "Initial";
+
+/// Plain states of the tree: sequences expanded, transitions of `any state` put before those of each state.
+fn plain(context: &mut Context, tree: &ast::Automaton) -> Vec<ast::State> {
+    let mut states = Vec::new();
+    for state in &tree.states {
+        match &state.body {
+            ast::Body::Transitions(_) => states.push(state.clone()),
+            ast::Body::Sequence(sequence) => states.extend(sequence::expand(context, state, sequence)),
+        }
+    }
+    for any in tree.any.iter().rev() {
+        for name in &any.except {
+            if !tree.states.iter().any(|s| s.name.value == name.value) {
+                unknown_state(context, tree, name);
+            }
+        }
+        for state in &mut states {
+            let base = state.name.value.split('.').next().unwrap_or_default().to_string();
+            if state.is_final || any.except.iter().any(|n| n.value == base) {
+                continue;
+            }
+            if let ast::Body::Transitions(own) = &mut state.body {
+                own.splice(0..0, any.transitions.iter().cloned());
+            }
+        }
+    }
+    states
+}
+
+pub(super) fn check(context: &mut Context, tree: &ast::Automaton) {
+    let mut names: BTreeMap<String, ast::Name> = BTreeMap::new();
+    for state in &tree.states {
+        if state.name.value == BEGINNING {
+            context.report(
+                Diagnostic::new("E0301", state.name.span, format!("`{BEGINNING}` is the name of the beginning"))
+                    .help("choose another name for this state"),
+            );
+        }
+        if let Some(before) = names.insert(state.name.value.clone(), state.name.clone()) {
+            context.report(
+                Diagnostic::new("E0301", state.name.span, format!("there are two states `{}`", state.name.value))
+                    .other(before.span, "first here")
+                    .help("rename or remove one of them"),
+            );
+        }
+    }
+    let Some(initial) = &tree.initial else {
+        context.report(
+            Diagnostic::new("E0326", tree.name.span, format!("`{}` does not say where it begins", tree.name.value))
+                .help("write `initial state ...`, or `initial -> State { updates }`"),
+        );
+        return;
+    };
+    let states = plain(context, tree);
+    // The beginning is number 0.
+    let number = |name: &str| states.iter().position(|s| s.name.value == name).map(|i| StateId(i + 1));
+    let beginning = transition(
+        context,
+        tree,
+        &ast::Transition {
+            span: initial.span,
+            clauses: vec![ast::Clause::Condition(ast::Expr { span: initial.span, kind: ast::ExprKind::Bool(true) })],
+            guard_span: initial.span,
+            target: Some(initial.target.clone()),
+            updates: initial.updates.clone(),
+        },
+        &number,
+    );
+    let text = "the first step".to_string();
+    context.automaton.states.push(ir::State {
+        name: BEGINNING.into(),
+        doc: vec!["Nothing has been done yet.".into()],
+        place: initial.span,
+        is_final: false,
+        within: None,
+        transitions: beginning.map(|t| ir::Transition { text, ..t }).into_iter().collect(),
+    });
+    for state in &states {
+        let ast::Body::Transitions(trees) = &state.body else { continue };
+        let within = state.within.as_ref().and_then(|time| context.typed(time, Scalar::Time)).map(|time| {
+            let text = format!("`{}` has lasted too long", state.name.value);
+            (time, context.fault(ir::FaultKind::TooLong, state.name.span, text))
+        });
+        let transitions: Vec<_> = trees.iter().filter_map(|t| transition(context, tree, t, &number)).collect();
+        match (state.is_final, trees.is_empty()) {
+            (true, false) => context.report(
+                Diagnostic::new("E0327", state.name.span, format!("the final state `{}` has transitions", state.name.value))
+                    .help("remove `final`, or the transitions"),
+            ),
+            (false, true) => context.report(
+                Diagnostic::new("E0327", state.name.span, format!("no transition leaves `{}`", state.name.value))
+                    .help("write `final state` if the automaton ends here"),
+            ),
+            _ => {}
+        }
+        context.automaton.states.push(ir::State {
+            name: state.name.value.clone(),
+            doc: state.doc.clone(),
+            place: state.name.span,
+            is_final: state.is_final,
+            within,
+            transitions,
+        });
+    }
+    unreachable_states(context, &states);
+}
+
+fn unreachable_states(context: &mut Context, trees: &[ast::State]) {
+    let states = &context.automaton.states;
+    let mut reached = vec![false; states.len()];
+    let mut open = vec![0];
+    while let Some(state) = open.pop() {
+        if std::mem::replace(&mut reached[state], true) {
+            continue;
+        }
+        open.extend(states[state].transitions.iter().filter_map(|t| t.target).map(|t| t.0));
+    }
+    let lost: Vec<_> = trees.iter().zip(&reached[1..]).filter(|(s, r)| !**r && !s.name.value.contains('.')).collect();
+    let lost: Vec<ast::Name> = lost.into_iter().map(|(s, _)| s.name.clone()).collect();
+    for name in lost {
+        context.report(
+            Diagnostic::new("E0328", name.span, format!("no transition leads to `{}`", name.value))
+                .help("add a transition to it, or remove the state"),
+        );
+    }
+}
+
+fn unknown_state(context: &mut Context, tree: &ast::Automaton, name: &ast::Name) {
+    let known = tree.states.iter().map(|s| s.name.value.as_str());
+    let help = suggestion(&name.value, known).map_or(format!("declare `state {} {{ ... }}`", name.value), |n| format!("is `{n}` meant?"));
+    context.report(Diagnostic::new("E0311", name.span, format!("there is no state `{}`", name.value)).help(help));
+}
+
+fn transition(
+    context: &mut Context,
+    automaton: &ast::Automaton,
+    tree: &ast::Transition,
+    number: &dyn Fn(&str) -> Option<StateId>,
+) -> Option<ir::Transition> {
+    context.facts = facts::Facts::default();
+    let depth = context.variables.len();
+    context.in_guard = true;
+    let mut clauses = Vec::new();
+    let mut whole = true;
+    for clause in &tree.clauses {
+        match context.clause(clause) {
+            Some(clause) => clauses.push(clause),
+            None => whole = false,
+        }
+    }
+    context.in_guard = false;
+    let target = match &tree.target {
+        None => None,
+        Some(name) => {
+            let target = number(&name.value);
+            if target.is_none() {
+                unknown_state(context, automaton, name);
+                whole = false;
+            }
+            target
+        }
+    };
+    let mut updates = Vec::new();
+    for update in &tree.updates {
+        match context.update(update) {
+            Some(update) => updates.push(update),
+            None => whole = false,
+        }
+    }
+    context.variables.truncate(depth);
+    context.facts = facts::Facts::default();
+    let text = context.checker.sources.text(tree.guard_span).split_whitespace().collect::<Vec<_>>().join(" ");
+    whole.then_some(ir::Transition { place: tree.span, text, clauses, target, updates })
+}
+
+impl Context<'_, '_> {
+    fn clause(&mut self, tree: &ast::Clause) -> Option<ir::Clause> {
+        match tree {
+            ast::Clause::Condition(tree) => {
+                let condition = self.typed(tree, Scalar::Bool)?;
+                self.facts.learn(&condition, true);
+                Some(ir::Clause::Condition(condition))
+            }
+            ast::Clause::Bind(tree) => self.binder(tree).map(ir::Clause::Bind),
+        }
+    }
+
+    fn binder(&mut self, tree: &ast::Binder) -> Option<ir::Binder> {
+        let (domain, ty, _) = self.domain(&tree.domain)?;
+        let variable = self.bind(&tree.variable, ty);
+        let condition = match &tree.condition {
+            None => None,
+            Some(condition) => {
+                let condition = self.typed(condition, Scalar::Bool)?;
+                self.facts.learn(&condition, true);
+                Some(condition)
+            }
+        };
+        let key = match &tree.choice {
+            ast::Choice::First => None,
+            ast::Choice::Least(key) => {
+                let expr = self.expr(key, None)?;
+                if !matches!(expr.ty, Scalar::Int { .. } | Scalar::Real | Scalar::Time) {
+                    let name = self.checker.type_name(expr.ty);
+                    self.report(
+                        Diagnostic::new("E0315", key.span, format!("values of type {name} have no order"))
+                            .help("choose the least of numbers or times"),
+                    );
+                    return None;
+                }
+                Some(expr)
+            }
+            ast::Choice::Nearest(from, to) => {
+                let (from, to) = (self.typed(from, Scalar::Point)?, self.typed(to, Scalar::Point)?);
+                let kind = ir::ExprKind::SquaredDistance(Box::new(from), Box::new(to));
+                Some(ir::Expr { ty: Scalar::Real, kind })
+            }
+        };
+        Some(ir::Binder { variable, domain, condition, key })
+    }
+
+    pub(super) fn is_declared(&self, name: &str) -> bool {
+        matches!(self.symbols.get(name), Some(Symbol::Local(_) | Symbol::Cell(..) | Symbol::Port(_)))
+    }
+}

@@ -1,0 +1,204 @@
+//! Types and constants of declarations.
+
+use super::Checker;
+use crate::diagnostic::{Diagnostic, suggestion};
+use crate::ir::{self, Extent, Scalar, Value};
+use crate::spec::ast::{self, ExprKind};
+
+/// Largest number of elements of an array.
+const LARGEST_ARRAY: i64 = 1024;
+
+impl Checker<'_> {
+    /// `None` has been reported.
+    pub(super) fn resolve_type(&mut self, tree: &ast::Type) -> Option<ir::Type> {
+        let scalar = match &tree.scalar {
+            ast::Scalar::Bool => Scalar::Bool,
+            ast::Scalar::Real => Scalar::Real,
+            ast::Scalar::Time => Scalar::Time,
+            ast::Scalar::Point => Scalar::Point,
+            ast::Scalar::Int { lo, hi } => {
+                let (low, high) = (self.whole_constant(lo)?, self.whole_constant(hi)?);
+                if low > high {
+                    self.report(
+                        Diagnostic::new("E0305", tree.span, format!("the bounds {low}..{high} hold no number"))
+                            .help("write the lower bound first"),
+                    );
+                    return None;
+                }
+                Scalar::Int { lo: low, hi: high }
+            }
+            ast::Scalar::Named(name) => self.named_scalar(name)?,
+        };
+        let extent = match &tree.extent {
+            None => Extent::One,
+            Some(expr) => self.extent(expr)?,
+        };
+        Some(ir::Type { scalar, extent })
+    }
+
+    fn named_scalar(&mut self, name: &ast::Name) -> Option<Scalar> {
+        if let Some(id) = self.enum_named(&name.value) {
+            return Some(Scalar::Enum(id));
+        }
+        if let Some(id) = self.interface_named(&name.value) {
+            return Some(Scalar::Ref(id));
+        }
+        let known: Vec<String> = self.type_names();
+        let help = suggestion(&name.value, known.iter().map(String::as_str)).map_or(
+            "types are bool, int lo..hi, real, time, point, enumerations and interfaces".into(),
+            |n| format!("is `{n}` meant?"),
+        );
+        self.report(Diagnostic::new("E0306", name.span, format!("there is no type `{}`", name.value)).help(help));
+        None
+    }
+
+    fn type_names(&self) -> Vec<String> {
+        let plain = ["bool", "int", "real", "time", "point"].map(String::from);
+        let enums = self.model.enums.iter().map(|e| e.name.clone());
+        plain.into_iter().chain(enums).chain(self.model.interfaces.iter().map(|i| i.name.clone())).collect()
+    }
+
+    pub(super) fn enum_named(&self, name: &str) -> Option<ir::EnumId> {
+        self.model.enums.iter().position(|e| e.name == name).map(ir::EnumId)
+    }
+
+    pub(super) fn interface_named(&self, name: &str) -> Option<ir::InterfaceId> {
+        self.model.interfaces.iter().position(|i| i.name == name).map(ir::InterfaceId)
+    }
+
+    pub(super) fn interface_or_report(&mut self, name: &ast::Name) -> Option<ir::InterfaceId> {
+        let found = self.interface_named(&name.value);
+        if found.is_none() {
+            let known: Vec<String> = self.model.interfaces.iter().map(|i| i.name.clone()).collect();
+            let help = suggestion(&name.value, known.iter().map(String::as_str))
+                .map_or("declare an `interface` of this name".into(), |n| format!("is `{n}` meant?"));
+            self.report(
+                Diagnostic::new("E0306", name.span, format!("there is no interface `{}`", name.value)).help(help),
+            );
+        }
+        found
+    }
+
+    fn extent(&mut self, expr: &ast::Expr) -> Option<Extent> {
+        if let ExprKind::Name(name) = &expr.kind {
+            if let Some(id) = self.enum_named(name) {
+                return Some(Extent::By(id));
+            }
+            self.report(
+                Diagnostic::new("E0305", expr.span, format!("`{name}` is no size of an array"))
+                    .help("write a whole number, or the name of an enumeration"),
+            );
+            return None;
+        }
+        let size = i64::from(self.whole_constant(expr)?);
+        if !(1..=LARGEST_ARRAY).contains(&size) {
+            self.report(
+                Diagnostic::new("E0305", expr.span, format!("an array cannot have {size} elements"))
+                    .help(format!("write a number from 1 to {LARGEST_ARRAY}")),
+            );
+            return None;
+        }
+        Some(Extent::Count(size as usize))
+    }
+
+    fn whole_constant(&mut self, expr: &ast::Expr) -> Option<i32> {
+        match &expr.kind {
+            ExprKind::Int(value) => i32::try_from(*value).ok(),
+            ExprKind::Negate(inner) => match inner.kind {
+                ExprKind::Int(value) => i32::try_from(-value).ok(),
+                _ => self.not_whole(expr),
+            },
+            ExprKind::Error => None,
+            _ => self.not_whole(expr),
+        }
+    }
+
+    fn not_whole(&mut self, expr: &ast::Expr) -> Option<i32> {
+        self.report(
+            Diagnostic::new("E0305", expr.span, "a whole number must stand here")
+                .help("bounds and sizes are written as numbers, such as 12 or -1"),
+        );
+        None
+    }
+
+    /// What a variable of this type holds at first.
+    pub(super) fn initial(&mut self, ty: ir::Type, expr: Option<&ast::Expr>) -> Option<Value> {
+        match expr {
+            Some(expr) => self.constant(ty.scalar, expr),
+            None => Some(match ty.scalar {
+                Scalar::Bool => Value::Bool(false),
+                Scalar::Int { lo, hi } => Value::Int(0.clamp(lo, hi)),
+                Scalar::Time | Scalar::Enum(_) | Scalar::Ref(_) => Value::Int(0),
+                Scalar::Real => Value::Real(0.0),
+                Scalar::Point => Value::Point([0.0; 3]),
+            }),
+        }
+    }
+
+    /// A constant of a type, as declarations and defaults need it.
+    pub(super) fn constant(&mut self, ty: Scalar, expr: &ast::Expr) -> Option<Value> {
+        let value = match (ty, &expr.kind) {
+            (_, ExprKind::Error) => return None,
+            (Scalar::Bool, ExprKind::Bool(b)) => Value::Bool(*b),
+            (Scalar::Time, ExprKind::Duration(ms)) => Value::Int(*ms as i32),
+            (Scalar::Real, _) if number(expr).is_some() => Value::Real(number(expr)?),
+            (Scalar::Int { lo, hi }, ExprKind::Int(_) | ExprKind::Negate(_)) => {
+                let value = self.whole_constant(expr)?;
+                if value < lo || value > hi {
+                    self.report(
+                        Diagnostic::new("E0305", expr.span, format!("{value} is not in {lo}..{hi}"))
+                            .help("choose a value within the bounds, or widen them"),
+                    );
+                    return None;
+                }
+                Value::Int(value)
+            }
+            (Scalar::Enum(id), ExprKind::Name(name)) => {
+                let members = &self.model.enums[id.0].members;
+                match members.iter().position(|m| m == name) {
+                    Some(ordinal) => Value::Int(ordinal as i32),
+                    None => return self.not_constant(ty, expr),
+                }
+            }
+            (Scalar::Point, ExprKind::Call(name, arguments)) if name.value == "point" && arguments.len() == 3 => {
+                match (number(&arguments[0]), number(&arguments[1]), number(&arguments[2])) {
+                    (Some(x), Some(y), Some(z)) => Value::Point([x, y, z]),
+                    _ => return self.not_constant(ty, expr),
+                }
+            }
+            _ => return self.not_constant(ty, expr),
+        };
+        Some(value)
+    }
+
+    fn not_constant(&mut self, ty: Scalar, expr: &ast::Expr) -> Option<Value> {
+        let name = self.type_name(ty);
+        self.report(
+            Diagnostic::new("E0305", expr.span, format!("this is no constant of type {name}"))
+                .help("write a literal value; what is to be computed belongs into the updates of `initial ->`"),
+        );
+        None
+    }
+
+    /// A type in the user's words.
+    pub(super) fn type_name(&self, ty: Scalar) -> String {
+        match ty {
+            Scalar::Bool => "bool".into(),
+            Scalar::Int { lo, hi } => format!("int {lo}..{hi}"),
+            Scalar::Real => "real".into(),
+            Scalar::Time => "time".into(),
+            Scalar::Point => "point".into(),
+            Scalar::Enum(id) => self.model.enums[id.0].name.clone(),
+            Scalar::Ref(id) => self.model.interfaces[id.0].name.clone(),
+        }
+    }
+}
+
+fn number(expr: &ast::Expr) -> Option<f64> {
+    match &expr.kind {
+        ExprKind::Int(value) => Some(*value as f64),
+        ExprKind::Real(value) => Some(*value),
+        ExprKind::Negate(inner) => number(inner).map(|v| -v),
+        _ => None,
+    }
+}

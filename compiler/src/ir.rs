@@ -1,0 +1,503 @@
+//! The intermediate representation: what every engine executes and every back end prints.
+//!
+//! A [`Model`] is the meaning of the types, independent of any layout: names are
+//! resolved, types are known, sequences and `any state` are expanded into plain
+//! states and transitions. A [`System`] is a model with the instances of one
+//! layout. `docs/semantics.md` says how a system runs; what is written here is
+//! how its parts are represented.
+//!
+//! - A reference is the *row* of an instance among the members of an interface,
+//!   in layout order. Cells and parameters of an interface are tables over its rows.
+//! - State 0 of an automaton is its beginning: it has one transition, which
+//!   always fires, so that the first step of an instance is that transition.
+//! - Every place at which a step can fault has a code, from 1, unique in the model.
+//! - Values are in SI units, times in whole milliseconds.
+
+use crate::source::Span;
+use runtime_sim::device::Device;
+
+macro_rules! id {
+    ($(#[$doc:meta])* $name:ident) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub struct $name(pub usize);
+    };
+}
+
+id!(
+    /// Index into [`Model::enums`].
+    EnumId
+);
+id!(
+    /// Index into [`Model::interfaces`].
+    InterfaceId
+);
+id!(
+    /// Index into [`Model::automata`].
+    AutomatonId
+);
+id!(
+    /// Index into [`Automaton::states`].
+    StateId
+);
+id!(
+    /// Index into [`Automaton::roles`].
+    RoleId
+);
+id!(
+    /// A variable bound by a binder or a quantifier: index into [`Automaton::variables`].
+    VariableId
+);
+id!(
+    /// Index into [`Model::faults`]; the code that is published is one more.
+    FaultId
+);
+id!(
+    /// Index into [`Model::relations`].
+    RelationId
+);
+
+/// The kinds of part, always the first enumeration.
+pub const KIND: EnumId = EnumId(0);
+
+#[derive(Clone, Debug)]
+pub struct Model {
+    pub enums: Vec<Enum>,
+    pub interfaces: Vec<Interface>,
+    pub automata: Vec<Automaton>,
+    pub faults: Vec<FaultSite>,
+    pub relations: Vec<Relation>,
+}
+
+#[derive(Clone, Debug)]
+pub struct Enum {
+    pub name: String,
+    pub doc: Vec<String>,
+    /// At least one. Those of `Kind` come from the scenario.
+    pub members: Vec<String>,
+}
+
+/// What a member of an interface shows to others.
+#[derive(Clone, Debug)]
+pub struct Interface {
+    pub name: String,
+    pub doc: Vec<String>,
+    pub parameters: Vec<Variable>,
+    pub cells: Vec<Cell>,
+}
+
+/// A shared variable: one for each member of its interface.
+#[derive(Clone, Debug)]
+pub struct Cell {
+    pub name: String,
+    pub doc: Vec<String>,
+    pub ty: Type,
+    pub initial: Value,
+}
+
+/// `from reaches to`: whether items can get from a member of one interface to one of the other.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Relation {
+    pub from: InterfaceId,
+    pub to: InterfaceId,
+}
+
+#[derive(Clone, Debug)]
+pub struct Automaton {
+    pub name: String,
+    pub doc: Vec<String>,
+    pub place: Span,
+    pub device: &'static Device,
+    /// Interfaces of which each instance is a member.
+    pub implements: Vec<Implements>,
+    pub parameters: Vec<Parameter>,
+    pub roles: Vec<Role>,
+    pub locals: Vec<Local>,
+    pub defines: Vec<Define>,
+    /// Variables of binders and quantifiers.
+    pub variables: Vec<Variable>,
+    /// The first is the beginning.
+    pub states: Vec<State>,
+    pub invariants: Vec<Invariant>,
+    pub requires: Vec<Require>,
+}
+
+#[derive(Clone, Debug)]
+pub struct Implements {
+    pub interface: InterfaceId,
+    /// For each parameter of the interface, the parameter of the automaton that supplies it.
+    pub parameters: Vec<usize>,
+    pub handover: Option<Handover>,
+}
+
+/// Where the items of a passive instance change hands.
+#[derive(Clone, Debug)]
+pub struct Handover {
+    pub place: Span,
+    pub way: Way,
+    pub name: String,
+    pub index: Option<usize>,
+    /// Height over the contact from which an arm comes and to which it leaves, m.
+    pub approach: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Way {
+    Accepts,
+    Offers,
+}
+
+#[derive(Clone, Debug)]
+pub struct Parameter {
+    pub name: String,
+    pub doc: Vec<String>,
+    pub ty: Type,
+    pub source: ParameterSource,
+    pub place: Span,
+}
+
+#[derive(Clone, Debug)]
+pub enum ParameterSource {
+    /// Set in the layout or on the command line; with what it is if it is not set.
+    Layout(Option<Value>),
+    /// A constant of the device, from the machine's place in the layout.
+    Device,
+}
+
+#[derive(Clone, Debug)]
+pub struct Role {
+    pub name: String,
+    pub doc: Vec<String>,
+    pub kind: RoleKind,
+    pub interface: InterfaceId,
+    pub also: Vec<InterfaceId>,
+    pub min: usize,
+    pub max: Option<usize>,
+    pub place: Span,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RoleKind {
+    /// Members within reach that offer items.
+    Takes,
+    /// Members within reach that accept items.
+    Hands,
+    /// Members to which items can get from here.
+    Serves,
+    /// All members.
+    Knows,
+}
+
+#[derive(Clone, Debug)]
+pub struct Local {
+    pub name: String,
+    pub doc: Vec<String>,
+    pub ty: Type,
+    pub initial: Value,
+}
+
+/// A name for an expression, evaluated whenever it is read.
+#[derive(Clone, Debug)]
+pub struct Define {
+    pub name: String,
+    pub doc: Vec<String>,
+    pub place: Span,
+    pub ty: Scalar,
+    pub value: Expr,
+}
+
+#[derive(Clone, Debug)]
+pub struct Variable {
+    pub name: String,
+    pub doc: Vec<String>,
+    pub ty: Type,
+}
+
+#[derive(Clone, Debug)]
+pub struct State {
+    pub name: String,
+    pub doc: Vec<String>,
+    pub place: Span,
+    pub is_final: bool,
+    /// Longest stay, ms; the fault if it is exceeded.
+    pub within: Option<(Expr, FaultId)>,
+    pub transitions: Vec<Transition>,
+}
+
+/// Fires if its guard holds. The binders stand for nested loops, the first one outermost.
+#[derive(Clone, Debug)]
+pub struct Transition {
+    pub place: Span,
+    /// The guard as written, on one line.
+    pub text: String,
+    pub clauses: Vec<Clause>,
+    /// `None` stays in the state and lets `after` run on.
+    pub target: Option<StateId>,
+    pub updates: Vec<Update>,
+}
+
+#[derive(Clone, Debug)]
+pub enum Clause {
+    Condition(Expr),
+    Bind(Binder),
+}
+
+#[derive(Clone, Debug)]
+pub struct Binder {
+    pub variable: VariableId,
+    pub domain: Domain,
+    pub condition: Option<Expr>,
+    /// The candidate with the least key is chosen; the first one of equals. Without a key: the first.
+    pub key: Option<Expr>,
+}
+
+#[derive(Clone, Debug)]
+pub enum Domain {
+    Role(RoleId),
+    Enum(EnumId),
+    /// Both ends included; empty if the first is greater.
+    Range(Expr, Expr),
+}
+
+#[derive(Clone, Debug)]
+pub struct Update {
+    pub place: Span,
+    pub kind: UpdateKind,
+}
+
+#[derive(Clone, Debug)]
+pub enum UpdateKind {
+    Assign {
+        target: Target,
+        value: Expr,
+        /// The fault if the value does not fit; `None` if it is proved to fit.
+        check: Option<FaultId>,
+    },
+    /// Every element of an array becomes this value.
+    Fill { target: Target, value: Expr, check: Option<FaultId> },
+    /// An array becomes a copy of another one of the same extent.
+    /// `check` as for an assignment, element by element.
+    Copy { target: Target, source: Place, check: Option<FaultId> },
+    /// Writes the arguments, the verb and the next command number.
+    Command { verb: i32, arguments: Vec<Argument> },
+}
+
+#[derive(Clone, Debug)]
+pub struct Argument {
+    /// Index into the ports of the device.
+    pub port: usize,
+    pub value: Expr,
+    pub check: Option<FaultId>,
+}
+
+/// What an update writes.
+#[derive(Clone, Debug)]
+pub struct Target {
+    pub place: Place,
+    pub ty: Type,
+}
+
+/// Where a value is kept.
+#[derive(Clone, Debug)]
+pub enum Place {
+    Local { local: usize, index: Option<Box<Expr>> },
+    /// A cell of this instance, or of another one.
+    Cell { interface: InterfaceId, cell: usize, of: Option<Box<Expr>>, index: Option<Box<Expr>> },
+    /// A port of this instance's device.
+    Port { port: usize, index: Option<Box<Expr>> },
+    /// A parameter of this instance.
+    Parameter { parameter: usize, index: Option<Box<Expr>> },
+    /// A parameter that another instance shows.
+    Shown { interface: InterfaceId, parameter: usize, of: Box<Expr>, index: Option<Box<Expr>> },
+}
+
+#[derive(Clone, Debug)]
+pub struct Expr {
+    pub ty: Scalar,
+    pub kind: ExprKind,
+}
+
+#[derive(Clone, Debug)]
+pub enum ExprKind {
+    Constant(Value),
+    Read(Place),
+    Variable(VariableId),
+    Define(usize),
+    /// This instance's own row in an interface.
+    Own(InterfaceId),
+    /// The stay in the present state has lasted so many ms.
+    After(Box<Expr>),
+    /// The last command has ended well.
+    Done,
+    /// The last command has ended in error.
+    Failed,
+    Not(Box<Expr>),
+    Negate(Box<Expr>),
+    /// Both operands have the same type, but for durations times whole numbers.
+    Binary(Operator, Box<Expr>, Box<Expr>),
+    Min(Box<Expr>, Box<Expr>),
+    Max(Box<Expr>, Box<Expr>),
+    Absolute(Box<Expr>),
+    /// Whole number to real.
+    ToReal(Box<Expr>),
+    MakePoint(Box<[Expr; 3]>),
+    /// x, y or z of a point, by number.
+    Coordinate(Box<Expr>, usize),
+    /// Squared distance of two points.
+    SquaredDistance(Box<Expr>, Box<Expr>),
+    Exists { variable: VariableId, domain: Box<Domain>, body: Box<Expr> },
+    Forall { variable: VariableId, domain: Box<Domain>, body: Box<Expr> },
+    Count { variable: VariableId, domain: Box<Domain>, body: Box<Expr> },
+    Sum { variable: VariableId, domain: Box<Domain>, body: Box<Expr> },
+    /// Number of members of a role.
+    Members(RoleId),
+    IsMember(Box<Expr>, RoleId),
+    Reaches(RelationId, Box<Expr>, Box<Expr>),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Operator {
+    Or,
+    And,
+    Equal,
+    NotEqual,
+    Less,
+    LessEqual,
+    Greater,
+    GreaterEqual,
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+    Modulo,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Scalar {
+    Bool,
+    Int {
+        lo: i32,
+        hi: i32,
+    },
+    Real,
+    /// Whole milliseconds, never negative.
+    Time,
+    Point,
+    Enum(EnumId),
+    Ref(InterfaceId),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Extent {
+    One,
+    Count(usize),
+    By(EnumId),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Type {
+    pub scalar: Scalar,
+    pub extent: Extent,
+}
+
+/// A value of a scalar type; the elements of an array all begin with the same one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Value {
+    Bool(bool),
+    /// A whole number, a duration in ms, the ordinal of a member, a row.
+    Int(i32),
+    Real(f64),
+    Point([f64; 3]),
+}
+
+#[derive(Clone, Debug)]
+pub struct Invariant {
+    pub place: Span,
+    pub text: String,
+    pub condition: Expr,
+    pub fault: FaultId,
+}
+
+#[derive(Clone, Debug)]
+pub struct Require {
+    pub place: Span,
+    pub condition: Expr,
+    pub text: String,
+}
+
+#[derive(Clone, Debug)]
+pub struct FaultSite {
+    pub automaton: AutomatonId,
+    pub kind: FaultKind,
+    pub place: Span,
+    /// What went wrong, such as `i leaves 0..11`.
+    pub text: String,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum FaultKind {
+    OutOfBounds,
+    NotFinite,
+    InvariantFails,
+    TooLong,
+}
+
+/// A model with the instances of one layout.
+#[derive(Clone, Debug)]
+pub struct System {
+    pub model: Model,
+    pub scan_ms: i32,
+    /// In layout order: the order in which they step.
+    pub instances: Vec<Instance>,
+    /// For each interface its members, in layout order: the instance of each row.
+    pub members: Vec<Vec<usize>>,
+    /// For each relation, `[row of from][row of to]`.
+    pub reaches: Vec<Vec<Vec<bool>>>,
+}
+
+#[derive(Clone, Debug)]
+pub struct Instance {
+    pub name: String,
+    pub automaton: AutomatonId,
+    /// For each parameter its elements.
+    pub parameters: Vec<Vec<Value>>,
+    /// For each role its members, as rows of the role's interface, in layout order.
+    pub roles: Vec<Vec<usize>>,
+    /// For each interface that the automaton implements, this instance's row.
+    pub rows: Vec<usize>,
+}
+
+impl Model {
+    pub fn elements(&self, extent: Extent) -> usize {
+        match extent {
+            Extent::One => 1,
+            Extent::Count(n) => n,
+            Extent::By(id) => self.enums[id.0].members.len(),
+        }
+    }
+
+    pub fn automaton(&self, id: AutomatonId) -> &Automaton {
+        &self.automata[id.0]
+    }
+
+    pub fn interface(&self, id: InterfaceId) -> &Interface {
+        &self.interfaces[id.0]
+    }
+}
+
+impl System {
+    pub fn automaton_of(&self, instance: usize) -> &Automaton {
+        self.model.automaton(self.instances[instance].automaton)
+    }
+
+    pub fn kinds(&self) -> usize {
+        self.model.enums[KIND.0].members.len()
+    }
+}
+
+impl Automaton {
+    /// Position of an interface among those implemented.
+    pub fn implementing(&self, interface: InterfaceId) -> Option<usize> {
+        self.implements.iter().position(|i| i.interface == interface)
+    }
+}

@@ -1,0 +1,328 @@
+//! The tree of a specification file, as written: names are not yet resolved.
+
+use crate::source::{Span, Spanned};
+
+pub type Name = Spanned<String>;
+
+#[derive(Clone, Debug, Default)]
+pub struct File {
+    pub enums: Vec<Enum>,
+    pub interfaces: Vec<Interface>,
+    pub automata: Vec<Automaton>,
+}
+
+#[derive(Clone, Debug)]
+pub struct Enum {
+    pub doc: Vec<String>,
+    pub name: Name,
+    pub members: Vec<Name>,
+}
+
+/// A protocol between robots: its parameters and cells live at the robot that implements it.
+#[derive(Clone, Debug)]
+pub struct Interface {
+    pub doc: Vec<String>,
+    pub name: Name,
+    pub parameters: Vec<Parameter>,
+    pub cells: Vec<Cell>,
+}
+
+#[derive(Clone, Debug)]
+pub struct Parameter {
+    pub doc: Vec<String>,
+    pub name: Name,
+    pub ty: Type,
+    pub default: Option<Expr>,
+}
+
+/// A shared variable.
+#[derive(Clone, Debug)]
+pub struct Cell {
+    pub doc: Vec<String>,
+    pub name: Name,
+    pub ty: Type,
+    pub initial: Option<Expr>,
+    pub rule: Option<Rule>,
+}
+
+/// Who may write a cell.
+#[derive(Clone, Debug)]
+pub enum Rule {
+    Owner,
+    Handshake,
+    Lock,
+    Counter,
+    /// For each value of the cell, who may write while it has that value.
+    Token(Vec<(Name, Side)>),
+    /// The same rule as another cell of the interface.
+    With(Name),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    Owner,
+    Others,
+}
+
+#[derive(Clone, Debug)]
+pub struct Type {
+    pub span: Span,
+    pub scalar: Scalar,
+    /// Number of elements, or the name of an enumeration, for an array.
+    pub extent: Option<Expr>,
+}
+
+#[derive(Clone, Debug)]
+pub enum Scalar {
+    Bool,
+    Int { lo: Expr, hi: Expr },
+    Real,
+    Time,
+    Point,
+    Named(Name),
+}
+
+#[derive(Clone, Debug)]
+pub struct Automaton {
+    pub doc: Vec<String>,
+    pub name: Name,
+    pub device: Name,
+    pub implements: Vec<Implements>,
+    pub parameters: Vec<Parameter>,
+    pub cells: Vec<Cell>,
+    pub roles: Vec<Role>,
+    pub locals: Vec<Local>,
+    pub defines: Vec<Define>,
+    pub requires: Vec<Require>,
+    pub invariants: Vec<Spanned<Expr>>,
+    pub initial: Option<Initial>,
+    pub any: Vec<AnyState>,
+    pub states: Vec<State>,
+}
+
+#[derive(Clone, Debug)]
+pub struct Implements {
+    pub interface: Name,
+    pub handover: Option<Handover>,
+}
+
+/// `accepts at stops[0] approach 0.5`: where and how items change hands.
+#[derive(Clone, Debug)]
+pub struct Handover {
+    pub span: Span,
+    pub way: Way,
+    pub place: Name,
+    pub index: Option<Expr>,
+    pub approach: Option<Expr>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Way {
+    Accepts,
+    Offers,
+}
+
+#[derive(Clone, Debug)]
+pub struct Role {
+    pub doc: Vec<String>,
+    pub kind: RoleKind,
+    pub name: Name,
+    pub interface: Name,
+    /// Interfaces that a member must have besides.
+    pub also: Vec<Name>,
+    pub min: usize,
+    pub max: Option<usize>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RoleKind {
+    Takes,
+    Hands,
+    Serves,
+    Knows,
+}
+
+#[derive(Clone, Debug)]
+pub struct Local {
+    pub doc: Vec<String>,
+    pub name: Name,
+    pub ty: Type,
+    pub initial: Option<Expr>,
+}
+
+#[derive(Clone, Debug)]
+pub struct Define {
+    pub doc: Vec<String>,
+    pub name: Name,
+    pub value: Expr,
+}
+
+#[derive(Clone, Debug)]
+pub struct Require {
+    pub span: Span,
+    pub condition: Expr,
+    pub text: String,
+}
+
+#[derive(Clone, Debug)]
+pub struct Initial {
+    pub span: Span,
+    pub target: Name,
+    pub updates: Vec<Update>,
+}
+
+/// Transitions that stand before those of every state that is not excepted.
+#[derive(Clone, Debug)]
+pub struct AnyState {
+    pub except: Vec<Name>,
+    pub transitions: Vec<Transition>,
+}
+
+#[derive(Clone, Debug)]
+pub struct State {
+    pub doc: Vec<String>,
+    pub name: Name,
+    pub is_final: bool,
+    pub within: Option<Expr>,
+    pub body: Body,
+}
+
+#[derive(Clone, Debug)]
+pub enum Body {
+    Transitions(Vec<Transition>),
+    Sequence(Sequence),
+}
+
+#[derive(Clone, Debug)]
+pub struct Sequence {
+    pub steps: Vec<Step>,
+    pub then: Outcome,
+    pub otherwise: Option<Outcome>,
+}
+
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    pub span: Span,
+    pub target: Name,
+    pub updates: Vec<Update>,
+}
+
+#[derive(Clone, Debug)]
+pub enum Step {
+    /// A command, waited for, or an assignment.
+    Act(Update),
+    Until { span: Span, condition: Expr, at_most: Option<Expr> },
+    Wait { span: Span, time: Expr },
+}
+
+#[derive(Clone, Debug)]
+pub struct Transition {
+    pub span: Span,
+    pub clauses: Vec<Clause>,
+    /// The guard as written.
+    pub guard_span: Span,
+    pub target: Option<Name>,
+    pub updates: Vec<Update>,
+}
+
+#[derive(Clone, Debug)]
+pub enum Clause {
+    Condition(Expr),
+    Bind(Binder),
+}
+
+#[derive(Clone, Debug)]
+pub struct Binder {
+    pub span: Span,
+    pub choice: Choice,
+    pub variable: Name,
+    pub domain: Domain,
+    pub condition: Option<Expr>,
+}
+
+#[derive(Clone, Debug)]
+pub enum Choice {
+    First,
+    Least(Expr),
+    /// Least squared distance between two points.
+    Nearest(Expr, Expr),
+}
+
+#[derive(Clone, Debug)]
+pub enum Domain {
+    /// A role or an enumeration.
+    Named(Name),
+    Range(Expr, Expr),
+}
+
+#[derive(Clone, Debug)]
+pub struct Update {
+    pub span: Span,
+    pub kind: UpdateKind,
+}
+
+#[derive(Clone, Debug)]
+pub enum UpdateKind {
+    Assign { target: Expr, how: Assign, value: Expr },
+    Command { verb: Name, arguments: Vec<Expr> },
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Assign {
+    Set,
+    Add,
+    Subtract,
+}
+
+#[derive(Clone, Debug)]
+pub struct Expr {
+    pub span: Span,
+    pub kind: ExprKind,
+}
+
+#[derive(Clone, Debug)]
+pub enum ExprKind {
+    Bool(bool),
+    Int(i64),
+    Real(f64),
+    /// Milliseconds.
+    Duration(i64),
+    Name(String),
+    Member(Box<Expr>, Name),
+    Index(Box<Expr>, Box<Expr>),
+    Call(Name, Vec<Expr>),
+    Not(Box<Expr>),
+    Negate(Box<Expr>),
+    Binary(Operator, Box<Expr>, Box<Expr>),
+    Quantified { quantifier: Quantifier, variable: Name, domain: Box<Domain>, body: Box<Expr> },
+    After(Box<Expr>),
+    In(Box<Expr>, Name),
+    Reaches(Box<Expr>, Box<Expr>),
+    /// Something that could not be read; it has been reported.
+    Error,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantifier {
+    Exists,
+    Forall,
+    Count,
+    Sum,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Operator {
+    Or,
+    And,
+    Equal,
+    NotEqual,
+    Less,
+    LessEqual,
+    Greater,
+    GreaterEqual,
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+    Modulo,
+}

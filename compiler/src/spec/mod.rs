@@ -1,0 +1,5 @@
+//! The language of automata: text to tree. `docs/language.md` has the grammar.
+
+pub mod ast;
+pub mod lexer;
+pub mod parser;

@@ -1,0 +1,241 @@
+//! Tokens to tree, by recursive descent. It goes on after an error: at the next
+//! `;`, `}` or keyword of an item. `parse_*` reports what is wrong and returns
+//! what could be read.
+
+mod automaton;
+mod declaration;
+mod expression;
+mod state;
+
+use crate::diagnostic::{Diagnostic, suggestion};
+use crate::source::{FileId, Span, Spanned};
+use crate::spec::ast;
+use crate::spec::lexer::{self, Token};
+
+/// Words that cannot be names, since an expression or a clause begins with them.
+pub const RESERVED: &[&str] = &[
+    "after", "and", "count", "done", "else", "exists", "failed", "false", "first", "forall", "in", "least", "mod",
+    "nearest", "not", "or", "reaches", "state", "sum", "true", "until", "wait", "when", "with",
+];
+
+/// Nesting of expressions beyond which a text is refused.
+const DEEPEST: usize = 64;
+
+/// Reads a whole file. What is wrong is in the list; the tree holds the rest.
+pub fn parse(file: FileId, text: &str) -> (ast::File, Vec<Diagnostic>) {
+    let (tokens, diagnostics) = lexer::tokens(file, text);
+    let mut parser = Parser { tokens, position: 0, diagnostics, depth: 0 };
+    let tree = parser.file();
+    (tree, parser.diagnostics)
+}
+
+pub(super) struct Parser {
+    tokens: Vec<(Token, Span)>,
+    position: usize,
+    diagnostics: Vec<Diagnostic>,
+    depth: usize,
+}
+
+impl Parser {
+    fn file(&mut self) -> ast::File {
+        let mut file = ast::File::default();
+        loop {
+            let doc = self.doc();
+            match self.word() {
+                Some("enum") => file.enums.extend(self.parse_enum(doc)),
+                Some("interface") => file.interfaces.extend(self.parse_interface(doc)),
+                Some("automaton") => file.automata.extend(self.parse_automaton(doc)),
+                _ if *self.peek() == Token::End => return file,
+                _ => {
+                    let found = self.found();
+                    let near = match self.peek() {
+                        Token::Word(w) => suggestion(w, ["enum", "interface", "automaton"]),
+                        _ => None,
+                    };
+                    let help = near.map_or("a file holds `enum`, `interface` and `automaton`".to_string(), |w| {
+                        format!("is `{w}` meant?")
+                    });
+                    self.error("E0204", format!("{found} cannot begin an item"), help);
+                    self.recover_to_item();
+                }
+            }
+        }
+    }
+
+    fn recover_to_item(&mut self) {
+        let mut depth = 0usize;
+        self.next();
+        loop {
+            match self.peek() {
+                Token::End => return,
+                Token::Sign("{") => depth += 1,
+                Token::Sign("}") => depth = depth.saturating_sub(1),
+                Token::Word(w) if depth == 0 && ["enum", "interface", "automaton"].contains(&w.as_str()) => return,
+                _ => {}
+            }
+            self.next();
+        }
+    }
+
+    /// Skips to the end of a broken member: past a `;` or a whole block, or before the closing brace of the one around it.
+    fn recover(&mut self) {
+        let mut depth = 0usize;
+        loop {
+            match self.peek() {
+                Token::End => return,
+                Token::Sign("}") if depth == 0 => return,
+                Token::Sign("}") => {
+                    depth -= 1;
+                    if depth == 0 {
+                        self.next();
+                        return;
+                    }
+                }
+                Token::Sign("{") => depth += 1,
+                Token::Sign(";") if depth == 0 => {
+                    self.next();
+                    return;
+                }
+                _ => {}
+            }
+            self.next();
+        }
+    }
+
+    fn peek(&self) -> &Token {
+        &self.tokens[self.position.min(self.tokens.len() - 1)].0
+    }
+
+    fn peek_second(&self) -> &Token {
+        &self.tokens[(self.position + 1).min(self.tokens.len() - 1)].0
+    }
+
+    fn span(&self) -> Span {
+        self.tokens[self.position.min(self.tokens.len() - 1)].1
+    }
+
+    /// End of the token before this one.
+    fn last_span(&self) -> Span {
+        self.tokens[self.position.saturating_sub(1).min(self.tokens.len() - 1)].1
+    }
+
+    fn next(&mut self) {
+        if self.position < self.tokens.len() - 1 {
+            self.position += 1;
+        }
+    }
+
+    fn word(&self) -> Option<&str> {
+        match self.peek() {
+            Token::Word(w) => Some(w),
+            _ => None,
+        }
+    }
+
+    fn at_word(&self, word: &str) -> bool {
+        self.word() == Some(word)
+    }
+
+    fn at_sign(&self, sign: &'static str) -> bool {
+        *self.peek() == Token::Sign(sign)
+    }
+
+    fn maybe_word(&mut self, word: &str) -> bool {
+        let found = self.at_word(word);
+        if found {
+            self.next();
+        }
+        found
+    }
+
+    fn maybe_sign(&mut self, sign: &'static str) -> bool {
+        let found = self.at_sign(sign);
+        if found {
+            self.next();
+        }
+        found
+    }
+
+    /// `None` has been reported.
+    fn expect_sign(&mut self, sign: &'static str, after: &str) -> Option<()> {
+        if self.maybe_sign(sign) {
+            return Some(());
+        }
+        let found = self.found();
+        let place = match sign {
+            ";" => self.last_span(),
+            _ => self.span(),
+        };
+        self.diagnostics.push(
+            Diagnostic::new("E0205", place, format!("`{sign}` is missing {after}"))
+                .label(format!("then comes {found}"))
+                .help(format!("write `{sign}` here")),
+        );
+        None
+    }
+
+    fn expect_word(&mut self, word: &str, after: &str) -> Option<()> {
+        if self.maybe_word(word) {
+            return Some(());
+        }
+        let found = self.found();
+        self.error(
+            "E0205",
+            format!("`{word}` is missing {after}"),
+            format!("write `{word}` where {found} stands"),
+        );
+        None
+    }
+
+    fn expect_name(&mut self, what: &str) -> Option<ast::Name> {
+        let span = self.span();
+        match self.peek().clone() {
+            Token::Word(w) if RESERVED.contains(&w.as_str()) => {
+                self.error(
+                    "E0206",
+                    format!("`{w}` is a word of the language and cannot name {what}"),
+                    format!("choose another name, such as `{w}_1`"),
+                );
+                self.next();
+                Some(Spanned { value: w, span })
+            }
+            Token::Word(w) => {
+                self.next();
+                Some(Spanned { value: w, span })
+            }
+            _ => {
+                let found = self.found();
+                self.error("E0205", format!("the name of {what} is missing"), format!("write a name before {found}"));
+                None
+            }
+        }
+    }
+
+    /// What stands here, for a message.
+    fn found(&self) -> String {
+        match self.peek() {
+            Token::Word(w) => format!("`{w}`"),
+            Token::Int(i) => format!("`{i}`"),
+            Token::Real(r) => format!("`{r}`"),
+            Token::Text(_) => "a text".into(),
+            Token::Doc(_) => "a `///` comment".into(),
+            Token::Sign(s) => format!("`{s}`"),
+            Token::End => "the end of the file".into(),
+        }
+    }
+
+    fn error(&mut self, code: &'static str, message: String, help: impl Into<String>) {
+        let span = self.span();
+        self.diagnostics.push(Diagnostic::new(code, span, message).help(help));
+    }
+
+    /// The `///` lines that stand here.
+    fn doc(&mut self) -> Vec<String> {
+        let mut lines = Vec::new();
+        while let Token::Doc(line) = self.peek() {
+            lines.push(line.clone());
+            self.next();
+        }
+        lines
+    }
+}

@@ -1,0 +1,236 @@
+//! States, transitions, updates, sequences.
+
+use super::Parser;
+use crate::source::Span;
+use crate::spec::ast;
+use crate::spec::lexer::Token;
+
+impl Parser {
+    pub(super) fn parse_any(&mut self) -> Option<ast::AnyState> {
+        self.next();
+        if self.expect_word("state", "after `any`").is_none() {
+            self.recover();
+            return None;
+        }
+        let mut except = Vec::new();
+        if self.maybe_word("except") {
+            loop {
+                except.extend(self.expect_name("the excepted state"));
+                if !self.maybe_sign(",") {
+                    break;
+                }
+            }
+        }
+        Some(ast::AnyState { except, transitions: self.transitions() })
+    }
+
+    pub(super) fn parse_state(&mut self, doc: Vec<String>) -> Option<ast::State> {
+        let is_final = self.maybe_word("final");
+        let name = match self.expect_word("state", "before the name of the state") {
+            Some(()) => self.expect_name("the state"),
+            None => None,
+        };
+        let Some(name) = name else {
+            self.recover();
+            return None;
+        };
+        let within = if self.maybe_word("within") { Some(self.parse_sum()) } else { None };
+        let body = if self.maybe_sign("=") {
+            if self.expect_word("sequence", "after `=`").is_none() {
+                self.recover();
+                return None;
+            }
+            ast::Body::Sequence(self.sequence()?)
+        } else if is_final && self.maybe_sign(";") {
+            ast::Body::Transitions(Vec::new())
+        } else {
+            ast::Body::Transitions(self.transitions())
+        };
+        Some(ast::State { doc, name, is_final, within, body })
+    }
+
+    fn transitions(&mut self) -> Vec<ast::Transition> {
+        let mut transitions = Vec::new();
+        if self.expect_sign("{", "before the transitions").is_none() {
+            self.recover();
+            return transitions;
+        }
+        loop {
+            self.doc();
+            if self.maybe_sign("}") || *self.peek() == Token::End {
+                return transitions;
+            }
+            if !self.at_word("when") {
+                let found = self.found();
+                self.error(
+                    "E0204",
+                    format!("{found} cannot stand in a state"),
+                    "a state holds transitions, such as `when done -> Next { }`",
+                );
+                self.next();
+                self.recover();
+                continue;
+            }
+            match self.transition() {
+                Some(transition) => transitions.push(transition),
+                None => self.recover(),
+            }
+        }
+    }
+
+    fn transition(&mut self) -> Option<ast::Transition> {
+        let start = self.span();
+        self.next();
+        let guard_start = self.span();
+        let mut clauses = vec![self.clause()?];
+        while self.maybe_sign(",") {
+            clauses.push(self.clause()?);
+        }
+        let guard_span = guard_start.to(self.last_span());
+        let target = if self.maybe_sign("->") { Some(self.expect_name("the next state")?) } else { None };
+        let updates = if target.is_some() && self.maybe_sign(";") { Vec::new() } else { self.parse_updates() };
+        Some(ast::Transition { span: start.to(self.last_span()), clauses, guard_span, target, updates })
+    }
+
+    fn clause(&mut self) -> Option<ast::Clause> {
+        let span = self.span();
+        let how = match self.word() {
+            Some(w @ ("first" | "nearest" | "least")) => w.to_string(),
+            _ => return Some(ast::Clause::Condition(self.parse_expr())),
+        };
+        self.next();
+        let variable = self.expect_name("the variable")?;
+        self.expect_word("in", "after the variable")?;
+        let domain = self.parse_domain();
+        let choice = match how.as_str() {
+            "first" => ast::Choice::First,
+            "least" => {
+                self.expect_word("by", "before what is to be least")?;
+                ast::Choice::Least(self.parse_sum())
+            }
+            _ => {
+                self.expect_word("by", "before the point of the candidate")?;
+                let from = self.parse_sum();
+                self.expect_word("to", "before the point to be near to")?;
+                ast::Choice::Nearest(from, self.parse_sum())
+            }
+        };
+        let condition = if self.maybe_word("with") { Some(self.parse_expr()) } else { None };
+        let span = span.to(self.last_span());
+        Some(ast::Clause::Bind(ast::Binder { span, choice, variable, domain, condition }))
+    }
+
+    pub(super) fn parse_updates(&mut self) -> Vec<ast::Update> {
+        let mut updates = Vec::new();
+        if self.expect_sign("{", "before the updates").is_none() {
+            self.recover();
+            return updates;
+        }
+        while !self.maybe_sign("}") {
+            if *self.peek() == Token::End {
+                self.error("E0205", "`}` is missing after the updates".into(), "close the updates");
+                return updates;
+            }
+            match self.update() {
+                Some(update) => updates.push(update),
+                None => self.recover(),
+            }
+        }
+        updates
+    }
+
+    fn update(&mut self) -> Option<ast::Update> {
+        let start = self.span();
+        let target = self.parse_postfix();
+        let how = match self.peek() {
+            Token::Sign(":=") => ast::Assign::Set,
+            Token::Sign("+=") => ast::Assign::Add,
+            Token::Sign("-=") => ast::Assign::Subtract,
+            _ => return self.command(start, target),
+        };
+        self.next();
+        let value = self.parse_expr();
+        let span = start.to(self.last_span());
+        self.expect_sign(";", "after the update")?;
+        Some(ast::Update { span, kind: ast::UpdateKind::Assign { target, how, value } })
+    }
+
+    fn command(&mut self, start: Span, target: ast::Expr) -> Option<ast::Update> {
+        let ast::ExprKind::Call(verb, arguments) = target.kind else {
+            if !matches!(target.kind, ast::ExprKind::Error) {
+                let found = self.found();
+                let help = if self.at_sign("=") {
+                    "an assignment is written with `:=`"
+                } else {
+                    "an update is `name := value;` or a command such as `move(place);`"
+                };
+                self.error("E0209", format!("{found} cannot follow here"), help);
+            }
+            return None;
+        };
+        let span = start.to(self.last_span());
+        self.expect_sign(";", "after the command")?;
+        Some(ast::Update { span, kind: ast::UpdateKind::Command { verb, arguments } })
+    }
+
+    fn sequence(&mut self) -> Option<ast::Sequence> {
+        let mut steps = Vec::new();
+        if self.expect_sign("{", "before the steps of the sequence").is_none() {
+            self.recover();
+            return None;
+        }
+        while !self.maybe_sign("}") {
+            if *self.peek() == Token::End {
+                self.error("E0205", "`}` is missing after the steps".into(), "close the sequence");
+                return None;
+            }
+            match self.step() {
+                Some(step) => steps.push(step),
+                None => self.recover(),
+            }
+        }
+        let span = self.span();
+        if self.expect_sign("->", "after the steps of a sequence").is_none() {
+            self.recover();
+            return None;
+        }
+        let then = self.outcome(span)?;
+        let otherwise = if self.at_word("else") {
+            let span = self.span();
+            self.next();
+            Some(self.outcome(span)?)
+        } else {
+            None
+        };
+        Some(ast::Sequence { steps, then, otherwise })
+    }
+
+    fn outcome(&mut self, span: Span) -> Option<ast::Outcome> {
+        let target = self.expect_name("the next state")?;
+        let updates = if self.maybe_sign(";") { Vec::new() } else { self.parse_updates() };
+        Some(ast::Outcome { span: span.to(target.span), target, updates })
+    }
+
+    fn step(&mut self) -> Option<ast::Step> {
+        let start = self.span();
+        if self.maybe_word("until") {
+            let condition = self.parse_expr();
+            let at_most = if self.maybe_word("at") {
+                self.expect_word("most", "after `at`")?;
+                Some(self.parse_sum())
+            } else {
+                None
+            };
+            let span = start.to(self.last_span());
+            self.expect_sign(";", "after the step")?;
+            return Some(ast::Step::Until { span, condition, at_most });
+        }
+        if self.maybe_word("wait") {
+            let time = self.parse_sum();
+            let span = start.to(self.last_span());
+            self.expect_sign(";", "after the step")?;
+            return Some(ast::Step::Wait { span, time });
+        }
+        Some(ast::Step::Act(self.update()?))
+    }
+}
