@@ -2,4 +2,5 @@
 
 pub mod diagnostic;
 pub mod layout;
+pub mod scenario;
 pub mod source;

@@ -92,7 +92,7 @@ impl Decoder {
         let size = find(members, "box").filter(|_| sized).and_then(|j| self.size(j));
         let specific = members.iter().filter(|m| {
             let key = m.key.value.as_str();
-            !COMMON_KEYS.contains(&key) && !(sized && key == "box")
+            !(COMMON_KEYS.contains(&key) || sized && key == "box")
         });
         let (pose_span, (pose, pose_numbers)) = pose?;
         Some(Object {
