@@ -39,6 +39,14 @@ pub fn listing(names: &[&str]) -> String {
     }
 }
 
+/// A number as people would write it.
+pub fn readable(number: f64) -> String {
+    match number.abs() < 1e9 {
+        true => number.to_string(),
+        false => format!("{number:e}"),
+    }
+}
+
 /// Help for a name that is not among `known`.
 pub fn instead(name: &str, known: &[&str]) -> String {
     match suggestion(name, known.iter().copied()) {
@@ -131,8 +139,12 @@ impl Decoder {
     ) {
         let range = format!("from {} to {}", bounds.start(), bounds.end());
         self.report(
-            Diagnostic::new("E0114", place, format!("{what} must be {wanted} {range}, not {found}"))
-                .help(format!("write {wanted} {range}")),
+            Diagnostic::new(
+                "E0114",
+                place,
+                format!("{what} must be {wanted} {range}, not {}", readable(found)),
+            )
+            .help(format!("write {wanted} {range}")),
         );
     }
 

@@ -83,12 +83,19 @@ impl Reader<'_> {
     /// Stops reading by going to the end when there are too many errors.
     fn report(&mut self, diagnostic: Diagnostic) {
         if !self.stopped() {
+            let last = self.diagnostics.len() + 1 == MOST_ERRORS;
+            let diagnostic =
+                if last { diagnostic.note("after so many errors the rest was not read") } else { diagnostic };
             self.diagnostics.push(diagnostic);
         }
         if self.stopped() {
-            self.complete = false;
-            self.at = self.text.len();
+            self.give_up();
         }
+    }
+
+    fn give_up(&mut self) {
+        self.complete = false;
+        self.at = self.text.len();
     }
 
     fn space(&mut self) {
@@ -150,8 +157,7 @@ impl Reader<'_> {
                 .note("no key of a layout or a scenario needs more than 6")
                 .help("look for a bracket that is repeated or not closed"),
             );
-            self.at = self.text.len();
-            self.complete = false;
+            self.give_up();
             return None;
         }
         self.depth += 1;
@@ -318,12 +324,13 @@ impl Reader<'_> {
                     return out;
                 }
                 None | Some('\n') => {
-                    self.complete = false;
                     self.report(
                         Diagnostic::new("E0102", self.span(start), "the text is not closed on its line")
                             .label("opened here")
-                            .help(format!("add the closing {quote}")),
+                            .note("the rest was not read: what is text there and what is not cannot be told")
+                            .help(format!("add the closing {quote}; for a line break in a text write \\n")),
                     );
+                    self.give_up();
                     return out;
                 }
                 Some('\\') => self.escape(&mut out),

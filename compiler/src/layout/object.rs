@@ -1,7 +1,7 @@
 //! One machine or thing of the layout, before its type is bound to a device.
 
 use super::Number;
-use super::decode::{Decoder, find};
+use super::decode::{Decoder, find, readable};
 use super::json::{Json, Member};
 use crate::diagnostic::Diagnostic;
 use crate::source::{Span, Spanned};
@@ -47,7 +47,7 @@ impl Decoder {
                 Diagnostic::new(
                     "E0125",
                     json.span,
-                    format!("{path} is {value} m, which is outside of any factory"),
+                    format!("{path} is {} m, which is outside of any factory", readable(value)),
                 )
                 .note(format!("coordinates are in metres, within {FARTHEST} m of the origin"))
                 .help("write it in metres: were millimetres meant?"),
@@ -88,11 +88,16 @@ impl Decoder {
         let parameters = find(members, "parameters").and_then(|j| self.object(j, "parameters"));
         let takes_from = find(members, "takes_from").and_then(|j| self.texts(j, "takes_from"));
         let hands_to = find(members, "hands_to").and_then(|j| self.texts(j, "hands_to"));
-        let sized = part == Part::Stationary;
-        let size = find(members, "box").filter(|_| sized).and_then(|j| self.size(j));
+        let size = find(members, "box").and_then(|j| match part {
+            Part::Stationary => self.size(j),
+            Part::Robot => {
+                self.box_of_robot(j, &described);
+                None
+            }
+        });
         let specific = members.iter().filter(|m| {
             let key = m.key.value.as_str();
-            !(COMMON_KEYS.contains(&key) || sized && key == "box")
+            !COMMON_KEYS.contains(&key) && key != "box"
         });
         let (pose_span, (pose, pose_numbers)) = pose?;
         Some(Object {
@@ -112,6 +117,14 @@ impl Decoder {
             takes_from,
             hands_to,
         })
+    }
+
+    fn box_of_robot(&mut self, json: &Json, robot: &str) {
+        self.report(
+            Diagnostic::new("E0111", json.span, format!("{robot} is a robot and has no \"box\""))
+                .note("the size of a robot is that of its device")
+                .help("remove the box"),
+        );
     }
 
     fn size(&mut self, json: &Json) -> Option<Spanned<Point>> {

@@ -31,6 +31,8 @@ impl Decoder {
         self.unknown_keys(members, &["kinds", "orders", "supply", "time_limit_s", "faults"], "a scenario");
         let kinds = self.required(members, "kinds", json.span, "the scenario");
         let orders = self.required(members, "orders", json.span, "the scenario");
+        let time_limit_s = self.seconds_or(members, "time_limit_s", TIME_LIMIT_S);
+        let faults = find(members, "faults").and_then(|j| self.faults(j)).unwrap_or_default();
         let kinds = kinds.and_then(|j| self.kinds(j))?;
         let names: Vec<&str> = kinds.iter().map(|k| k.name.value.as_str()).collect();
         let orders = orders.and_then(|j| self.orders(j, &names));
@@ -42,8 +44,6 @@ impl Decoder {
                 items: Items::Shuffled { surplus: SURPLUS, seed: SEED },
             }),
         };
-        let time_limit_s = self.seconds_or(members, "time_limit_s", TIME_LIMIT_S);
-        let faults = find(members, "faults").and_then(|j| self.faults(j)).unwrap_or_default();
         Some(Scenario { file: json.span.file, kinds, orders: orders?, supply: supply?, time_limit_s, faults })
     }
 
@@ -68,11 +68,12 @@ impl Decoder {
             );
             return None;
         }
-        let kinds: Vec<Option<Kind>> = items.iter().map(|item| self.kind(item)).collect();
-        self.distinct(kinds.iter().flatten().map(|k| &k.name), "a kind");
-        kinds.into_iter().collect()
+        let kinds: Vec<Kind> = items.iter().filter_map(|item| self.kind(item)).collect();
+        self.distinct(kinds.iter().map(|k| &k.name), "a kind");
+        Some(kinds)
     }
 
+    /// With any height if that cannot be read, so that its name is known.
     fn kind(&mut self, json: &Json) -> Option<Kind> {
         let members = self.object(json, "a kind")?;
         self.unknown_keys(members, &["name", "height"], "a kind");
@@ -83,7 +84,7 @@ impl Decoder {
         }
         let height = self.required(members, "height", json.span, "a kind");
         let height = height.and_then(|j| self.number_in(j, "height", 0.001..=1.0));
-        Some(Kind { name: name?, height: height? })
+        Some(Kind { name: name?, height: height.unwrap_or_default() })
     }
 
     fn kind_index(&mut self, name: &Spanned<String>, kinds: &[&str]) -> Option<usize> {

@@ -185,7 +185,7 @@ impl Resolver<'_> {
                     Diagnostic::new(
                         "E0138",
                         self.scenario.supply.span,
-                        format!("the belts bring {brought} parts \"{name}\", the orders need {needed}"),
+                        format!("the belts bring too few parts \"{name}\": {brought} of {needed}"),
                     )
                     .other(self.scenario.orders.span, "the orders")
                     .note("the line could not make all orders")
