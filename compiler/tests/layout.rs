@@ -103,6 +103,15 @@ fn the_name_of_a_layout_is_that_of_its_file() {
 
 const NOISE: &[u8] = b"{}[]\",:'\\/*-+.eE01u_ \n\xff\xc3\xa9t";
 
+#[test]
+fn a_device_that_does_not_exist() {
+    let mut sources = Sources::default();
+    let file = sources.add("default.json", example("default.json"));
+    let layout = layout::parse(&sources, file).0.unwrap();
+    let diagnostics = layout::geometry(&layout.objects[0], "blet").unwrap_err();
+    assert_eq!((diagnostics[0].code, diagnostics[0].help.as_str()), ("E0127", "did you mean \"belt\"?"));
+}
+
 /// Nothing but "no panic" is asked, of the rendering too.
 fn survives(text: String) {
     let mut sources = Sources::default();
