@@ -3,5 +3,7 @@
 pub mod check;
 pub mod diagnostic;
 pub mod ir;
+pub mod layout;
+pub mod scenario;
 pub mod source;
 pub mod spec;

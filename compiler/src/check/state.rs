@@ -1,6 +1,6 @@
 //! States and transitions.
 
-use super::automaton::{Context, Symbol};
+use super::automaton::Context;
 use super::{facts, sequence};
 use crate::diagnostic::{Diagnostic, suggestion};
 use crate::ir::{self, Scalar, StateId};
@@ -230,7 +230,4 @@ impl Context<'_, '_> {
         Some(ir::Binder { variable, domain, condition, key })
     }
 
-    pub(super) fn is_declared(&self, name: &str) -> bool {
-        matches!(self.symbols.get(name), Some(Symbol::Local(_) | Symbol::Cell(..) | Symbol::Port(_)))
-    }
 }

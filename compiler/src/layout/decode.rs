@@ -1,0 +1,265 @@
+//! From JSON to values, with a diagnostic for whatever is not as it should be.
+
+use super::json::{Json, Member, Value};
+use crate::diagnostic::{Diagnostic, suggestion};
+use crate::source::{Span, Spanned};
+use std::fmt::Display;
+use std::ops::RangeInclusive;
+
+/// Collects what is wrong while values are read; a reading that fails has said why.
+#[derive(Default)]
+pub struct Decoder {
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+impl Value {
+    /// What this is, for messages.
+    fn noun(&self) -> &'static str {
+        match self {
+            Value::Null => "null",
+            Value::Bool(_) => "a boolean",
+            Value::Number(_) => "a number",
+            Value::Text(_) => "a text",
+            Value::List(_) => "a list",
+            Value::Object(_) => "an object",
+        }
+    }
+}
+
+pub fn find<'a>(members: &'a [Member], key: &str) -> Option<&'a Json> {
+    members.iter().find(|m| m.key.value == key).map(|m| &m.value)
+}
+
+/// `a`, `b` and `c`
+pub fn listing(names: &[&str]) -> String {
+    match names {
+        [] => "none".into(),
+        [only] => (*only).into(),
+        [front @ .., last] => format!("{} and {last}", front.join(", ")),
+    }
+}
+
+/// A number as people would write it.
+pub fn readable(number: f64) -> String {
+    match number.abs() < 1e9 {
+        true => number.to_string(),
+        false => format!("{number:e}"),
+    }
+}
+
+/// Help for a name that is not among `known`.
+pub fn instead(name: &str, known: &[&str]) -> String {
+    match suggestion(name, known.iter().copied()) {
+        Some(meant) => format!("did you mean \"{meant}\"?"),
+        None if known.is_empty() => "remove it".into(),
+        None => format!("write one of: {}", known.join(", ")),
+    }
+}
+
+impl Decoder {
+    pub fn report(&mut self, diagnostic: Diagnostic) {
+        self.diagnostics.push(diagnostic);
+    }
+
+    fn wrong_type(&mut self, json: &Json, what: &str, wanted: &str) {
+        let found = json.value.noun();
+        self.report(
+            Diagnostic::new("E0110", json.span, format!("{what} must be {wanted}, not {found}"))
+                .label(format!("this is {found}"))
+                .help(format!("write {wanted} here")),
+        );
+    }
+
+    pub fn object<'a>(&mut self, json: &'a Json, what: &str) -> Option<&'a [Member]> {
+        match &json.value {
+            Value::Object(members) => Some(members),
+            _ => {
+                self.wrong_type(json, what, "an object");
+                None
+            }
+        }
+    }
+
+    pub fn list<'a>(&mut self, json: &'a Json, what: &str) -> Option<&'a [Json]> {
+        match &json.value {
+            Value::List(items) => Some(items),
+            _ => {
+                self.wrong_type(json, what, "a list");
+                None
+            }
+        }
+    }
+
+    pub fn text(&mut self, json: &Json, what: &str) -> Option<Spanned<String>> {
+        match &json.value {
+            Value::Text(text) => Some(Spanned { value: text.clone(), span: json.span }),
+            _ => {
+                self.wrong_type(json, what, "a text");
+                None
+            }
+        }
+    }
+
+    pub fn number(&mut self, json: &Json, what: &str) -> Option<f64> {
+        match json.value {
+            Value::Number(number) => Some(number),
+            _ => {
+                self.wrong_type(json, what, "a number");
+                None
+            }
+        }
+    }
+
+    pub fn number_in(&mut self, json: &Json, what: &str, bounds: RangeInclusive<f64>) -> Option<f64> {
+        let number = self.number(json, what)?;
+        if !bounds.contains(&number) {
+            self.out_of_bounds(json.span, what, number, "a number", bounds);
+            return None;
+        }
+        Some(number)
+    }
+
+    pub fn whole(&mut self, json: &Json, what: &str, bounds: RangeInclusive<u32>) -> Option<u32> {
+        let number = self.number(json, what)?;
+        let limits = f64::from(*bounds.start())..=f64::from(*bounds.end());
+        if number.fract() != 0.0 || !limits.contains(&number) {
+            self.out_of_bounds(json.span, what, number, "a whole number", bounds);
+            return None;
+        }
+        Some(number as u32)
+    }
+
+    fn out_of_bounds<T: Display>(
+        &mut self,
+        place: Span,
+        what: &str,
+        found: f64,
+        wanted: &str,
+        bounds: RangeInclusive<T>,
+    ) {
+        let range = format!("from {} to {}", bounds.start(), bounds.end());
+        self.report(
+            Diagnostic::new(
+                "E0114",
+                place,
+                format!("{what} must be {wanted} {range}, not {}", readable(found)),
+            )
+            .help(format!("write {wanted} {range}")),
+        );
+    }
+
+    /// A list of exactly these elements.
+    pub fn exactly<'a>(&mut self, json: &'a Json, what: &str, elements: &[&str]) -> Option<&'a [Json]> {
+        let items = self.list(json, what)?;
+        let (wanted, found) = (elements.len(), items.len());
+        if found != wanted {
+            self.report(
+                Diagnostic::new(
+                    "E0113",
+                    json.span,
+                    format!("{what} must have {wanted} elements, not {found}"),
+                )
+                .note(format!("the elements are {}", listing(elements)))
+                .help(format!("write [{}]", elements.join(", "))),
+            );
+            return None;
+        }
+        Some(items)
+    }
+
+    pub fn texts(&mut self, json: &Json, what: &str) -> Option<Vec<Spanned<String>>> {
+        let items = self.list(json, what)?;
+        let element = format!("an element of {what}");
+        Some(items.iter().filter_map(|item| self.text(item, &element)).collect())
+    }
+
+    pub fn required<'a>(
+        &mut self,
+        members: &'a [Member],
+        key: &str,
+        place: Span,
+        what: &str,
+    ) -> Option<&'a Json> {
+        let found = find(members, key);
+        if found.is_none() {
+            let opening = Span { end: place.start + 1, ..place };
+            self.report(
+                Diagnostic::new("E0112", opening, format!("{what} has no key \"{key}\""))
+                    .note(format!("\"{key}\" cannot be left out"))
+                    .help(format!("add \"{key}\": ...")),
+            );
+        }
+        found
+    }
+
+    pub fn unknown_keys(&mut self, members: &[Member], known: &[&str], what: &str) {
+        for key in members.iter().map(|m| &m.key).filter(|k| !known.contains(&k.value.as_str())) {
+            self.report(
+                Diagnostic::new("E0111", key.span, format!("{what} has no key \"{}\"", key.value))
+                    .label("unknown key")
+                    .note(format!("known keys: {}", listing(known)))
+                    .help(instead(&key.value, known)),
+            );
+        }
+    }
+
+    /// A name that can stand in the text of a program.
+    pub fn identifier(&mut self, name: &Spanned<String>, what: &str) -> bool {
+        let good = is_identifier(&name.value);
+        if !good {
+            self.report(
+                Diagnostic::new("E0120", name.span, format!("\"{}\" cannot be the name of {what}", name.value))
+                    .note("a name begins with a letter a to z, goes on with letters, digits and single underscores, does not end in one, and has at most 32 characters")
+                    .help(format!("write for example \"{}\"", make_identifier(&name.value, "name"))),
+            );
+        }
+        good
+    }
+
+    /// Names of one kind differ in more than upper and lower case, which Structured Text does not tell apart.
+    pub fn distinct<'a>(&mut self, names: impl IntoIterator<Item = &'a Spanned<String>>, what: &str) {
+        let mut seen: Vec<&Spanned<String>> = Vec::new();
+        for name in names {
+            let Some(first) = seen.iter().find(|s| s.value.eq_ignore_ascii_case(&name.value)) else {
+                seen.push(name);
+                continue;
+            };
+            let mut diagnostic = Diagnostic::new(
+                "E0121",
+                name.span,
+                format!("the name \"{}\" of {what} is taken", name.value),
+            )
+            .label("second use")
+            .other(first.span, "first use");
+            if first.value != name.value {
+                diagnostic = diagnostic.note(format!(
+                    "\"{}\" and \"{}\" differ only in case, which Structured Text ignores",
+                    first.value, name.value
+                ));
+            }
+            self.report(diagnostic.help("give one of them another name"));
+        }
+    }
+}
+
+const LONGEST_NAME: usize = 32;
+
+fn is_identifier(name: &str) -> bool {
+    name.starts_with(|c: char| c.is_ascii_alphabetic())
+        && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
+        && !name.contains("__")
+        && !name.ends_with('_')
+        && name.len() <= LONGEST_NAME
+}
+
+/// The identifier nearest to `text`; `prefix` stands before one that begins with a digit.
+pub fn make_identifier(text: &str, prefix: &str) -> String {
+    let words: Vec<&str> =
+        text.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty()).collect();
+    let mut name = words.join("_");
+    if !name.starts_with(|c: char| c.is_ascii_alphabetic()) {
+        name = if name.is_empty() { prefix.to_string() } else { format!("{prefix}_{name}") };
+    }
+    name.truncate(LONGEST_NAME);
+    name.trim_end_matches('_').to_string()
+}

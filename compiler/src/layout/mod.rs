@@ -1,0 +1,35 @@
+//! The layout: which machines there are and where they stand.
+
+pub mod decode;
+mod geometry;
+pub mod json;
+mod object;
+mod read;
+
+pub use geometry::{Obstacle, geometry, obstacle};
+pub use object::{Object, Part};
+pub use read::parse;
+
+use crate::source::{FileId, Span, Spanned};
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct Layout {
+    /// Of the key `name`, else of the file.
+    pub name: String,
+    pub file: FileId,
+    /// Robots, then stationary things, in the order of the text.
+    pub objects: Vec<Object>,
+    /// Empty: the built-in library.
+    pub specs: Vec<Spanned<String>>,
+    /// None: the file beside the layout, else the built-in scenario.
+    pub scenario: Option<Spanned<String>>,
+    pub scan_ms: u32,
+}
+
+/// A number of a layout, by its path in its object, such as `rail_range[1]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Number {
+    pub path: String,
+    pub value: f64,
+    pub span: Span,
+}

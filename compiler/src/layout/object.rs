@@ -1,0 +1,146 @@
+//! One machine or thing of the layout, before its type is bound to a device.
+
+use super::Number;
+use super::decode::{Decoder, find, readable};
+use super::json::{Json, Member};
+use crate::diagnostic::Diagnostic;
+use crate::source::{Span, Spanned};
+use runtime_sim::point::Point;
+
+/// The list of the layout in which an object stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    Robot,
+    Stationary,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct Object {
+    pub name: Spanned<String>,
+    /// The key `type`.
+    pub kind: Spanned<String>,
+    pub part: Part,
+    pub span: Span,
+    pub pose: Spanned<Point>,
+    pub pose_numbers: Vec<Number>,
+    /// The key `box` of a stationary thing: its lengths along x, y and z.
+    pub size: Option<Spanned<Point>>,
+    /// All keys that depend on the device.
+    pub members: Vec<Member>,
+    pub parameters: Vec<(Spanned<String>, Json)>,
+    pub takes_from: Option<Vec<Spanned<String>>>,
+    pub hands_to: Option<Vec<Spanned<String>>>,
+}
+
+/// Keys that every object may have.
+pub const COMMON_KEYS: [&str; 6] = ["name", "type", "pose", "parameters", "takes_from", "hands_to"];
+
+/// No coordinate of a factory is farther from the origin, in metres.
+pub const FARTHEST: f64 = 1000.0;
+
+impl Decoder {
+    /// A coordinate or a length in metres.
+    pub fn metres(&mut self, json: &Json, path: String) -> Option<Number> {
+        let value = self.number(json, &path)?;
+        if value.abs() > FARTHEST {
+            self.report(
+                Diagnostic::new(
+                    "E0125",
+                    json.span,
+                    format!("{path} is {} m, which is outside of any factory", readable(value)),
+                )
+                .note(format!("coordinates are in metres, within {FARTHEST} m of the origin"))
+                .help("write it in metres: were millimetres meant?"),
+            );
+            return None;
+        }
+        Some(Number { path, value, span: json.span })
+    }
+
+    pub fn metres_list(&mut self, json: &Json, path: &str, elements: &[&str]) -> Option<Vec<Number>> {
+        let items = self.exactly(json, path, elements)?;
+        let read: Vec<_> =
+            items.iter().enumerate().map(|(i, item)| self.metres(item, format!("{path}[{i}]"))).collect();
+        read.into_iter().collect()
+    }
+
+    pub fn point(&mut self, json: &Json, path: &str) -> Option<(Point, Vec<Number>)> {
+        let numbers = self.metres_list(json, path, &["x", "y", "z"])?;
+        Some((Point::new(numbers[0].value, numbers[1].value, numbers[2].value), numbers))
+    }
+
+    pub fn layout_object(&mut self, json: &Json, part: Part) -> Option<Object> {
+        let what = match part {
+            Part::Robot => "a robot",
+            Part::Stationary => "a stationary thing",
+        };
+        let members = self.object(json, what)?;
+        let name = self.required(members, "name", json.span, what);
+        let name = name.and_then(|j| self.text(j, "name"));
+        if let Some(name) = &name {
+            self.identifier(name, what);
+        }
+        let described = name.as_ref().map_or(what.to_string(), |n| format!("\"{}\"", n.value));
+        let kind = self.required(members, "type", json.span, &described);
+        let kind = kind.and_then(|j| self.text(j, "type"));
+        let pose = self.required(members, "pose", json.span, &described);
+        let pose = pose.and_then(|j| Some((j.span, self.point(j, "pose")?)));
+        let parameters = find(members, "parameters").and_then(|j| self.object(j, "parameters"));
+        let takes_from = find(members, "takes_from").and_then(|j| self.texts(j, "takes_from"));
+        let hands_to = find(members, "hands_to").and_then(|j| self.texts(j, "hands_to"));
+        let size = find(members, "box").and_then(|j| match part {
+            Part::Stationary => self.size(j),
+            Part::Robot => {
+                self.box_of_robot(j, &described);
+                None
+            }
+        });
+        let specific = members.iter().filter(|m| {
+            let key = m.key.value.as_str();
+            !COMMON_KEYS.contains(&key) && key != "box"
+        });
+        let (pose_span, (pose, pose_numbers)) = pose?;
+        Some(Object {
+            name: name?,
+            kind: kind?,
+            part,
+            span: json.span,
+            pose: Spanned { value: pose, span: pose_span },
+            pose_numbers,
+            size,
+            members: specific.cloned().collect(),
+            parameters: parameters
+                .unwrap_or_default()
+                .iter()
+                .map(|m| (m.key.clone(), m.value.clone()))
+                .collect(),
+            takes_from,
+            hands_to,
+        })
+    }
+
+    fn box_of_robot(&mut self, json: &Json, robot: &str) {
+        self.report(
+            Diagnostic::new("E0111", json.span, format!("{robot} is a robot and has no \"box\""))
+                .note("the size of a robot is that of its device")
+                .help("remove the box"),
+        );
+    }
+
+    fn size(&mut self, json: &Json) -> Option<Spanned<Point>> {
+        let (size, numbers) = self.point(json, "box")?;
+        if let Some(flat) = numbers.iter().find(|n| n.value <= 0.0) {
+            self.report(
+                Diagnostic::new(
+                    "E0114",
+                    flat.span,
+                    format!("{} must be a length over 0, not {}", flat.path, flat.value),
+                )
+                .note("the box has its lengths along x, y and z")
+                .help("write a positive length, or leave \"box\" out"),
+            );
+            return None;
+        }
+        Some(Spanned { value: size, span: json.span })
+    }
+}

@@ -1,0 +1,102 @@
+//! From the text of a layout to its tree.
+
+use super::decode::{Decoder, find, instead, make_identifier};
+use super::json::{self, Json, Member, Value};
+use super::{Layout, Object, Part};
+use crate::diagnostic::{Diagnostic, sort};
+use crate::source::{FileId, Sources, Spanned};
+
+const KEYS: [&str; 6] = ["robots", "stationary", "name", "specs", "scenario", "scan_ms"];
+const SCAN_MS: u32 = 10;
+
+/// What could be read, to check it further; with any diagnostic there is no sense in building from it.
+pub fn parse(sources: &Sources, file: FileId) -> (Option<Layout>, Vec<Diagnostic>) {
+    let source = sources.file(file);
+    let (json, diagnostics) = json::parse(&source.text, file);
+    let mut decoder = Decoder { diagnostics };
+    let layout = json.and_then(|json| decoder.layout(&json, &source.name));
+    sort(&mut decoder.diagnostics);
+    (layout, decoder.diagnostics)
+}
+
+impl Decoder {
+    fn layout(&mut self, json: &Json, file_name: &str) -> Option<Layout> {
+        let members = self.object(json, "a layout")?;
+        self.unknown_keys(members, &KEYS, "a layout");
+        let robots = self.required(members, "robots", json.span, "the layout");
+        let mut objects = self.layout_objects(robots, "robots", Part::Robot);
+        objects.extend(self.layout_objects(find(members, "stationary"), "stationary", Part::Stationary));
+        self.distinct(objects.iter().map(|o| &o.name), "an object");
+        self.neighbours(&objects, &names(members));
+
+        let name = find(members, "name").and_then(|j| self.text(j, "name"));
+        if let Some(name) = &name {
+            self.identifier(name, "a layout");
+        }
+        let specs = find(members, "specs").and_then(|j| match j.value {
+            Value::Text(_) => Some(vec![self.text(j, "specs")?]),
+            _ => self.texts(j, "specs"),
+        });
+        let scenario = find(members, "scenario").and_then(|j| self.text(j, "scenario"));
+        let scan_ms = find(members, "scan_ms").and_then(|j| self.whole(j, "scan_ms", 1..=1000));
+        Some(Layout {
+            name: name.map_or_else(|| make_identifier(stem(file_name), "layout"), |n| n.value),
+            file: json.span.file,
+            objects,
+            specs: specs.unwrap_or_default(),
+            scenario,
+            scan_ms: scan_ms.unwrap_or(SCAN_MS),
+        })
+    }
+
+    fn layout_objects(&mut self, json: Option<&Json>, key: &str, part: Part) -> Vec<Object> {
+        let items = json.and_then(|j| self.list(j, key)).unwrap_or_default();
+        items.iter().filter_map(|item| self.layout_object(item, part)).collect()
+    }
+
+    fn neighbours(&mut self, objects: &[Object], known: &[&str]) {
+        for object in objects {
+            let lists = [("takes_from", &object.takes_from), ("hands_to", &object.hands_to)];
+            for (key, list) in lists {
+                let list = list.as_deref().unwrap_or_default();
+                self.neighbour_list(object, key, list, known);
+            }
+        }
+    }
+
+    fn neighbour_list(&mut self, object: &Object, key: &str, list: &[Spanned<String>], known: &[&str]) {
+        let own = &object.name.value;
+        let others: Vec<&str> = known.iter().copied().filter(|name| name != own).collect();
+        for name in list.iter().filter(|n| !others.contains(&n.value.as_str())) {
+            let message = match name.value == *own {
+                true => format!("\"{own}\" stands in its own {key}"),
+                false => format!("{key} of \"{own}\" names \"{}\", which is not in the layout", name.value),
+            };
+            self.report(
+                Diagnostic::new("E0122", name.span, message)
+                    .note(format!("the layout has: {}", known.join(", ")))
+                    .help(instead(&name.value, &others)),
+            );
+        }
+    }
+}
+
+/// Names of all objects, of those too that have other errors.
+fn names(members: &[Member]) -> Vec<&str> {
+    let mut names = Vec::new();
+    for key in ["robots", "stationary"] {
+        let Some(Json { value: Value::List(items), .. }) = find(members, key) else { continue };
+        for item in items {
+            let Value::Object(members) = &item.value else { continue };
+            if let Some(Json { value: Value::Text(name), .. }) = find(members, "name") {
+                names.push(name.as_str());
+            }
+        }
+    }
+    names
+}
+
+fn stem(file_name: &str) -> &str {
+    let file = file_name.rsplit(['/', '\\']).next().unwrap_or(file_name);
+    file.rsplit_once('.').map_or(file, |(stem, _)| stem)
+}

@@ -1,0 +1,116 @@
+//! The scenario: which orders are to be made of which parts, and what the belts bring.
+
+mod read;
+mod resolve;
+mod shuffle;
+mod supply;
+
+pub use read::parse;
+pub use resolve::{Line, resolve};
+
+use crate::source::{FileId, Span, Spanned};
+
+/// For a layout that names no scenario and has none beside it.
+pub const DEFAULT: &str = include_str!("default.json");
+
+/// A scenario by itself: names of kinds are resolved, names of machines are not.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scenario {
+    pub file: FileId,
+    pub kinds: Vec<Kind>,
+    pub orders: Orders,
+    pub supply: Supply,
+    pub time_limit_s: f64,
+    pub faults: Faults,
+}
+
+/// A kind of part.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Kind {
+    pub name: Spanned<String>,
+    /// In metres.
+    pub height: f64,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct Orders {
+    pub span: Span,
+    pub list: Vec<Order>,
+    /// Over which orders without a station of their own are spread in turn; `None`: over all.
+    pub stations: Option<Vec<Spanned<String>>>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct Order {
+    /// `None`: the next in turn.
+    pub station: Option<Spanned<String>>,
+    /// Number of parts of each kind.
+    pub parts: Vec<u32>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct Supply {
+    /// Of the key `supply`, or of the scenario that has none.
+    pub span: Span,
+    /// Time between two parts on one belt.
+    pub every_s: f64,
+    pub items: Items,
+}
+
+/// What the belts bring; numbers are kinds.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Items {
+    /// What the orders need and a fraction more, shuffled lot by lot.
+    Shuffled {
+        surplus: [u32; 2],
+        seed: u32,
+    },
+    /// On the only belt.
+    OnlyBelt(Vec<usize>),
+    Belts(Vec<(Spanned<String>, Vec<usize>)>),
+}
+
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Faults {
+    pub slips: Vec<Slip<Spanned<String>>>,
+    pub refusals: Vec<Refusal<Spanned<String>>>,
+    pub pauses: Vec<Pause>,
+}
+
+/// A part falls off the gripper of `robot` so long after its pick number `pick`, counted from 1.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Slip<Robot> {
+    pub robot: Robot,
+    pub pick: u32,
+    pub after_s: f64,
+}
+
+/// `robot` refuses its command number `command`, counted from 1.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Refusal<Robot> {
+    pub robot: Robot,
+    pub command: u32,
+}
+
+/// The permit to run is taken away for a time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pause {
+    pub at_s: f64,
+    pub for_s: f64,
+}
+
+/// A scenario for one line: machines are indices, everything is decided.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ResolvedScenario {
+    /// Names and heights in metres.
+    pub kinds: Vec<(String, f64)>,
+    /// Station, and the number of parts of each kind.
+    pub orders: Vec<(usize, Vec<u32>)>,
+    /// Belt, and the kinds it brings, in order.
+    pub supply: Vec<(usize, Vec<usize>)>,
+    pub spawn_every_s: f64,
+    pub time_limit_s: f64,
+    pub slips: Vec<Slip<usize>>,
+    pub refusals: Vec<Refusal<usize>>,
+    pub pauses: Vec<Pause>,
+}

@@ -1,0 +1,59 @@
+//! From the text of a scenario to its tree.
+
+mod faults;
+mod kinds;
+mod orders;
+mod supply;
+
+use super::{Items, Scenario, Supply};
+use crate::diagnostic::{Diagnostic, sort};
+use crate::layout::decode::{Decoder, find};
+use crate::layout::json::{self, Json, Member};
+use crate::source::{FileId, Sources};
+
+const LONGEST_S: f64 = 1e6;
+const TIME_LIMIT_S: f64 = 3600.0;
+const EVERY_S: f64 = 2.0;
+const SURPLUS: [u32; 2] = [1, 3];
+const SEED: u32 = 1;
+
+/// There is a scenario only without any error.
+pub fn parse(sources: &Sources, file: FileId) -> (Option<Scenario>, Vec<Diagnostic>) {
+    let (json, diagnostics) = json::parse(&sources.file(file).text, file);
+    let mut decoder = Decoder { diagnostics };
+    let scenario = json.and_then(|json| decoder.scenario(&json));
+    sort(&mut decoder.diagnostics);
+    (scenario.filter(|_| decoder.diagnostics.is_empty()), decoder.diagnostics)
+}
+
+impl Decoder {
+    fn scenario(&mut self, json: &Json) -> Option<Scenario> {
+        let members = self.object(json, "a scenario")?;
+        self.unknown_keys(members, &["kinds", "orders", "supply", "time_limit_s", "faults"], "a scenario");
+        let kinds = self.required(members, "kinds", json.span, "the scenario");
+        let orders = self.required(members, "orders", json.span, "the scenario");
+        let time_limit_s = self.seconds_or(members, "time_limit_s", TIME_LIMIT_S);
+        let faults = find(members, "faults").and_then(|j| self.faults(j)).unwrap_or_default();
+        let kinds = kinds.and_then(|j| self.kinds(j))?;
+        let names: Vec<&str> = kinds.iter().map(|k| k.name.value.as_str()).collect();
+        let orders = orders.and_then(|j| self.orders(j, &names));
+        let supply = match find(members, "supply") {
+            Some(supply) => self.supply(supply, &names),
+            None => Some(Supply {
+                span: json.span,
+                every_s: EVERY_S,
+                items: Items::Shuffled { surplus: SURPLUS, seed: SEED },
+            }),
+        };
+        Some(Scenario { file: json.span.file, kinds, orders: orders?, supply: supply?, time_limit_s, faults })
+    }
+
+    /// A time longer than nothing.
+    fn seconds(&mut self, json: &Json, key: &str) -> Option<f64> {
+        self.number_in(json, key, 0.001..=LONGEST_S)
+    }
+
+    fn seconds_or(&mut self, members: &[Member], key: &str, default: f64) -> f64 {
+        find(members, key).and_then(|j| self.seconds(j, key)).unwrap_or(default)
+    }
+}

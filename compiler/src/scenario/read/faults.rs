@@ -1,0 +1,63 @@
+//! What is to go wrong.
+
+use super::LONGEST_S;
+use crate::layout::decode::{Decoder, find};
+use crate::layout::json::{Json, Member};
+use crate::scenario::{Faults, Pause, Refusal, Slip};
+use crate::source::Spanned;
+
+impl Decoder {
+    pub(super) fn faults(&mut self, json: &Json) -> Option<Faults> {
+        let members = self.object(json, "faults")?;
+        self.unknown_keys(members, &["slips", "refusals", "pauses"], "faults");
+        Some(Faults {
+            slips: self.each(members, "slips", Self::slip),
+            refusals: self.each(members, "refusals", Self::refusal),
+            pauses: self.each(members, "pauses", Self::pause),
+        })
+    }
+
+    fn each<T>(&mut self, members: &[Member], key: &str, read: fn(&mut Self, &Json) -> Option<T>) -> Vec<T> {
+        let items = find(members, key).and_then(|j| self.list(j, key)).unwrap_or_default();
+        items.iter().filter_map(|item| read(self, item)).collect()
+    }
+
+    fn robot(&mut self, members: &[Member], json: &Json, what: &str) -> Option<Spanned<String>> {
+        let robot = self.required(members, "robot", json.span, what);
+        robot.and_then(|j| self.text(j, "robot"))
+    }
+
+    /// Number of one of many events, counted from 1.
+    fn count(&mut self, members: &[Member], json: &Json, key: &str, what: &str) -> Option<u32> {
+        let number = self.required(members, key, json.span, what);
+        number.and_then(|j| self.whole(j, key, 1..=1_000_000))
+    }
+
+    fn slip(&mut self, json: &Json) -> Option<Slip<Spanned<String>>> {
+        let members = self.object(json, "a slip")?;
+        self.unknown_keys(members, &["robot", "pick", "after_s"], "a slip");
+        let robot = self.robot(members, json, "a slip");
+        let pick = self.count(members, json, "pick", "a slip");
+        let after_s = self.required(members, "after_s", json.span, "a slip");
+        let after_s = after_s.and_then(|j| self.number_in(j, "after_s", 0.0..=LONGEST_S));
+        Some(Slip { robot: robot?, pick: pick?, after_s: after_s? })
+    }
+
+    fn refusal(&mut self, json: &Json) -> Option<Refusal<Spanned<String>>> {
+        let members = self.object(json, "a refusal")?;
+        self.unknown_keys(members, &["robot", "command"], "a refusal");
+        let robot = self.robot(members, json, "a refusal");
+        let command = self.count(members, json, "command", "a refusal");
+        Some(Refusal { robot: robot?, command: command? })
+    }
+
+    fn pause(&mut self, json: &Json) -> Option<Pause> {
+        let members = self.object(json, "a pause")?;
+        self.unknown_keys(members, &["at_s", "for_s"], "a pause");
+        let at_s = self.required(members, "at_s", json.span, "a pause");
+        let at_s = at_s.and_then(|j| self.number_in(j, "at_s", 0.0..=LONGEST_S));
+        let for_s = self.required(members, "for_s", json.span, "a pause");
+        let for_s = for_s.and_then(|j| self.seconds(j, "for_s"));
+        Some(Pause { at_s: at_s?, for_s: for_s? })
+    }
+}

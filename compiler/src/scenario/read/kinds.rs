@@ -1,0 +1,54 @@
+//! The kinds of part.
+
+use crate::diagnostic::Diagnostic;
+use crate::layout::decode::{Decoder, instead, listing};
+use crate::layout::json::Json;
+use crate::scenario::Kind;
+use crate::source::Spanned;
+
+const MOST_KINDS: usize = 16;
+
+impl Decoder {
+    pub(super) fn kinds(&mut self, json: &Json) -> Option<Vec<Kind>> {
+        let items = self.list(json, "kinds")?;
+        if items.is_empty() || items.len() > MOST_KINDS {
+            let found = items.len();
+            let message = format!("a scenario has 1 to {MOST_KINDS} kinds of part, not {found}");
+            self.report(
+                Diagnostic::new("E0113", json.span, message)
+                    .note("controllers have one input for each kind")
+                    .help("list each kind that is used once"),
+            );
+            return None;
+        }
+        let kinds: Vec<Kind> = items.iter().filter_map(|item| self.kind(item)).collect();
+        self.distinct(kinds.iter().map(|k| &k.name), "a kind");
+        Some(kinds)
+    }
+
+    /// With any height if that cannot be read, so that its name is known.
+    fn kind(&mut self, json: &Json) -> Option<Kind> {
+        let members = self.object(json, "a kind")?;
+        self.unknown_keys(members, &["name", "height"], "a kind");
+        let name = self.required(members, "name", json.span, "a kind");
+        let name = name.and_then(|j| self.text(j, "name"));
+        if let Some(name) = &name {
+            self.identifier(name, "a kind");
+        }
+        let height = self.required(members, "height", json.span, "a kind");
+        let height = height.and_then(|j| self.number_in(j, "height", 0.001..=1.0));
+        Some(Kind { name: name?, height: height.unwrap_or_default() })
+    }
+
+    pub(super) fn kind_index(&mut self, name: &Spanned<String>, kinds: &[&str]) -> Option<usize> {
+        let found = kinds.iter().position(|k| *k == name.value);
+        if found.is_none() {
+            self.report(
+                Diagnostic::new("E0131", name.span, format!("there is no kind of part \"{}\"", name.value))
+                    .note(format!("kinds of this scenario: {}", listing(kinds)))
+                    .help(instead(&name.value, kinds)),
+            );
+        }
+        found
+    }
+}

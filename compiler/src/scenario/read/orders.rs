@@ -1,0 +1,93 @@
+//! The orders.
+
+use crate::diagnostic::Diagnostic;
+use crate::layout::decode::{Decoder, find};
+use crate::layout::json::{Json, Member, Value};
+use crate::scenario::{Order, Orders};
+use crate::source::Spanned;
+
+const MOST_ORDERS: u32 = 10_000;
+/// Highest value of the port `order_parts` of a station.
+const MOST_OF_A_KIND: u32 = 12;
+
+impl Decoder {
+    pub(super) fn orders(&mut self, json: &Json, kinds: &[&str]) -> Option<Orders> {
+        let Value::Object(members) = &json.value else {
+            return self.order_list(json, kinds);
+        };
+        self.unknown_keys(members, &["count", "parts", "stations"], "orders");
+        let count = self.required(members, "count", json.span, "orders");
+        let count = count.and_then(|j| self.whole(j, "count", 0..=MOST_ORDERS));
+        let parts = self.required(members, "parts", json.span, "orders");
+        let parts = parts.and_then(|j| self.parts(j, kinds));
+        let stations = find(members, "stations").and_then(|j| self.stations(j));
+        let order = Order { station: None, parts: parts? };
+        Some(Orders { span: json.span, list: vec![order; count? as usize], stations })
+    }
+
+    fn order_list(&mut self, json: &Json, kinds: &[&str]) -> Option<Orders> {
+        let items = self.list(json, "orders")?;
+        if items.len() > MOST_ORDERS as usize {
+            let message = format!("a scenario has at most {MOST_ORDERS} orders, not {}", items.len());
+            self.report(
+                Diagnostic::new("E0113", json.span, message).help("make several scenarios of these orders"),
+            );
+            return None;
+        }
+        let list = items.iter().map(|item| self.order(item, kinds)).collect::<Vec<_>>();
+        Some(Orders { span: json.span, list: list.into_iter().collect::<Option<_>>()?, stations: None })
+    }
+
+    fn order(&mut self, json: &Json, kinds: &[&str]) -> Option<Order> {
+        let members = self.object(json, "an order")?;
+        self.unknown_keys(members, &["station", "parts"], "an order");
+        let station = find(members, "station").map(|j| self.text(j, "station"));
+        let parts = self.required(members, "parts", json.span, "an order");
+        let parts = parts.and_then(|j| self.parts(j, kinds))?;
+        Some(Order { station: station.flatten(), parts })
+    }
+
+    fn parts(&mut self, json: &Json, kinds: &[&str]) -> Option<Vec<u32>> {
+        let members = self.object(json, "parts")?;
+        let mut parts = vec![0; kinds.len()];
+        let mut complete = true;
+        for Member { key, value } in members {
+            let kind = self.kind_index(key, kinds);
+            let what = format!("the number of parts \"{}\" of one order", key.value);
+            match (kind, self.whole(value, &what, 0..=MOST_OF_A_KIND)) {
+                (Some(kind), Some(number)) => parts[kind] = number,
+                _ => complete = false,
+            }
+        }
+        if complete && parts.iter().all(|n| *n == 0) {
+            self.report(
+                Diagnostic::new("E0132", json.span, "an order asks for no part")
+                    .note("an order is made when its parts lie in the briefcase: this one would be made already")
+                    .help("ask for at least one part, or remove the order"),
+            );
+        }
+        complete.then_some(parts)
+    }
+
+    fn stations(&mut self, json: &Json) -> Option<Vec<Spanned<String>>> {
+        match &json.value {
+            Value::Text(text) if text == "in turn" => None,
+            Value::List(items) if !items.is_empty() => self.texts(json, "stations"),
+            Value::List(_) => {
+                self.report(
+                    Diagnostic::new("E0113", json.span, "stations names no station")
+                        .help("name stations, or write \"in turn\" for all"),
+                );
+                None
+            }
+            _ => {
+                self.report(
+                    Diagnostic::new("E0115", json.span, "stations must be \"in turn\" or a list of names")
+                        .note("\"in turn\" spreads the orders over all stations of the layout, in its order")
+                        .help("write \"in turn\", or a list such as [\"as1\"]"),
+                );
+                None
+            }
+        }
+    }
+}

@@ -1,0 +1,55 @@
+//! What the belts bring.
+
+use super::{EVERY_S, SEED, SURPLUS};
+use crate::diagnostic::Diagnostic;
+use crate::layout::decode::{Decoder, find};
+use crate::layout::json::{Json, Value};
+use crate::scenario::{Items, Supply};
+
+impl Decoder {
+    pub(super) fn supply(&mut self, json: &Json, kinds: &[&str]) -> Option<Supply> {
+        let members = self.object(json, "supply")?;
+        self.unknown_keys(members, &["surplus", "seed", "every_s", "items"], "supply");
+        let every_s = self.seconds_or(members, "every_s", EVERY_S);
+        let Some(items) = find(members, "items") else {
+            let surplus = find(members, "surplus").and_then(|j| self.fraction(j)).unwrap_or(SURPLUS);
+            let seed = find(members, "seed").and_then(|j| self.whole(j, "seed", 0..=u32::MAX));
+            let items = Items::Shuffled { surplus, seed: seed.unwrap_or(SEED) };
+            return Some(Supply { span: json.span, every_s, items });
+        };
+        for key in members.iter().map(|m| &m.key).filter(|k| k.value == "surplus" || k.value == "seed") {
+            self.report(
+                Diagnostic::new(
+                    "E0133",
+                    key.span,
+                    format!("\"{}\" has no effect beside \"items\"", key.value),
+                )
+                .other(items.span, "these parts are brought as they stand")
+                .note("surplus and seed make a list of parts where none is given")
+                .help(format!("remove \"{}\" or \"items\"", key.value)),
+            );
+        }
+        let items = match &items.value {
+            Value::Object(belts) => {
+                let lists: Vec<_> =
+                    belts.iter().map(|m| Some((m.key.clone(), self.items(&m.value, kinds)?))).collect();
+                Items::Belts(lists.into_iter().collect::<Option<_>>()?)
+            }
+            _ => Items::OnlyBelt(self.items(items, kinds)?),
+        };
+        Some(Supply { span: json.span, every_s, items })
+    }
+
+    fn items(&mut self, json: &Json, kinds: &[&str]) -> Option<Vec<usize>> {
+        let names = self.texts(json, "items")?;
+        let found: Vec<_> = names.iter().map(|name| self.kind_index(name, kinds)).collect();
+        found.into_iter().collect()
+    }
+
+    fn fraction(&mut self, json: &Json) -> Option<[u32; 2]> {
+        let items = self.exactly(json, "surplus", &["numerator", "denominator"])?;
+        let numerator = self.whole(&items[0], "surplus[0]", 0..=100);
+        let denominator = self.whole(&items[1], "surplus[1]", 1..=100);
+        Some([numerator?, denominator?])
+    }
+}

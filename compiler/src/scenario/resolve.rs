@@ -1,0 +1,197 @@
+//! A scenario meets a line: names of machines become indices, and the supply is laid out.
+
+use super::{Faults, Items, Refusal, ResolvedScenario, Scenario, Slip, supply};
+use crate::diagnostic::{Diagnostic, sort};
+use crate::layout::decode::{instead, listing};
+use crate::source::{Span, Spanned};
+
+/// Machines by name and index, in layout order.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Line<'a> {
+    pub stations: &'a [(&'a str, usize)],
+    pub belts: &'a [(&'a str, usize)],
+    /// Those with a gripper.
+    pub arms: &'a [(&'a str, usize)],
+    /// Those that obey commands.
+    pub commanded: &'a [(&'a str, usize)],
+}
+
+/// More than a plant could bring in the longest time limit.
+const MOST_PARTS: u64 = 1_000_000;
+
+pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec<Diagnostic>> {
+    let mut resolver = Resolver { scenario, line, diagnostics: Vec::new() };
+    let orders = resolver.orders();
+    let supply = resolver.supply();
+    let Faults { slips, refusals, pauses } = &scenario.faults;
+    let slips = slips.iter().filter_map(|s| {
+        let robot = resolver.named(&s.robot, line.arms, "robot with a gripper")?;
+        Some(Slip { robot, pick: s.pick, after_s: s.after_s })
+    });
+    let slips = slips.collect();
+    let refusals = refusals.iter().filter_map(|r| {
+        let robot = resolver.named(&r.robot, line.commanded, "robot that obeys commands")?;
+        Some(Refusal { robot, command: r.command })
+    });
+    let refusals = refusals.collect();
+    sort(&mut resolver.diagnostics);
+    match (orders, supply) {
+        (Some(orders), Some(supply)) if resolver.diagnostics.is_empty() => Ok(ResolvedScenario {
+            kinds: scenario.kinds.iter().map(|k| (k.name.value.clone(), k.height)).collect(),
+            orders,
+            supply,
+            spawn_every_s: scenario.supply.every_s,
+            time_limit_s: scenario.time_limit_s,
+            slips,
+            refusals,
+            pauses: pauses.clone(),
+        }),
+        _ => Err(resolver.diagnostics),
+    }
+}
+
+struct Resolver<'a> {
+    scenario: &'a Scenario,
+    line: &'a Line<'a>,
+    diagnostics: Vec<Diagnostic>,
+}
+
+impl Resolver<'_> {
+    fn named(&mut self, name: &Spanned<String>, known: &[(&str, usize)], what: &str) -> Option<usize> {
+        let found = known.iter().find(|(known, _)| *known == name.value);
+        if found.is_none() {
+            let names: Vec<&str> = known.iter().map(|(name, _)| *name).collect();
+            self.diagnostics.push(
+                Diagnostic::new("E0134", name.span, format!("the layout has no {what} \"{}\"", name.value))
+                    .note(format!("it has: {}", listing(&names)))
+                    .help(instead(&name.value, &names)),
+            );
+        }
+        found.map(|(_, index)| *index)
+    }
+
+    fn missing(&mut self, place: Span, what: &str, why: &str) {
+        self.diagnostics.push(
+            Diagnostic::new("E0135", place, format!("the layout has no {what}"))
+                .note(why)
+                .help(format!("add a {what} to the layout, or take a scenario that needs none")),
+        );
+    }
+
+    fn orders(&mut self) -> Option<Vec<(usize, Vec<u32>)>> {
+        let orders = &self.scenario.orders;
+        let turn: Option<Vec<usize>> = match &orders.stations {
+            Some(names) => {
+                let found: Vec<_> =
+                    names.iter().map(|n| self.named(n, self.line.stations, "station")).collect();
+                found.into_iter().collect()
+            }
+            None => Some(self.line.stations.iter().map(|(_, index)| *index).collect()),
+        };
+        let turn = turn?;
+        if turn.is_empty() && !orders.list.is_empty() {
+            self.missing(orders.span, "station", "an order is made at a station");
+            return None;
+        }
+        let mut next = turn.iter().cycle();
+        let resolved: Vec<_> = orders
+            .list
+            .iter()
+            .map(|order| {
+                let station = match &order.station {
+                    Some(name) => self.named(name, self.line.stations, "station"),
+                    None => next.next().copied(),
+                };
+                Some((station?, order.parts.clone()))
+            })
+            .collect();
+        resolved.into_iter().collect()
+    }
+
+    fn supply(&mut self) -> Option<Vec<(usize, Vec<usize>)>> {
+        let span = self.scenario.supply.span;
+        let belts: Vec<usize> = self.line.belts.iter().map(|(_, index)| *index).collect();
+        let supply = match &self.scenario.supply.items {
+            Items::Shuffled { surplus, seed } => return self.shuffled(*surplus, *seed, &belts),
+            Items::OnlyBelt(items) => match belts[..] {
+                [belt] => vec![(belt, items.clone())],
+                [] if items.is_empty() => Vec::new(),
+                [] => {
+                    self.missing(span, "belt", "parts come on a belt");
+                    return None;
+                }
+                _ => {
+                    let names: Vec<&str> = self.line.belts.iter().map(|(name, _)| *name).collect();
+                    self.diagnostics.push(
+                        Diagnostic::new("E0136", span, "one list of parts for several belts")
+                            .note(format!("belts of the layout: {}", listing(&names)))
+                            .help(format!("give each belt its list: \"items\": {{\"{}\": [...]}}", names[0])),
+                    );
+                    return None;
+                }
+            },
+            Items::Belts(lists) => {
+                let found: Vec<_> = lists
+                    .iter()
+                    .map(|(name, items)| Some((self.named(name, self.line.belts, "belt")?, items.clone())))
+                    .collect();
+                found.into_iter().collect::<Option<_>>()?
+            }
+        };
+        self.suffices(&supply);
+        Some(supply)
+    }
+
+    fn shuffled(
+        &mut self,
+        surplus: [u32; 2],
+        seed: u32,
+        belts: &[usize],
+    ) -> Option<Vec<(usize, Vec<usize>)>> {
+        let span = self.scenario.supply.span;
+        let orders: Vec<&[u32]> = self.scenario.orders.list.iter().map(|o| o.parts.as_slice()).collect();
+        let needed: u64 = orders.iter().flat_map(|parts| parts.iter()).map(|n| u64::from(*n)).sum();
+        let brought = needed + supply::surplus(needed, surplus);
+        if brought > MOST_PARTS {
+            self.diagnostics.push(
+                Diagnostic::new("E0137", span, format!("the belts would have to bring {brought} parts"))
+                    .note(format!("the orders need {needed}; a scenario brings at most {MOST_PARTS}"))
+                    .help("ask for fewer orders, or for less surplus"),
+            );
+            return None;
+        }
+        if belts.is_empty() && needed > 0 {
+            self.missing(span, "belt", "parts come on a belt");
+            return None;
+        }
+        let mut supply: Vec<(usize, Vec<usize>)> = belts.iter().map(|belt| (*belt, Vec::new())).collect();
+        if !supply.is_empty() {
+            for (i, lot) in supply::lots(&orders, surplus, seed).into_iter().enumerate() {
+                let belt = i % belts.len();
+                supply[belt].1.extend(lot);
+            }
+        }
+        Some(supply)
+    }
+
+    /// A list of parts is enough for all orders.
+    fn suffices(&mut self, supply: &[(usize, Vec<usize>)]) {
+        for (k, kind) in self.scenario.kinds.iter().enumerate() {
+            let needed: u64 = self.scenario.orders.list.iter().map(|o| u64::from(o.parts[k])).sum();
+            let brought = supply.iter().flat_map(|(_, items)| items).filter(|i| **i == k).count() as u64;
+            if brought < needed {
+                let name = &kind.name.value;
+                self.diagnostics.push(
+                    Diagnostic::new(
+                        "E0138",
+                        self.scenario.supply.span,
+                        format!("the belts bring too few parts \"{name}\": {brought} of {needed}"),
+                    )
+                    .other(self.scenario.orders.span, "the orders")
+                    .note("the line could not make all orders")
+                    .help(format!("add {} parts \"{name}\" to \"items\"", needed - brought)),
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,117 @@
+//! Scenarios: the fixtures, resolved against the default line, and what the default scenario means.
+
+mod fixture;
+
+use autogen::diagnostic::Diagnostic;
+use autogen::scenario::{self, Line, ResolvedScenario};
+use autogen::source::{FileId, Sources};
+use fixture::{root, walk};
+
+const LINE: Line = Line {
+    stations: &[("as1", 7), ("as2", 8), ("as3", 9), ("as4", 10)],
+    belts: &[("conveyor_belt", 0)],
+    arms: &[("kitting", 1), ("gantry", 6)],
+    commanded: &[
+        ("conveyor_belt", 0),
+        ("kitting", 1),
+        ("agv1", 2),
+        ("agv2", 3),
+        ("agv3", 4),
+        ("agv4", 5),
+        ("gantry", 6),
+    ],
+};
+
+fn resolve(text: &str, line: &Line) -> Result<ResolvedScenario, Vec<Diagnostic>> {
+    let mut sources = Sources::default();
+    let file = sources.add("scenario.json", text);
+    match scenario::parse(&sources, file) {
+        (Some(scenario), _) => scenario::resolve(&scenario, line),
+        (None, diagnostics) => Err(diagnostics),
+    }
+}
+
+fn check(sources: &Sources, file: FileId) -> Vec<Diagnostic> {
+    let (scenario, diagnostics) = scenario::parse(sources, file);
+    match scenario {
+        Some(scenario) => scenario::resolve(&scenario, &LINE).err().unwrap_or_default(),
+        None => diagnostics,
+    }
+}
+
+#[test]
+fn fixtures() {
+    walk("scenario", check);
+}
+
+#[test]
+fn the_example_is_the_built_in_scenario() {
+    let text = std::fs::read_to_string(root().join("examples/ariac2021/scenario.json")).unwrap();
+    assert_eq!(text, scenario::DEFAULT);
+}
+
+#[test]
+fn default_scenario() {
+    let resolved = resolve(scenario::DEFAULT, &LINE).unwrap();
+    let kinds: Vec<&str> = resolved.kinds.iter().map(|(name, _)| name.as_str()).collect();
+    assert_eq!(kinds, ["battery", "sensor", "regulator", "pump"]);
+    let stations: Vec<usize> = resolved.orders.iter().map(|(station, _)| *station).collect();
+    assert_eq!(stations, [7, 8, 9, 10, 7, 8, 9, 10]);
+    assert!(resolved.orders.iter().all(|(_, parts)| *parts == [1, 1, 1, 1]));
+    let [(0, items)] = &resolved.supply[..] else { panic!("{:?}", resolved.supply) };
+    assert_eq!(items.len(), 4 * (8 + 3));
+    assert_eq!((resolved.spawn_every_s, resolved.time_limit_s), (2.0, 3600.0));
+    assert_eq!(resolved, resolve(scenario::DEFAULT, &LINE).unwrap());
+    // Before order n+1 can be wanted, n whole orders have been brought.
+    for kind in 0..4 {
+        let brought = |n: usize| items[..n].iter().filter(|k| **k == kind).count();
+        assert!(brought(items.len() / 2) >= 3);
+    }
+}
+
+#[test]
+fn lots_are_dealt_to_several_belts_in_turn() {
+    let line = Line { belts: &[("a", 3), ("b", 5)], ..LINE };
+    let resolved = resolve(scenario::DEFAULT, &line).unwrap();
+    let [(3, a), (5, b)] = &resolved.supply[..] else { panic!("{:?}", resolved.supply) };
+    assert_eq!(a.len() + b.len(), 44);
+    assert!((0..4).all(|kind| a.iter().filter(|k| **k == kind).count() >= 4));
+}
+
+#[test]
+fn a_list_of_parts_needs_one_belt_or_one_list_for_each() {
+    let text = r#"{"kinds": [{"name": "pump", "height": 0.11}], "orders": [{"parts": {"pump": 1}}],
+        "supply": {"items": ["pump", "pump"]}}"#;
+    assert_eq!(resolve(text, &LINE).unwrap().supply, [(0, vec![0, 0])]);
+    let two = Line { belts: &[("a", 3), ("b", 5)], ..LINE };
+    assert_eq!(resolve(text, &two).unwrap_err()[0].code, "E0136");
+    let dealt = text.replace(r#"["pump", "pump"]"#, r#"{"b": ["pump"], "a": []}"#);
+    assert_eq!(resolve(&dealt, &two).unwrap().supply, [(5, vec![0]), (3, vec![])]);
+}
+
+#[test]
+fn a_line_without_station_or_belt() {
+    let bare = Line { stations: &[], belts: &[], ..LINE };
+    let codes: Vec<&str> = resolve(scenario::DEFAULT, &bare).unwrap_err().iter().map(|d| d.code).collect();
+    assert_eq!(codes, ["E0135", "E0135"]);
+    let nothing = scenario::DEFAULT.replace("\"count\": 8", "\"count\": 0");
+    assert!(resolve(&nothing, &bare).is_ok());
+}
+
+#[test]
+fn every_prefix_is_refused() {
+    let text = scenario::DEFAULT.trim_end();
+    for end in 0..text.len() {
+        assert!(resolve(&text[..end], &LINE).is_err(), "prefix of {end} bytes");
+    }
+}
+
+#[test]
+fn faults_find_their_machines() {
+    let faults = r#""faults": {"slips": [{"robot": "kitting", "pick": 3, "after_s": 0.5}],
+        "refusals": [{"robot": "agv3", "command": 2}], "pauses": [{"at_s": 60, "for_s": 3}]}, "time"#;
+    let resolved = resolve(&scenario::DEFAULT.replace("\"time", faults), &LINE).unwrap();
+    assert_eq!((resolved.slips[0].robot, resolved.slips[0].pick), (1, 3));
+    assert_eq!((resolved.refusals[0].robot, resolved.refusals[0].command), (4, 2));
+    assert_eq!((resolved.pauses[0].at_s, resolved.pauses[0].for_s), (60.0, 3.0));
+}
