@@ -14,7 +14,7 @@
 //! - Values are in SI units, times in whole milliseconds.
 
 use crate::source::Span;
-use runtime_sim::device::Device;
+use runtime_sim::device::{self, Device, PortType};
 
 macro_rules! id {
     ($(#[$doc:meta])* $name:ident) => {
@@ -387,11 +387,32 @@ pub enum Scalar {
     Ref(InterfaceId),
 }
 
+impl From<PortType> for Scalar {
+    fn from(ty: PortType) -> Self {
+        match ty {
+            PortType::Bool => Scalar::Bool,
+            PortType::Int { lo, hi } => Scalar::Int { lo, hi },
+            PortType::Real => Scalar::Real,
+            PortType::Point => Scalar::Point,
+        }
+    }
+}
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Extent {
     One,
     Count(usize),
     By(EnumId),
+}
+
+impl From<device::Extent> for Extent {
+    fn from(extent: device::Extent) -> Self {
+        match extent {
+            device::Extent::One => Extent::One,
+            device::Extent::PerKind => Extent::By(KIND),
+            device::Extent::Times(n) => Extent::Count(n),
+        }
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -488,6 +509,14 @@ impl Model {
 impl System {
     pub fn automaton_of(&self, instance: usize) -> &Automaton {
         self.model.automaton(self.instances[instance].automaton)
+    }
+
+    /// The elements of a parameter that a member of an interface shows.
+    pub fn shown(&self, interface: InterfaceId, row: usize, parameter: usize) -> &[Value] {
+        let instance = self.members[interface.0][row];
+        let implements = &self.automaton_of(instance).implements;
+        let supplied = implements.iter().find(|i| i.interface == interface).map(|i| i.parameters[parameter]);
+        supplied.map_or(&[], |p| &self.instances[instance].parameters[p])
     }
 
     pub fn kinds(&self) -> usize {

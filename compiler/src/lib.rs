@@ -2,6 +2,7 @@
 
 pub mod check;
 pub mod diagnostic;
+pub mod executor;
 pub mod ir;
 pub mod layout;
 pub mod scenario;

@@ -7,3 +7,4 @@
 pub mod device;
 pub mod geometry;
 pub mod point;
+pub mod scan;

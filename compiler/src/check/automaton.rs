@@ -6,7 +6,7 @@ use crate::diagnostic::{Diagnostic, suggestion};
 use crate::ir::{self, Extent, Scalar, Type, VariableId};
 use crate::source::Span;
 use crate::spec::ast;
-use runtime_sim::device::{DEVICES, Device, PortType};
+use runtime_sim::device::{DEVICES, Device};
 use std::collections::BTreeMap;
 
 /// What a name means in an automaton.
@@ -358,7 +358,7 @@ impl Context<'_, '_> {
         self.automaton.parameters.push(ir::Parameter {
             name: declared.name.into(),
             doc: vec![sentence(declared.meaning, declared.unit)],
-            ty: Type { scalar: port_scalar(declared.ty), extent: port_extent(declared.extent) },
+            ty: Type { scalar: Scalar::from(declared.ty), extent: Extent::from(declared.extent) },
             source: ir::ParameterSource::Device,
             place: self.automaton.place,
         });
@@ -368,7 +368,7 @@ impl Context<'_, '_> {
 
     pub(super) fn port_type(&self, port: usize) -> Type {
         let port = &self.automaton.device.ports[port];
-        Type { scalar: port_scalar(port.ty), extent: port_extent(port.extent) }
+        Type { scalar: Scalar::from(port.ty), extent: Extent::from(port.extent) }
     }
 
     fn defines(&mut self, tree: &ast::Automaton) {
@@ -392,21 +392,4 @@ fn sentence(meaning: &str, unit: &str) -> String {
         text.push_str(&format!(" [{unit}]"));
     }
     text + "."
-}
-
-pub fn port_scalar(ty: PortType) -> Scalar {
-    match ty {
-        PortType::Bool => Scalar::Bool,
-        PortType::Int { lo, hi } => Scalar::Int { lo, hi },
-        PortType::Real => Scalar::Real,
-        PortType::Point => Scalar::Point,
-    }
-}
-
-pub fn port_extent(extent: runtime_sim::device::Extent) -> Extent {
-    match extent {
-        runtime_sim::device::Extent::One => Extent::One,
-        runtime_sim::device::Extent::PerKind => Extent::By(ir::KIND),
-        runtime_sim::device::Extent::Times(n) => Extent::Count(n),
-    }
 }

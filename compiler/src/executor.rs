@@ -1,0 +1,197 @@
+//! The reference executor: runs a system straight from the IR, as `docs/semantics.md` says.
+
+mod evaluate;
+mod step;
+
+use crate::ir::{FaultId, System, Type, Value};
+use runtime_sim::device::{Direction, PortType, Stop};
+use runtime_sim::scan::{Controllers, SystemInputs, SystemOutputs};
+
+/// A system in execution.
+#[derive(Clone, Debug)]
+pub struct Executor<'a> {
+    system: &'a System,
+    robots: Vec<Robot>,
+    /// `[interface][row][cell][element]`.
+    cells: Vec<Vec<Vec<Vec<Value>>>>,
+    status: Status,
+    /// For each automaton, state and transition: how often it has fired.
+    fired: Vec<Vec<Vec<u64>>>,
+}
+
+#[derive(Clone, Debug)]
+struct Robot {
+    state: usize,
+    /// Time in the present state, ms; saturates.
+    elapsed: i32,
+    locals: Vec<Vec<Value>>,
+    /// Latched inputs and unmasked outputs, `[port][element]`.
+    ports: Vec<Vec<Value>>,
+    /// Values of variables of binders and quantifiers.
+    variables: Vec<Value>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Status {
+    running: bool,
+    fault: Option<(FaultId, usize)>,
+    start_before: bool,
+    reset_before: bool,
+}
+
+impl<'a> Executor<'a> {
+    pub fn new(system: &'a System) -> Self {
+        let model = &system.model;
+        let filled = |ty: Type, value: Value| vec![value; model.elements(ty.extent)];
+        let robots = system
+            .instances
+            .iter()
+            .map(|instance| {
+                let automaton = model.automaton(instance.automaton);
+                let ports = automaton.device.ports.iter().map(|port| {
+                    let first = match port.ty {
+                        PortType::Bool => Value::Bool(false),
+                        PortType::Int { lo, hi } => Value::Int(0.clamp(lo, hi)),
+                        PortType::Real => Value::Real(0.0),
+                        PortType::Point => Value::Point([0.0; 3]),
+                    };
+                    vec![first; port.extent.elements(system.kinds())]
+                });
+                Robot {
+                    state: 0,
+                    elapsed: 0,
+                    locals: automaton.locals.iter().map(|l| filled(l.ty, l.initial)).collect(),
+                    ports: ports.collect(),
+                    variables: vec![Value::Int(0); automaton.variables.len()],
+                }
+            })
+            .collect();
+        let cells = model
+            .interfaces
+            .iter()
+            .zip(&system.members)
+            .map(|(interface, members)| {
+                let row: Vec<_> = interface.cells.iter().map(|c| filled(c.ty, c.initial)).collect();
+                vec![row; members.len()]
+            })
+            .collect();
+        let fired = model.automata.iter().map(|a| a.states.iter().map(|s| vec![0; s.transitions.len()]).collect()).collect();
+        let status = Status { running: false, fault: None, start_before: true, reset_before: true };
+        Self { system, robots, cells, status, fired }
+    }
+
+    /// How often each transition has fired: `[automaton][state][transition]`.
+    pub fn fired(&self) -> &[Vec<Vec<u64>>] {
+        &self.fired
+    }
+
+    fn latch(&mut self, inputs: &[Vec<f64>]) {
+        let kinds = self.system.kinds();
+        for (index, robot) in self.robots.iter_mut().enumerate() {
+            let mut words = inputs[index].iter().copied();
+            let ports = self.system.automaton_of(index).device.ports.iter();
+            for (port, values) in ports.zip(&mut robot.ports).filter(|(p, _)| p.direction == Direction::Input) {
+                for value in values.iter_mut().take(port.extent.elements(kinds)) {
+                    let mut word = || words.next().unwrap_or(0.0);
+                    *value = match port.ty {
+                        PortType::Bool => Value::Bool(word() != 0.0),
+                        PortType::Int { lo, hi } => Value::Int((word() as i32).clamp(lo, hi)),
+                        PortType::Real => Value::Real(word()),
+                        PortType::Point => Value::Point([word(), word(), word()]),
+                    };
+                }
+            }
+        }
+    }
+
+    fn publish(&self, outputs: &mut [Vec<f64>]) {
+        for (index, image) in outputs.iter_mut().enumerate() {
+            image.clear();
+            self.outputs(index, self.status.running, image);
+        }
+    }
+
+    /// Appends the outputs of an instance; with their stop values unless the system runs.
+    fn outputs(&self, index: usize, running: bool, image: &mut Vec<f64>) {
+        let ports = self.system.automaton_of(index).device.ports.iter();
+        for (port, values) in ports.zip(&self.robots[index].ports).filter(|(p, _)| p.direction == Direction::Output) {
+            match port.stop {
+                Stop::Value(stop) if !running => image.extend(values.iter().map(|_| stop)),
+                _ => values.iter().for_each(|v| push(*v, image)),
+            }
+        }
+    }
+
+    fn run_scan(&mut self) -> Result<(), (FaultId, usize)> {
+        for index in 0..self.robots.len() {
+            self.step(index).map_err(|fault| (fault, index))?;
+        }
+        for index in 0..self.robots.len() {
+            for invariant in &self.system.automaton_of(index).invariants {
+                if !self.holds(index, &invariant.condition) {
+                    return Err((invariant.fault, index));
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Controllers for Executor<'_> {
+    fn scan(&mut self, system: SystemInputs, inputs: &[Vec<f64>], outputs: &mut [Vec<f64>]) -> SystemOutputs {
+        self.latch(inputs);
+        let status = &mut self.status;
+        let faulted_before = status.fault.is_some();
+        if system.reset && !status.reset_before {
+            status.fault = None;
+        }
+        let start = system.start && !status.start_before;
+        status.start_before = system.start;
+        status.reset_before = system.reset;
+        if !system.run_permit || status.fault.is_some() {
+            status.running = false;
+        } else if start && !faulted_before {
+            status.running = true;
+        }
+        if self.status.running
+            && let Err(fault) = self.run_scan()
+        {
+            self.status.fault = Some(fault);
+            self.status.running = false;
+        }
+        self.publish(outputs);
+        SystemOutputs {
+            running: self.status.running,
+            fault: self.status.fault.is_some(),
+            fault_code: self.status.fault.map_or(0, |(fault, _)| fault.0 as i32 + 1),
+            fault_robot: self.status.fault.map_or(-1, |(_, robot)| robot as i32),
+        }
+    }
+
+    fn state(&self, machine: usize) -> usize {
+        self.robots[machine].state
+    }
+
+    fn trace(&self, out: &mut Vec<f64>) {
+        for (index, robot) in self.robots.iter().enumerate() {
+            out.push(robot.state as f64);
+            out.push(f64::from(robot.elapsed));
+            robot.locals.iter().flatten().for_each(|v| push(*v, out));
+            let automaton = self.system.automaton_of(index);
+            for (implemented, row) in automaton.implements.iter().zip(&self.system.instances[index].rows) {
+                self.cells[implemented.interface.0][*row].iter().flatten().for_each(|v| push(*v, out));
+            }
+            self.outputs(index, true, out);
+        }
+    }
+}
+
+/// A value as numbers of a process image.
+fn push(value: Value, out: &mut Vec<f64>) {
+    match value {
+        Value::Bool(b) => out.push(f64::from(u8::from(b))),
+        Value::Int(i) => out.push(f64::from(i)),
+        Value::Real(r) => out.push(r),
+        Value::Point(p) => out.extend(p),
+    }
+}

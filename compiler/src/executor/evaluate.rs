@@ -1,0 +1,237 @@
+//! Values of expressions.
+
+use super::Executor;
+use crate::ir::{Domain, Expr, ExprKind, Operator, Place, Value, VariableId};
+
+impl Executor<'_> {
+    pub(super) fn holds(&mut self, robot: usize, expr: &Expr) -> bool {
+        matches!(self.value(robot, expr), Value::Bool(true))
+    }
+
+    fn int(&mut self, robot: usize, expr: &Expr) -> i32 {
+        match self.value(robot, expr) {
+            Value::Int(i) => i,
+            other => unreachable!("a checked whole number is {other:?}"),
+        }
+    }
+
+    fn real(&mut self, robot: usize, expr: &Expr) -> f64 {
+        match self.value(robot, expr) {
+            Value::Real(r) => r,
+            other => unreachable!("a checked real is {other:?}"),
+        }
+    }
+
+    fn point(&mut self, robot: usize, expr: &Expr) -> [f64; 3] {
+        match self.value(robot, expr) {
+            Value::Point(p) => p,
+            other => unreachable!("a checked point is {other:?}"),
+        }
+    }
+
+    pub(super) fn value(&mut self, robot: usize, expr: &Expr) -> Value {
+        match &expr.kind {
+            ExprKind::Constant(value) => *value,
+            ExprKind::Read(place) => self.read(robot, place),
+            ExprKind::Variable(id) => self.robots[robot].variables[id.0],
+            ExprKind::Define(define) => {
+                let system = self.system;
+                self.value(robot, &system.automaton_of(robot).defines[*define].value)
+            }
+            ExprKind::Own(interface) => {
+                let position = self.system.automaton_of(robot).implementing(*interface);
+                Value::Int(position.map_or(0, |p| self.system.instances[robot].rows[p]) as i32)
+            }
+            ExprKind::After(time) => Value::Bool(self.robots[robot].elapsed >= self.int(robot, time)),
+            ExprKind::Done => Value::Bool(self.answered(robot) && self.port(robot, "error") == 0),
+            ExprKind::Failed => Value::Bool(self.answered(robot) && self.port(robot, "error") != 0),
+            ExprKind::Not(inner) => Value::Bool(!self.holds(robot, inner)),
+            ExprKind::Negate(inner) => match self.value(robot, inner) {
+                Value::Int(i) => Value::Int(-i),
+                Value::Real(r) => Value::Real(-r),
+                other => other,
+            },
+            ExprKind::Binary(operator, left, right) => self.binary(robot, *operator, left, right),
+            ExprKind::Min(a, b) => {
+                let (a, b) = (self.value(robot, a), self.value(robot, b));
+                if less(b, a) { b } else { a }
+            }
+            ExprKind::Max(a, b) => {
+                let (a, b) = (self.value(robot, a), self.value(robot, b));
+                if less(a, b) { b } else { a }
+            }
+            ExprKind::Absolute(inner) => match self.value(robot, inner) {
+                Value::Int(i) => Value::Int(i.abs()),
+                Value::Real(r) => Value::Real(r.abs()),
+                other => other,
+            },
+            ExprKind::ToReal(inner) => Value::Real(f64::from(self.int(robot, inner))),
+            ExprKind::MakePoint(parts) => {
+                Value::Point([self.real(robot, &parts[0]), self.real(robot, &parts[1]), self.real(robot, &parts[2])])
+            }
+            ExprKind::Coordinate(inner, axis) => Value::Real(self.point(robot, inner)[*axis]),
+            ExprKind::SquaredDistance(a, b) => {
+                let (p, q) = (self.point(robot, a), self.point(robot, b));
+                let (dx, dy, dz) = (p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+                Value::Real(dx * dx + dy * dy + dz * dz)
+            }
+            ExprKind::Exists { variable, domain, body } => {
+                Value::Bool(self.domain(robot, domain).any(|v| self.bound(robot, *variable, v, body) == Value::Bool(true)))
+            }
+            ExprKind::Forall { variable, domain, body } => {
+                Value::Bool(self.domain(robot, domain).all(|v| self.bound(robot, *variable, v, body) == Value::Bool(true)))
+            }
+            ExprKind::Count { variable, domain, body } => {
+                let found = self.domain(robot, domain).filter(|v| self.bound(robot, *variable, *v, body) == Value::Bool(true));
+                Value::Int(found.count() as i32)
+            }
+            ExprKind::Sum { variable, domain, body } => {
+                let is_real = expr.ty == crate::ir::Scalar::Real;
+                let (mut whole, mut real) = (0, 0.0);
+                for v in self.domain(robot, domain) {
+                    match self.bound(robot, *variable, v, body) {
+                        Value::Int(i) => whole += i,
+                        Value::Real(r) => real += r,
+                        other => unreachable!("a checked summand is {other:?}"),
+                    }
+                }
+                if is_real { Value::Real(real) } else { Value::Int(whole) }
+            }
+            ExprKind::Members(role) => Value::Int(self.system.instances[robot].roles[role.0].len() as i32),
+            ExprKind::IsMember(value, role) => {
+                let row = self.int(robot, value) as usize;
+                Value::Bool(self.system.instances[robot].roles[role.0].contains(&row))
+            }
+            ExprKind::Reaches(relation, from, to) => {
+                let (from, to) = (self.int(robot, from) as usize, self.int(robot, to) as usize);
+                Value::Bool(self.system.reaches[relation.0][from][to])
+            }
+        }
+    }
+
+    fn bound(&mut self, robot: usize, variable: VariableId, value: Value, body: &Expr) -> Value {
+        self.robots[robot].variables[variable.0] = value;
+        self.value(robot, body)
+    }
+
+    /// The values of a domain in order.
+    pub(super) fn domain(&mut self, robot: usize, domain: &Domain) -> std::vec::IntoIter<Value> {
+        let values: Vec<Value> = match domain {
+            Domain::Role(role) => {
+                self.system.instances[robot].roles[role.0].iter().map(|row| Value::Int(*row as i32)).collect()
+            }
+            Domain::Enum(id) => (0..self.system.model.enums[id.0].members.len() as i32).map(Value::Int).collect(),
+            Domain::Range(low, high) => {
+                let (low, high) = (self.int(robot, low), self.int(robot, high));
+                (low..=high).map(Value::Int).collect()
+            }
+        };
+        values.into_iter()
+    }
+
+    fn binary(&mut self, robot: usize, operator: Operator, left: &Expr, right: &Expr) -> Value {
+        match operator {
+            Operator::And => return Value::Bool(self.holds(robot, left) && self.holds(robot, right)),
+            Operator::Or => return Value::Bool(self.holds(robot, left) || self.holds(robot, right)),
+            _ => {}
+        }
+        let (a, b) = (self.value(robot, left), self.value(robot, right));
+        match operator {
+            Operator::Equal => Value::Bool(a == b),
+            Operator::NotEqual => Value::Bool(a != b),
+            Operator::Less => Value::Bool(less(a, b)),
+            Operator::Greater => Value::Bool(less(b, a)),
+            Operator::LessEqual => Value::Bool(less(a, b) || a == b),
+            Operator::GreaterEqual => Value::Bool(less(b, a) || a == b),
+            _ => arithmetic(operator, a, b),
+        }
+    }
+
+    pub(super) fn read(&mut self, robot: usize, place: &Place) -> Value {
+        match place {
+            Place::Local { local, index } => {
+                let index = self.element(robot, index);
+                self.robots[robot].locals[*local][index]
+            }
+            Place::Port { port, index } => {
+                let index = self.element(robot, index);
+                self.robots[robot].ports[*port][index]
+            }
+            Place::Parameter { parameter, index } => {
+                let index = self.element(robot, index);
+                self.system.instances[robot].parameters[*parameter][index]
+            }
+            Place::Cell { interface, cell, of, index } => {
+                let row = self.row(robot, *interface, of);
+                let index = self.element(robot, index);
+                self.cells[interface.0][row][*cell][index]
+            }
+            Place::Shown { interface, parameter, of, index } => {
+                let row = self.int(robot, of) as usize;
+                let index = self.element(robot, index);
+                self.system.shown(*interface, row, *parameter)[index]
+            }
+        }
+    }
+
+    /// The row of the instance that `of` refers to: this one if there is none.
+    pub(super) fn row(&mut self, robot: usize, interface: crate::ir::InterfaceId, of: &Option<Box<Expr>>) -> usize {
+        match of {
+            Some(expr) => self.int(robot, expr) as usize,
+            None => {
+                let position = self.system.automaton_of(robot).implementing(interface);
+                position.map_or(0, |p| self.system.instances[robot].rows[p])
+            }
+        }
+    }
+
+    pub(super) fn element(&mut self, robot: usize, index: &Option<Box<Expr>>) -> usize {
+        index.as_ref().map_or(0, |e| self.int(robot, e) as usize)
+    }
+
+    /// The device has ended the last command.
+    fn answered(&self, robot: usize) -> bool {
+        let command = self.port(robot, "cmd");
+        command != 0 && self.port(robot, "ack") == command
+    }
+
+    pub(super) fn port(&self, robot: usize, name: &str) -> i32 {
+        let ports = self.system.automaton_of(robot).device.ports;
+        match ports.iter().position(|p| p.name == name).map(|p| self.robots[robot].ports[p][0]) {
+            Some(Value::Int(i)) => i,
+            _ => 0,
+        }
+    }
+}
+
+/// Order of numbers; nothing is less than NaN, and NaN less than nothing.
+pub(super) fn less(a: Value, b: Value) -> bool {
+    match (a, b) {
+        (Value::Int(a), Value::Int(b)) => a < b,
+        (Value::Real(a), Value::Real(b)) => a < b,
+        _ => false,
+    }
+}
+
+fn arithmetic(operator: Operator, a: Value, b: Value) -> Value {
+    match (a, b) {
+        (Value::Int(a), Value::Int(b)) => Value::Int(match operator {
+            Operator::Add => a + b,
+            Operator::Subtract => a - b,
+            Operator::Multiply => a * b,
+            Operator::Divide => a / b,
+            _ => a % b,
+        }),
+        (Value::Real(a), Value::Real(b)) => Value::Real(match operator {
+            Operator::Add => a + b,
+            Operator::Subtract => a - b,
+            Operator::Multiply => a * b,
+            _ => a / b,
+        }),
+        (Value::Point(a), Value::Point(b)) => Value::Point(match operator {
+            Operator::Add => [a[0] + b[0], a[1] + b[1], a[2] + b[2]],
+            _ => [a[0] - b[0], a[1] - b[1], a[2] - b[2]],
+        }),
+        (a, b) => unreachable!("checked operands are {a:?} and {b:?}"),
+    }
+}
