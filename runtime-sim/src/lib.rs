@@ -6,4 +6,5 @@
 
 pub mod device;
 pub mod geometry;
+pub mod kinematics;
 pub mod point;
