@@ -7,4 +7,5 @@
 pub mod device;
 pub mod geometry;
 pub mod kinematics;
+pub mod motion;
 pub mod point;
