@@ -5,7 +5,7 @@ use runtime_sim::geometry::Geometry;
 
 /// How far a number is changed at most, mm.
 const FURTHEST: i32 = 10_000;
-/// The change is first sought in steps of this many mm: a stretch of values shorter than that may be overlooked.
+/// The change is first sought in steps of at least this many mm: a stretch of values shorter than that may be overlooked.
 const COARSE: i32 = 10;
 
 /// Of all numbers of both machines and both directions the change after which most nodes are connected,
@@ -45,6 +45,12 @@ pub fn changed(value: f64, mm: i32) -> f64 {
     ((value + f64::from(mm) / 1000.0) * 1e9).round() / 1e9
 }
 
+/// A pose that misses by so much (m) is not in reach after a change of less than half of it:
+/// its wrist moves at most twice as far, unless the tool is nearly in line with the shoulder's axis.
+fn stride(missing: f64) -> i32 {
+    COARSE.max((missing * 500.0) as i32)
+}
+
 /// The first whole millimetre in one direction at which the pair meets, with the machine's geometry there.
 fn first(line: &Line, proposal: usize, node: usize, path: &str, direction: i32) -> Option<(i32, Geometry)> {
     let geometry = &line.nodes[node].geometry;
@@ -52,21 +58,22 @@ fn first(line: &Line, proposal: usize, node: usize, path: &str, direction: i32) 
     let pair = &line.proposals[proposal];
     // `None` beyond the values that the machine may have.
     let at = |mm: i32| geometry.with_number(path, changed(present, direction * mm));
-    let meets = |geometry: &Geometry| poses::stands(line, pair, (node, geometry));
+    let miss = |geometry: &Geometry| poses::first_miss(line, pair, (node, geometry));
     let mut passed = 0;
+    let mut step = stride(miss(geometry)?);
     let coarse = loop {
-        let step = (passed + COARSE).min(FURTHEST);
-        match at(step) {
-            Some(geometry) if meets(&geometry) => break step,
-            Some(_) if step < FURTHEST => passed = step,
+        let next = (passed + step).min(FURTHEST);
+        match at(next).map(|changed| miss(&changed)) {
+            Some(None) => break next,
+            Some(Some(missing)) if next < FURTHEST => (passed, step) = (next, stride(missing)),
+            Some(Some(_)) => return None,
             // The last values before the end of what is allowed are tried below.
-            None => break step - 1,
-            Some(_) => return None,
+            None => break next - 1,
         }
     };
     (passed + 1..=coarse).find_map(|mm| {
         let changed = at(mm)?;
-        meets(&changed).then_some((direction * mm, changed))
+        miss(&changed).is_none().then_some((direction * mm, changed))
     })
 }
 

@@ -4,6 +4,7 @@ use super::{Line, Miss, Proposal, Stage};
 use runtime_sim::geometry::Geometry;
 use runtime_sim::kinematics::arm::Arm;
 use runtime_sim::point::Point;
+use std::ops::ControlFlow;
 
 /// What the poses of one proposal gave.
 pub struct Test {
@@ -14,63 +15,73 @@ pub struct Test {
     pub tested: usize,
 }
 
-/// A pose of the tool, which grips an item on its upper side.
-pub struct ToolPose<'a> {
-    pub place: String,
-    pub kind: &'a str,
-    pub stage: Stage,
-    pub tool: Point,
-}
-
-/// Every place, with every kind of part, at contact and above it.
-pub fn all<'a>(line: &'a Line, proposal: &Proposal, passive: &Geometry) -> Vec<ToolPose<'a>> {
+/// Every pose of the tool, which grips an item on its upper side: each place, with each kind of part,
+/// at contact and above it. `see` gets the place's name, the kind's name, the stage and the tool's place,
+/// and answers whether to go on.
+fn each(
+    line: &Line,
+    proposal: &Proposal,
+    passive: &Geometry,
+    mut see: impl FnMut(&str, &str, Stage, Point) -> ControlFlow<()>,
+) -> ControlFlow<()> {
     let names: Vec<String> = line.kinds.iter().map(|(name, _)| name.clone()).collect();
     let site = &proposal.site;
     let places = passive
         .handover(&site.name, site.index, site.capacity, &names)
         .expect("a type is bound only to a machine with its handover");
-    let mut poses = Vec::with_capacity(places.len() * line.kinds.len() * 2);
     for place in &places {
         for (kind, height) in &line.kinds {
             let contact = place.point.up(*height);
-            for (stage, tool) in [(Stage::Contact, contact), (Stage::Approach, contact.up(site.approach))] {
-                poses.push(ToolPose { place: place.name.clone(), kind, stage, tool });
-            }
+            see(&place.name, kind, Stage::Contact, contact)?;
+            see(&place.name, kind, Stage::Approach, contact.up(site.approach))?;
         }
     }
-    poses
+    ControlFlow::Continue(())
 }
 
-pub fn arm(geometry: &Geometry) -> Arm {
+fn arm(geometry: &Geometry) -> Arm {
     Arm::from_geometry(geometry).expect("the active one of a pair is an arm")
 }
 
 pub fn test(line: &Line, proposal: &Proposal) -> Test {
     let arm = arm(&line.nodes[proposal.arm].geometry);
-    let poses = all(line, proposal, &line.nodes[proposal.passive()].geometry);
-    let tested = poses.len();
-    let mut margin = f64::INFINITY;
-    let mut misses = Vec::new();
-    for pose in poses {
-        let here = arm.margin(pose.tool);
-        margin = margin.min(here);
-        if here < 0.0 {
-            misses.push(Miss {
-                place: pose.place,
-                kind: pose.kind.to_string(),
-                stage: pose.stage,
-                tool: pose.tool,
-                missing_mm: -here * 1000.0,
+    let mut test = Test { margin: f64::INFINITY, misses: Vec::new(), tested: 0 };
+    let _ = each(line, proposal, &line.nodes[proposal.passive()].geometry, |place, kind, stage, tool| {
+        let margin = arm.margin(tool);
+        test.tested += 1;
+        test.margin = test.margin.min(margin);
+        if margin < 0.0 {
+            test.misses.push(Miss {
+                place: place.to_string(),
+                kind: kind.to_string(),
+                stage,
+                tool,
+                missing_mm: -margin * 1000.0,
             });
         }
-    }
-    misses.sort_by(|a, b| b.missing_mm.total_cmp(&a.missing_mm));
-    Test { margin, misses, tested }
+        ControlFlow::Continue(())
+    });
+    test.misses.sort_by(|a, b| b.missing_mm.total_cmp(&a.missing_mm));
+    test
 }
 
-/// Whether the two machines would meet with other geometries. `(index, geometry)` replaces that node's.
-pub fn stands(line: &Line, proposal: &Proposal, (node, geometry): (usize, &Geometry)) -> bool {
+/// By how much the first pose that misses does so with `geometry` instead of the one of `node`, m; none if all are in reach.
+pub fn first_miss(line: &Line, proposal: &Proposal, (node, geometry): (usize, &Geometry)) -> Option<f64> {
     let of = |index: usize| if index == node { geometry } else { &line.nodes[index].geometry };
     let arm = arm(of(proposal.arm));
-    all(line, proposal, of(proposal.passive())).iter().all(|pose| arm.margin(pose.tool) >= 0.0)
+    let mut miss = None;
+    let _ = each(line, proposal, of(proposal.passive()), |_, _, _, tool| {
+        let margin = arm.margin(tool);
+        if margin < 0.0 {
+            miss = Some(-margin);
+            return ControlFlow::Break(());
+        }
+        ControlFlow::Continue(())
+    });
+    miss
+}
+
+/// Whether the two machines would meet with `geometry` instead of the one of `node`.
+pub fn stands(line: &Line, proposal: &Proposal, changed: (usize, &Geometry)) -> bool {
+    first_miss(line, proposal, changed).is_none()
 }

@@ -146,6 +146,8 @@ fn left_alone(line: &Line, ways: &Ways) -> Vec<Diagnostic> {
     let nodes = &line.nodes;
     let has_source = nodes.iter().any(|node| node.is_source);
     let has_destination = nodes.iter().any(|node| node.is_destination);
+    // Behind a machine that nothing supplies, machines out of its reach are cut off too.
+    let full = Ways::new(line, &vec![true; line.proposals.len()]).reach;
     let mut found = Vec::new();
     let mut starved: Vec<usize> = if has_source { ways.unreachable() } else { Vec::new() };
     let mut stuck: Vec<usize> = if has_destination { ways.dead_ends() } else { Vec::new() };
@@ -153,7 +155,7 @@ fn left_alone(line: &Line, ways: &Ways) -> Vec<Diagnostic> {
         starved.iter().copied().filter(|n| line.proposals.iter().all(|p| p.to != *n)).collect();
     for root in roots {
         let behind: Vec<usize> =
-            starved.iter().copied().filter(|n| *n != root && ways.reach.get(root, *n)).collect();
+            starved.iter().copied().filter(|n| *n != root && full.get(root, *n)).collect();
         starved.retain(|n| *n != root && !behind.contains(n));
         found.push(alone(line, root, "E0402", format!("nothing hands over to {}", nodes[root].name), |d| {
             let d = if behind.is_empty() {
@@ -167,8 +169,7 @@ fn left_alone(line: &Line, ways: &Ways) -> Vec<Diagnostic> {
     let ends: Vec<usize> =
         stuck.iter().copied().filter(|n| line.proposals.iter().all(|p| p.from != *n)).collect();
     for end in ends {
-        let before: Vec<usize> =
-            stuck.iter().copied().filter(|n| *n != end && ways.reach.get(*n, end)).collect();
+        let before: Vec<usize> = stuck.iter().copied().filter(|n| *n != end && full.get(*n, end)).collect();
         stuck.retain(|n| *n != end && !before.contains(n));
         found.push(alone(line, end, "E0403", format!("{} hands over to nothing", nodes[end].name), |d| {
             let d = if before.is_empty() {
