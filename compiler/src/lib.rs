@@ -1,6 +1,7 @@
 //! The compiler: layout and automata in, controllers out. Pure: nothing here reads or writes files.
 
 pub mod check;
+pub mod connect;
 pub mod diagnostic;
 pub mod executor;
 pub mod ir;

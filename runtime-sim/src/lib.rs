@@ -6,5 +6,7 @@
 
 pub mod device;
 pub mod geometry;
+pub mod kinematics;
+pub mod motion;
 pub mod point;
 pub mod scan;
