@@ -4,6 +4,20 @@
 //! controllers it is linked with: the two meet in [`scan::Controllers`].
 //! SI units, world frame (z up), unless a name says otherwise.
 
+pub mod account;
 pub mod device;
+pub mod event;
 pub mod geometry;
+mod hash;
+pub mod item;
+mod json;
+pub mod line;
+pub mod plant;
 pub mod point;
+mod random;
+pub mod report;
+pub mod run;
+pub mod scan;
+mod shortage;
+mod system;
+pub mod words;

@@ -1,0 +1,35 @@
+//! Where the simulator meets the controllers.
+
+/// Inputs of the system as a whole.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SystemInputs {
+    /// False while the emergency stop has acted or the fieldbus is lost.
+    pub run_permit: bool,
+    /// Acts on its rising edge.
+    pub start: bool,
+    pub reset: bool,
+}
+
+/// Outputs of the system as a whole.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SystemOutputs {
+    pub running: bool,
+    pub fault: bool,
+    pub fault_code: i32,
+    /// Machine that raised the fault, -1 if none did.
+    pub fault_robot: i32,
+}
+
+/// The controllers of all machines of a line, stepped together.
+pub trait Controllers {
+    /// One scan. `inputs` and `outputs` hold an image for each machine in layout order, laid out as
+    /// [`crate::device`] says; `outputs` keep their values from scan to scan and are published as they
+    /// stand on return, so they bear the stop values while the system does not run.
+    fn scan(&mut self, system: SystemInputs, inputs: &[Vec<f64>], outputs: &mut [Vec<f64>]) -> SystemOutputs;
+
+    /// Number of the state in which the automaton of this machine is.
+    fn state(&self, machine: usize) -> usize;
+
+    /// Appends all that the controllers remember, so that two engines can be compared scan by scan.
+    fn trace(&self, out: &mut Vec<f64>);
+}
