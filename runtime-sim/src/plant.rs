@@ -5,11 +5,11 @@ mod belt;
 mod bin;
 mod command;
 mod delay;
+mod drive;
 mod fall;
 mod gripper;
 pub(crate) mod image;
 mod station;
-mod stub;
 mod vehicle;
 
 pub(crate) use delay::Bus;
@@ -22,10 +22,10 @@ use crate::point::Point;
 use arm::Arm;
 use belt::Belt;
 use command::Command;
+use drive::Drive;
 use gripper::{CONTACT, Gripper, Slip};
 use image::out;
 use station::Station;
-use stub::Drive;
 use vehicle::Vehicle;
 
 /// The state of the plant at the start of a scan.
@@ -81,11 +81,12 @@ impl Plant {
     pub fn advance(&mut self, outputs: &[Vec<f64>]) {
         self.items.scan = self.scan;
         self.obey(outputs);
+        let next_ms = (self.scan + 1) * self.scan_ms;
         for (index, machine) in self.machines.iter_mut().enumerate() {
             match machine {
                 Machine::Belt(belt) => belt.advance(index, self.scan_ms, &mut self.items),
                 Machine::Vehicle(vehicle) => vehicle.advance(self.scan_ms),
-                Machine::Arm(arm) => arm.advance(self.scan_ms),
+                Machine::Arm(arm) => arm.advance(next_ms, self.scan_ms),
                 Machine::Station(_) | Machine::Bin(_) => {}
             }
         }
@@ -104,6 +105,7 @@ impl Plant {
 
     /// Latches commands and levels, and lets go what is to be let go, before anything moves.
     fn obey(&mut self, outputs: &[Vec<f64>]) {
+        let now_ms = self.scan * self.scan_ms;
         for (index, outputs) in outputs.iter().enumerate().take(self.machines.len()) {
             match &mut self.machines[index] {
                 Machine::Belt(belt) => belt.obey(outputs),
@@ -111,7 +113,7 @@ impl Plant {
                 Machine::Station(station) => station.obey(outputs),
                 Machine::Bin(_) => {}
                 Machine::Arm(arm) => {
-                    arm.obey(outputs);
+                    arm.obey(outputs, now_ms);
                     if let Some(item) = arm.gripper.switch(outputs[out::GRIP]) {
                         self.drop_item(item);
                     }

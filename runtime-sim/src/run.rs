@@ -89,10 +89,11 @@ pub fn run(
         plant.advance(&outputs);
         scan += 1;
         changed |= plant.is_busy() || operator.is_busy(scan, &line.scenario);
+        progress.quiet_scans = if changed { 0 } else { progress.quiet_scans + 1 };
         if answer.fault {
             break (false, fault_text(line, answer));
         }
-        if let Some(end) = progress.end(line, &plant, scan, changed) {
+        if let Some(end) = progress.end(line, &plant, scan) {
             break end;
         }
     };
@@ -114,13 +115,14 @@ struct Progress {
 }
 
 impl Progress {
-    fn end(&mut self, line: &Line, plant: &Plant, scans: u64, changed: bool) -> Option<(bool, String)> {
+    fn end(&mut self, line: &Line, plant: &Plant, scans: u64) -> Option<(bool, String)> {
         let log = plant.items().log();
         let made = |event: &&Event| matches!(event, Event::Order { change: OrderChange::Made, .. });
         self.made += log[self.read..].iter().filter(made).count();
-        let quiet = !changed && self.read == log.len();
-        self.read = log.len();
-        self.quiet_scans = if quiet { self.quiet_scans + 1 } else { 0 };
+        if self.read != log.len() {
+            self.read = log.len();
+            self.quiet_scans = 0;
+        }
 
         let scenario = &line.scenario;
         let reached = |scans: u64, limit_s: f64| (scans * u64::from(line.scan_ms)) as f64 >= limit_s * 1000.0;

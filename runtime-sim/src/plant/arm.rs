@@ -1,9 +1,9 @@
 //! An arm with a gripper, on a rail or under a gantry.
 
 use super::command::{Asked, Command, goal, is_held};
+use super::drive::{Drive, Moved};
 use super::gripper::Gripper;
 use super::image::{in_arm, put_bit, put_point};
-use super::stub::Drive;
 use crate::device::error;
 use crate::point::Point;
 
@@ -41,54 +41,58 @@ impl Arm {
         self.command.is_under_way() && !self.held || self.gripper.is_slipping()
     }
 
-    pub fn obey(&mut self, outputs: &[f64]) {
+    pub fn obey(&mut self, outputs: &[f64], now_ms: u64) {
+        let now = seconds(now_ms);
         match self.command.accept(outputs) {
             Asked::Nothing => {}
-            Asked::Start(1) => self.start(Task::Move, goal(outputs)),
-            Asked::Start(2) => self.start(Task::PickMove, goal(outputs)),
-            Asked::Start(_) => self.fail(error::REFUSED),
-            Asked::Refused => self.abandon(),
+            Asked::Start(1) => self.start(Task::Move, goal(outputs), now),
+            Asked::Start(2) => self.start(Task::PickMove, goal(outputs), now),
+            Asked::Start(_) => self.fail(error::REFUSED, now),
+            Asked::Refused => self.abandon(now),
         }
         self.held = is_held(outputs);
-    }
-
-    fn start(&mut self, task: Task, goal: Point) {
-        if self.drive.start(goal).is_some() {
-            self.task = task;
+        if self.held {
+            self.drive.hold(now);
         } else {
-            self.fail(error::UNREACHABLE);
+            self.drive.resume(now);
         }
     }
 
-    fn fail(&mut self, error: i32) {
-        self.abandon();
+    fn start(&mut self, task: Task, goal: Point, now: f64) {
+        if self.drive.start(goal, now).is_some() {
+            self.task = task;
+        } else {
+            self.fail(error::UNREACHABLE, now);
+        }
+    }
+
+    fn fail(&mut self, error: i32, now: f64) {
+        self.abandon(now);
         self.command.end(error);
     }
 
-    fn abandon(&mut self) {
-        self.drive.stop();
+    fn abandon(&mut self, now: f64) {
+        self.drive.stop(now);
         self.task = Task::None;
     }
 
-    /// Moves.
-    pub fn advance(&mut self, dt_ms: u64) {
+    /// Moves on to the time `now_ms`, `dt_ms` after the last one. It brakes even while it is held.
+    pub fn advance(&mut self, now_ms: u64, dt_ms: u64) {
+        let moved = self.drive.advance(seconds(now_ms));
         if self.held {
             return;
         }
-        match self.task {
-            Task::None => {}
-            Task::Move => {
-                if self.drive.advance(dt_ms).is_arrived() {
-                    self.task = Task::None;
-                    self.command.end(error::NONE);
-                }
+        match (self.task, moved) {
+            (Task::Move, Moved::Arrived) => {
+                self.task = Task::None;
+                self.command.end(error::NONE);
             }
-            Task::PickMove => {
-                if self.drive.advance(dt_ms).is_arrived() {
-                    self.task = Task::PickWait { waited_ms: 0 };
-                }
+            (Task::PickMove, Moved::Arrived) => self.task = Task::PickWait { waited_ms: 0 },
+            (Task::Move | Task::PickMove, Moved::Lost) => self.fail(error::UNREACHABLE, seconds(now_ms)),
+            (Task::PickWait { waited_ms }, _) => {
+                self.task = Task::PickWait { waited_ms: waited_ms + dt_ms };
             }
-            Task::PickWait { waited_ms } => self.task = Task::PickWait { waited_ms: waited_ms + dt_ms },
+            (Task::Move | Task::PickMove, Moved::OnTheWay) | (Task::None, _) => {}
         }
     }
 
@@ -112,4 +116,8 @@ impl Arm {
         put_bit(image, in_arm::ATTACHED, self.gripper.held().is_some());
         put_point(image, in_arm::TOOL, self.tool());
     }
+}
+
+fn seconds(ms: u64) -> f64 {
+    ms as f64 / 1000.0
 }
