@@ -1,0 +1,145 @@
+//! Both robots alike: joints, reach, limits.
+
+use super::gantry::{self, Gantry};
+use super::pose::Pose;
+use super::rail_arm::{self, RailArm};
+use crate::geometry::Geometry;
+use crate::point::Point;
+use std::f64::consts::FRAC_PI_4;
+use std::ops::Deref;
+
+/// Most joints that a robot has.
+pub const MOST_JOINTS: usize = 9;
+
+/// A value for each joint of one robot: rails first (m), then angles (rad).
+#[derive(Clone, Copy, PartialEq)]
+pub struct Joints {
+    values: [f64; MOST_JOINTS],
+    count: usize,
+}
+
+/// What a robot's joints can do at most.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// m/s or rad/s.
+    pub velocity: Joints,
+    /// m/s2 or rad/s2.
+    pub acceleration: Joints,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Arm {
+    Rail(RailArm),
+    Gantry(Gantry),
+}
+
+/// Rails and torso of both robots, joints of the UR10 (`joint_limits.yaml` and the robots' descriptions, ARIAC 2021).
+const RAIL_VELOCITY: f64 = 1.0;
+const TORSO_VELOCITY: f64 = FRAC_PI_4;
+const UR10_VELOCITY: [f64; 6] = [2.16, 2.16, 3.15, 3.2, 3.2, 3.2];
+/// What MoveIt takes for joints without a limit (`iterative_time_parameterization.cpp`, DEFAULT_ACCEL_MAX).
+const ACCELERATION: f64 = 1.0;
+
+impl Joints {
+    /// # Panics
+    /// With more than [`MOST_JOINTS`] values.
+    pub fn new(values: &[f64]) -> Self {
+        let mut joints = Self { values: [0.0; MOST_JOINTS], count: values.len() };
+        joints.values[..values.len()].copy_from_slice(values);
+        joints
+    }
+
+    /// Each value by the same rule.
+    pub fn map(&self, rule: impl Fn(usize, f64) -> f64) -> Self {
+        let mut joints = *self;
+        for (i, value) in joints.values[..self.count].iter_mut().enumerate() {
+            *value = rule(i, *value);
+        }
+        joints
+    }
+
+    /// The first values as an array; missing ones are 0.
+    fn array<const N: usize>(&self) -> [f64; N] {
+        std::array::from_fn(|i| self.values[i])
+    }
+}
+
+impl Deref for Joints {
+    type Target = [f64];
+    fn deref(&self) -> &[f64] {
+        &self.values[..self.count]
+    }
+}
+
+impl std::fmt::Debug for Joints {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_list().entries(self.iter()).finish()
+    }
+}
+
+impl Limits {
+    /// The same robot at a part of its speed; accelerations stay.
+    pub fn at_speed(&self, part: f64) -> Self {
+        Self { velocity: self.velocity.map(|_, v| v * part), ..*self }
+    }
+}
+
+impl Arm {
+    /// The robot of a machine; none if the machine is no robot.
+    pub fn from_geometry(geometry: &Geometry) -> Option<Self> {
+        match *geometry {
+            Geometry::RailArm { pose, rail_dim, rail_range } => {
+                Some(Arm::Rail(RailArm::new(pose, rail_dim, rail_range)))
+            }
+            Geometry::Gantry { pose, x_rail_range, y_rail_range } => {
+                Some(Arm::Gantry(Gantry::new(pose, x_rail_range, y_rail_range)))
+            }
+            _ => None,
+        }
+    }
+
+    /// How far the wrist stays within its reach when the tool, pointing down, is at a place; negative out of reach, m.
+    pub fn margin(&self, tool: Point) -> f64 {
+        match self {
+            Arm::Rail(arm) => arm.margin(tool),
+            Arm::Gantry(arm) => arm.margin(tool),
+        }
+    }
+
+    /// Joints for a place of the tool, near `from`; some exactly when [`Self::margin`] is not negative.
+    pub fn solve(&self, tool: Point, from: &Joints) -> Option<Joints> {
+        match self {
+            Arm::Rail(arm) => arm.solve(tool, &from.array()).map(|joints| Joints::new(&joints)),
+            Arm::Gantry(arm) => arm.solve(tool, &from.array()).map(|joints| Joints::new(&joints)),
+        }
+    }
+
+    pub fn tool_pose(&self, joints: &Joints) -> Pose {
+        match self {
+            Arm::Rail(arm) => arm.tool_pose(&joints.array::<{ rail_arm::JOINTS }>()),
+            Arm::Gantry(arm) => arm.tool_pose(&joints.array::<{ gantry::JOINTS }>()),
+        }
+    }
+
+    pub fn tool(&self, joints: &Joints) -> Point {
+        self.tool_pose(joints).position
+    }
+
+    /// Joints to start from, the tool pointing down.
+    pub fn start(&self) -> Joints {
+        match self {
+            Arm::Rail(arm) => Joints::new(&arm.start()),
+            Arm::Gantry(arm) => Joints::new(&arm.start()),
+        }
+    }
+
+    pub fn limits(&self) -> Limits {
+        let mut velocity = match self {
+            Arm::Rail(_) => vec![RAIL_VELOCITY],
+            Arm::Gantry(_) => vec![RAIL_VELOCITY, RAIL_VELOCITY, TORSO_VELOCITY],
+        };
+        velocity.extend(UR10_VELOCITY);
+        let velocity = Joints::new(&velocity);
+        Limits { velocity, acceleration: velocity.map(|_, _| ACCELERATION) }
+    }
+}

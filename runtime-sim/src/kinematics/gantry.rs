@@ -1,0 +1,164 @@
+//! A UR10 that hangs sideways from a torso which travels on two rails and turns.
+
+use super::planar::{self, Wrist};
+use super::pose::Pose;
+use super::ur10::{self, D1, D4};
+use super::{nearest_turn, root};
+use crate::point::Point;
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// Torso on both rails (m, world frame), its turn (0: the arm is mounted on the side of +y), then the angles of the UR10 (rad).
+pub type Joints = [f64; JOINTS];
+pub const JOINTS: usize = 9;
+
+/// From the torso's axis to the arm's base (`gantry.urdf.xacro`: mounted at 0.51 m) and on to its shoulder.
+const MOUNT: f64 = 0.51;
+const SHOULDER: f64 = MOUNT + D1;
+/// The wrist outside comes first, as in the prototype.
+const WRISTS: [Wrist; 2] = [Wrist::Outside, Wrist::Inside];
+/// Turns tried on either side of the present one when the torso must turn: steps of 15 degrees.
+const TURN_STEPS: i32 = 12;
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gantry {
+    x: [f64; 2],
+    y: [f64; 2],
+    shoulder: f64,
+}
+
+/// A tool's place as seen from all places of the torso.
+struct View {
+    tool: Point,
+    dz: f64,
+    /// Nearest and farthest place of the torso, and their distances from the tool.
+    ends: [Point; 2],
+    distance: [f64; 2],
+}
+
+impl Gantry {
+    /// As in [`crate::geometry::Geometry::Gantry`].
+    pub fn new(pose: Point, x_range: [f64; 2], y_range: [f64; 2]) -> Self {
+        Self { x: x_range, y: y_range, shoulder: pose.z }
+    }
+
+    fn view(&self, tool: Point) -> View {
+        let far_end = |[low, high]: [f64; 2], t: f64| if t - low > high - t { low } else { high };
+        let nearest = Point::new(tool.x.clamp(self.x[0], self.x[1]), tool.y.clamp(self.y[0], self.y[1]), 0.0);
+        let farthest = Point::new(far_end(self.x, tool.x), far_end(self.y, tool.y), 0.0);
+        let ends = [nearest, farthest];
+        let distance = ends.map(|end| level_distance(tool, end));
+        View { tool, dz: planar::wrist_height(tool, self.shoulder), ends, distance }
+    }
+
+    fn best(&self, view: &View) -> planar::Reach {
+        let [low, high] = view.distance.map(|rho| root((rho - D4) * (rho + D4)) - SHOULDER);
+        planar::best(low, high, view.dz, WRISTS)
+    }
+
+    /// Distance of the wrist to the limit of reach, at the best place of the torso, the tool pointing down and
+    /// ahead of the torso's axis; negative out of reach.
+    pub fn margin(&self, tool: Point) -> f64 {
+        let view = self.view(tool);
+        if view.distance[1] < D4 { view.distance[1] - D4 } else { self.best(&view).margin }
+    }
+
+    /// Joints that bring the tool, pointing down, to a place; some exactly when [`Self::margin`] is not negative.
+    /// The tool is under the shoulder where it can be; the torso keeps its turn where it can.
+    pub fn solve(&self, tool: Point, from: &Joints) -> Option<Joints> {
+        if self.margin(tool) < 0.0 {
+            return None;
+        }
+        let view = self.view(tool);
+        if let Some(wrist) = planar::comfortable(0.0, view.dz, WRISTS)
+            && let Some((x, y)) = self.torso(&view, SHOULDER, from[2])
+        {
+            return Some(self.joints(&view, (x, y), wrist, from));
+        }
+        let best = self.best(&view);
+        let ahead = (best.u + SHOULDER).max(0.0);
+        let place =
+            self.torso(&view, ahead, from[2]).unwrap_or_else(|| self.between(&view, level_radius(ahead)));
+        Some(self.joints(&view, place, best.wrist, from))
+    }
+
+    /// A place of the torso with the tool `ahead` of its axis, and as little turning as the rails allow.
+    fn torso(&self, view: &View, ahead: f64, turn: f64) -> Option<(f64, f64)> {
+        let [near, far] = view.distance;
+        let radius = level_radius(ahead);
+        if radius < near || radius > far {
+            return None;
+        }
+        let turns =
+            (0..=TURN_STEPS).flat_map(|step| [step, -step]).map(|step| turn + f64::from(step) * PI / 12.0);
+        let on_rails = turns
+            .map(|turn| {
+                let (s, c) = libm::sincos(turn);
+                (view.tool.x + ahead * s + D4 * c, view.tool.y - ahead * c + D4 * s)
+            })
+            .find(|(x, y)| within(self.x, *x) && within(self.y, *y));
+        Some(on_rails.unwrap_or_else(|| self.between(view, radius)))
+    }
+
+    /// The place at a distance from the tool, on the line from the nearest to the farthest place of the torso.
+    fn between(&self, view: &View, radius: f64) -> (f64, f64) {
+        let [near, far] = view.ends;
+        let (start, way) = (near - view.tool, far - near);
+        let a = way.x * way.x + way.y * way.y;
+        let b = start.x * way.x + start.y * way.y;
+        let c = start.x * start.x + start.y * start.y - radius * radius;
+        let part = if a > 0.0 { ((root(b * b - a * c) - b) / a).clamp(0.0, 1.0) } else { 0.0 };
+        let place = |near: f64, way: f64, range: [f64; 2]| (near + part * way).clamp(range[0], range[1]);
+        (place(near.x, way.x, self.x), place(near.y, way.y, self.y))
+    }
+
+    fn joints(&self, view: &View, (x, y): (f64, f64), wrist: Wrist, from: &Joints) -> Joints {
+        let (dx, dy) = (view.tool.x - x, view.tool.y - y);
+        let ahead = root(dx * dx + dy * dy - D4 * D4);
+        let turn = libm::atan2(dy, dx) - libm::atan2(D4, ahead) - FRAC_PI_2;
+        let links = planar::links(ahead - SHOULDER, view.dz, wrist);
+        // The base lies on its side: what is level in the arm's own plane is a quarter turn back.
+        let lift = links.lift - FRAC_PI_2;
+        let angles = [turn, 0.0, lift, links.elbow, links.wrist_1, links.wrist_2, from[8]];
+        std::array::from_fn(|i| match i {
+            0 => x,
+            1 => y,
+            _ => nearest_turn(angles[i - 2], from[i]),
+        })
+    }
+
+    /// Pose of the tool, world frame.
+    pub fn tool_pose(&self, joints: &Joints) -> Pose {
+        let [x, y, turn, angles @ ..] = *joints;
+        let torso = Pose::turned(Point::new(x, y, self.shoulder), turn + FRAC_PI_2);
+        // Axes of the arm's base in the torso's frame (x outward): x up, y to the right, z outward.
+        let mount = Pose {
+            rotation: [[0.0, 0.0, 1.0], [0.0, -1.0, 0.0], [1.0, 0.0, 0.0]],
+            position: Point::new(MOUNT, 0.0, 0.0),
+        };
+        torso.then(&mount).then(&ur10::forward(&angles))
+    }
+
+    pub fn tool(&self, joints: &Joints) -> Point {
+        self.tool_pose(joints).position
+    }
+
+    /// A pose to start from: middle of both rails (start joints of the prototype's gantry, the tool turned straight down).
+    pub fn start(&self) -> Joints {
+        let middle = |range: [f64; 2]| (range[0] + range[1]) / 2.0;
+        [middle(self.x), middle(self.y), 0.0, 0.0, -1.13, 1.88, 1.13 - 1.88, FRAC_PI_2, 0.0]
+    }
+}
+
+fn within(range: [f64; 2], value: f64) -> bool {
+    range[0] <= value && value <= range[1]
+}
+
+/// Level distance from the torso's axis of a tool that is `ahead` of it.
+fn level_radius(ahead: f64) -> f64 {
+    root(ahead * ahead + D4 * D4)
+}
+
+fn level_distance(a: Point, b: Point) -> f64 {
+    let d = a - b;
+    root(d.x * d.x + d.y * d.y)
+}

@@ -1,0 +1,39 @@
+//! Where a robot's tool is, and which joints bring it to a place.
+//!
+//! Trigonometry and roots come from `libm` or are exact IEEE operations, so that
+//! every build computes the same bits.
+
+pub mod arm;
+pub mod gantry;
+mod planar;
+pub mod pose;
+pub mod rail_arm;
+pub mod ur10;
+
+#[cfg(test)]
+mod random;
+#[cfg(test)]
+mod tests;
+
+use std::f64::consts::{PI, TAU};
+
+/// The same angle in (-pi, pi].
+pub fn wrapped(angle: f64) -> f64 {
+    let turned = angle - TAU * ((angle - PI) / TAU).ceil();
+    if turned <= -PI { turned + TAU } else { turned.min(PI) }
+}
+
+/// Among the equivalents of `angle` within one joint's limits of two turns (-2 pi to 2 pi) the one nearest to `present`.
+fn nearest_turn(angle: f64, present: f64) -> f64 {
+    let base = wrapped(angle);
+    let distance = |candidate: f64| (candidate - present).abs();
+    [base - TAU, base + TAU]
+        .into_iter()
+        .filter(|candidate| candidate.abs() <= TAU)
+        .fold(base, |best, candidate| if distance(candidate) < distance(best) { candidate } else { best })
+}
+
+/// Root of a difference that rounding may have brought below zero.
+fn root(square: f64) -> f64 {
+    square.max(0.0).sqrt()
+}
