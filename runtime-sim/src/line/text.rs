@@ -59,6 +59,7 @@ impl Line {
         for pause in &scenario.pauses {
             put(format!("  {} {}", pause.at_scan, pause.scans));
         }
+        put("end".into());
         out
     }
 
@@ -91,6 +92,7 @@ impl Line {
         words.expect("machines")?;
         let machines = words.list(read_machine)?;
         let scenario = read_scenario(words)?;
+        words.expect("end")?;
         Ok(Line { scan_ms, kinds, machines, scenario, io_delay })
     }
 }
