@@ -74,6 +74,65 @@ impl Geometry {
         }
     }
 
+    /// Every number by its path among the keys of the JSON object, such as `pose[0]` or `destinations[0][1]`.
+    pub fn numbers(&self) -> Vec<(String, f64)> {
+        let mut copy = self.clone();
+        copy.places_of_numbers().into_iter().map(|(path, value)| (path, *value)).collect()
+    }
+
+    /// The same machine with one number changed; none if it has no such number, or a range would lose its order.
+    pub fn with_number(&self, path: &str, value: f64) -> Option<Geometry> {
+        let mut changed = self.clone();
+        let (_, place) = changed.places_of_numbers().into_iter().find(|(known, _)| known == path)?;
+        *place = value;
+        (value.is_finite() && changed.ranges().iter().all(|[low, high]| low < high)).then_some(changed)
+    }
+
+    fn ranges(&self) -> Vec<[f64; 2]> {
+        match *self {
+            Geometry::Belt { orient_range: range, .. } | Geometry::RailArm { rail_range: range, .. } => {
+                vec![range]
+            }
+            Geometry::Gantry { x_rail_range, y_rail_range, .. } => vec![x_rail_range, y_rail_range],
+            Geometry::Vehicle { .. } | Geometry::Station { .. } | Geometry::Bin { .. } => Vec::new(),
+        }
+    }
+
+    fn places_of_numbers(&mut self) -> Vec<(String, &mut f64)> {
+        fn elements<'a>(
+            key: &str,
+            values: impl IntoIterator<Item = &'a mut f64>,
+        ) -> Vec<(String, &'a mut f64)> {
+            values.into_iter().enumerate().map(|(i, value)| (format!("{key}[{i}]"), value)).collect()
+        }
+        fn point<'a>(key: &str, point: &'a mut Point) -> Vec<(String, &'a mut f64)> {
+            elements(key, [&mut point.x, &mut point.y, &mut point.z])
+        }
+        match self {
+            Geometry::Belt { pose, orient_range, .. } => {
+                [point("pose", pose), elements("orient_range", orient_range)].into_iter().flatten().collect()
+            }
+            Geometry::Vehicle { pose, destinations: [near, far] } => {
+                [point("pose", pose), point("destinations[0]", near), point("destinations[1]", far)]
+                    .into_iter()
+                    .flatten()
+                    .collect()
+            }
+            Geometry::RailArm { pose, rail_range, .. } => {
+                [point("pose", pose), elements("rail_range", rail_range)].into_iter().flatten().collect()
+            }
+            Geometry::Gantry { pose, x_rail_range, y_rail_range } => [
+                point("pose", pose),
+                elements("x_rail_range", x_rail_range),
+                elements("y_rail_range", y_rail_range),
+            ]
+            .into_iter()
+            .flatten()
+            .collect(),
+            Geometry::Station { pose } | Geometry::Bin { pose } => point("pose", pose),
+        }
+    }
+
     pub fn pose(&self) -> Point {
         match *self {
             Geometry::Belt { pose, .. }
@@ -192,5 +251,42 @@ impl Geometry {
             ),
             _ => None,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_number_can_be_changed_alone() {
+        let gantry = Geometry::Gantry {
+            pose: Point::new(-4.0, 0.0, 2.0),
+            x_rail_range: [-14.4, 0.4],
+            y_rail_range: [-4.5, 4.5],
+        };
+        let vehicle = Geometry::Vehicle {
+            pose: Point::new(1.0, 2.0, 3.0),
+            destinations: [Point::new(4.0, 5.0, 6.0), Point::new(7.0, 8.0, 9.0)],
+        };
+        assert_eq!(vehicle.numbers()[7], ("destinations[1][1]".to_string(), 8.0));
+        for geometry in [gantry, vehicle] {
+            let numbers = geometry.numbers();
+            for (i, (path, value)) in numbers.iter().enumerate() {
+                let changed = geometry.with_number(path, value + 0.001).unwrap();
+                for (j, (now, before)) in changed.numbers().iter().zip(&numbers).enumerate() {
+                    assert_eq!(now.1 - before.1 != 0.0, i == j, "{path}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn ranges_keep_their_order() {
+        let belt = Geometry::Belt { pose: Point::default(), orient: Axis::Y, orient_range: [-5.0, 5.0] };
+        assert_eq!(belt.with_number("orient_range[0]", 5.0), None);
+        assert_eq!(belt.with_number("orient_range[1]", f64::NAN), None);
+        assert_eq!(belt.with_number("rail_range[0]", 0.0), None);
+        assert!(belt.with_number("orient_range[0]", 4.999).is_some());
     }
 }

@@ -347,7 +347,11 @@ fn a_slip_loses_the_part_it_names() {
     rig.go(KITTING, PICK, at);
     rig.go(KITTING, MOVE, at.up(0.3));
     assert_eq!(rig.image(KITTING)[input::ATTACHED], 0.0);
-    assert!(matches!(rig.plant.items().all()[1].carrier, Carrier::Belt { .. }), "{:?}", rig.plant.items().all());
+    assert!(
+        matches!(rig.plant.items().all()[1].carrier, Carrier::Belt { .. }),
+        "{:?}",
+        rig.plant.items().all()
+    );
 }
 
 #[test]

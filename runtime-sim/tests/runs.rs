@@ -183,7 +183,7 @@ fn the_report_as_json() {
 fn finished_plant() -> Items {
     let mut rest = None;
     run(&line(), &mut Script::new(whole_order()), &mut |seen: &Seen| {
-        if seen.scan % 500 == 0 {
+        if seen.scan.is_multiple_of(500) {
             rest = Some(seen.plant.items().clone());
         }
     })

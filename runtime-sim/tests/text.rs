@@ -63,8 +63,14 @@ fn what_cannot_be_run_is_refused() {
     assert_eq!(refused(|l| l.scan_ms = 0), "a scan of 0 ms is not between 1 and 1000 ms");
     assert_eq!(refused(|l| l.kinds[1].height = 0.0), "the height of pump is no positive number");
     assert_eq!(refused(|l| l.scenario.orders[0].station = 1), "an order at kitting, which is no station");
-    assert_eq!(refused(|l| l.scenario.supply[0].items[1] = 2), "the supply of belt names kind 2, which is not there");
+    assert_eq!(
+        refused(|l| l.scenario.supply[0].items[1] = 2),
+        "the supply of belt names kind 2, which is not there"
+    );
     assert_eq!(refused(|l| l.scenario.slips[0].machine = 9), "a slip names machine 9, which is not there");
-    assert_eq!(refused(|l| l.machines[0].states[0].awaits[0] = 6), "a state names machine 6, which is not there");
+    assert_eq!(
+        refused(|l| l.machines[0].states[0].awaits[0] = 6),
+        "a state names machine 6, which is not there"
+    );
     assert_eq!(refused(|l| l.io_delay = IoDelay::Fixed(4_000_000_000)), "answers more than 1000 scans late");
 }

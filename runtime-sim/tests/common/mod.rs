@@ -226,12 +226,7 @@ impl Script {
 }
 
 impl Controllers for Script {
-    fn scan(
-        &mut self,
-        system: SystemInputs,
-        inputs: &[Vec<f64>],
-        outputs: &mut [Vec<f64>],
-    ) -> SystemOutputs {
+    fn scan(&mut self, system: SystemInputs, inputs: &[Vec<f64>], outputs: &mut [Vec<f64>]) -> SystemOutputs {
         self.running = system.run_permit && (self.running || system.start && !self.last_start);
         self.last_start = system.start;
         let mut fault = None;

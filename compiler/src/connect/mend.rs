@@ -1,0 +1,93 @@
+//! The smallest change of one number that makes two machines meet.
+
+use super::{Line, Mend, graph::Ways, poses};
+use runtime_sim::geometry::Geometry;
+
+/// How far a number is changed at most, mm.
+const FURTHEST: i32 = 10_000;
+/// The change is first sought in steps of at least this many mm: a stretch of values shorter than that may be overlooked.
+const COARSE: i32 = 10;
+
+/// Of all numbers of both machines and both directions the change after which most nodes are connected,
+/// among these the smallest; changes that cost an edge do not count.
+pub fn find(line: &Line, stands: &[bool], proposal: usize) -> Option<Mend> {
+    let pair = &line.proposals[proposal];
+    let mut best: Option<Mend> = None;
+    for node in [pair.passive(), pair.arm] {
+        for number in &line.nodes[node].numbers {
+            for direction in [1, -1] {
+                let Some((change_mm, geometry)) = first(line, proposal, node, &number.path, direction) else {
+                    continue;
+                };
+                let Some(connected) = connected_after(line, stands, node, &geometry) else { continue };
+                let better = best.as_ref().is_none_or(|best| {
+                    (connected, -change_mm.abs()) > (best.connected, -best.change_mm.abs())
+                });
+                if better {
+                    best = Some(Mend {
+                        node,
+                        path: number.path.clone(),
+                        span: number.span,
+                        present: number.value,
+                        value: changed(number.value, change_mm),
+                        change_mm,
+                        connected,
+                    });
+                }
+            }
+        }
+    }
+    best
+}
+
+/// `value` and so many millimetres, without the dust of binary fractions.
+pub fn changed(value: f64, mm: i32) -> f64 {
+    ((value + f64::from(mm) / 1000.0) * 1e9).round() / 1e9
+}
+
+/// A pose that misses by so much (m) is not in reach after a change of less than half of it:
+/// its wrist moves at most twice as far, unless the tool is nearly in line with the shoulder's axis.
+fn stride(missing: f64) -> i32 {
+    COARSE.max((missing * 500.0) as i32)
+}
+
+/// The first whole millimetre in one direction at which the pair meets, with the machine's geometry there.
+fn first(line: &Line, proposal: usize, node: usize, path: &str, direction: i32) -> Option<(i32, Geometry)> {
+    let geometry = &line.nodes[node].geometry;
+    let (_, present) = geometry.numbers().into_iter().find(|(known, _)| known == path)?;
+    let pair = &line.proposals[proposal];
+    // `None` beyond the values that the machine may have.
+    let at = |mm: i32| geometry.with_number(path, changed(present, direction * mm));
+    let miss = |geometry: &Geometry| poses::first_miss(line, pair, (node, geometry));
+    let mut passed = 0;
+    let mut step = stride(miss(geometry)?);
+    let coarse = loop {
+        let next = (passed + step).min(FURTHEST);
+        match at(next).map(|changed| miss(&changed)) {
+            Some(None) => break next,
+            Some(Some(missing)) if next < FURTHEST => (passed, step) = (next, stride(missing)),
+            Some(Some(_)) => return None,
+            // The last values before the end of what is allowed are tried below.
+            None => break next - 1,
+        }
+    };
+    (passed + 1..=coarse).find_map(|mm| {
+        let changed = at(mm)?;
+        miss(&changed).is_none().then_some((direction * mm, changed))
+    })
+}
+
+/// Number of connected nodes with another geometry of one of them; none if an edge is lost.
+fn connected_after(line: &Line, stands: &[bool], node: usize, geometry: &Geometry) -> Option<usize> {
+    let mut after = stands.to_vec();
+    for (proposal, stood) in line.proposals.iter().zip(&mut after) {
+        if proposal.from == node || proposal.to == node {
+            let stands_now = poses::stands(line, proposal, (node, geometry));
+            if *stood && !stands_now {
+                return None;
+            }
+            *stood = stands_now;
+        }
+    }
+    Some(Ways::new(line, &after).connected())
+}

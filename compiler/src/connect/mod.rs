@@ -1,0 +1,242 @@
+//! Does every item that enters the layout find its way out?
+//!
+//! Two machines whose types hand over to each other meet if the arm of the one
+//! reaches every place of the other, at contact and above it. From these edges
+//! follows which machines lie on a way from a source to a destination.
+
+mod graph;
+mod mend;
+mod poses;
+mod verdict;
+
+#[cfg(test)]
+mod tests;
+
+use crate::diagnostic::Diagnostic;
+use crate::source::Span;
+use runtime_sim::geometry::Geometry;
+
+/// A machine that hands over or takes.
+#[derive(Clone, Debug)]
+pub struct Node {
+    pub name: String,
+    /// Its JSON object.
+    pub span: Span,
+    pub geometry: Geometry,
+    /// Those numbers of its JSON object that may be changed to mend the layout.
+    pub numbers: Vec<Number>,
+    /// Items enter the layout here.
+    pub is_source: bool,
+    /// Items leave the layout here.
+    pub is_destination: bool,
+}
+
+/// A number of a JSON object.
+#[derive(Clone, Debug)]
+pub struct Number {
+    /// As in [`Geometry::numbers`], such as `rail_range[1]`.
+    pub path: String,
+    pub value: f64,
+    pub span: Span,
+}
+
+/// Where the passive one of two machines hands over or takes.
+#[derive(Clone, Debug)]
+pub struct Site {
+    /// As in [`Geometry::handover`].
+    pub name: String,
+    pub index: Option<usize>,
+    /// At least 1.
+    pub capacity: usize,
+    /// Height over contact from which the arm comes, m.
+    pub approach: f64,
+}
+
+/// Two machines whose types hand items over; indices of nodes.
+#[derive(Clone, Debug)]
+pub struct Proposal {
+    pub from: usize,
+    pub to: usize,
+    /// Which of the two is the arm.
+    pub arm: usize,
+    pub site: Site,
+    /// Where the automaton declares it.
+    pub rule: Span,
+}
+
+/// All that connectivity depends on.
+#[derive(Clone, Debug)]
+pub struct Line {
+    /// The layout's file, for what concerns no single machine.
+    pub span: Span,
+    /// In layout order.
+    pub nodes: Vec<Node>,
+    pub proposals: Vec<Proposal>,
+    /// Name and height (m) of each kind of part.
+    pub kinds: Vec<(String, f64)>,
+}
+
+/// Two machines that meet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Edge {
+    pub from: usize,
+    pub to: usize,
+    /// How far the arm stays within its reach at the worst pose, m.
+    pub margin: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// The tool touches the item.
+    Contact,
+    /// The tool is above, where it comes from and goes to.
+    Approach,
+}
+
+/// A pose of the tool that the arm does not reach.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Miss {
+    /// Name of the place.
+    pub place: String,
+    pub kind: String,
+    pub stage: Stage,
+    /// Where the tool would be.
+    pub tool: runtime_sim::point::Point,
+    /// By how much it is out of reach, mm.
+    pub missing_mm: f64,
+}
+
+/// One number whose change makes two machines meet: by whole millimetres, and one fewer is not enough.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mend {
+    pub node: usize,
+    pub path: String,
+    pub span: Span,
+    pub present: f64,
+    pub value: f64,
+    /// Change in mm, signed.
+    pub change_mm: i32,
+    /// Nodes on a way from a source to a destination after the change.
+    pub connected: usize,
+}
+
+/// Two machines that should meet and do not.
+#[derive(Clone, Debug)]
+pub struct Failure {
+    /// Index of the proposal.
+    pub proposal: usize,
+    /// All poses that miss, the worst first.
+    pub misses: Vec<Miss>,
+    /// Number of poses that were tested.
+    pub tested: usize,
+    pub mend: Option<Mend>,
+}
+
+/// What the check found, whether the layout is connected or not.
+#[derive(Clone, Debug)]
+pub struct Report {
+    /// In layout order of `from`, then of `to`.
+    pub edges: Vec<Edge>,
+    pub failures: Vec<Failure>,
+    /// Nodes that no item ever gets to.
+    pub unreachable: Vec<usize>,
+    /// Nodes from which no item ever leaves the layout.
+    pub dead_ends: Vec<usize>,
+    /// Empty exactly when the layout is connected.
+    pub diagnostics: Vec<Diagnostic>,
+    connected: Option<Connected>,
+}
+
+/// Proof that every node lies on a way from a source to a destination. Only [`check`] makes one.
+#[derive(Clone, Debug)]
+pub struct Connected {
+    edges: Vec<Edge>,
+    reach: graph::Reach,
+}
+
+impl Connected {
+    /// In layout order of `from`, then of `to`.
+    pub fn edges(&self) -> &[Edge] {
+        &self.edges
+    }
+
+    /// Nodes that `node` hands over to, in layout order.
+    pub fn targets(&self, node: usize) -> impl Iterator<Item = usize> {
+        self.edges.iter().filter(move |edge| edge.from == node).map(|edge| edge.to)
+    }
+
+    /// Nodes that `node` takes from, in layout order.
+    pub fn origins(&self, node: usize) -> impl Iterator<Item = usize> {
+        self.edges.iter().filter(move |edge| edge.to == node).map(|edge| edge.from)
+    }
+
+    /// Whether an item at `from` can get to `to` along edges; a node reaches itself.
+    pub fn reaches(&self, from: usize, to: usize) -> bool {
+        self.reach.get(from, to)
+    }
+}
+
+impl Report {
+    pub fn is_feasible(&self) -> bool {
+        self.connected.is_some()
+    }
+
+    /// The proof, or what is wrong.
+    pub fn connected(self) -> Result<Connected, Vec<Diagnostic>> {
+        self.connected.ok_or(self.diagnostics)
+    }
+}
+
+/// Which machines meet, and whether that is enough.
+///
+/// # Panics
+/// If a proposal names a node that is not there, an arm that is none, or a site that its machine does not have:
+/// types are bound to machines before.
+pub fn check(line: &Line) -> Report {
+    let tested: Vec<poses::Test> = line.proposals.iter().map(|p| poses::test(line, p)).collect();
+    let stands: Vec<bool> = tested.iter().map(|test| test.margin >= 0.0).collect();
+    let edges = edges(line, &tested);
+    let ways = graph::Ways::new(line, &stands);
+    let failures: Vec<Failure> = tested
+        .into_iter()
+        .enumerate()
+        .filter(|(_, test)| test.margin < 0.0)
+        .map(|(proposal, test)| Failure {
+            proposal,
+            mend: mend::find(line, &stands, proposal),
+            misses: test.misses,
+            tested: test.tested,
+        })
+        .collect();
+    let diagnostics = verdict::diagnostics(line, &stands, &failures);
+    let connected =
+        diagnostics.is_empty().then(|| Connected { edges: edges.clone(), reach: ways.reach.clone() });
+    Report {
+        edges,
+        failures,
+        unreachable: ways.unreachable(),
+        dead_ends: ways.dead_ends(),
+        diagnostics,
+        connected,
+    }
+}
+
+fn edges(line: &Line, tested: &[poses::Test]) -> Vec<Edge> {
+    let mut edges: Vec<Edge> = Vec::new();
+    for (proposal, test) in line.proposals.iter().zip(tested).filter(|(_, test)| test.margin >= 0.0) {
+        let (from, to, margin) = (proposal.from, proposal.to, test.margin);
+        match edges.iter_mut().find(|edge| edge.from == from && edge.to == to) {
+            Some(edge) => edge.margin = edge.margin.max(margin),
+            None => edges.push(Edge { from, to, margin }),
+        }
+    }
+    edges.sort_by_key(|edge| (edge.from, edge.to));
+    edges
+}
+
+impl Proposal {
+    /// The machine that stands still while the arm comes.
+    pub fn passive(&self) -> usize {
+        if self.arm == self.from { self.to } else { self.from }
+    }
+}

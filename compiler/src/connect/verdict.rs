@@ -1,0 +1,223 @@
+//! What is wrong, said once for each cause.
+
+use super::graph::Ways;
+use super::{Failure, Line, Miss, Stage};
+use crate::diagnostic::{Diagnostic, sort};
+
+/// Poses listed in a report; the data hold all.
+const LISTED: usize = 3;
+
+pub fn diagnostics(line: &Line, stands: &[bool], failures: &[Failure]) -> Vec<Diagnostic> {
+    let mut found = Vec::new();
+    if !line.nodes.iter().any(|node| node.is_source) {
+        found.push(
+            Diagnostic::new("E0404", line.span, "no machine of this layout brings items in")
+                .help("add a machine whose type is a source, such as a conveyor"),
+        );
+    }
+    if !line.nodes.iter().any(|node| node.is_destination) {
+        found.push(
+            Diagnostic::new("E0405", line.span, "no machine of this layout takes finished items away")
+                .help("add a machine whose type is a destination, such as an assembly station"),
+        );
+    }
+    let mut stands = stands.to_vec();
+    let mut ways = Ways::new(line, &stands);
+    while let Some((failure, after)) = most_helpful(line, &stands, failures, &ways) {
+        found.push(apart(line, failure, failures, &ways, &after));
+        stands[failure.proposal] = true;
+        ways = after;
+    }
+    found.extend(left_alone(line, &ways));
+    sort(&mut found);
+    found
+}
+
+/// The failed pair that would put most nodes on a way if it met, and the ways then.
+/// At equal numbers the one that misses by least.
+fn most_helpful<'a>(
+    line: &Line,
+    stands: &[bool],
+    failures: &'a [Failure],
+    ways: &Ways,
+) -> Option<(&'a Failure, Ways)> {
+    let mut best: Option<(usize, &Failure, Ways)> = None;
+    for failure in failures.iter().filter(|failure| !stands[failure.proposal]) {
+        let mut with = stands.to_vec();
+        with[failure.proposal] = true;
+        let after = Ways::new(line, &with);
+        let gain = newly(&ways.supplied, &after.supplied).len() + newly(&ways.drained, &after.drained).len();
+        let better = match &best {
+            None => gain > 0,
+            Some((most, other, _)) => gain > *most || (gain == *most && worst_mm(failure) < worst_mm(other)),
+        };
+        if better {
+            best = Some((gain, failure, after));
+        }
+    }
+    best.map(|(_, failure, after)| (failure, after))
+}
+
+fn newly(before: &[bool], after: &[bool]) -> Vec<usize> {
+    (0..before.len()).filter(|n| after[*n] && !before[*n]).collect()
+}
+
+fn worst_mm(failure: &Failure) -> f64 {
+    failure.misses.first().map_or(0.0, |miss| miss.missing_mm)
+}
+
+/// Two machines that should meet, do not, and are needed.
+fn apart(line: &Line, failure: &Failure, failures: &[Failure], ways: &Ways, after: &Ways) -> Diagnostic {
+    let pair = &line.proposals[failure.proposal];
+    let [arm, passive] = [pair.arm, pair.passive()].map(|n| &line.nodes[n]);
+    let verb = if pair.arm == pair.from { "hand over to" } else { "take from" };
+    let mut diagnostic = Diagnostic::new(
+        "E0401",
+        passive.span,
+        format!(
+            "{} cannot {verb} {}: {} of {} poses are out of its reach, the worst by {}",
+            arm.name,
+            passive.name,
+            failure.misses.len(),
+            failure.tested,
+            millimetres(worst_mm(failure))
+        ),
+    )
+    .label("out of reach")
+    .other(arm.span, "the arm that should come here")
+    .other(pair.rule, "the place of the handover");
+
+    for miss in failure.misses.iter().take(LISTED) {
+        diagnostic = diagnostic.note(describe(miss));
+    }
+    if failure.misses.len() > LISTED {
+        diagnostic = diagnostic.note(format!("and {} more", failure.misses.len() - LISTED));
+    }
+    let starved = newly(&ways.supplied, &after.supplied);
+    if !starved.is_empty() {
+        diagnostic = diagnostic.note(format!("no item gets to {}", names(line, &starved)));
+    }
+    let stuck = newly(&ways.drained, &after.drained);
+    if !stuck.is_empty() {
+        diagnostic = diagnostic.note(format!("no item from {} ever leaves the layout", names(line, &stuck)));
+    }
+    let also: Vec<String> = failures
+        .iter()
+        .filter(|other| other.proposal != failure.proposal)
+        .filter(|other| {
+            let other = &line.proposals[other.proposal];
+            (other.to == pair.to && starved.contains(&pair.to))
+                || (other.from == pair.from && stuck.contains(&pair.from))
+        })
+        .map(|other| {
+            let pair = &line.proposals[other.proposal];
+            format!(
+                "{} to {} ({})",
+                line.nodes[pair.from].name,
+                line.nodes[pair.to].name,
+                millimetres(worst_mm(other))
+            )
+        })
+        .collect();
+    if !also.is_empty() {
+        diagnostic = diagnostic.note(format!("out of reach as well: {}", also.join(", ")));
+    }
+    match &failure.mend {
+        Some(mend) => {
+            let name = &line.nodes[mend.node].name;
+            diagnostic.other(mend.span, "this number can mend it").help(format!(
+                "set `{}` of {name} to {} (now {}): {} mm bring the two together, {} mm do not",
+                mend.path,
+                mend.value,
+                mend.present,
+                mend.change_mm.abs(),
+                mend.change_mm.abs() - 1
+            ))
+        }
+        None => diagnostic.help(format!(
+            "no single number within 10 m mends this without parting others: move {} or {}, or lower the approach",
+            passive.name, arm.name
+        )),
+    }
+}
+
+/// Nodes that are on no way even if every pair met.
+fn left_alone(line: &Line, ways: &Ways) -> Vec<Diagnostic> {
+    let nodes = &line.nodes;
+    let has_source = nodes.iter().any(|node| node.is_source);
+    let has_destination = nodes.iter().any(|node| node.is_destination);
+    // Behind a machine that nothing supplies, machines out of its reach are cut off too.
+    let full = Ways::new(line, &vec![true; line.proposals.len()]).reach;
+    let mut found = Vec::new();
+    let mut starved: Vec<usize> = if has_source { ways.unreachable() } else { Vec::new() };
+    let mut stuck: Vec<usize> = if has_destination { ways.dead_ends() } else { Vec::new() };
+    let roots: Vec<usize> =
+        starved.iter().copied().filter(|n| line.proposals.iter().all(|p| p.to != *n)).collect();
+    for root in roots {
+        let behind: Vec<usize> =
+            starved.iter().copied().filter(|n| *n != root && full.get(root, *n)).collect();
+        starved.retain(|n| *n != root && !behind.contains(n));
+        found.push(alone(line, root, "E0402", format!("nothing hands over to {}", nodes[root].name), |d| {
+            let d = if behind.is_empty() {
+                d
+            } else {
+                d.note(format!("no item gets to {}", names(line, &behind)))
+            };
+            d.help("add a machine that hands over to it, or remove it")
+        }));
+    }
+    let ends: Vec<usize> =
+        stuck.iter().copied().filter(|n| line.proposals.iter().all(|p| p.from != *n)).collect();
+    for end in ends {
+        let before: Vec<usize> = stuck.iter().copied().filter(|n| *n != end && full.get(*n, end)).collect();
+        stuck.retain(|n| *n != end && !before.contains(n));
+        found.push(alone(line, end, "E0403", format!("{} hands over to nothing", nodes[end].name), |d| {
+            let d = if before.is_empty() {
+                d
+            } else {
+                d.note(format!("no item from {} ever leaves the layout", names(line, &before)))
+            };
+            d.help("add a machine that takes from it, or remove it")
+        }));
+    }
+    for node in starved {
+        found.push(alone(line, node, "E0406", format!("no item gets to {}", nodes[node].name), |d| {
+            d.note("it takes only from machines that no item gets to").help("connect one of them to a source")
+        }));
+    }
+    for node in stuck {
+        let message = format!("no item from {} ever leaves the layout", nodes[node].name);
+        found.push(alone(line, node, "E0407", message, |d| {
+            d.note("it hands over only to machines from which none leaves")
+                .help("connect one of them to a destination")
+        }));
+    }
+    found
+}
+
+fn alone(
+    line: &Line,
+    node: usize,
+    code: &'static str,
+    message: String,
+    finish: impl FnOnce(Diagnostic) -> Diagnostic,
+) -> Diagnostic {
+    finish(Diagnostic::new(code, line.nodes[node].span, message))
+}
+
+fn describe(miss: &Miss) -> String {
+    let stage = match miss.stage {
+        Stage::Contact => "at contact",
+        Stage::Approach => "at approach",
+    };
+    format!("{}, {} {stage}: {} out of reach", miss.place, miss.kind, millimetres(miss.missing_mm))
+}
+
+/// Rounded up, so that nothing misses by 0 mm.
+fn millimetres(mm: f64) -> String {
+    format!("{} mm", mm.ceil())
+}
+
+fn names(line: &Line, nodes: &[usize]) -> String {
+    nodes.iter().map(|n| line.nodes[*n].name.as_str()).collect::<Vec<_>>().join(", ")
+}
