@@ -4,9 +4,22 @@
 //! controllers it is linked with: the two meet in [`scan::Controllers`].
 //! SI units, world frame (z up), unless a name says otherwise.
 
+pub mod account;
 pub mod device;
+pub mod event;
 pub mod geometry;
+mod hash;
+pub mod item;
+mod json;
 pub mod kinematics;
+pub mod line;
 pub mod motion;
+pub mod plant;
 pub mod point;
 pub mod scan;
+mod random;
+pub mod report;
+pub mod run;
+mod shortage;
+mod system;
+pub mod words;

@@ -1,0 +1,128 @@
+//! Items, and the one carrier that each of them has at every moment.
+
+use crate::event::{Event, OrderChange};
+use crate::line::Line;
+use crate::point::Point;
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct Item {
+    pub kind: usize,
+    pub carrier: Carrier,
+}
+
+/// What bears an item. `machine` is an index into the line's machines.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Carrier {
+    /// Not on the line yet.
+    Supply,
+    /// `at` is where along the belt it would lie if the belt had not moved since the start of the run,
+    /// `across` its distance from the belt's middle line.
+    Belt {
+        machine: usize,
+        at: f64,
+        across: f64,
+    },
+    /// `hang` leads from the tool to the item's underside.
+    Gripper {
+        machine: usize,
+        hang: Point,
+    },
+    /// `offset` from the vehicle's position.
+    Tray {
+        machine: usize,
+        offset: Point,
+    },
+    /// `offset` from the station's pose.
+    Briefcase {
+        machine: usize,
+        offset: Point,
+    },
+    /// `offset` from the bin's pose.
+    Bin {
+        machine: usize,
+        offset: Point,
+    },
+    Floor {
+        point: Point,
+    },
+    /// It left a belt at its lower end.
+    Collector,
+    /// Taken away in the briefcase of an order.
+    Shipped {
+        order: usize,
+    },
+}
+
+impl Carrier {
+    pub fn machine(&self) -> Option<usize> {
+        match *self {
+            Carrier::Belt { machine, .. }
+            | Carrier::Gripper { machine, .. }
+            | Carrier::Tray { machine, .. }
+            | Carrier::Briefcase { machine, .. }
+            | Carrier::Bin { machine, .. } => Some(machine),
+            Carrier::Supply | Carrier::Floor { .. } | Carrier::Collector | Carrier::Shipped { .. } => None,
+        }
+    }
+
+    /// Nothing takes an item from there.
+    pub fn is_final(&self) -> bool {
+        matches!(self, Carrier::Collector | Carrier::Shipped { .. })
+    }
+}
+
+/// All items of a run, with the log of what became of them.
+#[derive(Clone, Debug)]
+pub struct Items {
+    list: Vec<Item>,
+    /// Items that each machine bears, in the order in which they came.
+    borne: Vec<Vec<usize>>,
+    log: Vec<Event>,
+    pub(crate) scan: u64,
+}
+
+impl Items {
+    /// The items of the line's supply, none of them on the line yet.
+    pub fn new(line: &Line) -> Self {
+        let kinds = line.scenario.supply.iter().flat_map(|supply| supply.items.iter());
+        Self {
+            list: kinds.map(|&kind| Item { kind, carrier: Carrier::Supply }).collect(),
+            borne: vec![Vec::new(); line.machines.len()],
+            log: Vec::new(),
+            scan: 0,
+        }
+    }
+
+    pub fn all(&self) -> &[Item] {
+        &self.list
+    }
+
+    pub fn borne_by(&self, machine: usize) -> &[usize] {
+        &self.borne[machine]
+    }
+
+    /// Number of machines that could bear items.
+    pub fn machines(&self) -> usize {
+        self.borne.len()
+    }
+
+    pub fn log(&self) -> &[Event] {
+        &self.log
+    }
+
+    /// Hands an item over to another carrier, at `point`.
+    pub(crate) fn pass(&mut self, item: usize, to: Carrier, point: Point) {
+        let from = std::mem::replace(&mut self.list[item].carrier, to);
+        if let Some(machine) = from.machine() {
+            self.borne[machine].retain(|&other| other != item);
+        }
+        if let Some(machine) = to.machine() {
+            self.borne[machine].push(item);
+        }
+        self.log.push(Event::Item { scan: self.scan, item, from, to, point });
+    }
+
+    pub(crate) fn note_order(&mut self, order: usize, change: OrderChange) {
+        self.log.push(Event::Order { scan: self.scan, order, change });
+    }
+}

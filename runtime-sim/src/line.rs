@@ -1,0 +1,138 @@
+//! What a run needs to know of a factory line, as plain data.
+
+mod check;
+mod text;
+
+use crate::geometry::Geometry;
+
+/// A factory line, its machines in the order of the layout, and what is to happen on it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Line {
+    /// Period of a scan.
+    pub scan_ms: u32,
+    pub kinds: Vec<Kind>,
+    pub machines: Vec<Machine>,
+    pub scenario: Scenario,
+    pub io_delay: IoDelay,
+}
+
+/// A kind of part.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Kind {
+    pub name: String,
+    /// Of its top over what it lies on, where the tool grips it, in metres.
+    pub height: f64,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct Machine {
+    pub name: String,
+    pub geometry: Geometry,
+    /// States of its automaton; empty if it has none.
+    pub states: Vec<State>,
+}
+
+/// What reports say of a machine in this state while it has no command under way.
+#[derive(Clone, Debug, PartialEq)]
+pub struct State {
+    pub name: String,
+    /// A timer or a port of its own is awaited.
+    pub working: bool,
+    /// The machines whose cells the guards read.
+    pub awaits: Vec<usize>,
+}
+
+/// What is asked of the line, what its belts bring, and what goes wrong.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scenario {
+    pub orders: Vec<Order>,
+    pub supply: Vec<Supply>,
+    /// Seconds of a belt at full speed between two parts.
+    pub spawn_every_s: f64,
+    pub time_limit_s: f64,
+    /// A run in which nothing at all changes for so long ends as a deadlock.
+    pub stall_limit_s: f64,
+    /// The scan with the first rising edge of `start`.
+    pub start_scan: u64,
+    pub slips: Vec<Slip>,
+    pub refusals: Vec<Refusal>,
+    pub pauses: Vec<Pause>,
+}
+
+/// Orders of one station open one after another, in the order of [`Scenario::orders`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Order {
+    pub station: usize,
+    /// Number of parts of each kind.
+    pub parts: Vec<u32>,
+}
+
+/// The kinds of the parts that appear on a belt, first one first.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Supply {
+    pub belt: usize,
+    pub items: Vec<usize>,
+}
+
+/// A gripper loses what it holds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Slip {
+    pub machine: usize,
+    /// The how manieth part that this gripper has attached, from 1.
+    pub pick: u32,
+    /// Counted from the moment it was attached.
+    pub after_s: f64,
+}
+
+/// A device answers a command with [`crate::device::error::REFUSED`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Refusal {
+    pub machine: usize,
+    /// The how manieth command that this device has accepted, from 1.
+    pub command: u32,
+}
+
+/// `run_permit` is taken away; when it is back, an edge of `start` is given.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pause {
+    pub at_scan: u64,
+    pub scans: u64,
+}
+
+/// How many scans late the inputs of a machine reach its controller. They travel in one telegram.
+#[derive(Clone, Debug, PartialEq)]
+pub enum IoDelay {
+    Fixed(u32),
+    /// From 0 to `max`, drawn anew for each machine and scan; no telegram overtakes another.
+    Random {
+        max: u32,
+        seed: u64,
+    },
+}
+
+impl Default for Scenario {
+    fn default() -> Self {
+        Self {
+            orders: Vec::new(),
+            supply: Vec::new(),
+            // Belt population of the qualifier trials: a part every 2 s at 0.2 m/s.
+            spawn_every_s: 2.0,
+            // Time limit of the same trials.
+            time_limit_s: 500.0,
+            stall_limit_s: 120.0,
+            start_scan: 2,
+            slips: Vec::new(),
+            refusals: Vec::new(),
+            pauses: Vec::new(),
+        }
+    }
+}
+
+impl IoDelay {
+    pub fn max(&self) -> u32 {
+        match *self {
+            IoDelay::Fixed(scans) => scans,
+            IoDelay::Random { max, .. } => max,
+        }
+    }
+}

@@ -1,0 +1,123 @@
+//! Whether a line can be run at all.
+
+use super::{Line, Machine};
+use crate::geometry::Geometry;
+use crate::point::Point;
+
+/// Scans that a telegram may be late.
+const LONGEST_DELAY: u32 = 1000;
+/// Seconds: about a year.
+const LONGEST_TIME: f64 = 3.2e7;
+
+impl Line {
+    /// The first thing that makes this line impossible to run: an index without a machine,
+    /// a number that is not finite, a name that is no single word.
+    pub fn check(&self) -> Result<(), String> {
+        if !(1..=1000).contains(&self.scan_ms) {
+            return Err(format!("a scan of {} ms is not between 1 and 1000 ms", self.scan_ms));
+        }
+        if self.io_delay.max() > LONGEST_DELAY {
+            return Err(format!("answers more than {LONGEST_DELAY} scans late"));
+        }
+        for kind in &self.kinds {
+            check_name("kind", &kind.name)?;
+            if !(kind.height > 0.0 && kind.height.is_finite()) {
+                return Err(format!("the height of {} is no positive number", kind.name));
+            }
+        }
+        for machine in &self.machines {
+            check_name("machine", &machine.name)?;
+            check_geometry(machine)?;
+            for state in &machine.states {
+                check_name("state", &state.name)?;
+                for &owner in &state.awaits {
+                    self.machine(owner, "a state")?;
+                }
+            }
+        }
+        self.check_scenario()
+    }
+
+    fn check_scenario(&self) -> Result<(), String> {
+        let scenario = &self.scenario;
+        for (name, seconds) in [
+            ("spawn_every_s", scenario.spawn_every_s),
+            ("time_limit_s", scenario.time_limit_s),
+            ("stall_limit_s", scenario.stall_limit_s),
+        ] {
+            // Below a millisecond it would round to no time at all.
+            if !(0.001..=LONGEST_TIME).contains(&seconds) {
+                return Err(format!("{name} {seconds:?} is not between 0.001 and {LONGEST_TIME:?}"));
+            }
+        }
+        if scenario.start_scan == 0 {
+            return Err("a rising edge of `start` in scan 0 has nothing before it".into());
+        }
+        for order in &scenario.orders {
+            let station = self.machine(order.station, "an order")?;
+            if !matches!(station.geometry, Geometry::Station { .. }) {
+                return Err(format!("an order at {}, which is no station", station.name));
+            }
+            if order.parts.len() != self.kinds.len() {
+                return Err(format!("an order at {} without a number for each kind", station.name));
+            }
+        }
+        for (i, supply) in scenario.supply.iter().enumerate() {
+            let belt = self.machine(supply.belt, "the supply")?;
+            if !matches!(belt.geometry, Geometry::Belt { .. }) {
+                return Err(format!("a supply of {}, which is no belt", belt.name));
+            }
+            if scenario.supply[..i].iter().any(|other| other.belt == supply.belt) {
+                return Err(format!("two supplies of {}", belt.name));
+            }
+            if let Some(kind) = supply.items.iter().find(|&&kind| kind >= self.kinds.len()) {
+                return Err(format!("the supply of {} names kind {kind}, which is not there", belt.name));
+            }
+        }
+        for slip in &scenario.slips {
+            let arm = self.machine(slip.machine, "a slip")?;
+            if !matches!(arm.geometry, Geometry::RailArm { .. } | Geometry::Gantry { .. }) {
+                return Err(format!("a slip of {}, which has no gripper", arm.name));
+            }
+            if !(0.0..=LONGEST_TIME).contains(&slip.after_s) {
+                return Err(format!("a slip of {} after {:?} s", arm.name, slip.after_s));
+            }
+        }
+        for refusal in &scenario.refusals {
+            self.machine(refusal.machine, "a refusal")?;
+        }
+        Ok(())
+    }
+
+    fn machine(&self, index: usize, whose: &str) -> Result<&Machine, String> {
+        self.machines.get(index).ok_or_else(|| format!("{whose} names machine {index}, which is not there"))
+    }
+}
+
+fn check_name(what: &str, name: &str) -> Result<(), String> {
+    if name.is_empty() || name.contains(char::is_whitespace) {
+        return Err(format!("the name of the {what} `{name}` is not one word"));
+    }
+    Ok(())
+}
+
+fn check_geometry(machine: &Machine) -> Result<(), String> {
+    let points = |list: &[Point]| list.iter().all(|p| [p.x, p.y, p.z].iter().all(|c| c.abs() <= 1e6));
+    let range = |[low, high]: [f64; 2]| low.abs() <= 1e6 && high.abs() <= 1e6 && low <= high;
+    let sound = points(&[machine.geometry.pose()])
+        && points(&machine.geometry.stops())
+        && match machine.geometry {
+            Geometry::Belt { orient_range, .. } => range(orient_range),
+            Geometry::RailArm { rail_range, .. } => range(rail_range),
+            Geometry::Gantry { x_rail_range, y_rail_range, .. } => range(x_rail_range) && range(y_rail_range),
+            Geometry::Vehicle { .. } | Geometry::Station { .. } | Geometry::Bin { .. } => true,
+        };
+    if sound {
+        Ok(())
+    } else {
+        Err(format!(
+            "a coordinate of {} is no number within 1000 km, or a range is in the wrong order",
+            machine.name
+        ))
+    }
+}

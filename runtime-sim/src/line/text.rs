@@ -1,0 +1,218 @@
+//! The text form of a line: words between white space, an entry on each line.
+
+use std::fmt::Write;
+
+use super::{IoDelay, Kind, Line, Machine, Order, Pause, Refusal, Scenario, Slip, State, Supply};
+use crate::geometry::Geometry;
+use crate::point::{Axis, Point};
+use crate::words::Words;
+
+impl Line {
+    /// The text that [`Line::from_text`] reads back to the same bits.
+    pub fn to_text(&self) -> String {
+        let mut out = String::new();
+        let mut put = |entry: String| {
+            out.push_str(entry.trim_end());
+            out.push('\n');
+        };
+        put("line 1".into());
+        put(format!("scan_ms {}", self.scan_ms));
+        put(match self.io_delay {
+            IoDelay::Fixed(scans) => format!("io_delay fixed {scans}"),
+            IoDelay::Random { max, seed } => format!("io_delay random {max} {seed}"),
+        });
+        put(format!("kinds {}", self.kinds.len()));
+        for kind in &self.kinds {
+            put(format!("  {} {:?}", kind.name, kind.height));
+        }
+        put(format!("machines {}", self.machines.len()));
+        for machine in &self.machines {
+            put(format!("  {} {}", machine.name, geometry_text(&machine.geometry)));
+            put(format!("    states {}", machine.states.len()));
+            for state in &machine.states {
+                let activity = if state.working { "working" } else { "waiting" };
+                put(format!("      {} {activity} {}", state.name, list(&state.awaits)));
+            }
+        }
+        let scenario = &self.scenario;
+        put(format!("spawn_every_s {:?}", scenario.spawn_every_s));
+        put(format!("time_limit_s {:?}", scenario.time_limit_s));
+        put(format!("stall_limit_s {:?}", scenario.stall_limit_s));
+        put(format!("start_scan {}", scenario.start_scan));
+        put(format!("orders {}", scenario.orders.len()));
+        for order in &scenario.orders {
+            put(format!("  {} {}", order.station, list(&order.parts)));
+        }
+        put(format!("supply {}", scenario.supply.len()));
+        for supply in &scenario.supply {
+            put(format!("  {} {}", supply.belt, list(&supply.items)));
+        }
+        put(format!("slips {}", scenario.slips.len()));
+        for slip in &scenario.slips {
+            put(format!("  {} {} {:?}", slip.machine, slip.pick, slip.after_s));
+        }
+        put(format!("refusals {}", scenario.refusals.len()));
+        for refusal in &scenario.refusals {
+            put(format!("  {} {}", refusal.machine, refusal.command));
+        }
+        put(format!("pauses {}", scenario.pauses.len()));
+        for pause in &scenario.pauses {
+            put(format!("  {} {}", pause.at_scan, pause.scans));
+        }
+        put("end".into());
+        out
+    }
+
+    /// Reads the text form and checks what it says, see [`Line::check`].
+    pub fn from_text(text: &str) -> Result<Line, String> {
+        let mut words = Words::new(text);
+        let line = Line::read(&mut words)?;
+        if !words.is_empty() {
+            let word = words.name()?;
+            return Err(words.error(format_args!("`{word}` after the end of the line's text")));
+        }
+        line.check()?;
+        Ok(line)
+    }
+
+    /// Reads the text form, and leaves what follows it.
+    pub fn read(words: &mut Words) -> Result<Line, String> {
+        words.expect("line")?;
+        words.expect("1")?;
+        words.expect("scan_ms")?;
+        let scan_ms = words.int()?;
+        words.expect("io_delay")?;
+        let io_delay = match words.name()? {
+            "fixed" => IoDelay::Fixed(words.int()?),
+            "random" => IoDelay::Random { max: words.int()?, seed: words.int()? },
+            other => return Err(words.error(format_args!("`{other}` is no delay"))),
+        };
+        words.expect("kinds")?;
+        let kinds = words.list(|w| Ok(Kind { name: w.name()?.into(), height: w.real()? }))?;
+        words.expect("machines")?;
+        let machines = words.list(read_machine)?;
+        let scenario = read_scenario(words)?;
+        words.expect("end")?;
+        Ok(Line { scan_ms, kinds, machines, scenario, io_delay })
+    }
+}
+
+fn list<T: std::fmt::Display>(values: &[T]) -> String {
+    let mut text = values.len().to_string();
+    for value in values {
+        let _ = write!(text, " {value}");
+    }
+    text
+}
+
+fn geometry_text(geometry: &Geometry) -> String {
+    let device = geometry.device();
+    let pose = point_text(geometry.pose());
+    match geometry {
+        Geometry::Belt { orient, orient_range: [low, high], .. } => {
+            format!("{device} {pose} {} {low:?} {high:?}", axis_text(*orient))
+        }
+        Geometry::Vehicle { destinations: [near, far], .. } => {
+            format!("{device} {pose} {} {}", point_text(*near), point_text(*far))
+        }
+        Geometry::RailArm { rail_dim, rail_range: [low, high], .. } => {
+            format!("{device} {pose} {} {low:?} {high:?}", axis_text(*rail_dim))
+        }
+        Geometry::Gantry { x_rail_range: [x0, x1], y_rail_range: [y0, y1], .. } => {
+            format!("{device} {pose} {x0:?} {x1:?} {y0:?} {y1:?}")
+        }
+        Geometry::Station { .. } | Geometry::Bin { .. } => format!("{device} {pose}"),
+    }
+}
+
+fn point_text(point: Point) -> String {
+    format!("{:?} {:?} {:?}", point.x, point.y, point.z)
+}
+
+fn axis_text(axis: Axis) -> &'static str {
+    match axis {
+        Axis::X => "x",
+        Axis::Y => "y",
+    }
+}
+
+fn read_machine(words: &mut Words) -> Result<Machine, String> {
+    let name = words.name()?.into();
+    let geometry = read_geometry(words)?;
+    words.expect("states")?;
+    let states = words.list(|w| {
+        let name = w.name()?.into();
+        let working = match w.name()? {
+            "working" => true,
+            "waiting" => false,
+            other => return Err(w.error(format_args!("`{other}` is neither `working` nor `waiting`"))),
+        };
+        Ok(State { name, working, awaits: w.list(|w| w.int())? })
+    })?;
+    Ok(Machine { name, geometry, states })
+}
+
+fn read_geometry(words: &mut Words) -> Result<Geometry, String> {
+    let device = words.name()?;
+    let unknown = words.error(format_args!("`{device}` is no device"));
+    let pose = read_point(words)?;
+    Ok(match device {
+        "belt" => Geometry::Belt { pose, orient: read_axis(words)?, orient_range: read_range(words)? },
+        "vehicle" => Geometry::Vehicle { pose, destinations: [read_point(words)?, read_point(words)?] },
+        "rail_arm" => Geometry::RailArm { pose, rail_dim: read_axis(words)?, rail_range: read_range(words)? },
+        "gantry" => {
+            Geometry::Gantry { pose, x_rail_range: read_range(words)?, y_rail_range: read_range(words)? }
+        }
+        "station" => Geometry::Station { pose },
+        "bin" => Geometry::Bin { pose },
+        _ => return Err(unknown),
+    })
+}
+
+fn read_point(words: &mut Words) -> Result<Point, String> {
+    Ok(Point::new(words.real()?, words.real()?, words.real()?))
+}
+
+fn read_range(words: &mut Words) -> Result<[f64; 2], String> {
+    Ok([words.real()?, words.real()?])
+}
+
+fn read_axis(words: &mut Words) -> Result<Axis, String> {
+    match words.name()? {
+        "x" => Ok(Axis::X),
+        "y" => Ok(Axis::Y),
+        other => Err(words.error(format_args!("`{other}` is no axis"))),
+    }
+}
+
+fn read_scenario(words: &mut Words) -> Result<Scenario, String> {
+    words.expect("spawn_every_s")?;
+    let spawn_every_s = words.real()?;
+    words.expect("time_limit_s")?;
+    let time_limit_s = words.real()?;
+    words.expect("stall_limit_s")?;
+    let stall_limit_s = words.real()?;
+    words.expect("start_scan")?;
+    let start_scan = words.int()?;
+    words.expect("orders")?;
+    let orders = words.list(|w| Ok(Order { station: w.int()?, parts: w.list(|w| w.int())? }))?;
+    words.expect("supply")?;
+    let supply = words.list(|w| Ok(Supply { belt: w.int()?, items: w.list(|w| w.int())? }))?;
+    words.expect("slips")?;
+    let slips = words.list(|w| Ok(Slip { machine: w.int()?, pick: w.int()?, after_s: w.real()? }))?;
+    words.expect("refusals")?;
+    let refusals = words.list(|w| Ok(Refusal { machine: w.int()?, command: w.int()? }))?;
+    words.expect("pauses")?;
+    let pauses = words.list(|w| Ok(Pause { at_scan: w.int()?, scans: w.int()? }))?;
+    Ok(Scenario {
+        orders,
+        supply,
+        spawn_every_s,
+        time_limit_s,
+        stall_limit_s,
+        start_scan,
+        slips,
+        refusals,
+        pauses,
+    })
+}

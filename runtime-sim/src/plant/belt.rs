@@ -1,0 +1,168 @@
+//! A conveyor belt with the camera over its pick zone.
+
+use super::command::{Asked, Command, is_held};
+use super::image::{in_belt, put_bit, put_point};
+use crate::device::error;
+use crate::geometry::{BELT_SURFACE, END_INSET, PICK_ZONE_HALF, SPAWN_INSET};
+use crate::item::{Carrier, Items};
+use crate::point::{Axis, Point};
+
+/// Full speed in m/s (competition specification of the conveyor). Its changes are steps, as the
+/// simulator of the competition sets the joint's velocity directly.
+pub const SPEED: f64 = 0.2;
+/// Width of the moving surface (collision box of the belt model).
+const WIDTH: f64 = 0.42;
+/// Half of the longest part's length (battery: 0.135 m, and some slack).
+const PART_HALF: f64 = 0.07;
+
+#[derive(Clone, Debug)]
+pub struct Belt {
+    pub command: Command,
+    pose: Point,
+    orient: Axis,
+    range: [f64; 2],
+    drive: Drive,
+    held: bool,
+    /// Milliseconds at full speed since the start of the run.
+    travel_ms: u64,
+    spawn_ms: u64,
+    /// Items that are still to appear, last one first.
+    supply: Vec<usize>,
+    spawned: u64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Drive {
+    FullSpeed,
+    Rest,
+}
+
+impl Belt {
+    pub fn new(
+        command: Command,
+        pose: Point,
+        orient: Axis,
+        range: [f64; 2],
+        spawn_ms: u64,
+        mut supply: Vec<usize>,
+    ) -> Self {
+        supply.reverse();
+        Self {
+            command,
+            pose,
+            orient,
+            range,
+            drive: Drive::Rest,
+            held: false,
+            travel_ms: 0,
+            spawn_ms,
+            supply,
+            spawned: 0,
+        }
+    }
+
+    pub fn obey(&mut self, outputs: &[f64]) {
+        match self.command.accept(outputs) {
+            Asked::Start(1) => self.drive = Drive::FullSpeed,
+            Asked::Start(2) => self.drive = Drive::Rest,
+            Asked::Start(_) => self.command.end(error::REFUSED),
+            Asked::Nothing | Asked::Refused => {}
+        }
+        self.held = is_held(outputs);
+    }
+
+    pub fn advance(&mut self, machine: usize, dt_ms: u64, items: &mut Items) {
+        if self.held {
+            return;
+        }
+        if self.command.is_under_way() {
+            self.command.end(error::NONE);
+        }
+        if self.drive == Drive::Rest {
+            return;
+        }
+        self.travel_ms += dt_ms;
+        while self.spawned.saturating_add(1).saturating_mul(self.spawn_ms) <= self.travel_ms {
+            let Some(item) = self.supply.pop() else { break };
+            self.spawned += 1;
+            let at = self.range[1] - SPAWN_INSET + distance(self.spawned * self.spawn_ms);
+            items.pass(item, Carrier::Belt { machine, at, across: 0.0 }, self.place(at, 0.0));
+        }
+        let end = self.range[0] + END_INSET + self.travel();
+        let mut next = 0;
+        while let Some(&item) = items.borne_by(machine).get(next) {
+            match items.all()[item].carrier {
+                Carrier::Belt { at, across, .. } if at <= end => {
+                    items.pass(item, Carrier::Collector, self.place(at, across));
+                }
+                _ => next += 1,
+            }
+        }
+    }
+
+    /// Metres that the belt has moved since the start of the run.
+    pub fn travel(&self) -> f64 {
+        distance(self.travel_ms)
+    }
+
+    pub fn is_moving(&self) -> bool {
+        self.drive == Drive::FullSpeed && !self.held
+    }
+
+    /// Parts are still to appear on it.
+    pub fn has_supply(&self) -> bool {
+        !self.supply.is_empty()
+    }
+
+    /// Where an item rests that has these belt coordinates, see [`Carrier::Belt`].
+    pub fn place(&self, at: f64, across: f64) -> Point {
+        let along = at - self.travel();
+        let surface = self.pose.up(BELT_SURFACE);
+        match self.orient {
+            Axis::X => Point::new(along, surface.y + across, surface.z),
+            Axis::Y => Point::new(surface.x + across, along, surface.z),
+        }
+    }
+
+    /// What becomes of an item that comes down at this place, if it meets the belt.
+    pub fn below(&self, machine: usize, point: Point) -> Option<(f64, Carrier)> {
+        let (along, across) = match self.orient {
+            Axis::X => (point.x, point.y - self.pose.y),
+            Axis::Y => (point.y, point.x - self.pose.x),
+        };
+        let meets = (self.range[0]..=self.range[1]).contains(&along) && across.abs() <= WIDTH / 2.0;
+        let carrier = Carrier::Belt { machine, at: along + self.travel(), across };
+        meets.then_some((self.pose.z + BELT_SURFACE, carrier))
+    }
+
+    pub fn write(&self, image: &mut [f64], kinds: usize, machine: usize, items: &Items) {
+        self.command.write(image);
+        put_bit(image, in_belt::MOVING, self.is_moving());
+        image[in_belt::SEES..].fill(0.0);
+        let middle = self.pose.coordinate(self.orient);
+        for &item in items.borne_by(machine) {
+            let item = &items.all()[item];
+            let Carrier::Belt { at, across, .. } = item.carrier else { continue };
+            let along = at - self.travel();
+            if (along - middle).abs() > PICK_ZONE_HALF - PART_HALF {
+                continue;
+            }
+            let place = self.place(at, across);
+            let seen_at = in_belt::SEES + kinds + 3 * item.kind;
+            let sees = in_belt::SEES + item.kind;
+            let other = match self.orient {
+                Axis::X => image[seen_at],
+                Axis::Y => image[seen_at + 1],
+            };
+            if image[sees] == 0.0 || along < other {
+                image[sees] = 1.0;
+                put_point(image, seen_at, place);
+            }
+        }
+    }
+}
+
+/// Metres in so many milliseconds at full speed.
+fn distance(ms: u64) -> f64 {
+    SPEED * ms as f64 / 1000.0
+}

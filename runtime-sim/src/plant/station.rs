@@ -1,0 +1,133 @@
+//! An assembly station: a briefcase, and the terminal of the order system.
+
+use super::image::{in_station, out_station, put_bit};
+use crate::event::OrderChange;
+use crate::geometry::BRIEFCASE;
+use crate::item::{Carrier, Items};
+use crate::line::Order;
+use crate::point::Point;
+
+/// The briefcase seen from above (mesh of the competition's briefcase).
+const SIZE: [f64; 2] = [0.621, 0.761];
+
+#[derive(Clone, Debug)]
+pub struct Station {
+    pose: Point,
+    table: Table,
+    complete: bool,
+    /// Orders that are still to open here, last one first.
+    queue: Vec<usize>,
+}
+
+/// Four phases with the controller: order open, complete, order gone, not complete.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Table {
+    /// `refused`: `complete` is set and the parts are not those of the order.
+    Open {
+        order: usize,
+        refused: bool,
+    },
+    /// The briefcase is gone, `complete` is still set.
+    Gone,
+    /// The next order opens with the next scan.
+    Opening,
+    Bare,
+}
+
+impl Station {
+    pub fn new(pose: Point, mut queue: Vec<usize>) -> Self {
+        queue.reverse();
+        Self { pose, table: Table::Bare, complete: false, queue }
+    }
+
+    pub fn obey(&mut self, outputs: &[f64]) {
+        self.complete = outputs[out_station::COMPLETE] != 0.0;
+    }
+
+    /// Opens the next order, if there is one.
+    pub fn open(&mut self, items: &mut Items) {
+        self.table = match self.queue.pop() {
+            Some(order) => {
+                items.note_order(order, OrderChange::Opened);
+                Table::Open { order, refused: false }
+            }
+            None => Table::Bare,
+        };
+    }
+
+    pub fn advance(&mut self, machine: usize, orders: &[Order], items: &mut Items) {
+        match self.table {
+            Table::Open { order, refused } => {
+                if !self.complete {
+                    self.table = Table::Open { order, refused: false };
+                } else if is_made(&orders[order], items, machine) {
+                    while let Some(&item) = items.borne_by(machine).first() {
+                        let place = self.place(items.all()[item].carrier);
+                        items.pass(item, Carrier::Shipped { order }, place);
+                    }
+                    items.note_order(order, OrderChange::Made);
+                    self.table = Table::Gone;
+                } else if !refused {
+                    items.note_order(order, OrderChange::Refused);
+                    self.table = Table::Open { order, refused: true };
+                }
+            }
+            Table::Gone if !self.complete => {
+                self.table = if self.queue.is_empty() { Table::Bare } else { Table::Opening };
+            }
+            Table::Opening => self.open(items),
+            Table::Gone | Table::Bare => {}
+        }
+    }
+
+    /// An order is about to open.
+    pub fn is_busy(&self) -> bool {
+        self.table == Table::Opening
+    }
+
+    pub fn open_order(&self) -> Option<usize> {
+        match self.table {
+            Table::Open { order, .. } => Some(order),
+            Table::Gone | Table::Opening | Table::Bare => None,
+        }
+    }
+
+    pub fn pose(&self) -> Point {
+        self.pose
+    }
+
+    fn place(&self, carrier: Carrier) -> Point {
+        match carrier {
+            Carrier::Briefcase { offset, .. } => self.pose + offset,
+            _ => self.pose,
+        }
+    }
+
+    /// What becomes of an item that comes down at this place, if it meets a briefcase.
+    pub fn below(&self, machine: usize, point: Point) -> Option<(f64, Carrier)> {
+        self.open_order()?;
+        let from_middle = point - (self.pose + BRIEFCASE);
+        let meets = from_middle.x.abs() <= SIZE[0] / 2.0 && from_middle.y.abs() <= SIZE[1] / 2.0;
+        let offset = Point { z: BRIEFCASE.z, ..point - self.pose };
+        meets.then_some((self.pose.z + BRIEFCASE.z, Carrier::Briefcase { machine, offset }))
+    }
+
+    pub fn write(&self, image: &mut [f64], orders: &[Order]) {
+        image.fill(0.0);
+        let Some(order) = self.open_order() else { return };
+        put_bit(image, in_station::ORDER_OPEN, true);
+        let parts = &orders[order].parts;
+        for (word, &count) in image[in_station::ORDER_PARTS..].iter_mut().zip(parts) {
+            *word = f64::from(count);
+        }
+        image[in_station::ORDER_PARTS + parts.len()] = (order + 1) as f64;
+    }
+}
+
+/// Whether the briefcase holds the parts of the order and no others.
+fn is_made(order: &Order, items: &Items, machine: usize) -> bool {
+    let held = items.borne_by(machine);
+    order.parts.iter().enumerate().all(|(kind, &wanted)| {
+        held.iter().filter(|&&item| items.all()[item].kind == kind).count() == wanted as usize
+    })
+}

@@ -1,0 +1,192 @@
+//! What came of a run.
+
+use crate::account::Account;
+use crate::event::{Event, OrderChange};
+use crate::item::Carrier;
+use crate::json::Json;
+use crate::line::Line;
+use crate::plant::Plant;
+use crate::shortage::point_text;
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct Report {
+    /// All orders were made.
+    pub finished: bool,
+    /// Why the run ended, and what is missing if it did not finish.
+    pub reason: String,
+    pub scan_ms: u32,
+    pub scans: u64,
+    pub simulated_s: f64,
+    pub orders_done: usize,
+    /// Orders asked for.
+    pub orders: usize,
+    /// `None` if none was made.
+    pub seconds_per_order: Option<f64>,
+    pub order_times: Vec<OrderTimes>,
+    /// In layout order.
+    pub machines: Vec<MachineReport>,
+    pub items: Vec<ItemReport>,
+    /// Over what all scans left in the controllers and in their published outputs.
+    pub trace_hash: u64,
+    /// [`COLLISIONS`].
+    pub collisions: &'static str,
+}
+
+/// Machines pass through one another here.
+pub const COLLISIONS: &str = "not watched";
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct OrderTimes {
+    /// From 1.
+    pub number: usize,
+    pub station: String,
+    pub opened_s: Option<f64>,
+    pub made_s: Option<f64>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct MachineReport {
+    pub name: String,
+    /// In scans.
+    pub account: Account,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct ItemReport {
+    pub id: usize,
+    pub kind: String,
+    /// Such as `tray of agv1`.
+    pub carrier: String,
+    /// Where its underside is, or `-`.
+    pub place: String,
+}
+
+/// How a run ended, before it is written up.
+pub(crate) struct Outcome {
+    pub finished: bool,
+    pub reason: String,
+    pub scans: u64,
+    pub accounts: Vec<Account>,
+    pub trace_hash: u64,
+}
+
+impl Report {
+    pub(crate) fn new(line: &Line, plant: &Plant, outcome: Outcome) -> Self {
+        let seconds = |scans: u64| seconds(scans, line.scan_ms);
+        let mut order_times: Vec<OrderTimes> = line
+            .scenario
+            .orders
+            .iter()
+            .enumerate()
+            .map(|(i, order)| OrderTimes {
+                number: i + 1,
+                station: line.machines[order.station].name.clone(),
+                opened_s: None,
+                made_s: None,
+            })
+            .collect();
+        for event in plant.items().log() {
+            let Event::Order { scan, order, change } = *event else { continue };
+            match change {
+                OrderChange::Opened => order_times[order].opened_s = Some(seconds(scan)),
+                // It is made at the end of the scan.
+                OrderChange::Made => order_times[order].made_s = Some(seconds(scan + 1)),
+                OrderChange::Refused => {}
+            }
+        }
+        let orders_done = order_times.iter().filter(|times| times.made_s.is_some()).count();
+        let simulated_s = seconds(outcome.scans);
+        let items = plant.items().all().iter().enumerate().map(|(id, item)| ItemReport {
+            id,
+            kind: line.kinds[item.kind].name.clone(),
+            carrier: carrier_text(line, item.carrier),
+            place: plant.place(id).map_or_else(|| "-".into(), point_text),
+        });
+        Self {
+            finished: outcome.finished,
+            reason: outcome.reason,
+            scan_ms: line.scan_ms,
+            scans: outcome.scans,
+            simulated_s,
+            orders_done,
+            orders: line.scenario.orders.len(),
+            seconds_per_order: (orders_done > 0).then(|| simulated_s / orders_done as f64),
+            order_times,
+            machines: line
+                .machines
+                .iter()
+                .zip(outcome.accounts)
+                .map(|(machine, account)| MachineReport { name: machine.name.clone(), account })
+                .collect(),
+            items: items.collect(),
+            trace_hash: outcome.trace_hash,
+            collisions: COLLISIONS,
+        }
+    }
+
+    /// One JSON object; the hash as sixteen hexadecimal digits.
+    pub fn to_json(&self) -> String {
+        Json::object(|json| {
+            json.put_truth("finished", self.finished);
+            json.put_text("reason", &self.reason);
+            json.put_real("simulated_s", Some(self.simulated_s));
+            json.put_int("scans", self.scans);
+            json.put_int("orders_done", self.orders_done as u64);
+            json.put_int("orders", self.orders as u64);
+            json.put_real("seconds_per_order", self.seconds_per_order);
+            json.put_list("order_times", &self.order_times, |json, times| {
+                json.put_int("order", times.number as u64);
+                json.put_text("station", &times.station);
+                json.put_real("opened_s", times.opened_s);
+                json.put_real("made_s", times.made_s);
+            });
+            json.put_object("robots", |json| {
+                for machine in &self.machines {
+                    json.put_object(&machine.name, |json| self.put_machine(json, &machine.account));
+                }
+            });
+            json.put_list("items", &self.items, |json, item| {
+                json.put_int("id", item.id as u64);
+                json.put_text("kind", &item.kind);
+                json.put_text("place", &item.place);
+                json.put_text("carrier", &item.carrier);
+            });
+            json.put_text("trace_hash", &format!("{:016x}", self.trace_hash));
+            json.put_text("collisions", self.collisions);
+        })
+    }
+
+    fn put_machine(&self, json: &mut Json, account: &Account) {
+        let seconds = |scans: u64| Some(seconds(scans, self.scan_ms));
+        json.put_real("moving_s", seconds(account.moving));
+        json.put_real("working_s", seconds(account.working));
+        json.put_real("waiting_s", seconds(account.waiting));
+        json.put_real("stopped_s", seconds(account.stopped));
+        json.put_object("waiting_for", |json| {
+            for (owner, &scans) in self.machines.iter().zip(&account.waiting_for) {
+                if scans > 0 {
+                    json.put_real(&owner.name, seconds(scans));
+                }
+            }
+        });
+    }
+}
+
+pub(crate) fn seconds(scans: u64, scan_ms: u32) -> f64 {
+    (scans * u64::from(scan_ms)) as f64 / 1000.0
+}
+
+fn carrier_text(line: &Line, carrier: Carrier) -> String {
+    let name = |machine: usize| &line.machines[machine].name;
+    match carrier {
+        Carrier::Supply => "supply".into(),
+        Carrier::Belt { machine, .. } => name(machine).clone(),
+        Carrier::Gripper { machine, .. } => format!("gripper of {}", name(machine)),
+        Carrier::Tray { machine, .. } => format!("tray of {}", name(machine)),
+        Carrier::Briefcase { machine, .. } => format!("briefcase of {}", name(machine)),
+        Carrier::Bin { machine, .. } => name(machine).clone(),
+        Carrier::Floor { .. } => "floor".into(),
+        Carrier::Collector => "collector".into(),
+        Carrier::Shipped { order } => format!("order {}", order + 1),
+    }
+}

@@ -1,0 +1,82 @@
+//! What the open orders lack, and where the parts are that they will not get.
+
+use crate::item::Carrier;
+use crate::line::Line;
+use crate::plant::Plant;
+use crate::point::Point;
+
+/// For each open order what its briefcase lacks or has too much, then the parts that are lost.
+pub fn shortage(line: &Line, plant: &Plant) -> String {
+    let mut facts = Vec::new();
+    for (machine, station) in line.machines.iter().enumerate() {
+        let Some(order) = plant.open_order(machine) else { continue };
+        facts.push(format!(
+            "order {} at {} {}",
+            order + 1,
+            station.name,
+            state_of(line, plant, machine, order)
+        ));
+    }
+    for (index, item) in plant.items().all().iter().enumerate() {
+        if let Carrier::Floor { point } = item.carrier {
+            let kind = &line.kinds[item.kind].name;
+            facts.push(format!("{kind} (item {index}) lies on the floor at {}", point_text(point)));
+        }
+    }
+    for (kind, name) in line.kinds.iter().map(|kind| &kind.name).enumerate() {
+        let parts = |wanted: fn(&Carrier) -> bool| {
+            plant.items().all().iter().filter(|item| item.kind == kind && wanted(&item.carrier)).count()
+        };
+        let collected = parts(|carrier| matches!(carrier, Carrier::Collector));
+        if collected > 0 {
+            facts.push(format!("{collected} {name} in the collector"));
+        }
+    }
+    facts.join("; ")
+}
+
+fn state_of(line: &Line, plant: &Plant, machine: usize, order: usize) -> String {
+    let mut lacks = Vec::new();
+    let mut surplus = Vec::new();
+    for (kind, &wanted) in line.scenario.orders[order].parts.iter().enumerate() {
+        let name = &line.kinds[kind].name;
+        let items = plant.items().all();
+        let held = plant.items().borne_by(machine).iter().filter(|&&item| items[item].kind == kind).count();
+        let wanted = wanted as usize;
+        if held < wanted {
+            let to_come = items.iter().filter(|item| item.kind == kind && can_come(&item.carrier)).count();
+            let none_left = if to_come == 0 { " (none left)" } else { "" };
+            lacks.push(match wanted - held {
+                1 => format!("{name}{none_left}"),
+                missing => format!("{missing} {name}{none_left}"),
+            });
+        } else if held > wanted {
+            surplus.push(format!("{} {name}", held - wanted));
+        }
+    }
+    match (lacks.is_empty(), surplus.is_empty()) {
+        (true, true) => "has its parts and is not reported complete".into(),
+        (false, true) => format!("lacks {}", lacks.join(", ")),
+        (true, false) => format!("has {} too many", surplus.join(", ")),
+        (false, false) => format!("lacks {} and has {} too many", lacks.join(", "), surplus.join(", ")),
+    }
+}
+
+/// Whether an item may still come into a briefcase in which it is not.
+fn can_come(carrier: &Carrier) -> bool {
+    match carrier {
+        Carrier::Supply
+        | Carrier::Belt { .. }
+        | Carrier::Gripper { .. }
+        | Carrier::Tray { .. }
+        | Carrier::Bin { .. } => true,
+        Carrier::Briefcase { .. } | Carrier::Floor { .. } | Carrier::Collector | Carrier::Shipped { .. } => {
+            false
+        }
+    }
+}
+
+/// To the millimetre.
+pub fn point_text(point: Point) -> String {
+    format!("({:.3}, {:.3}, {:.3})", point.x, point.y, point.z)
+}

@@ -1,0 +1,69 @@
+//! The inputs of the system, as the scenario has them given.
+
+use crate::line::Scenario;
+use crate::scan::SystemInputs;
+
+/// Takes the permit away in the pauses, and gives an edge of `start` one scan after it has come back.
+pub struct Operator {
+    had_permit: bool,
+    owes_start: bool,
+}
+
+impl Operator {
+    pub fn new() -> Self {
+        Self { had_permit: true, owes_start: false }
+    }
+
+    pub fn inputs(&mut self, scan: u64, scenario: &Scenario) -> SystemInputs {
+        let run_permit = !scenario
+            .pauses
+            .iter()
+            .any(|pause| (pause.at_scan..pause.at_scan.saturating_add(pause.scans)).contains(&scan));
+        if scan == scenario.start_scan || (!run_permit && scan > scenario.start_scan) {
+            self.owes_start = true;
+        }
+        let start = self.owes_start && run_permit && self.had_permit;
+        if start {
+            self.owes_start = false;
+        }
+        self.had_permit = run_permit;
+        SystemInputs { run_permit, start, reset: false }
+    }
+
+    /// Something is still to come from here: a permit, or an edge of `start`.
+    pub fn is_busy(&self, scan: u64, scenario: &Scenario) -> bool {
+        !self.had_permit || self.owes_start || scan < scenario.start_scan
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::line::Pause;
+
+    fn given(pauses: Vec<Pause>) -> (Vec<u64>, Vec<u64>) {
+        let scenario = Scenario { pauses, ..Scenario::default() };
+        let mut operator = Operator::new();
+        let inputs: Vec<_> = (0..20).map(|scan| operator.inputs(scan, &scenario)).collect();
+        let scans = |pick: fn(&SystemInputs) -> bool| {
+            (0..20).filter(|&scan| pick(&inputs[scan as usize])).collect::<Vec<u64>>()
+        };
+        (scans(|i| i.start), scans(|i| !i.run_permit))
+    }
+
+    #[test]
+    fn one_edge_starts() {
+        assert_eq!(given(vec![]), (vec![2], vec![]));
+    }
+
+    #[test]
+    fn every_pause_is_followed_by_an_edge() {
+        let pauses = vec![Pause { at_scan: 5, scans: 3 }, Pause { at_scan: 12, scans: 1 }];
+        assert_eq!(given(pauses), (vec![2, 9, 14], vec![5, 6, 7, 12]));
+    }
+
+    #[test]
+    fn the_first_edge_waits_for_the_permit() {
+        assert_eq!(given(vec![Pause { at_scan: 0, scans: 4 }]), (vec![5], vec![0, 1, 2, 3]));
+    }
+}

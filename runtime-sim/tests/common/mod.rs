@@ -1,0 +1,340 @@
+//! A small line, and controllers that follow a written list of steps.
+#![allow(dead_code)] // each test file uses a part of it
+
+use runtime_sim::device::LAST_COMMAND;
+use runtime_sim::geometry::Geometry;
+use runtime_sim::line::{IoDelay, Kind, Line, Machine, Order, Scenario, State, Supply};
+use runtime_sim::plant::{self, Plant};
+use runtime_sim::point::{Axis, Point};
+use runtime_sim::scan::{Controllers, SystemInputs, SystemOutputs};
+
+pub const BELT: usize = 0;
+pub const KITTING: usize = 1;
+pub const AGV: usize = 2;
+pub const GANTRY: usize = 3;
+pub const STATION: usize = 4;
+pub const BIN: usize = 5;
+
+pub const BATTERY: usize = 0;
+pub const PUMP: usize = 1;
+
+pub const START: Point = Point::new(-2.265685, 1.367643, 0.0);
+pub const NEAR: Point = Point::new(-5.6, 1.367643, 0.0);
+pub const BATTERY_HEIGHT: f64 = 0.053;
+pub const PUMP_HEIGHT: f64 = 0.11;
+
+/// Belt, kitting robot, vehicle, gantry, station and bin of the default line; one order of a battery and a
+/// pump, which the belt brings in this order.
+pub fn line() -> Line {
+    let machine = |name: &str, geometry: Geometry| Machine { name: name.into(), geometry, states: vec![] };
+    Line {
+        scan_ms: 10,
+        kinds: vec![
+            Kind { name: "battery".into(), height: BATTERY_HEIGHT },
+            Kind { name: "pump".into(), height: PUMP_HEIGHT },
+        ],
+        machines: vec![
+            machine(
+                "belt",
+                Geometry::Belt {
+                    pose: Point::new(-0.573076, 0.0, 0.0),
+                    orient: Axis::Y,
+                    orient_range: [-5.0, 5.0],
+                },
+            ),
+            machine(
+                "kitting",
+                Geometry::RailArm {
+                    pose: Point::new(-1.3, 0.0, 1.127),
+                    rail_dim: Axis::Y,
+                    rail_range: [-4.8, 4.8],
+                },
+            ),
+            machine(
+                "agv",
+                Geometry::Vehicle {
+                    pose: START,
+                    destinations: [NEAR, Point::new(-10.590274, 1.367643, 0.0)],
+                },
+            ),
+            machine(
+                "gantry",
+                Geometry::Gantry {
+                    pose: Point::new(-4.0, 0.0, 2.0),
+                    x_rail_range: [-14.4, 0.4],
+                    y_rail_range: [-4.5, 4.5],
+                },
+            ),
+            machine("as1", Geometry::Station { pose: Point::new(-7.3, 3.0, 0.0) }),
+            machine("bin", Geometry::Bin { pose: Point::new(-1.899, 2.565, 0.0) }),
+        ],
+        scenario: Scenario {
+            orders: vec![Order { station: STATION, parts: vec![1, 1] }],
+            supply: vec![Supply { belt: BELT, items: vec![BATTERY, PUMP] }],
+            ..Scenario::default()
+        },
+        io_delay: IoDelay::Fixed(0),
+    }
+}
+
+/// Where the tool grips a part of this kind that rests at `place`.
+pub fn grip_point(place: Point, kind: usize) -> Point {
+    place.up([BATTERY_HEIGHT, PUMP_HEIGHT][kind])
+}
+
+pub mod input {
+    pub const GOT: usize = 1;
+    pub const ACK: usize = 2;
+    pub const ERROR: usize = 3;
+    pub const MOVING: usize = 4;
+    pub const SEES: usize = 5;
+    pub const SEEN_AT: usize = 7;
+    pub const POS: usize = 4;
+    pub const AT_STOP: usize = 7;
+    pub const ATTACHED: usize = 4;
+    pub const TOOL: usize = 5;
+    pub const ORDER_OPEN: usize = 0;
+}
+
+pub mod output {
+    pub const CMD: usize = 0;
+    pub const VERB: usize = 1;
+    pub const HOLD: usize = 2;
+    pub const GOAL: usize = 3;
+    pub const GRIP: usize = 6;
+    pub const COMPLETE: usize = 0;
+}
+
+pub const DRIVE: f64 = 1.0;
+pub const HALT: f64 = 2.0;
+pub const MOVE: f64 = 1.0;
+pub const PICK: f64 = 2.0;
+
+/// Gives a command its number, verb and goal.
+pub fn command(outputs: &mut [f64], verb: f64, goal: Option<Point>) {
+    let number = outputs[output::CMD];
+    outputs[output::CMD] = if number >= f64::from(LAST_COMMAND) { 1.0 } else { number + 1.0 };
+    outputs[output::VERB] = verb;
+    if let Some(goal) = goal {
+        outputs[output::GOAL..output::GOAL + 3].copy_from_slice(&[goal.x, goal.y, goal.z]);
+    }
+}
+
+pub fn point(image: &[f64], at: usize) -> Point {
+    Point::new(image[at], image[at + 1], image[at + 2])
+}
+
+/// The plant alone, driven by hand.
+pub struct Rig {
+    pub plant: Plant,
+    pub outputs: Vec<Vec<f64>>,
+}
+
+impl Rig {
+    pub fn new(line: &Line) -> Self {
+        Self { plant: Plant::new(line).unwrap(), outputs: plant::outputs(line) }
+    }
+
+    pub fn command(&mut self, machine: usize, verb: f64, goal: Option<Point>) {
+        command(&mut self.outputs[machine], verb, goal);
+    }
+
+    pub fn step(&mut self, scans: usize) {
+        for _ in 0..scans {
+            self.plant.advance(&self.outputs);
+        }
+    }
+
+    pub fn image(&self, machine: usize) -> &[f64] {
+        &self.plant.images()[machine]
+    }
+
+    pub fn is_ended(&self, machine: usize) -> bool {
+        self.image(machine)[input::ACK] == self.outputs[machine][output::CMD]
+    }
+
+    /// Scans until the last command has ended.
+    pub fn finish(&mut self, machine: usize) -> usize {
+        for scans in 0..100_000 {
+            if self.is_ended(machine) {
+                return scans;
+            }
+            self.step(1);
+        }
+        panic!("command of machine {machine} does not end");
+    }
+
+    pub fn go(&mut self, machine: usize, verb: f64, goal: Point) -> f64 {
+        self.command(machine, verb, Some(goal));
+        self.finish(machine);
+        self.image(machine)[input::ERROR]
+    }
+
+    /// Drives the belt until a part of this kind lies in the pick zone, and halts it; where it lies.
+    pub fn bring(&mut self, kind: usize) -> Point {
+        self.command(BELT, DRIVE, None);
+        while self.image(BELT)[input::SEES + kind] == 0.0 {
+            self.step(1);
+        }
+        self.command(BELT, HALT, None);
+        self.finish(BELT);
+        point(self.image(BELT), input::SEEN_AT + 3 * kind)
+    }
+
+    /// Picks the part of this kind from the belt and lifts it.
+    pub fn pick_from_belt(&mut self, kind: usize) {
+        let at = grip_point(self.bring(kind), kind);
+        assert_eq!(self.go(KITTING, MOVE, at.up(0.2)), 0.0);
+        self.outputs[KITTING][output::GRIP] = 1.0;
+        assert_eq!(self.go(KITTING, PICK, at), 0.0);
+        assert_eq!(self.go(KITTING, MOVE, at.up(0.3)), 0.0);
+    }
+
+    pub fn let_go(&mut self, machine: usize) {
+        self.outputs[machine][output::GRIP] = 0.0;
+        self.step(1);
+    }
+}
+
+#[derive(Clone, Debug)]
+pub enum Step {
+    /// A command of a machine: verb and goal.
+    Command(usize, f64, Option<Point>),
+    /// A command whose goal is so far over where the belt sees a part of this kind.
+    CommandSeen(usize, f64, usize, f64),
+    /// The machine has ended its command well.
+    Done(usize),
+    Sees(usize),
+    Write(usize, usize, f64),
+    /// Until an input of a machine has this value.
+    Until(usize, usize, f64),
+    Fault(i32, i32),
+}
+
+/// One list of steps for the whole line. A step is taken in each scan at the earliest.
+pub struct Script {
+    steps: Vec<Step>,
+    next: usize,
+    running: bool,
+    last_start: bool,
+}
+
+impl Script {
+    pub fn new(steps: Vec<Step>) -> Self {
+        Self { steps, next: 0, running: false, last_start: false }
+    }
+}
+
+impl Controllers for Script {
+    fn scan(&mut self, system: SystemInputs, inputs: &[Vec<f64>], outputs: &mut [Vec<f64>]) -> SystemOutputs {
+        self.running = system.run_permit && (self.running || system.start && !self.last_start);
+        self.last_start = system.start;
+        let mut fault = None;
+        if self.running
+            && let Some(step) = self.steps.get(self.next)
+        {
+            let taken = match *step {
+                Step::Command(machine, verb, goal) => {
+                    command(&mut outputs[machine], verb, goal);
+                    true
+                }
+                Step::CommandSeen(machine, verb, kind, up) => {
+                    let seen = point(&inputs[BELT], input::SEEN_AT + 3 * kind);
+                    command(&mut outputs[machine], verb, Some(grip_point(seen, kind).up(up)));
+                    true
+                }
+                Step::Done(machine) => {
+                    inputs[machine][input::ACK] == outputs[machine][output::CMD]
+                        && inputs[machine][input::ERROR] == 0.0
+                }
+                Step::Sees(kind) => inputs[BELT][input::SEES + kind] != 0.0,
+                Step::Write(machine, port, value) => {
+                    outputs[machine][port] = value;
+                    true
+                }
+                Step::Until(machine, port, value) => inputs[machine][port] == value,
+                Step::Fault(code, robot) => {
+                    fault = Some((code, robot));
+                    true
+                }
+            };
+            self.next += usize::from(taken);
+        }
+        for machine in [BELT, KITTING, AGV, GANTRY] {
+            outputs[machine][output::HOLD] = f64::from(u8::from(!self.running));
+        }
+        let (fault_code, fault_robot) = fault.unwrap_or((0, -1));
+        SystemOutputs { running: self.running, fault: fault.is_some(), fault_code, fault_robot }
+    }
+
+    fn state(&self, machine: usize) -> usize {
+        // The machine is in its second state while the step to be taken is about it.
+        match self.steps.get(self.next) {
+            Some(Step::Done(m) | Step::Until(m, ..)) if *m == machine => 1,
+            _ => 0,
+        }
+    }
+
+    fn trace(&self, out: &mut Vec<f64>) {
+        out.push(self.next as f64);
+    }
+}
+
+/// The states that [`Script::state`] tells of: waiting for all others, and working.
+pub fn states(others: Vec<usize>) -> Vec<State> {
+    vec![
+        State { name: "Waiting".into(), working: false, awaits: others },
+        State { name: "Working".into(), working: true, awaits: vec![] },
+    ]
+}
+
+/// Takes a part of this kind from the belt to the slot of the tray.
+pub fn load(kind: usize, slot: Point) -> Vec<Step> {
+    let at = grip_point(START + slot, kind);
+    let go = |verb, goal| [Step::Command(KITTING, verb, Some(goal)), Step::Done(KITTING)];
+    let seen = |verb, up| [Step::CommandSeen(KITTING, verb, kind, up), Step::Done(KITTING)];
+    let mut steps = vec![Step::Command(BELT, DRIVE, None), Step::Sees(kind)];
+    steps.extend([Step::Command(BELT, HALT, None), Step::Done(BELT)]);
+    steps.extend(seen(MOVE, 0.3));
+    steps.push(Step::Write(KITTING, output::GRIP, 1.0));
+    steps.extend(seen(PICK, 0.0));
+    // The part hangs on the gripper now: where it was seen it is seen no more.
+    steps.extend(go(MOVE, at.up(0.5)));
+    steps.extend(go(MOVE, at));
+    steps.push(Step::Write(KITTING, output::GRIP, 0.0));
+    steps.push(Step::Until(KITTING, input::ATTACHED, 0.0));
+    steps.extend(go(MOVE, at.up(0.5)));
+    steps
+}
+
+/// Takes a part of this kind from the slot of the tray at the near stop to its place in the briefcase.
+pub fn unload(kind: usize, slot: Point, place: Point) -> Vec<Step> {
+    let go = |verb, goal| [Step::Command(GANTRY, verb, Some(goal)), Step::Done(GANTRY)];
+    let (from, to) = (grip_point(NEAR + slot, kind), grip_point(place, kind));
+    let mut steps = vec![];
+    steps.extend(go(MOVE, from.up(0.1)));
+    steps.push(Step::Write(GANTRY, output::GRIP, 1.0));
+    steps.extend(go(PICK, from));
+    steps.extend(go(MOVE, from.up(0.1)));
+    steps.extend(go(MOVE, to.up(0.1)));
+    steps.extend(go(MOVE, to));
+    steps.push(Step::Write(GANTRY, output::GRIP, 0.0));
+    steps.push(Step::Until(GANTRY, input::ATTACHED, 0.0));
+    steps.extend(go(MOVE, to.up(0.1)));
+    steps
+}
+
+/// Everything that it takes to make the order of [`line`].
+pub fn whole_order() -> Vec<Step> {
+    use runtime_sim::geometry::{briefcase_offset, slot_offset};
+    let station = Point::new(-7.3, 3.0, 0.0);
+    let mut steps = load(BATTERY, slot_offset(0));
+    steps.extend(load(PUMP, slot_offset(1)));
+    steps.extend([Step::Command(AGV, MOVE, Some(NEAR)), Step::Done(AGV)]);
+    steps.extend(unload(BATTERY, slot_offset(0), station + briefcase_offset(0)));
+    steps.extend(unload(PUMP, slot_offset(1), station + briefcase_offset(1)));
+    steps.push(Step::Write(STATION, output::COMPLETE, 1.0));
+    steps.push(Step::Until(STATION, input::ORDER_OPEN, 0.0));
+    steps.push(Step::Write(STATION, output::COMPLETE, 0.0));
+    steps
+}

@@ -1,0 +1,436 @@
+//! Each device alone.
+
+mod common;
+
+use common::*;
+use runtime_sim::device::error;
+use runtime_sim::geometry::{TRAY_SURFACE, slot_offset};
+use runtime_sim::item::Carrier;
+use runtime_sim::line::{Order, Refusal, Slip, Supply};
+use runtime_sim::point::Point;
+
+fn near(a: Point, b: Point) -> bool {
+    let d = a - b;
+    d.x.abs() < 1e-9 && d.y.abs() < 1e-9 && d.z.abs() < 1e-9
+}
+
+// --- commands
+
+#[test]
+fn a_command_is_accepted_ended_and_counted_round() {
+    let mut rig = Rig::new(&line());
+    rig.outputs[BELT][output::CMD] = 32766.0;
+    rig.command(BELT, DRIVE, None);
+    rig.step(1);
+    assert_eq!(rig.image(BELT)[..4], [1.0, 32767.0, 32767.0, 0.0]);
+    assert_eq!(rig.image(BELT)[input::MOVING], 1.0);
+    rig.command(BELT, HALT, None);
+    rig.step(1);
+    assert_eq!(rig.image(BELT)[..4], [1.0, 1.0, 1.0, 0.0]);
+    assert_eq!(rig.image(BELT)[input::MOVING], 0.0);
+}
+
+#[test]
+fn arguments_without_a_new_number_do_nothing() {
+    let mut rig = Rig::new(&line());
+    rig.outputs[BELT][output::VERB] = DRIVE;
+    rig.step(10);
+    assert_eq!(rig.image(BELT)[input::MOVING], 0.0);
+    assert_eq!(rig.image(BELT)[input::GOT], 0.0);
+}
+
+#[test]
+fn the_newest_command_replaces_the_running_one() {
+    let mut rig = Rig::new(&line());
+    rig.command(AGV, MOVE, Some(NEAR));
+    rig.step(200);
+    rig.command(AGV, MOVE, Some(START));
+    rig.step(1);
+    assert_eq!(rig.image(AGV)[input::GOT..=input::ACK], [2.0, 0.0]);
+    rig.finish(AGV);
+    assert_eq!(point(rig.image(AGV), input::POS), START);
+}
+
+#[test]
+fn a_refused_command_ends_at_once() {
+    let mut line = line();
+    line.scenario.refusals = vec![Refusal { machine: AGV, command: 2 }];
+    let mut rig = Rig::new(&line);
+    assert_eq!(rig.go(AGV, MOVE, NEAR), 0.0);
+    rig.command(AGV, MOVE, Some(START));
+    rig.step(1);
+    assert_eq!(rig.image(AGV)[1..4], [2.0, 2.0, f64::from(error::REFUSED)]);
+    rig.step(500);
+    assert_eq!(point(rig.image(AGV), input::POS), NEAR);
+    assert_eq!(rig.go(AGV, MOVE, START), 0.0);
+    assert_eq!(rig.go(AGV, 7.0, START), f64::from(error::REFUSED), "no such verb");
+}
+
+#[test]
+fn numbers_from_nowhere_do_no_harm() {
+    let mut rig = Rig::new(&line());
+    for value in [f64::NAN, f64::INFINITY, -1e300, 1e300, -7.0, 0.5] {
+        for image in &mut rig.outputs {
+            image.fill(value);
+        }
+        rig.step(30);
+        for image in &mut rig.outputs {
+            image.fill(0.0);
+        }
+        for machine in [BELT, KITTING, AGV, GANTRY] {
+            rig.outputs[machine][output::CMD] = 77.0;
+            rig.outputs[machine][output::VERB] = 1.0;
+            if let Some(x) = rig.outputs[machine].get_mut(output::GOAL) {
+                *x = value;
+            }
+        }
+        rig.step(30);
+    }
+}
+
+// --- belt
+
+#[test]
+fn parts_appear_a_pitch_apart_while_the_belt_runs() {
+    let mut rig = Rig::new(&line());
+    rig.command(BELT, DRIVE, None);
+    rig.step(199);
+    assert_eq!(rig.plant.place(0), None);
+    rig.step(1);
+    assert_eq!(rig.plant.place(0), Some(Point::new(-0.573076, 4.3, 0.875)));
+    rig.step(100);
+    rig.outputs[BELT][output::HOLD] = 1.0;
+    rig.step(1000);
+    assert!(near(rig.plant.place(0).unwrap(), Point::new(-0.573076, 4.1, 0.875)));
+    rig.outputs[BELT][output::HOLD] = 0.0;
+    rig.step(99);
+    assert_eq!(rig.plant.place(1), None);
+    rig.step(1);
+    let (first, second) = (rig.plant.place(0).unwrap(), rig.plant.place(1).unwrap());
+    assert!((second.y - 4.3).abs() < 1e-12 && (second.y - first.y - 0.4).abs() < 1e-12);
+}
+
+#[test]
+fn a_scan_that_divides_no_second_spawns_at_the_same_places() {
+    let mut line = line();
+    line.scan_ms = 7;
+    let mut rig = Rig::new(&line);
+    rig.command(BELT, DRIVE, None);
+    rig.step(1000);
+    // 7 s: the parts appeared at 2 s and 4 s.
+    assert!((rig.plant.place(0).unwrap().y - 3.3).abs() < 1e-12);
+    assert!((rig.plant.place(1).unwrap().y - 3.7).abs() < 1e-12);
+}
+
+#[test]
+fn the_camera_sees_a_part_wholly_in_the_zone_and_the_foremost_of_a_kind() {
+    let mut line = line();
+    line.scenario.supply = vec![Supply { belt: BELT, items: vec![BATTERY, BATTERY, PUMP] }];
+    let mut rig = Rig::new(&line);
+    rig.command(BELT, DRIVE, None);
+    // From 4.3 to 0.56 - 0.07 at 0.2 m/s, after the 2 s until it appears: 21.05 s.
+    rig.step(2104);
+    assert_eq!(rig.image(BELT)[input::SEES], 0.0);
+    // It lies on the very edge of the zone in scan 2105.
+    rig.step(2);
+    assert_eq!(rig.image(BELT)[input::SEES], 1.0);
+    rig.step(249);
+    assert!(near(point(rig.image(BELT), input::SEEN_AT), rig.plant.place(0).unwrap()), "not the second one");
+    assert_eq!(rig.image(BELT)[input::SEES + PUMP], 0.0);
+    rig.command(BELT, HALT, None);
+    rig.step(1);
+    let stands = rig.image(BELT).to_vec();
+    rig.step(100);
+    assert_eq!(rig.image(BELT), stands);
+    // The first battery leaves the zone at its lower end, at 2 + 4.79 / 0.2 = 25.95 s.
+    rig.command(BELT, DRIVE, None);
+    rig.step(2594 - 2355);
+    assert!(near(point(rig.image(BELT), input::SEEN_AT), rig.plant.place(0).unwrap()));
+    rig.step(2);
+    assert!(near(point(rig.image(BELT), input::SEEN_AT), rig.plant.place(1).unwrap()));
+}
+
+#[test]
+fn what_nobody_takes_ends_in_the_collector() {
+    let mut rig = Rig::new(&line());
+    rig.command(BELT, DRIVE, None);
+    // 4.3 + 4.53 m at 0.2 m/s, after 2 s: 46.15 s.
+    rig.step(4614);
+    assert!(rig.plant.place(0).is_some());
+    rig.step(1);
+    assert_eq!(rig.plant.items().all()[0].carrier, Carrier::Collector);
+    assert!(rig.plant.is_busy());
+    rig.step(200);
+    assert_eq!(rig.plant.items().all()[1].carrier, Carrier::Collector);
+    assert!(!rig.plant.is_busy(), "nothing more to come");
+}
+
+// --- vehicle
+
+#[test]
+fn a_vehicle_starts_after_its_latency_and_keeps_its_speed() {
+    let mut rig = Rig::new(&line());
+    assert_eq!(rig.image(AGV)[input::AT_STOP], 0.0);
+    rig.command(AGV, MOVE, Some(NEAR));
+    rig.step(75);
+    assert_eq!(point(rig.image(AGV), input::POS), START);
+    assert_eq!(rig.image(AGV)[input::AT_STOP], 0.0);
+    rig.step(1);
+    assert_eq!(rig.image(AGV)[input::AT_STOP], -1.0);
+    rig.step(150 - 1);
+    let middle = START.x - 3.334 / 2.0;
+    assert!((rig.image(AGV)[input::POS] - middle).abs() < 1e-9);
+    // 0.75 s and 3.334315 m at 3.334 m in 3 s: 3.7503 s.
+    assert_eq!(rig.finish(AGV) + 225, 376);
+    assert_eq!(point(rig.image(AGV), input::POS), NEAR);
+    assert_eq!(rig.image(AGV)[input::AT_STOP], 1.0);
+}
+
+#[test]
+fn a_held_vehicle_stands_and_goes_on() {
+    for halt in [10, 75, 76, 200, 375] {
+        let mut rig = Rig::new(&line());
+        rig.command(AGV, MOVE, Some(NEAR));
+        rig.step(halt);
+        let stands = point(rig.image(AGV), input::POS);
+        rig.outputs[AGV][output::HOLD] = 1.0;
+        rig.step(1000);
+        assert_eq!(point(rig.image(AGV), input::POS), stands);
+        assert!(!rig.is_ended(AGV));
+        rig.outputs[AGV][output::HOLD] = 0.0;
+        assert_eq!(rig.finish(AGV) + halt, 376);
+    }
+}
+
+#[test]
+fn a_vehicle_goes_to_stops_only() {
+    let mut rig = Rig::new(&line());
+    assert_eq!(rig.go(AGV, MOVE, NEAR + Point::new(0.002, 0.0, 0.0)), f64::from(error::UNREACHABLE));
+    assert_eq!(rig.go(AGV, MOVE, Point::new(f64::NAN, 0.0, 0.0)), f64::from(error::UNREACHABLE));
+    assert_eq!(rig.go(AGV, MOVE, NEAR + Point::new(0.0009, 0.0, 0.0)), 0.0);
+    assert_eq!(point(rig.image(AGV), input::POS), NEAR);
+}
+
+// --- arm and gripper
+
+#[test]
+fn an_arm_begins_at_rest() {
+    let line = line();
+    let rig = Rig::new(&line);
+    for arm in [KITTING, GANTRY] {
+        let rest = line.machines[arm].geometry.rest();
+        assert!(near(point(rig.image(arm), input::TOOL), rest), "{rest:?} {:?}", rig.image(arm));
+    }
+}
+
+#[test]
+fn an_unreachable_goal_is_answered_at_once() {
+    let mut rig = Rig::new(&line());
+    for (arm, goal) in [(KITTING, Point::new(1.0, 0.0, 1.0)), (GANTRY, Point::new(-4.0, 0.0, 9.0))] {
+        let tool = point(rig.image(arm), input::TOOL);
+        rig.command(arm, MOVE, Some(goal));
+        rig.step(1);
+        assert_eq!(rig.image(arm)[1..4], [1.0, 1.0, f64::from(error::UNREACHABLE)]);
+        rig.command(arm, PICK, Some(Point::new(f64::NAN, 0.0, 0.0)));
+        rig.step(1);
+        assert_eq!(rig.image(arm)[1..4], [2.0, 2.0, f64::from(error::UNREACHABLE)]);
+        assert_eq!(point(rig.image(arm), input::TOOL), tool);
+    }
+}
+
+#[test]
+fn a_part_is_gripped_carried_and_put_on_a_tray_that_travels() {
+    let mut rig = Rig::new(&line());
+    rig.pick_from_belt(BATTERY);
+    assert!(matches!(rig.plant.items().all()[0].carrier, Carrier::Gripper { machine: KITTING, .. }));
+    assert_eq!(rig.image(BELT)[input::SEES], 0.0);
+    let slot = START + slot_offset(3);
+    assert_eq!(rig.go(KITTING, MOVE, grip_point(slot, BATTERY).up(0.3)), 0.0);
+    assert!(near(rig.plant.place(0).unwrap(), slot.up(0.3)));
+    assert_eq!(rig.go(KITTING, MOVE, grip_point(slot, BATTERY)), 0.0);
+    rig.let_go(KITTING);
+    assert_eq!(rig.image(KITTING)[input::ATTACHED], 0.0);
+    assert!(matches!(rig.plant.items().all()[0].carrier, Carrier::Tray { machine: AGV, .. }));
+    assert!(near(rig.plant.place(0).unwrap(), slot));
+    assert_eq!(rig.go(KITTING, MOVE, grip_point(slot, BATTERY).up(0.3)), 0.0);
+    assert_eq!(rig.go(AGV, MOVE, NEAR), 0.0);
+    assert!(near(rig.plant.place(0).unwrap(), NEAR + slot_offset(3)));
+}
+
+#[test]
+fn two_polls_with_contact_attach() {
+    let mut rig = Rig::new(&line());
+    let at = grip_point(rig.bring(BATTERY), BATTERY);
+    rig.go(KITTING, MOVE, at);
+    // To a moment just after a poll.
+    rig.step(1);
+    let scans = (0..100).find(|_| {
+        rig.outputs[KITTING][output::GRIP] = 1.0;
+        rig.step(1);
+        rig.image(KITTING)[input::ATTACHED] != 0.0
+    });
+    let scans = scans.unwrap() + 1;
+    assert!((11..=20).contains(&scans), "{scans}");
+}
+
+#[test]
+fn a_pick_of_nothing_ends_in_error_half_a_second_after_it_arrives() {
+    let mut rig = Rig::new(&line());
+    let goal = Point::new(-0.573076, 0.3, 1.2);
+    rig.command(KITTING, MOVE, Some(goal));
+    let moving = rig.finish(KITTING);
+    rig.go(KITTING, MOVE, runtime_sim::geometry::Geometry::rest(&line().machines[KITTING].geometry));
+    rig.outputs[KITTING][output::GRIP] = 1.0;
+    rig.command(KITTING, PICK, Some(goal));
+    let picking = rig.finish(KITTING);
+    assert_eq!(rig.image(KITTING)[input::ERROR], f64::from(error::NO_PART));
+    assert_eq!(picking, moving + 50);
+}
+
+#[test]
+fn contact_ends_five_millimetres_away() {
+    for (gap, error) in [(0.0049, 0), (0.0051, error::NO_PART)] {
+        let mut rig = Rig::new(&line());
+        let at = grip_point(rig.bring(BATTERY), BATTERY);
+        rig.outputs[KITTING][output::GRIP] = 1.0;
+        assert_eq!(rig.go(KITTING, PICK, at.up(gap)), f64::from(error));
+    }
+}
+
+#[test]
+fn what_is_let_go_falls_on_what_is_below() {
+    let over = |x: f64, y: f64| Point::new(x, y, 1.2 + BATTERY_HEIGHT);
+    for (place, carrier, height) in [
+        (over(-0.573076 + 0.2, 0.7), "Belt", 0.875),
+        (over(-0.573076 - 0.22, 0.7), "Floor", 0.0),
+        (over(START.x + 0.15 + 0.34, START.y - 0.24), "Tray", TRAY_SURFACE),
+        (over(START.x + 0.15 + 0.36, START.y), "Floor", 0.0),
+        (over(-1.899 + 0.29, 2.565), "Bin", 0.725),
+    ] {
+        let mut rig = Rig::new(&line());
+        rig.pick_from_belt(BATTERY);
+        assert_eq!(rig.go(KITTING, MOVE, place), 0.0, "{place:?}");
+        rig.let_go(KITTING);
+        let item = &rig.plant.items().all()[0];
+        assert!(format!("{:?}", item.carrier).starts_with(carrier), "{place:?} {item:?}");
+        let rests = rig.plant.place(0).unwrap();
+        assert!(near(rests, Point { z: height, ..place }), "{rests:?}");
+    }
+}
+
+#[test]
+fn a_part_put_back_on_the_belt_travels_on() {
+    let mut rig = Rig::new(&line());
+    rig.pick_from_belt(BATTERY);
+    rig.go(KITTING, MOVE, Point::new(-0.55, 0.4, 0.875 + BATTERY_HEIGHT));
+    rig.let_go(KITTING);
+    rig.go(KITTING, MOVE, Point::new(-0.55, 0.4, 1.3));
+    rig.command(BELT, DRIVE, None);
+    rig.step(100);
+    assert!(near(rig.plant.place(0).unwrap(), Point::new(-0.55, 0.2, 0.875)));
+}
+
+#[test]
+fn a_slip_loses_the_part_it_names() {
+    let mut line = line();
+    line.scenario.slips = vec![Slip { machine: KITTING, pick: 2, after_s: 0.3 }];
+    let mut rig = Rig::new(&line);
+    rig.pick_from_belt(BATTERY);
+    rig.go(KITTING, MOVE, Point::new(-1.0, 1.0, 1.3));
+    rig.step(100);
+    assert_eq!(rig.image(KITTING)[input::ATTACHED], 1.0);
+    rig.let_go(KITTING);
+    assert!(matches!(rig.plant.items().all()[0].carrier, Carrier::Floor { .. }));
+    let at = grip_point(rig.bring(PUMP), PUMP);
+    rig.go(KITTING, MOVE, at.up(0.3));
+    rig.outputs[KITTING][output::GRIP] = 1.0;
+    rig.go(KITTING, PICK, at);
+    rig.go(KITTING, MOVE, at.up(0.3));
+    assert_eq!(rig.image(KITTING)[input::ATTACHED], 0.0);
+    assert!(
+        matches!(rig.plant.items().all()[1].carrier, Carrier::Belt { .. }),
+        "{:?}",
+        rig.plant.items().all()
+    );
+}
+
+#[test]
+fn a_held_arm_brakes_on_its_path_and_ends_at_its_goal() {
+    let goal = Point::new(-0.6, 3.0, 1.2);
+    let mut rig = Rig::new(&line());
+    rig.command(KITTING, MOVE, Some(goal));
+    let whole = rig.finish(KITTING);
+    for halt in [1, whole / 4, whole / 2, whole - 2] {
+        let mut rig = Rig::new(&line());
+        rig.command(KITTING, MOVE, Some(goal));
+        rig.step(halt);
+        rig.outputs[KITTING][output::HOLD] = 1.0;
+        // Accelerations are 1 m/s2 at 1 m/s: it stands within a second or two.
+        rig.step(300);
+        let stands = point(rig.image(KITTING), input::TOOL);
+        rig.step(300);
+        assert_eq!(point(rig.image(KITTING), input::TOOL), stands);
+        assert!(!rig.is_ended(KITTING), "held at {halt}");
+        rig.outputs[KITTING][output::HOLD] = 0.0;
+        rig.finish(KITTING);
+        assert!(near(point(rig.image(KITTING), input::TOOL), goal));
+        assert_eq!(rig.image(KITTING)[1..4], [1.0, 1.0, 0.0]);
+    }
+}
+
+#[test]
+fn a_new_goal_on_the_way_is_reached_without_a_jump() {
+    let mut rig = Rig::new(&line());
+    rig.command(KITTING, MOVE, Some(Point::new(-0.6, 3.0, 1.2)));
+    rig.step(150);
+    rig.command(KITTING, MOVE, Some(Point::new(-0.6, -3.0, 1.2)));
+    let mut last = point(rig.image(KITTING), input::TOOL);
+    while !rig.is_ended(KITTING) {
+        rig.step(1);
+        let now = point(rig.image(KITTING), input::TOOL);
+        let way = now - last;
+        // No faster than the rail and the arm together.
+        assert!(way.x.abs() + way.y.abs() + way.z.abs() < 0.05, "{way:?}");
+        last = now;
+    }
+    assert!(near(last, Point::new(-0.6, -3.0, 1.2)));
+}
+
+#[test]
+fn one_gripper_does_not_take_from_another() {
+    let mut rig = Rig::new(&line());
+    rig.pick_from_belt(BATTERY);
+    let meet = Point::new(-2.0, 1.3, 1.2);
+    rig.go(KITTING, MOVE, meet);
+    rig.outputs[GANTRY][output::GRIP] = 1.0;
+    assert_eq!(rig.go(GANTRY, PICK, meet), f64::from(error::NO_PART));
+    assert_eq!(rig.image(GANTRY)[input::ATTACHED], 0.0);
+}
+
+// --- station
+
+#[test]
+fn orders_of_a_station_open_one_after_another() {
+    let mut line = line();
+    // An order of nothing is made as soon as it is reported complete.
+    line.scenario.orders =
+        [[0, 0], [1, 0], [0, 0]].map(|parts| Order { station: STATION, parts: parts.to_vec() }).to_vec();
+    let mut rig = Rig::new(&line);
+    assert_eq!(rig.image(STATION), [1.0, 0.0, 0.0, 1.0]);
+    rig.outputs[STATION][output::COMPLETE] = 1.0;
+    rig.step(1);
+    assert_eq!(rig.image(STATION), [0.0; 4]);
+    rig.step(5);
+    assert_eq!(rig.image(STATION), [0.0; 4]);
+    rig.outputs[STATION][output::COMPLETE] = 0.0;
+    rig.step(1);
+    assert_eq!(rig.image(STATION), [0.0; 4]);
+    rig.step(1);
+    assert_eq!(rig.image(STATION), [1.0, 1.0, 0.0, 2.0]);
+    // A controller that lies gets nothing.
+    let log = rig.plant.items().log().len();
+    rig.outputs[STATION][output::COMPLETE] = 1.0;
+    rig.step(50);
+    assert_eq!(rig.image(STATION), [1.0, 1.0, 0.0, 2.0]);
+    assert_eq!(rig.plant.items().log().len(), log + 1, "one event");
+}

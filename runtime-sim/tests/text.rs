@@ -1,0 +1,76 @@
+//! The text form of a line.
+
+mod common;
+
+use common::*;
+use runtime_sim::geometry::Geometry;
+use runtime_sim::line::{IoDelay, Line, Pause, Refusal, Slip};
+use runtime_sim::point::Point;
+
+fn rich_line() -> Line {
+    let mut line = line();
+    line.machines[BELT].states = states(vec![1, 3]);
+    line.machines[BIN].geometry = Geometry::Bin { pose: Point::new(-0.0, 0.1 + 0.2, 1.0 / 3.0) };
+    line.scenario.slips = vec![Slip { machine: GANTRY, pick: 2, after_s: 5e-324 }];
+    line.scenario.refusals = vec![Refusal { machine: AGV, command: 3 }];
+    line.scenario.pauses = vec![Pause { at_scan: 17, scans: u64::MAX }];
+    line.io_delay = IoDelay::Random { max: 5, seed: u64::MAX };
+    line
+}
+
+#[test]
+fn it_reads_back_to_the_same_bits() {
+    for line in [line(), rich_line()] {
+        let text = line.to_text();
+        let again = Line::from_text(&text).unwrap();
+        assert_eq!(again, line);
+        // `==` takes 0.0 and -0.0 for the same; their texts differ.
+        assert_eq!(again.to_text(), text);
+    }
+}
+
+#[test]
+fn no_text_makes_it_panic() {
+    let text = rich_line().to_text();
+    for end in 0..text.len() - 1 {
+        assert!(Line::from_text(&text[..end]).is_err(), "{}", &text[..end]);
+    }
+    let words: Vec<&str> = text.split_whitespace().collect();
+    for wrong in ["-1", "nan", "1e999", "18446744073709551615", "x"] {
+        for i in 0..words.len() {
+            let mut words = words.clone();
+            words[i] = wrong;
+            // A name may be anything; the rest is refused or makes a line that the plant can take.
+            if let Ok(line) = Line::from_text(&words.join(" ")) {
+                let _ = runtime_sim::plant::Plant::new(&line).map(|mut plant| {
+                    let outputs = runtime_sim::plant::outputs(&line);
+                    plant.advance(&outputs);
+                });
+            }
+        }
+    }
+}
+
+#[test]
+fn what_cannot_be_run_is_refused() {
+    let refused = |spoil: fn(&mut Line)| {
+        let mut line = rich_line();
+        spoil(&mut line);
+        let checked = line.check().unwrap_err();
+        assert_eq!(Line::from_text(&line.to_text()).unwrap_err(), checked);
+        checked
+    };
+    assert_eq!(refused(|l| l.scan_ms = 0), "a scan of 0 ms is not between 1 and 1000 ms");
+    assert_eq!(refused(|l| l.kinds[1].height = 0.0), "the height of pump is no positive number");
+    assert_eq!(refused(|l| l.scenario.orders[0].station = 1), "an order at kitting, which is no station");
+    assert_eq!(
+        refused(|l| l.scenario.supply[0].items[1] = 2),
+        "the supply of belt names kind 2, which is not there"
+    );
+    assert_eq!(refused(|l| l.scenario.slips[0].machine = 9), "a slip names machine 9, which is not there");
+    assert_eq!(
+        refused(|l| l.machines[0].states[0].awaits[0] = 6),
+        "a state names machine 6, which is not there"
+    );
+    assert_eq!(refused(|l| l.io_delay = IoDelay::Fixed(4_000_000_000)), "answers more than 1000 scans late");
+}
