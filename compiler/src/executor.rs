@@ -186,6 +186,11 @@ impl Controllers for Executor<'_> {
     }
 }
 
+/// Whether a condition on parameters and roles holds for an instance.
+pub fn requirement_holds(system: &System, instance: usize, condition: &crate::ir::Expr) -> bool {
+    Executor::new(system).holds(instance, condition)
+}
+
 /// A value as numbers of a process image.
 fn push(value: Value, out: &mut Vec<f64>) {
     match value {
