@@ -361,6 +361,23 @@ fn failed_pair_that_nobody_needs() {
     assert_eq!(report.failures.len(), 2);
 }
 
+/// The arm could be moved to the vehicle, but then it would leave the belt.
+#[test]
+fn no_mend_that_parts_others() {
+    let mut builder = Builder::new();
+    builder.belt("conveyor", -0.1);
+    builder.kitting("kitting_robot", 4.8);
+    let agv = builder.agv("agv1", -2.9, 1.4);
+    builder.gantry("gantry_robot");
+    builder.station("as1", -7.3, 3.0);
+    builder.propose_all();
+    builder.nodes[agv].numbers.clear();
+    let (_, report) = builder.check();
+    assert_eq!(report.failures.len(), 1);
+    assert_eq!(report.failures[0].mend, None);
+    assert!(report.diagnostics[0].help.starts_with("no single number"), "{:?}", report.diagnostics);
+}
+
 /// A gantry so high that all eight pairs with it fail: one cause, one report, one number.
 #[test]
 fn gantry_that_reaches_nothing() {
