@@ -43,16 +43,27 @@ fn without_automaton(object: &Object, name: &str, model: &Model) -> Diagnostic {
     let known: Vec<String> = model.automata.iter().map(|a| json_type(&a.name)).collect();
     let help = match suggestion(&object.kind.value, known.iter().map(String::as_str)) {
         Some(near) => format!("is \"{near}\" meant? Types with an automaton are {}", known.join(", ")),
-        None => format!("write `automaton {name} on ...` in a file of --specs; types with an automaton are {}", known.join(", ")),
+        None => format!(
+            "write `automaton {name} on ...` in a file of --specs; types with an automaton are {}",
+            known.join(", ")
+        ),
     };
-    Diagnostic::new("E0126", object.kind.span, format!("no automaton `{name}` for the type \"{}\"", object.kind.value))
-        .help(help)
+    Diagnostic::new(
+        "E0126",
+        object.kind.span,
+        format!("no automaton `{name}` for the type \"{}\"", object.kind.value),
+    )
+    .help(help)
 }
 
 /// `assembly_station` is another word for `station`; other types are named as their automaton.
 fn automaton_name(kind: &str) -> String {
     let kind = if kind == "assembly_station" { "station" } else { kind };
-    kind.split('_').flat_map(|word| word[..word.len().min(1)].to_uppercase().chars().chain(word.chars().skip(1)).collect::<Vec<_>>()).collect()
+    kind.split('_')
+        .flat_map(|word| {
+            word[..word.len().min(1)].to_uppercase().chars().chain(word.chars().skip(1)).collect::<Vec<_>>()
+        })
+        .collect()
 }
 
 /// The type under which a layout names an automaton.

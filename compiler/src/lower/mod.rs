@@ -16,6 +16,7 @@ use crate::scenario::Scenario;
 use crate::source::{FileId, Sources};
 use crate::spec::{ast, parser};
 use crate::{connect, ir, layout, scenario};
+use runtime_sim::random::Random;
 use std::collections::BTreeSet;
 
 /// What is to be compiled; every text is in `sources` already.
@@ -117,7 +118,7 @@ pub fn compile(input: Input) -> Outcome {
         && syntax_is_right
     {
         if let Some(seed) = order {
-            plant::shuffle(&mut layout.objects, seed);
+            Random::new(seed).shuffle(&mut layout.objects);
         }
         let is_whole = layout_is_right && outcome.diagnostics.is_empty();
         system(&mut outcome, layout, &files, &checked, &scenario, &settings, is_whole);

@@ -29,7 +29,8 @@ impl Line<'_> {
                     None if known.is_empty() => "its automaton has no parameters: remove it".into(),
                     None => format!("its parameters are {}", known.join(", ")),
                 };
-                let message = format!("`{}` has no parameter \"{}\"", self.robots[robot].automaton, name.value);
+                let message =
+                    format!("`{}` has no parameter \"{}\"", self.robots[robot].automaton, name.value);
                 self.diagnostics.push(Diagnostic::new("E0501", name.span, message).help(help));
             }
         }
@@ -41,7 +42,10 @@ impl Line<'_> {
             ParameterSource::Device => return self.constant(robot, parameter),
             ParameterSource::Layout(default) => *default,
         };
-        let set = settings.iter().rev().find(|s| s.parameter == parameter.name && s.applies_to(&self.robots[robot]));
+        let set = settings
+            .iter()
+            .rev()
+            .find(|s| s.parameter == parameter.name && s.applies_to(&self.robots[robot]));
         let in_layout = self.robots[robot].object.parameters.iter().find(|(n, _)| n.value == parameter.name);
         let json = set.map(|s| s.value.clone()).or_else(|| in_layout.map(|(_, json)| json.clone()));
         match (json, default) {
@@ -50,9 +54,13 @@ impl Line<'_> {
             (None, None) => {
                 let object = &self.robots[robot].object;
                 self.diagnostics.push(
-                    Diagnostic::new("E0502", object.name.span, format!("`{}` lacks the parameter `{}`", object.name.value, parameter.name))
-                        .other(parameter.place, "declared here, without a default")
-                        .help(format!("add \"parameters\": {{\"{}\": ...}} to it", parameter.name)),
+                    Diagnostic::new(
+                        "E0502",
+                        object.name.span,
+                        format!("`{}` lacks the parameter `{}`", object.name.value, parameter.name),
+                    )
+                    .other(parameter.place, "declared here, without a default")
+                    .help(format!("add \"parameters\": {{\"{}\": ...}} to it", parameter.name)),
                 );
                 vec![first(parameter.ty.scalar); size]
             }
@@ -84,26 +92,37 @@ impl Line<'_> {
                     match names.iter().position(|n| *n == member.key.value) {
                         Some(ordinal) => values[ordinal] = self.scalar(&member.value, ty.scalar, name),
                         None => self.diagnostics.push(
-                            Diagnostic::new("E0503", member.key.span, format!("there is no \"{}\"", member.key.value))
-                                .help(format!("its elements are {}", names.join(", "))),
+                            Diagnostic::new(
+                                "E0503",
+                                member.key.span,
+                                format!("there is no \"{}\"", member.key.value),
+                            )
+                            .help(format!("its elements are {}", names.join(", "))),
                         ),
                     }
                 }
                 for name_of in names.iter().filter(|n| !members.iter().any(|m| m.key.value == **n)) {
                     self.diagnostics.push(
-                        Diagnostic::new("E0503", json.span, format!("`{name}` has no value for \"{name_of}\""))
-                            .help("give every element a value"),
+                        Diagnostic::new(
+                            "E0503",
+                            json.span,
+                            format!("`{name}` has no value for \"{name_of}\""),
+                        )
+                        .help("give every element a value"),
                     );
                 }
                 values
             }
             _ => {
                 let shape = match ty.extent {
-                    Extent::By(id) => format!("an object with the keys {}", self.model.enums[id.0].members.join(", ")),
+                    Extent::By(id) => {
+                        format!("an object with the keys {}", self.model.enums[id.0].members.join(", "))
+                    }
                     _ => format!("a list of {size} values"),
                 };
                 self.diagnostics.push(
-                    Diagnostic::new("E0503", json.span, format!("`{name}` is an array")).help(format!("write {shape}")),
+                    Diagnostic::new("E0503", json.span, format!("`{name}` is an array"))
+                        .help(format!("write {shape}")),
                 );
                 wrong
             }
@@ -121,7 +140,9 @@ impl Line<'_> {
             }
             (Scalar::Time, json::Value::Number(n)) => milliseconds(*n * 1000.0).map(Value::Int),
             (Scalar::Point, json::Value::List(list)) => match list.as_slice() {
-                [x, y, z] => number(x).zip(number(y)).zip(number(z)).map(|((x, y), z)| Value::Point([x, y, z])),
+                [x, y, z] => {
+                    number(x).zip(number(y)).zip(number(z)).map(|((x, y), z)| Value::Point([x, y, z]))
+                }
                 _ => None,
             },
             (Scalar::Enum(id), json::Value::Text(text)) => {
@@ -142,12 +163,14 @@ impl Line<'_> {
                 Scalar::Point => "a point: a list of three numbers".into(),
                 Scalar::Enum(id) => format!("one of {}", self.model.enums[id.0].members.join(", ")),
                 Scalar::Ref(id) => {
-                    let members = self.members[id.0].iter().map(|m| self.robots[*m].object.name.value.as_str());
+                    let members =
+                        self.members[id.0].iter().map(|m| self.robots[*m].object.name.value.as_str());
                     format!("one of {}", members.collect::<Vec<_>>().join(", "))
                 }
             };
             self.diagnostics.push(
-                Diagnostic::new("E0503", json.span, format!("this is no value for `{name}`")).help(format!("write {wanted}")),
+                Diagnostic::new("E0503", json.span, format!("this is no value for `{name}`"))
+                    .help(format!("write {wanted}")),
             );
             first(ty)
         })

@@ -3,14 +3,16 @@
 use super::role::Line;
 use crate::diagnostic::Diagnostic;
 use crate::ir::{Clause, Domain, Expr, ExprKind, Place, RoleKind, State, System};
-use crate::layout::Object;
 use crate::scenario::{self, ResolvedScenario, Scenario};
 use runtime_sim::line;
 use std::collections::BTreeSet;
 
 pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec<Diagnostic>> {
     let named = |wanted: &dyn Fn(usize) -> bool| -> Vec<(&str, usize)> {
-        (0..line.robots.len()).filter(|r| wanted(*r)).map(|r| (line.robots[r].object.name.value.as_str(), r)).collect()
+        (0..line.robots.len())
+            .filter(|r| wanted(*r))
+            .map(|r| (line.robots[r].object.name.value.as_str(), r))
+            .collect()
     };
     let device = |r: usize| line.automaton(r).device.name;
     scenario::resolve(
@@ -28,7 +30,11 @@ pub fn line(system: &System, line: &Line, scenario: ResolvedScenario, scan_ms: u
     let scans = |seconds: f64| (seconds * 1000.0 / f64::from(scan_ms)).round() as u64;
     line::Line {
         scan_ms,
-        kinds: scenario.kinds.iter().map(|(name, height)| line::Kind { name: name.clone(), height: *height }).collect(),
+        kinds: scenario
+            .kinds
+            .iter()
+            .map(|(name, height)| line::Kind { name: name.clone(), height: *height })
+            .collect(),
         machines: (0..system.instances.len())
             .map(|i| line::Machine {
                 name: system.instances[i].name.clone(),
@@ -37,7 +43,11 @@ pub fn line(system: &System, line: &Line, scenario: ResolvedScenario, scan_ms: u
             })
             .collect(),
         scenario: line::Scenario {
-            orders: scenario.orders.into_iter().map(|(station, parts)| line::Order { station, parts }).collect(),
+            orders: scenario
+                .orders
+                .into_iter()
+                .map(|(station, parts)| line::Order { station, parts })
+                .collect(),
             supply: scenario.supply.into_iter().map(|(belt, items)| line::Supply { belt, items }).collect(),
             spawn_every_s: scenario.spawn_every_s,
             time_limit_s: scenario.time_limit_s,
@@ -71,7 +81,11 @@ fn state(system: &System, instance: usize, state: &State) -> line::State {
         }
     }
     reads.owners.remove(&instance);
-    line::State { name: state.name.clone(), working: reads.working, awaits: reads.owners.into_iter().collect() }
+    line::State {
+        name: state.name.clone(),
+        working: reads.working,
+        awaits: reads.owners.into_iter().collect(),
+    }
 }
 
 struct Reads<'a> {
@@ -150,13 +164,5 @@ impl Reads<'_> {
         if let Some(index) = index {
             self.expr(index);
         }
-    }
-}
-
-/// The same objects in an order drawn from a seed.
-pub fn shuffle(objects: &mut [Object], seed: u64) {
-    let mut random = scenario::Random::new(seed);
-    for last in (1..objects.len()).rev() {
-        objects.swap(last, random.below(last as u64 + 1) as usize);
     }
 }

@@ -4,7 +4,9 @@ use super::bind::Robot;
 use super::{Apart, Verdict};
 use crate::connect::{self, Connected, Node, Proposal, Site};
 use crate::diagnostic::Diagnostic;
-use crate::ir::{Automaton, AutomatonId, Handover, Instance, InterfaceId, Model, Role, RoleKind, System, Value, Way};
+use crate::ir::{
+    Automaton, AutomatonId, Handover, Instance, InterfaceId, Model, Role, RoleKind, System, Value, Way,
+};
 use crate::layout::Layout;
 use crate::scenario::Scenario;
 use crate::source::{Span, Spanned};
@@ -30,7 +32,8 @@ pub struct Line<'a> {
 
 impl<'a> Line<'a> {
     pub fn new(layout: &'a Layout, robots: Vec<Robot>, model: Model, scenario: &Scenario) -> Self {
-        let kinds: Vec<(String, f64)> = scenario.kinds.iter().map(|k| (k.name.value.clone(), k.height)).collect();
+        let kinds: Vec<(String, f64)> =
+            scenario.kinds.iter().map(|k| (k.name.value.clone(), k.height)).collect();
         let heights = kinds.iter().map(|k| k.1).collect();
         let mut line = Self {
             layout,
@@ -45,7 +48,11 @@ impl<'a> Line<'a> {
             line: None,
         };
         line.members = (0..line.model.interfaces.len())
-            .map(|i| (0..line.robots.len()).filter(|r| line.automaton(*r).implementing(InterfaceId(i)).is_some()).collect())
+            .map(|i| {
+                (0..line.robots.len())
+                    .filter(|r| line.automaton(*r).implementing(InterfaceId(i)).is_some())
+                    .collect()
+            })
             .collect();
         line
     }
@@ -60,7 +67,11 @@ impl<'a> Line<'a> {
     }
 
     fn handover(&self, robot: usize, way: Way) -> impl Iterator<Item = &Handover> {
-        self.automaton(robot).implements.iter().filter_map(|i| i.handover.as_ref()).filter(move |h| h.way == way)
+        self.automaton(robot)
+            .implements
+            .iter()
+            .filter_map(|i| i.handover.as_ref())
+            .filter(move |h| h.way == way)
     }
 
     fn takes_part(&self, robot: usize) -> bool {
@@ -74,7 +85,8 @@ impl<'a> Line<'a> {
         let nodes_of: Vec<usize> = (0..self.robots.len()).filter(|r| self.takes_part(*r)).collect();
         let node_of = |robot: usize| nodes_of.iter().position(|n| *n == robot);
         let nodes = nodes_of.iter().map(|&r| {
-            let (offers, accepts) = (self.handover(r, Way::Offers).count() > 0, self.handover(r, Way::Accepts).count() > 0);
+            let (offers, accepts) =
+                (self.handover(r, Way::Offers).count() > 0, self.handover(r, Way::Accepts).count() > 0);
             let robot = &self.robots[r];
             Node {
                 name: robot.object.name.value.clone(),
@@ -91,7 +103,9 @@ impl<'a> Line<'a> {
         for arm in 0..self.robots.len() {
             for (index, role) in self.automaton(arm).roles.iter().enumerate() {
                 for passive in self.candidates(arm, role) {
-                    let (Some(arm_node), Some(passive_node)) = (node_of(arm), node_of(passive)) else { continue };
+                    let (Some(arm_node), Some(passive_node)) = (node_of(arm), node_of(passive)) else {
+                        continue;
+                    };
                     let Some(site) = self.site(passive, role) else { continue };
                     let (from, to) = match role.kind {
                         RoleKind::Takes => (passive_node, arm_node),
@@ -120,12 +134,17 @@ impl<'a> Line<'a> {
         };
         let allowed = |r: usize| {
             let name = &self.robots[r].object.name.value;
-            narrowed.as_ref().is_none_or(|names: &Vec<Spanned<String>>| names.iter().any(|n| n.value == *name))
+            narrowed
+                .as_ref()
+                .is_none_or(|names: &Vec<Spanned<String>>| names.iter().any(|n| n.value == *name))
         };
         let fits = |r: usize| {
             let automaton = self.automaton(r);
-            let place = automaton.implementing(role.interface).and_then(|i| automaton.implements[i].handover.as_ref());
-            place.is_some_and(|h| h.way == way) && role.also.iter().all(|i| automaton.implementing(*i).is_some())
+            let place = automaton
+                .implementing(role.interface)
+                .and_then(|i| automaton.implements[i].handover.as_ref());
+            place.is_some_and(|h| h.way == way)
+                && role.also.iter().all(|i| automaton.implementing(*i).is_some())
         };
         (0..self.robots.len()).filter(|r| *r != arm && fits(*r) && allowed(*r)).collect()
     }
@@ -138,13 +157,20 @@ impl<'a> Line<'a> {
             Some(Value::Int(n)) => (*n).clamp(1, SLOTS as i32) as usize,
             _ => SLOTS,
         };
-        Some(Site { name: handover.name.clone(), index: handover.index, capacity, approach: handover.approach })
+        Some(Site {
+            name: handover.name.clone(),
+            index: handover.index,
+            capacity,
+            approach: handover.approach,
+        })
     }
 
     pub fn verdict(&self, report: &connect::Report) -> Verdict {
         let Some(line) = &self.line else { return Verdict::default() };
         let name = |node: usize| line.nodes[node].name.clone();
-        let those = |wanted: fn(&Node) -> bool| line.nodes.iter().filter(|n| wanted(n)).map(|n| n.name.clone()).collect();
+        let those = |wanted: fn(&Node) -> bool| {
+            line.nodes.iter().filter(|n| wanted(n)).map(|n| n.name.clone()).collect()
+        };
         Verdict {
             feasible: report.is_feasible(),
             robots: self.robots.iter().map(|r| r.object.name.value.clone()).collect(),
@@ -161,7 +187,10 @@ impl<'a> Line<'a> {
                         to: name(proposal.to),
                         tested: failure.tested,
                         misses: failure.misses.clone(),
-                        mend: failure.mend.as_ref().map(|m| (name(m.node), m.path.clone(), m.present, m.value)),
+                        mend: failure
+                            .mend
+                            .as_ref()
+                            .map(|m| (name(m.node), m.path.clone(), m.present, m.value)),
                     }
                 })
                 .collect(),
@@ -171,7 +200,8 @@ impl<'a> Line<'a> {
     /// The whole system; `None` has been reported.
     pub fn system(&mut self, report: connect::Report, scan_ms: u32) -> Option<System> {
         let line = self.line.take()?;
-        let stands: Vec<bool> = (0..line.proposals.len()).map(|p| !report.failures.iter().any(|f| f.proposal == p)).collect();
+        let stands: Vec<bool> =
+            (0..line.proposals.len()).map(|p| !report.failures.iter().any(|f| f.proposal == p)).collect();
         let connected = match report.connected() {
             Ok(connected) => connected,
             Err(found) => {
@@ -200,17 +230,25 @@ impl<'a> Line<'a> {
                         .filter(|(p, _)| stands[*p] && self.asked_by[*p] == (robot, index))
                         .map(|(_, p)| robot_of[p.passive()])
                         .collect(),
-                    RoleKind::Serves => (0..self.robots.len()).filter(|r| *r != robot && reaches(robot, *r)).collect(),
+                    RoleKind::Serves => {
+                        (0..self.robots.len()).filter(|r| *r != robot && reaches(robot, *r)).collect()
+                    }
                     RoleKind::Knows => (0..self.robots.len()).filter(|r| *r != robot).collect(),
                 };
                 let members = &self.members[role.interface.0];
                 let has_all = |r: &usize| role.also.iter().all(|i| self.members[i.0].contains(r));
-                let rows: Vec<usize> =
-                    found.iter().filter(|r| has_all(r)).filter_map(|r| members.iter().position(|m| m == r)).collect();
+                let rows: Vec<usize> = found
+                    .iter()
+                    .filter(|r| has_all(r))
+                    .filter_map(|r| members.iter().position(|m| m == r))
+                    .collect();
                 self.cardinality(robot, role, &rows);
                 roles.push(rows);
             }
-            let rows = automaton.implements.iter().filter_map(|i| self.members[i.interface.0].iter().position(|m| *m == robot));
+            let rows = automaton
+                .implements
+                .iter()
+                .filter_map(|i| self.members[i.interface.0].iter().position(|m| *m == robot));
             instances.push(Instance {
                 name: self.robots[robot].object.name.value.clone(),
                 automaton: self.automaton_id(robot),
@@ -221,7 +259,10 @@ impl<'a> Line<'a> {
         }
         let table = |relation: &ir::Relation| {
             let to = &self.members[relation.to.0];
-            self.members[relation.from.0].iter().map(|a| to.iter().map(|b| reaches(*a, *b)).collect()).collect()
+            self.members[relation.from.0]
+                .iter()
+                .map(|a| to.iter().map(|b| reaches(*a, *b)).collect())
+                .collect()
         };
         let system = System {
             model: self.model.clone(),
@@ -239,14 +280,22 @@ impl<'a> Line<'a> {
     /// An arm that gives to and takes from the same place would move its parts in a circle.
     fn round_trips(&mut self, line: &connect::Line, connected: &Connected) {
         for edge in connected.edges() {
-            let back = line.proposals.iter().find(|p| p.from == edge.from && p.to == edge.to && p.arm == edge.from);
+            let back =
+                line.proposals.iter().find(|p| p.from == edge.from && p.to == edge.to && p.arm == edge.from);
             let is_both = back.is_some() && connected.targets(edge.to).any(|t| t == edge.from);
             if is_both {
                 let (arm, place) = (&line.nodes[edge.from], &line.nodes[edge.to]);
                 self.diagnostics.push(
-                    Diagnostic::new("E0504", arm.span, format!("`{}` would give parts to `{}` and take them back", arm.name, place.name))
-                        .other(place.span, "accepts and offers within reach of the same arm")
-                        .help(format!("narrow one of the two: \"takes_from\": [...] or \"hands_to\": [...] in `{}`", arm.name)),
+                    Diagnostic::new(
+                        "E0504",
+                        arm.span,
+                        format!("`{}` would give parts to `{}` and take them back", arm.name, place.name),
+                    )
+                    .other(place.span, "accepts and offers within reach of the same arm")
+                    .help(format!(
+                        "narrow one of the two: \"takes_from\": [...] or \"hands_to\": [...] in `{}`",
+                        arm.name
+                    )),
                 );
             }
         }
@@ -265,8 +314,12 @@ impl<'a> Line<'a> {
             if user.is_some() || in_cell {
                 let place = Span::new(self.layout.file, 0, 0);
                 self.diagnostics.push(
-                    Diagnostic::new("E0505", place, format!("the layout has no `{}`, to which others refer", interface.name))
-                        .help(format!("add a robot whose automaton `is {}`", interface.name)),
+                    Diagnostic::new(
+                        "E0505",
+                        place,
+                        format!("the layout has no `{}`, to which others refer", interface.name),
+                    )
+                    .help(format!("add a robot whose automaton `is {}`", interface.name)),
                 );
             }
         }
@@ -283,12 +336,17 @@ impl<'a> Line<'a> {
         };
         let object = &self.robots[robot].object;
         let members = &self.members[role.interface.0];
-        let names: Vec<&str> = rows.iter().map(|row| self.robots[members[*row]].object.name.value.as_str()).collect();
+        let names: Vec<&str> =
+            rows.iter().map(|row| self.robots[members[*row]].object.name.value.as_str()).collect();
         let found = if names.is_empty() { "none".to_string() } else { names.join(", ") };
         self.diagnostics.push(
-            Diagnostic::new("E0506", object.name.span, format!("`{}` wants {wanted} `{}`, and has {found}", object.name.value, role.name))
-                .other(role.place, "the role is declared here")
-                .help("add or move machines, or narrow the role with \"takes_from\" or \"hands_to\""),
+            Diagnostic::new(
+                "E0506",
+                object.name.span,
+                format!("`{}` wants {wanted} `{}`, and has {found}", object.name.value, role.name),
+            )
+            .other(role.place, "the role is declared here")
+            .help("add or move machines, or narrow the role with \"takes_from\" or \"hands_to\""),
         );
     }
 
@@ -298,9 +356,13 @@ impl<'a> Line<'a> {
                 if !executor::requirement_holds(system, robot, &require.condition) {
                     let object = &self.robots[robot].object;
                     self.diagnostics.push(
-                        Diagnostic::new("E0507", object.name.span, format!("`{}`: {}", object.name.value, require.text))
-                            .other(require.place, "required here")
-                            .help("change the parameters or the layout so that the requirement holds"),
+                        Diagnostic::new(
+                            "E0507",
+                            object.name.span,
+                            format!("`{}`: {}", object.name.value, require.text),
+                        )
+                        .other(require.place, "required here")
+                        .help("change the parameters or the layout so that the requirement holds"),
                     );
                 }
             }

@@ -33,7 +33,11 @@ impl Setting {
         if !is_word(target) || !is_word(parameter) || written.is_empty() {
             return Err(form());
         }
-        let value = if is_word(written) && written.starts_with(|c: char| c.is_ascii_alphabetic()) && written != "true" && written != "false" {
+        let value = if is_word(written)
+            && written.starts_with(|c: char| c.is_ascii_alphabetic())
+            && written != "true"
+            && written != "false"
+        {
             Json { value: json::Value::Text(written.into()), span }
         } else {
             // The value keeps its place in the text: what stands before it is blanked.
@@ -56,12 +60,19 @@ pub fn check(settings: &[Setting], bound: &Bound, model: &Model, diagnostics: &m
     for setting in settings {
         let meant: Vec<&Robot> = bound.robots.iter().filter(|r| setting.applies_to(r)).collect();
         if meant.is_empty() {
-            let known = bound.robots.iter().flat_map(|r| [r.object.name.value.as_str(), r.object.kind.value.as_str()]);
+            let known = bound
+                .robots
+                .iter()
+                .flat_map(|r| [r.object.name.value.as_str(), r.object.kind.value.as_str()]);
             let help = suggestion(&setting.target, known)
                 .map_or("name a type or a robot of the layout".into(), |n| format!("is `{n}` meant?"));
             diagnostics.push(
-                Diagnostic::new("E0511", setting.span, format!("the layout has no type and no robot `{}`", setting.target))
-                    .help(help),
+                Diagnostic::new(
+                    "E0511",
+                    setting.span,
+                    format!("the layout has no type and no robot `{}`", setting.target),
+                )
+                .help(help),
             );
             continue;
         }
@@ -78,8 +89,12 @@ pub fn check(settings: &[Setting], bound: &Bound, model: &Model, diagnostics: &m
                 None => format!("its parameters are {}", parameters.join(", ")),
             };
             diagnostics.push(
-                Diagnostic::new("E0511", setting.span, format!("`{}` has no parameter `{}`", setting.target, setting.parameter))
-                    .help(help),
+                Diagnostic::new(
+                    "E0511",
+                    setting.span,
+                    format!("`{}` has no parameter `{}`", setting.target, setting.parameter),
+                )
+                .help(help),
             );
         }
     }

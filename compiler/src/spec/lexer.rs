@@ -19,8 +19,8 @@ pub enum Token {
 
 /// Longest first.
 const SIGNS: &[&str] = &[
-    ":=", "+=", "-=", "->", "..", "<>", "<=", ">=", "==", "!=", "&&", "||", "{", "}", "(", ")", "[", "]", ",", ";",
-    ":", ".", "+", "-", "*", "/", "=", "<", ">",
+    ":=", "+=", "-=", "->", "..", "<>", "<=", ">=", "==", "!=", "&&", "||", "{", "}", "(", ")", "[", "]",
+    ",", ";", ":", ".", "+", "-", "*", "/", "=", "<", ">",
 ];
 
 /// All tokens of a text, the last one `End`; what is not a token is reported and left out.
@@ -54,8 +54,12 @@ pub fn tokens(file: FileId, text: &str) -> (Vec<(Token, Span)>, Vec<Diagnostic>)
                 at += 1;
             } else {
                 diagnostics.push(
-                    Diagnostic::new("E0202", Span::new(file, start, at), "this text does not end on its line")
-                        .help("close it with a double quote"),
+                    Diagnostic::new(
+                        "E0202",
+                        Span::new(file, start, at),
+                        "this text does not end on its line",
+                    )
+                    .help("close it with a double quote"),
                 );
             }
             found.push((Token::Text(text), Span::new(file, start, at)));

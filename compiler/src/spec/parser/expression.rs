@@ -38,7 +38,11 @@ impl Parser {
         if self.depth >= DEEPEST {
             let span = self.span();
             if self.diagnostics.last().is_none_or(|d| d.code != "E0211") {
-                self.error("E0211", "this expression is nested too deeply".into(), "give its parts names with `define`");
+                self.error(
+                    "E0211",
+                    "this expression is nested too deeply".into(),
+                    "give its parts names with `define`",
+                );
             }
             self.next();
             return error(span);
@@ -144,6 +148,16 @@ impl Parser {
         }
     }
 
+    /// A bound of a type: no index may follow, since `[` begins the size of an array.
+    pub(super) fn parse_bound(&mut self) -> Expr {
+        let span = self.span();
+        if self.maybe_sign("-") {
+            let operand = self.primary();
+            return Expr { span: span.to(operand.span), kind: ExprKind::Negate(Box::new(operand)) };
+        }
+        self.primary()
+    }
+
     fn sign(&mut self) -> Expr {
         let span = self.span();
         if self.maybe_sign("-") {
@@ -158,7 +172,8 @@ impl Parser {
         loop {
             if self.maybe_sign(".") {
                 let Some(member) = self.expect_member() else { return error(base.span) };
-                base = Expr { span: base.span.to(member.span), kind: ExprKind::Member(Box::new(base), member) };
+                base =
+                    Expr { span: base.span.to(member.span), kind: ExprKind::Member(Box::new(base), member) };
             } else if self.maybe_sign("[") {
                 let index = self.parse_expr();
                 if self.expect_sign("]", "after the index").is_none() {
@@ -204,7 +219,11 @@ impl Parser {
             Token::Word(w) => self.word_expr(w, span),
             _ => {
                 let found = self.found();
-                self.error("E0213", format!("{found} is no value"), "write a name, a number or an expression in parentheses");
+                self.error(
+                    "E0213",
+                    format!("{found} is no value"),
+                    "write a name, a number or an expression in parentheses",
+                );
                 if !matches!(self.peek(), Token::Sign("}" | ";" | ")" | "]" | "->" | ",") | Token::End) {
                     self.next();
                 }
@@ -228,9 +247,13 @@ impl Parser {
             "forall" => self.quantified(Quantifier::Forall, span),
             "count" if *self.peek_second() != Token::Sign("(") => self.quantified(Quantifier::Count, span),
             "sum" => self.quantified(Quantifier::Sum, span),
-            "and" | "or" | "when" | "in" | "with" | "else" | "reaches" | "mod" | "first" | "nearest" | "least"
-            | "state" | "until" | "wait" => {
-                self.error("E0213", format!("`{word}` is no value"), "write a name, a number or an expression");
+            "and" | "or" | "when" | "in" | "with" | "else" | "reaches" | "mod" | "first" | "nearest"
+            | "least" | "state" | "until" | "wait" => {
+                self.error(
+                    "E0213",
+                    format!("`{word}` is no value"),
+                    "write a name, a number or an expression",
+                );
                 self.next();
                 error(span)
             }
@@ -276,7 +299,12 @@ impl Parser {
         };
         Expr {
             span: span.to(body.span),
-            kind: ExprKind::Quantified { quantifier, variable, domain: Box::new(domain), body: Box::new(body) },
+            kind: ExprKind::Quantified {
+                quantifier,
+                variable,
+                domain: Box::new(domain),
+                body: Box::new(body),
+            },
         }
     }
 
@@ -293,8 +321,12 @@ impl Parser {
         let milliseconds = value * factor;
         if milliseconds.fract() != 0.0 || milliseconds > f64::from(i32::MAX) {
             self.diagnostics.push(
-                crate::diagnostic::Diagnostic::new("E0214", span, "this duration is not a whole number of milliseconds that a timer can hold")
-                    .help("durations go from 0 ms to 2147483647 ms, in steps of 1 ms"),
+                crate::diagnostic::Diagnostic::new(
+                    "E0214",
+                    span,
+                    "this duration is not a whole number of milliseconds that a timer can hold",
+                )
+                .help("durations go from 0 ms to 2147483647 ms, in steps of 1 ms"),
             );
             return Expr { span, kind: ExprKind::Duration(0) };
         }

@@ -88,7 +88,8 @@ impl Parser {
         }
         let guard_span = guard_start.to(self.last_span());
         let target = if self.maybe_sign("->") { Some(self.expect_name("the next state")?) } else { None };
-        let updates = if target.is_some() && self.maybe_sign(";") { Vec::new() } else { self.parse_updates() };
+        let updates =
+            if target.is_some() && self.maybe_sign(";") { Vec::new() } else { self.parse_updates() };
         Some(ast::Transition { span: start.to(self.last_span()), clauses, guard_span, target, updates })
     }
 
