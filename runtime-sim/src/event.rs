@@ -158,6 +158,14 @@ mod tests {
     }
 
     #[test]
+    fn an_item_that_its_machine_does_not_know_is_found() {
+        let mut items = items();
+        items.pass(0, bin(1), Point::default());
+        items.borne[1].clear();
+        assert!(verdict(&items).unwrap_err().starts_with("machine 1 bears items []"));
+    }
+
+    #[test]
     fn an_item_that_is_nowhere_is_found() {
         let mut items = items();
         items.pass(0, bin(1), Point::new(f64::NAN, 0.0, 0.0));

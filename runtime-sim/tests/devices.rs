@@ -407,12 +407,13 @@ fn a_held_arm_brakes_on_its_path_and_ends_at_its_goal() {
 fn a_new_goal_on_the_way_is_reached_without_a_jump() {
     let mut rig = Rig::new(&line());
     rig.command(KITTING, MOVE, Some(Point::new(-0.6, 3.0, 1.2)));
-    rig.step(150);
-    rig.command(KITTING, MOVE, Some(Point::new(-0.6, -3.0, 1.2)));
+    rig.step(149);
     let before = point(rig.image(KITTING), input::TOOL);
     rig.step(1);
     let mut last = point(rig.image(KITTING), input::TOOL);
     let mut last_way = last - before;
+    assert!(last_way.y > 0.005, "at speed");
+    rig.command(KITTING, MOVE, Some(Point::new(-0.6, -3.0, 1.2)));
     for _ in 0..5000 {
         rig.step(1);
         let now = point(rig.image(KITTING), input::TOOL);

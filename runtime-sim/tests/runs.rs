@@ -126,16 +126,21 @@ impl Controllers for Pensive {
 
 #[test]
 fn the_trace_tells_what_the_controllers_remember() {
-    let hash = |memory: f64| {
+    let hash = |memory: f64, steps: Vec<Step>| {
         let mut hashes = Vec::new();
-        let mut controllers = Pensive(Script::new(whole_order()), memory);
+        let mut controllers = Pensive(Script::new(steps), memory);
         let report = run(&line(), &mut controllers, &mut |seen: &Seen| hashes.push(seen.hash)).unwrap();
         assert_eq!(hashes.last(), Some(&report.trace_hash));
         assert_eq!(hashes.len() as u64, report.scans);
         hashes
     };
-    assert_eq!(hash(1.0), hash(1.0));
-    assert_ne!(hash(0.0)[0], hash(-0.0)[0]);
+    let ordinary = hash(1.0, whole_order());
+    assert_eq!(ordinary, hash(1.0, whole_order()));
+    assert_ne!(ordinary[0], hash(-1.0, whole_order())[0]);
+    // The first command comes with the start, in scan 2.
+    let other = hash(1.0, vec![Step::Command(BELT, HALT, None)]);
+    assert_eq!(ordinary[..2], other[..2]);
+    assert_ne!(ordinary[2], other[2]);
 }
 
 #[test]
