@@ -118,6 +118,8 @@ pub struct Mend {
     pub change_mm: i32,
     /// Nodes on a way from a source to a destination after the change.
     pub connected: usize,
+    /// Indices of all proposals whose machines meet only after the change.
+    pub joined: Vec<usize>,
 }
 
 /// Two machines that should meet and do not.
