@@ -42,7 +42,7 @@ pub struct Plant {
 }
 
 #[derive(Clone, Debug)]
-#[allow(clippy::large_enum_variant)] // a dozen of them in all
+#[expect(clippy::large_enum_variant)] // a dozen of them in all
 enum Machine {
     Belt(Belt),
     Vehicle(Vehicle),
