@@ -37,10 +37,21 @@ impl Checked {
 
 /// Checks all types of the files. A type of a later file replaces one of the same name of an earlier file.
 /// `kinds` are the kinds of part, from the scenario; at least one.
-pub fn check(sources: &Sources, files: &[(FileId, ast::File)], kinds: &[String]) -> Result<Checked, Vec<Diagnostic>> {
+pub fn check(
+    sources: &Sources,
+    files: &[(FileId, ast::File)],
+    kinds: &[String],
+) -> Result<Checked, Vec<Diagnostic>> {
     let mut diagnostics = Vec::new();
     let declarations = declarations(files, &mut diagnostics);
-    let mut checker = Checker { sources, diagnostics, declarations, model: empty_model(kinds), rules: Vec::new(), broken: BTreeSet::new() };
+    let mut checker = Checker {
+        sources,
+        diagnostics,
+        declarations,
+        model: empty_model(kinds),
+        rules: Vec::new(),
+        broken: BTreeSet::new(),
+    };
     checker.enums();
     checker.interfaces();
     for index in 0..checker.declarations.automata.len() {
@@ -161,8 +172,12 @@ impl Checker<'_> {
             for member in &tree.members {
                 if members.contains(&member.value) {
                     self.report(
-                        Diagnostic::new("E0301", member.span, format!("`{}` is a member twice", member.value))
-                            .help("remove one"),
+                        Diagnostic::new(
+                            "E0301",
+                            member.span,
+                            format!("`{}` is a member twice", member.value),
+                        )
+                        .help("remove one"),
                     );
                 } else {
                     members.push(member.value.clone());
@@ -170,8 +185,12 @@ impl Checker<'_> {
             }
             if members.is_empty() {
                 self.report(
-                    Diagnostic::new("E0302", tree.name.span, format!("the enumeration `{}` has no members", tree.name.value))
-                        .help("write its members between the braces"),
+                    Diagnostic::new(
+                        "E0302",
+                        tree.name.span,
+                        format!("the enumeration `{}` has no members", tree.name.value),
+                    )
+                    .help("write its members between the braces"),
                 );
                 members.push("Nothing".into());
             }
@@ -207,9 +226,10 @@ impl Checker<'_> {
             let mut names: Vec<&ast::Name> = Vec::new();
             for name in tree.parameters.iter().map(|p| &p.name).chain(tree.cells.iter().map(|c| &c.name)) {
                 if *is_declared && let Some(before) = names.iter().find(|n| n.value == name.value) {
-                    let diagnostic = Diagnostic::new("E0301", name.span, format!("`{}` is declared twice", name.value))
-                        .other(before.span, "first here")
-                        .help("rename or remove one of them");
+                    let diagnostic =
+                        Diagnostic::new("E0301", name.span, format!("`{}` is declared twice", name.value))
+                            .other(before.span, "first here")
+                            .help("rename or remove one of them");
                     self.report(diagnostic);
                 }
                 names.push(name);
@@ -243,14 +263,16 @@ impl Checker<'_> {
 
     fn named_as_type(&self, name: &str) -> bool {
         let in_type = |ty: &ast::Type| matches!(&ty.scalar, ast::Scalar::Named(n) if n.value == name);
-        self.declarations.interfaces.iter().any(|i| {
-            i.parameters.iter().any(|p| in_type(&p.ty)) || i.cells.iter().any(|c| in_type(&c.ty))
-        }) || self.declarations.automata.iter().any(|a| {
-            a.roles.iter().any(|r| r.interface.value == name || r.also.iter().any(|n| n.value == name))
-                || a.locals.iter().any(|l| in_type(&l.ty))
-                || a.cells.iter().any(|c| in_type(&c.ty))
-                || a.parameters.iter().any(|p| in_type(&p.ty))
-        })
+        self.declarations
+            .interfaces
+            .iter()
+            .any(|i| i.parameters.iter().any(|p| in_type(&p.ty)) || i.cells.iter().any(|c| in_type(&c.ty)))
+            || self.declarations.automata.iter().any(|a| {
+                a.roles.iter().any(|r| r.interface.value == name || r.also.iter().any(|n| n.value == name))
+                    || a.locals.iter().any(|l| in_type(&l.ty))
+                    || a.cells.iter().any(|c| in_type(&c.ty))
+                    || a.parameters.iter().any(|p| in_type(&p.ty))
+            })
     }
 
     fn cell(&mut self, tree: &ast::Cell) -> Option<ir::Cell> {
@@ -272,35 +294,49 @@ impl Checker<'_> {
             }
             Some(ast::Rule::Counter) => {
                 if !matches!(cell.ty.scalar, ast::Scalar::Int { .. }) {
-                    let diagnostic = Diagnostic::new("E0303", cell.name.span, "a counter counts whole numbers")
-                        .help("give it a type such as `int 0..12`");
+                    let diagnostic =
+                        Diagnostic::new("E0303", cell.name.span, "a counter counts whole numbers")
+                            .help("give it a type such as `int 0..12`");
                     self.report(diagnostic);
                 }
                 Rule::Counter
             }
-            Some(ast::Rule::With(name)) => match interface.cells.iter().position(|c| c.name.value == name.value) {
-                Some(other) if matches!(interface.cells[other].rule, Some(ast::Rule::Token(_))) => Rule::With(other),
-                _ => {
-                    let known = interface.cells.iter().map(|c| c.name.value.as_str());
-                    let help = suggestion(&name.value, known)
-                        .map_or("name a cell of this interface that has a `token`".into(), |n| format!("is `{n}` meant?"));
-                    let diagnostic =
-                        Diagnostic::new("E0303", name.span, format!("`{}` is no token of `{}`", name.value, interface.name.value))
-                            .help(help);
-                    self.report(diagnostic);
-                    Rule::Owner
+            Some(ast::Rule::With(name)) => {
+                match interface.cells.iter().position(|c| c.name.value == name.value) {
+                    Some(other) if matches!(interface.cells[other].rule, Some(ast::Rule::Token(_))) => {
+                        Rule::With(other)
+                    }
+                    _ => {
+                        let known = interface.cells.iter().map(|c| c.name.value.as_str());
+                        let help = suggestion(&name.value, known)
+                            .map_or("name a cell of this interface that has a `token`".into(), |n| {
+                                format!("is `{n}` meant?")
+                            });
+                        let diagnostic = Diagnostic::new(
+                            "E0303",
+                            name.span,
+                            format!("`{}` is no token of `{}`", name.value, interface.name.value),
+                        )
+                        .help(help);
+                        self.report(diagnostic);
+                        Rule::Owner
+                    }
                 }
-            },
+            }
             Some(ast::Rule::Token(sides)) => self.token(cell, sides, index),
         }
     }
 
     fn expect_bool_cell(&mut self, cell: &ast::Cell, rule: &str) {
-        let is_plain = matches!(cell.initial.as_ref().map(|e| &e.kind), None | Some(ast::ExprKind::Bool(false)));
+        let is_plain =
+            matches!(cell.initial.as_ref().map(|e| &e.kind), None | Some(ast::ExprKind::Bool(false)));
         if !matches!(cell.ty.scalar, ast::Scalar::Bool) || !is_plain {
-            let diagnostic =
-                Diagnostic::new("E0303", cell.name.span, format!("a {rule} is a `bool` that begins as false"))
-                    .help("write `bool := false`, or choose another rule");
+            let diagnostic = Diagnostic::new(
+                "E0303",
+                cell.name.span,
+                format!("a {rule} is a `bool` that begins as false"),
+            )
+            .help("write `bool := false`, or choose another rule");
             self.report(diagnostic);
         }
     }
@@ -311,8 +347,9 @@ impl Checker<'_> {
             return Rule::Owner;
         }
         let Some(ir::Scalar::Enum(id)) = found.map(|c| c.ty.scalar) else {
-            let diagnostic = Diagnostic::new("E0303", cell.name.span, "a token has the type of an enumeration")
-                .help("declare an `enum` of its values");
+            let diagnostic =
+                Diagnostic::new("E0303", cell.name.span, "a token has the type of an enumeration")
+                    .help("declare an `enum` of its values");
             self.report(diagnostic);
             return Rule::Owner;
         };
@@ -345,7 +382,11 @@ impl Checker<'_> {
     fn lonely_roles(&mut self) {
         let trees = &self.declarations;
         let is_read = |name: &str| {
-            trees.automata.iter().flat_map(|a| &a.roles).any(|r| r.interface.value == name || r.also.iter().any(|n| n.value == name))
+            trees
+                .automata
+                .iter()
+                .flat_map(|a| &a.roles)
+                .any(|r| r.interface.value == name || r.also.iter().any(|n| n.value == name))
         };
         let is_implemented =
             |name: &str| trees.automata.iter().flat_map(|a| &a.implements).any(|i| i.interface.value == name);
@@ -355,8 +396,12 @@ impl Checker<'_> {
             .collect();
         for name in lonely {
             self.report(
-                Diagnostic::new("E0304", name.span, format!("no automaton is `{}`, which a role asks for", name.value))
-                    .help(format!("write `automaton ... is {}`", name.value)),
+                Diagnostic::new(
+                    "E0304",
+                    name.span,
+                    format!("no automaton is `{}`, which a role asks for", name.value),
+                )
+                .help(format!("write `automaton ... is {}`", name.value)),
             );
         }
     }

@@ -42,7 +42,9 @@ impl Context<'_, '_> {
                 let ty = self.checker.model.interfaces[interface.0].cells[cell].ty;
                 Some(Path::Place(Place::Cell { interface, cell, of: None, index: None }, ty))
             }
-            Some(Symbol::Port(port)) => Some(Path::Place(Place::Port { port, index: None }, self.port_type(port))),
+            Some(Symbol::Port(port)) => {
+                Some(Path::Place(Place::Port { port, index: None }, self.port_type(port)))
+            }
             Some(Symbol::Parameter(parameter)) => {
                 let ty = self.automaton.parameters[parameter].ty;
                 Some(Path::Place(Place::Parameter { parameter, index: None }, ty))
@@ -58,8 +60,9 @@ impl Context<'_, '_> {
             }
             Some(Symbol::Role(_)) => {
                 self.report(
-                    Diagnostic::new("E0310", span, format!("`{name}` is a role, not one robot"))
-                        .help(format!("choose one with `first x in {name}`, or ask `exists x in {name}: ...`")),
+                    Diagnostic::new("E0310", span, format!("`{name}` is a role, not one robot")).help(
+                        format!("choose one with `first x in {name}`, or ask `exists x in {name}: ...`"),
+                    ),
                 );
                 None
             }
@@ -102,8 +105,10 @@ impl Context<'_, '_> {
                 None
             }
             _ => {
-                let names: Vec<String> =
-                    found.iter().map(|(id, _)| format!("`{}.{name}`", self.checker.model.enums[id.0].name)).collect();
+                let names: Vec<String> = found
+                    .iter()
+                    .map(|(id, _)| format!("`{}.{name}`", self.checker.model.enums[id.0].name))
+                    .collect();
                 self.report(
                     Diagnostic::new("E0310", span, format!("`{name}` is a member of several enumerations"))
                         .help(format!("write {}", names.join(" or "))),
@@ -141,7 +146,12 @@ impl Context<'_, '_> {
             let Some(ordinal) = members.iter().position(|m| *m == member.value) else {
                 let help = format!("its members are {}", members.join(", "));
                 self.report(
-                    Diagnostic::new("E0311", member.span, format!("`{name}` has no member `{}`", member.value)).help(help),
+                    Diagnostic::new(
+                        "E0311",
+                        member.span,
+                        format!("`{name}` has no member `{}`", member.value),
+                    )
+                    .help(help),
                 );
                 return None;
             };
@@ -164,8 +174,12 @@ impl Context<'_, '_> {
             ty => {
                 let name = self.checker.type_name(ty);
                 self.report(
-                    Diagnostic::new("E0311", span, format!("a value of type {name} has no `{}`", member.value))
-                        .help("only robots and points have members"),
+                    Diagnostic::new(
+                        "E0311",
+                        span,
+                        format!("a value of type {name} has no `{}`", member.value),
+                    )
+                    .help("only robots and points have members"),
                 );
                 None
             }
@@ -186,7 +200,11 @@ impl Context<'_, '_> {
             let ty = shown.parameters[parameter].ty;
             return Some(Path::Place(Place::Shown { interface, parameter, of, index: None }, ty));
         }
-        let known = shown.cells.iter().map(|c| c.name.as_str()).chain(shown.parameters.iter().map(|p| p.name.as_str()));
+        let known = shown
+            .cells
+            .iter()
+            .map(|c| c.name.as_str())
+            .chain(shown.parameters.iter().map(|p| p.name.as_str()));
         let help = suggestion(&member.value, known).map_or(
             "a neighbour shows the cells and parameters of its interface, never its ports or locals".into(),
             |n| format!("is `{n}` meant?"),

@@ -43,22 +43,34 @@ pub(super) fn check(context: &mut Context, tree: &ast::Automaton) {
     for state in &tree.states {
         if state.name.value == BEGINNING {
             context.report(
-                Diagnostic::new("E0301", state.name.span, format!("`{BEGINNING}` is the name of the beginning"))
-                    .help("choose another name for this state"),
+                Diagnostic::new(
+                    "E0301",
+                    state.name.span,
+                    format!("`{BEGINNING}` is the name of the beginning"),
+                )
+                .help("choose another name for this state"),
             );
         }
         if let Some(before) = names.insert(state.name.value.clone(), state.name.clone()) {
             context.report(
-                Diagnostic::new("E0301", state.name.span, format!("there are two states `{}`", state.name.value))
-                    .other(before.span, "first here")
-                    .help("rename or remove one of them"),
+                Diagnostic::new(
+                    "E0301",
+                    state.name.span,
+                    format!("there are two states `{}`", state.name.value),
+                )
+                .other(before.span, "first here")
+                .help("rename or remove one of them"),
             );
         }
     }
     if tree.initial.is_none() {
         context.report(
-            Diagnostic::new("E0326", tree.name.span, format!("`{}` does not say where it begins", tree.name.value))
-                .help("write `initial state ...`, or `initial -> State { updates }`"),
+            Diagnostic::new(
+                "E0326",
+                tree.name.span,
+                format!("`{}` does not say where it begins", tree.name.value),
+            )
+            .help("write `initial state ...`, or `initial -> State { updates }`"),
         );
     }
     let states = plain(context, tree);
@@ -90,15 +102,24 @@ pub(super) fn check(context: &mut Context, tree: &ast::Automaton) {
             let text = format!("`{}` has lasted too long", state.name.value);
             (time, context.fault(ir::FaultKind::TooLong, state.name.span, text))
         });
-        let transitions: Vec<_> = trees.iter().filter_map(|t| transition(context, tree, t, &number)).collect();
+        let transitions: Vec<_> =
+            trees.iter().filter_map(|t| transition(context, tree, t, &number)).collect();
         match (state.is_final, trees.is_empty()) {
             (true, false) => context.report(
-                Diagnostic::new("E0327", state.name.span, format!("the final state `{}` has transitions", state.name.value))
-                    .help("remove `final`, or the transitions"),
+                Diagnostic::new(
+                    "E0327",
+                    state.name.span,
+                    format!("the final state `{}` has transitions", state.name.value),
+                )
+                .help("remove `final`, or the transitions"),
             ),
             (false, true) => context.report(
-                Diagnostic::new("E0327", state.name.span, format!("no transition leaves `{}`", state.name.value))
-                    .help("write `final state` if the automaton ends here"),
+                Diagnostic::new(
+                    "E0327",
+                    state.name.span,
+                    format!("no transition leaves `{}`", state.name.value),
+                )
+                .help("write `final state` if the automaton ends here"),
             ),
             _ => {}
         }
@@ -132,16 +153,23 @@ fn unreachable_states(context: &mut Context, first: &str, states: &[ast::State])
     let is_lost = |name: &str| !name.contains('.') && number(name).is_some_and(|n| !reached[n]);
     for state in states.iter().filter(|s| known_beginning && is_lost(&s.name.value)) {
         context.report(
-            Diagnostic::new("E0328", state.name.span, format!("no transition leads to `{}`", state.name.value))
-                .help("add a transition to it, or remove the state"),
+            Diagnostic::new(
+                "E0328",
+                state.name.span,
+                format!("no transition leads to `{}`", state.name.value),
+            )
+            .help("add a transition to it, or remove the state"),
         );
     }
 }
 
 fn unknown_state(context: &mut Context, tree: &ast::Automaton, name: &ast::Name) {
     let known = tree.states.iter().map(|s| s.name.value.as_str());
-    let help = suggestion(&name.value, known).map_or(format!("declare `state {} {{ ... }}`", name.value), |n| format!("is `{n}` meant?"));
-    context.report(Diagnostic::new("E0311", name.span, format!("there is no state `{}`", name.value)).help(help));
+    let help = suggestion(&name.value, known)
+        .map_or(format!("declare `state {} {{ ... }}`", name.value), |n| format!("is `{n}` meant?"));
+    context.report(
+        Diagnostic::new("E0311", name.span, format!("there is no state `{}`", name.value)).help(help),
+    );
 }
 
 fn transition(
@@ -234,5 +262,4 @@ impl Context<'_, '_> {
         };
         Some(ir::Binder { variable, domain, condition, key })
     }
-
 }

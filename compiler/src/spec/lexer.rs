@@ -19,8 +19,8 @@ pub enum Token {
 
 /// Longest first.
 const SIGNS: &[&str] = &[
-    ":=", "+=", "-=", "->", "..", "<>", "<=", ">=", "==", "!=", "&&", "||", "{", "}", "(", ")", "[", "]", ",", ";",
-    ":", ".", "+", "-", "*", "/", "=", "<", ">",
+    ":=", "+=", "-=", "->", "..", "<>", "<=", ">=", "==", "!=", "&&", "||", "{", "}", "(", ")", "[", "]",
+    ",", ";", ":", ".", "+", "-", "*", "/", "=", "<", ">",
 ];
 
 /// All tokens of a text, the last one `End`; what is not a token is reported and left out.
@@ -39,11 +39,17 @@ pub fn tokens(file: FileId, text: &str) -> (Vec<(Token, Span)>, Vec<Diagnostic>)
             if let Some(doc) = line.strip_prefix("///") {
                 found.push((Token::Doc(doc.trim().to_string()), Span::new(file, start, at)));
             }
-        } else if let Some(end) = [("/*", "*/"), ("(*", "*)")].iter().find_map(|(a, b)| rest.starts_with(a).then_some(b)) {
+        } else if let Some(end) =
+            [("/*", "*/"), ("(*", "*)")].iter().find_map(|(a, b)| rest.starts_with(a).then_some(b))
+        {
             at += rest[2..].find(end).map_or(rest.len(), |length| length + 4);
             diagnostics.push(
-                Diagnostic::new("E0201", Span::new(file, start, start + 2), "there are no comments of this kind")
-                    .help("begin each line of a comment with `//`"),
+                Diagnostic::new(
+                    "E0201",
+                    Span::new(file, start, start + 2),
+                    "there are no comments of this kind",
+                )
+                .help("begin each line of a comment with `//`"),
             );
         } else if c.is_ascii_alphabetic() || c == '_' {
             at += rest.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(rest.len());
@@ -60,8 +66,12 @@ pub fn tokens(file: FileId, text: &str) -> (Vec<(Token, Span)>, Vec<Diagnostic>)
                 at += 1;
             } else {
                 diagnostics.push(
-                    Diagnostic::new("E0202", Span::new(file, start, at), "this text does not end on its line")
-                        .help("close it with a double quote"),
+                    Diagnostic::new(
+                        "E0202",
+                        Span::new(file, start, at),
+                        "this text does not end on its line",
+                    )
+                    .help("close it with a double quote"),
                 );
             }
             found.push((Token::Text(text), Span::new(file, start, at)));
@@ -100,8 +110,12 @@ pub fn tokens(file: FileId, text: &str) -> (Vec<(Token, Span)>, Vec<Diagnostic>)
             };
             let shown = if c.is_control() { c.escape_default().to_string() } else { c.to_string() };
             diagnostics.push(
-                Diagnostic::new("E0201", Span::new(file, start, at), format!("`{shown}` is no part of the language"))
-                    .help(help),
+                Diagnostic::new(
+                    "E0201",
+                    Span::new(file, start, at),
+                    format!("`{shown}` is no part of the language"),
+                )
+                .help(help),
             );
         }
     }

@@ -14,8 +14,8 @@ use crate::spec::lexer::{self, Token};
 
 /// Words that cannot be names, since an expression or a clause begins with them.
 pub const RESERVED: &[&str] = &[
-    "after", "and", "count", "done", "else", "exists", "failed", "false", "first", "forall", "in", "least", "mod",
-    "nearest", "not", "or", "reaches", "state", "sum", "true", "until", "wait", "when", "with",
+    "after", "and", "count", "done", "else", "exists", "failed", "false", "first", "forall", "in", "least",
+    "mod", "nearest", "not", "or", "reaches", "state", "sum", "true", "until", "wait", "when", "with",
 ];
 
 /// Nesting of expressions beyond which a text is refused.
@@ -28,7 +28,8 @@ const LONGEST: usize = 256;
 /// Reads a whole file. What is wrong is in the list; the tree holds the rest.
 pub fn parse(file: FileId, text: &str) -> (ast::File, Vec<Diagnostic>) {
     let (tokens, diagnostics) = lexer::tokens(file, text);
-    let mut parser = Parser { tokens, position: 0, diagnostics, depth: 0, length: 0, error_at: None, errors: 0 };
+    let mut parser =
+        Parser { tokens, position: 0, diagnostics, depth: 0, length: 0, error_at: None, errors: 0 };
     let tree = parser.file();
     (tree, parser.diagnostics)
 }
@@ -63,9 +64,10 @@ impl Parser {
                         Token::Word(w) => suggestion(w, ["enum", "interface", "automaton"]),
                         _ => None,
                     };
-                    let help = near.map_or("a file holds `enum`, `interface` and `automaton`".to_string(), |w| {
-                        format!("is `{w}` meant?")
-                    });
+                    let help = near
+                        .map_or("a file holds `enum`, `interface` and `automaton`".to_string(), |w| {
+                            format!("is `{w}` meant?")
+                        });
                     self.error("E0204", format!("{found} cannot begin an item"), help);
                     self.recover_to_item();
                 }
@@ -81,7 +83,9 @@ impl Parser {
                 Token::End => return,
                 Token::Sign("{") => depth += 1,
                 Token::Sign("}") => depth = depth.saturating_sub(1),
-                Token::Word(w) if depth == 0 && ["enum", "interface", "automaton"].contains(&w.as_str()) => return,
+                Token::Word(w) if depth == 0 && ["enum", "interface", "automaton"].contains(&w.as_str()) => {
+                    return;
+                }
                 _ => {}
             }
             self.next();
@@ -216,7 +220,11 @@ impl Parser {
             }
             _ => {
                 let found = self.found();
-                self.error("E0205", format!("the name of {what} is missing"), format!("write a name before {found}"));
+                self.error(
+                    "E0205",
+                    format!("the name of {what} is missing"),
+                    format!("write a name before {found}"),
+                );
                 None
             }
         }
@@ -224,7 +232,8 @@ impl Parser {
 
     /// Whether an item of a file begins here.
     fn at_item(&self) -> bool {
-        matches!(self.word(), Some("enum" | "interface" | "automaton")) && matches!(self.peek_second(), Token::Word(_))
+        matches!(self.word(), Some("enum" | "interface" | "automaton"))
+            && matches!(self.peek_second(), Token::Word(_))
     }
 
     /// What stands here, for a message.

@@ -6,8 +6,20 @@ use crate::spec::ast;
 use crate::spec::lexer::Token;
 
 const MEMBERS: &[&str] = &[
-    "parameter", "shared", "local", "define", "takes", "hands", "serves", "knows", "require", "invariant", "initial",
-    "any", "state", "final",
+    "parameter",
+    "shared",
+    "local",
+    "define",
+    "takes",
+    "hands",
+    "serves",
+    "knows",
+    "require",
+    "invariant",
+    "initial",
+    "any",
+    "state",
+    "final",
 ];
 
 impl Parser {
@@ -91,7 +103,10 @@ impl Parser {
         };
         let approach = if self.maybe_word("approach") { Some(self.parse_sum()) } else { None };
         let span = span.to(self.last_span());
-        Some(ast::Implements { interface, handover: Some(ast::Handover { span, way, place, index, approach }) })
+        Some(ast::Implements {
+            interface,
+            handover: Some(ast::Handover { span, way, place, index, approach }),
+        })
     }
 
     fn member(&mut self, automaton: &mut ast::Automaton, doc: Vec<String>) {
@@ -150,8 +165,9 @@ impl Parser {
                     Token::Word(w) => suggestion(w, MEMBERS.iter().copied()),
                     _ => None,
                 };
-                let help =
-                    near.map_or(format!("an automaton holds {}", MEMBERS.join(", ")), |w| format!("is `{w}` meant?"));
+                let help = near.map_or(format!("an automaton holds {}", MEMBERS.join(", ")), |w| {
+                    format!("is `{w}` meant?")
+                });
                 self.error("E0204", format!("{found} cannot stand in an automaton"), help);
                 self.next();
                 self.recover();
@@ -162,9 +178,13 @@ impl Parser {
     fn set_initial(&mut self, automaton: &mut ast::Automaton, initial: ast::Initial) {
         if let Some(before) = &automaton.initial {
             self.report(
-                crate::diagnostic::Diagnostic::new("E0208", initial.span, "an automaton begins in one state only")
-                    .other(before.span, "the beginning is given here already")
-                    .help("remove one `initial`"),
+                crate::diagnostic::Diagnostic::new(
+                    "E0208",
+                    initial.span,
+                    "an automaton begins in one state only",
+                )
+                .other(before.span, "the beginning is given here already")
+                .help("remove one `initial`"),
             );
             return;
         }
@@ -262,7 +282,11 @@ impl Parser {
             return usize::try_from(value).ok();
         }
         let found = self.found();
-        self.error("E0205", format!("a number of members is missing before {found}"), "write `[1..]`, `[2..4]` or `[]`");
+        self.error(
+            "E0205",
+            format!("a number of members is missing before {found}"),
+            "write `[1..]`, `[2..4]` or `[]`",
+        );
         None
     }
 }

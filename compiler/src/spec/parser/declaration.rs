@@ -46,7 +46,8 @@ impl Parser {
                 return Some(interface);
             }
             if *self.peek() == Token::End || self.at_item() {
-                let message = format!("`}}` is missing at the end of the interface `{}`", interface.name.value);
+                let message =
+                    format!("`}}` is missing at the end of the interface `{}`", interface.name.value);
                 self.error("E0205", message, "close the interface");
                 return Some(interface);
             }
@@ -97,9 +98,12 @@ impl Parser {
 
     pub(super) fn parse_local(&mut self, doc: Vec<String>) -> Option<ast::Local> {
         self.next();
-        let local = self
-            .typed("the local variable", ":=")
-            .map(|(name, ty, initial)| ast::Local { doc, name, ty, initial });
+        let local = self.typed("the local variable", ":=").map(|(name, ty, initial)| ast::Local {
+            doc,
+            name,
+            ty,
+            initial,
+        });
         self.end_of_declaration(local.is_some());
         local
     }
@@ -113,8 +117,20 @@ impl Parser {
     /// To the next declaration or state on this level, or past a `;`.
     fn recover_declaration(&mut self) {
         const STARTS: &[&str] = &[
-            "parameter", "shared", "local", "define", "takes", "hands", "serves", "knows", "require", "invariant",
-            "initial", "any", "state", "final",
+            "parameter",
+            "shared",
+            "local",
+            "define",
+            "takes",
+            "hands",
+            "serves",
+            "knows",
+            "require",
+            "invariant",
+            "initial",
+            "any",
+            "state",
+            "final",
         ];
         loop {
             match self.peek() {
@@ -206,9 +222,9 @@ impl Parser {
         let scalar = match name.value.as_str() {
             "bool" => ast::Scalar::Bool,
             "int" => {
-                let lo = self.parse_sum();
+                let lo = self.parse_bound();
                 self.expect_sign("..", "between the bounds of an `int`")?;
-                let hi = self.parse_sum();
+                let hi = self.parse_bound();
                 ast::Scalar::Int { lo, hi }
             }
             "real" => ast::Scalar::Real,

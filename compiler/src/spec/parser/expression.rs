@@ -166,6 +166,16 @@ impl Parser {
         }
     }
 
+    /// A bound of a type: no index may follow, since `[` begins the size of an array.
+    pub(super) fn parse_bound(&mut self) -> Expr {
+        let span = self.span();
+        if self.maybe_sign("-") {
+            let operand = self.primary();
+            return Expr { span: span.to(operand.span), kind: ExprKind::Negate(Box::new(operand)) };
+        }
+        self.primary()
+    }
+
     fn sign(&mut self) -> Expr {
         let span = self.span();
         if self.maybe_sign("-") {
@@ -183,7 +193,8 @@ impl Parser {
             }
             if self.maybe_sign(".") {
                 let Some(member) = self.expect_member() else { return error(base.span) };
-                base = Expr { span: base.span.to(member.span), kind: ExprKind::Member(Box::new(base), member) };
+                base =
+                    Expr { span: base.span.to(member.span), kind: ExprKind::Member(Box::new(base), member) };
             } else if self.maybe_sign("[") {
                 let index = self.parse_expr();
                 if self.expect_sign("]", "after the index").is_none() {
@@ -229,7 +240,11 @@ impl Parser {
             Token::Word(w) => self.word_expr(w, span),
             _ => {
                 let found = self.found();
-                self.error("E0213", format!("{found} is no value"), "write a name, a number or an expression in parentheses");
+                self.error(
+                    "E0213",
+                    format!("{found} is no value"),
+                    "write a name, a number or an expression in parentheses",
+                );
                 if !matches!(self.peek(), Token::Sign("}" | ";" | ")" | "]" | "->" | ",") | Token::End) {
                     self.next();
                 }
@@ -253,9 +268,13 @@ impl Parser {
             "forall" => self.quantified(Quantifier::Forall, span),
             "count" if *self.peek_second() != Token::Sign("(") => self.quantified(Quantifier::Count, span),
             "sum" => self.quantified(Quantifier::Sum, span),
-            "and" | "or" | "when" | "in" | "with" | "else" | "reaches" | "mod" | "first" | "nearest" | "least"
-            | "state" | "until" | "wait" => {
-                self.error("E0213", format!("`{word}` is no value"), "write a name, a number or an expression");
+            "and" | "or" | "when" | "in" | "with" | "else" | "reaches" | "mod" | "first" | "nearest"
+            | "least" | "state" | "until" | "wait" => {
+                self.error(
+                    "E0213",
+                    format!("`{word}` is no value"),
+                    "write a name, a number or an expression",
+                );
                 self.next();
                 error(span)
             }
@@ -301,7 +320,12 @@ impl Parser {
         };
         Expr {
             span: span.to(body.span),
-            kind: ExprKind::Quantified { quantifier, variable, domain: Box::new(domain), body: Box::new(body) },
+            kind: ExprKind::Quantified {
+                quantifier,
+                variable,
+                domain: Box::new(domain),
+                body: Box::new(body),
+            },
         }
     }
 
@@ -318,8 +342,12 @@ impl Parser {
         let milliseconds = value * factor;
         if milliseconds.fract() != 0.0 || milliseconds > f64::from(i32::MAX) {
             self.report(
-                crate::diagnostic::Diagnostic::new("E0214", span, "this duration is not a whole number of milliseconds that a timer can hold")
-                    .help("durations go from 0 ms to 2147483647 ms, in steps of 1 ms"),
+                crate::diagnostic::Diagnostic::new(
+                    "E0214",
+                    span,
+                    "this duration is not a whole number of milliseconds that a timer can hold",
+                )
+                .help("durations go from 0 ms to 2147483647 ms, in steps of 1 ms"),
             );
             return Expr { span, kind: ExprKind::Duration(0) };
         }

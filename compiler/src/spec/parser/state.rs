@@ -61,7 +61,11 @@ impl Parser {
                 return transitions;
             }
             if self.at_state() {
-                self.error("E0205", "`}` is missing at the end of the state".into(), "close the state before the next one");
+                self.error(
+                    "E0205",
+                    "`}` is missing at the end of the state".into(),
+                    "close the state before the next one",
+                );
                 return transitions;
             }
             if !self.at_word("when") {
@@ -107,7 +111,8 @@ impl Parser {
             self.skip_to(&["->"]);
         }
         let target = if self.maybe_sign("->") { Some(self.expect_name("the next state")?) } else { None };
-        let updates = if target.is_some() && self.maybe_sign(";") { Vec::new() } else { self.parse_updates() };
+        let updates =
+            if target.is_some() && self.maybe_sign(";") { Vec::new() } else { self.parse_updates() };
         Some(ast::Transition { span: start.to(self.last_span()), clauses, guard_span, target, updates })
     }
 
