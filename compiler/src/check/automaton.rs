@@ -7,7 +7,7 @@ use crate::ir::{self, Extent, Scalar, Type, VariableId};
 use crate::source::Span;
 use crate::spec::ast;
 use runtime_sim::device::{DEVICES, Device};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What a name means in an automaton.
 #[derive(Clone, Debug)]
@@ -33,6 +33,10 @@ pub struct Context<'c, 'a> {
     pub(super) facts: Facts,
     /// `after` has a meaning.
     pub(super) in_guard: bool,
+    /// Names whose declarations have errors: reading them is no further one.
+    pub(super) broken: BTreeSet<String>,
+    /// An interface is not known, and with it the names of its cells.
+    pub(super) lacks_names: bool,
     /// Own interface, if the automaton shows something that no declared interface has.
     own_interface: Option<ir::InterfaceId>,
 }
@@ -70,6 +74,8 @@ pub(super) fn check(checker: &mut Checker, tree: &ast::Automaton) {
         variables: Vec::new(),
         facts: Facts::default(),
         in_guard: false,
+        broken: BTreeSet::new(),
+        lacks_names: false,
         own_interface,
     };
     context.names(tree);
@@ -186,12 +192,22 @@ impl Context<'_, '_> {
         for (index, constant) in device.constants.iter().enumerate() {
             self.symbols.insert(constant.name.into(), Symbol::DeviceConstant(index));
         }
-        let declared: Vec<ir::InterfaceId> = tree
-            .implements
-            .iter()
-            .filter_map(|i| self.checker.interface_or_report(&i.interface))
-            .chain(self.own_interface)
-            .collect();
+        let mut declared = Vec::new();
+        for clause in &tree.implements {
+            match self.checker.interface_or_report(&clause.interface) {
+                None => self.lacks_names = true,
+                Some(id) if declared.contains(&id) => self.report(
+                    Diagnostic::new(
+                        "E0301",
+                        clause.interface.span,
+                        format!("`{}` stands here twice", clause.interface.value),
+                    )
+                    .help("remove one"),
+                ),
+                Some(id) => declared.push(id),
+            }
+        }
+        declared.extend(self.own_interface);
         for id in declared {
             let cells: Vec<String> =
                 self.checker.model.interfaces[id.0].cells.iter().map(|c| c.name.clone()).collect();
@@ -202,14 +218,13 @@ impl Context<'_, '_> {
             }
         }
         for parameter in &tree.parameters {
-            let Some(ty) = self.checker.resolve_type(&parameter.ty) else { continue };
-            let default = match &parameter.default {
-                Some(expr) => match self.checker.constant(ty.scalar, expr) {
-                    Some(value) => Some(value),
-                    None => continue,
-                },
-                None => None,
+            let ty = self.checker.resolve_type(&parameter.ty);
+            let default = parameter.default.as_ref().map(|expr| self.checker.constant(ty?.scalar, expr));
+            let (Some(ty), None | Some(Some(_))) = (ty, default) else {
+                self.broken.insert(parameter.name.value.clone());
+                continue;
             };
+            let default = default.flatten();
             self.declare(&parameter.name, Symbol::Parameter(self.automaton.parameters.len()));
             self.automaton.parameters.push(ir::Parameter {
                 name: parameter.name.value.clone(),
@@ -223,8 +238,12 @@ impl Context<'_, '_> {
             self.role(role);
         }
         for local in &tree.locals {
-            let Some(ty) = self.checker.resolve_type(&local.ty) else { continue };
-            let Some(initial) = self.checker.initial(ty, local.initial.as_ref()) else { continue };
+            let ty = self.checker.resolve_type(&local.ty);
+            let initial = ty.and_then(|ty| self.checker.initial(ty, local.initial.as_ref()));
+            let (Some(ty), Some(initial)) = (ty, initial) else {
+                self.broken.insert(local.name.value.clone());
+                continue;
+            };
             self.declare(&local.name, Symbol::Local(self.automaton.locals.len()));
             self.automaton.locals.push(ir::Local {
                 name: local.name.value.clone(),
@@ -236,7 +255,10 @@ impl Context<'_, '_> {
     }
 
     fn role(&mut self, tree: &ast::Role) {
-        let Some(interface) = self.checker.interface_or_report(&tree.interface) else { return };
+        let Some(interface) = self.checker.interface_or_report(&tree.interface) else {
+            self.broken.insert(tree.name.value.clone());
+            return;
+        };
         let also = tree.also.iter().filter_map(|n| self.checker.interface_or_report(n)).collect();
         self.declare(&tree.name, Symbol::Role(ir::RoleId(self.automaton.roles.len())));
         let kind = match tree.kind {
@@ -280,7 +302,8 @@ impl Context<'_, '_> {
 
     /// Which parameter of the automaton supplies each parameter of an interface: the one of the same name.
     fn supplied(&mut self, interface: ir::InterfaceId, clause: &ast::Name) -> Vec<usize> {
-        let wanted = self.checker.model.interfaces[interface.0].parameters.clone();
+        let mut wanted = self.checker.model.interfaces[interface.0].parameters.clone();
+        wanted.retain(|p| !self.checker.is_broken(interface, &p.name));
         let mut supplied = Vec::new();
         for parameter in wanted {
             let index = match self.symbols.get(&parameter.name) {
@@ -289,6 +312,7 @@ impl Context<'_, '_> {
                     let index = *index;
                     self.device_parameter(index)
                 }
+                _ if self.broken.contains(&parameter.name) => continue,
                 _ => {
                     let message = format!(
                         "`{}` shows no `{}`, which `{}` has",
@@ -405,7 +429,10 @@ impl Context<'_, '_> {
 
     fn defines(&mut self, tree: &ast::Automaton) {
         for define in &tree.defines {
-            let Some(value) = self.expr(&define.value, None) else { continue };
+            let Some(value) = self.expr(&define.value, None) else {
+                self.broken.insert(define.name.value.clone());
+                continue;
+            };
             self.declare(&define.name, Symbol::Define(self.automaton.defines.len()));
             self.automaton.defines.push(ir::Define {
                 name: define.name.value.clone(),

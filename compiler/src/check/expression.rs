@@ -356,6 +356,8 @@ impl Context<'_, '_> {
                 Interval::new(if x.lo < 0.0 || y.lo < 0.0 { -largest } else { 0.0 }, largest)
             }
             _ => {
+                // The quotient must fit too: not every machine divides the least number by -1.
+                self.fitting((-x.lo) as i64, 0, span)?;
                 let largest = y.lo.abs().max(y.hi.abs()) - 1.0;
                 Interval::new(if x.lo < 0.0 { -largest } else { 0.0 }, largest)
             }
@@ -499,7 +501,10 @@ impl Context<'_, '_> {
         domain: &ast::Domain,
         body: &ast::Expr,
     ) -> Option<Expr> {
-        let (domain, scalar, size) = self.domain(domain)?;
+        let Some((domain, scalar, size)) = self.domain(domain) else {
+            self.broken.insert(variable.value.clone());
+            return None;
+        };
         let id = self.bind(variable, scalar);
         let wanted = if quantifier == Quantifier::Sum {
             Scalar::Int { lo: i32::MIN, hi: i32::MAX }
@@ -591,6 +596,9 @@ impl Context<'_, '_> {
     fn role_named(&mut self, name: &ast::Name) -> Option<ir::RoleId> {
         if let Some(Symbol::Role(id)) = self.symbols.get(&name.value) {
             return Some(*id);
+        }
+        if self.broken.contains(&name.value) {
+            return None;
         }
         let mut known: Vec<String> = self.automaton.roles.iter().map(|r| r.name.clone()).collect();
         known.extend(self.checker.model.enums.iter().map(|e| e.name.clone()));

@@ -55,6 +55,7 @@ impl Facts {
             ExprKind::Constant(Value::Bool(v)) => {
                 Interval::new(f64::from(u8::from(*v)), f64::from(u8::from(*v)))
             }
+            ExprKind::ToReal(inner) => self.of(inner),
             _ => {
                 let declared = of_type(expr.ty);
                 key(expr).and_then(|k| self.known.get(&k)).map_or(declared, |known| declared.meet(*known))
@@ -122,9 +123,18 @@ impl Facts {
 
     /// Forgets what a write to a place may have changed, then knows the new value's interval.
     pub fn write(&mut self, place: &Place, ty: Scalar, value: Interval) {
+        self.forget(place);
+        let expr = Expr { ty, kind: ExprKind::Read(place.clone()) };
+        // After `a[a[0]] := v` the place `a[a[0]]` may be another one.
+        if key(&expr).is_some_and(|key| key.matches(&marker(place)).count() == 1) {
+            self.narrow(&expr, value);
+        }
+    }
+
+    /// Forgets what was known of a variable.
+    pub fn forget(&mut self, place: &Place) {
         let written = marker(place);
         self.known.retain(|key, _| !key.contains(&written));
-        self.narrow(&Expr { ty, kind: ExprKind::Read(place.clone()) }, value);
     }
 }
 

@@ -17,7 +17,7 @@ use crate::diagnostic::{Diagnostic, suggestion};
 use crate::ir;
 use crate::source::{FileId, Sources, Span};
 use crate::spec::ast;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A model that has passed every check; only [`check`] makes one.
 #[derive(Clone, Debug)]
@@ -44,15 +44,21 @@ pub fn check(
 ) -> Result<Checked, Vec<Diagnostic>> {
     let mut diagnostics = Vec::new();
     let declarations = declarations(files, &mut diagnostics);
-    let mut checker =
-        Checker { sources, diagnostics, declarations, model: empty_model(kinds), rules: Vec::new() };
+    let mut checker = Checker {
+        sources,
+        diagnostics,
+        declarations,
+        model: empty_model(kinds),
+        rules: Vec::new(),
+        broken: BTreeSet::new(),
+    };
     checker.enums();
     checker.interfaces();
     for index in 0..checker.declarations.automata.len() {
         let automaton = checker.declarations.automata[index].clone();
         automaton::check(&mut checker, &automaton);
     }
-    checker.infinite_types();
+    checker.lonely_roles();
     if checker.diagnostics.is_empty() {
         Ok(Checked { model: checker.model })
     } else {
@@ -151,6 +157,8 @@ struct Checker<'a> {
     model: ir::Model,
     /// For each interface the rules of its cells.
     rules: Vec<Vec<Rule>>,
+    /// Members of interfaces whose declarations have errors; something stands for them in the model.
+    broken: BTreeSet<(ir::InterfaceId, String)>,
 }
 
 impl Checker<'_> {
@@ -227,22 +235,30 @@ impl Checker<'_> {
                 names.push(name);
             }
             for parameter in &tree.parameters {
-                if let Some(ty) = self.resolve_type(&parameter.ty) {
-                    self.model.interfaces[index].parameters.push(ir::Variable {
-                        name: parameter.name.value.clone(),
-                        doc: parameter.doc.clone(),
-                        ty,
-                    });
-                }
+                let name = parameter.name.value.clone();
+                let ty = self.resolve_type(&parameter.ty).unwrap_or_else(|| {
+                    self.broken.insert((ir::InterfaceId(index), name.clone()));
+                    ir::Type { scalar: ir::Scalar::Bool, extent: ir::Extent::One }
+                });
+                let doc = parameter.doc.clone();
+                self.model.interfaces[index].parameters.push(ir::Variable { name, doc, ty });
             }
-            for cell in &tree.cells {
-                if let Some(cell) = self.cell(cell) {
-                    self.model.interfaces[index].cells.push(cell);
-                }
+            for tree in &tree.cells {
+                let cell = self.cell(tree).unwrap_or_else(|| {
+                    let name = tree.name.value.clone();
+                    self.broken.insert((ir::InterfaceId(index), name.clone()));
+                    let ty = ir::Type { scalar: ir::Scalar::Bool, extent: ir::Extent::One };
+                    ir::Cell { name, doc: Vec::new(), ty, initial: ir::Value::Bool(false) }
+                });
+                self.model.interfaces[index].cells.push(cell);
             }
             let rules = tree.cells.iter().map(|cell| self.rule(cell, tree, index)).collect();
             self.rules.push(rules);
         }
+    }
+
+    fn is_broken(&self, interface: ir::InterfaceId, member: &str) -> bool {
+        self.broken.contains(&(interface, member.to_string()))
     }
 
     fn named_as_type(&self, name: &str) -> bool {
@@ -327,6 +343,9 @@ impl Checker<'_> {
 
     fn token(&mut self, cell: &ast::Cell, sides: &[(ast::Name, ast::Side)], interface: usize) -> Rule {
         let found = self.model.interfaces[interface].cells.iter().find(|c| c.name == cell.name.value);
+        if self.is_broken(ir::InterfaceId(interface), &cell.name.value) {
+            return Rule::Owner;
+        }
         let Some(ir::Scalar::Enum(id)) = found.map(|c| c.ty.scalar) else {
             let diagnostic =
                 Diagnostic::new("E0303", cell.name.span, "a token has the type of an enumeration")
@@ -359,23 +378,31 @@ impl Checker<'_> {
         Rule::Token(members.iter().map(|m| side_of(m).unwrap_or(ast::Side::Owner)).collect())
     }
 
-    /// A reference needs somebody to refer to.
-    fn infinite_types(&mut self) {
-        for interface in 0..self.model.interfaces.len() {
-            let id = ir::InterfaceId(interface);
-            let is_read = self.model.automata.iter().any(|a| a.roles.iter().any(|r| r.interface == id));
-            let is_implemented = self.model.automata.iter().any(|a| a.implementing(id).is_some());
-            if is_read && !is_implemented {
-                let name = self.model.interfaces[interface].name.clone();
-                let place =
-                    self.declarations.interfaces.iter().find(|i| i.name.value == name).map(|i| i.name.span);
-                if let Some(place) = place {
-                    self.report(
-                        Diagnostic::new("E0304", place, format!("no automaton is `{name}`"))
-                            .help(format!("write `automaton ... is {name}`")),
-                    );
-                }
-            }
+    /// A role needs somebody who can have it.
+    fn lonely_roles(&mut self) {
+        let trees = &self.declarations;
+        let is_read = |name: &str| {
+            trees
+                .automata
+                .iter()
+                .flat_map(|a| &a.roles)
+                .any(|r| r.interface.value == name || r.also.iter().any(|n| n.value == name))
+        };
+        let is_implemented =
+            |name: &str| trees.automata.iter().flat_map(|a| &a.implements).any(|i| i.interface.value == name);
+        let lonely: Vec<ast::Name> = (trees.interfaces.iter().map(|i| &i.name))
+            .filter(|name| is_read(&name.value) && !is_implemented(&name.value))
+            .cloned()
+            .collect();
+        for name in lonely {
+            self.report(
+                Diagnostic::new(
+                    "E0304",
+                    name.span,
+                    format!("no automaton is `{}`, which a role asks for", name.value),
+                )
+                .help(format!("write `automaton ... is {}`", name.value)),
+            );
         }
     }
 }

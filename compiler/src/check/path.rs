@@ -37,6 +37,7 @@ impl Context<'_, '_> {
             Some(Symbol::Local(local)) => {
                 Some(Path::Place(Place::Local { local, index: None }, self.automaton.locals[local].ty))
             }
+            Some(Symbol::Cell(interface, _)) if self.checker.is_broken(interface, name) => None,
             Some(Symbol::Cell(interface, cell)) => {
                 let ty = self.checker.model.interfaces[interface.0].cells[cell].ty;
                 Some(Path::Place(Place::Cell { interface, cell, of: None, index: None }, ty))
@@ -118,6 +119,9 @@ impl Context<'_, '_> {
     }
 
     fn unknown_name(&mut self, name: &str, span: Span) {
+        if self.lacks_names || self.broken.contains(name) {
+            return;
+        }
         let mut known: Vec<String> = self.symbols.keys().cloned().collect();
         known.extend(self.variables.iter().map(|(n, _, _)| n.clone()));
         known.extend(self.checker.model.enums.iter().flat_map(|e| e.members.iter().cloned()));
@@ -183,6 +187,9 @@ impl Context<'_, '_> {
     }
 
     fn shown(&mut self, of: Expr, interface: ir::InterfaceId, member: &ast::Name) -> Option<Path> {
+        if self.checker.is_broken(interface, &member.value) {
+            return None;
+        }
         let of = Box::new(of);
         let shown = &self.checker.model.interfaces[interface.0];
         if let Some(cell) = shown.cells.iter().position(|c| c.name == member.value) {

@@ -2,7 +2,7 @@
 
 use super::Rule;
 use super::automaton::Context;
-use super::facts::{self, Interval};
+use super::facts::Interval;
 use crate::diagnostic::Diagnostic;
 use crate::ir::{self, Expr, ExprKind, Place, Value};
 use crate::source::Span;
@@ -88,8 +88,7 @@ impl Context<'_, '_> {
         place: &Place,
     ) -> Option<Diagnostic> {
         let possible: Vec<usize> = (0..sides.len()).filter(|v| known.holds(*v as f64)).collect();
-        let is_decided = possible.len() < sides.len() || facts::of_type(ir::Scalar::Bool) == known;
-        if !is_decided || possible.iter().any(|v| sides[*v] == side) {
+        if possible.iter().any(|v| sides[*v] == side) {
             return None;
         }
         let Place::Cell { interface, cell, .. } = place else { return None };

@@ -63,7 +63,7 @@ pub(super) fn check(context: &mut Context, tree: &ast::Automaton) {
             );
         }
     }
-    let Some(initial) = &tree.initial else {
+    if tree.initial.is_none() {
         context.report(
             Diagnostic::new(
                 "E0326",
@@ -72,31 +72,26 @@ pub(super) fn check(context: &mut Context, tree: &ast::Automaton) {
             )
             .help("write `initial state ...`, or `initial -> State { updates }`"),
         );
-        return;
-    };
+    }
     let states = plain(context, tree);
     // The beginning is number 0.
     let number = |name: &str| states.iter().position(|s| s.name.value == name).map(|i| StateId(i + 1));
-    let beginning = transition(
-        context,
-        tree,
-        &ast::Transition {
+    let beginning = tree.initial.as_ref().and_then(|initial| {
+        let always = ast::Expr { span: initial.span, kind: ast::ExprKind::Bool(true) };
+        let first = ast::Transition {
             span: initial.span,
-            clauses: vec![ast::Clause::Condition(ast::Expr {
-                span: initial.span,
-                kind: ast::ExprKind::Bool(true),
-            })],
+            clauses: vec![ast::Clause::Condition(always)],
             guard_span: initial.span,
             target: Some(initial.target.clone()),
             updates: initial.updates.clone(),
-        },
-        &number,
-    );
+        };
+        transition(context, tree, &first, &number)
+    });
     let text = "the first step".to_string();
     context.automaton.states.push(ir::State {
         name: BEGINNING.into(),
         doc: vec!["Nothing has been done yet.".into()],
-        place: initial.span,
+        place: tree.initial.as_ref().map_or(tree.name.span, |i| i.span),
         is_final: false,
         within: None,
         transitions: beginning.map(|t| ir::Transition { text, ..t }).into_iter().collect(),
@@ -137,26 +132,33 @@ pub(super) fn check(context: &mut Context, tree: &ast::Automaton) {
             transitions,
         });
     }
-    unreachable_states(context, &states);
+    if let Some(initial) = &tree.initial {
+        unreachable_states(context, &initial.target.value, &states);
+    }
 }
 
-fn unreachable_states(context: &mut Context, trees: &[ast::State]) {
-    let states = &context.automaton.states;
+/// From the text, so that a transition with an error still leads to its state.
+fn unreachable_states(context: &mut Context, first: &str, states: &[ast::State]) {
+    let number = |name: &str| states.iter().position(|s| s.name.value == name);
     let mut reached = vec![false; states.len()];
-    let mut open = vec![0];
+    let mut open: Vec<usize> = number(first).into_iter().collect();
     while let Some(state) = open.pop() {
         if std::mem::replace(&mut reached[state], true) {
             continue;
         }
-        open.extend(states[state].transitions.iter().filter_map(|t| t.target).map(|t| t.0));
+        let ast::Body::Transitions(transitions) = &states[state].body else { continue };
+        open.extend(transitions.iter().filter_map(|t| t.target.as_ref()).filter_map(|t| number(&t.value)));
     }
-    let lost: Vec<_> =
-        trees.iter().zip(&reached[1..]).filter(|(s, r)| !**r && !s.name.value.contains('.')).collect();
-    let lost: Vec<ast::Name> = lost.into_iter().map(|(s, _)| s.name.clone()).collect();
-    for name in lost {
+    let known_beginning = number(first).is_some();
+    let is_lost = |name: &str| !name.contains('.') && number(name).is_some_and(|n| !reached[n]);
+    for state in states.iter().filter(|s| known_beginning && is_lost(&s.name.value)) {
         context.report(
-            Diagnostic::new("E0328", name.span, format!("no transition leads to `{}`", name.value))
-                .help("add a transition to it, or remove the state"),
+            Diagnostic::new(
+                "E0328",
+                state.name.span,
+                format!("no transition leads to `{}`", state.name.value),
+            )
+            .help("add a transition to it, or remove the state"),
         );
     }
 }
@@ -225,7 +227,10 @@ impl Context<'_, '_> {
     }
 
     fn binder(&mut self, tree: &ast::Binder) -> Option<ir::Binder> {
-        let (domain, ty, _) = self.domain(&tree.domain)?;
+        let Some((domain, ty, _)) = self.domain(&tree.domain) else {
+            self.broken.insert(tree.variable.value.clone());
+            return None;
+        };
         let variable = self.bind(&tree.variable, ty);
         let condition = match &tree.condition {
             None => None,

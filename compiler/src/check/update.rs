@@ -224,6 +224,12 @@ impl Context<'_, '_> {
             let check = self.store(&place, ty.scalar, &value, tree.span);
             written.push(Argument { port, value, check });
         }
+        let ports = device.ports.iter().enumerate();
+        for (port, _) in
+            ports.filter(|(_, p)| ["cmd", "verb"].contains(&p.name) || known.arguments.contains(&p.name))
+        {
+            self.facts.forget(&Place::Port { port, index: None });
+        }
         Some(UpdateKind::Command { verb: known.number, arguments: written })
     }
 }

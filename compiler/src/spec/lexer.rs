@@ -39,6 +39,18 @@ pub fn tokens(file: FileId, text: &str) -> (Vec<(Token, Span)>, Vec<Diagnostic>)
             if let Some(doc) = line.strip_prefix("///") {
                 found.push((Token::Doc(doc.trim().to_string()), Span::new(file, start, at)));
             }
+        } else if let Some(end) =
+            [("/*", "*/"), ("(*", "*)")].iter().find_map(|(a, b)| rest.starts_with(a).then_some(b))
+        {
+            at += rest[2..].find(end).map_or(rest.len(), |length| length + 4);
+            diagnostics.push(
+                Diagnostic::new(
+                    "E0201",
+                    Span::new(file, start, start + 2),
+                    "there are no comments of this kind",
+                )
+                .help("begin each line of a comment with `//`"),
+            );
         } else if c.is_ascii_alphabetic() || c == '_' {
             at += rest.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(rest.len());
             found.push((Token::Word(text[start..at].to_string()), Span::new(file, start, at)));
@@ -88,13 +100,22 @@ pub fn tokens(file: FileId, text: &str) -> (Vec<(Token, Span)>, Vec<Diagnostic>)
             });
         } else {
             at += c.len_utf8();
+            let help = match c {
+                '!' => "write `not`",
+                '&' => "write `and`",
+                '|' => "write `or`",
+                '%' => "write `mod`",
+                '\'' => "texts stand in double quotes",
+                _ => "names are of letters a to z, digits and underscores; comments begin with `//`",
+            };
+            let shown = if c.is_control() { c.escape_default().to_string() } else { c.to_string() };
             diagnostics.push(
                 Diagnostic::new(
                     "E0201",
                     Span::new(file, start, at),
-                    format!("`{}` is no part of the language", c.escape_default()),
+                    format!("`{shown}` is no part of the language"),
                 )
-                .help("names are of letters, digits and underscores; comments begin with `//`"),
+                .help(help),
             );
         }
     }

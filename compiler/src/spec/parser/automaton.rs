@@ -71,7 +71,7 @@ impl Parser {
             if self.maybe_sign("}") {
                 return Some(automaton);
             }
-            if *self.peek() == Token::End {
+            if *self.peek() == Token::End || self.at_item() {
                 self.error(
                     "E0205",
                     format!("`}}` is missing at the end of the automaton `{}`", automaton.name.value),
@@ -131,9 +131,10 @@ impl Parser {
             }
             Some("invariant") => {
                 self.next();
+                let errors = self.errors;
                 let value = self.parse_expr();
                 automaton.invariants.push(crate::source::Spanned { span: value.span, value });
-                self.end_of_declaration(true);
+                self.end_of_declaration(self.errors == errors);
             }
             Some("initial") if *self.peek_second() == Token::Sign("->") => {
                 let span = self.span();
@@ -176,7 +177,7 @@ impl Parser {
 
     fn set_initial(&mut self, automaton: &mut ast::Automaton, initial: ast::Initial) {
         if let Some(before) = &automaton.initial {
-            self.diagnostics.push(
+            self.report(
                 crate::diagnostic::Diagnostic::new(
                     "E0208",
                     initial.span,
@@ -193,13 +194,19 @@ impl Parser {
     fn define(&mut self, doc: Vec<String>) -> Option<ast::Define> {
         let name = self.expect_name("the definition")?;
         self.expect_sign("=", "after the name of the definition")?;
-        Some(ast::Define { doc, name, value: self.parse_expr() })
+        let errors = self.errors;
+        let value = self.parse_expr();
+        (self.errors == errors).then_some(ast::Define { doc, name, value })
     }
 
     fn require(&mut self) -> Option<ast::Require> {
         let span = self.span();
         self.next();
+        let errors = self.errors;
         let condition = self.parse_expr();
+        if self.errors > errors {
+            return None;
+        }
         self.expect_word("else", "after the required condition")?;
         let Token::Text(text) = self.peek().clone() else {
             self.error(

@@ -42,7 +42,13 @@ impl Parser {
         }
         loop {
             let doc = self.doc();
-            if self.maybe_sign("}") || *self.peek() == Token::End {
+            if self.maybe_sign("}") {
+                return Some(interface);
+            }
+            if *self.peek() == Token::End || self.at_item() {
+                let message =
+                    format!("`}}` is missing at the end of the interface `{}`", interface.name.value);
+                self.error("E0205", message, "close the interface");
                 return Some(interface);
             }
             match self.word() {
@@ -56,7 +62,7 @@ impl Parser {
                         "an interface holds `parameter` and `shared`",
                     );
                     self.next();
-                    self.recover();
+                    self.recover_declaration();
                 }
             }
         }
@@ -144,11 +150,17 @@ impl Parser {
     }
 
     fn typed(&mut self, what: &str, sign: &'static str) -> Option<(ast::Name, ast::Type, Option<ast::Expr>)> {
+        let errors = self.errors;
         let name = self.expect_name(what)?;
         self.expect_sign(":", "before the type")?;
         let ty = self.parse_type()?;
+        if self.at_sign("=") && sign == ":=" {
+            self.error("E0205", "`:=` is missing before the value".into(), "write `:=` instead of `=`");
+            self.next();
+            self.parse_expr();
+        }
         let value = if self.maybe_sign(sign) { Some(self.parse_expr()) } else { None };
-        Some((name, ty, value))
+        (self.errors == errors).then_some((name, ty, value))
     }
 
     fn rule(&mut self) -> Option<ast::Rule> {
