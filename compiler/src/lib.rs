@@ -1,5 +1,6 @@
 //! The compiler: layout and automata in, controllers out. Pure: nothing here reads or writes files.
 
+pub mod backend;
 pub mod check;
 pub mod connect;
 pub mod diagnostic;
@@ -9,5 +10,6 @@ pub mod layout;
 pub mod library;
 pub mod lower;
 pub mod scenario;
+pub mod simulator;
 pub mod source;
 pub mod spec;

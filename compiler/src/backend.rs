@@ -1,0 +1,9 @@
+//! Back ends: pure functions from the intermediate representation to files. They cannot fail.
+
+pub mod dot;
+pub mod plan;
+
+use std::collections::BTreeMap;
+
+/// Files in memory: text by path.
+pub type Files = BTreeMap<String, String>;
