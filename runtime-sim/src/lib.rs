@@ -8,7 +8,7 @@ pub mod account;
 pub mod device;
 pub mod event;
 pub mod geometry;
-mod hash;
+pub mod hash;
 pub mod item;
 mod json;
 pub mod kinematics;

@@ -63,3 +63,31 @@ impl Texts {
 pub fn plain(sources: &Sources, diagnostics: &[Diagnostic]) -> String {
     diagnostic::render_plain(sources, diagnostics)
 }
+
+/// The layouts of the paper.
+pub const LAYOUTS: [&str; 3] = ["default", "spaced", "less_agv"];
+
+/// A layout of the paper by name.
+pub fn ariac(layout: &str) -> Texts {
+    Texts::of_layout(text(&format!("examples/ariac2021/{layout}.json")))
+}
+
+/// Runs `job` for each of the inputs on all processors; results in the order of the inputs.
+pub fn on_all_processors<T: Sync, R: Send>(inputs: &[T], job: impl Fn(&T) -> R + Sync) -> Vec<R> {
+    let next = std::sync::atomic::AtomicUsize::new(0);
+    let results: Vec<std::sync::Mutex<Option<R>>> = inputs.iter().map(|_| std::sync::Mutex::new(None)).collect();
+    let workers = std::thread::available_parallelism().map_or(1, |n| n.get());
+    std::thread::scope(|scope| {
+        for _ in 0..workers {
+            scope.spawn(|| {
+                loop {
+                    let i = next.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+                    let Some(input) = inputs.get(i) else { break };
+                    let result = job(input);
+                    *results[i].lock().expect("no worker panics while it holds this") = Some(result);
+                }
+            });
+        }
+    });
+    results.into_iter().map(|r| r.into_inner().expect("as above").expect("every input has been worked on")).collect()
+}
