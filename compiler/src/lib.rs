@@ -1,11 +1,13 @@
 //! The compiler: layout and automata in, controllers out. Pure: nothing here reads or writes files.
 
+pub mod backend;
 pub mod check;
 pub mod connect;
 pub mod diagnostic;
 pub mod executor;
 pub mod ir;
 pub mod layout;
+pub mod naming;
 pub mod scenario;
 pub mod source;
 pub mod spec;

@@ -1,0 +1,8 @@
+//! Back ends: pure functions from the intermediate representation to files. They cannot fail.
+
+pub mod rust;
+
+use std::collections::BTreeMap;
+
+/// Files in memory: text by path.
+pub type Files = BTreeMap<String, String>;
