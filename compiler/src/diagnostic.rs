@@ -86,8 +86,17 @@ fn edit_distance(a: &str, b: &str) -> usize {
     row[b.len()]
 }
 
-/// All diagnostics as text for people.
-pub fn render(sources: &Sources, diagnostics: &[Diagnostic], renderer: &Renderer) -> String {
+/// All diagnostics as text without colours.
+pub fn render_plain(sources: &Sources, diagnostics: &[Diagnostic]) -> String {
+    render(sources, diagnostics, &Renderer::plain())
+}
+
+/// All diagnostics as text with colours.
+pub fn render_styled(sources: &Sources, diagnostics: &[Diagnostic]) -> String {
+    render(sources, diagnostics, &Renderer::styled())
+}
+
+fn render(sources: &Sources, diagnostics: &[Diagnostic], renderer: &Renderer) -> String {
     let mut out = String::new();
     for diagnostic in diagnostics {
         let mut group =

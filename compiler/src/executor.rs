@@ -75,7 +75,11 @@ impl<'a> Executor<'a> {
                 vec![row; members.len()]
             })
             .collect();
-        let fired = model.automata.iter().map(|a| a.states.iter().map(|s| vec![0; s.transitions.len()]).collect()).collect();
+        let fired = model
+            .automata
+            .iter()
+            .map(|a| a.states.iter().map(|s| vec![0; s.transitions.len()]).collect())
+            .collect();
         let status = Status { running: false, fault: None, start_before: true, reset_before: true };
         Self { system, robots, cells, status, fired }
     }
@@ -90,7 +94,8 @@ impl<'a> Executor<'a> {
         for (index, robot) in self.robots.iter_mut().enumerate() {
             let mut words = inputs[index].iter().copied();
             let ports = self.system.automaton_of(index).device.ports.iter();
-            for (port, values) in ports.zip(&mut robot.ports).filter(|(p, _)| p.direction == Direction::Input) {
+            for (port, values) in ports.zip(&mut robot.ports).filter(|(p, _)| p.direction == Direction::Input)
+            {
                 for value in values.iter_mut().take(port.extent.elements(kinds)) {
                     let mut word = || words.next().unwrap_or(0.0);
                     *value = match port.ty {
@@ -114,7 +119,9 @@ impl<'a> Executor<'a> {
     /// Appends the outputs of an instance; with their stop values unless the system runs.
     fn outputs(&self, index: usize, running: bool, image: &mut Vec<f64>) {
         let ports = self.system.automaton_of(index).device.ports.iter();
-        for (port, values) in ports.zip(&self.robots[index].ports).filter(|(p, _)| p.direction == Direction::Output) {
+        for (port, values) in
+            ports.zip(&self.robots[index].ports).filter(|(p, _)| p.direction == Direction::Output)
+        {
             match port.stop {
                 Stop::Value(stop) if !running => image.extend(values.iter().map(|_| stop)),
                 _ => values.iter().for_each(|v| push(*v, image)),
@@ -184,6 +191,11 @@ impl Controllers for Executor<'_> {
             self.outputs(index, true, out);
         }
     }
+}
+
+/// Whether a condition on parameters and roles holds for an instance.
+pub fn requirement_holds(system: &System, instance: usize, condition: &crate::ir::Expr) -> bool {
+    Executor::new(system).holds(instance, condition)
 }
 
 /// A value as numbers of a process image.

@@ -300,15 +300,34 @@ pub struct Target {
 /// Where a value is kept.
 #[derive(Clone, Debug)]
 pub enum Place {
-    Local { local: usize, index: Option<Box<Expr>> },
+    Local {
+        local: usize,
+        index: Option<Box<Expr>>,
+    },
     /// A cell of this instance, or of another one.
-    Cell { interface: InterfaceId, cell: usize, of: Option<Box<Expr>>, index: Option<Box<Expr>> },
+    Cell {
+        interface: InterfaceId,
+        cell: usize,
+        of: Option<Box<Expr>>,
+        index: Option<Box<Expr>>,
+    },
     /// A port of this instance's device.
-    Port { port: usize, index: Option<Box<Expr>> },
+    Port {
+        port: usize,
+        index: Option<Box<Expr>>,
+    },
     /// A parameter of this instance.
-    Parameter { parameter: usize, index: Option<Box<Expr>> },
+    Parameter {
+        parameter: usize,
+        index: Option<Box<Expr>>,
+    },
     /// A parameter that another instance shows.
-    Shown { interface: InterfaceId, parameter: usize, of: Box<Expr>, index: Option<Box<Expr>> },
+    Shown {
+        interface: InterfaceId,
+        parameter: usize,
+        of: Box<Expr>,
+        index: Option<Box<Expr>>,
+    },
 }
 
 #[derive(Clone, Debug)]
@@ -345,10 +364,26 @@ pub enum ExprKind {
     Coordinate(Box<Expr>, usize),
     /// Squared distance of two points.
     SquaredDistance(Box<Expr>, Box<Expr>),
-    Exists { variable: VariableId, domain: Box<Domain>, body: Box<Expr> },
-    Forall { variable: VariableId, domain: Box<Domain>, body: Box<Expr> },
-    Count { variable: VariableId, domain: Box<Domain>, body: Box<Expr> },
-    Sum { variable: VariableId, domain: Box<Domain>, body: Box<Expr> },
+    Exists {
+        variable: VariableId,
+        domain: Box<Domain>,
+        body: Box<Expr>,
+    },
+    Forall {
+        variable: VariableId,
+        domain: Box<Domain>,
+        body: Box<Expr>,
+    },
+    Count {
+        variable: VariableId,
+        domain: Box<Domain>,
+        body: Box<Expr>,
+    },
+    Sum {
+        variable: VariableId,
+        domain: Box<Domain>,
+        body: Box<Expr>,
+    },
     /// Number of members of a role.
     Members(RoleId),
     IsMember(Box<Expr>, RoleId),

@@ -7,6 +7,8 @@ pub mod diagnostic;
 pub mod executor;
 pub mod ir;
 pub mod layout;
+pub mod library;
+pub mod lower;
 pub mod naming;
 pub mod scenario;
 pub mod source;

@@ -3,7 +3,7 @@
 use crate::item::{Carrier, Item, Items};
 use crate::point::Point;
 
-/// Something that happened while the outputs of scan `scan` acted.
+/// Something that had happened by the start of scan `scan`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Event {
     /// An item was handed over. `point` is where its underside was afterwards.
@@ -79,4 +79,96 @@ pub fn conservation(log: &[Event], items: &Items) -> Result<(), String> {
         }
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Geometry;
+    use crate::line::{IoDelay, Kind, Line, Machine, Scenario, Supply};
+    use crate::point::Axis;
+
+    /// Two items on their way to a belt and two bins.
+    fn items() -> Items {
+        let pose = Point::default();
+        let belt = Geometry::Belt { pose, orient: Axis::X, orient_range: [0.0, 1.0] };
+        let machines = [belt, Geometry::Bin { pose }, Geometry::Bin { pose }].into_iter();
+        Items::new(&Line {
+            scan_ms: 10,
+            kinds: vec![Kind { name: "part".into(), height: 0.1 }],
+            machines: machines
+                .map(|geometry| Machine { name: "m".into(), geometry, states: vec![] })
+                .collect(),
+            scenario: Scenario { supply: vec![Supply { belt: 0, items: vec![0, 0] }], ..Scenario::default() },
+            io_delay: IoDelay::Fixed(0),
+        })
+    }
+
+    fn bin(machine: usize) -> Carrier {
+        Carrier::Bin { machine, offset: Point::default() }
+    }
+
+    fn verdict(items: &Items) -> Result<(), String> {
+        conservation(items.log(), items)
+    }
+
+    #[test]
+    fn a_true_log_is_accepted() {
+        let mut items = items();
+        items.pass(0, bin(1), Point::default());
+        items.pass(1, bin(1), Point::default());
+        items.pass(0, bin(2), Point::default());
+        assert_eq!(verdict(&items), Ok(()));
+    }
+
+    #[test]
+    fn nothing_comes_back_from_the_collector() {
+        let mut items = items();
+        items.pass(0, Carrier::Collector, Point::default());
+        items.pass(0, bin(1), Point::default());
+        assert!(verdict(&items).unwrap_err().contains("goes from Collector"));
+    }
+
+    #[test]
+    fn a_gripper_holds_one_item() {
+        let mut items = items();
+        let gripper = Carrier::Gripper { machine: 1, hang: Point::default() };
+        items.pass(0, gripper, Point::default());
+        assert_eq!(verdict(&items), Ok(()));
+        items.pass(1, gripper, Point::default());
+        assert_eq!(verdict(&items).unwrap_err(), "scan 0: gripper 1 holds item 0 and takes item 1");
+    }
+
+    #[test]
+    fn the_end_is_that_of_the_log() {
+        let mut items = items();
+        items.pass(0, bin(1), Point::default());
+        let mut log = items.log().to_vec();
+        let Event::Item { to, .. } = &mut log[0] else { unreachable!() };
+        *to = Carrier::Bin { machine: 1, offset: Point::new(0.1, 0.0, 0.0) };
+        assert!(conservation(&log, &items).unwrap_err().starts_with("item 0 ends at"));
+    }
+
+    #[test]
+    fn an_item_on_two_machines_is_found() {
+        let mut items = items();
+        items.pass(0, bin(1), Point::default());
+        items.borne[2].push(0);
+        assert!(verdict(&items).unwrap_err().starts_with("machine 2 bears items [0]"));
+    }
+
+    #[test]
+    fn an_item_that_its_machine_does_not_know_is_found() {
+        let mut items = items();
+        items.pass(0, bin(1), Point::default());
+        items.borne[1].clear();
+        assert!(verdict(&items).unwrap_err().starts_with("machine 1 bears items []"));
+    }
+
+    #[test]
+    fn an_item_that_is_nowhere_is_found() {
+        let mut items = items();
+        items.pass(0, bin(1), Point::new(f64::NAN, 0.0, 0.0));
+        assert!(verdict(&items).is_err());
+    }
 }

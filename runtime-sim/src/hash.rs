@@ -4,11 +4,13 @@
 #[derive(Clone, Copy, Debug)]
 pub struct Hash(u64);
 
-impl Hash {
-    pub fn new() -> Self {
+impl Default for Hash {
+    fn default() -> Self {
         Self(0xcbf2_9ce4_8422_2325)
     }
+}
 
+impl Hash {
     /// Takes in the eight bytes of each number, lowest first. 0.0 and -0.0 differ.
     pub fn take(&mut self, words: &[f64]) {
         for word in words {
@@ -18,6 +20,7 @@ impl Hash {
         }
     }
 
+    /// Hash of all that was taken in so far.
     pub fn value(self) -> u64 {
         self.0
     }
@@ -31,7 +34,7 @@ mod tests {
     fn the_published_value() {
         // FNV-1a of the bytes of "foobarfo", computed by an implementation that yields the published
         // 85944171f73967e8 for "foobar".
-        let mut hash = Hash::new();
+        let mut hash = Hash::default();
         hash.take(&[f64::from_bits(u64::from_le_bytes(*b"foobarfo"))]);
         assert_eq!(hash.value(), 0x7396_e6eb_4e20_40df);
     }

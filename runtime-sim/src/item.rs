@@ -76,7 +76,7 @@ impl Carrier {
 pub struct Items {
     list: Vec<Item>,
     /// Items that each machine bears, in the order in which they came.
-    borne: Vec<Vec<usize>>,
+    pub(crate) borne: Vec<Vec<usize>>,
     log: Vec<Event>,
     pub(crate) scan: u64,
 }

@@ -42,7 +42,7 @@ pub struct Plant {
 }
 
 #[derive(Clone, Debug)]
-#[allow(clippy::large_enum_variant)] // a dozen of them in all
+#[expect(clippy::large_enum_variant)] // a dozen of them in all
 enum Machine {
     Belt(Belt),
     Vehicle(Vehicle),
@@ -79,7 +79,7 @@ impl Plant {
     /// From the start of a scan to that of the next; `outputs` are those that the scan published.
     /// Every image has to have the length that [`outputs`] gives it.
     pub fn advance(&mut self, outputs: &[Vec<f64>]) {
-        self.items.scan = self.scan;
+        self.items.scan = self.scan + 1;
         self.obey(outputs);
         let next_ms = (self.scan + 1) * self.scan_ms;
         for (index, machine) in self.machines.iter_mut().enumerate() {
@@ -228,6 +228,14 @@ impl Plant {
         match self.machines.get(machine)? {
             Machine::Station(station) => station.open_order(),
             _ => None,
+        }
+    }
+
+    /// Number of the orders of a station that have not opened yet.
+    pub fn orders_to_open(&self, machine: usize) -> usize {
+        match self.machines.get(machine) {
+            Some(Machine::Station(station)) => station.orders_to_open(),
+            _ => 0,
         }
     }
 

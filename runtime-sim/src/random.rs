@@ -24,6 +24,13 @@ impl Random {
         let choices = u64::from(highest) + 1;
         (((self.next_u64() >> 32) * choices) >> 32) as u32
     }
+
+    /// Fisher-Yates.
+    pub fn shuffle<T>(&mut self, list: &mut [T]) {
+        for last in (1..list.len()).rev() {
+            list.swap(last, self.up_to(last as u32) as usize);
+        }
+    }
 }
 
 #[cfg(test)]
@@ -35,6 +42,15 @@ mod tests {
         let mut random = Random::new(1234567);
         assert_eq!(random.next_u64(), 6457827717110365317);
         assert_eq!(random.next_u64(), 3203168211198807973);
+    }
+
+    #[test]
+    fn a_shuffle_keeps_all_elements() {
+        let mut list: Vec<usize> = (0..100).collect();
+        Random::new(1).shuffle(&mut list);
+        assert_ne!(list, (0..100).collect::<Vec<_>>());
+        list.sort_unstable();
+        assert_eq!(list, (0..100).collect::<Vec<_>>());
     }
 
     #[test]

@@ -89,8 +89,7 @@ impl Report {
             let Event::Order { scan, order, change } = *event else { continue };
             match change {
                 OrderChange::Opened => order_times[order].opened_s = Some(seconds(scan)),
-                // It is made at the end of the scan.
-                OrderChange::Made => order_times[order].made_s = Some(seconds(scan + 1)),
+                OrderChange::Made => order_times[order].made_s = Some(seconds(scan)),
                 OrderChange::Refused => {}
             }
         }

@@ -44,7 +44,7 @@ pub fn run(
     let output_words: Vec<usize> = outputs.iter().map(Vec::len).collect();
     let mut accounts = vec![Account::new(line); line.machines.len()];
     let mut states = vec![usize::MAX; line.machines.len()];
-    let mut hash = Hash::new();
+    let mut hash = Hash::default();
     let mut trace = Vec::new();
     let mut progress = Progress::default();
     let mut scan = 0;
@@ -119,10 +119,7 @@ impl Progress {
         let log = plant.items().log();
         let made = |event: &&Event| matches!(event, Event::Order { change: OrderChange::Made, .. });
         self.made += log[self.read..].iter().filter(made).count();
-        if self.read != log.len() {
-            self.read = log.len();
-            self.quiet_scans = 0;
-        }
+        self.read = log.len();
 
         let scenario = &line.scenario;
         let reached = |scans: u64, limit_s: f64| (scans * u64::from(line.scan_ms)) as f64 >= limit_s * 1000.0;

@@ -5,11 +5,18 @@ use crate::line::Line;
 use crate::plant::Plant;
 use crate::point::Point;
 
-/// For each open order what its briefcase lacks or has too much, then the parts that are lost.
+/// What the briefcase of each open order lacks or has too much, which stations wait for `complete` to fall,
+/// then the parts that are lost.
 pub fn shortage(line: &Line, plant: &Plant) -> String {
     let mut facts = Vec::new();
     for (machine, station) in line.machines.iter().enumerate() {
-        let Some(order) = plant.open_order(machine) else { continue };
+        let Some(order) = plant.open_order(machine) else {
+            let to_open = plant.orders_to_open(machine);
+            if to_open > 0 {
+                facts.push(format!("{to_open} more of {} cannot open while `complete` is set", station.name));
+            }
+            continue;
+        };
         facts.push(format!(
             "order {} at {} {}",
             order + 1,

@@ -97,6 +97,71 @@ fn the_answer_to_the_last_command_is_never_taken_for_this_one() {
 }
 
 #[test]
+fn a_machine_moves_from_its_command_to_the_answer() {
+    let mut line = line();
+    for (delay, moving) in [(0, 376), (5, 381)] {
+        line.io_delay = IoDelay::Fixed(delay);
+        let report = follow(&line, whole_order());
+        assert_eq!(report.machines[AGV].account.moving, moving, "once to the near stop");
+        assert_eq!(report.machines[STATION].account.moving, 0);
+    }
+}
+
+/// Remembers something that no output shows.
+struct Pensive(Script, f64);
+
+impl Controllers for Pensive {
+    fn scan(&mut self, s: SystemInputs, i: &[Vec<f64>], o: &mut [Vec<f64>]) -> SystemOutputs {
+        self.0.scan(s, i, o)
+    }
+
+    fn state(&self, machine: usize) -> usize {
+        self.0.state(machine)
+    }
+
+    fn trace(&self, out: &mut Vec<f64>) {
+        out.push(self.1);
+    }
+}
+
+#[test]
+fn the_trace_tells_what_the_controllers_remember() {
+    let hash = |memory: f64, steps: Vec<Step>| {
+        let mut hashes = Vec::new();
+        let mut controllers = Pensive(Script::new(steps), memory);
+        let report = run(&line(), &mut controllers, &mut |seen: &Seen| hashes.push(seen.hash)).unwrap();
+        assert_eq!(hashes.last(), Some(&report.trace_hash));
+        assert_eq!(hashes.len() as u64, report.scans);
+        hashes
+    };
+    let ordinary = hash(1.0, whole_order());
+    assert_eq!(ordinary, hash(1.0, whole_order()));
+    assert_ne!(ordinary[0], hash(-1.0, whole_order())[0]);
+    // The first command comes with the start, in scan 2.
+    let other = hash(1.0, vec![Step::Command(BELT, HALT, None)]);
+    assert_eq!(ordinary[..2], other[..2]);
+    assert_ne!(ordinary[2], other[2]);
+}
+
+#[test]
+fn an_order_behind_another_is_named() {
+    let mut line = line();
+    line.scenario.orders = vec![line.scenario.orders[0].clone(); 2];
+    line.scenario.stall_limit_s = 3.0;
+    let mut steps = whole_order();
+    steps.pop();
+    let report = follow(&line, steps);
+    assert_eq!(report.reason, "deadlock: 1 more of as1 cannot open while `complete` is set");
+    assert_eq!((report.orders_done, report.orders), (1, 2));
+    assert!(report.order_times[1].opened_s.is_none());
+    let report = follow(&line, whole_order());
+    assert!(report.reason.starts_with("deadlock: order 2 at as1 lacks battery (none left)"));
+    // It is made by scan n, in which that is seen; n+1 takes `complete` back, n+2 sees nothing, n+3 the next order.
+    let gap = report.order_times[1].opened_s.unwrap() - report.order_times[0].made_s.unwrap();
+    assert!((gap - 0.03).abs() < 1e-9, "{gap}");
+}
+
+#[test]
 fn pauses_cost_time_and_nothing_else() {
     let undisturbed = follow(&line(), whole_order());
     let mut line = line();

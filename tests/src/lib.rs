@@ -1,1 +1,93 @@
 //! What the tests of the whole share.
+
+use autogen::diagnostic::{self, Diagnostic};
+use autogen::lower::{Input, Outcome, Project, Setting, compile};
+use autogen::source::Sources;
+use autogen::{library, scenario};
+use std::path::{Path, PathBuf};
+
+/// The project's folder.
+pub fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// A file of the project by its path from the project's folder.
+pub fn text(path: &str) -> String {
+    std::fs::read_to_string(root().join(path)).unwrap_or_else(|e| panic!("{path}: {e}"))
+}
+
+/// What a line is compiled from, beside the library.
+#[derive(Clone, Debug, Default)]
+pub struct Texts {
+    pub layout: String,
+    pub specs: Vec<String>,
+    pub scenario: Option<String>,
+    pub settings: Vec<String>,
+    pub order: Option<u64>,
+}
+
+impl Texts {
+    pub fn of_layout(layout: impl Into<String>) -> Self {
+        Self { layout: layout.into(), ..Self::default() }
+    }
+
+    pub fn set(mut self, setting: &str) -> Self {
+        self.settings.push(setting.into());
+        self
+    }
+
+    pub fn compile(&self) -> Outcome {
+        let mut sources = Sources::default();
+        let layout = sources.add("layout.json", self.layout.as_str());
+        let mut specs: Vec<_> = library::FILES.iter().map(|(name, text)| sources.add(*name, *text)).collect();
+        for (i, text) in self.specs.iter().enumerate() {
+            specs.push(sources.add(format!("specs/{i}.aut"), text.as_str()));
+        }
+        let scenario = sources.add("scenario.json", self.scenario.as_deref().unwrap_or(scenario::DEFAULT));
+        let files: Vec<_> = self.settings.iter().map(|s| sources.add("--set", s.as_str())).collect();
+        let settings = files.into_iter().map(|f| Setting::parse(&sources, f).expect("a setting")).collect();
+        compile(Input { sources, layout, specs, scenario, settings, order: self.order })
+    }
+
+    /// The project, or a panic with the diagnostics.
+    pub fn project(&self) -> Project {
+        let outcome = self.compile();
+        match outcome.project {
+            Some(project) => project,
+            None => panic!("{}", plain(&outcome.sources, &outcome.diagnostics)),
+        }
+    }
+}
+
+/// Diagnostics as text without colours.
+pub fn plain(sources: &Sources, diagnostics: &[Diagnostic]) -> String {
+    diagnostic::render_plain(sources, diagnostics)
+}
+
+/// The layouts of the paper.
+pub const LAYOUTS: [&str; 3] = ["default", "spaced", "less_agv"];
+
+/// A layout of the paper by name.
+pub fn ariac(layout: &str) -> Texts {
+    Texts::of_layout(text(&format!("examples/ariac2021/{layout}.json")))
+}
+
+/// Runs `job` for each of the inputs on all processors; results in the order of the inputs.
+pub fn on_all_processors<T: Sync, R: Send>(inputs: &[T], job: impl Fn(&T) -> R + Sync) -> Vec<R> {
+    let next = std::sync::atomic::AtomicUsize::new(0);
+    let results: Vec<std::sync::Mutex<Option<R>>> = inputs.iter().map(|_| std::sync::Mutex::new(None)).collect();
+    let workers = std::thread::available_parallelism().map_or(1, |n| n.get());
+    std::thread::scope(|scope| {
+        for _ in 0..workers {
+            scope.spawn(|| {
+                loop {
+                    let i = next.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+                    let Some(input) = inputs.get(i) else { break };
+                    let result = job(input);
+                    *results[i].lock().expect("no worker panics while it holds this") = Some(result);
+                }
+            });
+        }
+    });
+    results.into_iter().map(|r| r.into_inner().expect("as above").expect("every input has been worked on")).collect()
+}

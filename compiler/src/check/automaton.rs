@@ -7,7 +7,7 @@ use crate::ir::{self, Extent, Scalar, Type, VariableId};
 use crate::source::Span;
 use crate::spec::ast;
 use runtime_sim::device::{DEVICES, Device};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What a name means in an automaton.
 #[derive(Clone, Debug)]
@@ -33,6 +33,10 @@ pub struct Context<'c, 'a> {
     pub(super) facts: Facts,
     /// `after` has a meaning.
     pub(super) in_guard: bool,
+    /// Names whose declarations have errors: reading them is no further one.
+    pub(super) broken: BTreeSet<String>,
+    /// An interface is not known, and with it the names of its cells.
+    pub(super) lacks_names: bool,
     /// Own interface, if the automaton shows something that no declared interface has.
     own_interface: Option<ir::InterfaceId>,
 }
@@ -70,6 +74,8 @@ pub(super) fn check(checker: &mut Checker, tree: &ast::Automaton) {
         variables: Vec::new(),
         facts: Facts::default(),
         in_guard: false,
+        broken: BTreeSet::new(),
+        lacks_names: false,
         own_interface,
     };
     context.names(tree);
@@ -90,9 +96,15 @@ pub(super) fn check(checker: &mut Checker, tree: &ast::Automaton) {
     state::check(&mut context, tree);
     for invariant in &tree.invariants {
         if let Some(condition) = context.typed(&invariant.value, Scalar::Bool) {
-            let text = context.checker.sources.text(invariant.span).split_whitespace().collect::<Vec<_>>().join(" ");
+            let text =
+                context.checker.sources.text(invariant.span).split_whitespace().collect::<Vec<_>>().join(" ");
             let fault = context.fault(ir::FaultKind::InvariantFails, invariant.span, format!("not: {text}"));
-            context.automaton.invariants.push(ir::Invariant { place: invariant.span, text, condition, fault });
+            context.automaton.invariants.push(ir::Invariant {
+                place: invariant.span,
+                text,
+                condition,
+                fault,
+            });
         }
     }
     let automaton = context.automaton;
@@ -106,7 +118,9 @@ fn device(checker: &mut Checker, name: &ast::Name) -> Option<&'static Device> {
             format!("devices are {}", DEVICES.iter().map(|d| d.name).collect::<Vec<_>>().join(", ")),
             |n| format!("is `{n}` meant?"),
         );
-        checker.report(Diagnostic::new("E0321", name.span, format!("there is no device `{}`", name.value)).help(help));
+        checker.report(
+            Diagnostic::new("E0321", name.span, format!("there is no device `{}`", name.value)).help(help),
+        );
     }
     found
 }
@@ -117,12 +131,17 @@ fn reads_changing(automaton: &ir::Automaton, expr: &ir::Expr) -> bool {
         Kind::Read(place) => !matches!(place, ir::Place::Parameter { .. } | ir::Place::Shown { .. }),
         Kind::Define(define) => reads_changing(automaton, &automaton.defines[*define].value),
         Kind::After(_) | Kind::Done | Kind::Failed => true,
-        Kind::Not(a) | Kind::Negate(a) | Kind::Absolute(a) | Kind::ToReal(a) | Kind::Coordinate(a, _) | Kind::IsMember(a, _) => {
-            reads_changing(automaton, a)
-        }
-        Kind::Binary(_, a, b) | Kind::Min(a, b) | Kind::Max(a, b) | Kind::SquaredDistance(a, b) | Kind::Reaches(_, a, b) => {
-            reads_changing(automaton, a) || reads_changing(automaton, b)
-        }
+        Kind::Not(a)
+        | Kind::Negate(a)
+        | Kind::Absolute(a)
+        | Kind::ToReal(a)
+        | Kind::Coordinate(a, _)
+        | Kind::IsMember(a, _) => reads_changing(automaton, a),
+        Kind::Binary(_, a, b)
+        | Kind::Min(a, b)
+        | Kind::Max(a, b)
+        | Kind::SquaredDistance(a, b)
+        | Kind::Reaches(_, a, b) => reads_changing(automaton, a) || reads_changing(automaton, b),
         Kind::MakePoint(parts) => parts.iter().any(|p| reads_changing(automaton, p)),
         Kind::Exists { body, domain, .. }
         | Kind::Forall { body, domain, .. }
@@ -173,28 +192,39 @@ impl Context<'_, '_> {
         for (index, constant) in device.constants.iter().enumerate() {
             self.symbols.insert(constant.name.into(), Symbol::DeviceConstant(index));
         }
-        let declared: Vec<ir::InterfaceId> = tree
-            .implements
-            .iter()
-            .filter_map(|i| self.checker.interface_or_report(&i.interface))
-            .chain(self.own_interface)
-            .collect();
+        let mut declared = Vec::new();
+        for clause in &tree.implements {
+            match self.checker.interface_or_report(&clause.interface) {
+                None => self.lacks_names = true,
+                Some(id) if declared.contains(&id) => self.report(
+                    Diagnostic::new(
+                        "E0301",
+                        clause.interface.span,
+                        format!("`{}` stands here twice", clause.interface.value),
+                    )
+                    .help("remove one"),
+                ),
+                Some(id) => declared.push(id),
+            }
+        }
+        declared.extend(self.own_interface);
         for id in declared {
-            let cells: Vec<String> = self.checker.model.interfaces[id.0].cells.iter().map(|c| c.name.clone()).collect();
+            let cells: Vec<String> =
+                self.checker.model.interfaces[id.0].cells.iter().map(|c| c.name.clone()).collect();
             for (index, cell) in cells.into_iter().enumerate() {
-                let span = tree.cells.iter().find(|c| c.name.value == cell).map_or(tree.name.span, |c| c.name.span);
+                let span =
+                    tree.cells.iter().find(|c| c.name.value == cell).map_or(tree.name.span, |c| c.name.span);
                 self.declare(&ast::Name { value: cell, span }, Symbol::Cell(id, index));
             }
         }
         for parameter in &tree.parameters {
-            let Some(ty) = self.checker.resolve_type(&parameter.ty) else { continue };
-            let default = match &parameter.default {
-                Some(expr) => match self.checker.constant(ty.scalar, expr) {
-                    Some(value) => Some(value),
-                    None => continue,
-                },
-                None => None,
+            let ty = self.checker.resolve_type(&parameter.ty);
+            let default = parameter.default.as_ref().map(|expr| self.checker.constant(ty?.scalar, expr));
+            let (Some(ty), None | Some(Some(_))) = (ty, default) else {
+                self.broken.insert(parameter.name.value.clone());
+                continue;
             };
+            let default = default.flatten();
             self.declare(&parameter.name, Symbol::Parameter(self.automaton.parameters.len()));
             self.automaton.parameters.push(ir::Parameter {
                 name: parameter.name.value.clone(),
@@ -208,8 +238,12 @@ impl Context<'_, '_> {
             self.role(role);
         }
         for local in &tree.locals {
-            let Some(ty) = self.checker.resolve_type(&local.ty) else { continue };
-            let Some(initial) = self.checker.initial(ty, local.initial.as_ref()) else { continue };
+            let ty = self.checker.resolve_type(&local.ty);
+            let initial = ty.and_then(|ty| self.checker.initial(ty, local.initial.as_ref()));
+            let (Some(ty), Some(initial)) = (ty, initial) else {
+                self.broken.insert(local.name.value.clone());
+                continue;
+            };
             self.declare(&local.name, Symbol::Local(self.automaton.locals.len()));
             self.automaton.locals.push(ir::Local {
                 name: local.name.value.clone(),
@@ -221,7 +255,10 @@ impl Context<'_, '_> {
     }
 
     fn role(&mut self, tree: &ast::Role) {
-        let Some(interface) = self.checker.interface_or_report(&tree.interface) else { return };
+        let Some(interface) = self.checker.interface_or_report(&tree.interface) else {
+            self.broken.insert(tree.name.value.clone());
+            return;
+        };
         let also = tree.also.iter().filter_map(|n| self.checker.interface_or_report(n)).collect();
         self.declare(&tree.name, Symbol::Role(ir::RoleId(self.automaton.roles.len())));
         let kind = match tree.kind {
@@ -265,7 +302,8 @@ impl Context<'_, '_> {
 
     /// Which parameter of the automaton supplies each parameter of an interface: the one of the same name.
     fn supplied(&mut self, interface: ir::InterfaceId, clause: &ast::Name) -> Vec<usize> {
-        let wanted = self.checker.model.interfaces[interface.0].parameters.clone();
+        let mut wanted = self.checker.model.interfaces[interface.0].parameters.clone();
+        wanted.retain(|p| !self.checker.is_broken(interface, &p.name));
         let mut supplied = Vec::new();
         for parameter in wanted {
             let index = match self.symbols.get(&parameter.name) {
@@ -274,15 +312,17 @@ impl Context<'_, '_> {
                     let index = *index;
                     self.device_parameter(index)
                 }
+                _ if self.broken.contains(&parameter.name) => continue,
                 _ => {
-                    let message = format!("`{}` shows no `{}`, which `{}` has", self.automaton.name, parameter.name, clause.value);
-                    self.report(
-                        Diagnostic::new("E0323", clause.span, message).help(format!(
-                            "declare `parameter {}: {};`",
-                            parameter.name,
-                            self.checker.type_name(parameter.ty.scalar)
-                        )),
+                    let message = format!(
+                        "`{}` shows no `{}`, which `{}` has",
+                        self.automaton.name, parameter.name, clause.value
                     );
+                    self.report(Diagnostic::new("E0323", clause.span, message).help(format!(
+                        "declare `parameter {}: {};`",
+                        parameter.name,
+                        self.checker.type_name(parameter.ty.scalar)
+                    )));
                     continue;
                 }
             };
@@ -293,12 +333,17 @@ impl Context<'_, '_> {
                     (a, b) => a == b,
                 };
             if !fits {
-                let (have, want) = (self.checker.type_name(found.scalar), self.checker.type_name(parameter.ty.scalar));
+                let (have, want) =
+                    (self.checker.type_name(found.scalar), self.checker.type_name(parameter.ty.scalar));
                 let place = self.automaton.parameters[index].place;
                 self.report(
-                    Diagnostic::new("E0323", clause.span, format!("`{}` is {have}, `{}` wants {want}", parameter.name, clause.value))
-                        .other(place, "declared here")
-                        .help("give both the same type and size"),
+                    Diagnostic::new(
+                        "E0323",
+                        clause.span,
+                        format!("`{}` is {have}, `{}` wants {want}", parameter.name, clause.value),
+                    )
+                    .other(place, "declared here")
+                    .help("give both the same type and size"),
                 );
             }
             supplied.push(index);
@@ -310,14 +355,23 @@ impl Context<'_, '_> {
         let known = self.automaton.device.handovers;
         let Some(found) = known.iter().find(|h| h.name == tree.place.value) else {
             let names: Vec<&str> = known.iter().map(|h| h.name).collect();
-            let help = if names.is_empty() { "this device hands nothing over".into() } else { format!("its places are {}", names.join(", ")) };
-            let message = format!("a `{}` has no place `{}` at which items change hands", self.automaton.device.name, tree.place.value);
+            let help = if names.is_empty() {
+                "this device hands nothing over".into()
+            } else {
+                format!("its places are {}", names.join(", "))
+            };
+            let message = format!(
+                "a `{}` has no place `{}` at which items change hands",
+                self.automaton.device.name, tree.place.value
+            );
             self.report(Diagnostic::new("E0324", tree.place.span, message).help(help));
             return None;
         };
         let index = match (&tree.index, found.indexed) {
             (None, None) => None,
-            (Some(ast::Expr { kind: ast::ExprKind::Int(i), .. }), Some(n)) if (0..n as i64).contains(i) => Some(*i as usize),
+            (Some(ast::Expr { kind: ast::ExprKind::Int(i), .. }), Some(n)) if (0..n as i64).contains(i) => {
+                Some(*i as usize)
+            }
             (_, Some(n)) => {
                 self.report(
                     Diagnostic::new("E0324", tree.span, format!("one of the {n} places must be named"))
@@ -327,7 +381,8 @@ impl Context<'_, '_> {
             }
             (Some(index), None) => {
                 self.report(
-                    Diagnostic::new("E0324", index.span, format!("`{}` is one place", found.name)).help("remove the index"),
+                    Diagnostic::new("E0324", index.span, format!("`{}` is one place", found.name))
+                        .help("remove the index"),
                 );
                 return None;
             }
@@ -338,7 +393,8 @@ impl Context<'_, '_> {
                 ir::Value::Real(height) if height >= 0.0 => height,
                 _ => {
                     self.report(
-                        Diagnostic::new("E0324", expr.span, "an approach height is 0 m or more").help("write it in metres"),
+                        Diagnostic::new("E0324", expr.span, "an approach height is 0 m or more")
+                            .help("write it in metres"),
                     );
                     return None;
                 }
@@ -373,7 +429,10 @@ impl Context<'_, '_> {
 
     fn defines(&mut self, tree: &ast::Automaton) {
         for define in &tree.defines {
-            let Some(value) = self.expr(&define.value, None) else { continue };
+            let Some(value) = self.expr(&define.value, None) else {
+                self.broken.insert(define.name.value.clone());
+                continue;
+            };
             self.declare(&define.name, Symbol::Define(self.automaton.defines.len()));
             self.automaton.defines.push(ir::Define {
                 name: define.name.value.clone(),
@@ -387,7 +446,8 @@ impl Context<'_, '_> {
 }
 
 fn sentence(meaning: &str, unit: &str) -> String {
-    let mut text: String = meaning.chars().take(1).flat_map(char::to_uppercase).chain(meaning.chars().skip(1)).collect();
+    let mut text: String =
+        meaning.chars().take(1).flat_map(char::to_uppercase).chain(meaning.chars().skip(1)).collect();
     if !unit.is_empty() {
         text.push_str(&format!(" [{unit}]"));
     }

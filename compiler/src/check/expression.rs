@@ -27,7 +27,10 @@ impl Context<'_, '_> {
             Tree::Name(name) if name == "done" || name == "failed" => {
                 if !self.automaton.device.is_commanded() {
                     let message = format!("the device `{}` obeys no commands", self.automaton.device.name);
-                    self.report(Diagnostic::new("E0314", tree.span, message).help("`done` and `failed` answer a command"));
+                    self.report(
+                        Diagnostic::new("E0314", tree.span, message)
+                            .help("`done` and `failed` answer a command"),
+                    );
                     return None;
                 }
                 let kind = if name == "done" { ExprKind::Done } else { ExprKind::Failed };
@@ -121,7 +124,10 @@ impl Context<'_, '_> {
         if let Scalar::Int { lo, hi } = ty {
             let known = self.facts.of(&expr);
             if known.lo <= known.hi {
-                expr.ty = Scalar::Int { lo: known.lo.max(f64::from(lo)) as i32, hi: known.hi.min(f64::from(hi)) as i32 };
+                expr.ty = Scalar::Int {
+                    lo: known.lo.max(f64::from(lo)) as i32,
+                    hi: known.hi.min(f64::from(hi)) as i32,
+                };
             }
         }
         expr
@@ -142,7 +148,8 @@ impl Context<'_, '_> {
             (_, other) => {
                 let name = self.checker.type_name(other);
                 self.report(
-                    Diagnostic::new("E0315", span, format!("a value of type {name} has no sign")).help("negate numbers only"),
+                    Diagnostic::new("E0315", span, format!("a value of type {name} has no sign"))
+                        .help("negate numbers only"),
                 );
                 None
             }
@@ -196,7 +203,12 @@ impl Context<'_, '_> {
     }
 
     /// Both operands in one type: whole numbers become reals, members of enumerations are found by the other side.
-    fn pair(&mut self, left: &ast::Expr, right: &ast::Expr, expected: Option<Scalar>) -> Option<(Expr, Expr)> {
+    fn pair(
+        &mut self,
+        left: &ast::Expr,
+        right: &ast::Expr,
+        expected: Option<Scalar>,
+    ) -> Option<(Expr, Expr)> {
         let is_bare = |tree: &ast::Expr| matches!(tree.kind, ast::ExprKind::Name(_));
         let (a, b) = if is_bare(left) && !is_bare(right) {
             let b = self.expr(right, expected)?;
@@ -213,11 +225,19 @@ impl Context<'_, '_> {
         })
     }
 
-    fn comparison(&mut self, operator: Operator, left: &ast::Expr, right: &ast::Expr, span: Span) -> Option<Expr> {
+    fn comparison(
+        &mut self,
+        operator: Operator,
+        left: &ast::Expr,
+        right: &ast::Expr,
+        span: Span,
+    ) -> Option<Expr> {
         let (a, b) = self.pair(left, right, None)?;
         let is_equality = matches!(operator, Operator::Equal | Operator::NotEqual);
         let fits = match (a.ty, b.ty) {
-            (Scalar::Int { .. }, Scalar::Int { .. }) | (Scalar::Real, Scalar::Real) | (Scalar::Time, Scalar::Time) => true,
+            (Scalar::Int { .. }, Scalar::Int { .. })
+            | (Scalar::Real, Scalar::Real)
+            | (Scalar::Time, Scalar::Time) => true,
             (Scalar::Bool, Scalar::Bool) => is_equality,
             (Scalar::Enum(x), Scalar::Enum(y)) => is_equality && x == y,
             (Scalar::Ref(x), Scalar::Ref(y)) => is_equality && x == y,
@@ -253,7 +273,9 @@ impl Context<'_, '_> {
         let (a, b) = self.pair(left, right, hint)?;
         let lowered = lowered(operator);
         match (a.ty, b.ty, operator) {
-            (Scalar::Int { .. }, Scalar::Int { .. }, _) => self.whole_arithmetic(operator, a, b, right.span, span),
+            (Scalar::Int { .. }, Scalar::Int { .. }, _) => {
+                self.whole_arithmetic(operator, a, b, right.span, span)
+            }
             (Scalar::Real, Scalar::Real, Operator::Add | Operator::Subtract | Operator::Multiply) => {
                 Some(binary(lowered, Scalar::Real, a, b))
             }
@@ -287,7 +309,8 @@ impl Context<'_, '_> {
     fn time_product(&mut self, time: Expr, factor: Expr, lo: i32, span: Span) -> Option<Expr> {
         if lo < 0 {
             self.report(
-                Diagnostic::new("E0316", span, "this duration could be negative").help("multiply by a number that is 0 or more"),
+                Diagnostic::new("E0316", span, "this duration could be negative")
+                    .help("multiply by a number that is 0 or more"),
             );
             return None;
         }
@@ -298,23 +321,31 @@ impl Context<'_, '_> {
 
     fn prove_divisor(&mut self, divisor: &Expr, span: Span) -> Option<()> {
         if self.facts.of(divisor).holds(0.0) {
-            self.report(
-                Diagnostic::new("E0318", span, "this divisor is not proved to differ from 0")
-                    .help("compare it in the guard of this transition, such as `x > 0`, or declare bounds without 0"),
-            );
+            self.report(Diagnostic::new("E0318", span, "this divisor is not proved to differ from 0").help(
+                "compare it in the guard of this transition, such as `x > 0`, or declare bounds without 0",
+            ));
             return None;
         }
         Some(())
     }
 
-    fn whole_arithmetic(&mut self, operator: Operator, a: Expr, b: Expr, divisor: Span, span: Span) -> Option<Expr> {
+    fn whole_arithmetic(
+        &mut self,
+        operator: Operator,
+        a: Expr,
+        b: Expr,
+        divisor: Span,
+        span: Span,
+    ) -> Option<Expr> {
         let (x, y) = (self.facts.of(&a), self.facts.of(&b));
         if matches!(operator, Operator::Divide | Operator::Modulo) {
             self.prove_divisor(&b, divisor)?;
         }
         let corners = |f: fn(f64, f64) -> f64| {
             let all = [f(x.lo, y.lo), f(x.lo, y.hi), f(x.hi, y.lo), f(x.hi, y.hi)];
-            all.iter().fold(Interval::new(f64::INFINITY, f64::NEG_INFINITY), |i, v| Interval::new(i.lo.min(*v), i.hi.max(*v)))
+            all.iter().fold(Interval::new(f64::INFINITY, f64::NEG_INFINITY), |i, v| {
+                Interval::new(i.lo.min(*v), i.hi.max(*v))
+            })
         };
         let result = match operator {
             Operator::Add => corners(|a, b| a + b),
@@ -325,6 +356,8 @@ impl Context<'_, '_> {
                 Interval::new(if x.lo < 0.0 || y.lo < 0.0 { -largest } else { 0.0 }, largest)
             }
             _ => {
+                // The quotient must fit too: not every machine divides the least number by -1.
+                self.fitting((-x.lo) as i64, 0, span)?;
                 let largest = y.lo.abs().max(y.hi.abs()) - 1.0;
                 Interval::new(if x.lo < 0.0 { -largest } else { 0.0 }, largest)
             }
@@ -341,7 +374,11 @@ impl Context<'_, '_> {
                 let least = name.value == "min";
                 let ty = match (a.ty, b.ty) {
                     (Scalar::Int { lo: a, hi: b }, Scalar::Int { lo: c, hi: d }) => {
-                        if least { Scalar::Int { lo: a.min(c), hi: b.min(d) } } else { Scalar::Int { lo: a.max(c), hi: b.max(d) } }
+                        if least {
+                            Scalar::Int { lo: a.min(c), hi: b.min(d) }
+                        } else {
+                            Scalar::Int { lo: a.max(c), hi: b.max(d) }
+                        }
                     }
                     (Scalar::Real, Scalar::Real) => Scalar::Real,
                     (Scalar::Time, Scalar::Time) => Scalar::Time,
@@ -364,29 +401,38 @@ impl Context<'_, '_> {
                 Some(Expr { ty, kind: ExprKind::Absolute(Box::new(a)) })
             }
             ("point", [x, y, z]) => {
-                let parts = [self.typed(x, Scalar::Real), self.typed(y, Scalar::Real), self.typed(z, Scalar::Real)];
+                let parts =
+                    [self.typed(x, Scalar::Real), self.typed(y, Scalar::Real), self.typed(z, Scalar::Real)];
                 let [Some(x), Some(y), Some(z)] = parts else { return None };
                 Some(Expr { ty: Scalar::Point, kind: ExprKind::MakePoint(Box::new([x, y, z])) })
             }
             ("up", [height]) => {
                 let height = self.typed(height, Scalar::Real)?;
                 let zero = || constant(Scalar::Real, Value::Real(0.0));
-                Some(Expr { ty: Scalar::Point, kind: ExprKind::MakePoint(Box::new([zero(), zero(), height])) })
+                Some(Expr {
+                    ty: Scalar::Point,
+                    kind: ExprKind::MakePoint(Box::new([zero(), zero(), height])),
+                })
             }
             ("squared_distance", [a, b]) => {
                 let (a, b) = (self.typed(a, Scalar::Point)?, self.typed(b, Scalar::Point)?);
                 Some(Expr { ty: Scalar::Real, kind: ExprKind::SquaredDistance(Box::new(a), Box::new(b)) })
             }
-            ("count" | "min" | "max" | "abs" | "point" | "up" | "squared_distance", _) => self.wrong_arguments(name, span),
+            ("count" | "min" | "max" | "abs" | "point" | "up" | "squared_distance", _) => {
+                self.wrong_arguments(name, span)
+            }
             _ => {
                 let known = ["count", "min", "max", "abs", "point", "up", "squared_distance"];
                 let help = match self.automaton.device.verbs.iter().find(|v| v.name == name.value) {
                     Some(verb) => format!("`{}` is a command: it stands in updates", verb.name),
                     None => crate::diagnostic::suggestion(&name.value, known)
-                        .map_or(format!("functions are {}", known.join(", ")), |n| format!("is `{n}` meant?")),
+                        .map_or(format!("functions are {}", known.join(", ")), |n| {
+                            format!("is `{n}` meant?")
+                        }),
                 };
                 self.report(
-                    Diagnostic::new("E0311", name.span, format!("there is no function `{}`", name.value)).help(help),
+                    Diagnostic::new("E0311", name.span, format!("there is no function `{}`", name.value))
+                        .help(help),
                 );
                 None
             }
@@ -413,13 +459,17 @@ impl Context<'_, '_> {
             return self.wrong_arguments(&ast::Name { value: "count".into(), span }, span);
         };
         let Path::Place(mut place, ty) = self.path(array, None)? else {
-            self.report(Diagnostic::new("E0312", array.span, "this is no array").help("count a role or an array"));
+            self.report(
+                Diagnostic::new("E0312", array.span, "this is no array").help("count a role or an array"),
+            );
             return None;
         };
         let value = self.typed(value, ty.scalar)?;
         let (domain, scalar, size) = match ty.extent {
             Extent::One => {
-                self.report(Diagnostic::new("E0312", array.span, "this is no array").help("count a role or an array"));
+                self.report(
+                    Diagnostic::new("E0312", array.span, "this is no array").help("count a role or an array"),
+                );
                 return None;
             }
             Extent::By(id) => (Domain::Enum(id), Scalar::Enum(id), self.checker.model.elements(ty.extent)),
@@ -451,9 +501,16 @@ impl Context<'_, '_> {
         domain: &ast::Domain,
         body: &ast::Expr,
     ) -> Option<Expr> {
-        let (domain, scalar, size) = self.domain(domain)?;
+        let Some((domain, scalar, size)) = self.domain(domain) else {
+            self.broken.insert(variable.value.clone());
+            return None;
+        };
         let id = self.bind(variable, scalar);
-        let wanted = if quantifier == Quantifier::Sum { Scalar::Int { lo: i32::MIN, hi: i32::MAX } } else { Scalar::Bool };
+        let wanted = if quantifier == Quantifier::Sum {
+            Scalar::Int { lo: i32::MIN, hi: i32::MAX }
+        } else {
+            Scalar::Bool
+        };
         let typed = match quantifier {
             Quantifier::Sum => self.expr(body, None),
             _ => self.typed(body, wanted),
@@ -472,13 +529,21 @@ impl Context<'_, '_> {
                     Scalar::Real => Scalar::Real,
                     Scalar::Int { lo, hi } => {
                         let size = i64::from(size);
-                        self.fitting((size * i64::from(lo)).min(0), (size * i64::from(hi)).max(0), variable.span)?
+                        self.fitting(
+                            (size * i64::from(lo)).min(0),
+                            (size * i64::from(hi)).max(0),
+                            variable.span,
+                        )?
                     }
                     other => {
                         let name = self.checker.type_name(other);
                         self.report(
-                            Diagnostic::new("E0315", variable.span, format!("values of type {name} have no sum"))
-                                .help("sum numbers, or count with `count x in ...: condition`"),
+                            Diagnostic::new(
+                                "E0315",
+                                variable.span,
+                                format!("values of type {name} have no sum"),
+                            )
+                            .help("sum numbers, or count with `count x in ...: condition`"),
                         );
                         return None;
                     }
@@ -508,9 +573,13 @@ impl Context<'_, '_> {
                 let size = (known.hi - known.lo + 1.0).max(0.0);
                 if size > f64::from(LONGEST_RANGE) {
                     self.report(
-                        Diagnostic::new("E0320", low.span.to(high.span), "this range could have too many numbers for one scan")
-                            .label(format!("up to {size}"))
-                            .help(format!("declare its bounds so that it has {LONGEST_RANGE} at most")),
+                        Diagnostic::new(
+                            "E0320",
+                            low.span.to(high.span),
+                            "this range could have too many numbers for one scan",
+                        )
+                        .label(format!("up to {size}"))
+                        .help(format!("declare its bounds so that it has {LONGEST_RANGE} at most")),
                     );
                     return None;
                 }
@@ -528,11 +597,18 @@ impl Context<'_, '_> {
         if let Some(Symbol::Role(id)) = self.symbols.get(&name.value) {
             return Some(*id);
         }
+        if self.broken.contains(&name.value) {
+            return None;
+        }
         let mut known: Vec<String> = self.automaton.roles.iter().map(|r| r.name.clone()).collect();
         known.extend(self.checker.model.enums.iter().map(|e| e.name.clone()));
         let help = crate::diagnostic::suggestion(&name.value, known.iter().map(String::as_str))
-            .map_or("write a role, an enumeration or a range such as `0..capacity - 1`".into(), |n| format!("is `{n}` meant?"));
-        self.report(Diagnostic::new("E0311", name.span, format!("there is no role `{}`", name.value)).help(help));
+            .map_or("write a role, an enumeration or a range such as `0..capacity - 1`".into(), |n| {
+                format!("is `{n}` meant?")
+            });
+        self.report(
+            Diagnostic::new("E0311", name.span, format!("there is no role `{}`", name.value)).help(help),
+        );
         None
     }
 
@@ -540,8 +616,12 @@ impl Context<'_, '_> {
     pub(super) fn bind(&mut self, name: &ast::Name, ty: Scalar) -> VariableId {
         if self.symbols.contains_key(&name.value) || self.variables.iter().any(|(n, _, _)| *n == name.value) {
             self.report(
-                Diagnostic::new("E0301", name.span, format!("`{}` has another meaning here already", name.value))
-                    .help("choose another name for the variable"),
+                Diagnostic::new(
+                    "E0301",
+                    name.span,
+                    format!("`{}` has another meaning here already", name.value),
+                )
+                .help("choose another name for the variable"),
             );
         }
         let id = self.new_variable(&name.value, ty);
@@ -600,7 +680,9 @@ fn lowered(operator: Operator) -> ir::Operator {
 fn type_help(found: &str, wanted: &str) -> String {
     match (found, wanted) {
         (_, "time") => "write a duration with its unit, such as `2 s` or `300 ms`".into(),
-        ("real", _) if wanted.starts_with("int") => "a real does not become a whole number; compute with whole numbers".into(),
+        ("real", _) if wanted.starts_with("int") => {
+            "a real does not become a whole number; compute with whole numbers".into()
+        }
         _ => format!("write a value of type {wanted}"),
     }
 }

@@ -52,7 +52,10 @@ impl Facts {
         match &expr.kind {
             ExprKind::Constant(Value::Int(v)) => Interval::new(f64::from(*v), f64::from(*v)),
             ExprKind::Constant(Value::Real(v)) => Interval::new(*v, *v),
-            ExprKind::Constant(Value::Bool(v)) => Interval::new(f64::from(u8::from(*v)), f64::from(u8::from(*v))),
+            ExprKind::Constant(Value::Bool(v)) => {
+                Interval::new(f64::from(u8::from(*v)), f64::from(u8::from(*v)))
+            }
+            ExprKind::ToReal(inner) => self.of(inner),
             _ => {
                 let declared = of_type(expr.ty);
                 key(expr).and_then(|k| self.known.get(&k)).map_or(declared, |known| declared.meet(*known))
@@ -91,15 +94,17 @@ impl Facts {
         let above = |x: f64| if a.ty == Scalar::Real { x.next_up() } else { x + 1.0 };
         let (for_left, for_right) = match operator {
             Operator::Equal => (right, left),
-            Operator::Less => {
-                (Interval::new(f64::NEG_INFINITY, below(right.hi)), Interval::new(above(left.lo), f64::INFINITY))
-            }
+            Operator::Less => (
+                Interval::new(f64::NEG_INFINITY, below(right.hi)),
+                Interval::new(above(left.lo), f64::INFINITY),
+            ),
             Operator::LessEqual => {
                 (Interval::new(f64::NEG_INFINITY, right.hi), Interval::new(left.lo, f64::INFINITY))
             }
-            Operator::Greater => {
-                (Interval::new(above(right.lo), f64::INFINITY), Interval::new(f64::NEG_INFINITY, below(left.hi)))
-            }
+            Operator::Greater => (
+                Interval::new(above(right.lo), f64::INFINITY),
+                Interval::new(f64::NEG_INFINITY, below(left.hi)),
+            ),
             Operator::GreaterEqual => {
                 (Interval::new(right.lo, f64::INFINITY), Interval::new(f64::NEG_INFINITY, left.hi))
             }
@@ -118,9 +123,18 @@ impl Facts {
 
     /// Forgets what a write to a place may have changed, then knows the new value's interval.
     pub fn write(&mut self, place: &Place, ty: Scalar, value: Interval) {
+        self.forget(place);
+        let expr = Expr { ty, kind: ExprKind::Read(place.clone()) };
+        // After `a[a[0]] := v` the place `a[a[0]]` may be another one.
+        if key(&expr).is_some_and(|key| key.matches(&marker(place)).count() == 1) {
+            self.narrow(&expr, value);
+        }
+    }
+
+    /// Forgets what was known of a variable.
+    pub fn forget(&mut self, place: &Place) {
         let written = marker(place);
         self.known.retain(|key, _| !key.contains(&written));
-        self.narrow(&Expr { ty, kind: ExprKind::Read(place.clone()) }, value);
     }
 }
 
@@ -156,8 +170,12 @@ fn place_key(place: &Place) -> Option<String> {
     };
     let base = marker(place);
     Some(match place {
-        Place::Local { index, .. } | Place::Port { index, .. } | Place::Parameter { index, .. } => base + &at(index)?,
-        Place::Cell { of, index, .. } => base + "@" + &of.as_ref().map_or(Some(String::new()), |e| index_key(e))? + &at(index)?,
+        Place::Local { index, .. } | Place::Port { index, .. } | Place::Parameter { index, .. } => {
+            base + &at(index)?
+        }
+        Place::Cell { of, index, .. } => {
+            base + "@" + &of.as_ref().map_or(Some(String::new()), |e| index_key(e))? + &at(index)?
+        }
         Place::Shown { of, index, .. } => base + "@" + &index_key(of)? + &at(index)?,
     })
 }
@@ -185,7 +203,9 @@ pub fn may_be_non_finite(expr: &Expr) -> bool {
     match &expr.kind {
         ExprKind::Read(place) => matches!(place, Place::Port { .. }),
         ExprKind::MakePoint(parts) => parts.iter().any(may_be_non_finite),
-        ExprKind::Coordinate(inner, _) | ExprKind::Negate(inner) | ExprKind::Absolute(inner) => may_be_non_finite(inner),
+        ExprKind::Coordinate(inner, _) | ExprKind::Negate(inner) | ExprKind::Absolute(inner) => {
+            may_be_non_finite(inner)
+        }
         ExprKind::Min(a, b) | ExprKind::Max(a, b) => may_be_non_finite(a) || may_be_non_finite(b),
         ExprKind::Constant(_) | ExprKind::Variable(_) | ExprKind::ToReal(_) => false,
         _ => matches!(expr.ty, Scalar::Real | Scalar::Point),

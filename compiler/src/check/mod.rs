@@ -17,7 +17,7 @@ use crate::diagnostic::{Diagnostic, suggestion};
 use crate::ir;
 use crate::source::{FileId, Sources, Span};
 use crate::spec::ast;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A model that has passed every check; only [`check`] makes one.
 #[derive(Clone, Debug)]
@@ -37,17 +37,28 @@ impl Checked {
 
 /// Checks all types of the files. A type of a later file replaces one of the same name of an earlier file.
 /// `kinds` are the kinds of part, from the scenario; at least one.
-pub fn check(sources: &Sources, files: &[(FileId, ast::File)], kinds: &[String]) -> Result<Checked, Vec<Diagnostic>> {
+pub fn check(
+    sources: &Sources,
+    files: &[(FileId, ast::File)],
+    kinds: &[String],
+) -> Result<Checked, Vec<Diagnostic>> {
     let mut diagnostics = Vec::new();
     let declarations = declarations(files, &mut diagnostics);
-    let mut checker = Checker { sources, diagnostics, declarations, model: empty_model(kinds), rules: Vec::new() };
+    let mut checker = Checker {
+        sources,
+        diagnostics,
+        declarations,
+        model: empty_model(kinds),
+        rules: Vec::new(),
+        broken: BTreeSet::new(),
+    };
     checker.enums();
     checker.interfaces();
     for index in 0..checker.declarations.automata.len() {
         let automaton = checker.declarations.automata[index].clone();
         automaton::check(&mut checker, &automaton);
     }
-    checker.infinite_types();
+    checker.lonely_roles();
     if checker.diagnostics.is_empty() {
         Ok(Checked { model: checker.model })
     } else {
@@ -146,6 +157,8 @@ struct Checker<'a> {
     model: ir::Model,
     /// For each interface the rules of its cells.
     rules: Vec<Vec<Rule>>,
+    /// Members of interfaces whose declarations have errors; something stands for them in the model.
+    broken: BTreeSet<(ir::InterfaceId, String)>,
 }
 
 impl Checker<'_> {
@@ -159,8 +172,12 @@ impl Checker<'_> {
             for member in &tree.members {
                 if members.contains(&member.value) {
                     self.report(
-                        Diagnostic::new("E0301", member.span, format!("`{}` is a member twice", member.value))
-                            .help("remove one"),
+                        Diagnostic::new(
+                            "E0301",
+                            member.span,
+                            format!("`{}` is a member twice", member.value),
+                        )
+                        .help("remove one"),
                     );
                 } else {
                     members.push(member.value.clone());
@@ -168,8 +185,12 @@ impl Checker<'_> {
             }
             if members.is_empty() {
                 self.report(
-                    Diagnostic::new("E0302", tree.name.span, format!("the enumeration `{}` has no members", tree.name.value))
-                        .help("write its members between the braces"),
+                    Diagnostic::new(
+                        "E0302",
+                        tree.name.span,
+                        format!("the enumeration `{}` has no members", tree.name.value),
+                    )
+                    .help("write its members between the braces"),
                 );
                 members.push("Nothing".into());
             }
@@ -205,42 +226,53 @@ impl Checker<'_> {
             let mut names: Vec<&ast::Name> = Vec::new();
             for name in tree.parameters.iter().map(|p| &p.name).chain(tree.cells.iter().map(|c| &c.name)) {
                 if *is_declared && let Some(before) = names.iter().find(|n| n.value == name.value) {
-                    let diagnostic = Diagnostic::new("E0301", name.span, format!("`{}` is declared twice", name.value))
-                        .other(before.span, "first here")
-                        .help("rename or remove one of them");
+                    let diagnostic =
+                        Diagnostic::new("E0301", name.span, format!("`{}` is declared twice", name.value))
+                            .other(before.span, "first here")
+                            .help("rename or remove one of them");
                     self.report(diagnostic);
                 }
                 names.push(name);
             }
             for parameter in &tree.parameters {
-                if let Some(ty) = self.resolve_type(&parameter.ty) {
-                    self.model.interfaces[index].parameters.push(ir::Variable {
-                        name: parameter.name.value.clone(),
-                        doc: parameter.doc.clone(),
-                        ty,
-                    });
-                }
+                let name = parameter.name.value.clone();
+                let ty = self.resolve_type(&parameter.ty).unwrap_or_else(|| {
+                    self.broken.insert((ir::InterfaceId(index), name.clone()));
+                    ir::Type { scalar: ir::Scalar::Bool, extent: ir::Extent::One }
+                });
+                let doc = parameter.doc.clone();
+                self.model.interfaces[index].parameters.push(ir::Variable { name, doc, ty });
             }
-            for cell in &tree.cells {
-                if let Some(cell) = self.cell(cell) {
-                    self.model.interfaces[index].cells.push(cell);
-                }
+            for tree in &tree.cells {
+                let cell = self.cell(tree).unwrap_or_else(|| {
+                    let name = tree.name.value.clone();
+                    self.broken.insert((ir::InterfaceId(index), name.clone()));
+                    let ty = ir::Type { scalar: ir::Scalar::Bool, extent: ir::Extent::One };
+                    ir::Cell { name, doc: Vec::new(), ty, initial: ir::Value::Bool(false) }
+                });
+                self.model.interfaces[index].cells.push(cell);
             }
             let rules = tree.cells.iter().map(|cell| self.rule(cell, tree, index)).collect();
             self.rules.push(rules);
         }
     }
 
+    fn is_broken(&self, interface: ir::InterfaceId, member: &str) -> bool {
+        self.broken.contains(&(interface, member.to_string()))
+    }
+
     fn named_as_type(&self, name: &str) -> bool {
         let in_type = |ty: &ast::Type| matches!(&ty.scalar, ast::Scalar::Named(n) if n.value == name);
-        self.declarations.interfaces.iter().any(|i| {
-            i.parameters.iter().any(|p| in_type(&p.ty)) || i.cells.iter().any(|c| in_type(&c.ty))
-        }) || self.declarations.automata.iter().any(|a| {
-            a.roles.iter().any(|r| r.interface.value == name || r.also.iter().any(|n| n.value == name))
-                || a.locals.iter().any(|l| in_type(&l.ty))
-                || a.cells.iter().any(|c| in_type(&c.ty))
-                || a.parameters.iter().any(|p| in_type(&p.ty))
-        })
+        self.declarations
+            .interfaces
+            .iter()
+            .any(|i| i.parameters.iter().any(|p| in_type(&p.ty)) || i.cells.iter().any(|c| in_type(&c.ty)))
+            || self.declarations.automata.iter().any(|a| {
+                a.roles.iter().any(|r| r.interface.value == name || r.also.iter().any(|n| n.value == name))
+                    || a.locals.iter().any(|l| in_type(&l.ty))
+                    || a.cells.iter().any(|c| in_type(&c.ty))
+                    || a.parameters.iter().any(|p| in_type(&p.ty))
+            })
     }
 
     fn cell(&mut self, tree: &ast::Cell) -> Option<ir::Cell> {
@@ -262,44 +294,62 @@ impl Checker<'_> {
             }
             Some(ast::Rule::Counter) => {
                 if !matches!(cell.ty.scalar, ast::Scalar::Int { .. }) {
-                    let diagnostic = Diagnostic::new("E0303", cell.name.span, "a counter counts whole numbers")
-                        .help("give it a type such as `int 0..12`");
+                    let diagnostic =
+                        Diagnostic::new("E0303", cell.name.span, "a counter counts whole numbers")
+                            .help("give it a type such as `int 0..12`");
                     self.report(diagnostic);
                 }
                 Rule::Counter
             }
-            Some(ast::Rule::With(name)) => match interface.cells.iter().position(|c| c.name.value == name.value) {
-                Some(other) if matches!(interface.cells[other].rule, Some(ast::Rule::Token(_))) => Rule::With(other),
-                _ => {
-                    let known = interface.cells.iter().map(|c| c.name.value.as_str());
-                    let help = suggestion(&name.value, known)
-                        .map_or("name a cell of this interface that has a `token`".into(), |n| format!("is `{n}` meant?"));
-                    let diagnostic =
-                        Diagnostic::new("E0303", name.span, format!("`{}` is no token of `{}`", name.value, interface.name.value))
-                            .help(help);
-                    self.report(diagnostic);
-                    Rule::Owner
+            Some(ast::Rule::With(name)) => {
+                match interface.cells.iter().position(|c| c.name.value == name.value) {
+                    Some(other) if matches!(interface.cells[other].rule, Some(ast::Rule::Token(_))) => {
+                        Rule::With(other)
+                    }
+                    _ => {
+                        let known = interface.cells.iter().map(|c| c.name.value.as_str());
+                        let help = suggestion(&name.value, known)
+                            .map_or("name a cell of this interface that has a `token`".into(), |n| {
+                                format!("is `{n}` meant?")
+                            });
+                        let diagnostic = Diagnostic::new(
+                            "E0303",
+                            name.span,
+                            format!("`{}` is no token of `{}`", name.value, interface.name.value),
+                        )
+                        .help(help);
+                        self.report(diagnostic);
+                        Rule::Owner
+                    }
                 }
-            },
+            }
             Some(ast::Rule::Token(sides)) => self.token(cell, sides, index),
         }
     }
 
     fn expect_bool_cell(&mut self, cell: &ast::Cell, rule: &str) {
-        let is_plain = matches!(cell.initial.as_ref().map(|e| &e.kind), None | Some(ast::ExprKind::Bool(false)));
+        let is_plain =
+            matches!(cell.initial.as_ref().map(|e| &e.kind), None | Some(ast::ExprKind::Bool(false)));
         if !matches!(cell.ty.scalar, ast::Scalar::Bool) || !is_plain {
-            let diagnostic =
-                Diagnostic::new("E0303", cell.name.span, format!("a {rule} is a `bool` that begins as false"))
-                    .help("write `bool := false`, or choose another rule");
+            let diagnostic = Diagnostic::new(
+                "E0303",
+                cell.name.span,
+                format!("a {rule} is a `bool` that begins as false"),
+            )
+            .help("write `bool := false`, or choose another rule");
             self.report(diagnostic);
         }
     }
 
     fn token(&mut self, cell: &ast::Cell, sides: &[(ast::Name, ast::Side)], interface: usize) -> Rule {
         let found = self.model.interfaces[interface].cells.iter().find(|c| c.name == cell.name.value);
+        if self.is_broken(ir::InterfaceId(interface), &cell.name.value) {
+            return Rule::Owner;
+        }
         let Some(ir::Scalar::Enum(id)) = found.map(|c| c.ty.scalar) else {
-            let diagnostic = Diagnostic::new("E0303", cell.name.span, "a token has the type of an enumeration")
-                .help("declare an `enum` of its values");
+            let diagnostic =
+                Diagnostic::new("E0303", cell.name.span, "a token has the type of an enumeration")
+                    .help("declare an `enum` of its values");
             self.report(diagnostic);
             return Rule::Owner;
         };
@@ -328,22 +378,31 @@ impl Checker<'_> {
         Rule::Token(members.iter().map(|m| side_of(m).unwrap_or(ast::Side::Owner)).collect())
     }
 
-    /// A reference needs somebody to refer to.
-    fn infinite_types(&mut self) {
-        for interface in 0..self.model.interfaces.len() {
-            let id = ir::InterfaceId(interface);
-            let is_read = self.model.automata.iter().any(|a| a.roles.iter().any(|r| r.interface == id));
-            let is_implemented = self.model.automata.iter().any(|a| a.implementing(id).is_some());
-            if is_read && !is_implemented {
-                let name = self.model.interfaces[interface].name.clone();
-                let place = self.declarations.interfaces.iter().find(|i| i.name.value == name).map(|i| i.name.span);
-                if let Some(place) = place {
-                    self.report(
-                        Diagnostic::new("E0304", place, format!("no automaton is `{name}`"))
-                            .help(format!("write `automaton ... is {name}`")),
-                    );
-                }
-            }
+    /// A role needs somebody who can have it.
+    fn lonely_roles(&mut self) {
+        let trees = &self.declarations;
+        let is_read = |name: &str| {
+            trees
+                .automata
+                .iter()
+                .flat_map(|a| &a.roles)
+                .any(|r| r.interface.value == name || r.also.iter().any(|n| n.value == name))
+        };
+        let is_implemented =
+            |name: &str| trees.automata.iter().flat_map(|a| &a.implements).any(|i| i.interface.value == name);
+        let lonely: Vec<ast::Name> = (trees.interfaces.iter().map(|i| &i.name))
+            .filter(|name| is_read(&name.value) && !is_implemented(&name.value))
+            .cloned()
+            .collect();
+        for name in lonely {
+            self.report(
+                Diagnostic::new(
+                    "E0304",
+                    name.span,
+                    format!("no automaton is `{}`, which a role asks for", name.value),
+                )
+                .help(format!("write `automaton ... is {}`", name.value)),
+            );
         }
     }
 }

@@ -37,11 +37,14 @@ impl Context<'_, '_> {
             Some(Symbol::Local(local)) => {
                 Some(Path::Place(Place::Local { local, index: None }, self.automaton.locals[local].ty))
             }
+            Some(Symbol::Cell(interface, _)) if self.checker.is_broken(interface, name) => None,
             Some(Symbol::Cell(interface, cell)) => {
                 let ty = self.checker.model.interfaces[interface.0].cells[cell].ty;
                 Some(Path::Place(Place::Cell { interface, cell, of: None, index: None }, ty))
             }
-            Some(Symbol::Port(port)) => Some(Path::Place(Place::Port { port, index: None }, self.port_type(port))),
+            Some(Symbol::Port(port)) => {
+                Some(Path::Place(Place::Port { port, index: None }, self.port_type(port)))
+            }
             Some(Symbol::Parameter(parameter)) => {
                 let ty = self.automaton.parameters[parameter].ty;
                 Some(Path::Place(Place::Parameter { parameter, index: None }, ty))
@@ -57,8 +60,9 @@ impl Context<'_, '_> {
             }
             Some(Symbol::Role(_)) => {
                 self.report(
-                    Diagnostic::new("E0310", span, format!("`{name}` is a role, not one robot"))
-                        .help(format!("choose one with `first x in {name}`, or ask `exists x in {name}: ...`")),
+                    Diagnostic::new("E0310", span, format!("`{name}` is a role, not one robot")).help(
+                        format!("choose one with `first x in {name}`, or ask `exists x in {name}: ...`"),
+                    ),
                 );
                 None
             }
@@ -101,8 +105,10 @@ impl Context<'_, '_> {
                 None
             }
             _ => {
-                let names: Vec<String> =
-                    found.iter().map(|(id, _)| format!("`{}.{name}`", self.checker.model.enums[id.0].name)).collect();
+                let names: Vec<String> = found
+                    .iter()
+                    .map(|(id, _)| format!("`{}.{name}`", self.checker.model.enums[id.0].name))
+                    .collect();
                 self.report(
                     Diagnostic::new("E0310", span, format!("`{name}` is a member of several enumerations"))
                         .help(format!("write {}", names.join(" or "))),
@@ -113,6 +119,9 @@ impl Context<'_, '_> {
     }
 
     fn unknown_name(&mut self, name: &str, span: Span) {
+        if self.lacks_names || self.broken.contains(name) {
+            return;
+        }
         let mut known: Vec<String> = self.symbols.keys().cloned().collect();
         known.extend(self.variables.iter().map(|(n, _, _)| n.clone()));
         known.extend(self.checker.model.enums.iter().flat_map(|e| e.members.iter().cloned()));
@@ -137,7 +146,12 @@ impl Context<'_, '_> {
             let Some(ordinal) = members.iter().position(|m| *m == member.value) else {
                 let help = format!("its members are {}", members.join(", "));
                 self.report(
-                    Diagnostic::new("E0311", member.span, format!("`{name}` has no member `{}`", member.value)).help(help),
+                    Diagnostic::new(
+                        "E0311",
+                        member.span,
+                        format!("`{name}` has no member `{}`", member.value),
+                    )
+                    .help(help),
                 );
                 return None;
             };
@@ -160,8 +174,12 @@ impl Context<'_, '_> {
             ty => {
                 let name = self.checker.type_name(ty);
                 self.report(
-                    Diagnostic::new("E0311", span, format!("a value of type {name} has no `{}`", member.value))
-                        .help("only robots and points have members"),
+                    Diagnostic::new(
+                        "E0311",
+                        span,
+                        format!("a value of type {name} has no `{}`", member.value),
+                    )
+                    .help("only robots and points have members"),
                 );
                 None
             }
@@ -169,6 +187,9 @@ impl Context<'_, '_> {
     }
 
     fn shown(&mut self, of: Expr, interface: ir::InterfaceId, member: &ast::Name) -> Option<Path> {
+        if self.checker.is_broken(interface, &member.value) {
+            return None;
+        }
         let of = Box::new(of);
         let shown = &self.checker.model.interfaces[interface.0];
         if let Some(cell) = shown.cells.iter().position(|c| c.name == member.value) {
@@ -179,7 +200,11 @@ impl Context<'_, '_> {
             let ty = shown.parameters[parameter].ty;
             return Some(Path::Place(Place::Shown { interface, parameter, of, index: None }, ty));
         }
-        let known = shown.cells.iter().map(|c| c.name.as_str()).chain(shown.parameters.iter().map(|p| p.name.as_str()));
+        let known = shown
+            .cells
+            .iter()
+            .map(|c| c.name.as_str())
+            .chain(shown.parameters.iter().map(|p| p.name.as_str()));
         let help = suggestion(&member.value, known).map_or(
             "a neighbour shows the cells and parameters of its interface, never its ports or locals".into(),
             |n| format!("is `{n}` meant?"),

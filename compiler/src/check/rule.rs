@@ -2,7 +2,7 @@
 
 use super::Rule;
 use super::automaton::Context;
-use super::facts::{self, Interval};
+use super::facts::Interval;
 use crate::diagnostic::Diagnostic;
 use crate::ir::{self, Expr, ExprKind, Place, Value};
 use crate::source::Span;
@@ -37,12 +37,16 @@ impl Context<'_, '_> {
                     format!("`{name}` may be held by somebody else here"),
                     "a lock is taken when it is free: add `not` of it to the guard of this transition",
                 ),
-                None => wrong(format!("a lock is taken or given back: `{name}` is true or false"), "write `:= true` or `:= false`"),
+                None => wrong(
+                    format!("a lock is taken or given back: `{name}` is true or false"),
+                    "write `:= true` or `:= false`",
+                ),
                 _ => None,
             },
-            (Rule::Counter, Side::Others) if how == Assign::Set => {
-                wrong(format!("`{name}` is a counter"), "others count with `+=` and `-=`; the owner may set it")
-            }
+            (Rule::Counter, Side::Others) if how == Assign::Set => wrong(
+                format!("`{name}` is a counter"),
+                "others count with `+=` and `-=`; the owner may set it",
+            ),
             (Rule::Token(sides), _) => self.token_holder(sides, known, side, &name, span, place),
             (Rule::With(token), _) => {
                 let token = *token;
@@ -84,17 +88,18 @@ impl Context<'_, '_> {
         place: &Place,
     ) -> Option<Diagnostic> {
         let possible: Vec<usize> = (0..sides.len()).filter(|v| known.holds(*v as f64)).collect();
-        let is_decided = possible.len() < sides.len() || facts::of_type(ir::Scalar::Bool) == known;
-        if !is_decided || possible.iter().any(|v| sides[*v] == side) {
+        if possible.iter().any(|v| sides[*v] == side) {
             return None;
         }
         let Place::Cell { interface, cell, .. } = place else { return None };
-        let ir::Scalar::Enum(id) = self.checker.model.interfaces[interface.0].cells[*cell].ty.scalar else { return None };
-        let value = possible.first().map(|v| self.checker.model.enums[id.0].members[*v].clone()).unwrap_or_default();
+        let ir::Scalar::Enum(id) = self.checker.model.interfaces[interface.0].cells[*cell].ty.scalar else {
+            return None;
+        };
+        let value =
+            possible.first().map(|v| self.checker.model.enums[id.0].members[*v].clone()).unwrap_or_default();
         let who = if side == Side::Owner { "others write" } else { "the owner writes" };
-        Some(
-            Diagnostic::new("E0333", span, format!("while the token is `{value}`, {who} `{name}`"))
-                .help("wait in the guard for a value that gives the right to write, or change the rule of the token"),
-        )
+        Some(Diagnostic::new("E0333", span, format!("while the token is `{value}`, {who} `{name}`")).help(
+            "wait in the guard for a value that gives the right to write, or change the rule of the token",
+        ))
     }
 }

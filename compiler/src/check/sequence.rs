@@ -7,15 +7,24 @@
 use super::automaton::Context;
 use crate::diagnostic::Diagnostic;
 use crate::source::Span;
-use crate::spec::ast::{self, Body, Clause, Expr, ExprKind, Outcome, State, Step, Transition, Update, UpdateKind};
+use crate::spec::ast::{
+    self, Body, Clause, Expr, ExprKind, Outcome, State, Step, Transition, Update, UpdateKind,
+};
 
 /// What one of the states waits for.
 enum Wait {
     /// Nothing: go on at once.
     Nothing,
     Done(Span),
-    Condition { span: Span, condition: Expr, at_most: Option<Expr> },
-    Time { span: Span, time: Expr },
+    Condition {
+        span: Span,
+        condition: Expr,
+        at_most: Option<Expr>,
+    },
+    Time {
+        span: Span,
+        time: Expr,
+    },
 }
 
 /// A wait and what is done when it is over.
@@ -26,11 +35,16 @@ struct Stage {
 
 pub(super) fn expand(context: &mut Context, state: &State, sequence: &ast::Sequence) -> Vec<State> {
     let stages = stages(sequence);
-    let can_fail = stages.iter().any(|s| matches!(s.wait, Wait::Done(_) | Wait::Condition { at_most: Some(_), .. }));
+    let can_fail =
+        stages.iter().any(|s| matches!(s.wait, Wait::Done(_) | Wait::Condition { at_most: Some(_), .. }));
     if can_fail && sequence.otherwise.is_none() {
         context.report(
-            Diagnostic::new("E0329", state.name.span, format!("the sequence `{}` does not say what follows a failed step", state.name.value))
-                .help("write `else State { ... }` behind its last state"),
+            Diagnostic::new(
+                "E0329",
+                state.name.span,
+                format!("the sequence `{}` does not say what follows a failed step", state.name.value),
+            )
+            .help("write `else State { ... }` behind its last state"),
         );
     }
     let last = stages.len() - 1;
@@ -50,7 +64,8 @@ pub(super) fn expand(context: &mut Context, state: &State, sequence: &ast::Seque
                 let target = ast::Name { value: name(i + 1), span: state.name.span };
                 Outcome { span: state.name.span, target, updates: stage.then }
             };
-            let (doc, transitions) = transitions(&stage.wait, next, sequence.otherwise.as_ref(), state.name.span);
+            let (doc, transitions) =
+                transitions(&stage.wait, next, sequence.otherwise.as_ref(), state.name.span);
             State {
                 doc: if i == 0 && !state.doc.is_empty() { state.doc.clone() } else { vec![doc] },
                 name: ast::Name { value: name(i), span: state.name.span },
@@ -89,7 +104,12 @@ fn stages(sequence: &ast::Sequence) -> Vec<Stage> {
     stages
 }
 
-fn transitions(wait: &Wait, next: Outcome, otherwise: Option<&Outcome>, name: Span) -> (String, Vec<Transition>) {
+fn transitions(
+    wait: &Wait,
+    next: Outcome,
+    otherwise: Option<&Outcome>,
+    name: Span,
+) -> (String, Vec<Transition>) {
     let fails = |condition: Expr| otherwise.map(|o| when(o.span, condition, o.clone()));
     match wait {
         Wait::Nothing => {

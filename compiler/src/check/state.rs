@@ -43,45 +43,55 @@ pub(super) fn check(context: &mut Context, tree: &ast::Automaton) {
     for state in &tree.states {
         if state.name.value == BEGINNING {
             context.report(
-                Diagnostic::new("E0301", state.name.span, format!("`{BEGINNING}` is the name of the beginning"))
-                    .help("choose another name for this state"),
+                Diagnostic::new(
+                    "E0301",
+                    state.name.span,
+                    format!("`{BEGINNING}` is the name of the beginning"),
+                )
+                .help("choose another name for this state"),
             );
         }
         if let Some(before) = names.insert(state.name.value.clone(), state.name.clone()) {
             context.report(
-                Diagnostic::new("E0301", state.name.span, format!("there are two states `{}`", state.name.value))
-                    .other(before.span, "first here")
-                    .help("rename or remove one of them"),
+                Diagnostic::new(
+                    "E0301",
+                    state.name.span,
+                    format!("there are two states `{}`", state.name.value),
+                )
+                .other(before.span, "first here")
+                .help("rename or remove one of them"),
             );
         }
     }
-    let Some(initial) = &tree.initial else {
+    if tree.initial.is_none() {
         context.report(
-            Diagnostic::new("E0326", tree.name.span, format!("`{}` does not say where it begins", tree.name.value))
-                .help("write `initial state ...`, or `initial -> State { updates }`"),
+            Diagnostic::new(
+                "E0326",
+                tree.name.span,
+                format!("`{}` does not say where it begins", tree.name.value),
+            )
+            .help("write `initial state ...`, or `initial -> State { updates }`"),
         );
-        return;
-    };
+    }
     let states = plain(context, tree);
     // The beginning is number 0.
     let number = |name: &str| states.iter().position(|s| s.name.value == name).map(|i| StateId(i + 1));
-    let beginning = transition(
-        context,
-        tree,
-        &ast::Transition {
+    let beginning = tree.initial.as_ref().and_then(|initial| {
+        let always = ast::Expr { span: initial.span, kind: ast::ExprKind::Bool(true) };
+        let first = ast::Transition {
             span: initial.span,
-            clauses: vec![ast::Clause::Condition(ast::Expr { span: initial.span, kind: ast::ExprKind::Bool(true) })],
+            clauses: vec![ast::Clause::Condition(always)],
             guard_span: initial.span,
             target: Some(initial.target.clone()),
             updates: initial.updates.clone(),
-        },
-        &number,
-    );
+        };
+        transition(context, tree, &first, &number)
+    });
     let text = "the first step".to_string();
     context.automaton.states.push(ir::State {
         name: BEGINNING.into(),
         doc: vec!["Nothing has been done yet.".into()],
-        place: initial.span,
+        place: tree.initial.as_ref().map_or(tree.name.span, |i| i.span),
         is_final: false,
         within: None,
         transitions: beginning.map(|t| ir::Transition { text, ..t }).into_iter().collect(),
@@ -92,15 +102,24 @@ pub(super) fn check(context: &mut Context, tree: &ast::Automaton) {
             let text = format!("`{}` has lasted too long", state.name.value);
             (time, context.fault(ir::FaultKind::TooLong, state.name.span, text))
         });
-        let transitions: Vec<_> = trees.iter().filter_map(|t| transition(context, tree, t, &number)).collect();
+        let transitions: Vec<_> =
+            trees.iter().filter_map(|t| transition(context, tree, t, &number)).collect();
         match (state.is_final, trees.is_empty()) {
             (true, false) => context.report(
-                Diagnostic::new("E0327", state.name.span, format!("the final state `{}` has transitions", state.name.value))
-                    .help("remove `final`, or the transitions"),
+                Diagnostic::new(
+                    "E0327",
+                    state.name.span,
+                    format!("the final state `{}` has transitions", state.name.value),
+                )
+                .help("remove `final`, or the transitions"),
             ),
             (false, true) => context.report(
-                Diagnostic::new("E0327", state.name.span, format!("no transition leaves `{}`", state.name.value))
-                    .help("write `final state` if the automaton ends here"),
+                Diagnostic::new(
+                    "E0327",
+                    state.name.span,
+                    format!("no transition leaves `{}`", state.name.value),
+                )
+                .help("write `final state` if the automaton ends here"),
             ),
             _ => {}
         }
@@ -113,33 +132,44 @@ pub(super) fn check(context: &mut Context, tree: &ast::Automaton) {
             transitions,
         });
     }
-    unreachable_states(context, &states);
+    if let Some(initial) = &tree.initial {
+        unreachable_states(context, &initial.target.value, &states);
+    }
 }
 
-fn unreachable_states(context: &mut Context, trees: &[ast::State]) {
-    let states = &context.automaton.states;
+/// From the text, so that a transition with an error still leads to its state.
+fn unreachable_states(context: &mut Context, first: &str, states: &[ast::State]) {
+    let number = |name: &str| states.iter().position(|s| s.name.value == name);
     let mut reached = vec![false; states.len()];
-    let mut open = vec![0];
+    let mut open: Vec<usize> = number(first).into_iter().collect();
     while let Some(state) = open.pop() {
         if std::mem::replace(&mut reached[state], true) {
             continue;
         }
-        open.extend(states[state].transitions.iter().filter_map(|t| t.target).map(|t| t.0));
+        let ast::Body::Transitions(transitions) = &states[state].body else { continue };
+        open.extend(transitions.iter().filter_map(|t| t.target.as_ref()).filter_map(|t| number(&t.value)));
     }
-    let lost: Vec<_> = trees.iter().zip(&reached[1..]).filter(|(s, r)| !**r && !s.name.value.contains('.')).collect();
-    let lost: Vec<ast::Name> = lost.into_iter().map(|(s, _)| s.name.clone()).collect();
-    for name in lost {
+    let known_beginning = number(first).is_some();
+    let is_lost = |name: &str| !name.contains('.') && number(name).is_some_and(|n| !reached[n]);
+    for state in states.iter().filter(|s| known_beginning && is_lost(&s.name.value)) {
         context.report(
-            Diagnostic::new("E0328", name.span, format!("no transition leads to `{}`", name.value))
-                .help("add a transition to it, or remove the state"),
+            Diagnostic::new(
+                "E0328",
+                state.name.span,
+                format!("no transition leads to `{}`", state.name.value),
+            )
+            .help("add a transition to it, or remove the state"),
         );
     }
 }
 
 fn unknown_state(context: &mut Context, tree: &ast::Automaton, name: &ast::Name) {
     let known = tree.states.iter().map(|s| s.name.value.as_str());
-    let help = suggestion(&name.value, known).map_or(format!("declare `state {} {{ ... }}`", name.value), |n| format!("is `{n}` meant?"));
-    context.report(Diagnostic::new("E0311", name.span, format!("there is no state `{}`", name.value)).help(help));
+    let help = suggestion(&name.value, known)
+        .map_or(format!("declare `state {} {{ ... }}`", name.value), |n| format!("is `{n}` meant?"));
+    context.report(
+        Diagnostic::new("E0311", name.span, format!("there is no state `{}`", name.value)).help(help),
+    );
 }
 
 fn transition(
@@ -197,7 +227,10 @@ impl Context<'_, '_> {
     }
 
     fn binder(&mut self, tree: &ast::Binder) -> Option<ir::Binder> {
-        let (domain, ty, _) = self.domain(&tree.domain)?;
+        let Some((domain, ty, _)) = self.domain(&tree.domain) else {
+            self.broken.insert(tree.variable.value.clone());
+            return None;
+        };
         let variable = self.bind(&tree.variable, ty);
         let condition = match &tree.condition {
             None => None,
@@ -229,5 +262,4 @@ impl Context<'_, '_> {
         };
         Some(ir::Binder { variable, domain, condition, key })
     }
-
 }

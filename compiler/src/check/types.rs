@@ -20,8 +20,12 @@ impl Checker<'_> {
                 let (low, high) = (self.whole_constant(lo)?, self.whole_constant(hi)?);
                 if low > high {
                     self.report(
-                        Diagnostic::new("E0305", tree.span, format!("the bounds {low}..{high} hold no number"))
-                            .help("write the lower bound first"),
+                        Diagnostic::new(
+                            "E0305",
+                            tree.span,
+                            format!("the bounds {low}..{high} hold no number"),
+                        )
+                        .help("write the lower bound first"),
                     );
                     return None;
                 }
@@ -48,7 +52,9 @@ impl Checker<'_> {
             "types are bool, int lo..hi, real, time, point, enumerations and interfaces".into(),
             |n| format!("is `{n}` meant?"),
         );
-        self.report(Diagnostic::new("E0306", name.span, format!("there is no type `{}`", name.value)).help(help));
+        self.report(
+            Diagnostic::new("E0306", name.span, format!("there is no type `{}`", name.value)).help(help),
+        );
         None
     }
 
@@ -73,7 +79,8 @@ impl Checker<'_> {
             let help = suggestion(&name.value, known.iter().map(String::as_str))
                 .map_or("declare an `interface` of this name".into(), |n| format!("is `{n}` meant?"));
             self.report(
-                Diagnostic::new("E0306", name.span, format!("there is no interface `{}`", name.value)).help(help),
+                Diagnostic::new("E0306", name.span, format!("there is no interface `{}`", name.value))
+                    .help(help),
             );
         }
         found
@@ -160,7 +167,9 @@ impl Checker<'_> {
                     None => return self.not_constant(ty, expr),
                 }
             }
-            (Scalar::Point, ExprKind::Call(name, arguments)) if name.value == "point" && arguments.len() == 3 => {
+            (Scalar::Point, ExprKind::Call(name, arguments))
+                if name.value == "point" && arguments.len() == 3 =>
+            {
                 match (number(&arguments[0]), number(&arguments[1]), number(&arguments[2])) {
                     (Some(x), Some(y), Some(z)) => Value::Point([x, y, z]),
                     _ => return self.not_constant(ty, expr),
@@ -174,8 +183,9 @@ impl Checker<'_> {
     fn not_constant(&mut self, ty: Scalar, expr: &ast::Expr) -> Option<Value> {
         let name = self.type_name(ty);
         self.report(
-            Diagnostic::new("E0305", expr.span, format!("this is no constant of type {name}"))
-                .help("write a literal value; what is to be computed belongs into the updates of `initial ->`"),
+            Diagnostic::new("E0305", expr.span, format!("this is no constant of type {name}")).help(
+                "write a literal value; what is to be computed belongs into the updates of `initial ->`",
+            ),
         );
         None
     }

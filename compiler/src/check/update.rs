@@ -4,7 +4,9 @@ use super::automaton::Context;
 use super::facts::{self, Interval};
 use super::path::Path;
 use crate::diagnostic::{Diagnostic, suggestion};
-use crate::ir::{self, Argument, Expr, ExprKind, Extent, FaultId, FaultKind, Place, Scalar, Target, Type, UpdateKind};
+use crate::ir::{
+    self, Argument, Expr, ExprKind, Extent, FaultId, FaultKind, Place, Scalar, Target, Type, UpdateKind,
+};
 use crate::source::Span;
 use crate::spec::ast::{self, Assign};
 use runtime_sim::device::Direction;
@@ -18,7 +20,13 @@ impl Context<'_, '_> {
         Some(ir::Update { place: tree.span, kind })
     }
 
-    fn assign(&mut self, target: &ast::Expr, how: Assign, value: &ast::Expr, span: Span) -> Option<UpdateKind> {
+    fn assign(
+        &mut self,
+        target: &ast::Expr,
+        how: Assign,
+        value: &ast::Expr,
+        span: Span,
+    ) -> Option<UpdateKind> {
         let (place, ty) = self.target(target)?;
         if ty.extent != Extent::One {
             return self.assign_array(place, ty, how, value, span);
@@ -44,10 +52,18 @@ impl Context<'_, '_> {
         Some(UpdateKind::Assign { target: Target { place, ty }, value, check })
     }
 
-    fn assign_array(&mut self, place: Place, ty: Type, how: Assign, value: &ast::Expr, span: Span) -> Option<UpdateKind> {
+    fn assign_array(
+        &mut self,
+        place: Place,
+        ty: Type,
+        how: Assign,
+        value: &ast::Expr,
+        span: Span,
+    ) -> Option<UpdateKind> {
         if how != Assign::Set {
             self.report(
-                Diagnostic::new("E0330", span, "a whole array can be assigned only").help("write an index, or `:=`"),
+                Diagnostic::new("E0330", span, "a whole array can be assigned only")
+                    .help("write an index, or `:=`"),
             );
             return None;
         }
@@ -65,7 +81,14 @@ impl Context<'_, '_> {
         Some(UpdateKind::Fill { target, value, check })
     }
 
-    fn copy_array(&mut self, target: Target, source: Place, found: Type, value: Span, span: Span) -> Option<UpdateKind> {
+    fn copy_array(
+        &mut self,
+        target: Target,
+        source: Place,
+        found: Type,
+        value: Span,
+        span: Span,
+    ) -> Option<UpdateKind> {
         let ty = target.ty;
         let fits = match (found.scalar, ty.scalar) {
             (Scalar::Int { .. }, Scalar::Int { .. }) => true,
@@ -144,7 +167,9 @@ impl Context<'_, '_> {
     fn place_name(&self, place: &Place) -> String {
         match place {
             Place::Local { local, .. } => self.automaton.locals[*local].name.clone(),
-            Place::Cell { interface, cell, .. } => self.checker.model.interfaces[interface.0].cells[*cell].name.clone(),
+            Place::Cell { interface, cell, .. } => {
+                self.checker.model.interfaces[interface.0].cells[*cell].name.clone()
+            }
             Place::Port { port, .. } => self.automaton.device.ports[*port].name.into(),
             Place::Parameter { parameter, .. } => self.automaton.parameters[*parameter].name.clone(),
             Place::Shown { interface, parameter, .. } => {
@@ -165,14 +190,28 @@ impl Context<'_, '_> {
                 None => format!("a `{}` obeys {}", device.name, names.join(", ")),
             };
             self.report(
-                Diagnostic::new("E0332", verb.span, format!("a `{}` has no command `{}`", device.name, verb.value)).help(help),
+                Diagnostic::new(
+                    "E0332",
+                    verb.span,
+                    format!("a `{}` has no command `{}`", device.name, verb.value),
+                )
+                .help(help),
             );
             return None;
         };
         if arguments.len() != known.arguments.len() {
             self.report(
-                Diagnostic::new("E0332", verb.span, format!("`{}` takes {} arguments, not {}", verb.value, known.arguments.len(), arguments.len()))
-                    .help(format!("write `{}({})`", verb.value, known.arguments.join(", "))),
+                Diagnostic::new(
+                    "E0332",
+                    verb.span,
+                    format!(
+                        "`{}` takes {} arguments, not {}",
+                        verb.value,
+                        known.arguments.len(),
+                        arguments.len()
+                    ),
+                )
+                .help(format!("write `{}({})`", verb.value, known.arguments.join(", "))),
             );
             return None;
         }
@@ -184,6 +223,12 @@ impl Context<'_, '_> {
             let place = Place::Port { port, index: None };
             let check = self.store(&place, ty.scalar, &value, tree.span);
             written.push(Argument { port, value, check });
+        }
+        let ports = device.ports.iter().enumerate();
+        for (port, _) in
+            ports.filter(|(_, p)| ["cmd", "verb"].contains(&p.name) || known.arguments.contains(&p.name))
+        {
+            self.facts.forget(&Place::Port { port, index: None });
         }
         Some(UpdateKind::Command { verb: known.number, arguments: written })
     }

@@ -31,7 +31,12 @@ pub fn used(files: &[(FileId, ast::File)], automata: &BTreeSet<String>) -> Vec<(
         .map(|(id, file)| {
             let tree = ast::File {
                 enums: file.enums.iter().filter(|e| names.contains(&e.name.value)).cloned().collect(),
-                interfaces: file.interfaces.iter().filter(|i| names.contains(&i.name.value)).cloned().collect(),
+                interfaces: file
+                    .interfaces
+                    .iter()
+                    .filter(|i| names.contains(&i.name.value))
+                    .cloned()
+                    .collect(),
                 automata: file.automata.iter().filter(|a| names.contains(&a.name.value)).cloned().collect(),
             };
             (*id, tree)

@@ -19,7 +19,8 @@ pub fn find(line: &Line, stands: &[bool], proposal: usize) -> Option<Mend> {
                 let Some((change_mm, geometry)) = first(line, proposal, node, &number.path, direction) else {
                     continue;
                 };
-                let Some(connected) = connected_after(line, stands, node, &geometry) else { continue };
+                let Some(stands_then) = after(line, stands, node, &geometry) else { continue };
+                let connected = Ways::new(line, &stands_then).connected();
                 let better = best.as_ref().is_none_or(|best| {
                     (connected, -change_mm.abs()) > (best.connected, -best.change_mm.abs())
                 });
@@ -32,6 +33,7 @@ pub fn find(line: &Line, stands: &[bool], proposal: usize) -> Option<Mend> {
                         value: changed(number.value, change_mm),
                         change_mm,
                         connected,
+                        joined: (0..stands.len()).filter(|p| stands_then[*p] && !stands[*p]).collect(),
                     });
                 }
             }
@@ -58,6 +60,9 @@ fn first(line: &Line, proposal: usize, node: usize, path: &str, direction: i32) 
     let pair = &line.proposals[proposal];
     // `None` beyond the values that the machine may have.
     let at = |mm: i32| geometry.with_number(path, changed(present, direction * mm));
+    if at(COARSE).is_some_and(|changed| !poses::matters(line, pair, (node, &changed))) {
+        return None;
+    }
     let miss = |geometry: &Geometry| poses::first_miss(line, pair, (node, geometry));
     let mut passed = 0;
     let mut step = stride(miss(geometry)?);
@@ -77,8 +82,8 @@ fn first(line: &Line, proposal: usize, node: usize, path: &str, direction: i32) 
     })
 }
 
-/// Number of connected nodes with another geometry of one of them; none if an edge is lost.
-fn connected_after(line: &Line, stands: &[bool], node: usize, geometry: &Geometry) -> Option<usize> {
+/// Which pairs meet with another geometry of one node; none if an edge is lost.
+fn after(line: &Line, stands: &[bool], node: usize, geometry: &Geometry) -> Option<Vec<bool>> {
     let mut after = stands.to_vec();
     for (proposal, stood) in line.proposals.iter().zip(&mut after) {
         if proposal.from == node || proposal.to == node {
@@ -89,5 +94,5 @@ fn connected_after(line: &Line, stands: &[bool], node: usize, geometry: &Geometr
             *stood = stands_now;
         }
     }
-    Some(Ways::new(line, &after).connected())
+    Some(after)
 }

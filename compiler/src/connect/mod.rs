@@ -13,6 +13,7 @@ mod verdict;
 mod tests;
 
 use crate::diagnostic::Diagnostic;
+use crate::layout::Number;
 use crate::source::Span;
 use runtime_sim::geometry::Geometry;
 
@@ -29,15 +30,6 @@ pub struct Node {
     pub is_source: bool,
     /// Items leave the layout here.
     pub is_destination: bool,
-}
-
-/// A number of a JSON object.
-#[derive(Clone, Debug)]
-pub struct Number {
-    /// As in [`Geometry::numbers`], such as `rail_range[1]`.
-    pub path: String,
-    pub value: f64,
-    pub span: Span,
 }
 
 /// Where the passive one of two machines hands over or takes.
@@ -118,6 +110,8 @@ pub struct Mend {
     pub change_mm: i32,
     /// Nodes on a way from a source to a destination after the change.
     pub connected: usize,
+    /// Indices of all proposals whose machines meet only after the change.
+    pub joined: Vec<usize>,
 }
 
 /// Two machines that should meet and do not.

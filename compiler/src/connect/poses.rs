@@ -1,7 +1,7 @@
 //! The poses at which two machines must meet.
 
 use super::{Line, Miss, Proposal, Stage};
-use runtime_sim::geometry::Geometry;
+use runtime_sim::geometry::{Geometry, Place};
 use runtime_sim::kinematics::arm::Arm;
 use runtime_sim::point::Point;
 use std::ops::ControlFlow;
@@ -24,19 +24,22 @@ fn each(
     passive: &Geometry,
     mut see: impl FnMut(&str, &str, Stage, Point) -> ControlFlow<()>,
 ) -> ControlFlow<()> {
-    let names: Vec<String> = line.kinds.iter().map(|(name, _)| name.clone()).collect();
-    let site = &proposal.site;
-    let places = passive
-        .handover(&site.name, site.index, site.capacity, &names)
-        .expect("a type is bound only to a machine with its handover");
-    for place in &places {
+    for place in &places(line, proposal, passive) {
         for (kind, height) in &line.kinds {
             let contact = place.point.up(*height);
             see(&place.name, kind, Stage::Contact, contact)?;
-            see(&place.name, kind, Stage::Approach, contact.up(site.approach))?;
+            see(&place.name, kind, Stage::Approach, contact.up(proposal.site.approach))?;
         }
     }
     ControlFlow::Continue(())
+}
+
+fn places(line: &Line, proposal: &Proposal, passive: &Geometry) -> Vec<Place> {
+    let names: Vec<String> = line.kinds.iter().map(|(name, _)| name.clone()).collect();
+    let site = &proposal.site;
+    passive
+        .handover(&site.name, site.index, site.capacity, &names)
+        .expect("a type is bound only to a machine with its handover")
 }
 
 fn arm(geometry: &Geometry) -> Arm {
@@ -84,4 +87,14 @@ pub fn first_miss(line: &Line, proposal: &Proposal, (node, geometry): (usize, &G
 /// Whether the two machines would meet with `geometry` instead of the one of `node`.
 pub fn stands(line: &Line, proposal: &Proposal, changed: (usize, &Geometry)) -> bool {
     first_miss(line, proposal, changed).is_none()
+}
+
+/// Whether `geometry` instead of the one of `node` changes anything for the two machines.
+pub fn matters(line: &Line, proposal: &Proposal, (node, geometry): (usize, &Geometry)) -> bool {
+    let present = &line.nodes[node].geometry;
+    if node == proposal.arm {
+        arm(geometry) != arm(present)
+    } else {
+        places(line, proposal, geometry) != places(line, proposal, present)
+    }
 }

@@ -4,7 +4,7 @@ use super::graph::Ways;
 use super::{Failure, Line, Miss, Stage};
 use crate::diagnostic::{Diagnostic, sort};
 
-/// Poses listed in a report; the data hold all.
+/// Places listed in a report; the data hold every pose.
 const LISTED: usize = 3;
 
 pub fn diagnostics(line: &Line, stands: &[bool], failures: &[Failure]) -> Vec<Diagnostic> {
@@ -24,8 +24,8 @@ pub fn diagnostics(line: &Line, stands: &[bool], failures: &[Failure]) -> Vec<Di
     let mut stands = stands.to_vec();
     let mut ways = Ways::new(line, &stands);
     while let Some((failure, after)) = most_helpful(line, &stands, failures, &ways) {
-        found.push(apart(line, failure, failures, &ways, &after));
-        stands[failure.proposal] = true;
+        found.push(apart(line, failure, failures, &stands, &ways, &after));
+        join(&mut stands, failure);
         ways = after;
     }
     found.extend(left_alone(line, &ways));
@@ -33,7 +33,15 @@ pub fn diagnostics(line: &Line, stands: &[bool], failures: &[Failure]) -> Vec<Di
     found
 }
 
-/// The failed pair that would put most nodes on a way if it met, and the ways then.
+/// Takes a failed pair for mended, with all that its mend brings together.
+fn join(stands: &mut [bool], failure: &Failure) {
+    stands[failure.proposal] = true;
+    for proposal in failure.mend.iter().flat_map(|mend| &mend.joined) {
+        stands[*proposal] = true;
+    }
+}
+
+/// The failed pair that would put most nodes on a way if it were mended, and the ways then.
 /// At equal numbers the one that misses by least.
 fn most_helpful<'a>(
     line: &Line,
@@ -44,7 +52,7 @@ fn most_helpful<'a>(
     let mut best: Option<(usize, &Failure, Ways)> = None;
     for failure in failures.iter().filter(|failure| !stands[failure.proposal]) {
         let mut with = stands.to_vec();
-        with[failure.proposal] = true;
+        join(&mut with, failure);
         let after = Ways::new(line, &with);
         let gain = newly(&ways.supplied, &after.supplied).len() + newly(&ways.drained, &after.drained).len();
         let better = match &best {
@@ -67,7 +75,14 @@ fn worst_mm(failure: &Failure) -> f64 {
 }
 
 /// Two machines that should meet, do not, and are needed.
-fn apart(line: &Line, failure: &Failure, failures: &[Failure], ways: &Ways, after: &Ways) -> Diagnostic {
+fn apart(
+    line: &Line,
+    failure: &Failure,
+    failures: &[Failure],
+    stands: &[bool],
+    ways: &Ways,
+    after: &Ways,
+) -> Diagnostic {
     let pair = &line.proposals[failure.proposal];
     let [arm, passive] = [pair.arm, pair.passive()].map(|n| &line.nodes[n]);
     let verb = if pair.arm == pair.from { "hand over to" } else { "take from" };
@@ -87,11 +102,12 @@ fn apart(line: &Line, failure: &Failure, failures: &[Failure], ways: &Ways, afte
     .other(arm.span, "the arm that should come here")
     .other(pair.rule, "the place of the handover");
 
-    for miss in failure.misses.iter().take(LISTED) {
+    let listed = worst_of_places(&failure.misses);
+    for miss in &listed {
         diagnostic = diagnostic.note(describe(miss));
     }
-    if failure.misses.len() > LISTED {
-        diagnostic = diagnostic.note(format!("and {} more", failure.misses.len() - LISTED));
+    if failure.misses.len() > listed.len() {
+        diagnostic = diagnostic.note(format!("and {} more poses", failure.misses.len() - listed.len()));
     }
     let starved = newly(&ways.supplied, &after.supplied);
     if !starved.is_empty() {
@@ -103,10 +119,12 @@ fn apart(line: &Line, failure: &Failure, failures: &[Failure], ways: &Ways, afte
     }
     let also: Vec<String> = failures
         .iter()
-        .filter(|other| other.proposal != failure.proposal)
+        .filter(|other| other.proposal != failure.proposal && !stands[other.proposal])
         .filter(|other| {
+            let joined = failure.mend.as_ref().is_some_and(|mend| mend.joined.contains(&other.proposal));
             let other = &line.proposals[other.proposal];
-            (other.to == pair.to && starved.contains(&pair.to))
+            joined
+                || (other.to == pair.to && starved.contains(&pair.to))
                 || (other.from == pair.from && stuck.contains(&pair.from))
         })
         .map(|other| {
@@ -203,6 +221,17 @@ fn alone(
     finish: impl FnOnce(Diagnostic) -> Diagnostic,
 ) -> Diagnostic {
     finish(Diagnostic::new(code, line.nodes[node].span, message))
+}
+
+/// The worst pose of each place, for the few worst places.
+fn worst_of_places(misses: &[Miss]) -> Vec<&Miss> {
+    let mut listed: Vec<&Miss> = Vec::new();
+    for miss in misses {
+        if listed.len() < LISTED && listed.iter().all(|other| other.place != miss.place) {
+            listed.push(miss);
+        }
+    }
+    listed
 }
 
 fn describe(miss: &Miss) -> String {

@@ -66,23 +66,29 @@ impl Executor<'_> {
                 other => other,
             },
             ExprKind::ToReal(inner) => Value::Real(f64::from(self.int(robot, inner))),
-            ExprKind::MakePoint(parts) => {
-                Value::Point([self.real(robot, &parts[0]), self.real(robot, &parts[1]), self.real(robot, &parts[2])])
-            }
+            ExprKind::MakePoint(parts) => Value::Point([
+                self.real(robot, &parts[0]),
+                self.real(robot, &parts[1]),
+                self.real(robot, &parts[2]),
+            ]),
             ExprKind::Coordinate(inner, axis) => Value::Real(self.point(robot, inner)[*axis]),
             ExprKind::SquaredDistance(a, b) => {
                 let (p, q) = (self.point(robot, a), self.point(robot, b));
                 let (dx, dy, dz) = (p[0] - q[0], p[1] - q[1], p[2] - q[2]);
                 Value::Real(dx * dx + dy * dy + dz * dz)
             }
-            ExprKind::Exists { variable, domain, body } => {
-                Value::Bool(self.domain(robot, domain).any(|v| self.bound(robot, *variable, v, body) == Value::Bool(true)))
-            }
-            ExprKind::Forall { variable, domain, body } => {
-                Value::Bool(self.domain(robot, domain).all(|v| self.bound(robot, *variable, v, body) == Value::Bool(true)))
-            }
+            ExprKind::Exists { variable, domain, body } => Value::Bool(
+                self.domain(robot, domain)
+                    .any(|v| self.bound(robot, *variable, v, body) == Value::Bool(true)),
+            ),
+            ExprKind::Forall { variable, domain, body } => Value::Bool(
+                self.domain(robot, domain)
+                    .all(|v| self.bound(robot, *variable, v, body) == Value::Bool(true)),
+            ),
             ExprKind::Count { variable, domain, body } => {
-                let found = self.domain(robot, domain).filter(|v| self.bound(robot, *variable, *v, body) == Value::Bool(true));
+                let found = self
+                    .domain(robot, domain)
+                    .filter(|v| self.bound(robot, *variable, *v, body) == Value::Bool(true));
                 Value::Int(found.count() as i32)
             }
             ExprKind::Sum { variable, domain, body } => {
@@ -120,7 +126,9 @@ impl Executor<'_> {
             Domain::Role(role) => {
                 self.system.instances[robot].roles[role.0].iter().map(|row| Value::Int(*row as i32)).collect()
             }
-            Domain::Enum(id) => (0..self.system.model.enums[id.0].members.len() as i32).map(Value::Int).collect(),
+            Domain::Enum(id) => {
+                (0..self.system.model.enums[id.0].members.len() as i32).map(Value::Int).collect()
+            }
             Domain::Range(low, high) => {
                 let (low, high) = (self.int(robot, low), self.int(robot, high));
                 (low..=high).map(Value::Int).collect()
@@ -175,7 +183,12 @@ impl Executor<'_> {
     }
 
     /// The row of the instance that `of` refers to: this one if there is none.
-    pub(super) fn row(&mut self, robot: usize, interface: crate::ir::InterfaceId, of: &Option<Box<Expr>>) -> usize {
+    pub(super) fn row(
+        &mut self,
+        robot: usize,
+        interface: crate::ir::InterfaceId,
+        of: &Option<Box<Expr>>,
+    ) -> usize {
         match of {
             Some(expr) => self.int(robot, expr) as usize,
             None => {

@@ -40,7 +40,9 @@ impl Executor<'_> {
     fn choose(&mut self, robot: usize, clauses: &[Clause]) -> bool {
         match clauses.split_first() {
             None => true,
-            Some((Clause::Condition(condition), rest)) => self.holds(robot, condition) && self.choose(robot, rest),
+            Some((Clause::Condition(condition), rest)) => {
+                self.holds(robot, condition) && self.choose(robot, rest)
+            }
             Some((Clause::Bind(binder), rest)) => self.choose_candidate(robot, binder, rest),
         }
     }
@@ -137,7 +139,9 @@ impl Executor<'_> {
 
     fn target_index(&mut self, robot: usize, place: &Place) -> usize {
         match place {
-            Place::Local { index, .. } | Place::Cell { index, .. } | Place::Port { index, .. } => self.element(robot, index),
+            Place::Local { index, .. } | Place::Cell { index, .. } | Place::Port { index, .. } => {
+                self.element(robot, index)
+            }
             Place::Parameter { .. } | Place::Shown { .. } => 0,
         }
     }
@@ -190,7 +194,9 @@ impl Executor<'_> {
 /// What is stored for a value, and whether it is the value.
 fn fitted(ty: Scalar, value: Value) -> (Option<Value>, bool) {
     match (ty, value) {
-        (Scalar::Int { lo, hi }, Value::Int(i)) => (Some(Value::Int(i.clamp(lo, hi))), (lo..=hi).contains(&i)),
+        (Scalar::Int { lo, hi }, Value::Int(i)) => {
+            (Some(Value::Int(i.clamp(lo, hi))), (lo..=hi).contains(&i))
+        }
         (Scalar::Time, Value::Int(i)) => (Some(Value::Int(i.max(0))), i >= 0),
         (_, Value::Real(r)) if !r.is_finite() => (None, false),
         (_, Value::Point(p)) if p.iter().any(|c| !c.is_finite()) => (None, false),

@@ -2,7 +2,6 @@
 
 mod read;
 mod resolve;
-mod shuffle;
 mod supply;
 
 pub use read::parse;

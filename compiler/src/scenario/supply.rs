@@ -1,6 +1,6 @@
 //! What the belts bring when the scenario gives no list.
 
-use super::shuffle::Random;
+use runtime_sim::random::Random;
 
 /// How many parts of one kind the whole supply has beyond `needed`, rounded up.
 pub fn surplus(needed: u64, [numerator, denominator]: [u32; 2]) -> u64 {

@@ -211,8 +211,15 @@ pub struct Outcome {
 pub enum Step {
     /// A command, waited for, or an assignment.
     Act(Update),
-    Until { span: Span, condition: Expr, at_most: Option<Expr> },
-    Wait { span: Span, time: Expr },
+    Until {
+        span: Span,
+        condition: Expr,
+        at_most: Option<Expr>,
+    },
+    Wait {
+        span: Span,
+        time: Expr,
+    },
 }
 
 #[derive(Clone, Debug)]
@@ -294,7 +301,12 @@ pub enum ExprKind {
     Not(Box<Expr>),
     Negate(Box<Expr>),
     Binary(Operator, Box<Expr>, Box<Expr>),
-    Quantified { quantifier: Quantifier, variable: Name, domain: Box<Domain>, body: Box<Expr> },
+    Quantified {
+        quantifier: Quantifier,
+        variable: Name,
+        domain: Box<Domain>,
+        body: Box<Expr>,
+    },
     After(Box<Expr>),
     In(Box<Expr>, Name),
     Reaches(Box<Expr>, Box<Expr>),

@@ -19,8 +19,8 @@ pub enum Token {
 
 /// Longest first.
 const SIGNS: &[&str] = &[
-    ":=", "+=", "-=", "->", "..", "<>", "<=", ">=", "==", "!=", "&&", "||", "{", "}", "(", ")", "[", "]", ",", ";",
-    ":", ".", "+", "-", "*", "/", "=", "<", ">",
+    ":=", "+=", "-=", "->", "..", "<>", "<=", ">=", "==", "!=", "&&", "||", "{", "}", "(", ")", "[", "]",
+    ",", ";", ":", ".", "+", "-", "*", "/", "=", "<", ">",
 ];
 
 /// All tokens of a text, the last one `End`; what is not a token is reported and left out.
@@ -39,6 +39,18 @@ pub fn tokens(file: FileId, text: &str) -> (Vec<(Token, Span)>, Vec<Diagnostic>)
             if let Some(doc) = line.strip_prefix("///") {
                 found.push((Token::Doc(doc.trim().to_string()), Span::new(file, start, at)));
             }
+        } else if let Some(end) =
+            [("/*", "*/"), ("(*", "*)")].iter().find_map(|(a, b)| rest.starts_with(a).then_some(b))
+        {
+            at += rest[2..].find(end).map_or(rest.len(), |length| length + 4);
+            diagnostics.push(
+                Diagnostic::new(
+                    "E0201",
+                    Span::new(file, start, start + 2),
+                    "there are no comments of this kind",
+                )
+                .help("begin each line of a comment with `//`"),
+            );
         } else if c.is_ascii_alphabetic() || c == '_' {
             at += rest.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(rest.len());
             found.push((Token::Word(text[start..at].to_string()), Span::new(file, start, at)));
@@ -54,8 +66,12 @@ pub fn tokens(file: FileId, text: &str) -> (Vec<(Token, Span)>, Vec<Diagnostic>)
                 at += 1;
             } else {
                 diagnostics.push(
-                    Diagnostic::new("E0202", Span::new(file, start, at), "this text does not end on its line")
-                        .help("close it with a double quote"),
+                    Diagnostic::new(
+                        "E0202",
+                        Span::new(file, start, at),
+                        "this text does not end on its line",
+                    )
+                    .help("close it with a double quote"),
                 );
             }
             found.push((Token::Text(text), Span::new(file, start, at)));
@@ -84,13 +100,22 @@ pub fn tokens(file: FileId, text: &str) -> (Vec<(Token, Span)>, Vec<Diagnostic>)
             });
         } else {
             at += c.len_utf8();
+            let help = match c {
+                '!' => "write `not`",
+                '&' => "write `and`",
+                '|' => "write `or`",
+                '%' => "write `mod`",
+                '\'' => "texts stand in double quotes",
+                _ => "names are of letters a to z, digits and underscores; comments begin with `//`",
+            };
+            let shown = if c.is_control() { c.escape_default().to_string() } else { c.to_string() };
             diagnostics.push(
                 Diagnostic::new(
                     "E0201",
                     Span::new(file, start, at),
-                    format!("`{}` is no part of the language", c.escape_default()),
+                    format!("`{shown}` is no part of the language"),
                 )
-                .help("names are of letters, digits and underscores; comments begin with `//`"),
+                .help(help),
             );
         }
     }

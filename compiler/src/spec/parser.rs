@@ -14,17 +14,22 @@ use crate::spec::lexer::{self, Token};
 
 /// Words that cannot be names, since an expression or a clause begins with them.
 pub const RESERVED: &[&str] = &[
-    "after", "and", "count", "done", "else", "exists", "failed", "false", "first", "forall", "in", "least", "mod",
-    "nearest", "not", "or", "reaches", "state", "sum", "true", "until", "wait", "when", "with",
+    "after", "and", "count", "done", "else", "exists", "failed", "false", "first", "forall", "in", "least",
+    "mod", "nearest", "not", "or", "reaches", "state", "sum", "true", "until", "wait", "when", "with",
 ];
 
 /// Nesting of expressions beyond which a text is refused.
 const DEEPEST: usize = 64;
 
+/// Operators, accesses and variables of one expression beyond which a text is refused.
+/// It bounds the depth of a tree, and with it the stack that the compiler needs.
+const LONGEST: usize = 256;
+
 /// Reads a whole file. What is wrong is in the list; the tree holds the rest.
 pub fn parse(file: FileId, text: &str) -> (ast::File, Vec<Diagnostic>) {
     let (tokens, diagnostics) = lexer::tokens(file, text);
-    let mut parser = Parser { tokens, position: 0, diagnostics, depth: 0 };
+    let mut parser =
+        Parser { tokens, position: 0, diagnostics, depth: 0, length: 0, error_at: None, errors: 0 };
     let tree = parser.file();
     (tree, parser.diagnostics)
 }
@@ -33,7 +38,14 @@ pub(super) struct Parser {
     tokens: Vec<(Token, Span)>,
     position: usize,
     diagnostics: Vec<Diagnostic>,
+    /// Nesting of the expression that is being read.
     depth: usize,
+    /// What it has used of [`LONGEST`].
+    length: usize,
+    /// The token at which the last error was found: what else is wrong there follows from it.
+    error_at: Option<usize>,
+    /// Errors found so far, told or not.
+    errors: usize,
 }
 
 impl Parser {
@@ -52,9 +64,10 @@ impl Parser {
                         Token::Word(w) => suggestion(w, ["enum", "interface", "automaton"]),
                         _ => None,
                     };
-                    let help = near.map_or("a file holds `enum`, `interface` and `automaton`".to_string(), |w| {
-                        format!("is `{w}` meant?")
-                    });
+                    let help = near
+                        .map_or("a file holds `enum`, `interface` and `automaton`".to_string(), |w| {
+                            format!("is `{w}` meant?")
+                        });
                     self.error("E0204", format!("{found} cannot begin an item"), help);
                     self.recover_to_item();
                 }
@@ -70,7 +83,9 @@ impl Parser {
                 Token::End => return,
                 Token::Sign("{") => depth += 1,
                 Token::Sign("}") => depth = depth.saturating_sub(1),
-                Token::Word(w) if depth == 0 && ["enum", "interface", "automaton"].contains(&w.as_str()) => return,
+                Token::Word(w) if depth == 0 && ["enum", "interface", "automaton"].contains(&w.as_str()) => {
+                    return;
+                }
                 _ => {}
             }
             self.next();
@@ -162,14 +177,14 @@ impl Parser {
             return Some(());
         }
         let found = self.found();
-        let place = match sign {
-            ";" => self.last_span(),
-            _ => self.span(),
+        let (place, help) = match sign {
+            ";" => (self.last_span(), "write `;` behind this".to_string()),
+            _ => (self.span(), format!("write `{sign}` before {found}")),
         };
-        self.diagnostics.push(
+        self.report(
             Diagnostic::new("E0205", place, format!("`{sign}` is missing {after}"))
-                .label(format!("then comes {found}"))
-                .help(format!("write `{sign}` here")),
+                .label(if sign == ";" { format!("then comes {found}") } else { String::new() })
+                .help(help),
         );
         None
     }
@@ -190,7 +205,7 @@ impl Parser {
     fn expect_name(&mut self, what: &str) -> Option<ast::Name> {
         let span = self.span();
         match self.peek().clone() {
-            Token::Word(w) if RESERVED.contains(&w.as_str()) => {
+            Token::Word(w) if RESERVED.contains(&w.as_str()) && w != "in" => {
                 self.error(
                     "E0206",
                     format!("`{w}` is a word of the language and cannot name {what}"),
@@ -205,10 +220,20 @@ impl Parser {
             }
             _ => {
                 let found = self.found();
-                self.error("E0205", format!("the name of {what} is missing"), format!("write a name before {found}"));
+                self.error(
+                    "E0205",
+                    format!("the name of {what} is missing"),
+                    format!("write a name before {found}"),
+                );
                 None
             }
         }
+    }
+
+    /// Whether an item of a file begins here.
+    fn at_item(&self) -> bool {
+        matches!(self.word(), Some("enum" | "interface" | "automaton"))
+            && matches!(self.peek_second(), Token::Word(_))
     }
 
     /// What stands here, for a message.
@@ -226,7 +251,32 @@ impl Parser {
 
     fn error(&mut self, code: &'static str, message: String, help: impl Into<String>) {
         let span = self.span();
-        self.diagnostics.push(Diagnostic::new(code, span, message).help(help));
+        self.report(Diagnostic::new(code, span, message).help(help));
+    }
+
+    /// Of several errors at one token only the first is told.
+    fn report(&mut self, diagnostic: Diagnostic) {
+        if self.error_at != Some(self.position) {
+            self.diagnostics.push(diagnostic);
+        }
+        self.error_at = Some(self.position);
+        self.errors += 1;
+    }
+
+    /// Skips to one of these signs, past whole parentheses; not past a brace or a `;`.
+    fn skip_to(&mut self, signs: &[&str]) {
+        let mut depth = 0usize;
+        loop {
+            match self.peek() {
+                Token::End | Token::Sign("{" | "}" | ";") => break,
+                Token::Sign(sign) if depth == 0 && signs.contains(sign) => break,
+                Token::Sign("(" | "[") => depth += 1,
+                Token::Sign(")" | "]") => depth = depth.saturating_sub(1),
+                _ => {}
+            }
+            self.next();
+        }
+        self.error_at = Some(self.position);
     }
 
     /// The `///` lines that stand here.

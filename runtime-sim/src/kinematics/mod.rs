@@ -37,3 +37,7 @@ fn nearest_turn(angle: f64, present: f64) -> f64 {
 fn root(square: f64) -> f64 {
     square.max(0.0).sqrt()
 }
+
+fn is_finite(point: crate::point::Point) -> bool {
+    point.x.is_finite() && point.y.is_finite() && point.z.is_finite()
+}

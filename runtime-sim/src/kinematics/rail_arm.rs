@@ -3,7 +3,7 @@
 use super::planar::{self, Wrist};
 use super::pose::Pose;
 use super::ur10::{self, D1, D4};
-use super::{nearest_turn, root};
+use super::{is_finite, nearest_turn, root};
 use crate::point::{Axis, Point};
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -63,6 +63,9 @@ impl RailArm {
 
     /// Distance of the wrist to the limit of reach, at the best place on the rail, the tool pointing down; negative out of reach.
     pub fn margin(&self, tool: Point) -> f64 {
+        if !is_finite(tool) {
+            return f64::NEG_INFINITY;
+        }
         let view = self.view(tool);
         if view.distance[1] < D4 { view.distance[1] - D4 } else { self.best(&view).margin }
     }

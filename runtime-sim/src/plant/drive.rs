@@ -86,13 +86,13 @@ impl Drive {
         }
     }
 
-    /// Goes on to the time `t`. A motion that is held does not arrive.
+    /// Goes on to the time `t`. It may arrive while it is held, if it was about to.
     pub fn advance(&mut self, t: f64) -> Moved {
         let (course, moved) = match std::mem::replace(&mut self.course, Course::Rest) {
             Course::Rest => (Course::Rest, Moved::Arrived),
             Course::Going(motion) => {
                 self.place(motion.at(t));
-                if motion.has_ended(t) && !motion.is_held() {
+                if motion.has_ended(t) {
                     (Course::Rest, Moved::Arrived)
                 } else {
                     (Course::Going(motion), Moved::OnTheWay)

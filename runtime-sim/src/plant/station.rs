@@ -92,6 +92,10 @@ impl Station {
         }
     }
 
+    pub fn orders_to_open(&self) -> usize {
+        self.queue.len()
+    }
+
     pub fn pose(&self) -> Point {
         self.pose
     }

@@ -173,9 +173,11 @@ impl Rig {
     /// Drives the belt until a part of this kind lies in the pick zone, and halts it; where it lies.
     pub fn bring(&mut self, kind: usize) -> Point {
         self.command(BELT, DRIVE, None);
-        while self.image(BELT)[input::SEES + kind] == 0.0 {
+        let sees = input::SEES + kind;
+        assert!((0..10_000).any(|_| {
             self.step(1);
-        }
+            self.image(BELT)[sees] != 0.0
+        }));
         self.command(BELT, HALT, None);
         self.finish(BELT);
         point(self.image(BELT), input::SEEN_AT + 3 * kind)

@@ -6,8 +6,20 @@ use crate::spec::ast;
 use crate::spec::lexer::Token;
 
 const MEMBERS: &[&str] = &[
-    "parameter", "shared", "local", "define", "takes", "hands", "serves", "knows", "require", "invariant", "initial",
-    "any", "state", "final",
+    "parameter",
+    "shared",
+    "local",
+    "define",
+    "takes",
+    "hands",
+    "serves",
+    "knows",
+    "require",
+    "invariant",
+    "initial",
+    "any",
+    "state",
+    "final",
 ];
 
 impl Parser {
@@ -59,7 +71,7 @@ impl Parser {
             if self.maybe_sign("}") {
                 return Some(automaton);
             }
-            if *self.peek() == Token::End {
+            if *self.peek() == Token::End || self.at_item() {
                 self.error(
                     "E0205",
                     format!("`}}` is missing at the end of the automaton `{}`", automaton.name.value),
@@ -91,7 +103,10 @@ impl Parser {
         };
         let approach = if self.maybe_word("approach") { Some(self.parse_sum()) } else { None };
         let span = span.to(self.last_span());
-        Some(ast::Implements { interface, handover: Some(ast::Handover { span, way, place, index, approach }) })
+        Some(ast::Implements {
+            interface,
+            handover: Some(ast::Handover { span, way, place, index, approach }),
+        })
     }
 
     fn member(&mut self, automaton: &mut ast::Automaton, doc: Vec<String>) {
@@ -116,9 +131,10 @@ impl Parser {
             }
             Some("invariant") => {
                 self.next();
+                let errors = self.errors;
                 let value = self.parse_expr();
                 automaton.invariants.push(crate::source::Spanned { span: value.span, value });
-                self.end_of_declaration(true);
+                self.end_of_declaration(self.errors == errors);
             }
             Some("initial") if *self.peek_second() == Token::Sign("->") => {
                 let span = self.span();
@@ -149,8 +165,9 @@ impl Parser {
                     Token::Word(w) => suggestion(w, MEMBERS.iter().copied()),
                     _ => None,
                 };
-                let help =
-                    near.map_or(format!("an automaton holds {}", MEMBERS.join(", ")), |w| format!("is `{w}` meant?"));
+                let help = near.map_or(format!("an automaton holds {}", MEMBERS.join(", ")), |w| {
+                    format!("is `{w}` meant?")
+                });
                 self.error("E0204", format!("{found} cannot stand in an automaton"), help);
                 self.next();
                 self.recover();
@@ -160,10 +177,14 @@ impl Parser {
 
     fn set_initial(&mut self, automaton: &mut ast::Automaton, initial: ast::Initial) {
         if let Some(before) = &automaton.initial {
-            self.diagnostics.push(
-                crate::diagnostic::Diagnostic::new("E0208", initial.span, "an automaton begins in one state only")
-                    .other(before.span, "the beginning is given here already")
-                    .help("remove one `initial`"),
+            self.report(
+                crate::diagnostic::Diagnostic::new(
+                    "E0208",
+                    initial.span,
+                    "an automaton begins in one state only",
+                )
+                .other(before.span, "the beginning is given here already")
+                .help("remove one `initial`"),
             );
             return;
         }
@@ -173,13 +194,19 @@ impl Parser {
     fn define(&mut self, doc: Vec<String>) -> Option<ast::Define> {
         let name = self.expect_name("the definition")?;
         self.expect_sign("=", "after the name of the definition")?;
-        Some(ast::Define { doc, name, value: self.parse_expr() })
+        let errors = self.errors;
+        let value = self.parse_expr();
+        (self.errors == errors).then_some(ast::Define { doc, name, value })
     }
 
     fn require(&mut self) -> Option<ast::Require> {
         let span = self.span();
         self.next();
+        let errors = self.errors;
         let condition = self.parse_expr();
+        if self.errors > errors {
+            return None;
+        }
         self.expect_word("else", "after the required condition")?;
         let Token::Text(text) = self.peek().clone() else {
             self.error(
@@ -255,7 +282,11 @@ impl Parser {
             return usize::try_from(value).ok();
         }
         let found = self.found();
-        self.error("E0205", format!("a number of members is missing before {found}"), "write `[1..]`, `[2..4]` or `[]`");
+        self.error(
+            "E0205",
+            format!("a number of members is missing before {found}"),
+            "write `[1..]`, `[2..4]` or `[]`",
+        );
         None
     }
 }

@@ -42,7 +42,13 @@ impl Parser {
         }
         loop {
             let doc = self.doc();
-            if self.maybe_sign("}") || *self.peek() == Token::End {
+            if self.maybe_sign("}") {
+                return Some(interface);
+            }
+            if *self.peek() == Token::End || self.at_item() {
+                let message =
+                    format!("`}}` is missing at the end of the interface `{}`", interface.name.value);
+                self.error("E0205", message, "close the interface");
                 return Some(interface);
             }
             match self.word() {
@@ -56,7 +62,7 @@ impl Parser {
                         "an interface holds `parameter` and `shared`",
                     );
                     self.next();
-                    self.recover();
+                    self.recover_declaration();
                 }
             }
         }
@@ -92,9 +98,12 @@ impl Parser {
 
     pub(super) fn parse_local(&mut self, doc: Vec<String>) -> Option<ast::Local> {
         self.next();
-        let local = self
-            .typed("the local variable", ":=")
-            .map(|(name, ty, initial)| ast::Local { doc, name, ty, initial });
+        let local = self.typed("the local variable", ":=").map(|(name, ty, initial)| ast::Local {
+            doc,
+            name,
+            ty,
+            initial,
+        });
         self.end_of_declaration(local.is_some());
         local
     }
@@ -108,8 +117,20 @@ impl Parser {
     /// To the next declaration or state on this level, or past a `;`.
     fn recover_declaration(&mut self) {
         const STARTS: &[&str] = &[
-            "parameter", "shared", "local", "define", "takes", "hands", "serves", "knows", "require", "invariant",
-            "initial", "any", "state", "final",
+            "parameter",
+            "shared",
+            "local",
+            "define",
+            "takes",
+            "hands",
+            "serves",
+            "knows",
+            "require",
+            "invariant",
+            "initial",
+            "any",
+            "state",
+            "final",
         ];
         loop {
             match self.peek() {
@@ -129,11 +150,17 @@ impl Parser {
     }
 
     fn typed(&mut self, what: &str, sign: &'static str) -> Option<(ast::Name, ast::Type, Option<ast::Expr>)> {
+        let errors = self.errors;
         let name = self.expect_name(what)?;
         self.expect_sign(":", "before the type")?;
         let ty = self.parse_type()?;
+        if self.at_sign("=") && sign == ":=" {
+            self.error("E0205", "`:=` is missing before the value".into(), "write `:=` instead of `=`");
+            self.next();
+            self.parse_expr();
+        }
         let value = if self.maybe_sign(sign) { Some(self.parse_expr()) } else { None };
-        Some((name, ty, value))
+        (self.errors == errors).then_some((name, ty, value))
     }
 
     fn rule(&mut self) -> Option<ast::Rule> {
@@ -195,9 +222,9 @@ impl Parser {
         let scalar = match name.value.as_str() {
             "bool" => ast::Scalar::Bool,
             "int" => {
-                let lo = self.parse_sum();
+                let lo = self.parse_bound();
                 self.expect_sign("..", "between the bounds of an `int`")?;
-                let hi = self.parse_sum();
+                let hi = self.parse_bound();
                 ast::Scalar::Int { lo, hi }
             }
             "real" => ast::Scalar::Real,

@@ -1,6 +1,6 @@
 //! Expressions, by precedence: `or`, `and`, `not`, comparisons, sums, products, signs, accesses.
 
-use super::{DEEPEST, Parser};
+use super::{DEEPEST, LONGEST, Parser};
 use crate::source::Span;
 use crate::spec::ast::{self, Expr, ExprKind, Operator, Quantifier};
 use crate::spec::lexer::Token;
@@ -25,7 +25,7 @@ impl Parser {
             ExprKind::Name(value) => ast::Domain::Named(ast::Name { value, span: low.span }),
             ExprKind::Error => ast::Domain::Range(error(low.span), error(low.span)),
             _ => {
-                self.diagnostics.push(
+                self.report(
                     crate::diagnostic::Diagnostic::new("E0210", low.span, "this is nothing to choose from")
                         .help("write a role, an enumeration or a range such as `0..capacity - 1`"),
                 );
@@ -34,14 +34,12 @@ impl Parser {
         }
     }
 
-    fn nested(&mut self, parse: impl FnOnce(&mut Self) -> Expr) -> Expr {
+    pub(super) fn nested(&mut self, parse: impl FnOnce(&mut Self) -> Expr) -> Expr {
         if self.depth >= DEEPEST {
-            let span = self.span();
-            if self.diagnostics.last().is_none_or(|d| d.code != "E0211") {
-                self.error("E0211", "this expression is nested too deeply".into(), "give its parts names with `define`");
-            }
-            self.next();
-            return error(span);
+            return self.too_large("this expression is nested too deeply");
+        }
+        if self.depth == 0 {
+            self.length = 0;
         }
         self.depth += 1;
         let result = parse(self);
@@ -49,9 +47,26 @@ impl Parser {
         result
     }
 
+    /// Whether the expression may grow by one more operator; otherwise it has been reported.
+    fn grows(&mut self) -> bool {
+        self.length += 1;
+        if self.length > LONGEST {
+            self.too_large("this expression is too long");
+        }
+        self.length <= LONGEST
+    }
+
+    fn too_large(&mut self, message: &str) -> Expr {
+        let span = self.span();
+        self.error("E0211", message.into(), "give its parts names with `define`");
+        self.skip_to(&["->"]);
+        error(span)
+    }
+
     fn disjunction(&mut self) -> Expr {
         let mut left = self.conjunction();
-        while self.maybe_word("or") {
+        while self.at_word("or") && self.grows() {
+            self.next();
             let right = self.conjunction();
             left = binary(Operator::Or, left, right);
         }
@@ -60,7 +75,8 @@ impl Parser {
 
     fn conjunction(&mut self) -> Expr {
         let mut left = self.negation();
-        while self.maybe_word("and") {
+        while self.at_word("and") && self.grows() {
+            self.next();
             let right = self.negation();
             left = binary(Operator::And, left, right);
         }
@@ -123,6 +139,9 @@ impl Parser {
                 Token::Sign("-") => Operator::Subtract,
                 _ => return left,
             };
+            if !self.grows() {
+                return left;
+            }
             self.next();
             let right = self.product();
             left = binary(operator, left, right);
@@ -138,10 +157,23 @@ impl Parser {
                 Token::Word(w) if w == "mod" => Operator::Modulo,
                 _ => return left,
             };
+            if !self.grows() {
+                return left;
+            }
             self.next();
             let right = self.sign();
             left = binary(operator, left, right);
         }
+    }
+
+    /// A bound of a type: no index may follow, since `[` begins the size of an array.
+    pub(super) fn parse_bound(&mut self) -> Expr {
+        let span = self.span();
+        if self.maybe_sign("-") {
+            let operand = self.primary();
+            return Expr { span: span.to(operand.span), kind: ExprKind::Negate(Box::new(operand)) };
+        }
+        self.primary()
     }
 
     fn sign(&mut self) -> Expr {
@@ -156,9 +188,13 @@ impl Parser {
     pub(super) fn parse_postfix(&mut self) -> Expr {
         let mut base = self.primary();
         loop {
+            if matches!(self.peek(), Token::Sign("." | "[")) && !self.grows() {
+                return error(base.span);
+            }
             if self.maybe_sign(".") {
                 let Some(member) = self.expect_member() else { return error(base.span) };
-                base = Expr { span: base.span.to(member.span), kind: ExprKind::Member(Box::new(base), member) };
+                base =
+                    Expr { span: base.span.to(member.span), kind: ExprKind::Member(Box::new(base), member) };
             } else if self.maybe_sign("[") {
                 let index = self.parse_expr();
                 if self.expect_sign("]", "after the index").is_none() {
@@ -204,7 +240,11 @@ impl Parser {
             Token::Word(w) => self.word_expr(w, span),
             _ => {
                 let found = self.found();
-                self.error("E0213", format!("{found} is no value"), "write a name, a number or an expression in parentheses");
+                self.error(
+                    "E0213",
+                    format!("{found} is no value"),
+                    "write a name, a number or an expression in parentheses",
+                );
                 if !matches!(self.peek(), Token::Sign("}" | ";" | ")" | "]" | "->" | ",") | Token::End) {
                     self.next();
                 }
@@ -228,9 +268,13 @@ impl Parser {
             "forall" => self.quantified(Quantifier::Forall, span),
             "count" if *self.peek_second() != Token::Sign("(") => self.quantified(Quantifier::Count, span),
             "sum" => self.quantified(Quantifier::Sum, span),
-            "and" | "or" | "when" | "in" | "with" | "else" | "reaches" | "mod" | "first" | "nearest" | "least"
-            | "state" | "until" | "wait" => {
-                self.error("E0213", format!("`{word}` is no value"), "write a name, a number or an expression");
+            "and" | "or" | "when" | "in" | "with" | "else" | "reaches" | "mod" | "first" | "nearest"
+            | "least" | "state" | "until" | "wait" => {
+                self.error(
+                    "E0213",
+                    format!("`{word}` is no value"),
+                    "write a name, a number or an expression",
+                );
                 self.next();
                 error(span)
             }
@@ -267,7 +311,7 @@ impl Parser {
         }
         let domain = self.parse_domain();
         let body = if self.maybe_sign(",") {
-            self.quantified_rest(quantifier, span)
+            self.nested(|parser| parser.quantified_rest(quantifier, span))
         } else {
             if self.expect_sign(":", "before what is said of the variable").is_none() {
                 return error(span);
@@ -276,7 +320,12 @@ impl Parser {
         };
         Expr {
             span: span.to(body.span),
-            kind: ExprKind::Quantified { quantifier, variable, domain: Box::new(domain), body: Box::new(body) },
+            kind: ExprKind::Quantified {
+                quantifier,
+                variable,
+                domain: Box::new(domain),
+                body: Box::new(body),
+            },
         }
     }
 
@@ -292,9 +341,13 @@ impl Parser {
         self.next();
         let milliseconds = value * factor;
         if milliseconds.fract() != 0.0 || milliseconds > f64::from(i32::MAX) {
-            self.diagnostics.push(
-                crate::diagnostic::Diagnostic::new("E0214", span, "this duration is not a whole number of milliseconds that a timer can hold")
-                    .help("durations go from 0 ms to 2147483647 ms, in steps of 1 ms"),
+            self.report(
+                crate::diagnostic::Diagnostic::new(
+                    "E0214",
+                    span,
+                    "this duration is not a whole number of milliseconds that a timer can hold",
+                )
+                .help("durations go from 0 ms to 2147483647 ms, in steps of 1 ms"),
             );
             return Expr { span, kind: ExprKind::Duration(0) };
         }

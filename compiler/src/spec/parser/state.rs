@@ -60,6 +60,14 @@ impl Parser {
             if self.maybe_sign("}") || *self.peek() == Token::End {
                 return transitions;
             }
+            if self.at_state() {
+                self.error(
+                    "E0205",
+                    "`}` is missing at the end of the state".into(),
+                    "close the state before the next one",
+                );
+                return transitions;
+            }
             if !self.at_word("when") {
                 let found = self.found();
                 self.error(
@@ -67,7 +75,9 @@ impl Parser {
                     format!("{found} cannot stand in a state"),
                     "a state holds transitions, such as `when done -> Next { }`",
                 );
-                self.next();
+                if !self.at_sign("{") {
+                    self.next();
+                }
                 self.recover();
                 continue;
             }
@@ -78,17 +88,31 @@ impl Parser {
         }
     }
 
+    /// Whether a state or an item begins here, so that a block before it was not closed.
+    fn at_state(&self) -> bool {
+        match self.word() {
+            Some("state") => true,
+            Some("any" | "final" | "initial") => matches!(self.peek_second(), Token::Word(w) if w == "state"),
+            _ => self.at_item(),
+        }
+    }
+
     fn transition(&mut self) -> Option<ast::Transition> {
         let start = self.span();
         self.next();
         let guard_start = self.span();
-        let mut clauses = vec![self.clause()?];
-        while self.maybe_sign(",") {
-            clauses.push(self.clause()?);
+        let errors = self.errors;
+        let mut clauses: Vec<_> = self.clause().into_iter().collect();
+        while self.errors == errors && self.maybe_sign(",") {
+            clauses.extend(self.clause());
         }
         let guard_span = guard_start.to(self.last_span());
+        if self.errors > errors {
+            self.skip_to(&["->"]);
+        }
         let target = if self.maybe_sign("->") { Some(self.expect_name("the next state")?) } else { None };
-        let updates = if target.is_some() && self.maybe_sign(";") { Vec::new() } else { self.parse_updates() };
+        let updates =
+            if target.is_some() && self.maybe_sign(";") { Vec::new() } else { self.parse_updates() };
         Some(ast::Transition { span: start.to(self.last_span()), clauses, guard_span, target, updates })
     }
 
@@ -127,7 +151,7 @@ impl Parser {
             return updates;
         }
         while !self.maybe_sign("}") {
-            if *self.peek() == Token::End {
+            if *self.peek() == Token::End || self.at_word("when") || self.at_state() {
                 self.error("E0205", "`}` is missing after the updates".into(), "close the updates");
                 return updates;
             }
@@ -141,7 +165,8 @@ impl Parser {
 
     fn update(&mut self) -> Option<ast::Update> {
         let start = self.span();
-        let target = self.parse_postfix();
+        let errors = self.errors;
+        let target = self.nested(Self::parse_postfix);
         let how = match self.peek() {
             Token::Sign(":=") => ast::Assign::Set,
             Token::Sign("+=") => ast::Assign::Add,
@@ -150,6 +175,9 @@ impl Parser {
         };
         self.next();
         let value = self.parse_expr();
+        if self.errors > errors {
+            return None;
+        }
         let span = start.to(self.last_span());
         self.expect_sign(";", "after the update")?;
         Some(ast::Update { span, kind: ast::UpdateKind::Assign { target, how, value } })
@@ -161,6 +189,8 @@ impl Parser {
                 let found = self.found();
                 let help = if self.at_sign("=") {
                     "an assignment is written with `:=`"
+                } else if matches!(&target.kind, ast::ExprKind::Name(n) if n == "if") {
+                    "there is no `if`: write two transitions with different guards"
                 } else {
                     "an update is `name := value;` or a command such as `move(place);`"
                 };
@@ -180,7 +210,7 @@ impl Parser {
             return None;
         }
         while !self.maybe_sign("}") {
-            if *self.peek() == Token::End {
+            if *self.peek() == Token::End || self.at_state() {
                 self.error("E0205", "`}` is missing after the steps".into(), "close the sequence");
                 return None;
             }
@@ -213,8 +243,12 @@ impl Parser {
 
     fn step(&mut self) -> Option<ast::Step> {
         let start = self.span();
+        let errors = self.errors;
         if self.maybe_word("until") {
             let condition = self.parse_expr();
+            if self.errors > errors {
+                return None;
+            }
             let at_most = if self.maybe_word("at") {
                 self.expect_word("most", "after `at`")?;
                 Some(self.parse_sum())
@@ -227,6 +261,9 @@ impl Parser {
         }
         if self.maybe_word("wait") {
             let time = self.parse_sum();
+            if self.errors > errors {
+                return None;
+            }
             let span = start.to(self.last_span());
             self.expect_sign(";", "after the step")?;
             return Some(ast::Step::Wait { span, time });

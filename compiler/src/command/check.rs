@@ -1,0 +1,35 @@
+//! `autogen check`.
+
+use super::options::{Format, InputOptions};
+use super::{load, print};
+use crate::Status;
+use autogen::lower::{Outcome, compile};
+
+pub fn run(options: &InputOptions) -> Status {
+    let input = match load::load(options) {
+        Ok(input) => input,
+        Err(failure) => return print::failure(options, &failure),
+    };
+    let outcome = compile(input);
+    show(options, &outcome);
+    match outcome.project {
+        Some(_) => Status::Done,
+        None => Status::WrongInput,
+    }
+}
+
+fn show(options: &InputOptions, outcome: &Outcome) {
+    let Outcome { sources, diagnostics, verdict, project } = outcome;
+    match options.format {
+        Format::Json => println!("{}", print::verdict_json(verdict.as_ref(), sources, diagnostics)),
+        Format::Text => {
+            if let Some(verdict) = verdict.as_ref().filter(|_| !options.quiet) {
+                print!("{}", print::verdict(verdict));
+            }
+            print::diagnostics(sources, diagnostics);
+            if !options.quiet {
+                println!("{}", if project.is_some() { "feasible" } else { "not feasible" });
+            }
+        }
+    }
+}

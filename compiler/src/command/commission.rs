@@ -1,0 +1,190 @@
+//! `autogen commission`: the generated controllers, linked with the simulator, run the scenario.
+
+use super::build::{self, Built};
+use super::options::{CommissionOptions, Format};
+use super::write;
+use crate::Status;
+use runtime_sim::line::IoDelay;
+use serde_json::{Value, json};
+use std::io::{IsTerminal, Read};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::Instant;
+use std::{env, fs, io};
+
+pub fn run(options: &CommissionOptions) -> Status {
+    let begin = Instant::now();
+    let delay = match io_delay(&options.io_delay) {
+        Some(delay) => delay,
+        None => return fail(options, "--io-delay takes a number of scans, `random` or `random:SEED`".into()),
+    };
+    let built = match build::build(&options.build) {
+        Ok(built) => built,
+        Err(status) => return status,
+    };
+    match commission(options, &built, delay) {
+        Ok(report) => {
+            let status = match report["finished"].as_bool() {
+                Some(true) => Status::Done,
+                _ => Status::NotReached,
+            };
+            show(options, &built, report, begin);
+            status
+        }
+        Err(text) => fail(options, text),
+    }
+}
+
+fn fail(options: &CommissionOptions, text: String) -> Status {
+    match options.build.input.format {
+        Format::Json => println!("{}", json!({ "finished": false, "reason": text, "diagnostics": [] })),
+        Format::Text => eprintln!("autogen: {text}"),
+    }
+    Status::WrongCommand
+}
+
+fn io_delay(text: &str) -> Option<IoDelay> {
+    let random = |seed| Some(IoDelay::Random { max: 5, seed });
+    match text.strip_prefix("random") {
+        Some("") => random(1),
+        Some(rest) => random(rest.strip_prefix(':')?.parse().ok()?),
+        None => text.parse().ok().filter(|n| *n <= 1000).map(IoDelay::Fixed),
+    }
+}
+
+fn commission(options: &CommissionOptions, built: &Built, delay: IoDelay) -> Result<Value, String> {
+    let program = program(options, built)?;
+    let mut line = built.project.plant.clone();
+    line.io_delay = delay;
+    let folder = env::temp_dir().join(format!("autogen-{}", std::process::id()));
+    let io = |e: io::Error| format!("{}: {e}", folder.display());
+    fs::create_dir_all(&folder).map_err(io)?;
+    fs::write(folder.join("line.txt"), line.to_text()).map_err(io)?;
+    let mut command = Command::new(&program);
+    command.arg(folder.join("line.txt")).arg(built.folder.join("rust/commissioning/data/parameters.txt"));
+    if let Some(path) = &options.hashes {
+        command.arg("--hashes").arg(path);
+    }
+    if is_chatty(options) {
+        command.arg("--progress");
+    }
+    let output = command.stderr(Stdio::inherit()).output();
+    let _ = fs::remove_dir_all(&folder);
+    let output = output.map_err(|e| format!("{}: {e}", program.display()))?;
+    if !output.status.success() {
+        return Err(format!("the linked simulation did not run: {}", output.status));
+    }
+    serde_json::from_slice(&output.stdout).map_err(|e| format!("the linked simulation did not report: {e}"))
+}
+
+fn is_chatty(options: &CommissionOptions) -> bool {
+    let input = &options.build.input;
+    !input.quiet && input.format == Format::Text && io::stderr().is_terminal()
+}
+
+/// The program in which controllers and simulator are linked. It depends on the types and the kinds of
+/// part only, so it is compiled once for all layouts that have the same ones.
+fn program(options: &CommissionOptions, built: &Built) -> Result<PathBuf, String> {
+    let sources: write::Files = (built.files.iter())
+        .filter_map(|(name, text)| Some((name.strip_prefix("rust/")?.to_string(), text.clone())))
+        .filter(|(name, _)| !name.starts_with("controllers/src/robots") && !name.contains("/data/"))
+        .collect();
+    let key = write::hash(&sources.iter().filter(|(n, _)| !is_of_layout(n)).map(|(n, t)| format!("{n}\n{t}\n")).collect::<String>());
+    let folder = cache().join(&key[..16]);
+    let program = folder.join("commissioning").with_extension(env::consts::EXE_EXTENSION);
+    if program.is_file() {
+        return Ok(program);
+    }
+    let workspace = built.folder.join("rust");
+    if !options.build.input.quiet && options.build.input.format == Format::Text {
+        eprintln!("compiling the controllers and the simulator (once for these types) ...");
+    }
+    let target = folder.join("target");
+    let result = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
+        .args(["build", "--release", "--quiet", "-p", "commissioning", "--manifest-path"])
+        .arg(workspace.join("Cargo.toml"))
+        .arg("--target-dir")
+        .arg(&target)
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn();
+    let mut child = result.map_err(|e| format!("cargo cannot be started, and the controllers need it to be compiled: {e}"))?;
+    let mut errors = String::new();
+    if let Some(mut stderr) = child.stderr.take() {
+        let _ = stderr.read_to_string(&mut errors);
+    }
+    let status = child.wait().map_err(|e| e.to_string())?;
+    if !status.success() {
+        return Err(format!("the controllers could not be compiled:\n{errors}"));
+    }
+    let made = target.join("release").join("commissioning").with_extension(env::consts::EXE_EXTENSION);
+    fs::rename(&made, &program).map_err(|e| format!("{}: {e}", made.display()))?;
+    let _ = fs::remove_dir_all(&target);
+    Ok(program)
+}
+
+/// Files in which only the layout is written; the program reads its data at run time.
+fn is_of_layout(name: &str) -> bool {
+    name.starts_with("controllers/src/robots") || name == "controllers/src/line.rs" || name.contains("/data/")
+}
+
+/// Where compiled programs are kept: the user's cache.
+fn cache() -> PathBuf {
+    let base = env::var_os("XDG_CACHE_HOME").map(PathBuf::from).or_else(|| Some(Path::new(&env::var_os("HOME")?).join(".cache")));
+    base.unwrap_or_else(env::temp_dir).join("autogen")
+}
+
+fn show(options: &CommissionOptions, built: &Built, mut report: Value, begin: Instant) {
+    let wall = begin.elapsed().as_secs_f64();
+    report["wall_s"] = json!((wall * 1000.0).round() / 1000.0);
+    let path = built.folder.join("results.json");
+    let mut kept = report.clone();
+    if let Some(object) = kept.as_object_mut() {
+        object.remove("wall_s");
+    }
+    let _ = fs::write(path, format!("{kept:#}\n"));
+    match options.build.input.format {
+        Format::Json => println!("{report}"),
+        Format::Text if options.build.input.quiet => {}
+        Format::Text => print!("{}", text(&report, wall)),
+    }
+}
+
+/// The report for people.
+fn text(report: &Value, wall: f64) -> String {
+    let number = |v: &Value| v.as_f64().unwrap_or(0.0);
+    let mut out = format!("{}\n\n", report["reason"].as_str().unwrap_or(""));
+    out += &format!("orders made        {} of {}\n", report["orders_done"], report["orders"]);
+    out += &format!("seconds per order  {:.2}\n", number(&report["seconds_per_order"]));
+    out += &format!("simulated          {:.2} s, in {wall:.2} s\n", number(&report["simulated_s"]));
+    out += &format!("collisions         {}\n\n", report["collisions"].as_str().unwrap_or(""));
+    let empty = serde_json::Map::new();
+    let robots = report["robots"].as_object().unwrap_or(&empty);
+    let width = robots.keys().map(String::len).max().unwrap_or(5).max(5);
+    out += &format!("{:width$}  {:>9} {:>9} {:>9} {:>9}  waits for\n", "robot", "moving", "working", "waiting", "stopped");
+    for (name, robot) in robots {
+        let seconds = |key: &str| format!("{:9.2}", number(&robot[key]));
+        let owners: Vec<String> = (robot["waiting_for"].as_object().unwrap_or(&empty).iter())
+            .filter(|(_, s)| number(s) > 0.0)
+            .map(|(owner, _)| owner.clone())
+            .collect();
+        out += &format!(
+            "{name:width$}  {} {} {} {}  {}\n",
+            seconds("moving_s"),
+            seconds("working_s"),
+            seconds("waiting_s"),
+            seconds("stopped_s"),
+            owners.join(", ")
+        );
+    }
+    let items = report["items"].as_array().cloned().unwrap_or_default();
+    let mut places: std::collections::BTreeMap<String, usize> = std::collections::BTreeMap::new();
+    for item in &items {
+        let carrier = item["carrier"].as_str().unwrap_or("");
+        let carrier = if carrier.starts_with("order ") { "orders" } else { carrier };
+        *places.entry(carrier.to_string()).or_default() += 1;
+    }
+    let places: Vec<String> = places.iter().map(|(place, n)| format!("{n} {place}")).collect();
+    out += &format!("\nitems              {} ({})\n", items.len(), places.join(", "));
+    out
+}

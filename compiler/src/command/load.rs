@@ -1,0 +1,85 @@
+//! Reading the files that a command names.
+
+use super::options::InputOptions;
+use autogen::diagnostic::Diagnostic;
+use autogen::layout::{self, Layout};
+use autogen::lower::{Input, Setting};
+use autogen::source::{FileId, Sources};
+use autogen::{library, scenario};
+use std::path::{Path, PathBuf};
+
+/// Why nothing could be compiled.
+pub enum Failure {
+    /// A file cannot be read.
+    Unreadable(String),
+    /// What the command line says is wrong.
+    Wrong(Sources, Vec<Diagnostic>),
+}
+
+/// All texts of a compilation.
+pub fn load(options: &InputOptions) -> Result<Input, Failure> {
+    let mut sources = Sources::default();
+    let layout = add(&mut sources, &options.layout)?;
+    let mut specs: Vec<FileId> = library::FILES.iter().map(|(name, text)| sources.add(*name, *text)).collect();
+    // What is wrong with the layout the compiler reports; here only the files it names are of interest.
+    let named = layout::parse(&sources, layout).0;
+    let beside = |name: &str| options.layout.parent().unwrap_or(Path::new("")).join(name);
+    let folders = named_specs(&named).into_iter().map(|name| beside(&name)).chain(options.specs.iter().cloned());
+    for folder in folders {
+        for path in automata(&folder)? {
+            specs.push(add(&mut sources, &path)?);
+        }
+    }
+    let scenario = match (&options.scenario, named.and_then(|l| l.scenario)) {
+        (Some(path), _) => add(&mut sources, path)?,
+        (None, Some(name)) => add(&mut sources, &beside(&name.value))?,
+        (None, None) if beside("scenario.json").is_file() => add(&mut sources, &beside("scenario.json"))?,
+        (None, None) => sources.add("built-in scenario", scenario::DEFAULT),
+    };
+    let mut settings = Vec::new();
+    let mut diagnostics = Vec::new();
+    for text in &options.settings {
+        let file = sources.add("--set", text.as_str());
+        match Setting::parse(&sources, file) {
+            Ok(setting) => settings.push(setting),
+            Err(found) => diagnostics.extend(found),
+        }
+    }
+    if !diagnostics.is_empty() {
+        return Err(Failure::Wrong(sources, diagnostics));
+    }
+    Ok(Input { sources, layout, specs, scenario, settings, order: options.order })
+}
+
+fn named_specs(layout: &Option<Layout>) -> Vec<String> {
+    layout.iter().flat_map(|l| l.specs.iter().map(|s| s.value.clone())).collect()
+}
+
+/// The automata of a folder in the order of their names, or one file.
+fn automata(path: &Path) -> Result<Vec<PathBuf>, Failure> {
+    if path.is_file() {
+        return Ok(vec![path.into()]);
+    }
+    let entries = std::fs::read_dir(path).map_err(|e| unreadable(path, &e))?;
+    let mut files = Vec::new();
+    for entry in entries {
+        let path = entry.map_err(|e| unreadable(path, &e))?.path();
+        if path.extension().is_some_and(|e| e == "aut") {
+            files.push(path);
+        }
+    }
+    files.sort();
+    if files.is_empty() {
+        return Err(Failure::Unreadable(format!("{}: this folder holds no *.aut file", path.display())));
+    }
+    Ok(files)
+}
+
+fn add(sources: &mut Sources, path: &Path) -> Result<FileId, Failure> {
+    let bytes = std::fs::read(path).map_err(|e| unreadable(path, &e))?;
+    Ok(sources.add(path.display().to_string(), String::from_utf8_lossy(&bytes)))
+}
+
+fn unreadable(path: &Path, error: &std::io::Error) -> Failure {
+    Failure::Unreadable(format!("{}: {error}", path.display()))
+}

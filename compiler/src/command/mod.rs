@@ -1,0 +1,10 @@
+//! One module for each command, and what they share.
+
+pub mod build;
+pub mod check;
+pub mod commission;
+pub mod explain;
+pub mod load;
+pub mod options;
+pub mod print;
+pub mod write;

@@ -1,0 +1,86 @@
+//! The options of the command line.
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::path::PathBuf;
+
+/// Compiles a factory layout and parameterized automata into controllers that can be deployed.
+#[derive(Debug, Parser)]
+#[command(version, about, after_help = STATUS)]
+pub struct Cli {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+const STATUS: &str = "Exit status: 0 done; 1 the input has errors; 2 wrong command line; \
+3 the run did not reach its goal; 70 a bug in autogen.";
+
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Read everything, check specifications and connectivity, print the verdict
+    Check(InputOptions),
+    /// Check, then write the controllers and what belongs to them
+    Build(BuildOptions),
+    /// Build, link the controllers with the simulator, run the scenario
+    Commission(CommissionOptions),
+    /// Print the long text of a diagnostic
+    Explain(ExplainOptions),
+}
+
+#[derive(Args, Debug)]
+pub struct InputOptions {
+    /// The layout, a JSON file
+    pub layout: PathBuf,
+    /// A folder of automata (*.aut) that adds to the library and replaces types of the same name
+    #[arg(long, value_name = "DIR")]
+    pub specs: Vec<PathBuf>,
+    /// What is to be made; default: `scenario.json` beside the layout, else the built-in one
+    #[arg(long, value_name = "FILE")]
+    pub scenario: Option<PathBuf>,
+    /// Sets a parameter of a type or of one robot, such as agv.capacity=4
+    #[arg(long = "set", value_name = "NAME.PARAM=VALUE")]
+    pub settings: Vec<String>,
+    /// Steps the robots in an order drawn from this seed instead of layout order
+    #[arg(long, value_name = "SEED")]
+    pub order: Option<u64>,
+    #[arg(long, value_enum, default_value = "text")]
+    pub format: Format,
+    /// Print errors only
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    Text,
+    Json,
+}
+
+#[derive(Args, Debug)]
+pub struct BuildOptions {
+    #[command(flatten)]
+    pub input: InputOptions,
+    /// Where to write; default: out/<layout name>
+    #[arg(short, long = "output", value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// Overwrite files that autogen did not write or that were changed since
+    #[arg(long)]
+    pub force: bool,
+}
+
+#[derive(Args, Debug)]
+pub struct CommissionOptions {
+    #[command(flatten)]
+    pub build: BuildOptions,
+    /// How many scans late devices answer: a number, or `random` or `random:SEED` for 0 to 5
+    #[arg(long, value_name = "N", default_value = "0")]
+    pub io_delay: String,
+    /// Write the hash of each scan's trace to this file, a line each
+    #[arg(long, value_name = "FILE")]
+    pub hashes: Option<PathBuf>,
+}
+
+#[derive(Args, Debug)]
+pub struct ExplainOptions {
+    /// Such as E0401
+    pub code: String,
+}

@@ -1,0 +1,97 @@
+//! Diagnostics and verdicts, for people and for scripts.
+
+use super::load::Failure;
+use super::options::{Format, InputOptions};
+use crate::Status;
+use autogen::diagnostic::{self, Diagnostic};
+use autogen::lower::{Apart, Verdict};
+use autogen::source::Sources;
+use serde_json::{Value, json};
+use std::io::IsTerminal;
+
+/// Diagnostics on standard error.
+pub fn diagnostics(sources: &Sources, found: &[Diagnostic]) {
+    let text = match std::io::stderr().is_terminal() {
+        true => diagnostic::render_styled(sources, found),
+        false => diagnostic::render_plain(sources, found),
+    };
+    eprint!("{text}");
+    match found.len() {
+        0 => {}
+        1 => eprintln!("1 error"),
+        n => eprintln!("{n} errors"),
+    }
+}
+
+pub fn diagnostics_json(sources: &Sources, found: &[Diagnostic]) -> Value {
+    found
+        .iter()
+        .map(|d| {
+            let (line, column) = sources.position(d.place);
+            json!({
+                "code": d.code, "severity": "error", "message": d.message, "file": sources.file(d.place.file).name,
+                "line": line, "column": column, "help": d.help, "notes": d.notes,
+            })
+        })
+        .collect()
+}
+
+/// What stopped a command before anything was compiled.
+pub fn failure(options: &InputOptions, failure: &Failure) -> Status {
+    match (failure, options.format) {
+        (Failure::Unreadable(text), Format::Text) => eprintln!("autogen: {text}"),
+        (Failure::Unreadable(text), Format::Json) => {
+            println!("{}", json!({ "feasible": false, "finished": false, "reason": text, "diagnostics": [] }));
+        }
+        (Failure::Wrong(sources, found), Format::Text) => diagnostics(sources, found),
+        (Failure::Wrong(sources, found), Format::Json) => {
+            println!("{}", json!({ "feasible": false, "finished": false, "diagnostics": diagnostics_json(sources, found) }));
+        }
+    }
+    Status::WrongCommand
+}
+
+pub fn verdict_json(verdict: Option<&Verdict>, sources: &Sources, found: &[Diagnostic]) -> Value {
+    let empty = Verdict::default();
+    let v = verdict.unwrap_or(&empty);
+    json!({
+        "feasible": v.feasible && found.is_empty(),
+        "robots": v.robots,
+        "edges": v.edges.iter().map(|(a, b, m)| json!([a, b, m])).collect::<Vec<_>>(),
+        "sources": v.sources,
+        "destinations": v.destinations,
+        "unreachable": v.unreachable,
+        "dead_ends": v.dead_ends,
+        "apart": v.apart.iter().map(apart_json).collect::<Vec<_>>(),
+        "diagnostics": diagnostics_json(sources, found),
+    })
+}
+
+fn apart_json(apart: &Apart) -> Value {
+    let misses: Vec<Value> = (apart.misses.iter())
+        .map(|m| json!({ "place": m.place, "kind": m.kind, "stage": format!("{:?}", m.stage).to_lowercase(), "missing_mm": m.missing_mm }))
+        .collect();
+    let mend = apart.mend.as_ref().map(|(robot, path, present, value)| {
+        json!({ "robot": robot, "number": path, "present": present, "value": value })
+    });
+    json!({ "from": apart.from, "to": apart.to, "poses_tested": apart.tested, "misses": misses, "mend": mend })
+}
+
+/// The verdict in text.
+pub fn verdict(v: &Verdict) -> String {
+    let mut text = String::new();
+    let width = v.edges.iter().map(|(a, _, _)| a.len()).max().unwrap_or(0);
+    let to_width = v.edges.iter().map(|(_, b, _)| b.len()).max().unwrap_or(0);
+    text += &format!("{} edges (margin: how far the arm stays within its reach at the worst pose)\n", v.edges.len());
+    for (from, to, margin) in &v.edges {
+        text += &format!("  {from:width$} -> {to:to_width$}  {margin:6.3} m\n");
+    }
+    text += &format!("sources       {}\n", list(&v.sources));
+    text += &format!("destinations  {}\n", list(&v.destinations));
+    text += &format!("step order    {}\n", list(&v.robots));
+    text
+}
+
+fn list(names: &[String]) -> String {
+    if names.is_empty() { "none".into() } else { names.join(", ") }
+}

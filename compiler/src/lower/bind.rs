@@ -1,0 +1,79 @@
+//! Types of the layout to automata of the same name.
+
+use crate::diagnostic::{Diagnostic, suggestion};
+use crate::ir::Model;
+use crate::layout::{self, Layout, Number, Object, Obstacle, Part};
+use runtime_sim::geometry::Geometry;
+
+/// Machines with an automaton, and things without one, both in layout order.
+pub struct Bound {
+    pub robots: Vec<Robot>,
+    pub obstacles: Vec<(String, Obstacle)>,
+}
+
+pub struct Robot {
+    pub object: Object,
+    pub automaton: String,
+    pub geometry: Geometry,
+    pub numbers: Vec<Number>,
+}
+
+pub fn bind(layout: &Layout, model: &Model, diagnostics: &mut Vec<Diagnostic>) -> Bound {
+    let mut bound = Bound { robots: Vec::new(), obstacles: Vec::new() };
+    for object in &layout.objects {
+        let name = automaton_name(&object.kind.value);
+        match model.automata.iter().find(|a| a.name == name) {
+            Some(automaton) => match layout::geometry(object, automaton.device.name) {
+                Ok((geometry, numbers)) => {
+                    bound.robots.push(Robot { object: object.clone(), automaton: name, geometry, numbers });
+                }
+                Err(found) => diagnostics.extend(found),
+            },
+            None if object.part == Part::Robot => diagnostics.push(without_automaton(object, &name, model)),
+            None => match layout::obstacle(object) {
+                Ok(obstacle) => bound.obstacles.push((object.name.value.clone(), obstacle)),
+                Err(found) => diagnostics.extend(found),
+            },
+        }
+    }
+    bound
+}
+
+fn without_automaton(object: &Object, name: &str, model: &Model) -> Diagnostic {
+    let known: Vec<String> = model.automata.iter().map(|a| json_type(&a.name)).collect();
+    let help = match suggestion(&object.kind.value, known.iter().map(String::as_str)) {
+        Some(near) => format!("is \"{near}\" meant? Types with an automaton are {}", known.join(", ")),
+        None => format!(
+            "write `automaton {name} on ...` in a file of --specs; types with an automaton are {}",
+            known.join(", ")
+        ),
+    };
+    Diagnostic::new(
+        "E0126",
+        object.kind.span,
+        format!("no automaton `{name}` for the type \"{}\"", object.kind.value),
+    )
+    .help(help)
+}
+
+/// `assembly_station` is another word for `station`; other types are named as their automaton.
+fn automaton_name(kind: &str) -> String {
+    let kind = if kind == "assembly_station" { "station" } else { kind };
+    kind.split('_')
+        .flat_map(|word| {
+            word[..word.len().min(1)].to_uppercase().chars().chain(word.chars().skip(1)).collect::<Vec<_>>()
+        })
+        .collect()
+}
+
+/// The type under which a layout names an automaton.
+pub fn json_type(automaton: &str) -> String {
+    let mut kind = String::new();
+    for (i, c) in automaton.chars().enumerate() {
+        if c.is_uppercase() && i > 0 {
+            kind.push('_');
+        }
+        kind.extend(c.to_lowercase());
+    }
+    kind
+}

@@ -1,0 +1,168 @@
+//! What the simulator needs of a system.
+
+use super::role::Line;
+use crate::diagnostic::Diagnostic;
+use crate::ir::{Clause, Domain, Expr, ExprKind, Place, RoleKind, State, System};
+use crate::scenario::{self, ResolvedScenario, Scenario};
+use runtime_sim::line;
+use std::collections::BTreeSet;
+
+pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec<Diagnostic>> {
+    let named = |wanted: &dyn Fn(usize) -> bool| -> Vec<(&str, usize)> {
+        (0..line.robots.len())
+            .filter(|r| wanted(*r))
+            .map(|r| (line.robots[r].object.name.value.as_str(), r))
+            .collect()
+    };
+    let device = |r: usize| line.automaton(r).device.name;
+    scenario::resolve(
+        scenario,
+        &scenario::Line {
+            stations: &named(&|r| device(r) == "station"),
+            belts: &named(&|r| device(r) == "belt"),
+            arms: &named(&|r| matches!(device(r), "rail_arm" | "gantry")),
+            commanded: &named(&|r| line.automaton(r).device.is_commanded()),
+        },
+    )
+}
+
+pub fn line(system: &System, line: &Line, scenario: ResolvedScenario, scan_ms: u32) -> line::Line {
+    let scans = |seconds: f64| (seconds * 1000.0 / f64::from(scan_ms)).round() as u64;
+    line::Line {
+        scan_ms,
+        kinds: scenario
+            .kinds
+            .iter()
+            .map(|(name, height)| line::Kind { name: name.clone(), height: *height })
+            .collect(),
+        machines: (0..system.instances.len())
+            .map(|i| line::Machine {
+                name: system.instances[i].name.clone(),
+                geometry: line.robots[i].geometry.clone(),
+                states: system.automaton_of(i).states.iter().map(|s| state(system, i, s)).collect(),
+            })
+            .collect(),
+        scenario: line::Scenario {
+            orders: scenario
+                .orders
+                .into_iter()
+                .map(|(station, parts)| line::Order { station, parts })
+                .collect(),
+            supply: scenario.supply.into_iter().map(|(belt, items)| line::Supply { belt, items }).collect(),
+            spawn_every_s: scenario.spawn_every_s,
+            time_limit_s: scenario.time_limit_s,
+            slips: (scenario.slips.iter())
+                .map(|s| line::Slip { machine: s.robot, pick: s.pick, after_s: s.after_s })
+                .collect(),
+            refusals: (scenario.refusals.iter())
+                .map(|r| line::Refusal { machine: r.robot, command: r.command })
+                .collect(),
+            pauses: (scenario.pauses.iter())
+                .map(|p| line::Pause { at_scan: scans(p.at_s), scans: scans(p.for_s) })
+                .collect(),
+            ..line::Scenario::default()
+        },
+        io_delay: line::IoDelay::Fixed(0),
+    }
+}
+
+/// What is awaited in a state: own timer and ports, or the owners of the cells that its guards read.
+fn state(system: &System, instance: usize, state: &State) -> line::State {
+    let mut reads = Reads { system, instance, working: false, owners: BTreeSet::new() };
+    for transition in &state.transitions {
+        for clause in &transition.clauses {
+            match clause {
+                Clause::Condition(condition) => reads.expr(condition),
+                Clause::Bind(binder) => {
+                    reads.domain(&binder.domain);
+                    binder.condition.iter().for_each(|c| reads.expr(c));
+                }
+            }
+        }
+    }
+    reads.owners.remove(&instance);
+    line::State {
+        name: state.name.clone(),
+        working: reads.working,
+        awaits: reads.owners.into_iter().collect(),
+    }
+}
+
+struct Reads<'a> {
+    system: &'a System,
+    instance: usize,
+    working: bool,
+    owners: BTreeSet<usize>,
+}
+
+impl Reads<'_> {
+    fn domain(&mut self, domain: &Domain) {
+        if let Domain::Range(low, high) = domain {
+            self.expr(low);
+            self.expr(high);
+        }
+    }
+
+    fn expr(&mut self, expr: &Expr) {
+        match &expr.kind {
+            ExprKind::After(time) => {
+                self.working = true;
+                self.expr(time);
+            }
+            ExprKind::Done | ExprKind::Failed => self.working = true,
+            ExprKind::Read(place) => self.place(place),
+            ExprKind::Define(define) => {
+                let system = self.system;
+                self.expr(&system.automaton_of(self.instance).defines[*define].value);
+            }
+            ExprKind::Not(a)
+            | ExprKind::Negate(a)
+            | ExprKind::Absolute(a)
+            | ExprKind::ToReal(a)
+            | ExprKind::Coordinate(a, _)
+            | ExprKind::IsMember(a, _) => self.expr(a),
+            ExprKind::Binary(_, a, b)
+            | ExprKind::Min(a, b)
+            | ExprKind::Max(a, b)
+            | ExprKind::SquaredDistance(a, b)
+            | ExprKind::Reaches(_, a, b) => {
+                self.expr(a);
+                self.expr(b);
+            }
+            ExprKind::MakePoint(parts) => parts.iter().for_each(|p| self.expr(p)),
+            ExprKind::Exists { domain, body, .. }
+            | ExprKind::Forall { domain, body, .. }
+            | ExprKind::Count { domain, body, .. }
+            | ExprKind::Sum { domain, body, .. } => {
+                self.domain(domain);
+                self.expr(body);
+            }
+            ExprKind::Constant(_) | ExprKind::Variable(_) | ExprKind::Own(_) | ExprKind::Members(_) => {}
+        }
+    }
+
+    fn place(&mut self, place: &Place) {
+        let index = match place {
+            Place::Port { index, .. } => {
+                self.working = true;
+                index
+            }
+            Place::Cell { interface, of, index, .. } => {
+                if of.is_some() {
+                    let roles = &self.system.automaton_of(self.instance).roles;
+                    let rows = roles
+                        .iter()
+                        .zip(&self.system.instances[self.instance].roles)
+                        .filter(|(role, _)| role.interface == *interface && role.kind != RoleKind::Knows)
+                        .flat_map(|(_, rows)| rows);
+                    self.owners.extend(rows.map(|row| self.system.members[interface.0][*row]));
+                }
+                index
+            }
+            Place::Local { index, .. } | Place::Parameter { index, .. } | Place::Shown { index, .. } => index,
+        };
+        if let Some(index) = index {
+            self.expr(index);
+        }
+    }
+}

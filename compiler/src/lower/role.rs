@@ -1,0 +1,371 @@
+//! Who works with whom: proposals from types, edges from geometry, members of roles from edges.
+
+use super::bind::Robot;
+use super::{Apart, Verdict};
+use crate::connect::{self, Connected, Node, Proposal, Site};
+use crate::diagnostic::Diagnostic;
+use crate::ir::{
+    Automaton, AutomatonId, Handover, Instance, InterfaceId, Model, Role, RoleKind, System, Value, Way,
+};
+use crate::layout::Layout;
+use crate::scenario::Scenario;
+use crate::source::{Span, Spanned};
+use crate::{executor, ir};
+use runtime_sim::geometry::SLOTS;
+
+/// The machines of a layout, bound to a model of just their types.
+pub struct Line<'a> {
+    pub layout: &'a Layout,
+    pub robots: Vec<Robot>,
+    pub model: Model,
+    pub kinds: Vec<(String, f64)>,
+    pub heights: Vec<f64>,
+    /// For each interface its members, in layout order.
+    pub members: Vec<Vec<usize>>,
+    /// For each robot and parameter the elements.
+    pub values: Vec<Vec<Vec<Value>>>,
+    pub diagnostics: Vec<Diagnostic>,
+    /// The robot and the role that each proposal is for.
+    asked_by: Vec<(usize, usize)>,
+    line: Option<connect::Line>,
+}
+
+impl<'a> Line<'a> {
+    pub fn new(layout: &'a Layout, robots: Vec<Robot>, model: Model, scenario: &Scenario) -> Self {
+        let kinds: Vec<(String, f64)> =
+            scenario.kinds.iter().map(|k| (k.name.value.clone(), k.height)).collect();
+        let heights = kinds.iter().map(|k| k.1).collect();
+        let mut line = Self {
+            layout,
+            robots,
+            model,
+            kinds,
+            heights,
+            members: Vec::new(),
+            values: Vec::new(),
+            diagnostics: Vec::new(),
+            asked_by: Vec::new(),
+            line: None,
+        };
+        line.members = (0..line.model.interfaces.len())
+            .map(|i| {
+                (0..line.robots.len())
+                    .filter(|r| line.automaton(*r).implementing(InterfaceId(i)).is_some())
+                    .collect()
+            })
+            .collect();
+        line
+    }
+
+    pub fn automaton_id(&self, robot: usize) -> AutomatonId {
+        let name = &self.robots[robot].automaton;
+        AutomatonId(self.model.automata.iter().position(|a| a.name == *name).unwrap_or(0))
+    }
+
+    pub fn automaton(&self, robot: usize) -> &Automaton {
+        self.model.automaton(self.automaton_id(robot))
+    }
+
+    fn handover(&self, robot: usize, way: Way) -> impl Iterator<Item = &Handover> {
+        self.automaton(robot)
+            .implements
+            .iter()
+            .filter_map(|i| i.handover.as_ref())
+            .filter(move |h| h.way == way)
+    }
+
+    fn takes_part(&self, robot: usize) -> bool {
+        let automaton = self.automaton(robot);
+        automaton.implements.iter().any(|i| i.handover.is_some())
+            || automaton.roles.iter().any(|r| matches!(r.kind, RoleKind::Takes | RoleKind::Hands))
+    }
+
+    /// What the geometry says of the pairs that the types propose.
+    pub fn connect(&mut self) -> connect::Report {
+        let nodes_of: Vec<usize> = (0..self.robots.len()).filter(|r| self.takes_part(*r)).collect();
+        let node_of = |robot: usize| nodes_of.iter().position(|n| *n == robot);
+        let nodes = nodes_of.iter().map(|&r| {
+            let (offers, accepts) =
+                (self.handover(r, Way::Offers).count() > 0, self.handover(r, Way::Accepts).count() > 0);
+            let robot = &self.robots[r];
+            Node {
+                name: robot.object.name.value.clone(),
+                span: robot.object.name.span,
+                geometry: robot.geometry.clone(),
+                numbers: robot.numbers.clone(),
+                is_source: offers && !accepts,
+                is_destination: accepts && !offers,
+            }
+        });
+        let nodes: Vec<Node> = nodes.collect();
+        let mut proposals = Vec::new();
+        let mut asked_by = Vec::new();
+        for arm in 0..self.robots.len() {
+            for (index, role) in self.automaton(arm).roles.iter().enumerate() {
+                for passive in self.candidates(arm, role) {
+                    let (Some(arm_node), Some(passive_node)) = (node_of(arm), node_of(passive)) else {
+                        continue;
+                    };
+                    let Some(site) = self.site(passive, role) else { continue };
+                    let (from, to) = match role.kind {
+                        RoleKind::Takes => (passive_node, arm_node),
+                        _ => (arm_node, passive_node),
+                    };
+                    proposals.push(Proposal { from, to, arm: arm_node, site, rule: role.place });
+                    asked_by.push((arm, index));
+                }
+            }
+        }
+        self.asked_by = asked_by;
+        let span = Span::new(self.layout.file, 0, 0);
+        let line = connect::Line { span, nodes, proposals, kinds: self.kinds.clone() };
+        let report = connect::check(&line);
+        self.line = Some(line);
+        report
+    }
+
+    /// Robots that a role of an arm could have, by their types and by the layout's `takes_from` and `hands_to`.
+    fn candidates(&self, arm: usize, role: &Role) -> Vec<usize> {
+        let object = &self.robots[arm].object;
+        let (way, narrowed) = match role.kind {
+            RoleKind::Takes => (Way::Offers, &object.takes_from),
+            RoleKind::Hands => (Way::Accepts, &object.hands_to),
+            RoleKind::Serves | RoleKind::Knows => return Vec::new(),
+        };
+        let allowed = |r: usize| {
+            let name = &self.robots[r].object.name.value;
+            narrowed
+                .as_ref()
+                .is_none_or(|names: &Vec<Spanned<String>>| names.iter().any(|n| n.value == *name))
+        };
+        let fits = |r: usize| {
+            let automaton = self.automaton(r);
+            let place = automaton
+                .implementing(role.interface)
+                .and_then(|i| automaton.implements[i].handover.as_ref());
+            place.is_some_and(|h| h.way == way)
+                && role.also.iter().all(|i| automaton.implementing(*i).is_some())
+        };
+        (0..self.robots.len()).filter(|r| *r != arm && fits(*r) && allowed(*r)).collect()
+    }
+
+    fn site(&self, passive: usize, role: &Role) -> Option<Site> {
+        let automaton = self.automaton(passive);
+        let handover = automaton.implements[automaton.implementing(role.interface)?].handover.as_ref()?;
+        let capacity = automaton.parameters.iter().position(|p| p.name == "capacity");
+        let capacity = match capacity.map(|p| &self.values[passive][p][0]) {
+            Some(Value::Int(n)) => (*n).clamp(1, SLOTS as i32) as usize,
+            _ => SLOTS,
+        };
+        Some(Site {
+            name: handover.name.clone(),
+            index: handover.index,
+            capacity,
+            approach: handover.approach,
+        })
+    }
+
+    pub fn verdict(&self, report: &connect::Report) -> Verdict {
+        let Some(line) = &self.line else { return Verdict::default() };
+        let name = |node: usize| line.nodes[node].name.clone();
+        let those = |wanted: fn(&Node) -> bool| {
+            line.nodes.iter().filter(|n| wanted(n)).map(|n| n.name.clone()).collect()
+        };
+        Verdict {
+            feasible: report.is_feasible(),
+            robots: self.robots.iter().map(|r| r.object.name.value.clone()).collect(),
+            edges: report.edges.iter().map(|e| (name(e.from), name(e.to), e.margin)).collect(),
+            sources: those(|n| n.is_source),
+            destinations: those(|n| n.is_destination),
+            unreachable: report.unreachable.iter().map(|n| name(*n)).collect(),
+            dead_ends: report.dead_ends.iter().map(|n| name(*n)).collect(),
+            apart: (report.failures.iter())
+                .map(|failure| {
+                    let proposal = &line.proposals[failure.proposal];
+                    Apart {
+                        from: name(proposal.from),
+                        to: name(proposal.to),
+                        tested: failure.tested,
+                        misses: failure.misses.clone(),
+                        mend: failure
+                            .mend
+                            .as_ref()
+                            .map(|m| (name(m.node), m.path.clone(), m.present, m.value)),
+                    }
+                })
+                .collect(),
+        }
+    }
+
+    /// The whole system; `None` has been reported.
+    pub fn system(&mut self, report: connect::Report, scan_ms: u32) -> Option<System> {
+        let line = self.line.take()?;
+        let stands: Vec<bool> =
+            (0..line.proposals.len()).map(|p| !report.failures.iter().any(|f| f.proposal == p)).collect();
+        let connected = match report.connected() {
+            Ok(connected) => connected,
+            Err(found) => {
+                self.diagnostics.extend(found);
+                return None;
+            }
+        };
+        self.round_trips(&line, &connected);
+        self.nobody_to_refer_to();
+        let robot_of: Vec<usize> = (line.nodes.iter())
+            .filter_map(|n| self.robots.iter().position(|r| r.object.name.value == n.name))
+            .collect();
+        let node_of: Vec<Option<usize>> =
+            (0..self.robots.len()).map(|r| robot_of.iter().position(|n| *n == r)).collect();
+        let reaches = |a: usize, b: usize| match (node_of[a], node_of[b]) {
+            (Some(a), Some(b)) => connected.reaches(a, b),
+            _ => false,
+        };
+        let mut instances = Vec::new();
+        for robot in 0..self.robots.len() {
+            let automaton = self.automaton(robot).clone();
+            let mut roles = Vec::new();
+            for (index, role) in automaton.roles.iter().enumerate() {
+                let found: Vec<usize> = match role.kind {
+                    RoleKind::Takes | RoleKind::Hands => (line.proposals.iter().enumerate())
+                        .filter(|(p, _)| stands[*p] && self.asked_by[*p] == (robot, index))
+                        .map(|(_, p)| robot_of[p.passive()])
+                        .collect(),
+                    RoleKind::Serves => {
+                        (0..self.robots.len()).filter(|r| *r != robot && reaches(robot, *r)).collect()
+                    }
+                    RoleKind::Knows => (0..self.robots.len()).filter(|r| *r != robot).collect(),
+                };
+                let members = &self.members[role.interface.0];
+                let has_all = |r: &usize| role.also.iter().all(|i| self.members[i.0].contains(r));
+                let rows: Vec<usize> = found
+                    .iter()
+                    .filter(|r| has_all(r))
+                    .filter_map(|r| members.iter().position(|m| m == r))
+                    .collect();
+                self.cardinality(robot, role, &rows);
+                roles.push(rows);
+            }
+            let rows = automaton
+                .implements
+                .iter()
+                .filter_map(|i| self.members[i.interface.0].iter().position(|m| *m == robot));
+            instances.push(Instance {
+                name: self.robots[robot].object.name.value.clone(),
+                automaton: self.automaton_id(robot),
+                parameters: self.values[robot].clone(),
+                roles,
+                rows: rows.collect(),
+            });
+        }
+        let table = |relation: &ir::Relation| {
+            let to = &self.members[relation.to.0];
+            self.members[relation.from.0]
+                .iter()
+                .map(|a| to.iter().map(|b| reaches(*a, *b)).collect())
+                .collect()
+        };
+        let system = System {
+            model: self.model.clone(),
+            scan_ms: scan_ms as i32,
+            instances,
+            members: self.members.clone(),
+            reaches: self.model.relations.iter().map(table).collect(),
+        };
+        if self.diagnostics.is_empty() {
+            self.requirements(&system);
+        }
+        self.diagnostics.is_empty().then_some(system)
+    }
+
+    /// An arm that gives to and takes from the same place would move its parts in a circle.
+    fn round_trips(&mut self, line: &connect::Line, connected: &Connected) {
+        for edge in connected.edges() {
+            let back =
+                line.proposals.iter().find(|p| p.from == edge.from && p.to == edge.to && p.arm == edge.from);
+            let is_both = back.is_some() && connected.targets(edge.to).any(|t| t == edge.from);
+            if is_both {
+                let (arm, place) = (&line.nodes[edge.from], &line.nodes[edge.to]);
+                self.diagnostics.push(
+                    Diagnostic::new(
+                        "E0504",
+                        arm.span,
+                        format!("`{}` would give parts to `{}` and take them back", arm.name, place.name),
+                    )
+                    .other(place.span, "accepts and offers within reach of the same arm")
+                    .help(format!(
+                        "narrow one of the two: \"takes_from\": [...] or \"hands_to\": [...] in `{}`",
+                        arm.name
+                    )),
+                );
+            }
+        }
+    }
+
+    fn nobody_to_refer_to(&mut self) {
+        for (index, interface) in self.model.interfaces.iter().enumerate() {
+            if !self.members[index].is_empty() {
+                continue;
+            }
+            let id = InterfaceId(index);
+            let is_ref = |ty: &ir::Type| ty.scalar == ir::Scalar::Ref(id);
+            let user = self.model.automata.iter().find(|a| a.locals.iter().any(|l| is_ref(&l.ty)));
+            let in_cell = (self.model.interfaces.iter().zip(&self.members))
+                .any(|(i, members)| !members.is_empty() && i.cells.iter().any(|c| is_ref(&c.ty)));
+            if user.is_some() || in_cell {
+                let place = Span::new(self.layout.file, 0, 0);
+                self.diagnostics.push(
+                    Diagnostic::new(
+                        "E0505",
+                        place,
+                        format!("the layout has no `{}`, to which others refer", interface.name),
+                    )
+                    .help(format!("add a robot whose automaton `is {}`", interface.name)),
+                );
+            }
+        }
+    }
+
+    fn cardinality(&mut self, robot: usize, role: &Role, rows: &[usize]) {
+        if rows.len() >= role.min && role.max.is_none_or(|max| rows.len() <= max) {
+            return;
+        }
+        let wanted = match role.max {
+            Some(max) if max == role.min => format!("{max}"),
+            Some(max) => format!("{} to {max}", role.min),
+            None => format!("{} or more", role.min),
+        };
+        let object = &self.robots[robot].object;
+        let members = &self.members[role.interface.0];
+        let names: Vec<&str> =
+            rows.iter().map(|row| self.robots[members[*row]].object.name.value.as_str()).collect();
+        let found = if names.is_empty() { "none".to_string() } else { names.join(", ") };
+        self.diagnostics.push(
+            Diagnostic::new(
+                "E0506",
+                object.name.span,
+                format!("`{}` wants {wanted} `{}`, and has {found}", object.name.value, role.name),
+            )
+            .other(role.place, "the role is declared here")
+            .help("add or move machines, or narrow the role with \"takes_from\" or \"hands_to\""),
+        );
+    }
+
+    fn requirements(&mut self, system: &System) {
+        for robot in 0..self.robots.len() {
+            for require in &self.automaton(robot).requires.clone() {
+                if !executor::requirement_holds(system, robot, &require.condition) {
+                    let object = &self.robots[robot].object;
+                    self.diagnostics.push(
+                        Diagnostic::new(
+                            "E0507",
+                            object.name.span,
+                            format!("`{}`: {}", object.name.value, require.text),
+                        )
+                        .other(require.place, "required here")
+                        .help("change the parameters or the layout so that the requirement holds"),
+                    );
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,101 @@
+//! `--set TYPE.PARAM=VALUE` and `--set ROBOT.PARAM=VALUE`.
+
+use super::bind::{Bound, Robot};
+use crate::diagnostic::{Diagnostic, suggestion};
+use crate::ir::{Model, ParameterSource};
+use crate::layout::json::{self, Json};
+use crate::source::{FileId, Sources, Span};
+
+/// A parameter set on the command line.
+#[derive(Clone, Debug)]
+pub struct Setting {
+    /// A type as the layout writes it, or the name of a robot.
+    pub target: String,
+    pub parameter: String,
+    pub value: Json,
+    pub span: Span,
+}
+
+impl Setting {
+    /// Reads `target.parameter=value`, the text of a file. The value is JSON, or a bare word.
+    pub fn parse(sources: &Sources, file: FileId) -> Result<Setting, Vec<Diagnostic>> {
+        let text = &sources.file(file).text;
+        let span = Span::new(file, 0, text.len());
+        let form = || {
+            vec![
+                Diagnostic::new("E0510", span, format!("`{text}` is no setting"))
+                    .help("write TYPE.PARAMETER=VALUE or ROBOT.PARAMETER=VALUE, such as agv.capacity=4"),
+            ]
+        };
+        let (name, written) = text.split_once('=').ok_or_else(form)?;
+        let (target, parameter) = name.split_once('.').ok_or_else(form)?;
+        let is_word = |w: &str| !w.is_empty() && w.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
+        if !is_word(target) || !is_word(parameter) || written.is_empty() {
+            return Err(form());
+        }
+        let value = if is_word(written)
+            && written.starts_with(|c: char| c.is_ascii_alphabetic())
+            && written != "true"
+            && written != "false"
+        {
+            Json { value: json::Value::Text(written.into()), span }
+        } else {
+            // The value keeps its place in the text: what stands before it is blanked.
+            let blanked = format!("{}{written}", " ".repeat(name.len() + 1));
+            match json::parse(&blanked, file) {
+                (Some(value), found) if found.is_empty() => value,
+                (_, found) => return Err(if found.is_empty() { form() } else { found }),
+            }
+        };
+        Ok(Setting { target: target.into(), parameter: parameter.into(), value, span })
+    }
+
+    pub fn applies_to(&self, robot: &Robot) -> bool {
+        robot.object.name.value == self.target || robot.object.kind.value == self.target
+    }
+}
+
+/// Each setting has to concern somebody and something.
+pub fn check(settings: &[Setting], bound: &Bound, model: &Model, diagnostics: &mut Vec<Diagnostic>) {
+    for setting in settings {
+        let meant: Vec<&Robot> = bound.robots.iter().filter(|r| setting.applies_to(r)).collect();
+        if meant.is_empty() {
+            let known = bound
+                .robots
+                .iter()
+                .flat_map(|r| [r.object.name.value.as_str(), r.object.kind.value.as_str()]);
+            let help = suggestion(&setting.target, known)
+                .map_or("name a type or a robot of the layout".into(), |n| format!("is `{n}` meant?"));
+            diagnostics.push(
+                Diagnostic::new(
+                    "E0511",
+                    setting.span,
+                    format!("the layout has no type and no robot `{}`", setting.target),
+                )
+                .help(help),
+            );
+            continue;
+        }
+        let parameters: Vec<&str> = (model.automata.iter())
+            .filter(|a| meant.iter().any(|r| r.automaton == a.name))
+            .flat_map(|a| &a.parameters)
+            .filter(|p| matches!(p.source, ParameterSource::Layout(_)))
+            .map(|p| p.name.as_str())
+            .collect();
+        if !parameters.contains(&setting.parameter.as_str()) {
+            let help = match suggestion(&setting.parameter, parameters.iter().copied()) {
+                Some(near) => format!("is `{near}` meant?"),
+                None if parameters.is_empty() => "its automaton has no parameters".into(),
+                None => format!("its parameters are {}", parameters.join(", ")),
+            };
+            diagnostics.push(
+                Diagnostic::new(
+                    "E0511",
+                    setting.span,
+                    format!("`{}` has no parameter `{}`", setting.target, setting.parameter),
+                )
+                .help(help),
+            );
+        }
+    }
+}

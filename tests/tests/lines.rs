@@ -1,0 +1,140 @@
+//! Whole lines on the reference executor and the simulator: whatever happens to a line that the
+//! library's controllers have to cope with, all orders are made and no item is lost.
+
+use autogen::executor::Executor;
+use autogen::lower::Project;
+use autogen_tests::{LAYOUTS, Texts, ariac, on_all_processors};
+use runtime_sim::line::{IoDelay, Pause, Slip};
+use runtime_sim::random::Random;
+use runtime_sim::report::Report;
+use runtime_sim::run::run;
+
+fn execute(project: &Project) -> Report {
+    let mut executor = Executor::new(&project.system);
+    run(&project.plant, &mut executor, &mut |_| {}).expect("a line that can be run")
+}
+
+/// What kept a line from making all its orders; nothing if it made them.
+fn failure(name: &str, report: &Report) -> Option<String> {
+    let made = report.finished && report.orders_done == report.orders;
+    (!made).then(|| format!("{name}: {} of {} orders, {}", report.orders_done, report.orders, report.reason))
+}
+
+fn assert_all_made<T: Sync>(inputs: &[T], name: impl Fn(&T) -> String + Sync, project: impl Fn(&T) -> Project + Sync) {
+    let failures: Vec<String> =
+        on_all_processors(inputs, |input| failure(&name(input), &execute(&project(input)))).into_iter().flatten().collect();
+    assert!(failures.is_empty(), "{} of {} runs failed:\n{}", failures.len(), inputs.len(), failures.join("\n"));
+    println!("{} runs, 0 failures", inputs.len());
+}
+
+/// How many runs a campaign makes: a short form, or all of them with AUTOGEN_CAMPAIGN=full.
+fn campaign(short: usize, full: usize) -> usize {
+    if std::env::var("AUTOGEN_CAMPAIGN").is_ok_and(|v| v == "full") { full } else { short }
+}
+
+#[test]
+fn every_layout_works_with_every_capacity() {
+    let mut inputs = Vec::new();
+    for layout in LAYOUTS {
+        for capacity in 1..=12 {
+            inputs.push((layout, capacity));
+        }
+    }
+    assert_all_made(
+        &inputs,
+        |(layout, capacity)| format!("{layout} with {capacity}"),
+        |(layout, capacity)| ariac(layout).set(&format!("agv.capacity={capacity}")).project(),
+    );
+}
+
+#[test]
+fn one_order_and_five_orders() {
+    let scenario = |count: usize| autogen::scenario::DEFAULT.replace("\"count\": 8", &format!("\"count\": {count}"));
+    let mut inputs = Vec::new();
+    for count in [1, 5] {
+        for capacity in [1, 3, 8, 12] {
+            inputs.push((count, capacity));
+        }
+    }
+    assert_all_made(
+        &inputs,
+        |input| format!("{input:?}"),
+        |(count, capacity)| {
+            let texts = Texts { scenario: Some(scenario(*count)), ..ariac("default") };
+            texts.set(&format!("agv.capacity={capacity}")).project()
+        },
+    );
+}
+
+#[test]
+fn no_controller_depends_on_the_order_of_the_steps() {
+    let seeds: Vec<u64> = (0..campaign(12, 100) as u64).collect();
+    for layout in LAYOUTS {
+        assert_all_made(
+            &seeds,
+            |seed| format!("{layout}, order {seed}"),
+            |seed| Texts { order: Some(*seed), ..ariac(layout) }.set(&format!("agv.capacity={}", 1 + seed % 12)).project(),
+        );
+    }
+}
+
+#[test]
+fn devices_may_answer_late() {
+    let mut inputs = vec![IoDelay::Fixed(0), IoDelay::Fixed(1), IoDelay::Fixed(5)];
+    inputs.extend((0..campaign(3, 20) as u64).map(|seed| IoDelay::Random { max: 5, seed }));
+    for layout in LAYOUTS {
+        assert_all_made(
+            &inputs,
+            |delay| format!("{layout}, {delay:?}"),
+            |delay| {
+                let mut project = ariac(layout).project();
+                project.plant.io_delay = delay.clone();
+                project
+            },
+        );
+    }
+}
+
+#[test]
+fn the_line_may_be_stopped_at_any_moment() {
+    let mut random = Random::new(7);
+    let scans: Vec<u64> = (0..campaign(12, 100)).map(|_| u64::from(random.up_to(59_000)) + 3).collect();
+    assert_all_made(
+        &scans,
+        |scan| format!("stopped at scan {scan}"),
+        |scan| {
+            let mut project = ariac("default").project();
+            project.plant.scenario.pauses = vec![Pause { at_scan: *scan, scans: 300 }];
+            project
+        },
+    );
+}
+
+#[test]
+fn a_part_that_slips_is_made_up_for() {
+    let mut inputs = Vec::new();
+    for robot in ["kitting", "gantry"] {
+        for pick in [1, 7, 32] {
+            for after_s in [0.3, 2.0, 4.0, 8.0] {
+                inputs.push((robot, pick, after_s));
+            }
+        }
+    }
+    let reports = on_all_processors(&inputs, |(robot, pick, after_s)| {
+        let mut project = ariac("default").project();
+        let machine = project.plant.machines.iter().position(|m| m.name == *robot).expect("a robot of the layout");
+        project.plant.scenario.slips = vec![Slip { machine, pick: *pick, after_s: *after_s }];
+        execute(&project)
+    });
+    for (input, report) in inputs.iter().zip(reports) {
+        let names_part_and_place = ["battery", "sensor", "regulator", "pump"].iter().any(|k| report.reason.contains(k));
+        println!("{input:?}: {}", report.reason);
+        assert!(
+            report.finished || names_part_and_place,
+            "{input:?}: {} of {} orders, {}",
+            report.orders_done,
+            report.orders,
+            report.reason
+        );
+    }
+}
