@@ -3,8 +3,8 @@
 //! Inputs are latched, the robots step one after another in the order of the layout, then outputs are
 //! published. After power-up nothing moves before a rising edge of `start`. This is no safety function.
 
-use crate::cells::{ {%- if uses_cells %}Cells, {% endif -%} Wiring};
-use crate::robots::Robot;
+use crate::cells::{% if uses_cells %}{Cells, Wiring}{% else %}Wiring{% endif %};
+use crate::robot::Robot;
 use crate::types::Fault;
 
 /// Inputs of the system as a whole.

@@ -56,7 +56,7 @@ impl Context<'_> {
     }
 
     /// Conditions as operands of `&&`, without those that are always true.
-    fn conditions(&self, clauses: &[Clause]) -> Vec<String> {
+    pub fn conditions(&self, clauses: &[Clause]) -> Vec<String> {
         let text = |clause: &Clause| match clause {
             Clause::Condition(condition) => Some(self.conjunct(condition)).filter(|text| text != "true"),
             Clause::Bind(_) => None,

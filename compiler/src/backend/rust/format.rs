@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use syn::visit::{Visit, visit_path};
 
 /// Modules of the crate and what can be imported from each.
-pub type Importable<'a> = [(&'a str, Vec<String>)];
+pub type Importable = [(String, Vec<String>)];
 
 /// A statement that becomes a comment.
 pub fn comment(text: &str) -> String {

@@ -20,7 +20,7 @@ const VARIABLES: &[&str] = &[
     "best", "cells", "greater", "key", "lesser", "next_command", "place", "quotient", "remainder", "source", "store_point",
     "store_real", "store_whole", "sum", "value", "wiring", "within",
 ];
-const CELLS: &[&str] = &["scan_ms"];
+const CELLS: &[&str] = &["cells", "robot", "robots", "scan_ms", "wiring", "words"];
 
 pub struct Names {
     pub enums: Vec<EnumNames>,

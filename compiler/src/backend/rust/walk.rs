@@ -10,6 +10,10 @@ use std::collections::BTreeSet;
 pub struct Uses {
     pub wiring: bool,
     pub cells: Access,
+    /// Whether the last command has ended well.
+    pub done: bool,
+    /// Whether it has ended in error.
+    pub failed: bool,
     pub variables: BTreeSet<VariableId>,
 }
 
@@ -71,12 +75,16 @@ impl Uses {
     pub fn join(&mut self, other: Self) {
         self.wiring |= other.wiring;
         self.cells = self.cells.max(other.cells);
+        self.done |= other.done;
+        self.failed |= other.failed;
         self.variables.extend(other.variables);
     }
 
     pub fn expr(&mut self, automaton: &Automaton, expr: &Expr) {
         match &expr.kind {
-            ExprKind::Constant(_) | ExprKind::Own(_) | ExprKind::Done | ExprKind::Failed | ExprKind::Members(_) => {}
+            ExprKind::Constant(_) | ExprKind::Own(_) | ExprKind::Members(_) => {}
+            ExprKind::Done => self.done = true,
+            ExprKind::Failed => self.failed = true,
             ExprKind::Read(place) => self.place(automaton, place),
             ExprKind::Variable(id) => {
                 self.variables.insert(*id);
