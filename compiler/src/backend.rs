@@ -1,5 +1,7 @@
 //! Back ends: pure functions from the intermediate representation to files. They cannot fail.
 
+pub mod dot;
+pub mod plan;
 pub mod rust;
 
 use std::collections::BTreeMap;

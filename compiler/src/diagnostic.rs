@@ -96,7 +96,7 @@ pub fn render_styled(sources: &Sources, diagnostics: &[Diagnostic]) -> String {
     render(sources, diagnostics, &Renderer::styled())
 }
 
-fn render(sources: &Sources, diagnostics: &[Diagnostic], renderer: &Renderer) -> String {
+pub fn render(sources: &Sources, diagnostics: &[Diagnostic], renderer: &Renderer) -> String {
     let mut out = String::new();
     for diagnostic in diagnostics {
         let mut group =

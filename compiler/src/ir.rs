@@ -559,6 +559,57 @@ impl System {
     }
 }
 
+impl Expr {
+    /// The expressions of which this one directly consists, those of places and domains included.
+    pub fn parts(&self) -> Vec<&Expr> {
+        use ExprKind as Kind;
+        match &self.kind {
+            Kind::Constant(_)
+            | Kind::Variable(_)
+            | Kind::Define(_)
+            | Kind::Own(_)
+            | Kind::Done
+            | Kind::Failed
+            | Kind::Members(_) => Vec::new(),
+            Kind::Read(place) => place.parts(),
+            Kind::After(a)
+            | Kind::Not(a)
+            | Kind::Negate(a)
+            | Kind::Absolute(a)
+            | Kind::ToReal(a)
+            | Kind::Coordinate(a, _)
+            | Kind::IsMember(a, _) => vec![a],
+            Kind::Binary(_, a, b)
+            | Kind::Min(a, b)
+            | Kind::Max(a, b)
+            | Kind::SquaredDistance(a, b)
+            | Kind::Reaches(_, a, b) => vec![a, b],
+            Kind::MakePoint(parts) => parts.iter().collect(),
+            Kind::Exists { domain, body, .. }
+            | Kind::Forall { domain, body, .. }
+            | Kind::Count { domain, body, .. }
+            | Kind::Sum { domain, body, .. } => match &**domain {
+                Domain::Range(low, high) => vec![low, high, body],
+                Domain::Role(_) | Domain::Enum(_) => vec![body],
+            },
+        }
+    }
+}
+
+impl Place {
+    /// The expressions that say which instance and which element is meant.
+    pub fn parts(&self) -> Vec<&Expr> {
+        let (of, index) = match self {
+            Place::Local { index, .. } | Place::Port { index, .. } | Place::Parameter { index, .. } => {
+                (None, index)
+            }
+            Place::Cell { of, index, .. } => (of.as_ref(), index),
+            Place::Shown { of, index, .. } => (Some(of), index),
+        };
+        of.into_iter().chain(index).map(|e| &**e).collect()
+    }
+}
+
 impl Automaton {
     /// Position of an interface among those implemented.
     pub fn implementing(&self, interface: InterfaceId) -> Option<usize> {

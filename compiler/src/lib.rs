@@ -11,5 +11,6 @@ pub mod library;
 pub mod lower;
 pub mod naming;
 pub mod scenario;
+pub mod simulator;
 pub mod source;
 pub mod spec;

@@ -3,7 +3,7 @@
 
 use autogen::executor::Executor;
 use autogen::lower::Project;
-use autogen_tests::{LAYOUTS, Texts, ariac, on_all_processors};
+use autogen_tests::{LAYOUTS, Texts, ariac, on_all_processors, root, text};
 use runtime_sim::line::{IoDelay, Pause, Slip};
 use runtime_sim::random::Random;
 use runtime_sim::report::Report;
@@ -44,6 +44,35 @@ fn every_layout_works_with_every_capacity() {
         &inputs,
         |(layout, capacity)| format!("{layout} with {capacity}"),
         |(layout, capacity)| ariac(layout).set(&format!("agv.capacity={capacity}")).project(),
+    );
+}
+
+/// A layout of the user's own, with its types and its scenario if it has any.
+fn example(folder: &str) -> Texts {
+    let specs = match folder {
+        "buffer" => vec![text("examples/buffer/specs/buffer.aut")],
+        _ => Vec::new(),
+    };
+    let scenario = std::fs::read_to_string(root().join(format!("examples/{folder}/scenario.json"))).ok();
+    Texts { layout: text(&format!("examples/{folder}/{folder}.json")), specs, scenario, ..Texts::default() }
+}
+
+#[test]
+fn lines_of_the_users_own_make_their_orders() {
+    let mut inputs = Vec::new();
+    for folder in ["buffer", "shared_agv"] {
+        for seed in 0..campaign(8, 100) as u64 {
+            inputs.push((folder, seed));
+        }
+    }
+    assert_all_made(
+        &inputs,
+        |input| format!("{input:?}"),
+        |(folder, seed)| {
+            let mut project = Texts { order: Some(*seed), ..example(folder) }.set(&format!("agv.capacity={}", 1 + seed % 12)).project();
+            project.plant.io_delay = IoDelay::Random { max: 5, seed: *seed };
+            project
+        },
     );
 }
 

@@ -127,34 +127,13 @@ fn device(checker: &mut Checker, name: &ast::Name) -> Option<&'static Device> {
 
 fn reads_changing(automaton: &ir::Automaton, expr: &ir::Expr) -> bool {
     use ir::ExprKind as Kind;
-    match &expr.kind {
+    let changes = match &expr.kind {
         Kind::Read(place) => !matches!(place, ir::Place::Parameter { .. } | ir::Place::Shown { .. }),
         Kind::Define(define) => reads_changing(automaton, &automaton.defines[*define].value),
         Kind::After(_) | Kind::Done | Kind::Failed => true,
-        Kind::Not(a)
-        | Kind::Negate(a)
-        | Kind::Absolute(a)
-        | Kind::ToReal(a)
-        | Kind::Coordinate(a, _)
-        | Kind::IsMember(a, _) => reads_changing(automaton, a),
-        Kind::Binary(_, a, b)
-        | Kind::Min(a, b)
-        | Kind::Max(a, b)
-        | Kind::SquaredDistance(a, b)
-        | Kind::Reaches(_, a, b) => reads_changing(automaton, a) || reads_changing(automaton, b),
-        Kind::MakePoint(parts) => parts.iter().any(|p| reads_changing(automaton, p)),
-        Kind::Exists { body, domain, .. }
-        | Kind::Forall { body, domain, .. }
-        | Kind::Count { body, domain, .. }
-        | Kind::Sum { body, domain, .. } => {
-            let ends = match &**domain {
-                ir::Domain::Range(a, b) => reads_changing(automaton, a) || reads_changing(automaton, b),
-                _ => false,
-            };
-            ends || reads_changing(automaton, body)
-        }
-        Kind::Constant(_) | Kind::Variable(_) | Kind::Own(_) | Kind::Members(_) => false,
-    }
+        _ => false,
+    };
+    changes || expr.parts().iter().any(|part| reads_changing(automaton, part))
 }
 
 impl Context<'_, '_> {
@@ -428,11 +407,28 @@ impl Context<'_, '_> {
     }
 
     fn defines(&mut self, tree: &ast::Automaton) {
+        let mut depths: Vec<usize> = Vec::new();
         for define in &tree.defines {
             let Some(value) = self.expr(&define.value, None) else {
                 self.broken.insert(define.name.value.clone());
                 continue;
             };
+            let mut depth = 0;
+            defines_read(&value, &mut |read| depth = depth.max(depths[read] + 1));
+            if depth == DEEPEST_DEFINE {
+                self.report(
+                    Diagnostic::new(
+                        "E0211",
+                        define.name.span,
+                        format!(
+                            "`{}` is the end of a chain of {DEEPEST_DEFINE} definitions",
+                            define.name.value
+                        ),
+                    )
+                    .help("let definitions use fewer others, one in another"),
+                );
+            }
+            depths.push(depth);
             self.declare(&define.name, Symbol::Define(self.automaton.defines.len()));
             self.automaton.defines.push(ir::Define {
                 name: define.name.value.clone(),
@@ -442,6 +438,19 @@ impl Context<'_, '_> {
                 value,
             });
         }
+    }
+}
+
+/// Definitions that use one another, one in another, beyond which a text is refused.
+const DEEPEST_DEFINE: usize = 32;
+
+/// The definitions that an expression reads itself.
+fn defines_read(expr: &ir::Expr, found: &mut dyn FnMut(usize)) {
+    if let ir::ExprKind::Define(define) = expr.kind {
+        found(define);
+    }
+    for part in expr.parts() {
+        defines_read(part, found);
     }
 }
 

@@ -201,6 +201,19 @@ fn transition(
             target
         }
     };
+    let commands: Vec<_> =
+        tree.updates.iter().filter(|u| matches!(u.kind, ast::UpdateKind::Command { .. })).collect();
+    if let [first, second, ..] = commands.as_slice() {
+        context.report(
+            Diagnostic::new(
+                "E0334",
+                second.span,
+                "this command would replace another one of the same transition",
+            )
+            .other(first.span, "the device would never see this command")
+            .help("give them one after another: in two states, or as steps of a `sequence`"),
+        );
+    }
     let mut updates = Vec::new();
     for update in &tree.updates {
         match context.update(update) {

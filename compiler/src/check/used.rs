@@ -30,7 +30,12 @@ pub fn used(files: &[(FileId, ast::File)], automata: &BTreeSet<String>) -> Vec<(
         .iter()
         .map(|(id, file)| {
             let tree = ast::File {
-                enums: file.enums.iter().filter(|e| names.contains(&e.name.value)).cloned().collect(),
+                enums: (file.enums.iter())
+                    .filter(|e| {
+                        names.contains(&e.name.value) || e.members.iter().any(|m| names.contains(&m.value))
+                    })
+                    .cloned()
+                    .collect(),
                 interfaces: file
                     .interfaces
                     .iter()
@@ -53,7 +58,102 @@ fn of_automaton(automaton: &ast::Automaton) -> Vec<String> {
     names.extend(automaton.parameters.iter().flat_map(|p| of_type(&p.ty)));
     names.extend(automaton.cells.iter().flat_map(|c| of_type(&c.ty)));
     names.extend(automaton.locals.iter().flat_map(|l| of_type(&l.ty)));
+    of_text(automaton, &mut names);
     names
+}
+
+/// All words of the expressions: an enumeration may be mentioned there only, by its name or a member's.
+fn of_text(automaton: &ast::Automaton, names: &mut Vec<String>) {
+    automaton.defines.iter().for_each(|d| of_expr(&d.value, names));
+    automaton.requires.iter().for_each(|r| of_expr(&r.condition, names));
+    automaton.invariants.iter().for_each(|i| of_expr(&i.value, names));
+    automaton.initial.iter().for_each(|i| of_updates(&i.updates, names));
+    automaton.any.iter().for_each(|a| of_transitions(&a.transitions, names));
+    for state in &automaton.states {
+        state.within.iter().for_each(|e| of_expr(e, names));
+        match &state.body {
+            ast::Body::Transitions(transitions) => of_transitions(transitions, names),
+            ast::Body::Sequence(sequence) => {
+                for outcome in [Some(&sequence.then), sequence.otherwise.as_ref()].into_iter().flatten() {
+                    of_updates(&outcome.updates, names);
+                }
+                for step in &sequence.steps {
+                    match step {
+                        ast::Step::Act(update) => of_updates(std::slice::from_ref(update), names),
+                        ast::Step::Wait { time, .. } => of_expr(time, names),
+                        ast::Step::Until { condition, at_most, .. } => {
+                            of_expr(condition, names);
+                            at_most.iter().for_each(|e| of_expr(e, names));
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn of_transitions(transitions: &[ast::Transition], names: &mut Vec<String>) {
+    for transition in transitions {
+        of_updates(&transition.updates, names);
+        for clause in &transition.clauses {
+            match clause {
+                ast::Clause::Condition(condition) => of_expr(condition, names),
+                ast::Clause::Bind(binder) => {
+                    of_domain(&binder.domain, names);
+                    binder.condition.iter().for_each(|e| of_expr(e, names));
+                    match &binder.choice {
+                        ast::Choice::First => {}
+                        ast::Choice::Least(key) => of_expr(key, names),
+                        ast::Choice::Nearest(from, to) => {
+                            of_expr(from, names);
+                            of_expr(to, names);
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn of_updates(updates: &[ast::Update], names: &mut Vec<String>) {
+    for update in updates {
+        match &update.kind {
+            ast::UpdateKind::Assign { target, value, .. } => {
+                of_expr(target, names);
+                of_expr(value, names);
+            }
+            ast::UpdateKind::Command { arguments, .. } => arguments.iter().for_each(|e| of_expr(e, names)),
+        }
+    }
+}
+
+fn of_domain(domain: &ast::Domain, names: &mut Vec<String>) {
+    match domain {
+        ast::Domain::Named(name) => names.push(name.value.clone()),
+        ast::Domain::Range(low, high) => {
+            of_expr(low, names);
+            of_expr(high, names);
+        }
+    }
+}
+
+fn of_expr(expr: &ast::Expr, names: &mut Vec<String>) {
+    use ast::ExprKind as Kind;
+    match &expr.kind {
+        Kind::Name(name) => names.push(name.clone()),
+        Kind::Member(base, _) | Kind::In(base, _) => of_expr(base, names),
+        Kind::Not(a) | Kind::Negate(a) | Kind::After(a) => of_expr(a, names),
+        Kind::Index(a, b) | Kind::Binary(_, a, b) | Kind::Reaches(a, b) => {
+            of_expr(a, names);
+            of_expr(b, names);
+        }
+        Kind::Call(_, arguments) => arguments.iter().for_each(|e| of_expr(e, names)),
+        Kind::Quantified { domain, body, .. } => {
+            of_domain(domain, names);
+            of_expr(body, names);
+        }
+        Kind::Bool(_) | Kind::Int(_) | Kind::Real(_) | Kind::Duration(_) | Kind::Error => {}
+    }
 }
 
 fn of_type(ty: &ast::Type) -> Vec<String> {

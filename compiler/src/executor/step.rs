@@ -83,20 +83,24 @@ impl Executor<'_> {
         match &update.kind {
             UpdateKind::Assign { target, value, check } => {
                 let value = self.value(robot, value);
+                let row = self.target_row(robot, &target.place);
                 let index = self.target_index(robot, &target.place);
-                self.store(robot, &target.place, index, target.ty.scalar, value, *check)
+                self.store(robot, &target.place, (row, index), target.ty.scalar, value, *check)
             }
             UpdateKind::Fill { target, value, check } => {
                 let value = self.value(robot, value);
+                let row = self.target_row(robot, &target.place);
                 for index in 0..self.size(target.ty) {
-                    self.store(robot, &target.place, index, target.ty.scalar, value, *check)?;
+                    self.store(robot, &target.place, (row, index), target.ty.scalar, value, *check)?;
                 }
                 Ok(())
             }
             UpdateKind::Copy { target, source, check } => {
-                for index in 0..self.size(target.ty) {
-                    let value = self.read_element(robot, source, index);
-                    self.store(robot, &target.place, index, target.ty.scalar, value, *check)?;
+                let values: Vec<Value> =
+                    (0..self.size(target.ty)).map(|index| self.read_element(robot, source, index)).collect();
+                let row = self.target_row(robot, &target.place);
+                for (index, value) in values.into_iter().enumerate() {
+                    self.store(robot, &target.place, (row, index), target.ty.scalar, value, *check)?;
                 }
                 Ok(())
             }
@@ -105,7 +109,7 @@ impl Executor<'_> {
                     let value = self.value(robot, &argument.value);
                     let place = Place::Port { port: argument.port, index: None };
                     let ty = Scalar::from(self.system.automaton_of(robot).device.ports[argument.port].ty);
-                    self.store(robot, &place, 0, ty, value, argument.check)?;
+                    self.store(robot, &place, (0, 0), ty, value, argument.check)?;
                 }
                 let number = self.next_command(robot);
                 self.set_port(robot, "verb", *verb);
@@ -137,6 +141,14 @@ impl Executor<'_> {
         self.system.model.elements(ty.extent)
     }
 
+    /// The row whose cell is written; of no meaning for other places.
+    fn target_row(&mut self, robot: usize, place: &Place) -> usize {
+        match place {
+            Place::Cell { interface, of, .. } => self.row(robot, *interface, of),
+            _ => 0,
+        }
+    }
+
     fn target_index(&mut self, robot: usize, place: &Place) -> usize {
         match place {
             Place::Local { index, .. } | Place::Cell { index, .. } | Place::Port { index, .. } => {
@@ -162,12 +174,12 @@ impl Executor<'_> {
         }
     }
 
-    /// Stores a value that fits; otherwise the nearest bound, or nothing if it is not finite, and reports the fault.
+    /// Stores a value that fits at a row and an index; otherwise the nearest bound, or nothing if it is not finite, and reports the fault.
     fn store(
         &mut self,
         robot: usize,
         place: &Place,
-        index: usize,
+        (row, index): (usize, usize),
         ty: Scalar,
         value: Value,
         check: Option<FaultId>,
@@ -177,10 +189,7 @@ impl Executor<'_> {
             match place {
                 Place::Local { local, .. } => self.robots[robot].locals[*local][index] = kept,
                 Place::Port { port, .. } => self.robots[robot].ports[*port][index] = kept,
-                Place::Cell { interface, cell, of, .. } => {
-                    let row = self.row(robot, *interface, of);
-                    self.cells[interface.0][row][*cell][index] = kept;
-                }
+                Place::Cell { interface, cell, .. } => self.cells[interface.0][row][*cell][index] = kept,
                 Place::Parameter { .. } | Place::Shown { .. } => {}
             }
         }
