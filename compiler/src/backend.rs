@@ -2,6 +2,7 @@
 
 pub mod dot;
 pub mod plan;
+pub mod rust;
 
 use std::collections::BTreeMap;
 

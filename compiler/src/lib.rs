@@ -9,6 +9,7 @@ pub mod ir;
 pub mod layout;
 pub mod library;
 pub mod lower;
+pub mod naming;
 pub mod scenario;
 pub mod simulator;
 pub mod source;
