@@ -138,3 +138,11 @@ fn range(span: Span, len: usize) -> std::ops::Range<usize> {
     let start = (span.start as usize).min(len);
     start..(span.end as usize).clamp(start, len)
 }
+
+/// The long text of a diagnostic: its section of `docs/errors.md`.
+pub fn explain(code: &str) -> Option<&'static str> {
+    let text = include_str!("../../docs/errors.md");
+    let begin = text.find(&format!("\n### {code}"))? + 1;
+    let end = text[begin + 3..].find("\n### ").map_or(text.len(), |i| begin + 3 + i);
+    Some(text[begin..end].trim())
+}
