@@ -23,6 +23,28 @@ struct Code {
     level: Level,
 }
 
+/// A condition by itself, and as an operand of `&&`.
+#[derive(Clone)]
+pub struct Condition {
+    pub alone: String,
+    operand: String,
+}
+
+impl Condition {
+    pub fn new(text: String) -> Self {
+        Self { alone: text.clone(), operand: text }
+    }
+}
+
+/// All of them together; `None` if there are none.
+pub fn all(conditions: &[Condition]) -> Option<String> {
+    match conditions {
+        [] => None,
+        [one] => Some(one.alone.clone()),
+        many => Some(many.iter().map(|c| c.operand.as_str()).collect::<Vec<_>>().join(" && ")),
+    }
+}
+
 impl Code {
     fn primary(text: impl Into<String>) -> Self {
         Self { text: text.into(), level: Level::Primary }
@@ -39,9 +61,10 @@ impl Context<'_> {
         self.code(expr).text
     }
 
-    /// As an operand of `&&`.
-    pub fn conjunct(&self, expr: &Expr) -> String {
-        self.code(expr).at(Level::And)
+    /// Unless it is always true.
+    pub fn condition(&self, expr: &Expr) -> Option<Condition> {
+        let alone = self.expr(expr);
+        (alone != "true").then(|| Condition { alone, operand: self.code(expr).at(Level::And) })
     }
 
     fn code(&self, expr: &Expr) -> Code {

@@ -16,6 +16,9 @@ pub fn module(text: &str, importable: &Importable) -> String {
     let file = parse(text);
     let mut used = Used::default();
     used.visit_file(&file);
+    for own in file.items.iter().filter_map(defined) {
+        used.0.remove(&own);
+    }
     let mut imports = String::new();
     for (module, names) in importable {
         let names: Vec<&str> = names.iter().map(String::as_str).filter(|n| used.0.contains(*n)).collect();
@@ -36,34 +39,71 @@ pub fn print(text: &str) -> String {
     let printed = prettyplease::unparse(&parse(text));
     let mut out = String::new();
     let mut before = "";
-    for line in printed.lines() {
+    let mut lines = printed.lines();
+    while let Some(line) = lines.next() {
         let trimmed = line.trim_start();
         let indent = &line[..line.len() - trimmed.len()];
-        // A blank line between items, and between a head of documentation and what follows.
-        let is_item = ["pub ", "impl", "fn ", "///", "#[", "use ", "mod ", "const "].iter().any(|s| trimmed.starts_with(s));
-        let ends_item = before.trim_end() == "}" || before.ends_with("};") || before.starts_with("//!");
-        if is_item && ends_item && !line.starts_with("//!") && is_between(before, indent) {
+        if begins_item(trimmed) && ends_item(before, indent) {
             out.push('\n');
         }
-        match trimmed.strip_prefix("comment!(").and_then(|t| t.strip_suffix(");")) {
-            Some(literal) => {
-                let text = syn::parse_str::<syn::LitStr>(literal).map(|l| l.value()).unwrap_or_default();
-                out += &format!("{indent}// {text}\n");
-            }
-            None => {
-                out += line;
-                out.push('\n');
-            }
-        }
         before = line;
+        let Some(literal) = trimmed.strip_prefix("comment!(") else {
+            out += line;
+            out.push('\n');
+            continue;
+        };
+        // A long literal has been put on a line of its own.
+        let literal = if literal.is_empty() {
+            let inner = lines.next().unwrap_or_default().trim();
+            lines.next();
+            inner
+        } else {
+            literal.trim_end_matches(");")
+        };
+        let text = syn::parse_str::<syn::LitStr>(literal).map(|l| l.value()).unwrap_or_default();
+        put_comment(&mut out, indent, &text);
     }
     out
 }
 
-/// The line before ends an item of the same level, or a file's head.
-fn is_between(before: &str, indent: &str) -> bool {
-    let trimmed = before.trim_start();
-    before.starts_with("//!") || before.len() - trimmed.len() == indent.len()
+/// Lines of a comment; what follows the first is set in.
+fn put_comment(out: &mut String, indent: &str, text: &str) {
+    let mut line = format!("{indent}//");
+    for word in text.split(' ') {
+        if line.len() + 1 + word.len() > WIDTH && line.trim_start().len() > 2 {
+            *out += &line;
+            out.push('\n');
+            line = format!("{indent}//   {word}");
+        } else {
+            line.push(' ');
+            line += word;
+        }
+    }
+    *out += &line;
+    out.push('\n');
+}
+
+/// Longest line of a comment.
+const WIDTH: usize = 100;
+
+fn begins_item(line: &str) -> bool {
+    ["pub ", "impl", "fn ", "///", "#[", "use ", "const "].iter().any(|start| line.starts_with(start))
+}
+
+/// Whether this line ends an item of the same level, or the documentation of the file.
+fn ends_item(line: &str, indent: &str) -> bool {
+    let trimmed = line.trim_start();
+    let is_same_level = line.len() - trimmed.len() == indent.len();
+    line.starts_with("//!") || is_same_level && matches!(trimmed, "}" | "};" | "];")
+}
+
+/// The name that an item defines.
+fn defined(item: &syn::Item) -> Option<String> {
+    match item {
+        syn::Item::Enum(item) => Some(item.ident.to_string()),
+        syn::Item::Struct(item) => Some(item.ident.to_string()),
+        _ => None,
+    }
 }
 
 /// Text that does not parse is a mistake of this back end; it comes out as it is, for the compiler of Rust to point at.
