@@ -88,13 +88,14 @@ impl Context<'_> {
     fn any(&self, step: &Loop, clauses: &[Clause]) -> String {
         let variable = step.binder.variable;
         let is_read = Uses::of_clauses(self.automaton(), clauses).variables.contains(&variable);
-        let name = if is_read { self.variable(variable) } else { "_".into() };
+        let name = if is_read { self.pattern(variable, &step.binder.domain) } else { "_".into() };
         let body = all(&self.candidate(step)).unwrap_or_else(|| "true".into());
         format!("{}.any(|{name}| {body})", self.iterator(&step.binder.domain))
     }
 
     fn find(&self, step: &Loop) -> String {
-        let values = self.iterator(&step.binder.domain);
+        let copied = if matches!(step.binder.domain, Domain::Role(_)) { ".copied()" } else { "" };
+        let values = format!("{}{copied}", self.iterator(&step.binder.domain));
         let Some(condition) = all(&self.candidate(step)) else { return format!("{values}.next()") };
         let name = self.variable(step.binder.variable);
         let reads = Uses::of_clauses(self.automaton(), &[Clause::Bind(step.binder.clone())]);
@@ -112,28 +113,29 @@ impl Context<'_> {
             (format!("return Some({names});"), "None")
         };
         if loops[0].binder.key.is_some() && !chosen.is_empty() {
-            return format!("{} best.map(|(_, chosen)| chosen)", self.best(loops, chosen, 0).0);
+            return format!("{} best.map(|(_, chosen)| chosen)", self.best(loops, chosen, 1).0);
         }
-        format!("{} {failure}", self.nested(loops, chosen, 0, &success))
+        format!("{} {failure}", self.nested(loops, chosen, 1, &success))
     }
 
-    fn nested(&self, loops: &[Loop], chosen: &[VariableId], depth: usize, success: &str) -> String {
+    fn nested(&self, loops: &[Loop], chosen: &[VariableId], rank: usize, success: &str) -> String {
         let Some((step, rest)) = loops.split_first() else { return success.to_string() };
         if step.binder.key.is_some() {
-            let (search, found) = self.best(loops, chosen, depth);
+            let (search, found) = self.best(loops, chosen, rank);
             return format!("{search} if {found} {{ {success} }}");
         }
-        let body = self.nested(rest, chosen, depth + 1, success);
+        let body = self.nested(rest, chosen, rank, success);
         let body = guarded(&self.candidate(step), &body);
-        let pattern = self.pattern(loops, chosen);
+        let pattern = self.loop_pattern(loops, chosen);
         format!("for {pattern} in {} {{ {body} }}", self.values(&step.binder.domain))
     }
 
-    /// The search for the best candidate, and the condition that there is one.
-    fn best(&self, loops: &[Loop], chosen: &[VariableId], depth: usize) -> (String, String) {
+    /// The search for the best candidate, and the condition that there is one. Searches within
+    /// others have a higher rank.
+    fn best(&self, loops: &[Loop], chosen: &[VariableId], rank: usize) -> (String, String) {
         let (step, rest) = (&loops[0], &loops[1..]);
         let Some(key) = &step.binder.key else { return Default::default() };
-        let number = if depth == 0 { String::new() } else { (depth + 1).to_string() };
+        let number = if rank == 1 { String::new() } else { rank.to_string() };
         let (best, key_name, label) = (format!("best{number}"), format!("key{number}"), format!("'best{number}"));
         let kept: Vec<VariableId> =
             loops.iter().map(|l| l.binder.variable).filter(|v| chosen.contains(v)).collect();
@@ -152,7 +154,7 @@ impl Context<'_> {
         };
         let again = if rest.is_empty() { String::new() } else { format!(" continue {label};") };
         let success = format!("{best} = Some({value});{again}");
-        let inner = self.nested(rest, &kept, depth + 1, &success);
+        let inner = self.nested(rest, &kept, rank + 1, &success);
         let mut better = vec![Condition::new(format!("{best}.is_none_or(|{least}| {key_name} < least)"))];
         better.extend(step.conditions.iter().cloned());
         let body = format!("let {key_name} = {}; {}", self.expr(key), guarded(&better, &inner));
@@ -160,13 +162,13 @@ impl Context<'_> {
         let body = guarded(&own, &body);
         let label = if rest.is_empty() { String::new() } else { format!("{label}: ") };
         let mut text = format!("let mut {best}: Option<{ty}> = None;");
-        let pattern = self.pattern(loops, chosen);
+        let pattern = self.loop_pattern(loops, chosen);
         let _ = write!(text, "{label}for {pattern} in {} {{ {body} }}", self.values(&step.binder.domain));
         (text, found)
     }
 
     /// The variable of the first loop, or `_` if nothing reads it.
-    fn pattern(&self, loops: &[Loop], chosen: &[VariableId]) -> String {
+    fn loop_pattern(&self, loops: &[Loop], chosen: &[VariableId]) -> String {
         let variable = loops[0].binder.variable;
         let clauses: Vec<Clause> = loops.iter().map(|l| Clause::Bind(l.binder.clone())).collect();
         let name = self.variable(variable);
@@ -174,7 +176,7 @@ impl Context<'_> {
         let is_read = Uses::of_clauses(self.automaton(), &clauses).variables.contains(&variable)
             || loops.iter().flat_map(|l| &l.conditions).any(|c| is_word(&c.alone))
             || chosen.contains(&variable);
-        if is_read { name } else { "_".into() }
+        if is_read { self.pattern(variable, &loops[0].binder.domain) } else { "_".into() }
     }
 
     /// A domain behind `in`.
@@ -182,7 +184,7 @@ impl Context<'_> {
         match domain {
             Domain::Enum(id) => format!("{}::ALL", self.names.enums[id.0].ty),
             Domain::Range(low, high) => format!("{}..={}", self.expr(low), self.expr(high)),
-            Domain::Role(_) => self.iterator(domain),
+            Domain::Role(role) => format!("self.parameters.{}", self.own().roles[role.0]),
         }
     }
 }

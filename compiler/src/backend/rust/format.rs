@@ -19,19 +19,20 @@ pub fn module(text: &str, importable: &Importable) -> String {
     for own in file.items.iter().filter_map(defined) {
         used.0.remove(&own);
     }
-    let mut imports = String::new();
+    let (own, rest): (Vec<&str>, Vec<&str>) = text.lines().partition(|line| line.starts_with("use "));
+    let mut imports: Vec<String> = own.into_iter().map(String::from).collect();
     for (module, names) in importable {
         let names: Vec<&str> = names.iter().map(String::as_str).filter(|n| used.0.contains(*n)).collect();
         match names.as_slice() {
             [] => {}
-            [one] => imports += &format!("use {module}::{one};\n"),
-            many => imports += &format!("use {module}::{{{}}};\n", many.join(", ")),
+            [one] => imports.push(format!("use {module}::{one};")),
+            many => imports.push(format!("use {module}::{{{}}};", many.join(", "))),
         }
     }
-    let inner = text.lines().take_while(|line| line.starts_with("//!") || line.trim().is_empty()).count();
-    let lines: Vec<&str> = text.lines().collect();
-    let (head, rest) = lines.split_at(inner);
-    print(&format!("{}\n{imports}\n{}", head.join("\n"), rest.join("\n")))
+    imports.sort();
+    let head = rest.iter().take_while(|line| line.starts_with("//!") || line.trim().is_empty()).count();
+    let (head, rest) = rest.split_at(head);
+    print(&format!("{}\n{}\n{}", head.join("\n"), imports.join("\n"), rest.join("\n")))
 }
 
 /// Lays out a file that is complete.
@@ -39,12 +40,16 @@ pub fn print(text: &str) -> String {
     let printed = prettyplease::unparse(&parse(text));
     let mut out = String::new();
     let mut before = "";
+    let mut is_import = false;
     let mut lines = printed.lines();
     while let Some(line) = lines.next() {
         let trimmed = line.trim_start();
         let indent = &line[..line.len() - trimmed.len()];
-        if begins_item(trimmed) && ends_item(before, indent) {
+        if needs_blank(before, line, is_import) {
             out.push('\n');
+        }
+        if !indent.is_empty() || !trimmed.starts_with('}') {
+            is_import = trimmed.starts_with("use ") || is_import && !indent.is_empty();
         }
         before = line;
         let Some(literal) = trimmed.strip_prefix("comment!(") else {
@@ -86,15 +91,20 @@ fn put_comment(out: &mut String, indent: &str, text: &str) {
 /// Longest line of a comment.
 const WIDTH: usize = 100;
 
-fn begins_item(line: &str) -> bool {
-    ["pub ", "impl", "fn ", "///", "#[", "use ", "const "].iter().any(|start| line.starts_with(start))
-}
-
-/// Whether this line ends an item of the same level, or the documentation of the file.
-fn ends_item(line: &str, indent: &str) -> bool {
-    let trimmed = line.trim_start();
-    let is_same_level = line.len() - trimmed.len() == indent.len();
-    line.starts_with("//!") || is_same_level && matches!(trimmed, "}" | "};" | "];")
+/// Whether a blank line belongs between two lines: before items, but for imports and modules in a row.
+fn needs_blank(before: &str, line: &str, is_import: bool) -> bool {
+    let level = |line: &str| line.len() - line.trim_start().len();
+    if before.is_empty() || level(before) != level(line) || line.starts_with("//!") {
+        return false;
+    }
+    let (first, next) = (before.trim_start(), line.trim_start());
+    let begins = ["pub ", "impl", "fn ", "///", "#[", "const "].iter().any(|start| next.starts_with(start));
+    let in_row = first.starts_with("///") || first.starts_with("#[");
+    if level(line) > 0 {
+        return begins && matches!(first, "}" | "};" | "];");
+    }
+    let modules = first.starts_with("pub mod ") && next.starts_with("pub mod ");
+    if next.starts_with("use ") { !is_import } else { begins && !in_row && !modules }
 }
 
 /// The name that an item defines.
