@@ -81,7 +81,7 @@ pub fn module(context: &Context) -> String {
             .verbs
             .iter()
             .zip(&names.verbs)
-            .map(|(v, name)| Field { initial: v.number.to_string(), ..plain(doc(&[v.meaning.into()]), name) })
+            .map(|(v, name)| Field { initial: v.number.to_string(), ..plain(doc(&[sentence(v.meaning)]), name) })
             .collect(),
         locals: automaton
             .locals
@@ -150,10 +150,15 @@ fn port_field(context: &Context, port: &Port, name: &str) -> Field {
         PortType::Point => Value::Point([0.0; 3]),
     };
     let unit = if port.unit.is_empty() { String::new() } else { format!(", in {}", port.unit) };
-    let mut letters = port.meaning.chars();
-    let first_letter: String = letters.next().into_iter().flat_map(char::to_uppercase).collect();
-    let text = format!("{first_letter}{}{unit}.", letters.as_str());
+    let text = sentence(&format!("{}{unit}", port.meaning));
     Field { doc: doc(&[text]), name: name.into(), ty: context.ty(ty), initial: context.filled(ty, first) }
+}
+
+/// With a capital and a full stop.
+fn sentence(text: &str) -> String {
+    let mut letters = text.chars();
+    let first: String = letters.next().into_iter().flat_map(char::to_uppercase).collect();
+    format!("{first}{}.", letters.as_str())
 }
 
 fn limit(port: &Port, name: &str) -> Option<String> {

@@ -1,6 +1,6 @@
 //! The identifiers of one system in Rust.
 
-use crate::ir::{Automaton, Enum, Interface, Relation, System};
+use crate::ir::{Automaton, Clause, Enum, Interface, Relation, State, System, Transition};
 use crate::naming::{Scope, camel, screaming, snake};
 
 /// Types that generated modules have beside those of the specification.
@@ -129,15 +129,21 @@ fn automaton_names(
         defines: source.defines.iter().map(|d| method_of(&mut methods, &d.name)).collect(),
         states: source.states.iter().map(|s| states.take(camel(&s.name))).collect(),
         methods: source.states.iter().map(|s| method_of(&mut methods, &s.name)).collect(),
-        choices: source.states.iter().map(|s| choices(&s.name, s.transitions.len(), &mut methods)).collect(),
+        choices: source.states.iter().map(|s| choices(s, &mut methods)).collect(),
         ports: source.device.ports.iter().map(|p| ports.take(snake(p.name))).collect(),
         verbs: source.device.verbs.iter().map(|v| verbs.take(camel(v.name))).collect(),
         variables: variables(source),
     }
 }
 
-fn choices(state: &str, transitions: usize, methods: &mut Scope) -> Vec<String> {
-    (0..transitions).map(|_| methods.take(format!("choose_in_{}", snake(state)))).collect()
+/// Transitions without binders have none.
+fn choices(state: &State, methods: &mut Scope) -> Vec<String> {
+    let is_binder = |clause: &Clause| matches!(clause, Clause::Bind(_));
+    let name = format!("choose_in_{}", snake(&state.name));
+    let mut choice = |t: &Transition| {
+        if t.clauses.iter().any(is_binder) { methods.take(name.clone()) } else { String::new() }
+    };
+    state.transitions.iter().map(&mut choice).collect()
 }
 
 /// Variables of one name never meet, so they may share the identifier.
