@@ -55,6 +55,15 @@ impl Diagnostic {
     }
 }
 
+/// What every code means and how to mend it.
+const ERRORS: &str = include_str!("../../docs/errors.md");
+
+/// The long text of a code, in Markdown without its heading.
+pub fn explain(code: &str) -> Option<&'static str> {
+    let section = ERRORS.split("\n## ").skip(1).find(|s| s.lines().next() == Some(code))?;
+    section.split_once('\n').map(|(_, text)| text.trim())
+}
+
 /// Places in reading order, so that output never depends on the order of the checks.
 pub fn sort(diagnostics: &mut Vec<Diagnostic>) {
     diagnostics.sort_by(|a, b| (a.place, a.code, &a.message).cmp(&(b.place, b.code, &b.message)));
