@@ -1,5 +1,6 @@
 //! The compiler: layout and automata in, controllers out. Pure: nothing here reads or writes files.
 
+pub mod backend;
 pub mod check;
 pub mod connect;
 pub mod diagnostic;
@@ -8,6 +9,8 @@ pub mod ir;
 pub mod layout;
 pub mod library;
 pub mod lower;
+pub mod naming;
 pub mod scenario;
+pub mod simulator;
 pub mod source;
 pub mod spec;

@@ -1,1 +1,31 @@
-fn main() {}
+//! The command line; the only place that reads and writes files.
+
+mod command;
+
+use clap::Parser;
+use command::options::{Cli, Command};
+use std::process::ExitCode;
+
+/// What a command came to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Status {
+    Done = 0,
+    /// The input has errors; an infeasible layout is one.
+    WrongInput = 1,
+    /// The command line or a file it names cannot be used.
+    WrongCommand = 2,
+    /// The run did not reach its goal.
+    NotReached = 3,
+    /// A bug in autogen.
+    Bug = 70,
+}
+
+fn main() -> ExitCode {
+    std::panic::set_hook(Box::new(|panic| {
+        eprintln!("autogen: this is a bug in autogen, not in your input: {panic}");
+        eprintln!("Please report it with the layout and the specifications that show it.");
+    }));
+    let cli = Cli::parse();
+    let status = std::panic::catch_unwind(|| match &cli.command { Command::Check(options) => command::check::run(options), Command::Graph(options) => command::graph::run(options), _ => Status::Bug });
+    ExitCode::from(status.unwrap_or(Status::Bug) as u8)
+}

@@ -22,6 +22,8 @@ pub enum Command {
     Build(BuildOptions),
     /// Build, link the controllers with the simulator, run the scenario
     Commission(CommissionOptions),
+    /// Print the connectivity graph or an automaton as DOT, or the layout from above as SVG
+    Graph(GraphOptions),
     /// Print the long text of a diagnostic
     Explain(ExplainOptions),
 }
@@ -77,6 +79,15 @@ pub struct CommissionOptions {
     /// Write the hash of each scan's trace to this file, a line each
     #[arg(long, value_name = "FILE")]
     pub hashes: Option<PathBuf>,
+}
+
+#[derive(Args, Debug)]
+pub struct GraphOptions {
+    #[command(flatten)]
+    pub input: InputOptions,
+    /// `connectivity`, `plan` (the layout from above, SVG), or a type such as `agv`
+    #[arg(long, value_name = "WHAT", default_value = "connectivity")]
+    pub of: String,
 }
 
 #[derive(Args, Debug)]

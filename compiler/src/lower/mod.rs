@@ -40,6 +40,7 @@ pub struct Project {
     pub system: ir::System,
     /// What the simulator needs; its machines are the instances.
     pub plant: runtime_sim::line::Line,
+    /// Between instances.
     pub edges: Vec<connect::Edge>,
     pub obstacles: Vec<(String, Obstacle)>,
 }
@@ -170,7 +171,8 @@ fn system(
     if !outcome.diagnostics.is_empty() {
         return;
     }
-    let edges = report.edges.clone();
+    let robot = |node: usize| line.robot_of(node);
+    let edges = report.edges.iter().map(|e| connect::Edge { from: robot(e.from), to: robot(e.to), ..*e }).collect();
     let Some(system) = line.system(report, layout.scan_ms) else {
         outcome.diagnostics.append(&mut line.diagnostics);
         return;

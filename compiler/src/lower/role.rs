@@ -28,6 +28,8 @@ pub struct Line<'a> {
     /// The robot and the role that each proposal is for.
     asked_by: Vec<(usize, usize)>,
     line: Option<connect::Line>,
+    /// The robot of each node of the connectivity check.
+    nodes: Vec<usize>,
 }
 
 impl<'a> Line<'a> {
@@ -46,6 +48,7 @@ impl<'a> Line<'a> {
             diagnostics: Vec::new(),
             asked_by: Vec::new(),
             line: None,
+            nodes: Vec::new(),
         };
         line.members = (0..line.model.interfaces.len())
             .map(|i| {
@@ -78,6 +81,11 @@ impl<'a> Line<'a> {
         let automaton = self.automaton(robot);
         automaton.implements.iter().any(|i| i.handover.is_some())
             || automaton.roles.iter().any(|r| matches!(r.kind, RoleKind::Takes | RoleKind::Hands))
+    }
+
+    /// The robot that is this node of the connectivity check.
+    pub fn robot_of(&self, node: usize) -> usize {
+        self.nodes[node]
     }
 
     /// What the geometry says of the pairs that the types propose.
@@ -117,6 +125,7 @@ impl<'a> Line<'a> {
             }
         }
         self.asked_by = asked_by;
+        self.nodes = nodes_of;
         let span = Span::new(self.layout.file, 0, 0);
         let line = connect::Line { span, nodes, proposals, kinds: self.kinds.clone() };
         let report = connect::check(&line);
@@ -211,9 +220,7 @@ impl<'a> Line<'a> {
         };
         self.round_trips(&line, &connected);
         self.nobody_to_refer_to();
-        let robot_of: Vec<usize> = (line.nodes.iter())
-            .filter_map(|n| self.robots.iter().position(|r| r.object.name.value == n.name))
-            .collect();
+        let robot_of = self.nodes.clone();
         let node_of: Vec<Option<usize>> =
             (0..self.robots.len()).map(|r| robot_of.iter().position(|n| *n == r)).collect();
         let reaches = |a: usize, b: usize| match (node_of[a], node_of[b]) {

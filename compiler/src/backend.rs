@@ -1,0 +1,10 @@
+//! Back ends: pure functions from the intermediate representation to files. They cannot fail.
+
+pub mod dot;
+pub mod plan;
+pub mod rust;
+
+use std::collections::BTreeMap;
+
+/// Files in memory: text by path.
+pub type Files = BTreeMap<String, String>;

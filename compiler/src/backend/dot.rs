@@ -1,0 +1,58 @@
+//! Graphs in the language of Graphviz: who hands over to whom, and the automata.
+
+use super::Files;
+use crate::connect::Edge;
+use crate::ir::{Automaton, System};
+use std::fmt::Write;
+
+/// `connectivity.dot`, and a file for each automaton. Edges are between instances.
+pub fn files(system: &System, edges: &[Edge]) -> Files {
+    let mut files = Files::new();
+    files.insert("connectivity.dot".into(), connectivity(system, edges));
+    for automaton in &system.model.automata {
+        files.insert(format!("{}.dot", automaton.name.to_lowercase()), states(automaton));
+    }
+    files
+}
+
+fn connectivity(system: &System, edges: &[Edge]) -> String {
+    let mut text = String::from("digraph connectivity {\n    rankdir = LR;\n    node [shape = box];\n");
+    for instance in &system.instances {
+        let automaton = &system.model.automaton(instance.automaton).name;
+        let _ = writeln!(text, "    {} [label = {}];", quoted(&instance.name), quoted(&format!("{}\n{automaton}", instance.name)));
+    }
+    for edge in edges {
+        let (from, to) = (&system.instances[edge.from].name, &system.instances[edge.to].name);
+        let _ = writeln!(text, "    {} -> {} [label = \"{:.3} m\"];", quoted(from), quoted(to), edge.margin);
+    }
+    text + "}\n"
+}
+
+fn states(automaton: &Automaton) -> String {
+    let mut text = format!("digraph {} {{\n    node [shape = box, style = rounded];\n", quoted(&automaton.name));
+    for (i, state) in automaton.states.iter().enumerate() {
+        let shape = match (i, state.is_final) {
+            (0, _) => ", shape = point",
+            (_, true) => ", peripheries = 2",
+            _ => "",
+        };
+        let _ = writeln!(text, "    {} [label = {}{shape}];", quoted(&state.name), quoted(&state.name));
+    }
+    for state in &automaton.states {
+        for transition in &state.transitions {
+            let target = transition.target.map_or(&state.name, |t| &automaton.states[t.0].name);
+            let _ = writeln!(
+                text,
+                "    {} -> {} [label = {}];",
+                quoted(&state.name),
+                quoted(target),
+                quoted(&transition.text)
+            );
+        }
+    }
+    text + "}\n"
+}
+
+fn quoted(text: &str) -> String {
+    format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\"").replace('\n', "\\n"))
+}

@@ -1,0 +1,200 @@
+//! The layout from above, as SVG: x to the right, y upwards, with an arrow for each edge.
+
+use crate::connect::Edge;
+use crate::layout::Obstacle;
+use runtime_sim::geometry::Geometry;
+use runtime_sim::line::Line;
+use runtime_sim::point::{Axis, Point};
+use std::fmt::Write;
+
+/// Pixels per metre.
+const SCALE: f64 = 60.0;
+/// Empty border around the machines, m.
+const BORDER: f64 = 0.9;
+
+/// One drawing; edges are between machines.
+pub fn svg(line: &Line, edges: &[Edge], obstacles: &[(String, Obstacle)]) -> String {
+    let mut drawing = Drawing { body: String::new(), labels: String::new(), low: (f64::MAX, f64::MAX), high: (f64::MIN, f64::MIN) };
+    for (name, obstacle) in obstacles {
+        let size = obstacle.size.unwrap_or(Point::new(0.4, 0.4, 0.0));
+        drawing.rectangle(obstacle.pose, (size.x, size.y), "obstacle");
+        drawing.label(obstacle.pose, name, "small");
+    }
+    for machine in &line.machines {
+        drawing.machine(&machine.name, &machine.geometry);
+    }
+    for edge in edges {
+        let (from, to) = (&line.machines[edge.from].geometry, &line.machines[edge.to].geometry);
+        drawing.edge(meeting(from, to, true), meeting(to, from, false));
+    }
+    drawing.finish()
+}
+
+/// Where an arrow touches a machine: a vehicle is loaded at its start and unloaded at its stop.
+fn meeting(machine: &Geometry, other: &Geometry, leaves: bool) -> Point {
+    match machine {
+        Geometry::Vehicle { pose, destinations } => if leaves { destinations[0] } else { *pose },
+        Geometry::RailArm { pose, rail_dim, rail_range } => {
+            let along = meeting_along(other, *rail_dim).clamp(rail_range[0], rail_range[1]);
+            match rail_dim {
+                Axis::X => Point::new(along, pose.y, 0.0),
+                Axis::Y => Point::new(pose.x, along, 0.0),
+            }
+        }
+        _ => machine.pose(),
+    }
+}
+
+fn meeting_along(other: &Geometry, axis: Axis) -> f64 {
+    other.pose().coordinate(axis)
+}
+
+struct Drawing {
+    body: String,
+    /// Drawn over everything else.
+    labels: String,
+    low: (f64, f64),
+    high: (f64, f64),
+}
+
+impl Drawing {
+    fn machine(&mut self, name: &str, geometry: &Geometry) {
+        match geometry {
+            Geometry::Belt { pose, orient, orient_range } => {
+                let (middle, length) = ((orient_range[0] + orient_range[1]) / 2.0, orient_range[1] - orient_range[0]);
+                let (centre, size) = match orient {
+                    Axis::X => (Point::new(middle, pose.y, 0.0), (length, 0.65)),
+                    Axis::Y => (Point::new(pose.x, middle, 0.0), (0.65, length)),
+                };
+                self.rectangle(centre, size, "belt");
+                self.label(centre + Point::new(0.0, size.1 / 2.0 + 0.2, 0.0), name, "name");
+            }
+            Geometry::Vehicle { pose, destinations } => {
+                for stop in destinations {
+                    self.rectangle(*stop + Point::new(0.15, 0.0, 0.0), (0.7, 0.5), "stop");
+                    self.line(*pose, *stop, "path");
+                }
+                self.rectangle(*pose + Point::new(0.15, 0.0, 0.0), (0.7, 0.5), "vehicle");
+                self.label(*pose + Point::new(0.15, 0.37, 0.0), name, "name");
+            }
+            Geometry::RailArm { pose, rail_dim, rail_range } => {
+                let end = |along: f64| match rail_dim {
+                    Axis::X => Point::new(along, pose.y, 0.0),
+                    Axis::Y => Point::new(pose.x, along, 0.0),
+                };
+                self.line(end(rail_range[0]), end(rail_range[1]), "rail");
+                let middle = end((rail_range[0] + rail_range[1]) / 2.0);
+                self.circle(middle, 0.22, "arm");
+                let low = end(rail_range[0]);
+                self.label(low - Point::new(0.0, 0.35, 0.0), name, "name");
+            }
+            Geometry::Gantry { x_rail_range: x, y_rail_range: y, .. } => {
+                let centre = Point::new((x[0] + x[1]) / 2.0, (y[0] + y[1]) / 2.0, 0.0);
+                self.rectangle(centre, (x[1] - x[0], y[1] - y[0]), "range");
+                self.circle(geometry.pose(), 0.3, "arm");
+                self.label(geometry.pose() + Point::new(0.0, 0.5, 0.0), name, "name");
+            }
+            Geometry::Station { pose } => {
+                self.rectangle(*pose, (0.6, 0.6), "station");
+                self.label(*pose + Point::new(0.0, 0.42, 0.0), name, "name");
+            }
+            Geometry::Bin { pose } => {
+                self.rectangle(*pose, (0.6, 0.6), "station");
+                self.label(*pose + Point::new(0.0, 0.42, 0.0), name, "name");
+            }
+        }
+    }
+
+    fn take(&mut self, x: f64, y: f64) {
+        self.low = (self.low.0.min(x), self.low.1.min(y));
+        self.high = (self.high.0.max(x), self.high.1.max(y));
+    }
+
+    fn rectangle(&mut self, centre: Point, (width, height): (f64, f64), class: &str) {
+        self.take(centre.x - width / 2.0, centre.y - height / 2.0);
+        self.take(centre.x + width / 2.0, centre.y + height / 2.0);
+        let (x, y) = (px(centre.x - width / 2.0), py(centre.y + height / 2.0));
+        let _ = writeln!(
+            self.body,
+            "<rect class=\"{class}\" x=\"{x:.1}\" y=\"{y:.1}\" width=\"{:.1}\" height=\"{:.1}\"/>",
+            width * SCALE,
+            height * SCALE
+        );
+    }
+
+    fn circle(&mut self, centre: Point, radius: f64, class: &str) {
+        self.take(centre.x, centre.y);
+        let _ = writeln!(
+            self.body,
+            "<circle class=\"{class}\" cx=\"{:.1}\" cy=\"{:.1}\" r=\"{:.1}\"/>",
+            px(centre.x),
+            py(centre.y),
+            radius * SCALE
+        );
+    }
+
+    fn line(&mut self, from: Point, to: Point, class: &str) {
+        self.take(from.x, from.y);
+        self.take(to.x, to.y);
+        let _ = writeln!(
+            self.body,
+            "<line class=\"{class}\" x1=\"{:.1}\" y1=\"{:.1}\" x2=\"{:.1}\" y2=\"{:.1}\"/>",
+            px(from.x),
+            py(from.y),
+            px(to.x),
+            py(to.y)
+        );
+    }
+
+    fn edge(&mut self, from: Point, to: Point) {
+        // A bow to one side keeps arrows apart from the paths of vehicles.
+        let (dx, dy) = (to.x - from.x, to.y - from.y);
+        let bend = Point::new((from.x + to.x) / 2.0 - 0.12 * dy, (from.y + to.y) / 2.0 + 0.12 * dx, 0.0);
+        let _ = writeln!(
+            self.body,
+            "<path class=\"edge\" d=\"M {:.1} {:.1} Q {:.1} {:.1} {:.1} {:.1}\"/>",
+            px(from.x),
+            py(from.y),
+            px(bend.x),
+            py(bend.y),
+            px(to.x),
+            py(to.y)
+        );
+    }
+
+    fn label(&mut self, at: Point, text: &str, class: &str) {
+        let _ = writeln!(self.labels, "<text class=\"{class}\" x=\"{:.1}\" y=\"{:.1}\">{text}</text>", px(at.x), py(at.y) + 4.0);
+    }
+
+    fn finish(self) -> String {
+        let (low, high) = match self.body.is_empty() {
+            true => ((0.0, 0.0), (1.0, 1.0)),
+            false => (self.low, self.high),
+        };
+        let (x, y) = (px(low.0 - BORDER), py(high.1 + BORDER));
+        let width = (high.0 - low.0 + 2.0 * BORDER) * SCALE;
+        let height = (high.1 - low.1 + 2.0 * BORDER) * SCALE;
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{x:.1} {y:.1} {width:.1} {height:.1}\" width=\"{width:.0}\" height=\"{height:.0}\">\n\
+<defs><marker id=\"head\" viewBox=\"0 0 10 10\" refX=\"9\" refY=\"5\" markerWidth=\"7\" markerHeight=\"7\" orient=\"auto-start-reverse\"><path d=\"M 0 0 L 10 5 L 0 10 z\" fill=\"#b3261e\"/></marker></defs>\n\
+<style>{STYLE}</style>\n\
+<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{width:.1}\" height=\"{height:.1}\" fill=\"#ffffff\"/>\n{}{}</svg>\n",
+            self.body, self.labels
+        )
+    }
+}
+
+const STYLE: &str = "text{font-family:sans-serif;text-anchor:middle}.name{font-size:16px;font-weight:bold;paint-order:stroke;stroke:#fff;stroke-width:3px}\
+.small{font-size:10px;fill:#777}.obstacle{fill:#eee;stroke:#bbb}.belt{fill:#cfd8dc;stroke:#607d8b}\
+.vehicle{fill:#ffe0b2;stroke:#e65100;stroke-width:2}.stop{fill:none;stroke:#e65100;stroke-dasharray:4 4}\
+.path{stroke:#e65100;stroke-dasharray:2 6}.rail{stroke:#1565c0;stroke-width:6;opacity:.5}\
+.arm{fill:#bbdefb;stroke:#1565c0;stroke-width:2}.range{fill:none;stroke:#1565c0;stroke-dasharray:12 6;opacity:.6}\
+.station{fill:#c8e6c9;stroke:#2e7d32;stroke-width:2}.edge{fill:none;stroke:#b3261e;stroke-width:2;marker-end:url(#head);opacity:.8}";
+
+fn px(x: f64) -> f64 {
+    x * SCALE
+}
+
+fn py(y: f64) -> f64 {
+    -y * SCALE
+}

@@ -1,0 +1,75 @@
+//! Rust: a crate of controllers without dependencies or heap, and a crate that links them with the simulator.
+//!
+//! Skeletons of files are templates; expressions and statements are printed by code, then the whole is
+//! laid out by `prettyplease`. The values of a layout stand in `robots/` and `line.rs` only.
+
+mod adapters;
+mod automaton;
+mod choice;
+mod context;
+mod expression;
+mod format;
+mod line;
+mod names;
+mod parameters;
+mod shared;
+mod state;
+mod update;
+mod walk;
+
+pub use parameters::parameters_text;
+
+use super::Files;
+use crate::ir::{AutomatonId, System};
+use crate::source::Sources;
+use askama::Template;
+use context::{Context, Shared};
+
+const MANIFEST: &str = include_str!("../../../templates/rust/Cargo.toml");
+const CONTROLLERS_MANIFEST: &str = include_str!("../../../templates/rust/controllers/Cargo.toml");
+const TYPES: &str = include_str!("../../../templates/rust/controllers/types.rs");
+const COMMISSIONING_MANIFEST: &str = include_str!("../../../templates/rust/commissioning/Cargo.toml");
+const COMMISSIONING: [(&str, &str); 5] = [
+    ("src/lib.rs", include_str!("../../../templates/rust/commissioning/lib.rs")),
+    ("src/main.rs", include_str!("../../../templates/rust/commissioning/main.rs")),
+    ("src/image.rs", include_str!("../../../templates/rust/commissioning/image.rs")),
+    ("src/read.rs", include_str!("../../../templates/rust/commissioning/read.rs")),
+    ("src/deployed.rs", include_str!("../../../templates/rust/commissioning/deployed.rs")),
+];
+
+/// The files of the workspace `rust/`, but for the simulator's.
+pub fn files(system: &System, sources: &Sources) -> Files {
+    let names = names::names(system);
+    let shared = Shared { system, sources, names: &names };
+    let mut files = Files::new();
+    let mut put = |path: String, text: String| files.insert(path, text);
+    put("Cargo.toml".into(), MANIFEST.into());
+    put("controllers/Cargo.toml".into(), CONTROLLERS_MANIFEST.into());
+    put("controllers/src/types.rs".into(), TYPES.into());
+    put("controllers/src/lib.rs".into(), shared::library(shared));
+    put("controllers/src/kinds.rs".into(), shared::kinds(shared));
+    put("controllers/src/cells.rs".into(), shared::cells(shared));
+    put("controllers/src/system.rs".into(), shared::system(shared));
+    put("controllers/src/robot.rs".into(), shared::robot(shared));
+    for id in 0..system.model.automata.len() {
+        let context = Context::new(shared, AutomatonId(id));
+        put(format!("controllers/src/{}.rs", context.own().module), automaton::module(&context));
+    }
+    put("controllers/src/line.rs".into(), line::line(shared));
+    put("controllers/src/robots.rs".into(), line::robots(shared));
+    for (number, module) in names.robots.iter().enumerate() {
+        put(format!("controllers/src/robots/{module}.rs"), line::robot(shared, number));
+    }
+    put("commissioning/Cargo.toml".into(), COMMISSIONING_MANIFEST.into());
+    for (path, text) in COMMISSIONING {
+        put(format!("commissioning/{path}"), text.into());
+    }
+    put("commissioning/src/adapters.rs".into(), adapters::adapters(shared));
+    put("commissioning/examples/host.rs".into(), include_str!("../../../templates/rust/commissioning/host.rs").into());
+    files
+}
+
+/// The text of a template. Writing to memory does not fail.
+fn render(template: &impl Template) -> String {
+    template.render().unwrap_or_default()
+}

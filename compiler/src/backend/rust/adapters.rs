@@ -1,0 +1,98 @@
+//! Between process images or texts and the controllers.
+
+use super::context::Shared;
+use super::shared::uses_cells;
+use super::{format, render};
+use askama::Template;
+use runtime_sim::device::Direction;
+
+#[derive(Template)]
+#[template(path = "rust/commissioning/adapters.rs")]
+struct Adapters {
+    enums: Vec<String>,
+    interfaces: Vec<InterfaceView>,
+    relations: Vec<RelationView>,
+    robots: Vec<RobotView>,
+    has_cells: bool,
+    uses_cells: bool,
+}
+
+struct InterfaceView {
+    keyword: String,
+    field: String,
+    reference: String,
+    cells_type: String,
+    has_cells: bool,
+    parameters_type: String,
+    parameters: Vec<String>,
+}
+
+struct RelationView {
+    keyword: String,
+    name: String,
+}
+
+struct RobotView {
+    keyword: String,
+    ty: String,
+    module: String,
+    inputs: Vec<String>,
+    outputs: Vec<String>,
+    parameters: Vec<String>,
+    locals: Vec<String>,
+    /// Paths of the cells that it owns.
+    cells: Vec<String>,
+}
+
+pub fn adapters(shared: Shared) -> String {
+    let model = &shared.system.model;
+    let interfaces = model.interfaces.iter().zip(&shared.names.interfaces).map(|(interface, names)| InterfaceView {
+        keyword: interface.name.clone(),
+        field: names.field.clone(),
+        reference: names.reference.clone(),
+        cells_type: names.cells.clone(),
+        has_cells: !interface.cells.is_empty(),
+        parameters_type: names.parameters.clone(),
+        parameters: names.parameter.clone(),
+    });
+    let relations = model.relations.iter().zip(&shared.names.relations).map(|(relation, name)| RelationView {
+        keyword: format!("{}_{}", model.interface(relation.from).name, model.interface(relation.to).name),
+        name: name.clone(),
+    });
+    let interfaces: Vec<InterfaceView> = interfaces.collect();
+    let view = Adapters {
+        enums: shared.names.enums.iter().map(|e| e.ty.clone()).collect(),
+        relations: relations.collect(),
+        robots: (0..model.automata.len()).map(|id| robot(shared, id)).collect(),
+        has_cells: interfaces.iter().any(|i| i.has_cells),
+        interfaces,
+        uses_cells: uses_cells(shared),
+    };
+    let mut importable = shared.importable("controllers");
+    importable.push(("crate::image".into(), ["Image", "Latch", "Put"].map(String::from).into()));
+    importable.push(("crate::read".into(), ["Read", "leak", "relation", "rows"].map(String::from).into()));
+    format::module(&render(&view), &importable)
+}
+
+fn robot(shared: Shared, id: usize) -> RobotView {
+    let automaton = &shared.system.model.automata[id];
+    let names = &shared.names.automata[id];
+    let ports = |direction: Direction| {
+        let ports = automaton.device.ports.iter().zip(&names.ports);
+        ports.filter(|(p, _)| p.direction == direction).map(|(_, name)| name.clone()).collect()
+    };
+    let owned = automaton.implements.iter().zip(&names.rows).flat_map(|(implements, row)| {
+        let interface = &shared.names.interfaces[implements.interface.0];
+        interface.cell.iter().map(move |cell| format!("cells.{}[robot.parameters.{row}].{cell}", interface.field))
+    });
+    RobotView {
+        keyword: automaton.name.clone(),
+        ty: names.ty.clone(),
+        module: names.module.clone(),
+        inputs: ports(Direction::Input),
+        outputs: ports(Direction::Output),
+        parameters: names.parameters.iter().chain(&names.roles).chain(&names.rows).cloned().collect(),
+        locals: names.locals.clone(),
+        cells: owned.collect(),
+    }
+}

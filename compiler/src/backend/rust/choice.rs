@@ -1,0 +1,204 @@
+//! The choice of a transition's variables: binders as nested loops.
+
+use super::context::Context;
+use super::walk::Uses;
+use crate::ir::{Binder, Clause, Domain, Scalar, Transition, VariableId};
+use std::fmt::Write;
+
+/// How a transition is tested.
+pub struct Test {
+    /// Behind `if`; `None` if it always fires.
+    pub condition: Option<String>,
+    /// The method that chooses, if there is one.
+    pub method: Option<String>,
+}
+
+/// A clause of a guard with binders: conditions have been put behind the binder after which they stand.
+struct Loop<'a> {
+    binder: &'a Binder,
+    conditions: Vec<String>,
+}
+
+impl Context<'_> {
+    pub fn test(&self, transition: &Transition, method: &str) -> Test {
+        let split = transition.clauses.iter().position(|c| matches!(c, Clause::Bind(_)));
+        let (leading, bound) = transition.clauses.split_at(split.unwrap_or(transition.clauses.len()));
+        let mut conditions = self.conditions(leading);
+        if bound.is_empty() {
+            let condition = (!conditions.is_empty()).then(|| conditions.join(" && "));
+            return Test { condition, method: None };
+        }
+        let loops = self.loops(bound);
+        let updates = Uses::of_updates(self.automaton(), &transition.updates);
+        let chosen: Vec<VariableId> =
+            loops.iter().map(|l| l.binder.variable).filter(|v| updates.variables.contains(v)).collect();
+        let is_simple = loops.len() == 1 && loops[0].binder.key.is_none();
+        if is_simple && chosen.is_empty() {
+            conditions.push(self.any(&loops[0], bound));
+            return Test { condition: Some(conditions.join(" && ")), method: None };
+        }
+        let names = tuple(chosen.iter().map(|v| self.variable(*v)));
+        let types = tuple(chosen.iter().map(|v| self.scalar(self.automaton().variables[v.0].ty.scalar)));
+        let uses = Uses::of_clauses(self.automaton(), bound);
+        let uses = Uses { cells: uses.cells.min(super::walk::Access::Read), ..uses };
+        let call = format!("self.{method}({})", self.arguments(&uses));
+        let (result, condition) = if chosen.is_empty() {
+            ("bool".to_string(), call)
+        } else {
+            (format!("Option<{types}>"), format!("let Some({names}) = {call}"))
+        };
+        conditions.push(condition);
+        let body = if is_simple { self.find(&loops[0]) } else { self.search(&loops, &chosen) };
+        let parameters = self.parameters(&uses);
+        let separator = if parameters.is_empty() { "" } else { ", " };
+        let method = format!("fn {method}(&self{separator}{parameters}) -> {result} {{ {body} }}");
+        Test { condition: Some(conditions.join(" && ")), method: Some(method) }
+    }
+
+    /// Conditions as operands of `&&`, without those that are always true.
+    pub fn conditions(&self, clauses: &[Clause]) -> Vec<String> {
+        let text = |clause: &Clause| match clause {
+            Clause::Condition(condition) => Some(self.conjunct(condition)).filter(|text| text != "true"),
+            Clause::Bind(_) => None,
+        };
+        clauses.iter().filter_map(text).collect()
+    }
+
+    fn loops<'c>(&self, clauses: &'c [Clause]) -> Vec<Loop<'c>> {
+        let mut loops: Vec<Loop> = Vec::new();
+        for clause in clauses {
+            match clause {
+                Clause::Bind(binder) => loops.push(Loop { binder, conditions: Vec::new() }),
+                Clause::Condition(_) => {
+                    if let Some(last) = loops.last_mut() {
+                        last.conditions.extend(self.conditions(std::slice::from_ref(clause)));
+                    }
+                }
+            }
+        }
+        loops
+    }
+
+    /// The condition of the binder and those behind it.
+    fn candidate(&self, step: &Loop) -> Vec<String> {
+        let own = step.binder.condition.as_ref().map(|c| self.conjunct(c)).filter(|text| text != "true");
+        own.into_iter().chain(step.conditions.iter().cloned()).collect()
+    }
+
+    fn any(&self, step: &Loop, clauses: &[Clause]) -> String {
+        let variable = step.binder.variable;
+        let is_read = Uses::of_clauses(self.automaton(), clauses).variables.contains(&variable);
+        let name = if is_read { self.variable(variable) } else { "_".into() };
+        let conditions = self.candidate(step);
+        let body = if conditions.is_empty() { "true".into() } else { conditions.join(" && ") };
+        format!("{}.any(|{name}| {body})", self.iterator(&step.binder.domain))
+    }
+
+    fn find(&self, step: &Loop) -> String {
+        let values = self.iterator(&step.binder.domain);
+        let conditions = self.candidate(step);
+        if conditions.is_empty() {
+            return format!("{values}.next()");
+        }
+        let condition = conditions.join(" && ");
+        let name = self.variable(step.binder.variable);
+        let reads = Uses::of_clauses(self.automaton(), &[Clause::Bind(step.binder.clone())]);
+        let is_read = reads.variables.contains(&step.binder.variable) || !step.conditions.is_empty();
+        let pattern = if is_read { format!("&{name}") } else { "_".into() };
+        format!("{values}.find(|{pattern}| {condition})")
+    }
+
+    /// Nested loops; each choice by a key remembers the best candidate with which the rest holds.
+    fn search(&self, loops: &[Loop], chosen: &[VariableId]) -> String {
+        let names = tuple(chosen.iter().map(|v| self.variable(*v)));
+        let (success, failure) = if chosen.is_empty() {
+            ("return true;".to_string(), "false")
+        } else {
+            (format!("return Some({names});"), "None")
+        };
+        if loops[0].binder.key.is_some() && !chosen.is_empty() {
+            return format!("{} best.map(|(_, chosen)| chosen)", self.best(loops, chosen, 0).0);
+        }
+        format!("{} {failure}", self.nested(loops, chosen, 0, &success))
+    }
+
+    fn nested(&self, loops: &[Loop], chosen: &[VariableId], depth: usize, success: &str) -> String {
+        let Some((step, rest)) = loops.split_first() else { return success.to_string() };
+        if step.binder.key.is_some() {
+            let (search, found) = self.best(loops, chosen, depth);
+            return format!("{search} if {found} {{ {success} }}");
+        }
+        let body = self.nested(rest, chosen, depth + 1, success);
+        let body = guarded(&self.candidate(step), &body);
+        let pattern = self.pattern(loops, chosen);
+        format!("for {pattern} in {} {{ {body} }}", self.values(&step.binder.domain))
+    }
+
+    /// The search for the best candidate, and the condition that there is one.
+    fn best(&self, loops: &[Loop], chosen: &[VariableId], depth: usize) -> (String, String) {
+        let (step, rest) = (&loops[0], &loops[1..]);
+        let Some(key) = &step.binder.key else { return Default::default() };
+        let number = if depth == 0 { String::new() } else { (depth + 1).to_string() };
+        let (best, key_name, label) = (format!("best{number}"), format!("key{number}"), format!("'best{number}"));
+        let kept: Vec<VariableId> =
+            loops.iter().map(|l| l.binder.variable).filter(|v| chosen.contains(v)).collect();
+        let names = tuple(kept.iter().map(|v| self.variable(*v)));
+        let types = tuple(kept.iter().map(|v| self.scalar(self.automaton().variables[v.0].ty.scalar)));
+        let key_type = if key.ty == Scalar::Real { "f64" } else { "i32" };
+        let (ty, value, least, found) = if kept.is_empty() {
+            (key_type.to_string(), key_name.clone(), "least", format!("{best}.is_some()"))
+        } else {
+            (
+                format!("({key_type}, {types})"),
+                format!("({key_name}, {names})"),
+                "(least, _)",
+                format!("let Some((_, {names})) = {best}"),
+            )
+        };
+        let again = if rest.is_empty() { String::new() } else { format!(" continue {label};") };
+        let success = format!("{best} = Some({value});{again}");
+        let inner = self.nested(rest, &kept, depth + 1, &success);
+        let mut better = vec![format!("{best}.is_none_or(|{least}| {key_name} < least)")];
+        better.extend(step.conditions.iter().cloned());
+        let body = format!("let {key_name} = {}; {}", self.expr(key), guarded(&better, &inner));
+        let own: Vec<String> =
+            step.binder.condition.iter().map(|c| self.conjunct(c)).filter(|text| text != "true").collect();
+        let body = guarded(&own, &body);
+        let label = if rest.is_empty() { String::new() } else { format!("{label}: ") };
+        let mut text = format!("let mut {best}: Option<{ty}> = None;");
+        let pattern = self.pattern(loops, chosen);
+        let _ = write!(text, "{label}for {pattern} in {} {{ {body} }}", self.values(&step.binder.domain));
+        (text, found)
+    }
+
+    /// The variable of the first loop, or `_` if nothing reads it.
+    fn pattern(&self, loops: &[Loop], chosen: &[VariableId]) -> String {
+        let variable = loops[0].binder.variable;
+        let clauses: Vec<Clause> = loops.iter().map(|l| Clause::Bind(l.binder.clone())).collect();
+        let name = self.variable(variable);
+        let is_word = |text: &String| text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').any(|w| *w == name);
+        let is_read = Uses::of_clauses(self.automaton(), &clauses).variables.contains(&variable)
+            || loops.iter().flat_map(|l| &l.conditions).any(is_word)
+            || chosen.contains(&variable);
+        if is_read { name } else { "_".into() }
+    }
+
+    /// A domain behind `in`.
+    fn values(&self, domain: &Domain) -> String {
+        match domain {
+            Domain::Enum(id) => format!("{}::ALL", self.names.enums[id.0].ty),
+            Domain::Range(low, high) => format!("{}..={}", self.expr(low), self.expr(high)),
+            Domain::Role(_) => self.iterator(domain),
+        }
+    }
+}
+
+fn guarded(conditions: &[String], body: &str) -> String {
+    if conditions.is_empty() { body.to_string() } else { format!("if {} {{ {body} }}", conditions.join(" && ")) }
+}
+
+/// One name, or several in brackets.
+fn tuple(names: impl Iterator<Item = String>) -> String {
+    let names: Vec<String> = names.collect();
+    if names.len() == 1 { names.concat() } else { format!("({})", names.join(", ")) }
+}

@@ -1,0 +1,248 @@
+//! Expressions.
+
+use super::context::Context;
+use super::walk::Uses;
+use crate::ir::{Domain, Expr, ExprKind, InterfaceId, Operator, Place, Scalar, Value, VariableId};
+use runtime_sim::device::Direction;
+
+/// How tightly the outermost operator of a text binds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Level {
+    Cast,
+    Or,
+    And,
+    Comparison,
+    Sum,
+    Product,
+    Unary,
+    Primary,
+}
+
+struct Code {
+    text: String,
+    level: Level,
+}
+
+impl Code {
+    fn primary(text: impl Into<String>) -> Self {
+        Self { text: text.into(), level: Level::Primary }
+    }
+
+    /// In brackets unless it binds at least so tightly.
+    fn at(self, level: Level) -> String {
+        if self.level >= level { self.text } else { format!("({})", self.text) }
+    }
+}
+
+impl Context<'_> {
+    pub fn expr(&self, expr: &Expr) -> String {
+        self.code(expr).text
+    }
+
+    /// As an operand of `&&`.
+    pub fn conjunct(&self, expr: &Expr) -> String {
+        self.code(expr).at(Level::And)
+    }
+
+    fn code(&self, expr: &Expr) -> Code {
+        match &expr.kind {
+            ExprKind::Constant(value) => constant(self.value(expr.ty, *value)),
+            ExprKind::Read(place) => Code::primary(self.place(place)),
+            ExprKind::Variable(id) => Code::primary(self.variable(*id)),
+            ExprKind::Define(define) => {
+                let uses = Uses::of_expr(self.automaton(), &self.automaton().defines[*define].value);
+                Code::primary(format!("self.{}({})", self.own().defines[*define], self.arguments(&uses)))
+            }
+            ExprKind::Own(interface) => Code::primary(self.own_row(*interface)),
+            ExprKind::After(time) => {
+                compared("self.elapsed".into(), ">=", self.code(time).at(Level::Sum))
+            }
+            ExprKind::Done => Code::primary("self.command_done()"),
+            ExprKind::Failed => Code::primary("self.command_failed()"),
+            ExprKind::Not(inner) => Code { text: format!("!{}", self.code(inner).at(Level::Unary)), level: Level::Unary },
+            ExprKind::Negate(inner) => {
+                Code { text: format!("-{}", self.code(inner).at(Level::Primary)), level: Level::Unary }
+            }
+            ExprKind::Binary(operator, a, b) => self.binary(*operator, a, b),
+            ExprKind::Min(a, b) => self.extreme(expr.ty, ["i32::min", "lesser"], a, b),
+            ExprKind::Max(a, b) => self.extreme(expr.ty, ["i32::max", "greater"], a, b),
+            ExprKind::Absolute(inner) => {
+                let ty = if expr.ty == Scalar::Real { "f64" } else { "i32" };
+                Code::primary(format!("{ty}::abs({})", self.expr(inner)))
+            }
+            ExprKind::ToReal(inner) => Code::primary(format!("f64::from({})", self.expr(inner))),
+            ExprKind::MakePoint(parts) => {
+                let [x, y, z] = &**parts;
+                Code::primary(format!("Point::new({}, {}, {})", self.expr(x), self.expr(y), self.expr(z)))
+            }
+            ExprKind::Coordinate(inner, axis) => {
+                let axis = ["x", "y", "z"][*axis];
+                Code::primary(format!("{}.{axis}", self.code(inner).at(Level::Primary)))
+            }
+            ExprKind::SquaredDistance(a, b) => {
+                Code::primary(format!("{}.squared_distance({})", self.code(a).at(Level::Primary), self.expr(b)))
+            }
+            ExprKind::Exists { variable, domain, body } => self.quantified("any", *variable, domain, body),
+            ExprKind::Forall { variable, domain, body } => self.quantified("all", *variable, domain, body),
+            ExprKind::Count { variable, domain, body } => {
+                let parameter = self.closure_parameter(*variable, &[body]);
+                let reference = if parameter == "_" { "_".into() } else { format!("&{parameter}") };
+                let text = format!("{}.filter(|{reference}| {}).count() as i32", self.iterator(domain), self.expr(body));
+                Code { text, level: Level::Cast }
+            }
+            ExprKind::Sum { variable, domain, body } => {
+                let parameter = self.closure_parameter(*variable, &[body]);
+                let zero = if expr.ty == Scalar::Real { "0.0" } else { "0" };
+                let summand = self.code(body).at(Level::Product);
+                Code::primary(format!("{}.fold({zero}, |sum, {parameter}| sum + {summand})", self.iterator(domain)))
+            }
+            ExprKind::Members(role) => {
+                Code { text: format!("self.parameters.{}.len() as i32", self.own().roles[role.0]), level: Level::Cast }
+            }
+            ExprKind::IsMember(value, role) => Code::primary(format!(
+                "self.parameters.{}.contains(&{})",
+                self.own().roles[role.0],
+                self.code(value).at(Level::Primary)
+            )),
+            ExprKind::Reaches(relation, from, to) => {
+                let relation = &self.names.relations[relation.0];
+                Code::primary(format!("wiring.{relation}.holds({}, {})", self.expr(from), self.expr(to)))
+            }
+        }
+    }
+
+    fn quantified(&self, method: &str, variable: VariableId, domain: &Domain, body: &Expr) -> Code {
+        let parameter = self.closure_parameter(variable, &[body]);
+        Code::primary(format!("{}.{method}(|{parameter}| {})", self.iterator(domain), self.expr(body)))
+    }
+
+    /// The name of a variable, or `_` if the expressions do not read it.
+    pub fn closure_parameter(&self, variable: VariableId, bodies: &[&Expr]) -> String {
+        let is_read = |body: &&Expr| Uses::of_expr(self.automaton(), body).variables.contains(&variable);
+        if bodies.iter().any(is_read) { self.variable(variable) } else { "_".into() }
+    }
+
+    /// The values of a domain in order.
+    pub fn iterator(&self, domain: &Domain) -> String {
+        match domain {
+            Domain::Role(role) => format!("self.parameters.{}.iter().copied()", self.own().roles[role.0]),
+            Domain::Enum(id) => format!("{}::ALL.into_iter()", self.names.enums[id.0].ty),
+            Domain::Range(low, high) => format!("({}..={})", self.expr(low), self.expr(high)),
+        }
+    }
+
+    fn extreme(&self, ty: Scalar, [whole, real]: [&str; 2], a: &Expr, b: &Expr) -> Code {
+        let function = if ty == Scalar::Real { real } else { whole };
+        Code::primary(format!("{function}({}, {})", self.expr(a), self.expr(b)))
+    }
+
+    fn binary(&self, operator: Operator, a: &Expr, b: &Expr) -> Code {
+        let is_whole = matches!(a.ty, Scalar::Int { .. } | Scalar::Time);
+        match operator {
+            Operator::Or => self.joined(Level::Or, "||", a, b),
+            Operator::And => self.joined(Level::And, "&&", a, b),
+            Operator::Equal | Operator::NotEqual => self.equality(operator, a, b),
+            Operator::Less => self.comparison("<", a, b),
+            Operator::LessEqual => self.comparison("<=", a, b),
+            Operator::Greater => self.comparison(">", a, b),
+            Operator::GreaterEqual => self.comparison(">=", a, b),
+            Operator::Add => self.joined(Level::Sum, "+", a, b),
+            Operator::Subtract => self.joined(Level::Sum, "-", a, b),
+            Operator::Multiply => self.joined(Level::Product, "*", a, b),
+            Operator::Divide if is_whole && !is_plain_divisor(b) => self.extreme(a.ty, ["quotient", ""], a, b),
+            Operator::Divide => self.joined(Level::Product, "/", a, b),
+            Operator::Modulo if is_plain_divisor(b) => self.joined(Level::Product, "%", a, b),
+            Operator::Modulo => self.extreme(a.ty, ["remainder", ""], a, b),
+        }
+    }
+
+    /// Operators of one level are evaluated from the left.
+    fn joined(&self, level: Level, operator: &str, a: &Expr, b: &Expr) -> Code {
+        let tighter = match level {
+            Level::Cast => Level::Or,
+            Level::Or => Level::And,
+            Level::And => Level::Comparison,
+            Level::Comparison => Level::Sum,
+            Level::Sum => Level::Product,
+            Level::Product => Level::Unary,
+            Level::Unary | Level::Primary => Level::Primary,
+        };
+        let text = format!("{} {operator} {}", self.code(a).at(level), self.code(b).at(tighter));
+        Code { text, level }
+    }
+
+    fn comparison(&self, operator: &str, a: &Expr, b: &Expr) -> Code {
+        compared(self.code(a).at(Level::Sum), operator, self.code(b).at(Level::Sum))
+    }
+
+    fn equality(&self, operator: Operator, a: &Expr, b: &Expr) -> Code {
+        let truth = |expr: &Expr| match expr.kind {
+            ExprKind::Constant(Value::Bool(truth)) => Some(truth),
+            _ => None,
+        };
+        let against = |truth: bool, other: &Expr| {
+            if truth == (operator == Operator::Equal) {
+                self.code(other)
+            } else {
+                Code { text: format!("!{}", self.code(other).at(Level::Unary)), level: Level::Unary }
+            }
+        };
+        match (truth(a), truth(b)) {
+            (_, Some(truth)) => against(truth, a),
+            (Some(truth), None) => against(truth, b),
+            (None, None) => self.comparison(if operator == Operator::Equal { "==" } else { "!=" }, a, b),
+        }
+    }
+
+    pub fn place(&self, place: &Place) -> String {
+        let index = |index: &Option<Box<Expr>>| index.as_ref().map_or(String::new(), |i| format!("[{}]", self.expr(i)));
+        match place {
+            Place::Local { local, index: i } => format!("self.{}{}", self.own().locals[*local], index(i)),
+            Place::Port { port, index: i } => {
+                let image = match self.automaton().device.ports[*port].direction {
+                    Direction::Input => "inputs",
+                    Direction::Output => "outputs",
+                };
+                format!("self.{image}.{}{}", self.own().ports[*port], index(i))
+            }
+            Place::Parameter { parameter, index: i } => {
+                format!("self.parameters.{}{}", self.own().parameters[*parameter], index(i))
+            }
+            Place::Cell { interface, cell, of, index: i } => {
+                let names = &self.names.interfaces[interface.0];
+                let row = of.as_ref().map_or_else(|| self.own_row(*interface), |of| self.expr(of));
+                format!("cells.{}[{row}].{}{}", names.field, names.cell[*cell], index(i))
+            }
+            Place::Shown { interface, parameter, of, index: i } => {
+                let names = &self.names.interfaces[interface.0];
+                format!("wiring.{}[{}].{}{}", names.field, self.expr(of), names.parameter[*parameter], index(i))
+            }
+        }
+    }
+
+    pub fn own_row(&self, interface: InterfaceId) -> String {
+        let position = self.automaton().implementing(interface);
+        position.map_or_else(
+            || format!("{}(0)", self.names.interfaces[interface.0].reference),
+            |p| format!("self.parameters.{}", self.own().rows[p]),
+        )
+    }
+
+    pub fn variable(&self, id: VariableId) -> String {
+        self.own().variables[id.0].clone()
+    }
+}
+
+fn constant(text: String) -> Code {
+    let level = if text.starts_with('-') { Level::Unary } else { Level::Primary };
+    Code { text, level }
+}
+
+fn compared(left: String, operator: &str, right: String) -> Code {
+    Code { text: format!("{left} {operator} {right}"), level: Level::Comparison }
+}
+
+/// Neither 0 nor -1, with which a division could overflow.
+fn is_plain_divisor(expr: &Expr) -> bool {
+    matches!(expr.kind, ExprKind::Constant(Value::Int(v)) if v != 0 && v != -1)
+}

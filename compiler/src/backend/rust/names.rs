@@ -1,0 +1,154 @@
+//! The identifiers of one system in Rust.
+
+use crate::ir::{Automaton, Enum, Interface, Relation, System};
+use crate::naming::{Scope, camel, screaming, snake};
+
+/// Types that generated modules have beside those of the specification.
+const TYPES: &[&str] = &[
+    "Array", "Cells", "Fault", "Inputs", "Outputs", "Parameters", "Point", "Reference", "Relation", "Robot", "Rows",
+    "State", "System", "SystemInputs", "SystemOutputs", "Table", "Verb", "Wiring", "Memory", "Deployed",
+];
+const MODULES: &[&str] =
+    &["cells", "core", "kinds", "line", "robot", "robots", "std", "system", "types", "controllers", "commissioning"];
+const FIELDS: &[&str] = &["parameters", "inputs", "outputs", "state", "elapsed"];
+const METHODS: &[&str] = &[
+    "new", "step", "invariants", "published", "limit", "enter", "command", "command_done", "command_failed", "fmt",
+    "clone",
+];
+const PARAMETERS: &[&str] = &["name"];
+const VARIABLES: &[&str] = &[
+    "best", "cells", "greater", "key", "lesser", "next_command", "place", "quotient", "remainder", "source", "store_point",
+    "store_real", "store_whole", "sum", "value", "wiring", "within",
+];
+const CELLS: &[&str] = &["cells", "robot", "robots", "scan_ms", "wiring", "words"];
+
+pub struct Names {
+    pub enums: Vec<EnumNames>,
+    pub interfaces: Vec<InterfaceNames>,
+    pub relations: Vec<String>,
+    pub automata: Vec<AutomatonNames>,
+    /// Modules of the robots.
+    pub robots: Vec<String>,
+}
+
+pub struct EnumNames {
+    pub ty: String,
+    pub members: Vec<String>,
+}
+
+pub struct InterfaceNames {
+    /// In `Cells` and `Wiring`.
+    pub field: String,
+    pub reference: String,
+    pub cells: String,
+    pub parameters: String,
+    pub cell: Vec<String>,
+    pub parameter: Vec<String>,
+    /// Constant of the line.
+    pub constant: String,
+}
+
+pub struct AutomatonNames {
+    pub module: String,
+    pub ty: String,
+    pub parameters: Vec<String>,
+    pub roles: Vec<String>,
+    /// The own row in each interface that is implemented.
+    pub rows: Vec<String>,
+    pub locals: Vec<String>,
+    pub defines: Vec<String>,
+    pub states: Vec<String>,
+    /// The method of each state.
+    pub methods: Vec<String>,
+    /// For each state and transition the method that chooses the values of its binders.
+    pub choices: Vec<Vec<String>>,
+    pub ports: Vec<String>,
+    pub verbs: Vec<String>,
+    pub variables: Vec<String>,
+}
+
+pub fn names(system: &System) -> Names {
+    let model = &system.model;
+    let mut types = Scope::rust(TYPES);
+    let enums = model.enums.iter().map(|e| enum_names(e, &mut types)).collect();
+    let mut fields = Scope::rust(CELLS);
+    let interfaces: Vec<_> = model.interfaces.iter().map(|i| interface_names(i, &mut types, &mut fields)).collect();
+    let relation = |r: &Relation| format!("{}_reaches_{}", interfaces[r.from.0].field, interfaces[r.to.0].field);
+    let relations = model.relations.iter().map(|r| fields.take(relation(r))).collect();
+    let mut modules = Scope::rust(MODULES);
+    let automata = model.automata.iter().map(|a| automaton_names(a, &interfaces, &mut types, &mut modules)).collect();
+    let mut robots = Scope::rust(MODULES);
+    let robots = system.instances.iter().map(|i| robots.take(snake(&i.name))).collect();
+    Names { enums, interfaces, relations, automata, robots }
+}
+
+fn enum_names(source: &Enum, types: &mut Scope) -> EnumNames {
+    let mut members = Scope::rust(&[]);
+    EnumNames {
+        ty: types.take(camel(&source.name)),
+        members: source.members.iter().map(|m| members.take(camel(m))).collect(),
+    }
+}
+
+fn interface_names(source: &Interface, types: &mut Scope, fields: &mut Scope) -> InterfaceNames {
+    let name = camel(&source.name);
+    let (mut cell, mut parameter) = (Scope::rust(&[]), Scope::rust(&[]));
+    InterfaceNames {
+        field: fields.take(snake(&source.name)),
+        reference: types.take(format!("{name}Ref")),
+        cells: types.take(format!("{name}Cells")),
+        parameters: types.take(format!("{name}Parameters")),
+        cell: source.cells.iter().map(|c| cell.take(snake(&c.name))).collect(),
+        parameter: source.parameters.iter().map(|p| parameter.take(snake(&p.name))).collect(),
+        constant: screaming(&source.name),
+    }
+}
+
+fn automaton_names(
+    source: &Automaton,
+    interfaces: &[InterfaceNames],
+    types: &mut Scope,
+    modules: &mut Scope,
+) -> AutomatonNames {
+    let mut parameters = Scope::rust(PARAMETERS);
+    let mut methods = Scope::rust(METHODS);
+    let (mut locals, mut states) = (Scope::rust(FIELDS), Scope::rust(&[]));
+    let (mut ports, mut verbs) = (Scope::rust(&[]), Scope::rust(&[]));
+    let method_of = |methods: &mut Scope, name: &str| methods.take(snake(name));
+    AutomatonNames {
+        module: modules.take(snake(&source.name)),
+        ty: types.take(camel(&source.name)),
+        parameters: source.parameters.iter().map(|p| parameters.take(snake(&p.name))).collect(),
+        roles: source.roles.iter().map(|r| parameters.take(snake(&r.name))).collect(),
+        rows: source
+            .implements
+            .iter()
+            .map(|i| parameters.take(format!("as_{}", interfaces[i.interface.0].field)))
+            .collect(),
+        locals: source.locals.iter().map(|l| locals.take(snake(&l.name))).collect(),
+        defines: source.defines.iter().map(|d| method_of(&mut methods, &d.name)).collect(),
+        states: source.states.iter().map(|s| states.take(camel(&s.name))).collect(),
+        methods: source.states.iter().map(|s| method_of(&mut methods, &s.name)).collect(),
+        choices: source.states.iter().map(|s| choices(&s.name, s.transitions.len(), &mut methods)).collect(),
+        ports: source.device.ports.iter().map(|p| ports.take(snake(p.name))).collect(),
+        verbs: source.device.verbs.iter().map(|v| verbs.take(camel(v.name))).collect(),
+        variables: variables(source),
+    }
+}
+
+fn choices(state: &str, transitions: usize, methods: &mut Scope) -> Vec<String> {
+    (0..transitions).map(|_| methods.take(format!("choose_in_{}", snake(state)))).collect()
+}
+
+/// Variables of one name never meet, so they may share the identifier.
+fn variables(source: &Automaton) -> Vec<String> {
+    let mut scope = Scope::rust(VARIABLES);
+    let mut known: Vec<(&str, String)> = Vec::new();
+    for variable in &source.variables {
+        if !known.iter().any(|(name, _)| *name == variable.name) {
+            known.push((&variable.name, scope.take(snake(&variable.name))));
+        }
+    }
+    let find = |name: &str| known.iter().find(|(n, _)| *n == name).map(|(_, i)| i.clone()).unwrap_or_default();
+    source.variables.iter().map(|v| find(&v.name)).collect()
+}

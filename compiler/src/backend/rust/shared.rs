@@ -1,0 +1,242 @@
+//! Modules that all automata share.
+
+use super::automaton::{invariant_uses, step_uses};
+use super::context::{Context, Shared, doc};
+use super::walk::{Access, Uses};
+use super::{format, render};
+use crate::ir::{AutomatonId, InterfaceId, Variable};
+use askama::Template;
+use runtime_sim::device::{Direction, PortType};
+
+#[derive(Template)]
+#[template(path = "rust/controllers/lib.rs")]
+struct Library {
+    files: String,
+    modules: Vec<String>,
+}
+
+pub fn library(shared: Shared) -> String {
+    let mut files: Vec<&str> =
+        shared.system.model.automata.iter().map(|a| shared.sources.file(a.place.file).name.as_str()).collect();
+    files.sort_unstable();
+    files.dedup();
+    let own = ["cells", "kinds", "line", "robot", "robots", "system", "types"].map(String::from);
+    let mut modules: Vec<String> =
+        own.into_iter().chain(shared.names.automata.iter().map(|a| a.module.clone())).collect();
+    modules.sort();
+    format::print(&render(&Library { files: files.join(", "), modules }))
+}
+
+#[derive(Template)]
+#[template(path = "rust/controllers/kinds.rs")]
+struct Kinds {
+    enums: Vec<EnumView>,
+}
+
+struct EnumView {
+    doc: String,
+    ty: String,
+    members: Vec<String>,
+}
+
+pub fn kinds(shared: Shared) -> String {
+    let enums = shared.system.model.enums.iter().zip(&shared.names.enums);
+    let enums = enums.map(|(e, n)| EnumView { doc: doc(&e.doc), ty: n.ty.clone(), members: n.members.clone() });
+    format::module(&render(&Kinds { enums: enums.collect() }), &shared.importable("crate"))
+}
+
+#[derive(Template)]
+#[template(path = "rust/controllers/cells.rs")]
+struct Cells {
+    interfaces: Vec<InterfaceView>,
+    relations: Vec<RelationView>,
+    has_cells: bool,
+    has_wiring: bool,
+}
+
+struct InterfaceView {
+    name: String,
+    doc: String,
+    field: String,
+    reference: String,
+    cells_type: String,
+    cells: Vec<Field>,
+    parameters_type: String,
+    parameters: Vec<Field>,
+}
+
+struct Field {
+    doc: String,
+    name: String,
+    ty: String,
+    initial: String,
+}
+
+struct RelationView {
+    doc: String,
+    name: String,
+}
+
+pub fn cells(shared: Shared) -> String {
+    let interfaces: Vec<InterfaceView> =
+        (0..shared.system.model.interfaces.len()).map(|i| interface(shared, InterfaceId(i))).collect();
+    let relations: Vec<RelationView> = (shared.system.model.relations.iter().zip(&shared.names.relations))
+        .map(|(relation, name)| {
+            let interface = |id: InterfaceId| &shared.system.model.interface(id).name;
+            let text = format!("Whether items can get from a `{}` to a `{}`.", interface(relation.from), interface(relation.to));
+            RelationView { doc: doc(&[text]), name: name.clone() }
+        })
+        .collect();
+    let has_cells = interfaces.iter().any(|i| !i.cells.is_empty());
+    let has_wiring = !relations.is_empty() || interfaces.iter().any(|i| !i.parameters.is_empty());
+    format::module(&render(&Cells { interfaces, relations, has_cells, has_wiring }), &shared.importable("crate"))
+}
+
+fn interface(shared: Shared, id: InterfaceId) -> InterfaceView {
+    let source = shared.system.model.interface(id);
+    let names = &shared.names.interfaces[id.0];
+    let cells = source.cells.iter().zip(&names.cell).map(|(cell, name)| Field {
+        doc: doc(&cell.doc),
+        name: name.clone(),
+        ty: shared.ty(cell.ty),
+        initial: shared.filled(cell.ty, cell.initial),
+    });
+    let parameters = source.parameters.iter().zip(&names.parameter).map(|(parameter, name)| Field {
+        doc: doc(&parameter.doc),
+        name: name.clone(),
+        ty: shared.ty(parameter.ty),
+        initial: nothing(shared, parameter),
+    });
+    InterfaceView {
+        name: source.name.clone(),
+        doc: doc(&source.doc),
+        field: names.field.clone(),
+        reference: names.reference.clone(),
+        cells_type: names.cells.clone(),
+        cells: cells.collect(),
+        parameters_type: names.parameters.clone(),
+        parameters: parameters.collect(),
+    }
+}
+
+/// What a member that is not there shows.
+fn nothing(shared: Shared, parameter: &Variable) -> String {
+    use crate::ir::{Scalar, Value};
+    let value = match parameter.ty.scalar {
+        Scalar::Bool => Value::Bool(false),
+        Scalar::Int { lo, hi } => Value::Int(0.clamp(lo, hi)),
+        Scalar::Real => Value::Real(0.0),
+        Scalar::Point => Value::Point([0.0; 3]),
+        Scalar::Time | Scalar::Enum(_) | Scalar::Ref(_) => Value::Int(0),
+    };
+    shared.filled(parameter.ty, value)
+}
+
+#[derive(Template)]
+#[template(path = "rust/controllers/system.rs")]
+struct SystemView {
+    uses_cells: bool,
+    limits_inputs: bool,
+    invariants: bool,
+    invariants_arguments: String,
+}
+
+#[derive(Template)]
+#[template(path = "rust/controllers/robot.rs")]
+struct RobotView {
+    robots: Vec<Variant>,
+    step_parameters: String,
+    limits_inputs: bool,
+    invariants: bool,
+    invariants_parameters: String,
+}
+
+struct Variant {
+    ty: String,
+    module: String,
+    step_arguments: String,
+    limits: bool,
+    has_invariants: bool,
+    invariants_arguments: String,
+}
+
+fn contexts<'a>(shared: Shared<'a>) -> impl Iterator<Item = Context<'a>> {
+    (0..shared.system.model.automata.len()).map(move |id| Context::new(shared, AutomatonId(id)))
+}
+
+fn limits(context: &Context) -> bool {
+    let is_whole = |ty: PortType| matches!(ty, PortType::Int { .. });
+    context.automaton().device.ports.iter().any(|p| p.direction == Direction::Input && is_whole(p.ty))
+}
+
+/// What the steps, and what the invariants, of all automata need.
+fn uses(shared: Shared) -> (Uses, Uses) {
+    let (mut steps, mut invariants) = (Uses::default(), Uses::default());
+    for context in contexts(shared) {
+        steps.join(step_uses(&context));
+        invariants.join(invariant_uses(&context));
+    }
+    (steps, invariants)
+}
+
+pub fn uses_cells(shared: Shared) -> bool {
+    let (steps, invariants) = uses(shared);
+    steps.cells.max(invariants.cells) != Access::None
+}
+
+pub fn system(shared: Shared) -> String {
+    let (_, invariants) = uses(shared);
+    let arguments = contexts(shared).next().map(|c| c.arguments(&invariants)).unwrap_or_default();
+    let view = SystemView {
+        uses_cells: uses_cells(shared),
+        limits_inputs: contexts(shared).any(|c| limits(&c)),
+        invariants: shared.system.model.automata.iter().any(|a| !a.invariants.is_empty()),
+        invariants_arguments: arguments,
+    };
+    format::print(&render(&view))
+}
+
+pub fn robot(shared: Shared) -> String {
+    let (_, invariants) = uses(shared);
+    let robots: Vec<Variant> = contexts(shared)
+        .map(|context| Variant {
+            ty: context.own().ty.clone(),
+            module: context.own().module.clone(),
+            step_arguments: context.arguments(&step_uses(&context)),
+            limits: limits(&context),
+            has_invariants: !context.automaton().invariants.is_empty(),
+            invariants_arguments: context.arguments(&invariant_uses(&context)),
+        })
+        .collect();
+    let view = RobotView {
+        step_parameters: if uses_cells(shared) { "wiring: &Wiring, cells: &mut Cells" } else { "wiring: &Wiring" }.into(),
+        limits_inputs: robots.iter().any(|r| r.limits),
+        invariants: robots.iter().any(|r| r.has_invariants),
+        invariants_parameters: contexts(shared).next().map(|c| c.parameters(&invariants)).unwrap_or_default(),
+        robots,
+    };
+    format::module(&render(&view), &shared.importable("crate"))
+}
+
+impl Shared<'_> {
+    /// What modules can import from the crate of controllers, which has this name.
+    pub fn importable(&self, name: &str) -> Vec<(String, Vec<String>)> {
+        let own = |names: &[&str]| names.iter().map(|n| n.to_string()).collect::<Vec<_>>();
+        let mut cells = own(&["Cells", "Wiring"]);
+        for interface in &self.names.interfaces {
+            cells.extend([&interface.cells, &interface.parameters, &interface.reference].map(String::clone));
+        }
+        cells.sort();
+        let mut kinds: Vec<String> = self.names.enums.iter().map(|e| e.ty.clone()).collect();
+        kinds.sort();
+        let mut all = vec![(format!("{name}::cells"), cells), (format!("{name}::kinds"), kinds)];
+        all.extend([("robot", own(&["Robot"])), ("types", own(TYPES))].map(|(m, names)| (format!("{name}::{m}"), names)));
+        all
+    }
+
+}
+
+const TYPES: &[&str] = &[
+    "Array", "Fault", "Point", "Reference", "Relation", "Rows", "Table", "greater", "lesser", "next_command", "quotient",
+    "remainder", "store_point", "store_real", "store_whole", "within",
+];

@@ -1,0 +1,110 @@
+//! The method of a state: its transitions, tested in order.
+
+use super::context::Context;
+use super::format::comment;
+use super::walk::Uses;
+use crate::ir::State;
+
+/// Methods of one state.
+pub struct Methods {
+    /// The arm of `match self.state`.
+    pub arm: String,
+    /// The method of the state, and those that choose for its transitions.
+    pub text: String,
+    pub uses: Uses,
+    pub commands: bool,
+}
+
+impl Context<'_> {
+    pub fn state(&self, number: usize) -> Methods {
+        let state = &self.automaton().states[number];
+        let names = self.own();
+        let variant = &names.states[number];
+        let uses = self.state_uses(state);
+        if state.transitions.is_empty() && state.within.is_none() {
+            return Methods { arm: format!("State::{variant} => Ok(()),"), text: String::new(), uses, commands: false };
+        }
+        let method = &names.methods[number];
+        let end = state.within.as_ref().map_or_else(
+            || "Ok(())".to_string(),
+            |(longest, fault)| format!("within(self.elapsed, {}, {})", self.expr(longest), self.fault(*fault)),
+        );
+        let mut body = String::new();
+        let mut choices = String::new();
+        let mut always = false;
+        let mut commands = false;
+        for (i, transition) in state.transitions.iter().enumerate() {
+            let test = self.test(transition, &names.choices[number][i]);
+            if let Some(choice) = test.method {
+                choices += &format!("/// What the transition at {} chooses.\n{choice}\n", self.line(transition.place));
+            }
+            commands |= gives_command(transition);
+            body += &comment(&self.title(number, i));
+            let mut block: String = transition.updates.iter().map(|u| self.update(u)).collect();
+            let target = transition.target.map(|t| &names.states[t.0]);
+            if let Some(target) = target {
+                block += &format!("self.enter(State::{target});");
+            }
+            let result = if target.is_some() { "Ok(())" } else { end.as_str() };
+            let Some(condition) = test.condition else {
+                body += &block;
+                body += result;
+                always = true;
+                break;
+            };
+            // The last one may run on into the end of the method.
+            let is_last = i + 1 == state.transitions.len() && result == end;
+            let leave = if is_last { String::new() } else { format!("return {result};") };
+            body += &format!("if {condition} {{ {block} {leave} }}\n");
+        }
+        if !always {
+            body += &end;
+        }
+        let parameters = self.parameters(&uses);
+        let separator = if parameters.is_empty() { "" } else { ", " };
+        let title = if number == 0 {
+            "/// The first step.\n".to_string()
+        } else {
+            format!("/// A step in [`State::{variant}`].\n")
+        };
+        Methods {
+            arm: format!("State::{variant} => self.{method}({}),", self.arguments(&uses)),
+            text: format!(
+                "{title}fn {method}(&mut self{separator}{parameters}) -> Result<(), Fault> {{ {body} }}\n{choices}"
+            ),
+            uses,
+            commands,
+        }
+    }
+
+    /// `agv.aut:12: when done -> Dropping`
+    fn title(&self, state: usize, transition: usize) -> String {
+        let automaton = self.automaton();
+        let transition = &automaton.states[state].transitions[transition];
+        let target = transition.target.map(|t| format!(" -> {}", automaton.states[t.0].name)).unwrap_or_default();
+        let when = if state == 0 { "" } else { "when " };
+        format!("{}: {when}{}{target}", self.line(transition.place), transition.text)
+    }
+
+    fn state_uses(&self, state: &State) -> Uses {
+        let mut uses = Uses::default();
+        for transition in &state.transitions {
+            uses.join(Uses::of_transition(self.automaton(), transition));
+            if self.conditions(&transition.clauses).is_empty() && is_plain(transition) {
+                break;
+            }
+        }
+        if let Some((longest, _)) = &state.within {
+            uses.expr(self.automaton(), longest);
+        }
+        uses
+    }
+}
+
+fn is_plain(transition: &crate::ir::Transition) -> bool {
+    transition.clauses.iter().all(|c| matches!(c, crate::ir::Clause::Condition(_)))
+}
+
+fn gives_command(transition: &crate::ir::Transition) -> bool {
+    transition.updates.iter().any(|u| matches!(u.kind, crate::ir::UpdateKind::Command { .. }))
+}

@@ -1,0 +1,35 @@
+//! `autogen graph`.
+
+use super::options::GraphOptions;
+use super::{load, print};
+use crate::Status;
+use autogen::backend::{dot, plan};
+use autogen::lower::compile;
+
+pub fn run(options: &GraphOptions) -> Status {
+    let input = match load::load(&options.input) {
+        Ok(input) => input,
+        Err(failure) => return print::failure(&options.input, &failure),
+    };
+    let outcome = compile(input);
+    let Some(project) = outcome.project else {
+        print::diagnostics(&outcome.sources, &outcome.diagnostics);
+        return Status::WrongInput;
+    };
+    if options.of == "plan" {
+        print!("{}", plan::svg(&project.plant, &project.edges, &project.obstacles));
+        return Status::Done;
+    }
+    let files = dot::files(&project.system, &project.edges);
+    match files.get(&format!("{}.dot", options.of)) {
+        Some(text) => {
+            print!("{text}");
+            Status::Done
+        }
+        None => {
+            let known: Vec<&str> = files.keys().map(|name| name.trim_end_matches(".dot")).collect();
+            eprintln!("autogen: there is no graph of `{}`; there are plan, {}", options.of, known.join(", "));
+            Status::WrongCommand
+        }
+    }
+}

@@ -1,0 +1,119 @@
+//! Identifiers of generated code, made from the names of a specification.
+
+use std::collections::BTreeSet;
+
+/// Keywords of Rust, reserved ones included, and the names of its prelude that generated code uses.
+const RUST: &[&str] = &[
+    "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate", "do", "dyn", "else",
+    "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let", "loop", "macro", "match", "mod",
+    "move", "mut", "override", "priv", "pub", "ref", "return", "self", "static", "struct", "super", "trait", "true",
+    "try", "type", "typeof", "unsafe", "unsized", "use", "virtual", "where", "while", "yield", "Self", "Some", "None",
+    "Ok", "Err", "Option", "Result", "Default", "Into", "From", "Copy", "Clone", "Iterator", "Box", "Vec", "String",
+];
+
+/// Names that stand side by side, all different.
+#[derive(Clone, Debug, Default)]
+pub struct Scope {
+    reserved: &'static [&'static str],
+    taken: BTreeSet<String>,
+}
+
+impl Scope {
+    /// A scope of Rust in which generated code has these names itself.
+    pub fn rust(reserved: &'static [&'static str]) -> Self {
+        Self { reserved, taken: BTreeSet::new() }
+    }
+
+    /// The wanted identifier; with an underscore behind it if it has another meaning,
+    /// with a number behind it if it was given away before.
+    pub fn take(&mut self, wanted: String) -> String {
+        let is_used = RUST.contains(&wanted.as_str()) || self.reserved.contains(&wanted.as_str());
+        let wanted = if is_used { wanted + "_" } else { wanted };
+        let name = (1..)
+            .map(|n| if n == 1 { wanted.clone() } else { format!("{wanted}{n}") })
+            .find(|name| !self.taken.contains(name))
+            .unwrap_or_default();
+        self.taken.insert(name.clone());
+        name
+    }
+}
+
+/// The words of a name: `seen_at`, `SeenAt` and `Seen.at` have the same two.
+fn words(name: &str) -> Vec<String> {
+    let mut words: Vec<String> = Vec::new();
+    let mut begins = true;
+    let letters: Vec<char> = name.chars().collect();
+    for (i, &c) in letters.iter().enumerate() {
+        if !c.is_ascii_alphanumeric() {
+            begins = true;
+            continue;
+        }
+        let before = i.checked_sub(1).map(|i| letters[i]);
+        let after = letters.get(i + 1);
+        let rises = c.is_ascii_uppercase()
+            && (before.is_some_and(|b| b.is_ascii_lowercase() || b.is_ascii_digit())
+                || (before.is_some_and(|b| b.is_ascii_uppercase()) && after.is_some_and(|a| a.is_ascii_lowercase())));
+        if begins || rises {
+            words.push(String::new());
+        }
+        begins = false;
+        if let Some(word) = words.last_mut() {
+            word.push(c.to_ascii_lowercase());
+        }
+    }
+    if !words.first().is_some_and(|w| w.starts_with(|c: char| c.is_ascii_lowercase())) {
+        words.insert(0, "n".into());
+    }
+    words
+}
+
+/// `seen_at`
+pub fn snake(name: &str) -> String {
+    words(name).join("_")
+}
+
+/// `SEEN_AT`
+pub fn screaming(name: &str) -> String {
+    snake(name).to_ascii_uppercase()
+}
+
+/// `SeenAt`
+pub fn camel(name: &str) -> String {
+    let capital = |word: String| {
+        let mut letters = word.chars();
+        letters.next().map(|c| c.to_ascii_uppercase()).into_iter().chain(letters).collect::<String>()
+    };
+    words(name).into_iter().map(capital).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_are_found_in_any_spelling() {
+        let all = ["all_loaded", "AllLoaded", "Picking.1", "AGV", "UR10Arm", "agv1", "12V", "x__y"];
+        let made: Vec<_> = all.iter().map(|n| (snake(n), camel(n), screaming(n))).collect();
+        let made: Vec<_> = made.iter().map(|(s, c, u)| (s.as_str(), c.as_str(), u.as_str())).collect();
+        assert_eq!(
+            made,
+            [
+                ("all_loaded", "AllLoaded", "ALL_LOADED"),
+                ("all_loaded", "AllLoaded", "ALL_LOADED"),
+                ("picking_1", "Picking1", "PICKING_1"),
+                ("agv", "Agv", "AGV"),
+                ("ur10_arm", "Ur10Arm", "UR10_ARM"),
+                ("agv1", "Agv1", "AGV1"),
+                ("n_12_v", "N12V", "N_12_V"),
+                ("x_y", "XY", "X_Y"),
+            ]
+        );
+    }
+
+    #[test]
+    fn a_scope_gives_each_name_once() {
+        let mut scope = Scope::rust(&["state"]);
+        let given: Vec<_> = ["type", "state", "x", "x", "x", "Self"].map(|n| scope.take(n.into())).into();
+        assert_eq!(given, ["type_", "state_", "x", "x2", "x3", "Self_"]);
+    }
+}

@@ -1,0 +1,51 @@
+//! The controllers as the simulator meets them.
+
+use crate::adapters::{Layout, latch, publish};
+use controllers::system::{self, System};
+use runtime_sim::scan::{Controllers, SystemInputs, SystemOutputs};
+use runtime_sim::words::Words;
+
+/// The controllers of a layout, and their system.
+pub struct Deployed {
+    layout: Layout,
+    system: System,
+}
+
+impl Deployed {
+    /// With the layout for which the controllers were made.
+    pub fn compiled() -> Self {
+        Self { layout: Layout::compiled(), system: System::new() }
+    }
+
+    /// With a layout from text.
+    pub fn read(text: &str) -> Result<Self, String> {
+        Ok(Self { layout: Layout::read(&mut Words::new(text))?, system: System::new() })
+    }
+
+    pub fn robots(&self) -> usize {
+        self.layout.robots.len()
+    }
+}
+
+impl Controllers for Deployed {
+    fn scan(&mut self, system: SystemInputs, inputs: &[Vec<f64>], outputs: &mut [Vec<f64>]) -> SystemOutputs {
+        for (robot, image) in self.layout.robots.iter_mut().zip(inputs) {
+            latch(robot, image);
+        }
+        let SystemInputs { run_permit, start, reset } = system;
+        let answer = self.layout.scan(&mut self.system, system::SystemInputs { run_permit, start, reset });
+        for (robot, image) in self.layout.robots.iter().zip(outputs) {
+            publish(robot, answer.running, image);
+        }
+        let system::SystemOutputs { running, fault, fault_code, fault_robot } = answer;
+        SystemOutputs { running, fault, fault_code, fault_robot }
+    }
+
+    fn state(&self, machine: usize) -> usize {
+        self.layout.robots[machine].state()
+    }
+
+    fn trace(&self, out: &mut Vec<f64>) {
+        self.layout.trace(out);
+    }
+}

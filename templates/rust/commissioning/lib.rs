@@ -1,0 +1,6 @@
+//! The controllers of a line, linked with the simulator.
+
+pub mod adapters;
+pub mod deployed;
+pub mod image;
+pub mod read;

@@ -1,0 +1,104 @@
+//! Runs the controllers against the simulator, and prints the report as JSON.
+//!
+//! `commissioning LINE PARAMETERS [--hashes FILE] [--progress]`: both are texts that autogen wrote.
+//! `commissioning --replay PARAMETERS`: no simulator. Each line of the standard input holds a scan:
+//! `run_permit start reset`, then the inputs of all robots, the number of each robot's words before them.
+//! Answered with a line of the bits, in hexadecimal, of the system's outputs, the published outputs and the trace.
+
+use commissioning::deployed::Deployed;
+use runtime_sim::line::Line;
+use runtime_sim::run::{Seen, run};
+use runtime_sim::scan::{Controllers, SystemInputs};
+use runtime_sim::words::Words;
+use std::fmt::Write as _;
+use std::io::{BufRead, BufWriter, Write};
+use std::process::ExitCode;
+use std::{env, fs, io};
+
+fn main() -> ExitCode {
+    match start(&env::args().skip(1).collect::<Vec<_>>()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(text) => {
+            eprintln!("commissioning: {text}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn start(arguments: &[String]) -> Result<(), String> {
+    let mut files = Vec::new();
+    let mut hashes = None;
+    let (mut progress, mut replays) = (false, false);
+    let mut rest = arguments.iter();
+    while let Some(argument) = rest.next() {
+        match argument.as_str() {
+            "--hashes" => hashes = Some(rest.next().ok_or("`--hashes` wants a file")?),
+            "--progress" => progress = true,
+            "--replay" => replays = true,
+            _ => files.push(argument),
+        }
+    }
+    match (files.as_slice(), replays) {
+        ([parameters], true) => replay(&mut Deployed::read(&text(parameters)?)?),
+        ([line, parameters], false) => {
+            let line = Line::from_text(&text(line)?)?;
+            let deployed = Deployed::read(&text(parameters)?)?;
+            simulate(&line, deployed, hashes, progress)
+        }
+        _ => Err("wants LINE PARAMETERS [--hashes FILE] [--progress], or --replay PARAMETERS".into()),
+    }
+}
+
+fn text(path: &str) -> Result<String, String> {
+    fs::read_to_string(path).map_err(|e| format!("{path}: {e}"))
+}
+
+fn simulate(line: &Line, mut deployed: Deployed, hashes: Option<&String>, progress: bool) -> Result<(), String> {
+    if deployed.robots() != line.machines.len() {
+        return Err(format!("{} robots for {} machines", deployed.robots(), line.machines.len()));
+    }
+    let mut kept = String::new();
+    let mut observe = |seen: &Seen| {
+        if hashes.is_some() {
+            let _ = writeln!(kept, "{:016x}", seen.hash);
+        }
+        let seconds = seen.scan * u64::from(line.scan_ms) / 1000;
+        if progress && seen.scan * u64::from(line.scan_ms) % 10_000 == 0 {
+            eprint!("\r{seconds} s");
+        }
+    };
+    let report = run(line, &mut deployed, &mut observe)?;
+    if progress {
+        eprintln!();
+    }
+    if let Some(path) = hashes {
+        fs::write(path, kept).map_err(|e| format!("{path}: {e}"))?;
+    }
+    println!("{}", report.to_json());
+    Ok(())
+}
+
+fn replay(deployed: &mut Deployed) -> Result<(), String> {
+    let mut out = BufWriter::new(io::stdout().lock());
+    let mut outputs = vec![Vec::new(); deployed.robots()];
+    for line in io::stdin().lock().lines() {
+        let line = line.map_err(|e| e.to_string())?;
+        let mut words = Words::new(&line);
+        let mut flag = || Ok::<bool, String>(words.int::<u8>()? != 0);
+        let system = SystemInputs { run_permit: flag()?, start: flag()?, reset: flag()? };
+        let number = |w: &mut Words| w.name()?.parse::<f64>().map_err(|e| e.to_string());
+        let inputs = (0..outputs.len()).map(|_| words.list(number)).collect::<Result<Vec<_>, String>>()?;
+        let answer = deployed.scan(system, &inputs, &mut outputs);
+        let mut all = vec![
+            f64::from(u8::from(answer.running)),
+            f64::from(u8::from(answer.fault)),
+            f64::from(answer.fault_code),
+            f64::from(answer.fault_robot),
+        ];
+        all.extend(outputs.iter().flatten());
+        deployed.trace(&mut all);
+        let bits: Vec<String> = all.iter().map(|word| format!("{:x}", word.to_bits())).collect();
+        writeln!(out, "{}", bits.join(" ")).map_err(|e| e.to_string())?;
+    }
+    Ok(())
+}

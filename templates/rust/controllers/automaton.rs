@@ -1,0 +1,181 @@
+//! {{ title }}
+//!
+{%- for line in about %}
+//! {{ line }}
+{%- endfor %}
+//!
+//! Device {{ device }}
+//! This is no safety function.
+
+/// What the layout fixes for one of them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parameters<'a> {
+    pub name: &'a str,
+    {%- for field in parameters %}
+    {{ field.doc }}
+    pub {{ field.name }}: {{ field.ty }},
+    {%- endfor %}
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum State {
+    {%- for state in states %}
+    {{ state.doc }}
+    {{ state.name }},
+    {%- endfor %}
+}
+{%- if commands %}
+
+/// What a command asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verb {
+    {%- for verb in verbs %}
+    {{ verb.doc }}
+    {{ verb.name }} = {{ verb.initial }},
+    {%- endfor %}
+}
+{%- endif %}
+
+/// What the device reports.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Inputs {
+    {%- for field in inputs %}
+    {{ field.doc }}
+    pub {{ field.name }}: {{ field.ty }},
+    {%- endfor %}
+}
+{%- if !limits.is_empty() %}
+
+impl Inputs {
+    /// Limits whole numbers to the bounds that the device declares.
+    pub fn limit(&mut self) {
+        {%- for limit in limits %}
+        {{ limit }}
+        {%- endfor %}
+    }
+}
+{%- endif %}
+
+/// What the device is told.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outputs {
+    {%- for field in outputs %}
+    {{ field.doc }}
+    pub {{ field.name }}: {{ field.ty }},
+    {%- endfor %}
+}
+
+impl Outputs {
+    /// What is published while the system does not run.
+    pub fn stopped(self) -> Self {
+        {%- if stops.is_empty() %}
+        self
+        {%- else %}
+        Self {
+            {%- for stop in stops %}
+            {{ stop }}
+            {%- endfor %}
+            {%- if !holds_all %}
+            ..self
+            {%- endif %}
+        }
+        {%- endif %}
+    }
+}
+
+#[derive(Clone, Debug)]
+pub struct {{ ty }}<'a> {
+    pub parameters: &'a Parameters<'a>,
+    pub inputs: Inputs,
+    pub outputs: Outputs,
+    pub state: State,
+    /// Time in the present state, in ms.
+    pub elapsed: i32,
+    {%- for field in locals %}
+    {{ field.doc }}
+    pub {{ field.name }}: {{ field.ty }},
+    {%- endfor %}
+}
+
+impl<'a> {{ ty }}<'a> {
+    pub const fn new(parameters: &'a Parameters<'a>) -> Self {
+        Self {
+            parameters,
+            inputs: Inputs {
+                {%- for field in inputs %}
+                {{ field.name }}: {{ field.initial }},
+                {%- endfor %}
+            },
+            outputs: Outputs {
+                {%- for field in outputs %}
+                {{ field.name }}: {{ field.initial }},
+                {%- endfor %}
+            },
+            state: State::{{ first_state }},
+            elapsed: 0,
+            {%- for field in locals %}
+            {{ field.name }}: {{ field.initial }},
+            {%- endfor %}
+        }
+    }
+
+    /// The first transition of the present state whose guard holds fires; at most one.
+    pub fn step(&mut self, {{ step_parameters }}) -> Result<(), Fault> {
+        self.elapsed = self.elapsed.saturating_add(wiring.scan_ms);
+        match self.state {
+            {%- for arm in arms %}
+            {{ arm }}
+            {%- endfor %}
+        }
+    }
+
+    /// What the device is told in this scan.
+    pub fn published(&self, running: bool) -> Outputs {
+        if running { self.outputs } else { self.outputs.stopped() }
+    }
+    {%- if !invariants.is_empty() %}
+
+    /// What holds at the end of every scan.
+    pub fn invariants(&self, {{ invariant_parameters }}) -> Result<(), Fault> {
+        {%- for invariant in invariants %}
+        {{ invariant }}
+        {%- endfor %}
+        Ok(())
+    }
+    {%- endif %}
+    {%- for method in methods %}
+
+    {{ method }}
+    {%- endfor %}
+    {%- for define in defines %}
+
+    {{ define }}
+    {%- endfor %}
+
+    fn enter(&mut self, state: State) {
+        self.state = state;
+        self.elapsed = 0;
+    }
+    {%- if commands %}
+
+    /// Gives a command under a new number; its arguments have been written.
+    fn command(&mut self, verb: Verb) {
+        self.outputs.verb = verb as i32;
+        self.outputs.cmd = next_command(self.outputs.cmd, self.inputs.got, self.inputs.ack);
+    }
+    {%- endif %}
+    {%- if done %}
+
+    /// The last command has ended well.
+    fn command_done(&self) -> bool {
+        self.outputs.cmd != 0 && self.inputs.ack == self.outputs.cmd && self.inputs.error == 0
+    }
+    {%- endif %}
+    {%- if failed %}
+
+    /// The last command has ended in error.
+    fn command_failed(&self) -> bool {
+        self.outputs.cmd != 0 && self.inputs.ack == self.outputs.cmd && self.inputs.error != 0
+    }
+    {%- endif %}
+}

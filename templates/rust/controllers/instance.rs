@@ -1,0 +1,14 @@
+//! `{{ name }}`: number {{ number }} of {{ count }} in the order of the steps, of type [`{{ ty }}`](crate::{{ module }}::{{ ty }}).
+{%- for role in roles %}
+//!
+//! {{ role }}
+{%- endfor %}
+
+use crate::{{ module }}::Parameters;
+
+pub const PARAMETERS: Parameters = Parameters {
+    name: "{{ name }}",
+    {%- for (name, value) in fields %}
+    {{ name }}: {{ value }},
+    {%- endfor %}
+};

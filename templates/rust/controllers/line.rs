@@ -1,0 +1,75 @@
+//! This line: its robots, what they show to each other, and room for their cells.
+
+use crate::robots;
+{%- for (module, ty) in types %}
+use crate::{{ module }}::{{ ty }};
+{%- endfor %}
+
+{%- for interface in interfaces %}
+{%- if interface.has_parameters %}
+
+const {{ interface.constant }}: [{{ interface.parameters_type }}; {{ interface.count }}] = [
+    {%- for row in interface.rows %}
+    {{ interface.parameters_type }} {
+        {%- for (name, value) in row %}
+        {{ name }}: {{ value }},
+        {%- endfor %}
+    },
+    {%- endfor %}
+];
+{%- endif %}
+{%- endfor %}
+
+pub const WIRING: Wiring = Wiring {
+    scan_ms: {{ scan_ms }},
+    {%- for interface in interfaces %}
+    {%- if interface.has_parameters %}
+    {{ interface.field }}: Rows::new(&{{ interface.constant }}, {{ interface.parameters_type }}::NONE),
+    {%- endif %}
+    {%- endfor %}
+    {%- for (name, value) in relations %}
+    {{ name }}: {{ value }},
+    {%- endfor %}
+};
+
+/// All robots, in the order in which they step.
+pub const fn robots() -> [Robot<'static>; {{ robots.len() }}] {
+    [
+        {%- for robot in robots %}
+        Robot::{{ robot.ty }}({{ robot.ty }}::new(&robots::{{ robot.module }}::PARAMETERS)),
+        {%- endfor %}
+    ]
+}
+{%- if has_cells %}
+
+/// Room for the cells of all robots.
+#[derive(Clone, Debug)]
+pub struct Memory {
+    {%- for interface in interfaces %}
+    {%- if interface.has_cells %}
+    pub {{ interface.field }}: [{{ interface.cells_type }}; {{ interface.count }}],
+    {%- endif %}
+    {%- endfor %}
+}
+
+impl Memory {
+    /// What the cells hold at first.
+    pub const NEW: Self = Self {
+        {%- for interface in interfaces %}
+        {%- if interface.has_cells %}
+        {{ interface.field }}: [{{ interface.cells_type }}::NEW; {{ interface.count }}],
+        {%- endif %}
+        {%- endfor %}
+    };
+
+    pub fn cells(&mut self) -> Cells<'_> {
+        Cells {
+            {%- for interface in interfaces %}
+            {%- if interface.has_cells %}
+            {{ interface.field }}: Table::new(&mut self.{{ interface.field }}, {{ interface.cells_type }}::NEW),
+            {%- endif %}
+            {%- endfor %}
+        }
+    }
+}
+{%- endif %}

@@ -1,0 +1,117 @@
+//! All controllers of the line in one scan.
+//!
+//! Inputs are latched, the robots step one after another in the order of the layout, then outputs are
+//! published. After power-up nothing moves before a rising edge of `start`. This is no safety function.
+
+use crate::cells::{% if uses_cells %}{Cells, Wiring}{% else %}Wiring{% endif %};
+use crate::robot::Robot;
+use crate::types::Fault;
+
+/// Inputs of the system as a whole.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SystemInputs {
+    /// False while the emergency stop has acted or the fieldbus is lost.
+    pub run_permit: bool,
+    /// Acts on its rising edge.
+    pub start: bool,
+    /// Clears a fault on its rising edge; all values are kept.
+    pub reset: bool,
+}
+
+/// Outputs of the system as a whole.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SystemOutputs {
+    pub running: bool,
+    pub fault: bool,
+    /// 0 without a fault.
+    pub fault_code: i32,
+    /// Number of the robot that raised the fault, from 0 in layout order; -1 if none did.
+    pub fault_robot: i32,
+}
+
+/// What the system remembers from scan to scan, beside robots and cells.
+#[derive(Clone, Debug)]
+pub struct System {
+    running: bool,
+    /// The first fault, and the robot that raised it.
+    fault: Option<(Fault, usize)>,
+    start_before: bool,
+    reset_before: bool,
+}
+
+impl System {
+    pub const fn new() -> Self {
+        Self { running: false, fault: None, start_before: true, reset_before: true }
+    }
+
+    pub fn fault(&self) -> Option<Fault> {
+        self.fault.map(|(fault, _)| fault)
+    }
+
+    /// One scan. The caller has written the inputs of the robots, and publishes what
+    /// `published` of each robot gives when it is told whether the system runs.
+    pub fn scan(
+        &mut self,
+        inputs: SystemInputs,
+        wiring: &Wiring,
+        robots: &mut [Robot],
+        {%- if uses_cells %}
+        cells: &mut Cells,
+        {%- endif %}
+    ) -> SystemOutputs {
+        {%- if limits_inputs %}
+        for robot in robots.iter_mut() {
+            robot.limit_inputs();
+        }
+        {%- endif %}
+        let faulted_before = self.fault.is_some();
+        if inputs.reset && !self.reset_before {
+            self.fault = None;
+        }
+        let start = inputs.start && !self.start_before;
+        self.start_before = inputs.start;
+        self.reset_before = inputs.reset;
+        if !inputs.run_permit || self.fault.is_some() {
+            self.running = false;
+        } else if start && !faulted_before {
+            self.running = true;
+        }
+        if self.running
+            && let Err(fault) = run(wiring, robots{% if uses_cells %}, cells{% endif %})
+        {
+            self.fault = Some(fault);
+            self.running = false;
+        }
+        SystemOutputs {
+            running: self.running,
+            fault: self.fault.is_some(),
+            fault_code: self.fault.map_or(0, |(fault, _)| fault.code),
+            fault_robot: self.fault.map_or(-1, |(_, robot)| robot as i32),
+        }
+    }
+}
+
+impl Default for System {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// A step of each robot, up to the first fault.
+fn run(
+    wiring: &Wiring,
+    robots: &mut [Robot],
+    {%- if uses_cells %}
+    cells: &mut Cells,
+    {%- endif %}
+) -> Result<(), (Fault, usize)> {
+    for (number, robot) in robots.iter_mut().enumerate() {
+        robot.step(wiring{% if uses_cells %}, cells{% endif %}).map_err(|fault| (fault, number))?;
+    }
+    {%- if invariants %}
+    for (number, robot) in robots.iter().enumerate() {
+        robot.invariants({{ invariants_arguments }}).map_err(|fault| (fault, number))?;
+    }
+    {%- endif %}
+    Ok(())
+}
