@@ -26,6 +26,10 @@ fn main() -> ExitCode {
         eprintln!("Please report it with the layout and the specifications that show it.");
     }));
     let cli = Cli::parse();
-    let status = std::panic::catch_unwind(|| match &cli.command { Command::Check(options) => command::check::run(options), Command::Graph(options) => command::graph::run(options), _ => Status::Bug });
+    let status = std::panic::catch_unwind(|| match &cli.command {
+        Command::Check(options) => command::check::run(options),
+        Command::Graph(options) => command::graph::run(options),
+        _ => Status::Bug,
+    });
     ExitCode::from(status.unwrap_or(Status::Bug) as u8)
 }

@@ -128,12 +128,15 @@ fn lines(first: usize, text: &str) -> impl Iterator<Item = (usize, Vec<&str>)> {
     })
 }
 
+/// Parameters and device constants with their values, as written.
+type Settings = Vec<(String, String)>;
+
 #[derive(Default)]
 struct Layout {
     scan_ms: i32,
     kinds: Vec<String>,
     /// Name, type, settings.
-    machines: Vec<(String, String, Vec<(String, String)>)>,
+    machines: Vec<(String, String, Settings)>,
     /// Machine, role, members.
     roles: Vec<(String, String, Vec<String>)>,
     reaches: Vec<(String, String)>,
@@ -460,8 +463,11 @@ impl<'a> Script<'a> {
             let mut ports: Vec<Variable> = self.machines[machine].variables.clone();
             ports.retain(|v| v.stop.is_some());
             let (port, _) = rest.split_once('=').ok_or(format!("`{word}` has no value"))?;
-            let offset: usize =
-                ports.iter().take_while(|v| v.name != port).map(|v| image(&[v.clone()], true).len()).sum();
+            let offset: usize = ports
+                .iter()
+                .take_while(|v| v.name != port)
+                .map(|v| image(std::slice::from_ref(v), true).len())
+                .sum();
             assign(self.system, &mut ports, rest)?;
             let wanted: Vec<Variable> = ports.into_iter().filter(|v| v.name == port).collect();
             let wanted = image(&wanted, true);

@@ -139,7 +139,8 @@ impl Context<'_> {
         let (step, rest) = (&loops[0], &loops[1..]);
         let Some(key) = &step.binder.key else { return Default::default() };
         let number = if depth == 0 { String::new() } else { (depth + 1).to_string() };
-        let (best, key_name, label) = (format!("best{number}"), format!("key{number}"), format!("'best{number}"));
+        let (best, key_name, label) =
+            (format!("best{number}"), format!("key{number}"), format!("'best{number}"));
         let kept: Vec<VariableId> =
             loops.iter().map(|l| l.binder.variable).filter(|v| chosen.contains(v)).collect();
         let names = tuple(kept.iter().map(|v| self.variable(*v)));
@@ -176,7 +177,8 @@ impl Context<'_> {
         let variable = loops[0].binder.variable;
         let clauses: Vec<Clause> = loops.iter().map(|l| Clause::Bind(l.binder.clone())).collect();
         let name = self.variable(variable);
-        let is_word = |text: &String| text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').any(|w| *w == name);
+        let is_word =
+            |text: &String| text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').any(|w| *w == name);
         let is_read = Uses::of_clauses(self.automaton(), &clauses).variables.contains(&variable)
             || loops.iter().flat_map(|l| &l.conditions).any(is_word)
             || chosen.contains(&variable);
@@ -194,7 +196,11 @@ impl Context<'_> {
 }
 
 fn guarded(conditions: &[String], body: &str) -> String {
-    if conditions.is_empty() { body.to_string() } else { format!("if {} {{ {body} }}", conditions.join(" && ")) }
+    if conditions.is_empty() {
+        body.to_string()
+    } else {
+        format!("if {} {{ {body} }}", conditions.join(" && "))
+    }
 }
 
 /// One name, or several in brackets.

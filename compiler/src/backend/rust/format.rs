@@ -40,7 +40,9 @@ pub fn print(text: &str) -> String {
         let trimmed = line.trim_start();
         let indent = &line[..line.len() - trimmed.len()];
         // A blank line between items, and between a head of documentation and what follows.
-        let is_item = ["pub ", "impl", "fn ", "///", "#[", "use ", "mod ", "const "].iter().any(|s| trimmed.starts_with(s));
+        let is_item = ["pub ", "impl", "fn ", "///", "#[", "use ", "mod ", "const "]
+            .iter()
+            .any(|s| trimmed.starts_with(s));
         let ends_item = before.trim_end() == "}" || before.ends_with("};") || before.starts_with("//!");
         if is_item && ends_item && !line.starts_with("//!") && is_between(before, indent) {
             out.push('\n');
@@ -72,7 +74,11 @@ fn parse(text: &str) -> syn::File {
         Ok(file) => file,
         Err(error) => {
             let message = format!("autogen printed what is no Rust: {error}\n{text}");
-            syn::File { shebang: None, attrs: Vec::new(), items: vec![syn::parse_quote!(compile_error!(#message);)] }
+            syn::File {
+                shebang: None,
+                attrs: Vec::new(),
+                items: vec![syn::parse_quote!(compile_error!(#message);)],
+            }
         }
     }
 }
