@@ -26,6 +26,7 @@ use askama::Template;
 use context::{Context, Shared};
 
 const MANIFEST: &str = include_str!("../../../templates/rust/Cargo.toml");
+const LOCK: &str = include_str!("../../../templates/rust/Cargo.lock");
 const CONTROLLERS_MANIFEST: &str = include_str!("../../../templates/rust/controllers/Cargo.toml");
 const TYPES: &str = include_str!("../../../templates/rust/controllers/types.rs");
 const COMMISSIONING_MANIFEST: &str = include_str!("../../../templates/rust/commissioning/Cargo.toml");
@@ -44,6 +45,7 @@ pub fn files(system: &System, sources: &Sources) -> Files {
     let mut files = Files::new();
     let mut put = |path: String, text: String| files.insert(path, text);
     put("Cargo.toml".into(), MANIFEST.into());
+    put("Cargo.lock".into(), LOCK.into());
     put("controllers/Cargo.toml".into(), CONTROLLERS_MANIFEST.into());
     put("controllers/src/types.rs".into(), TYPES.into());
     put("controllers/src/lib.rs".into(), shared::library(shared));

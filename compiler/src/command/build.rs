@@ -4,7 +4,7 @@ use super::options::{BuildOptions, Format};
 use super::write::{self, Files, Overwrite, Refusal};
 use super::{load, print};
 use crate::Status;
-use autogen::backend::rust;
+use autogen::backend::{dot, plan, rust};
 use autogen::lower::{Outcome, Project, compile};
 use autogen::simulator;
 use autogen::source::Sources;
@@ -57,6 +57,10 @@ fn files(project: &Project, sources: &Sources) -> Files {
     for (name, text) in rust::files(&project.system, sources) {
         files.insert(format!("rust/{name}"), text);
     }
+    for (name, text) in dot::files(&project.system, &project.edges) {
+        files.insert(format!("graph/{name}"), text);
+    }
+    files.insert("graph/plan.svg".into(), plan::svg(&project.plant, &project.edges, &project.obstacles));
     for (name, text) in simulator::SOURCES {
         files.insert(format!("rust/runtime-sim/{name}"), (*text).into());
     }
