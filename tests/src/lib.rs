@@ -1,7 +1,7 @@
 //! What the tests of the whole share.
 
-pub mod workspace;
 pub mod trace;
+pub mod workspace;
 
 use autogen::diagnostic::{self, Diagnostic};
 use autogen::lower::{Input, Outcome, Project, Setting, compile};

@@ -92,7 +92,10 @@ pub fn module(context: &Context) -> String {
             .verbs
             .iter()
             .zip(&names.verbs)
-            .map(|(v, name)| Field { initial: v.number.to_string(), ..plain(doc(&[sentence(v.meaning)]), name) })
+            .map(|(v, name)| Field {
+                initial: v.number.to_string(),
+                ..plain(doc(&[sentence(v.meaning)]), name)
+            })
             .collect(),
         locals: automaton
             .locals
