@@ -94,9 +94,16 @@ impl Context<'_> {
     }
 
     fn find(&self, step: &Loop) -> String {
-        let copied = if matches!(step.binder.domain, Domain::Role(_)) { ".copied()" } else { "" };
-        let values = format!("{}{copied}", self.iterator(&step.binder.domain));
-        let Some(condition) = all(&self.candidate(step)) else { return format!("{values}.next()") };
+        let domain = &step.binder.domain;
+        let condition = match (all(&self.candidate(step)), domain) {
+            (Some(condition), _) => condition,
+            (None, Domain::Role(role)) => {
+                return format!("self.parameters.{}.first().copied()", self.own().roles[role.0]);
+            }
+            (None, _) => return format!("{}.next()", self.iterator(domain)),
+        };
+        let copied = if matches!(domain, Domain::Role(_)) { ".copied()" } else { "" };
+        let values = format!("{}{copied}", self.iterator(domain));
         let name = self.variable(step.binder.variable);
         let reads = Uses::of_clauses(self.automaton(), &[Clause::Bind(step.binder.clone())]);
         let is_read = reads.variables.contains(&step.binder.variable) || !step.conditions.is_empty();
@@ -136,7 +143,8 @@ impl Context<'_> {
         let (step, rest) = (&loops[0], &loops[1..]);
         let Some(key) = &step.binder.key else { return Default::default() };
         let number = if rank == 1 { String::new() } else { rank.to_string() };
-        let (best, key_name, label) = (format!("best{number}"), format!("key{number}"), format!("'best{number}"));
+        let (best, key_name, label) =
+            (format!("best{number}"), format!("key{number}"), format!("'best{number}"));
         let kept: Vec<VariableId> =
             loops.iter().map(|l| l.binder.variable).filter(|v| chosen.contains(v)).collect();
         let names = tuple(kept.iter().map(|v| self.variable(*v)));
@@ -172,7 +180,8 @@ impl Context<'_> {
         let variable = loops[0].binder.variable;
         let clauses: Vec<Clause> = loops.iter().map(|l| Clause::Bind(l.binder.clone())).collect();
         let name = self.variable(variable);
-        let is_word = |text: &str| text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').any(|w| *w == name);
+        let is_word =
+            |text: &str| text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').any(|w| *w == name);
         let is_read = Uses::of_clauses(self.automaton(), &clauses).variables.contains(&variable)
             || loops.iter().flat_map(|l| &l.conditions).any(|c| is_word(&c.alone))
             || chosen.contains(&variable);
