@@ -1,6 +1,7 @@
 //! What the tests of the whole share.
 
 pub mod trace;
+pub mod instances;
 pub mod workspace;
 
 use autogen::diagnostic::{self, Diagnostic};
