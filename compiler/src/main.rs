@@ -28,15 +28,10 @@ fn main() -> ExitCode {
     let cli = Cli::parse();
     let status = std::panic::catch_unwind(|| match &cli.command {
         Command::Check(options) => command::check::run(options),
-<<<<<<< HEAD
-        Command::Graph(options) => command::graph::run(options),
-        _ => Status::Bug,
-=======
         Command::Build(options) => command::build::run(options),
         Command::Commission(options) => command::commission::run(options),
         Command::Graph(options) => command::graph::run(options),
         Command::Explain(options) => command::explain::run(options),
->>>>>>> main
     });
     ExitCode::from(status.unwrap_or(Status::Bug) as u8)
 }

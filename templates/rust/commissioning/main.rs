@@ -58,12 +58,14 @@ fn simulate(line: &Line, mut deployed: Deployed, hashes: Option<&String>, progre
         return Err(format!("{} robots for {} machines", deployed.robots(), line.machines.len()));
     }
     let mut kept = String::new();
+    let mut shown = 0;
     let mut observe = |seen: &Seen| {
         if hashes.is_some() {
             let _ = writeln!(kept, "{:016x}", seen.hash);
         }
         let seconds = seen.scan * u64::from(line.scan_ms) / 1000;
-        if progress && seen.scan * u64::from(line.scan_ms) % 10_000 == 0 {
+        if progress && seconds >= shown + 10 {
+            shown = seconds;
             eprint!("\r{seconds} s");
         }
     };
