@@ -136,7 +136,8 @@ impl Context<'_> {
         let (step, rest) = (&loops[0], &loops[1..]);
         let Some(key) = &step.binder.key else { return Default::default() };
         let number = if rank == 1 { String::new() } else { rank.to_string() };
-        let (best, key_name, label) = (format!("best{number}"), format!("key{number}"), format!("'best{number}"));
+        let (best, key_name, label) =
+            (format!("best{number}"), format!("key{number}"), format!("'best{number}"));
         let kept: Vec<VariableId> =
             loops.iter().map(|l| l.binder.variable).filter(|v| chosen.contains(v)).collect();
         let names = tuple(kept.iter().map(|v| self.variable(*v)));
@@ -172,7 +173,8 @@ impl Context<'_> {
         let variable = loops[0].binder.variable;
         let clauses: Vec<Clause> = loops.iter().map(|l| Clause::Bind(l.binder.clone())).collect();
         let name = self.variable(variable);
-        let is_word = |text: &str| text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').any(|w| *w == name);
+        let is_word =
+            |text: &str| text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').any(|w| *w == name);
         let is_read = Uses::of_clauses(self.automaton(), &clauses).variables.contains(&variable)
             || loops.iter().flat_map(|l| &l.conditions).any(|c| is_word(&c.alone))
             || chosen.contains(&variable);

@@ -77,12 +77,12 @@ impl Context<'_> {
                 Code::primary(format!("self.{}({})", self.own().defines[*define], self.arguments(&uses)))
             }
             ExprKind::Own(interface) => Code::primary(self.own_row(*interface)),
-            ExprKind::After(time) => {
-                compared("self.elapsed".into(), ">=", self.code(time).at(Level::Sum))
-            }
+            ExprKind::After(time) => compared("self.elapsed".into(), ">=", self.code(time).at(Level::Sum)),
             ExprKind::Done => Code::primary("self.command_done()"),
             ExprKind::Failed => Code::primary("self.command_failed()"),
-            ExprKind::Not(inner) => Code { text: format!("!{}", self.code(inner).at(Level::Unary)), level: Level::Unary },
+            ExprKind::Not(inner) => {
+                Code { text: format!("!{}", self.code(inner).at(Level::Unary)), level: Level::Unary }
+            }
             ExprKind::Negate(inner) => {
                 Code { text: format!("-{}", self.code(inner).at(Level::Primary)), level: Level::Unary }
             }
@@ -102,26 +102,36 @@ impl Context<'_> {
                 let axis = ["x", "y", "z"][*axis];
                 Code::primary(format!("{}.{axis}", self.code(inner).at(Level::Primary)))
             }
-            ExprKind::SquaredDistance(a, b) => {
-                Code::primary(format!("{}.squared_distance({})", self.code(a).at(Level::Primary), self.expr(b)))
-            }
+            ExprKind::SquaredDistance(a, b) => Code::primary(format!(
+                "{}.squared_distance({})",
+                self.code(a).at(Level::Primary),
+                self.expr(b)
+            )),
             ExprKind::Exists { variable, domain, body } => self.quantified("any", *variable, domain, body),
             ExprKind::Forall { variable, domain, body } => self.quantified("all", *variable, domain, body),
             ExprKind::Count { variable, domain, body } => {
                 let parameter = self.parameter(*variable, domain, body);
                 let reference = if parameter == "_" { parameter } else { format!("&{parameter}") };
-                let text = format!("{}.filter(|{reference}| {}).count() as i32", self.iterator(domain), self.expr(body));
+                let text = format!(
+                    "{}.filter(|{reference}| {}).count() as i32",
+                    self.iterator(domain),
+                    self.expr(body)
+                );
                 Code { text, level: Level::Cast }
             }
             ExprKind::Sum { variable, domain, body } => {
                 let parameter = self.parameter(*variable, domain, body);
                 let zero = if expr.ty == Scalar::Real { "0.0" } else { "0" };
                 let summand = self.code(body).at(Level::Product);
-                Code::primary(format!("{}.fold({zero}, |sum, {parameter}| sum + {summand})", self.iterator(domain)))
+                Code::primary(format!(
+                    "{}.fold({zero}, |sum, {parameter}| sum + {summand})",
+                    self.iterator(domain)
+                ))
             }
-            ExprKind::Members(role) => {
-                Code { text: format!("self.parameters.{}.len() as i32", self.own().roles[role.0]), level: Level::Cast }
-            }
+            ExprKind::Members(role) => Code {
+                text: format!("self.parameters.{}.len() as i32", self.own().roles[role.0]),
+                level: Level::Cast,
+            },
             ExprKind::IsMember(value, role) => Code::primary(format!(
                 "self.parameters.{}.contains(&{})",
                 self.own().roles[role.0],
@@ -181,7 +191,9 @@ impl Context<'_> {
             Operator::Add => self.joined(Level::Sum, "+", a, b),
             Operator::Subtract => self.joined(Level::Sum, "-", a, b),
             Operator::Multiply => self.joined(Level::Product, "*", a, b),
-            Operator::Divide if is_whole && !is_plain_divisor(b) => self.extreme(a.ty, ["quotient", ""], a, b),
+            Operator::Divide if is_whole && !is_plain_divisor(b) => {
+                self.extreme(a.ty, ["quotient", ""], a, b)
+            }
             Operator::Divide => self.joined(Level::Product, "/", a, b),
             Operator::Modulo if is_plain_divisor(b) => self.joined(Level::Product, "%", a, b),
             Operator::Modulo => self.extreme(a.ty, ["remainder", ""], a, b),
@@ -227,7 +239,9 @@ impl Context<'_> {
     }
 
     pub fn place(&self, place: &Place) -> String {
-        let index = |index: &Option<Box<Expr>>| index.as_ref().map_or(String::new(), |i| format!("[{}]", self.expr(i)));
+        let index = |index: &Option<Box<Expr>>| {
+            index.as_ref().map_or(String::new(), |i| format!("[{}]", self.expr(i)))
+        };
         match place {
             Place::Local { local, index: i } => format!("self.{}{}", self.own().locals[*local], index(i)),
             Place::Port { port, index: i } => {
@@ -247,7 +261,13 @@ impl Context<'_> {
             }
             Place::Shown { interface, parameter, of, index: i } => {
                 let names = &self.names.interfaces[interface.0];
-                format!("wiring.{}[{}].{}{}", names.field, self.expr(of), names.parameter[*parameter], index(i))
+                format!(
+                    "wiring.{}[{}].{}{}",
+                    names.field,
+                    self.expr(of),
+                    names.parameter[*parameter],
+                    index(i)
+                )
             }
         }
     }

@@ -122,7 +122,11 @@ fn parse(text: &str) -> syn::File {
         Ok(file) => file,
         Err(error) => {
             let message = format!("autogen printed what is no Rust: {error}\n{text}");
-            syn::File { shebang: None, attrs: Vec::new(), items: vec![syn::parse_quote!(compile_error!(#message);)] }
+            syn::File {
+                shebang: None,
+                attrs: Vec::new(),
+                items: vec![syn::parse_quote!(compile_error!(#message);)],
+            }
         }
     }
 }

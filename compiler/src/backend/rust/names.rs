@@ -5,20 +5,73 @@ use crate::naming::{Scope, camel, screaming, snake};
 
 /// Types that generated modules have beside those of the specification.
 const TYPES: &[&str] = &[
-    "Array", "Cells", "Fault", "Inputs", "Outputs", "Parameters", "Point", "Reference", "Relation", "Robot", "Rows",
-    "State", "System", "SystemInputs", "SystemOutputs", "Table", "Verb", "Wiring", "Memory", "Deployed",
+    "Array",
+    "Cells",
+    "Fault",
+    "Inputs",
+    "Outputs",
+    "Parameters",
+    "Point",
+    "Reference",
+    "Relation",
+    "Robot",
+    "Rows",
+    "State",
+    "System",
+    "SystemInputs",
+    "SystemOutputs",
+    "Table",
+    "Verb",
+    "Wiring",
+    "Memory",
+    "Deployed",
 ];
-const MODULES: &[&str] =
-    &["cells", "core", "kinds", "line", "robot", "robots", "std", "system", "types", "controllers", "commissioning"];
+const MODULES: &[&str] = &[
+    "cells",
+    "core",
+    "kinds",
+    "line",
+    "robot",
+    "robots",
+    "std",
+    "system",
+    "types",
+    "controllers",
+    "commissioning",
+];
 const FIELDS: &[&str] = &["parameters", "inputs", "outputs", "state", "elapsed"];
 const METHODS: &[&str] = &[
-    "new", "step", "invariants", "published", "limit", "enter", "command", "command_done", "command_failed", "fmt",
+    "new",
+    "step",
+    "invariants",
+    "published",
+    "limit",
+    "enter",
+    "command",
+    "command_done",
+    "command_failed",
+    "fmt",
     "clone",
 ];
 const PARAMETERS: &[&str] = &["name"];
 const VARIABLES: &[&str] = &[
-    "best", "cells", "greater", "key", "lesser", "next_command", "place", "quotient", "remainder", "source", "store_point",
-    "store_real", "store_whole", "sum", "value", "wiring", "within",
+    "best",
+    "cells",
+    "greater",
+    "key",
+    "lesser",
+    "next_command",
+    "place",
+    "quotient",
+    "remainder",
+    "source",
+    "store_point",
+    "store_real",
+    "store_whole",
+    "sum",
+    "value",
+    "wiring",
+    "within",
 ];
 const CELLS: &[&str] = &["cells", "robot", "robots", "scan_ms", "wiring", "words"];
 
@@ -72,11 +125,14 @@ pub fn names(system: &System) -> Names {
     let mut types = Scope::rust(TYPES);
     let enums = model.enums.iter().map(|e| enum_names(e, &mut types)).collect();
     let mut fields = Scope::rust(CELLS);
-    let interfaces: Vec<_> = model.interfaces.iter().map(|i| interface_names(i, &mut types, &mut fields)).collect();
-    let relation = |r: &Relation| format!("{}_reaches_{}", interfaces[r.from.0].field, interfaces[r.to.0].field);
+    let interfaces: Vec<_> =
+        model.interfaces.iter().map(|i| interface_names(i, &mut types, &mut fields)).collect();
+    let relation =
+        |r: &Relation| format!("{}_reaches_{}", interfaces[r.from.0].field, interfaces[r.to.0].field);
     let relations = model.relations.iter().map(|r| fields.take(relation(r))).collect();
     let mut modules = Scope::rust(MODULES);
-    let automata = model.automata.iter().map(|a| automaton_names(a, &interfaces, &mut types, &mut modules)).collect();
+    let automata =
+        model.automata.iter().map(|a| automaton_names(a, &interfaces, &mut types, &mut modules)).collect();
     let mut robots = Scope::rust(MODULES);
     let robots = system.instances.iter().map(|i| robots.take(snake(&i.name))).collect();
     Names { enums, interfaces, relations, automata, robots }
@@ -155,6 +211,7 @@ fn variables(source: &Automaton) -> Vec<String> {
             known.push((&variable.name, scope.take(snake(&variable.name))));
         }
     }
-    let find = |name: &str| known.iter().find(|(n, _)| *n == name).map(|(_, i)| i.clone()).unwrap_or_default();
+    let find =
+        |name: &str| known.iter().find(|(n, _)| *n == name).map(|(_, i)| i.clone()).unwrap_or_default();
     source.variables.iter().map(|v| find(&v.name)).collect()
 }

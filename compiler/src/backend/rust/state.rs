@@ -22,12 +22,19 @@ impl Context<'_> {
         let variant = &names.states[number];
         let uses = self.state_uses(state);
         if state.transitions.is_empty() && state.within.is_none() {
-            return Methods { arm: format!("State::{variant} => Ok(()),"), text: String::new(), uses, commands: false };
+            return Methods {
+                arm: format!("State::{variant} => Ok(()),"),
+                text: String::new(),
+                uses,
+                commands: false,
+            };
         }
         let method = &names.methods[number];
         let end = state.within.as_ref().map_or_else(
             || "Ok(())".to_string(),
-            |(longest, fault)| format!("within(self.elapsed, {}, {})", self.expr(longest), self.fault(*fault)),
+            |(longest, fault)| {
+                format!("within(self.elapsed, {}, {})", self.expr(longest), self.fault(*fault))
+            },
         );
         let mut body = String::new();
         let mut choices = String::new();
@@ -36,7 +43,10 @@ impl Context<'_> {
         for (i, transition) in state.transitions.iter().enumerate() {
             let test = self.test(transition, &names.choices[number][i]);
             if let Some(choice) = test.method {
-                choices += &format!("/// What the transition at {} chooses.\n{choice}\n", self.line(transition.place));
+                choices += &format!(
+                    "/// What the transition at {} chooses.\n{choice}\n",
+                    self.line(transition.place)
+                );
             }
             commands |= gives_command(transition);
             body += &comment(&self.title(number, i));
@@ -81,7 +91,8 @@ impl Context<'_> {
     fn title(&self, state: usize, transition: usize) -> String {
         let automaton = self.automaton();
         let transition = &automaton.states[state].transitions[transition];
-        let target = transition.target.map(|t| format!(" -> {}", automaton.states[t.0].name)).unwrap_or_default();
+        let target =
+            transition.target.map(|t| format!(" -> {}", automaton.states[t.0].name)).unwrap_or_default();
         format!("{}: {}{target}", self.line(transition.place), guard(transition))
     }
 
