@@ -20,10 +20,23 @@ fn failure(name: &str, report: &Report) -> Option<String> {
     (!made).then(|| format!("{name}: {} of {} orders, {}", report.orders_done, report.orders, report.reason))
 }
 
-fn assert_all_made<T: Sync>(inputs: &[T], name: impl Fn(&T) -> String + Sync, project: impl Fn(&T) -> Project + Sync) {
+fn assert_all_made<T: Sync>(
+    inputs: &[T],
+    name: impl Fn(&T) -> String + Sync,
+    project: impl Fn(&T) -> Project + Sync,
+) {
     let failures: Vec<String> =
-        on_all_processors(inputs, |input| failure(&name(input), &execute(&project(input)))).into_iter().flatten().collect();
-    assert!(failures.is_empty(), "{} of {} runs failed:\n{}", failures.len(), inputs.len(), failures.join("\n"));
+        on_all_processors(inputs, |input| failure(&name(input), &execute(&project(input))))
+            .into_iter()
+            .flatten()
+            .collect();
+    assert!(
+        failures.is_empty(),
+        "{} of {} runs failed:\n{}",
+        failures.len(),
+        inputs.len(),
+        failures.join("\n")
+    );
     println!("{} runs, 0 failures", inputs.len());
 }
 
@@ -69,7 +82,9 @@ fn lines_of_the_users_own_make_their_orders() {
         &inputs,
         |input| format!("{input:?}"),
         |(folder, seed)| {
-            let mut project = Texts { order: Some(*seed), ..example(folder) }.set(&format!("agv.capacity={}", 1 + seed % 12)).project();
+            let mut project = Texts { order: Some(*seed), ..example(folder) }
+                .set(&format!("agv.capacity={}", 1 + seed % 12))
+                .project();
             project.plant.io_delay = IoDelay::Random { max: 5, seed: *seed };
             project
         },
@@ -78,7 +93,8 @@ fn lines_of_the_users_own_make_their_orders() {
 
 #[test]
 fn one_order_and_five_orders() {
-    let scenario = |count: usize| autogen::scenario::DEFAULT.replace("\"count\": 8", &format!("\"count\": {count}"));
+    let scenario =
+        |count: usize| autogen::scenario::DEFAULT.replace("\"count\": 8", &format!("\"count\": {count}"));
     let mut inputs = Vec::new();
     for count in [1, 5] {
         for capacity in [1, 3, 8, 12] {
@@ -102,7 +118,11 @@ fn no_controller_depends_on_the_order_of_the_steps() {
         assert_all_made(
             &seeds,
             |seed| format!("{layout}, order {seed}"),
-            |seed| Texts { order: Some(*seed), ..ariac(layout) }.set(&format!("agv.capacity={}", 1 + seed % 12)).project(),
+            |seed| {
+                Texts { order: Some(*seed), ..ariac(layout) }
+                    .set(&format!("agv.capacity={}", 1 + seed % 12))
+                    .project()
+            },
         );
     }
 }
@@ -151,12 +171,14 @@ fn a_part_that_slips_is_made_up_for() {
     }
     let reports = on_all_processors(&inputs, |(robot, pick, after_s)| {
         let mut project = ariac("default").project();
-        let machine = project.plant.machines.iter().position(|m| m.name == *robot).expect("a robot of the layout");
+        let machine =
+            project.plant.machines.iter().position(|m| m.name == *robot).expect("a robot of the layout");
         project.plant.scenario.slips = vec![Slip { machine, pick: *pick, after_s: *after_s }];
         execute(&project)
     });
     for (input, report) in inputs.iter().zip(reports) {
-        let names_part_and_place = ["battery", "sensor", "regulator", "pump"].iter().any(|k| report.reason.contains(k));
+        let names_part_and_place =
+            ["battery", "sensor", "regulator", "pump"].iter().any(|k| report.reason.contains(k));
         println!("{input:?}: {}", report.reason);
         assert!(
             report.finished || names_part_and_place,

@@ -68,7 +68,10 @@ pub fn files(system: &System, sources: &Sources) -> Files {
         put(format!("commissioning/{path}"), text.into());
     }
     put("commissioning/src/adapters.rs".into(), adapters::adapters(shared));
-    put("commissioning/examples/host.rs".into(), include_str!("../../../templates/rust/commissioning/host.rs").into());
+    put(
+        "commissioning/examples/host.rs".into(),
+        include_str!("../../../templates/rust/commissioning/host.rs").into(),
+    );
     files
 }
 

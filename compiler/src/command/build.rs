@@ -23,7 +23,10 @@ pub fn run(options: &BuildOptions) -> Status {
         Ok(built) => {
             if options.input.format == Format::Json {
                 let names: Vec<&String> = built.files.keys().collect();
-                println!("{}", json!({ "feasible": true, "folder": built.folder.display().to_string(), "files": names, "diagnostics": [] }));
+                println!(
+                    "{}",
+                    json!({ "feasible": true, "folder": built.folder.display().to_string(), "files": names, "diagnostics": [] })
+                );
             } else if !options.input.quiet {
                 println!("{} files written to {}", built.files.len() + 1, built.folder.display());
             }
@@ -47,7 +50,8 @@ pub fn build(options: &BuildOptions) -> Result<Built, Status> {
     let files = files(&project, &sources);
     let folder = options.output.clone().unwrap_or_else(|| Path::new("out").join(&project.name));
     let overwrite = if options.force { Overwrite::Everything } else { Overwrite::Own };
-    write::write(&folder, &files, about(&project, &sources), overwrite).map_err(|refusal| refused(options, &refusal))?;
+    write::write(&folder, &files, about(&project, &sources), overwrite)
+        .map_err(|refusal| refused(options, &refusal))?;
     Ok(Built { project, files, folder })
 }
 
