@@ -1,7 +1,7 @@
 //! What the tests of the whole share.
 
-pub mod trace;
 pub mod instances;
+pub mod trace;
 pub mod workspace;
 
 use autogen::diagnostic::{self, Diagnostic};
