@@ -3,7 +3,6 @@
 pub mod instances;
 pub mod trace;
 pub mod workspace;
-pub mod workspace;
 
 use autogen::diagnostic::{self, Diagnostic};
 use autogen::lower::{Input, Outcome, Project, Setting, compile};
