@@ -46,7 +46,11 @@ fn contents(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
     while let Some(folder) = open.pop() {
         for entry in fs::read_dir(folder).expect("a folder") {
             let path = entry.expect("an entry").path();
-            if path.is_dir() { open.push(path) } else { found.push((path.clone(), fs::read(path).expect("a file"))) }
+            if path.is_dir() {
+                open.push(path)
+            } else {
+                found.push((path.clone(), fs::read(path).expect("a file")))
+            }
         }
     }
     found.sort();
@@ -70,8 +74,11 @@ fn check_answers_scripts() {
 fn an_infeasible_layout_is_status_1_with_place_and_mend() {
     let folder = folder("infeasible");
     let layout = fs::read_to_string(example("ariac2021/default.json")).expect("the example");
-    fs::write(folder.join("moved.json"), layout.replace("[-2.265685, -1.333917, 0]", "[-2.765685, -1.333917, 0]"))
-        .expect("a file");
+    fs::write(
+        folder.join("moved.json"),
+        layout.replace("[-2.265685, -1.333917, 0]", "[-2.765685, -1.333917, 0]"),
+    )
+    .expect("a file");
     for command in ["check", "build", "commission"] {
         let output = autogen(&folder, &[command, "moved.json", "--format", "json"]);
         assert_eq!(status(&output), 1, "{command}");
@@ -159,7 +166,10 @@ fn commission_works_without_the_source_tree_and_twice_the_same() {
     assert_eq!(status(&second), 0);
     let files = |out: &str| -> Vec<(PathBuf, Vec<u8>)> {
         let root = folder.join(out);
-        contents(&root).into_iter().map(|(p, t)| (p.strip_prefix(&root).expect("within").to_path_buf(), t)).collect()
+        contents(&root)
+            .into_iter()
+            .map(|(p, t)| (p.strip_prefix(&root).expect("within").to_path_buf(), t))
+            .collect()
     };
     assert_eq!(files("a"), files("b"));
     let (mut first, mut second) = (json(&first), json(&second));
@@ -169,7 +179,10 @@ fn commission_works_without_the_source_tree_and_twice_the_same() {
     assert_eq!(first["collisions"], "not watched");
     let total = first["simulated_s"].as_f64().expect("a number");
     for (name, robot) in first["robots"].as_object().expect("robots") {
-        let sum: f64 = ["moving_s", "working_s", "waiting_s", "stopped_s"].iter().map(|k| robot[k].as_f64().expect("a number")).sum();
+        let sum: f64 = ["moving_s", "working_s", "waiting_s", "stopped_s"]
+            .iter()
+            .map(|k| robot[k].as_f64().expect("a number"))
+            .sum();
         assert!((sum - total).abs() < 1e-6, "{name}: {sum} of {total}");
     }
     first["wall_s"].take();
@@ -188,7 +201,8 @@ fn a_run_that_misses_its_goal_is_status_3_and_names_part_and_place() {
     }"#;
     fs::write(folder.join("scenario.json"), scenario).expect("a file");
     let layout = example("ariac2021/default.json");
-    let output = autogen(&folder, &["commission", &layout, "--scenario", "scenario.json", "--format", "json"]);
+    let output =
+        autogen(&folder, &["commission", &layout, "--scenario", "scenario.json", "--format", "json"]);
     assert_eq!(status(&output), 3, "{}", errors(&output));
     let answer = json(&output);
     assert_eq!(answer["finished"], false);
@@ -200,6 +214,10 @@ fn a_run_that_misses_its_goal_is_status_3_and_names_part_and_place() {
 fn the_picture_of_the_readme_is_drawn_from_the_default_layout() {
     let folder = folder("picture");
     let output = autogen(&folder, &["graph", &example("ariac2021/default.json"), "--of", "plan"]);
-    let picture = fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/default.svg")).expect("the picture");
-    assert!(output.stdout == picture, "draw it anew: autogen graph examples/ariac2021/default.json --of plan > docs/default.svg");
+    let picture =
+        fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/default.svg")).expect("the picture");
+    assert!(
+        output.stdout == picture,
+        "draw it anew: autogen graph examples/ariac2021/default.json --of plan > docs/default.svg"
+    );
 }
