@@ -148,15 +148,27 @@ fn devices_may_answer_late() {
 fn the_line_may_be_stopped_at_any_moment() {
     let mut random = Random::new(7);
     let scans: Vec<u64> = (0..campaign(12, 100)).map(|_| u64::from(random.up_to(59_000)) + 3).collect();
-    assert_all_made(
-        &scans,
-        |scan| format!("stopped at scan {scan}"),
-        |scan| {
-            let mut project = ariac("default").project();
-            project.plant.scenario.pauses = vec![Pause { at_scan: *scan, scans: 300 }];
-            project
-        },
-    );
+    let project = ariac("default").project();
+    on_all_processors(&scans, |scan| {
+        let mut plant = project.plant.clone();
+        plant.scenario.pauses = vec![Pause { at_scan: *scan, scans: 300 }];
+        let mut executor = Executor::new(&project.system);
+        let (mut kept, mut stopped) = (Vec::new(), 0);
+        let report = run(&plant, &mut executor, &mut |seen| {
+            if seen.answer.running {
+                kept = seen.trace.to_vec();
+            } else if seen.scan >= *scan {
+                stopped += 1;
+                assert!(kept == seen.trace, "stopped at {scan}: something changes in scan {}", seen.scan);
+            }
+        });
+        let report = report.expect("a line that can be run");
+        assert_eq!(failure(&format!("stopped at {scan}"), &report), None);
+        assert!(stopped >= 300, "stopped at {scan}: only {stopped} scans without running");
+        let lost = report.items.iter().filter(|item| item.carrier.contains("floor")).count();
+        assert_eq!(lost, 0, "stopped at {scan}: {lost} items on the floor");
+    });
+    println!("{} stops, nothing changed and nothing was lost", scans.len());
 }
 
 #[test]
