@@ -107,6 +107,7 @@ pub(super) fn check(checker: &mut Checker, tree: &ast::Automaton) {
             });
         }
     }
+    context.bounded_work();
     let automaton = context.automaton;
     checker.model.automata.push(automaton);
 }

@@ -28,12 +28,12 @@ pub fn run(options: &BuildOptions) -> Status {
         Ok(built) => {
             if options.input.format == Format::Json {
                 let names: Vec<&String> = built.files.keys().collect();
-                println!(
+                say!(
                     "{}",
                     json!({ "feasible": true, "folder": built.folder.display().to_string(), "files": names, "diagnostics": [] })
                 );
             } else if !options.input.quiet {
-                println!("{} files written to {}", built.files.len() + 1, built.folder.display());
+                say!("{} files written to {}", built.files.len() + 1, built.folder.display());
             }
             Status::Done
         }
@@ -51,7 +51,7 @@ pub fn build(options: &BuildOptions) -> Result<Built, Status> {
                 let mut answer = print::verdict_json(verdict.as_ref(), &sources, &diagnostics);
                 answer["finished"] = json!(false);
                 answer["reason"] = json!("the input has errors");
-                println!("{answer}");
+                say!("{answer}");
             }
             Format::Text => print::diagnostics(&sources, &diagnostics),
         }
@@ -123,10 +123,17 @@ fn refused(options: &BuildOptions, refusal: &Refusal) -> Status {
                 names.join("\n  ")
             )
         }
+        Refusal::InTheWay(paths) => {
+            let names: Vec<String> = paths.iter().map(|p| p.display().to_string()).collect();
+            format!(
+                "not written: these are in the way, a file where a folder has to be or the other way round:\n  {}",
+                names.join("\n  ")
+            )
+        }
         Refusal::Io(path, error) => format!("{}: {error}", path.display()),
     };
     match options.input.format {
-        Format::Json => println!("{}", json!({ "finished": false, "reason": text, "diagnostics": [] })),
+        Format::Json => say!("{}", json!({ "finished": false, "reason": text, "diagnostics": [] })),
         Format::Text => eprintln!("autogen: {text}"),
     }
     Status::WrongCommand

@@ -7,7 +7,7 @@ use crate::Status;
 use runtime_sim::line::IoDelay;
 use serde_json::{Value, json};
 use std::io::{IsTerminal, Read};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::{Command, Stdio};
 use std::time::Instant;
 use std::{env, fs, io};
@@ -53,7 +53,7 @@ fn name_fault(report: &mut Value, built: &Built) {
 
 fn fail(options: &CommissionOptions, text: String) -> Status {
     match options.build.input.format {
-        Format::Json => println!("{}", json!({ "finished": false, "reason": text, "diagnostics": [] })),
+        Format::Json => say!("{}", json!({ "finished": false, "reason": text, "diagnostics": [] })),
         Format::Text => eprintln!("autogen: {text}"),
     }
     Status::WrongCommand
@@ -121,7 +121,8 @@ fn program(options: &CommissionOptions, built: &Built) -> Result<PathBuf, String
     if !options.build.input.quiet && options.build.input.format == Format::Text {
         eprintln!("compiling the controllers and the simulator (once for these types) ...");
     }
-    let target = folder.join("target");
+    // Of this process alone: another one may be compiling the same.
+    let target = folder.join(format!("target-{}", std::process::id()));
     let result = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
         .args(["build", "--release", "--quiet", "-p", "commissioning", "--manifest-path"])
         .arg(workspace.join("Cargo.toml"))
@@ -153,9 +154,8 @@ fn is_of_layout(name: &str) -> bool {
 
 /// Where compiled programs are kept: the user's cache.
 fn cache() -> PathBuf {
-    let base = env::var_os("XDG_CACHE_HOME")
-        .map(PathBuf::from)
-        .or_else(|| Some(Path::new(&env::var_os("HOME")?).join(".cache")));
+    let set = |name: &str| env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
+    let base = set("XDG_CACHE_HOME").or_else(|| Some(set("HOME")?.join(".cache")));
     base.unwrap_or_else(env::temp_dir).join("autogen")
 }
 
@@ -173,8 +173,8 @@ fn show(options: &CommissionOptions, built: &Built, mut report: Value, begin: In
     }
     let _ = fs::write(path, format!("{kept:#}\n"));
     match options.build.input.format {
-        Format::Json => println!("{report}"),
-        Format::Text if !options.build.input.quiet => print!("{}", text(&report, wall, built)),
+        Format::Json => say!("{report}"),
+        Format::Text if !options.build.input.quiet => say_part!("{}", text(&report, wall, built)),
         Format::Text if report["finished"] != true => {
             eprintln!("autogen: {}", report["reason"].as_str().unwrap_or(""))
         }

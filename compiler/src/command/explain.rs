@@ -6,7 +6,7 @@ use crate::Status;
 pub fn run(options: &ExplainOptions) -> Status {
     match autogen::diagnostic::explain(&options.code.to_uppercase()) {
         Some(text) => {
-            println!("{text}");
+            say!("{text}");
             Status::Done
         }
         None => {

@@ -5,6 +5,9 @@ use crate::source::Span;
 use crate::spec::ast;
 use crate::spec::lexer::Token;
 
+/// Clauses of one guard; they are nested loops.
+const MOST_CLAUSES: usize = 32;
+
 impl Parser {
     pub(super) fn parse_any(&mut self) -> Option<ast::AnyState> {
         self.next();
@@ -104,6 +107,11 @@ impl Parser {
         let errors = self.errors;
         let mut clauses: Vec<_> = self.clause().into_iter().collect();
         while self.errors == errors && self.maybe_sign(",") {
+            if clauses.len() == MOST_CLAUSES {
+                let message = format!("a guard has {MOST_CLAUSES} clauses at most");
+                self.error("E0211", message, "join conditions with `and`, or split the transition");
+                break;
+            }
             clauses.extend(self.clause());
         }
         let guard_span = guard_start.to(self.last_span());
