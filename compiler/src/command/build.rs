@@ -5,6 +5,7 @@ use super::write::{self, Files, Overwrite, Refusal};
 use super::{load, print};
 use crate::Status;
 use autogen::backend::{dot, plan, rust};
+use autogen::library;
 use autogen::lower::{Outcome, Project, compile};
 use autogen::simulator;
 use autogen::source::Sources;
@@ -69,6 +70,9 @@ pub fn build(options: &BuildOptions) -> Result<Built, Status> {
 
 /// The name of an input as the output shows it: its path from the layout's folder, or its own name.
 fn title(layout: &Path, name: &str) -> String {
+    if library::FILES.iter().any(|(built_in, _)| *built_in == name) {
+        return name.to_string();
+    }
     let path = Path::new(name);
     let within =
         layout.parent().and_then(|folder| path.strip_prefix(folder).ok()).filter(|rest| rest.is_relative());
