@@ -57,7 +57,11 @@ fn diagnostics_stand_where_they_are_expected() {
                 Some(i) => {
                     let diagnostic = found.remove(i);
                     if diagnostic.help.is_empty() || !diagnostic.help.contains(&help) {
-                        wrong.push(format!("{}:{line}: {code} has the help {:?}", path.display(), diagnostic.help));
+                        wrong.push(format!(
+                            "{}:{line}: {code} has the help {:?}",
+                            path.display(),
+                            diagnostic.help
+                        ));
                     }
                 }
                 None => wrong.push(format!("{}:{line}: {code} {part}: not found", path.display())),

@@ -302,8 +302,12 @@ impl Context<'_, '_> {
                 };
                 let (left, right) = (self.checker.type_name(a), self.checker.type_name(b));
                 self.report(
-                    Diagnostic::new("E0315", span, format!("{left} and {right} cannot be joined in this way"))
-                        .help(help),
+                    Diagnostic::new(
+                        "E0315",
+                        span,
+                        format!("{left} and {right} cannot be joined in this way"),
+                    )
+                    .help(help),
                 );
                 None
             }

@@ -129,7 +129,9 @@ impl Context<'_, '_> {
         let diagnostic = Diagnostic::new("E0311", span, format!("there is no `{name}` here"));
         let help = match suggestion(name, known.iter().map(String::as_str)) {
             _ if self.states.iter().any(|s| s == name) => {
-                format!("`{name}` is a state: the next state stands behind the guard, `when done -> {name} {{}}`")
+                format!(
+                    "`{name}` is a state: the next state stands behind the guard, `when done -> {name} {{}}`"
+                )
             }
             Some(near) => format!("is `{near}` meant?"),
             None => format!(
@@ -149,7 +151,9 @@ impl Context<'_, '_> {
             let members = &self.checker.model.enums[id.0].members;
             let Some(ordinal) = members.iter().position(|m| *m == member.value) else {
                 let help = suggestion(&member.value, members.iter().map(String::as_str))
-                    .map_or(format!("its members are {}", members.join(", ")), |n| format!("is `{n}` meant?"));
+                    .map_or(format!("its members are {}", members.join(", ")), |n| {
+                        format!("is `{n}` meant?")
+                    });
                 self.report(
                     Diagnostic::new(
                         "E0311",

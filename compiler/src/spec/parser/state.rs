@@ -119,7 +119,8 @@ impl Parser {
             );
             self.next();
         }
-        let target = if goes_to || self.maybe_sign("->") { Some(self.expect_name("the next state")?) } else { None };
+        let target =
+            if goes_to || self.maybe_sign("->") { Some(self.expect_name("the next state")?) } else { None };
         let updates =
             if target.is_some() && self.maybe_sign(";") { Vec::new() } else { self.parse_updates() };
         Some(ast::Transition { span: start.to(self.last_span()), clauses, guard_span, target, updates })
