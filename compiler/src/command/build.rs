@@ -11,9 +11,14 @@ use autogen::source::Sources;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
+/// Written by `commission` beside the files of the manifest.
+pub const RESULTS: &str = "results.json";
+
 /// A line that was compiled and written.
 pub struct Built {
     pub project: Project,
+    /// Under the names that the output shows.
+    pub sources: Sources,
     pub files: Files,
     pub folder: PathBuf,
 }
@@ -52,12 +57,25 @@ pub fn build(options: &BuildOptions) -> Result<Built, Status> {
         }
         return Err(Status::WrongInput);
     };
+    // The same input gives the same bytes, from whatever folder it is compiled.
+    let sources = sources.renamed(|name| title(&options.input.layout, name));
     let files = files(&project, &sources);
     let folder = options.output.clone().unwrap_or_else(|| Path::new("out").join(&project.name));
     let overwrite = if options.force { Overwrite::Everything } else { Overwrite::Own };
     write::write(&folder, &files, about(&project, &sources), overwrite)
         .map_err(|refusal| refused(options, &refusal))?;
-    Ok(Built { project, files, folder })
+    Ok(Built { project, sources, files, folder })
+}
+
+/// The name of an input as the output shows it: its path from the layout's folder, or its own name.
+fn title(layout: &Path, name: &str) -> String {
+    let path = Path::new(name);
+    let within =
+        layout.parent().and_then(|folder| path.strip_prefix(folder).ok()).filter(|rest| rest.is_relative());
+    match within {
+        Some(rest) => rest.display().to_string().replace('\\', "/"),
+        None => path.file_name().map_or(name.to_string(), |own| own.to_string_lossy().into_owned()),
+    }
 }
 
 /// All files of the output.
@@ -83,8 +101,7 @@ fn files(project: &Project, sources: &Sources) -> Files {
 fn about(project: &Project, sources: &Sources) -> Value {
     let inputs: serde_json::Map<String, Value> = (sources.files().iter())
         .map(|file| {
-            let name = file.name.rsplit(['/', '\\']).next().unwrap_or(&file.name);
-            let name = if name == "--set" { format!("--set {}", file.text) } else { name.to_string() };
+            let name = if file.name == "--set" { format!("--set {}", file.text) } else { file.name.clone() };
             (name, json!(write::hash(&file.text)))
         })
         .collect();

@@ -23,12 +23,23 @@ fn show(options: &InputOptions, outcome: &Outcome) {
     match options.format {
         Format::Json => println!("{}", print::verdict_json(verdict.as_ref(), sources, diagnostics)),
         Format::Text => {
-            if let Some(verdict) = verdict.as_ref().filter(|_| !options.quiet) {
+            // What the geometry says is of use only where nothing else is wrong.
+            let is_geometry = diagnostics.iter().all(|d| d.code.starts_with("E04"));
+            if let Some(verdict) = verdict.as_ref().filter(|_| !options.quiet && is_geometry) {
                 print!("{}", print::verdict(verdict));
             }
             print::diagnostics(sources, diagnostics);
             if !options.quiet {
-                println!("{}", if project.is_some() { "feasible" } else { "not feasible" });
+                println!(
+                    "{}",
+                    if project.is_some() {
+                        "feasible"
+                    } else if is_geometry {
+                        "not feasible"
+                    } else {
+                        "not checked: the input has errors"
+                    }
+                );
             }
         }
     }

@@ -4,7 +4,7 @@ use super::options::ExplainOptions;
 use crate::Status;
 
 pub fn run(options: &ExplainOptions) -> Status {
-    match autogen::diagnostic::explain(&options.code) {
+    match autogen::diagnostic::explain(&options.code.to_uppercase()) {
         Some(text) => {
             println!("{text}");
             Status::Done

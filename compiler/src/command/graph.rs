@@ -5,6 +5,7 @@ use super::{load, print};
 use crate::Status;
 use autogen::backend::{dot, plan};
 use autogen::lower::compile;
+use autogen::naming;
 
 pub fn run(options: &GraphOptions) -> Status {
     let input = match load::load(&options.input) {
@@ -21,7 +22,7 @@ pub fn run(options: &GraphOptions) -> Status {
         return Status::Done;
     }
     let files = dot::files(&project.system, &project.edges);
-    match files.get(&format!("{}.dot", options.of)) {
+    match files.get(&format!("{}.dot", naming::snake(&options.of))) {
         Some(text) => {
             print!("{text}");
             Status::Done

@@ -68,9 +68,14 @@ pub fn verdict_json(verdict: Option<&Verdict>, sources: &Sources, found: &[Diagn
         "destinations": v.destinations,
         "unreachable": v.unreachable,
         "dead_ends": v.dead_ends,
-        "apart": v.apart.iter().map(apart_json).collect::<Vec<_>>(),
+        "apart": v.apart.iter().filter(|a| is_missed(a, v)).map(apart_json).collect::<Vec<_>>(),
         "diagnostics": diagnostics_json(sources, found),
     })
+}
+
+/// Whether a machine is cut off that this handover could have connected.
+fn is_missed(apart: &Apart, verdict: &Verdict) -> bool {
+    verdict.unreachable.contains(&apart.to) || verdict.dead_ends.contains(&apart.from)
 }
 
 fn apart_json(apart: &Apart) -> Value {
