@@ -85,9 +85,15 @@ impl<'t> Checker<'t> {
                     return Some(Type::Scalar(scalar));
                 }
                 match self.units.get(&word.to_ascii_lowercase()) {
-                    Some(unit) if unit.kind == UnitKind::Block => Some(Type::Block(word.to_ascii_lowercase())),
+                    Some(unit) if unit.kind == UnitKind::Block => {
+                        Some(Type::Block(word.to_ascii_lowercase()))
+                    }
                     _ => {
-                        self.report("unknown-type", name.span, format!("`{word}` is no type that is known here"));
+                        self.report(
+                            "unknown-type",
+                            name.span,
+                            format!("`{word}` is no type that is known here"),
+                        );
                         None
                     }
                 }

@@ -7,6 +7,7 @@
 pub mod check;
 pub mod finding;
 mod literal;
+pub mod machine;
 pub mod parse;
 mod read;
 mod reserved;

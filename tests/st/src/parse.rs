@@ -6,7 +6,9 @@ use tree_sitter::{Node, Parser, Tree};
 /// The syntax tree of a text, or where the grammar does not take it.
 pub fn parse(source: &str) -> Result<Tree, Vec<Finding>> {
     let mut parser = Parser::new();
-    parser.set_language(&tree_sitter_iec61131_3_st::LANGUAGE.into()).expect("the versions of the crates agree");
+    parser
+        .set_language(&tree_sitter_iec61131_3_st::LANGUAGE.into())
+        .expect("the versions of the crates agree");
     let tree = parser.parse(source, None).expect("no limit of time is set");
     if !tree.root_node().has_error() {
         return Ok(tree);

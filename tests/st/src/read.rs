@@ -65,7 +65,9 @@ impl Reader<'_> {
     fn name_of(&self, node: Node, field: &str) -> Name {
         match node.child_by_field_name(field) {
             Some(child) => self.name(child),
-            None => Name { text: String::new(), span: Span { start: node.start_byte(), end: node.start_byte() } },
+            None => {
+                Name { text: String::new(), span: Span { start: node.start_byte(), end: node.start_byte() } }
+            }
         }
     }
 }

@@ -30,8 +30,24 @@ pub fn result(name: &str, arguments: &[Type]) -> Option<Type> {
 }
 
 const NAMES: [&str; 18] = [
-    "SQRT", "ABS", "SIN", "COS", "TAN", "ATAN", "ASIN", "ACOS", "EXP", "LN", "EXPT", "TRUNC", "MIN", "MAX",
-    "LIMIT", "SEL", "DINT_TO_LREAL", "BOOL_TO_DINT",
+    "SQRT",
+    "ABS",
+    "SIN",
+    "COS",
+    "TAN",
+    "ATAN",
+    "ASIN",
+    "ACOS",
+    "EXP",
+    "LN",
+    "EXPT",
+    "TRUNC",
+    "MIN",
+    "MAX",
+    "LIMIT",
+    "SEL",
+    "DINT_TO_LREAL",
+    "BOOL_TO_DINT",
 ];
 
 pub fn is_standard(name: &str) -> bool {

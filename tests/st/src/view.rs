@@ -70,7 +70,11 @@ pub struct TypeName {
 #[derive(Clone, Debug)]
 pub enum TypeKind {
     Named(String),
-    Array { lower: Expression, upper: Expression, element: Box<TypeName> },
+    Array {
+        lower: Expression,
+        upper: Expression,
+        element: Box<TypeName>,
+    },
     /// A type outside the portable core.
     Other,
 }
@@ -90,10 +94,23 @@ pub enum ExpressionKind {
     /// A literal of time as written.
     Time(String),
     Name(Name),
-    Index { array: Box<Expression>, index: Box<Expression> },
-    Member { object: Box<Expression>, member: Name },
-    Unary { operator: Unary, operand: Box<Expression> },
-    Binary { operator: Binary, left: Box<Expression>, right: Box<Expression> },
+    Index {
+        array: Box<Expression>,
+        index: Box<Expression>,
+    },
+    Member {
+        object: Box<Expression>,
+        member: Name,
+    },
+    Unary {
+        operator: Unary,
+        operand: Box<Expression>,
+    },
+    Binary {
+        operator: Binary,
+        left: Box<Expression>,
+        right: Box<Expression>,
+    },
     Parenthesis(Box<Expression>),
     Call(Call),
     /// Outside the portable core; a finding says so.
@@ -146,11 +163,24 @@ pub struct Statement {
 
 #[derive(Clone, Debug)]
 pub enum StatementKind {
-    Assign { target: Expression, value: Expression },
+    Assign {
+        target: Expression,
+        value: Expression,
+    },
     Call(Call),
-    If { branches: Vec<Branch>, otherwise: Option<Vec<Statement>> },
-    Case { subject: Expression, clauses: Vec<Clause>, otherwise: Option<Vec<Statement>> },
-    While { condition: Expression, body: Vec<Statement> },
+    If {
+        branches: Vec<Branch>,
+        otherwise: Option<Vec<Statement>>,
+    },
+    Case {
+        subject: Expression,
+        clauses: Vec<Clause>,
+        otherwise: Option<Vec<Statement>>,
+    },
+    While {
+        condition: Expression,
+        body: Vec<Statement>,
+    },
     Exit,
     Return,
     /// Outside the portable core; a finding says so.

@@ -19,7 +19,11 @@ impl Checker<'_> {
                 unit.result.as_ref().and_then(|ty| self.type_of_name(ty))
             }
             _ => {
-                self.report("unknown-function", name.span, format!("there is no function `{}` above", name.text));
+                self.report(
+                    "unknown-function",
+                    name.span,
+                    format!("there is no function `{}` above", name.text),
+                );
                 call.arguments.iter().for_each(|a| {
                     self.expression(scope, &a.value);
                 });
@@ -33,7 +37,11 @@ impl Checker<'_> {
         let mut types = Vec::new();
         for argument in &call.arguments {
             if argument.name.is_some() {
-                self.report("argument", argument.span, "arguments of standard functions are given by position");
+                self.report(
+                    "argument",
+                    argument.span,
+                    "arguments of standard functions are given by position",
+                );
             }
             types.push(self.expression(scope, &argument.value));
         }
@@ -41,7 +49,11 @@ impl Checker<'_> {
         let result = standard::result(&name.text, &types);
         if result.is_none() {
             let list: Vec<String> = types.iter().map(Type::to_string).collect();
-            self.report("argument", name.span, format!("`{}` does not take ({})", name.text, list.join(", ")));
+            self.report(
+                "argument",
+                name.span,
+                format!("`{}` does not take ({})", name.text, list.join(", ")),
+            );
         }
         result
     }
@@ -91,7 +103,9 @@ impl Checker<'_> {
             }
         }
         for variable in &unit.variables {
-            if matches!(variable.section, Section::Input | Section::InOut) && !given.contains(&variable.name.key()) {
+            if matches!(variable.section, Section::Input | Section::InOut)
+                && !given.contains(&variable.name.key())
+            {
                 let text = format!("the input `{}` of `{}` is not given", variable.name.text, unit.name.text);
                 self.report("argument", call.name.span, text);
             }
@@ -107,7 +121,11 @@ impl Checker<'_> {
         if let Some(wanted) = wanted
             && wanted != found
         {
-            self.report("type", span, format!("{found} for the input `{}`, which is {wanted}", input.name.text));
+            self.report(
+                "type",
+                span,
+                format!("{found} for the input `{}`, which is {wanted}", input.name.text),
+            );
         }
     }
 }

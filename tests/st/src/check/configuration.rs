@@ -40,7 +40,11 @@ impl Checker<'_> {
             let program = &assignment.program;
             match self.units.get(&program.key()) {
                 Some(unit) if unit.kind == UnitKind::Program => {}
-                _ => self.report("unknown-program", program.span, format!("there is no PROGRAM `{}`", program.text)),
+                _ => self.report(
+                    "unknown-program",
+                    program.span,
+                    format!("there is no PROGRAM `{}`", program.text),
+                ),
             }
             match &assignment.task {
                 None => self.report("unknown-task", assignment.span, "a program without a task"),

@@ -23,7 +23,8 @@ impl<'t> Checker<'t> {
             self.section(unit, variable);
             let Some(ty) = self.type_of_name(&variable.ty) else { continue };
             self.initial(variable, &ty);
-            if matches!(ty, Type::Block(_)) && (variable.section != Section::Local || unit.kind == UnitKind::Function)
+            if matches!(ty, Type::Block(_))
+                && (variable.section != Section::Local || unit.kind == UnitKind::Function)
             {
                 self.report("block-section", variable.span, "an instance of a function block stands in VAR");
             }
@@ -97,7 +98,11 @@ impl<'t> Checker<'t> {
         if let Some(other) = other
             && other != *ty
         {
-            self.report("external", variable.ty.span, format!("`{name}` is {ty} here and {other} as VAR_GLOBAL"));
+            self.report(
+                "external",
+                variable.ty.span,
+                format!("`{name}` is {ty} here and {other} as VAR_GLOBAL"),
+            );
         }
     }
 
@@ -114,7 +119,11 @@ impl<'t> Checker<'t> {
             }
         });
         if !is_set {
-            self.report("function-result", unit.name.span, format!("`{}` never gets a value", unit.name.text));
+            self.report(
+                "function-result",
+                unit.name.span,
+                format!("`{}` never gets a value", unit.name.text),
+            );
         }
     }
 }

@@ -115,7 +115,11 @@ impl Checker<'_> {
             return None;
         };
         if variable.section != Section::Output {
-            self.report("private", member.span, format!("`{}` is no output of `{}`", member.text, unit.name.text));
+            self.report(
+                "private",
+                member.span,
+                format!("`{}` is no output of `{}`", member.text, unit.name.text),
+            );
         }
         self.type_of_name(&variable.ty)
     }
@@ -134,7 +138,13 @@ impl Checker<'_> {
         Some(Type::Scalar(found))
     }
 
-    fn binary(&mut self, scope: &Scope, operator: Binary, left: &Expression, right: &Expression) -> Option<Type> {
+    fn binary(
+        &mut self,
+        scope: &Scope,
+        operator: Binary,
+        left: &Expression,
+        right: &Expression,
+    ) -> Option<Type> {
         self.operand_of(operator, Side::Left, left);
         self.operand_of(operator, Side::Right, right);
         let (left_type, right_type) = (self.scalar(scope, left), self.scalar(scope, right));

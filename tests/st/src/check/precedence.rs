@@ -5,12 +5,12 @@ use crate::view::{Binary, Expression, ExpressionKind, Unary};
 
 impl Checker<'_> {
     pub(super) fn operand_of(&mut self, operator: Binary, side: Side, operand: &Expression) {
-        let chains = matches!(
-            operator,
-            Binary::And | Binary::Or | Binary::Xor | Binary::Add | Binary::Multiply
-        );
+        let chains =
+            matches!(operator, Binary::And | Binary::Or | Binary::Xor | Binary::Add | Binary::Multiply);
         let is_fine = match &operand.kind {
-            ExpressionKind::Binary { operator: inner, .. } => chains && side == Side::Left && *inner == operator,
+            ExpressionKind::Binary { operator: inner, .. } => {
+                chains && side == Side::Left && *inner == operator
+            }
             ExpressionKind::Unary { operator: Unary::Not, .. } => {
                 matches!(operator, Binary::And | Binary::Or | Binary::Xor)
             }

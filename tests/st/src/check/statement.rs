@@ -67,7 +67,9 @@ impl Checker<'_> {
             };
             match value {
                 Err(wrong) => self.report("label", label.span, wrong),
-                Ok(value) if !seen.insert(value) => self.report("label", label.span, format!("{value} stands twice")),
+                Ok(value) if !seen.insert(value) => {
+                    self.report("label", label.span, format!("{value} stands twice"))
+                }
                 Ok(_) => {}
             }
         }
@@ -107,7 +109,11 @@ impl Checker<'_> {
                 self.element(scope, array, index)
             }
             ExpressionKind::Member { member, .. } => {
-                self.report("output", target.span, format!("`{}` of a function block is assigned to", member.text));
+                self.report(
+                    "output",
+                    target.span,
+                    format!("`{}` of a function block is assigned to", member.text),
+                );
                 None
             }
             _ => {

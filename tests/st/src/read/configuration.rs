@@ -9,7 +9,8 @@ impl Reader<'_> {
     pub(super) fn configuration(&mut self, node: Node) -> Configuration {
         let globals = self.sections(node);
         for variable in globals.iter().filter(|v| v.section != Section::Global) {
-            let finding = crate::finding::Finding::new("core", variable.span, "a CONFIGURATION has VAR_GLOBAL only");
+            let finding =
+                crate::finding::Finding::new("core", variable.span, "a CONFIGURATION has VAR_GLOBAL only");
             self.findings.push(finding);
         }
         Configuration {
@@ -34,7 +35,8 @@ impl Reader<'_> {
 
     fn task(&mut self, node: Node) -> Task {
         let settings = of_kind(node, "task_parameter");
-        let settings = settings.into_iter().map(|n| (self.name_of(n, "name"), self.field(n, "value"))).collect();
+        let settings =
+            settings.into_iter().map(|n| (self.name_of(n, "name"), self.field(n, "value"))).collect();
         Task { name: self.name_of(node, "name"), settings, span: span(node) }
     }
 

@@ -120,7 +120,11 @@ impl Reader<'_> {
         if super::children(node).iter().any(|n| n.kind() == "=>") {
             self.outside(node, "=>");
         }
-        Argument { name: Some(self.name_of(node, "name")), value: self.field(node, "value"), span: span(node) }
+        Argument {
+            name: Some(self.name_of(node, "name")),
+            value: self.field(node, "value"),
+            span: span(node),
+        }
     }
 }
 

@@ -68,8 +68,10 @@ impl Reader<'_> {
     }
 
     fn choice(&mut self, node: Node) -> StatementKind {
-        let mut branches =
-            vec![Branch { condition: self.field(node, "condition"), body: self.statements(node, "consequence") }];
+        let mut branches = vec![Branch {
+            condition: self.field(node, "condition"),
+            body: self.statements(node, "consequence"),
+        }];
         for branch in of_kind(node, "elsif_clause") {
             let condition = self.field(branch, "condition");
             branches.push(Branch { condition, body: self.statements(branch, "body") });

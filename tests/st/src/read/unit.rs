@@ -14,7 +14,15 @@ impl Reader<'_> {
             _ => UnitKind::Program,
         };
         for child in children(node) {
-            if matches!(child.kind(), "method_declaration" | "property_declaration" | "ABSTRACT" | "FINAL" | "EXTENDS" | "IMPLEMENTS") {
+            if matches!(
+                child.kind(),
+                "method_declaration"
+                    | "property_declaration"
+                    | "ABSTRACT"
+                    | "FINAL"
+                    | "EXTENDS"
+                    | "IMPLEMENTS"
+            ) {
                 self.outside(child, child.kind());
             }
         }
