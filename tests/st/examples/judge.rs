@@ -1,0 +1,21 @@
+//! Judges the texts named on the command line.
+
+use autogen_st_judge::{judge, listed};
+
+fn main() -> std::process::ExitCode {
+    let mut clean = true;
+    for path in std::env::args().skip(1) {
+        let source = match std::fs::read_to_string(&path) {
+            Ok(source) => source,
+            Err(error) => {
+                eprintln!("{path}: {error}");
+                return 2.into();
+            }
+        };
+        if let Err(findings) = judge(&source) {
+            clean = false;
+            println!("{path}: {} findings\n{}", findings.len(), listed(&findings, &source));
+        }
+    }
+    u8::from(!clean).into()
+}
