@@ -19,6 +19,8 @@ pub struct Checked {
     pub text: Text,
     /// The type of each expression, by its place.
     pub types: HashMap<Span, Type>,
+    /// What no rule forbids but has not been tried on every compiler.
+    pub untried: Vec<Finding>,
 }
 
 /// The types of all expressions, or the findings.
@@ -26,9 +28,9 @@ pub fn check(text: Text, mut findings: Vec<Finding>) -> Result<Checked, Vec<Find
     let mut checker = Checker::new(&text);
     checker.run();
     findings.append(&mut checker.findings);
-    let types = checker.types;
+    let (types, untried) = (checker.types, checker.untried);
     if findings.is_empty() {
-        return Ok(Checked { text, types });
+        return Ok(Checked { text, types, untried });
     }
     findings.sort_by_key(|f| f.span);
     Err(findings)
@@ -40,6 +42,7 @@ struct Checker<'t> {
     units: HashMap<String, &'t Unit>,
     globals: HashMap<String, &'t Variable>,
     findings: Vec<Finding>,
+    untried: Vec<Finding>,
     types: HashMap<Span, Type>,
 }
 
@@ -57,6 +60,7 @@ impl<'t> Checker<'t> {
             units: HashMap::new(),
             globals: globals.map(|v| (v.name.key(), v)).collect(),
             findings: Vec::new(),
+            untried: Vec::new(),
             types: HashMap::new(),
         }
     }

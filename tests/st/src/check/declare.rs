@@ -1,6 +1,7 @@
 //! Declarations of a unit.
 
 use super::{Checker, Scope};
+use crate::finding::Finding;
 use crate::types::{Scalar, Type};
 use crate::view::{
     Expression, ExpressionKind, Section, StatementKind, Unit, UnitKind, Variable, each_statement,
@@ -31,7 +32,8 @@ impl<'t> Checker<'t> {
             if let Type::Array(..) = ty
                 && matches!(variable.section, Section::Input | Section::Output | Section::InOut)
             {
-                self.report("array-passed", variable.span, "an array as input or output has not been tried");
+                let text = "an array of a type without a name is an input or output";
+                self.untried.push(Finding::new("array-passed", variable.span, text));
             }
             if variable.section == Section::External {
                 self.external(variable, &ty);
