@@ -4,7 +4,7 @@ use super::options::{BuildOptions, Format};
 use super::write::{self, Files, Overwrite, Refusal};
 use super::{load, print};
 use crate::Status;
-use autogen::backend::rust;
+use autogen::backend::{rust, st};
 use autogen::lower::{Outcome, Project, compile};
 use autogen::simulator;
 use autogen::source::Sources;
@@ -26,6 +26,9 @@ pub fn run(options: &BuildOptions) -> Status {
                 println!("{}", json!({ "feasible": true, "folder": built.folder.display().to_string(), "files": names, "diagnostics": [] }));
             } else if !options.input.quiet {
                 println!("{} files written to {}", built.files.len() + 1, built.folder.display());
+                if let Some(bounds) = built.files.get("plc/bounds.txt") {
+                    print!("\n{bounds}");
+                }
             }
             Status::Done
         }
@@ -56,6 +59,9 @@ fn files(project: &Project, sources: &Sources) -> Files {
     let mut files = Files::new();
     for (name, text) in rust::files(&project.system, sources) {
         files.insert(format!("rust/{name}"), text);
+    }
+    for (name, text) in st::files(&project.system, sources) {
+        files.insert(format!("plc/{name}"), text);
     }
     for (name, text) in simulator::SOURCES {
         files.insert(format!("rust/runtime-sim/{name}"), (*text).into());
