@@ -4,7 +4,7 @@ use super::options::{BuildOptions, Format};
 use super::write::{self, Files, Overwrite, Refusal};
 use super::{load, print};
 use crate::Status;
-use autogen::backend::{dot, plan, rust};
+use autogen::backend::{dot, plan, rust, st};
 use autogen::lower::{Outcome, Project, compile};
 use autogen::simulator;
 use autogen::source::Sources;
@@ -29,6 +29,9 @@ pub fn run(options: &BuildOptions) -> Status {
                 );
             } else if !options.input.quiet {
                 println!("{} files written to {}", built.files.len() + 1, built.folder.display());
+                if let Some(bounds) = built.files.get("plc/bounds.txt") {
+                    print!("\n{bounds}");
+                }
             }
             Status::Done
         }
@@ -70,6 +73,9 @@ fn files(project: &Project, sources: &Sources) -> Files {
         files.insert(format!("graph/{name}"), text);
     }
     files.insert("graph/plan.svg".into(), plan::svg(&project.plant, &project.edges, &project.obstacles));
+    for (name, text) in st::files(&project.system, sources) {
+        files.insert(format!("plc/{name}"), text);
+    }
     for (name, text) in simulator::SOURCES {
         files.insert(format!("rust/runtime-sim/{name}"), (*text).into());
     }
