@@ -186,14 +186,19 @@ impl<'a> Beside<'a> {
         })
     }
 
-    fn compare(&mut self, outputs: &[Vec<f64>], answers: (SystemOutputs, SystemOutputs)) -> Result<(), String> {
+    fn compare(
+        &mut self,
+        outputs: &[Vec<f64>],
+        answers: (SystemOutputs, SystemOutputs),
+    ) -> Result<(), String> {
         let scan = self.scans;
         if answers.0 != answers.1 {
             return Err(format!("scan {scan}: {:?}, the text {:?}", answers.0, answers.1));
         }
         for (robot, (image, other)) in outputs.iter().zip(&self.outputs).enumerate() {
             self.words += image.len() as u64;
-            if image.len() != other.len() || image.iter().zip(other).any(|(a, b)| a.to_bits() != b.to_bits()) {
+            if image.len() != other.len() || image.iter().zip(other).any(|(a, b)| a.to_bits() != b.to_bits())
+            {
                 return Err(format!("scan {scan}: robot {robot} publishes {image:?}, the text {other:?}"));
             }
         }
@@ -205,7 +210,9 @@ impl<'a> Beside<'a> {
         }
         self.words += trace.len() as u64;
         match trace.iter().zip(&other).position(|(a, b)| a.to_bits() != b.to_bits()) {
-            Some(i) => Err(format!("scan {scan}: {} is {}, in the text {}", self.text.names[i], trace[i], other[i])),
+            Some(i) => {
+                Err(format!("scan {scan}: {} is {}, in the text {}", self.text.names[i], trace[i], other[i]))
+            }
             None => Ok(()),
         }
     }

@@ -1,0 +1,142 @@
+//! Emitted Structured Text, judged and run beside the reference executor.
+
+use autogen::backend::st;
+use autogen::ir::System;
+use autogen::source::Sources;
+use autogen_st_judge::{faults, judge, listed};
+use autogen_tests::instances::instantiate;
+use autogen_tests::lots::Lots;
+use autogen_tests::st::{Beside, StructuredText};
+use autogen_tests::{LAYOUTS, ariac, root, trace};
+use runtime_sim::scan::Controllers;
+use std::collections::BTreeMap;
+
+fn emitted(system: &System, sources: &Sources) -> String {
+    st::files(system, sources).remove("portable/main.st").expect("the portable flavour")
+}
+
+/// The text of a layout of the paper.
+fn of_layout(layout: &str) -> (autogen::lower::Project, String) {
+    let outcome = ariac(layout).compile();
+    let project = outcome.project.expect("a layout that can be built");
+    let text = emitted(&project.system, &outcome.sources);
+    (project, text)
+}
+
+/// The specifications of the small fixtures.
+fn fixtures() -> Vec<(String, String)> {
+    let folder = root().join("tests/fixtures/rust");
+    let mut files: Vec<_> = std::fs::read_dir(folder)
+        .expect("a folder")
+        .map(|entry| entry.expect("an entry").path())
+        .map(|path| {
+            let name = path.file_name().expect("a name").to_string_lossy().into_owned();
+            (name, std::fs::read_to_string(&path).expect("a text"))
+        })
+        .collect();
+    files.sort();
+    files
+}
+
+/// Branches of CASE by unit and label: how often entered.
+#[derive(Default)]
+struct Entered(BTreeMap<(String, String), u64>);
+
+impl Entered {
+    fn add(&mut self, beside: &Beside) {
+        for branch in beside.text.machine.branches() {
+            *self.0.entry((branch.unit, branch.label)).or_default() += branch.entered;
+        }
+    }
+
+    fn print(&self) {
+        let never: Vec<_> =
+            self.0.iter().filter(|(_, n)| **n == 0).map(|((u, l), _)| format!("{u} {l}")).collect();
+        println!(
+            "{} of {} CASE branches entered; not: {}",
+            self.0.len() - never.len(),
+            self.0.len(),
+            never.join(", ")
+        );
+    }
+}
+
+fn same(beside: &Beside, name: &str) {
+    println!("{name}: {} scans, {} words, difference: {:?}", beside.scans, beside.words, beside.difference);
+    assert_eq!(beside.difference, None, "{name}");
+}
+
+/// So many scans of inputs drawn by lot.
+fn drawn<'s>(system: &'s System, text: &str, scans: usize, seed: u64) -> Beside<'s> {
+    let mut beside = Beside::new(system, text).unwrap_or_else(|error| panic!("{error}"));
+    let mut lots = Lots::new(system, seed);
+    let mut outputs = vec![Vec::new(); system.instances.len()];
+    for _ in 0..scans {
+        let given = lots.next(system, &outputs);
+        beside.scan(given, &lots.images, &mut outputs);
+    }
+    beside
+}
+
+#[test]
+fn layouts_are_the_same_on_the_simulator_and_on_drawn_inputs() {
+    let mut entered = Entered::default();
+    for layout in LAYOUTS {
+        let (project, text) = of_layout(layout);
+        let mut beside =
+            Beside::new(&project.system, &text).unwrap_or_else(|error| panic!("{layout}: {error}"));
+        runtime_sim::run::run(&project.plant, &mut beside, &mut |_| {}).expect("a line that can be run");
+        same(&beside, layout);
+        entered.add(&beside);
+        for seed in 1..=3 {
+            let beside = drawn(&project.system, &text, 3000, seed);
+            same(&beside, &format!("{layout}, inputs drawn from {seed}"));
+            entered.add(&beside);
+        }
+    }
+    entered.print();
+}
+
+#[test]
+fn fixtures_are_the_same_on_drawn_inputs() {
+    let mut entered = Entered::default();
+    for file in fixtures() {
+        let name = file.0.clone();
+        let (system, sources) = instantiate(&[file]);
+        let text = emitted(&system, &sources);
+        let beside = drawn(&system, &text, 3000, 1);
+        same(&beside, &name);
+        entered.add(&beside);
+    }
+    entered.print();
+}
+
+#[test]
+fn hand_written_traces_are_followed() {
+    let mut wrong = Vec::new();
+    let mut paths: Vec<_> = std::fs::read_dir(root().join("tests/fixtures/trace"))
+        .expect("the folder of traces")
+        .map(|entry| entry.expect("an entry").path())
+        .collect();
+    paths.sort();
+    for path in &paths {
+        let fixture = trace::load(&std::fs::read_to_string(path).expect("a text")).expect("a trace");
+        let text = emitted(&fixture.system, &fixture.sources);
+        let outcome = StructuredText::new(&fixture.system, &text)
+            .and_then(|mut engine| trace::compare(&fixture, &mut engine));
+        if let Err(error) = outcome {
+            wrong.push(format!("{}\n{error}", path.display()));
+        }
+    }
+    println!("{} traces, {} wrong", paths.len(), wrong.len());
+    assert!(wrong.is_empty(), "{} of {} traces differ\n\n{}", wrong.len(), paths.len(), wrong.join("\n\n"));
+}
+
+#[test]
+fn every_fault_seeded_into_the_default_layout_is_found() {
+    let (_, text) = of_layout("default");
+    let checked = judge(&text).unwrap_or_else(|findings| panic!("{}", listed(&findings, &text)));
+    let rows = faults::seed(&text, &checked, 10, 1);
+    println!("{}", faults::table(&rows));
+    assert!(rows.iter().all(|row| row.caught == row.seeded), "{}", faults::table(&rows));
+}
