@@ -10,13 +10,23 @@ use runtime_sim::scan::{Controllers, SystemInputs, SystemOutputs};
 pub struct StructuredText {
     pub machine: Machine,
     scans: u64,
-    /// For each robot its words; None stands for what the text need not hold.
+    /// Why a scan could not be ended; none is run after it.
+    pub ended: Option<String>,
+    /// For each robot its words; None stands for inputs that the text leaves out.
     inputs: Vec<Vec<Option<Place>>>,
     outputs: Vec<Vec<Place>>,
     states: Vec<Place>,
-    trace: Vec<Option<Place>>,
+    trace: Vec<Word>,
     /// Names of the words of the trace.
     pub names: Vec<String>,
+}
+
+/// A word of the trace.
+#[derive(Clone, Copy)]
+enum Word {
+    At(Place),
+    /// The text leaves it out, since it never changes.
+    Constant(f64),
 }
 
 /// Finds the words of a system in a text.
@@ -44,8 +54,20 @@ impl StructuredText {
         if !finder.missing.is_empty() {
             return Err(format!("not in the text: {}", finder.missing.join(" ")));
         }
-        let (names, trace) = trace.into_iter().unzip();
-        Ok(Self { machine, scans: 0, inputs, outputs, states, trace, names })
+        let mut first = Vec::new();
+        autogen::executor::Executor::new(system).trace(&mut first);
+        let (names, places): (Vec<_>, Vec<_>) = trace.into_iter().unzip();
+        let words = places.into_iter().zip(first);
+        let trace = words.map(|(place, first)| place.map_or(Word::Constant(first), Word::At)).collect();
+        Ok(Self { machine, scans: 0, ended: None, inputs, outputs, states, trace, names })
+    }
+}
+
+impl StructuredText {
+    /// Words of the trace that the text leaves out: they are compared with what they were at first.
+    pub fn left_out(&self) -> Vec<&str> {
+        let words = self.names.iter().zip(&self.trace);
+        words.filter(|(_, word)| matches!(word, Word::Constant(_))).map(|(name, _)| name.as_str()).collect()
     }
 }
 
@@ -109,14 +131,13 @@ impl Finder<'_> {
             }
         }
         for path in paths {
-            let place = self.place(path.clone());
+            let place = self.machine.place(&path);
             trace.push((path, place));
         }
         for port in automaton.device.ports.iter().filter(|p| p.direction == Direction::Output) {
             let name = format!("{robot}.{}", port.name);
             for path in self.paths(&name, port.ty == PortType::Point, port.extent.into(), 0) {
-                // No automaton writes `hold`, so a block need not have it.
-                let place = if port.name == "hold" { None } else { self.place(path.clone()) };
+                let place = self.machine.place(&path);
                 trace.push((path, place));
             }
         }
@@ -138,8 +159,13 @@ impl Controllers for StructuredText {
                 }
             }
         }
-        if let Err(error) = machine.scan() {
-            panic!("scan {}: the text ends at {error}", self.scans);
+        if self.ended.is_none()
+            && let Err(error) = machine.scan()
+        {
+            self.ended = Some(format!("scan {}: the text ends at {error}", self.scans));
+        }
+        if self.ended.is_some() {
+            return SystemOutputs { running: false, fault: true, fault_code: -1, fault_robot: -1 };
         }
         self.scans += 1;
         for (places, image) in self.outputs.iter().zip(outputs) {
@@ -159,7 +185,10 @@ impl Controllers for StructuredText {
     }
 
     fn trace(&self, out: &mut Vec<f64>) {
-        out.extend(self.trace.iter().map(|place| place.map_or(0.0, |place| self.machine.read(place))));
+        out.extend(self.trace.iter().map(|word| match word {
+            Word::At(place) => self.machine.read(*place),
+            Word::Constant(value) => *value,
+        }));
     }
 }
 
@@ -225,7 +254,8 @@ impl Controllers for Beside<'_> {
             let mut own = std::mem::take(&mut self.outputs);
             let other = self.text.scan(system, inputs, &mut own);
             self.outputs = own;
-            self.difference = self.compare(outputs, (answer, other)).err();
+            self.difference =
+                self.text.ended.clone().or_else(|| self.compare(outputs, (answer, other)).err());
             self.scans += 1;
         }
         answer

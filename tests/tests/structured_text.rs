@@ -67,15 +67,15 @@ fn same(beside: &Beside, name: &str) {
 }
 
 /// So many scans of inputs drawn by lot.
-fn drawn<'s>(system: &'s System, text: &str, scans: usize, seed: u64) -> Beside<'s> {
-    let mut beside = Beside::new(system, text).unwrap_or_else(|error| panic!("{error}"));
+fn drawn<'s>(system: &'s System, text: &str, scans: usize, seed: u64) -> Result<Beside<'s>, String> {
+    let mut beside = Beside::new(system, text)?;
     let mut lots = Lots::new(system, seed);
     let mut outputs = vec![Vec::new(); system.instances.len()];
     for _ in 0..scans {
         let given = lots.next(system, &outputs);
         beside.scan(given, &lots.images, &mut outputs);
     }
-    beside
+    Ok(beside)
 }
 
 #[test]
@@ -89,7 +89,8 @@ fn layouts_are_the_same_on_the_simulator_and_on_drawn_inputs() {
         same(&beside, layout);
         entered.add(&beside);
         for seed in 1..=3 {
-            let beside = drawn(&project.system, &text, 3000, seed);
+            let beside =
+                drawn(&project.system, &text, 3000, seed).unwrap_or_else(|error| panic!("{layout}: {error}"));
             same(&beside, &format!("{layout}, inputs drawn from {seed}"));
             entered.add(&beside);
         }
@@ -100,15 +101,28 @@ fn layouts_are_the_same_on_the_simulator_and_on_drawn_inputs() {
 #[test]
 fn fixtures_are_the_same_on_drawn_inputs() {
     let mut entered = Entered::default();
+    let mut wrong = Vec::new();
     for file in fixtures() {
         let name = file.0.clone();
         let (system, sources) = instantiate(&[file]);
-        let text = emitted(&system, &sources);
-        let beside = drawn(&system, &text, 3000, 1);
-        same(&beside, &name);
-        entered.add(&beside);
+        match drawn(&system, &emitted(&system, &sources), 3000, 1) {
+            Err(error) => wrong.push(format!("{name}: {error}")),
+            Ok(beside) => {
+                println!("{name}: {} scans, {} words", beside.scans, beside.words);
+                wrong.extend(beside.difference.iter().map(|d| format!("{name}: {d}")));
+                entered.add(&beside);
+            }
+        }
     }
     entered.print();
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// Where a text differs, it is written to the folder that AUTOGEN_ST names.
+fn keep(name: &str, text: &str) {
+    if let Some(folder) = std::env::var_os("AUTOGEN_ST") {
+        std::fs::write(std::path::Path::new(&folder).join(format!("{name}.st")), text).expect("a folder");
+    }
 }
 
 #[test]
@@ -122,9 +136,12 @@ fn hand_written_traces_are_followed() {
     for path in &paths {
         let fixture = trace::load(&std::fs::read_to_string(path).expect("a text")).expect("a trace");
         let text = emitted(&fixture.system, &fixture.sources);
-        let outcome = StructuredText::new(&fixture.system, &text)
-            .and_then(|mut engine| trace::compare(&fixture, &mut engine));
+        let outcome = StructuredText::new(&fixture.system, &text).and_then(|mut engine| {
+            let compared = trace::compare(&fixture, &mut engine);
+            engine.ended.map_or(compared, Err)
+        });
         if let Err(error) = outcome {
+            keep(&path.file_stem().expect("a name").to_string_lossy(), &text);
             wrong.push(format!("{}\n{error}", path.display()));
         }
     }

@@ -98,13 +98,19 @@ impl<'a> Survey<'a> {
         }
     }
 
-    /// Ways to write a value of the type in the unit: a literal, and a variable if there is one.
+    /// Ways to write a value of the type in the unit: literals, and some of its variables.
     pub(super) fn values(&self, unit: &Unit, ty: Scalar) -> Vec<String> {
-        let mut values = vec![literal(ty).to_string()];
-        values.extend(
-            unit.variables.iter().find(|v| self.scalar_type(v) == Some(ty)).map(|v| v.name.text.clone()),
-        );
-        values
+        let other = match ty {
+            Scalar::Bool => "FALSE",
+            Scalar::Dint => "-2",
+            Scalar::Lreal => "0.0",
+        };
+        let variables = unit.variables.iter().filter(|v| self.scalar_type(v) == Some(ty)).take(2);
+        [literal(ty), other]
+            .map(String::from)
+            .into_iter()
+            .chain(variables.map(|v| v.name.text.clone()))
+            .collect()
     }
 
     pub(super) fn scalar_type(&self, variable: &Variable) -> Option<Scalar> {
