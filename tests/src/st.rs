@@ -117,8 +117,12 @@ impl Finder<'_> {
         let robot = instance.name.clone();
         let mut paths = vec![format!("{robot}.state"), format!("{robot}.elapsed")];
         for local in &automaton.locals {
-            let name = format!("{robot}.{}", local.name);
-            paths.extend(self.paths(&name, local.ty.scalar == Scalar::Point, local.ty.extent, 0));
+            let is_point = local.ty.scalar == Scalar::Point;
+            let named = |name: &str| self.paths(&format!("{robot}.{name}"), is_point, local.ty.extent, 0);
+            // What cannot be a name in the text, or is another one's there, has got an ending.
+            let endings = ["", "_v", "_2"].map(|ending| named(&format!("{}{ending}", local.name)));
+            let found = endings.iter().find(|paths| paths.iter().all(|p| self.machine.place(p).is_some()));
+            paths.extend_from_slice(found.unwrap_or(&endings[0]));
         }
         for (implemented, row) in automaton.implements.iter().zip(&instance.rows) {
             let interface = self.system.model.interface(implemented.interface);

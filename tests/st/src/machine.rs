@@ -7,16 +7,18 @@
 
 mod code;
 mod compile;
+mod construct;
 mod layout;
 mod place;
 mod run;
 
 pub use place::Place;
 
-use crate::finding::{Finding, Place as TextPlace};
+use crate::finding::{Finding, Place as TextPlace, Span};
 use crate::types::Scalar;
 use code::{Code, Trap};
 use layout::Layouts;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::fmt;
 
 /// A text in execution.
@@ -25,6 +27,7 @@ pub struct Machine {
     source: String,
     code: Code,
     layouts: Layouts,
+    constructs: HashMap<Span, BTreeSet<String>>,
     /// Every value takes one word.
     memory: Vec<u64>,
     counters: Counters,
@@ -80,7 +83,8 @@ impl Machine {
             statements: vec![0; code.statements.len()],
             executed: 0,
         };
-        Ok(Self { source: source.into(), code, layouts, memory, counters })
+        let constructs = construct::of_text(&checked);
+        Ok(Self { source: source.into(), code, layouts, constructs, memory, counters })
     }
 
     /// Runs every program once.
@@ -155,6 +159,17 @@ impl Machine {
                 (TextPlace::of(&self.source, span.start).line, text.lines().next().unwrap_or("").into())
             })
             .collect()
+    }
+
+    /// The constructs of the language that the text uses, with how often a statement with one was executed.
+    pub fn constructs(&self) -> BTreeMap<String, u64> {
+        let mut counts = BTreeMap::new();
+        for (span, count) in self.code.statements.iter().zip(&self.counters.statements) {
+            for name in self.constructs.get(span).into_iter().flatten() {
+                *counts.entry(name.clone()).or_default() += count;
+            }
+        }
+        counts
     }
 
     pub fn statements(&self) -> usize {
