@@ -3,6 +3,7 @@
 use autogen::backend::st;
 use autogen::ir::System;
 use autogen::source::Sources;
+use autogen_st_judge::machine::Machine;
 use autogen_st_judge::{faults, judge, listed};
 use autogen_tests::instances::instantiate;
 use autogen_tests::lots::Lots;
@@ -121,6 +122,21 @@ fn fixtures_are_the_same_on_drawn_inputs() {
     }
     entered.print();
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn a_state_that_there_is_not_is_a_fault() {
+    let (project, text) = of_layout("default");
+    for instance in &project.system.instances {
+        let mut machine = Machine::new(&text).expect("a clean text");
+        machine.set("run_permit", 1.0);
+        machine.scan().expect("a scan");
+        machine.set("start", 1.0);
+        machine.set(&format!("{}.state", instance.name), 99.0);
+        machine.scan().expect("a scan");
+        assert_eq!((machine.get("fault"), machine.get("running")), (1.0, 0.0), "{}", instance.name);
+        assert!(machine.branches().iter().any(|b| b.label == "ELSE" && b.entered == 1), "{}", instance.name);
+    }
 }
 
 /// Traces that the emitter does not follow yet: a literal beyond 1.0E38, an index that relies on `and`.

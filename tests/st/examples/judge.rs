@@ -1,5 +1,6 @@
 //! Judges the texts named on the command line.
 
+use autogen_st_judge::dead::dead;
 use autogen_st_judge::{judge, listed};
 
 fn main() -> std::process::ExitCode {
@@ -12,9 +13,15 @@ fn main() -> std::process::ExitCode {
                 return 2.into();
             }
         };
-        if let Err(findings) = judge(&source) {
-            clean = false;
-            println!("{path}: {} findings\n{}", findings.len(), listed(&findings, &source));
+        match judge(&source) {
+            Err(findings) => {
+                clean = false;
+                println!("{path}: {} findings\n{}", findings.len(), listed(&findings, &source));
+            }
+            Ok(checked) => {
+                println!("{path}: no findings; untried:\n{}", listed(&checked.untried, &source));
+                println!("dead:\n{}", listed(&dead(&checked), &source));
+            }
         }
     }
     u8::from(!clean).into()

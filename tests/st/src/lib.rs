@@ -5,6 +5,7 @@
 //! the two share no code.
 
 pub mod check;
+pub mod dead;
 pub mod faults;
 pub mod finding;
 mod literal;
