@@ -94,7 +94,7 @@ mod tests {
         assert_eq!(
             found,
             [
-                "2:27: unused: `h` is not used",
+                "2:24: unused: `h` is not used",
                 "3:5: unread: nobody reads `a`",
                 "7:1: unreachable: nothing reaches this statement"
             ]
