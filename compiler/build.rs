@@ -12,7 +12,8 @@ fn main() {
     files.sort();
     let mut table = String::from("&[\n");
     for file in files {
-        let name = file.strip_prefix(&root).expect("a file of the crate").to_string_lossy().replace('\\', "/");
+        let name =
+            file.strip_prefix(&root).expect("a file of the crate").to_string_lossy().replace('\\', "/");
         let path = fs::canonicalize(&file).expect("a file that exists");
         writeln!(table, "    ({name:?}, include_str!({path:?})),").expect("a text grows");
     }

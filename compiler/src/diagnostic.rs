@@ -55,6 +55,15 @@ impl Diagnostic {
     }
 }
 
+/// What every code means and how to mend it.
+const ERRORS: &str = include_str!("../../docs/errors.md");
+
+/// The long text of a code, in Markdown without its heading.
+pub fn explain(code: &str) -> Option<&'static str> {
+    let section = ERRORS.split("\n## ").skip(1).find(|s| s.lines().next() == Some(code))?;
+    section.split_once('\n').map(|(_, text)| text.trim())
+}
+
 /// Places in reading order, so that output never depends on the order of the checks.
 pub fn sort(diagnostics: &mut Vec<Diagnostic>) {
     diagnostics.sort_by(|a, b| (a.place, a.code, &a.message).cmp(&(b.place, b.code, &b.message)));
@@ -137,12 +146,4 @@ pub fn render(sources: &Sources, diagnostics: &[Diagnostic], renderer: &Renderer
 fn range(span: Span, len: usize) -> std::ops::Range<usize> {
     let start = (span.start as usize).min(len);
     start..(span.end as usize).clamp(start, len)
-}
-
-/// The long text of a diagnostic: its section of `docs/errors.md`.
-pub fn explain(code: &str) -> Option<&'static str> {
-    let text = include_str!("../../docs/errors.md");
-    let begin = text.find(&format!("\n### {code}"))? + 1;
-    let end = text[begin + 3..].find("\n### ").map_or(text.len(), |i| begin + 3 + i);
-    Some(text[begin..end].trim())
 }

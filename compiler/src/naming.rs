@@ -6,11 +6,12 @@ use std::collections::BTreeSet;
 
 /// Keywords of Rust, reserved ones included, and the names of its prelude that generated code uses.
 const RUST: &[&str] = &[
-    "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate", "do", "dyn", "else",
-    "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let", "loop", "macro", "match", "mod",
-    "move", "mut", "override", "priv", "pub", "ref", "return", "self", "static", "struct", "super", "trait", "true",
-    "try", "type", "typeof", "unsafe", "unsized", "use", "virtual", "where", "while", "yield", "Self", "Some", "None",
-    "Ok", "Err", "Option", "Result", "Default", "Into", "From", "Copy", "Clone", "Iterator", "Box", "Vec", "String",
+    "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate", "do", "dyn",
+    "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let", "loop",
+    "macro", "match", "mod", "move", "mut", "override", "priv", "pub", "ref", "return", "self", "static",
+    "struct", "super", "trait", "true", "try", "type", "typeof", "unsafe", "unsized", "use", "virtual",
+    "where", "while", "yield", "Self", "Some", "None", "Ok", "Err", "Option", "Result", "Default", "Into",
+    "From", "Copy", "Clone", "Iterator", "Box", "Vec", "String",
 ];
 
 /// Names that stand side by side, all different.
@@ -54,7 +55,8 @@ fn words(name: &str) -> Vec<String> {
         let after = letters.get(i + 1);
         let rises = c.is_ascii_uppercase()
             && (before.is_some_and(|b| b.is_ascii_lowercase() || b.is_ascii_digit())
-                || (before.is_some_and(|b| b.is_ascii_uppercase()) && after.is_some_and(|a| a.is_ascii_lowercase())));
+                || (before.is_some_and(|b| b.is_ascii_uppercase())
+                    && after.is_some_and(|a| a.is_ascii_lowercase())));
         if begins || rises {
             words.push(String::new());
         }

@@ -1,5 +1,9 @@
 //! What the tests of the whole share.
 
+pub mod instances;
+pub mod trace;
+pub mod workspace;
+
 use autogen::diagnostic::{self, Diagnostic};
 use autogen::lower::{Input, Outcome, Project, Setting, compile};
 use autogen::source::Sources;
@@ -75,7 +79,8 @@ pub fn ariac(layout: &str) -> Texts {
 /// Runs `job` for each of the inputs on all processors; results in the order of the inputs.
 pub fn on_all_processors<T: Sync, R: Send>(inputs: &[T], job: impl Fn(&T) -> R + Sync) -> Vec<R> {
     let next = std::sync::atomic::AtomicUsize::new(0);
-    let results: Vec<std::sync::Mutex<Option<R>>> = inputs.iter().map(|_| std::sync::Mutex::new(None)).collect();
+    let results: Vec<std::sync::Mutex<Option<R>>> =
+        inputs.iter().map(|_| std::sync::Mutex::new(None)).collect();
     let workers = std::thread::available_parallelism().map_or(1, |n| n.get());
     std::thread::scope(|scope| {
         for _ in 0..workers {
@@ -89,5 +94,8 @@ pub fn on_all_processors<T: Sync, R: Send>(inputs: &[T], job: impl Fn(&T) -> R +
             });
         }
     });
-    results.into_iter().map(|r| r.into_inner().expect("as above").expect("every input has been worked on")).collect()
+    results
+        .into_iter()
+        .map(|r| r.into_inner().expect("as above").expect("every input has been worked on"))
+        .collect()
 }

@@ -25,7 +25,8 @@ fn codes(outcome: &Outcome) -> Vec<&'static str> {
 #[test]
 fn the_default_layout_has_exactly_the_edges_of_the_paper() {
     let outcome = ariac("default").compile();
-    let edges: Vec<(&str, &str)> = verdict(&outcome).edges.iter().map(|(a, b, _)| (a.as_str(), b.as_str())).collect();
+    let edges: Vec<(&str, &str)> =
+        verdict(&outcome).edges.iter().map(|(a, b, _)| (a.as_str(), b.as_str())).collect();
     let mut expected = vec![("conveyor_belt", "kitting")];
     let agvs = ["agv1", "agv2", "agv3", "agv4"];
     expected.extend(agvs.map(|agv| ("kitting", agv)));
@@ -60,7 +61,11 @@ fn a_vehicle_that_is_partly_or_wholly_out_of_reach_is_named_with_a_mend() {
         let v = verdict(&outcome);
         assert!(!v.feasible);
         assert_eq!(v.unreachable, ["agv3"]);
-        let apart = v.apart.iter().find(|a| a.from == "kitting" && a.to == "agv3").expect("the pair that should have met");
+        let apart = v
+            .apart
+            .iter()
+            .find(|a| a.from == "kitting" && a.to == "agv3")
+            .expect("the pair that should have met");
         assert_eq!(apart.misses.len() == apart.tested, all);
         assert!(apart.misses.iter().all(|m| m.missing_mm > 0.0));
         let (robot, path, _, value) = apart.mend.clone().expect("a mend");
@@ -76,7 +81,8 @@ fn ariac_with_agv3_at(x: f64) -> Outcome {
 
 #[test]
 fn a_short_rail_misses_the_outer_vehicles() {
-    let layout = text("examples/ariac2021/default.json").replace("\"rail_range\": [-4.8, 4.8]", "\"rail_range\": [-2.75, 2.75]");
+    let layout = text("examples/ariac2021/default.json")
+        .replace("\"rail_range\": [-4.8, 4.8]", "\"rail_range\": [-2.75, 2.75]");
     let outcome = Texts::of_layout(layout).set("agv.capacity=12").compile();
     let v = verdict(&outcome);
     let apart = v.apart.iter().find(|a| a.to == "agv1").expect("the pair that should have met");
@@ -102,7 +108,8 @@ fn a_source_without_a_way_is_a_dead_end() {
 
 #[test]
 fn a_robot_that_gives_and_takes_back_is_refused() {
-    let layout = text("examples/buffer/buffer.json").replace(",\n      \"takes_from\": [\"conveyor_belt\"]", "");
+    let layout =
+        text("examples/buffer/buffer.json").replace(",\n      \"takes_from\": [\"conveyor_belt\"]", "");
     let specs = vec![text("examples/buffer/specs/buffer.aut")];
     let outcome = Texts { layout, specs, ..Texts::default() }.compile();
     assert_eq!(codes(&outcome), ["E0504"]);
@@ -119,7 +126,10 @@ fn drawn(seed: u64) -> String {
         let place = format!("[{}, {y}, 0]", about(-2.35, 0.25));
         layout = layout.replace(&format!("[-2.265685, {y}, 0]"), &place);
     }
-    layout.replace("\"pose\": [-12.3, 3, 0]", &format!("\"pose\": [{}, 3, {}]", about(-13.5, 2.0), about(0.0, 0.2)))
+    layout.replace(
+        "\"pose\": [-12.3, 3, 0]",
+        &format!("\"pose\": [{}, 3, {}]", about(-13.5, 2.0), about(0.0, 0.2)),
+    )
 }
 
 #[test]
@@ -129,7 +139,10 @@ fn no_feasible_layout_fails_for_reach() {
     let results = on_all_processors(&seeds, |seed| {
         let outcome = Texts::of_layout(drawn(*seed)).set("agv.capacity=12").compile();
         let Some(project) = outcome.project else {
-            assert!(outcome.verdict.is_some_and(|v| !v.feasible), "layout {seed} is refused for another reason");
+            assert!(
+                outcome.verdict.is_some_and(|v| !v.feasible),
+                "layout {seed} is refused for another reason"
+            );
             return None;
         };
         let mut executor = Executor::new(&project.system);
@@ -154,7 +167,10 @@ fn no_feasible_layout_fails_for_reach() {
     });
     let feasible = results.iter().flatten().count();
     println!("{count} layouts, {feasible} feasible, none failed for reach");
-    assert!(feasible * 10 >= results.len() && feasible < results.len(), "{feasible} feasible layouts show too little");
+    assert!(
+        feasible * 10 >= results.len() && feasible < results.len(),
+        "{feasible} feasible layouts show too little"
+    );
 }
 
 #[test]

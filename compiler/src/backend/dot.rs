@@ -19,7 +19,12 @@ fn connectivity(system: &System, edges: &[Edge]) -> String {
     let mut text = String::from("digraph connectivity {\n    rankdir = LR;\n    node [shape = box];\n");
     for instance in &system.instances {
         let automaton = &system.model.automaton(instance.automaton).name;
-        let _ = writeln!(text, "    {} [label = {}];", quoted(&instance.name), quoted(&format!("{}\n{automaton}", instance.name)));
+        let _ = writeln!(
+            text,
+            "    {} [label = {}];",
+            quoted(&instance.name),
+            quoted(&format!("{}\n{automaton}", instance.name))
+        );
     }
     for edge in edges {
         let (from, to) = (&system.instances[edge.from].name, &system.instances[edge.to].name);
@@ -29,7 +34,8 @@ fn connectivity(system: &System, edges: &[Edge]) -> String {
 }
 
 fn states(automaton: &Automaton) -> String {
-    let mut text = format!("digraph {} {{\n    node [shape = box, style = rounded];\n", quoted(&automaton.name));
+    let mut text =
+        format!("digraph {} {{\n    node [shape = box, style = rounded];\n", quoted(&automaton.name));
     for (i, state) in automaton.states.iter().enumerate() {
         let shape = match (i, state.is_final) {
             (0, _) => ", shape = point",

@@ -14,7 +14,12 @@ const BORDER: f64 = 0.9;
 
 /// One drawing; edges are between machines.
 pub fn svg(line: &Line, edges: &[Edge], obstacles: &[(String, Obstacle)]) -> String {
-    let mut drawing = Drawing { body: String::new(), labels: String::new(), low: (f64::MAX, f64::MAX), high: (f64::MIN, f64::MIN) };
+    let mut drawing = Drawing {
+        body: String::new(),
+        labels: String::new(),
+        low: (f64::MAX, f64::MAX),
+        high: (f64::MIN, f64::MIN),
+    };
     for (name, obstacle) in obstacles {
         let size = obstacle.size.unwrap_or(Point::new(0.4, 0.4, 0.0));
         drawing.rectangle(obstacle.pose, (size.x, size.y), "obstacle");
@@ -33,7 +38,13 @@ pub fn svg(line: &Line, edges: &[Edge], obstacles: &[(String, Obstacle)]) -> Str
 /// Where an arrow touches a machine: a vehicle is loaded at its start and unloaded at its stop.
 fn meeting(machine: &Geometry, other: &Geometry, leaves: bool) -> Point {
     match machine {
-        Geometry::Vehicle { pose, destinations } => if leaves { destinations[0] } else { *pose },
+        Geometry::Vehicle { pose, destinations } => {
+            if leaves {
+                destinations[0]
+            } else {
+                *pose
+            }
+        }
         Geometry::RailArm { pose, rail_dim, rail_range } => {
             let along = meeting_along(other, *rail_dim).clamp(rail_range[0], rail_range[1]);
             match rail_dim {
@@ -61,7 +72,8 @@ impl Drawing {
     fn machine(&mut self, name: &str, geometry: &Geometry) {
         match geometry {
             Geometry::Belt { pose, orient, orient_range } => {
-                let (middle, length) = ((orient_range[0] + orient_range[1]) / 2.0, orient_range[1] - orient_range[0]);
+                let (middle, length) =
+                    ((orient_range[0] + orient_range[1]) / 2.0, orient_range[1] - orient_range[0]);
                 let (centre, size) = match orient {
                     Axis::X => (Point::new(middle, pose.y, 0.0), (length, 0.65)),
                     Axis::Y => (Point::new(pose.x, middle, 0.0), (0.65, length)),
@@ -163,7 +175,12 @@ impl Drawing {
     }
 
     fn label(&mut self, at: Point, text: &str, class: &str) {
-        let _ = writeln!(self.labels, "<text class=\"{class}\" x=\"{:.1}\" y=\"{:.1}\">{text}</text>", px(at.x), py(at.y) + 4.0);
+        let _ = writeln!(
+            self.labels,
+            "<text class=\"{class}\" x=\"{:.1}\" y=\"{:.1}\">{text}</text>",
+            px(at.x),
+            py(at.y) + 4.0
+        );
     }
 
     fn finish(self) -> String {

@@ -26,6 +26,8 @@ use askama::Template;
 use context::{Context, Shared};
 
 const MANIFEST: &str = include_str!("../../../templates/rust/Cargo.toml");
+/// Versions of what the simulator depends on, so that every build is the same.
+const LOCK: &str = include_str!("../../../templates/rust/Cargo.lock");
 const CONTROLLERS_MANIFEST: &str = include_str!("../../../templates/rust/controllers/Cargo.toml");
 const TYPES: &str = include_str!("../../../templates/rust/controllers/types.rs");
 const COMMISSIONING_MANIFEST: &str = include_str!("../../../templates/rust/commissioning/Cargo.toml");
@@ -44,6 +46,7 @@ pub fn files(system: &System, sources: &Sources) -> Files {
     let mut files = Files::new();
     let mut put = |path: String, text: String| files.insert(path, text);
     put("Cargo.toml".into(), MANIFEST.into());
+    put("Cargo.lock".into(), LOCK.into());
     put("controllers/Cargo.toml".into(), CONTROLLERS_MANIFEST.into());
     put("controllers/src/types.rs".into(), TYPES.into());
     put("controllers/src/lib.rs".into(), shared::library(shared));
@@ -65,7 +68,10 @@ pub fn files(system: &System, sources: &Sources) -> Files {
         put(format!("commissioning/{path}"), text.into());
     }
     put("commissioning/src/adapters.rs".into(), adapters::adapters(shared));
-    put("commissioning/examples/host.rs".into(), include_str!("../../../templates/rust/commissioning/host.rs").into());
+    put(
+        "commissioning/examples/host.rs".into(),
+        include_str!("../../../templates/rust/commissioning/host.rs").into(),
+    );
     files
 }
 

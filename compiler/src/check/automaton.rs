@@ -158,6 +158,7 @@ impl Context<'_, '_> {
                 Diagnostic::new("E0301", name.span, format!("`{}` names {meaning} already", name.value))
                     .help("choose another name"),
             );
+            self.broken.insert(name.value.clone());
             return;
         }
         self.symbols.insert(name.value.clone(), symbol);

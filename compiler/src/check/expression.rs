@@ -600,6 +600,14 @@ impl Context<'_, '_> {
         if self.broken.contains(&name.value) {
             return None;
         }
+        if self.symbols.contains_key(&name.value) {
+            let message = format!("`{}` is neither a role nor an enumeration", name.value);
+            self.report(
+                Diagnostic::new("E0311", name.span, message)
+                    .help("write a role, an enumeration or a range such as `0..capacity - 1`"),
+            );
+            return None;
+        }
         let mut known: Vec<String> = self.automaton.roles.iter().map(|r| r.name.clone()).collect();
         known.extend(self.checker.model.enums.iter().map(|e| e.name.clone()));
         let help = crate::diagnostic::suggestion(&name.value, known.iter().map(String::as_str))

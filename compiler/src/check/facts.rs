@@ -56,6 +56,13 @@ impl Facts {
                 Interval::new(f64::from(u8::from(*v)), f64::from(u8::from(*v)))
             }
             ExprKind::ToReal(inner) => self.of(inner),
+            // Neither operand is negative.
+            ExprKind::Binary(Operator::Add, a, b) if expr.ty == Scalar::Time => {
+                Interval::new(0.0, self.of(a).hi + self.of(b).hi)
+            }
+            ExprKind::Binary(Operator::Multiply, a, b) if expr.ty == Scalar::Time => {
+                Interval::new(0.0, self.of(a).hi * self.of(b).hi)
+            }
             _ => {
                 let declared = of_type(expr.ty);
                 key(expr).and_then(|k| self.known.get(&k)).map_or(declared, |known| declared.meet(*known))

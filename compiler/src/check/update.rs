@@ -69,10 +69,11 @@ impl Context<'_, '_> {
         }
         let is_access = matches!(value.kind, ast::ExprKind::Name(_) | ast::ExprKind::Member(..));
         let target = Target { place: place.clone(), ty };
-        if is_access && let Path::Place(source, found) = self.path(value, Some(ty.scalar))? {
-            if found.extent != Extent::One {
-                return self.copy_array(target, source, found, value.span, span);
-            }
+        if is_access
+            && let Path::Place(source, found) = self.path(value, Some(ty.scalar))?
+            && found.extent != Extent::One
+        {
+            return self.copy_array(target, source, found, value.span, span);
         }
         let value = self.typed(value, ty.scalar)?;
         self.check_rule(&place, how, &value, span)?;

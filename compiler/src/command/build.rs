@@ -4,7 +4,7 @@ use super::options::{BuildOptions, Format};
 use super::write::{self, Files, Overwrite, Refusal};
 use super::{load, print};
 use crate::Status;
-use autogen::backend::{rust, st};
+use autogen::backend::{dot, plan, rust, st};
 use autogen::lower::{Outcome, Project, compile};
 use autogen::simulator;
 use autogen::source::Sources;
@@ -23,7 +23,10 @@ pub fn run(options: &BuildOptions) -> Status {
         Ok(built) => {
             if options.input.format == Format::Json {
                 let names: Vec<&String> = built.files.keys().collect();
-                println!("{}", json!({ "feasible": true, "folder": built.folder.display().to_string(), "files": names, "diagnostics": [] }));
+                println!(
+                    "{}",
+                    json!({ "feasible": true, "folder": built.folder.display().to_string(), "files": names, "diagnostics": [] })
+                );
             } else if !options.input.quiet {
                 println!("{} files written to {}", built.files.len() + 1, built.folder.display());
                 if let Some(bounds) = built.files.get("plc/bounds.txt") {
@@ -42,7 +45,12 @@ pub fn build(options: &BuildOptions) -> Result<Built, Status> {
     let Outcome { sources, diagnostics, verdict, project } = compile(input);
     let Some(project) = project else {
         match options.input.format {
-            Format::Json => println!("{}", print::verdict_json(verdict.as_ref(), &sources, &diagnostics)),
+            Format::Json => {
+                let mut answer = print::verdict_json(verdict.as_ref(), &sources, &diagnostics);
+                answer["finished"] = json!(false);
+                answer["reason"] = json!("the input has errors");
+                println!("{answer}");
+            }
             Format::Text => print::diagnostics(&sources, &diagnostics),
         }
         return Err(Status::WrongInput);
@@ -50,7 +58,8 @@ pub fn build(options: &BuildOptions) -> Result<Built, Status> {
     let files = files(&project, &sources);
     let folder = options.output.clone().unwrap_or_else(|| Path::new("out").join(&project.name));
     let overwrite = if options.force { Overwrite::Everything } else { Overwrite::Own };
-    write::write(&folder, &files, about(&project, &sources), overwrite).map_err(|refusal| refused(options, &refusal))?;
+    write::write(&folder, &files, about(&project, &sources), overwrite)
+        .map_err(|refusal| refused(options, &refusal))?;
     Ok(Built { project, files, folder })
 }
 
@@ -63,6 +72,10 @@ fn files(project: &Project, sources: &Sources) -> Files {
     for (name, text) in st::files(&project.system, sources) {
         files.insert(format!("plc/{name}"), text);
     }
+    for (name, text) in dot::files(&project.system, &project.edges) {
+        files.insert(format!("graph/{name}"), text);
+    }
+    files.insert("graph/plan.svg".into(), plan::svg(&project.plant, &project.edges, &project.obstacles));
     for (name, text) in simulator::SOURCES {
         files.insert(format!("rust/runtime-sim/{name}"), (*text).into());
     }

@@ -89,7 +89,13 @@ fn program(options: &CommissionOptions, built: &Built) -> Result<PathBuf, String
         .filter_map(|(name, text)| Some((name.strip_prefix("rust/")?.to_string(), text.clone())))
         .filter(|(name, _)| !name.starts_with("controllers/src/robots") && !name.contains("/data/"))
         .collect();
-    let key = write::hash(&sources.iter().filter(|(n, _)| !is_of_layout(n)).map(|(n, t)| format!("{n}\n{t}\n")).collect::<String>());
+    let key = write::hash(
+        &sources
+            .iter()
+            .filter(|(n, _)| !is_of_layout(n))
+            .map(|(n, t)| format!("{n}\n{t}\n"))
+            .collect::<String>(),
+    );
     let folder = cache().join(&key[..16]);
     let program = folder.join("commissioning").with_extension(env::consts::EXE_EXTENSION);
     if program.is_file() {
@@ -108,7 +114,8 @@ fn program(options: &CommissionOptions, built: &Built) -> Result<PathBuf, String
         .stdout(Stdio::null())
         .stderr(Stdio::piped())
         .spawn();
-    let mut child = result.map_err(|e| format!("cargo cannot be started, and the controllers need it to be compiled: {e}"))?;
+    let mut child = result
+        .map_err(|e| format!("cargo cannot be started, and the controllers need it to be compiled: {e}"))?;
     let mut errors = String::new();
     if let Some(mut stderr) = child.stderr.take() {
         let _ = stderr.read_to_string(&mut errors);
@@ -130,7 +137,9 @@ fn is_of_layout(name: &str) -> bool {
 
 /// Where compiled programs are kept: the user's cache.
 fn cache() -> PathBuf {
-    let base = env::var_os("XDG_CACHE_HOME").map(PathBuf::from).or_else(|| Some(Path::new(&env::var_os("HOME")?).join(".cache")));
+    let base = env::var_os("XDG_CACHE_HOME")
+        .map(PathBuf::from)
+        .or_else(|| Some(Path::new(&env::var_os("HOME")?).join(".cache")));
     base.unwrap_or_else(env::temp_dir).join("autogen")
 }
 
@@ -161,7 +170,10 @@ fn text(report: &Value, wall: f64) -> String {
     let empty = serde_json::Map::new();
     let robots = report["robots"].as_object().unwrap_or(&empty);
     let width = robots.keys().map(String::len).max().unwrap_or(5).max(5);
-    out += &format!("{:width$}  {:>9} {:>9} {:>9} {:>9}  waits for\n", "robot", "moving", "working", "waiting", "stopped");
+    out += &format!(
+        "{:width$}  {:>9} {:>9} {:>9} {:>9}  waits for\n",
+        "robot", "moving", "working", "waiting", "stopped"
+    );
     for (name, robot) in robots {
         let seconds = |key: &str| format!("{:9.2}", number(&robot[key]));
         let owners: Vec<String> = (robot["waiting_for"].as_object().unwrap_or(&empty).iter())

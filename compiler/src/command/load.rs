@@ -20,11 +20,13 @@ pub enum Failure {
 pub fn load(options: &InputOptions) -> Result<Input, Failure> {
     let mut sources = Sources::default();
     let layout = add(&mut sources, &options.layout)?;
-    let mut specs: Vec<FileId> = library::FILES.iter().map(|(name, text)| sources.add(*name, *text)).collect();
+    let mut specs: Vec<FileId> =
+        library::FILES.iter().map(|(name, text)| sources.add(*name, *text)).collect();
     // What is wrong with the layout the compiler reports; here only the files it names are of interest.
     let named = layout::parse(&sources, layout).0;
     let beside = |name: &str| options.layout.parent().unwrap_or(Path::new("")).join(name);
-    let folders = named_specs(&named).into_iter().map(|name| beside(&name)).chain(options.specs.iter().cloned());
+    let folders =
+        named_specs(&named).into_iter().map(|name| beside(&name)).chain(options.specs.iter().cloned());
     for folder in folders {
         for path in automata(&folder)? {
             specs.push(add(&mut sources, &path)?);

@@ -41,11 +41,17 @@ pub fn failure(options: &InputOptions, failure: &Failure) -> Status {
     match (failure, options.format) {
         (Failure::Unreadable(text), Format::Text) => eprintln!("autogen: {text}"),
         (Failure::Unreadable(text), Format::Json) => {
-            println!("{}", json!({ "feasible": false, "finished": false, "reason": text, "diagnostics": [] }));
+            println!(
+                "{}",
+                json!({ "feasible": false, "finished": false, "reason": text, "diagnostics": [] })
+            );
         }
         (Failure::Wrong(sources, found), Format::Text) => diagnostics(sources, found),
         (Failure::Wrong(sources, found), Format::Json) => {
-            println!("{}", json!({ "feasible": false, "finished": false, "diagnostics": diagnostics_json(sources, found) }));
+            println!(
+                "{}",
+                json!({ "feasible": false, "finished": false, "diagnostics": diagnostics_json(sources, found) })
+            );
         }
     }
     Status::WrongCommand
@@ -82,7 +88,10 @@ pub fn verdict(v: &Verdict) -> String {
     let mut text = String::new();
     let width = v.edges.iter().map(|(a, _, _)| a.len()).max().unwrap_or(0);
     let to_width = v.edges.iter().map(|(_, b, _)| b.len()).max().unwrap_or(0);
-    text += &format!("{} edges (margin: how far the arm stays within its reach at the worst pose)\n", v.edges.len());
+    text += &format!(
+        "{} edges (margin: how far the arm stays within its reach at the worst pose)\n",
+        v.edges.len()
+    );
     for (from, to, margin) in &v.edges {
         text += &format!("  {from:width$} -> {to:to_width$}  {margin:6.3} m\n");
     }

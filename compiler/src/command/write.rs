@@ -37,12 +37,15 @@ pub fn write(folder: &Path, files: &Files, about: Value, overwrite: Overwrite) -
     let before = manifest(folder);
     let is_own = |name: &str| match (fs::read(folder.join(name)), before.get(name)) {
         (Err(e), _) => e.kind() == io::ErrorKind::NotFound,
-        (Ok(bytes), Some(hash_before)) => String::from_utf8(bytes).is_ok_and(|text| hash(&text) == *hash_before),
+        (Ok(bytes), Some(hash_before)) => {
+            String::from_utf8(bytes).is_ok_and(|text| hash(&text) == *hash_before)
+        }
         (Ok(_), None) => false,
     };
     if overwrite == Overwrite::Own {
         let has_manifest = folder.join(MANIFEST).exists() && before.is_empty();
-        let mut foreign: Vec<PathBuf> = files.keys().filter(|name| !is_own(name)).map(|n| folder.join(n)).collect();
+        let mut foreign: Vec<PathBuf> =
+            files.keys().filter(|name| !is_own(name)).map(|n| folder.join(n)).collect();
         if has_manifest {
             foreign.push(folder.join(MANIFEST));
         }
@@ -51,7 +54,11 @@ pub fn write(folder: &Path, files: &Files, about: Value, overwrite: Overwrite) -
         }
     }
     let mut manifest = about;
-    manifest["files"] = files.iter().map(|(name, text)| (name.clone(), json!(hash(text)))).collect::<serde_json::Map<_, _>>().into();
+    manifest["files"] = files
+        .iter()
+        .map(|(name, text)| (name.clone(), json!(hash(text))))
+        .collect::<serde_json::Map<_, _>>()
+        .into();
     let manifest = format!("{manifest:#}\n");
 
     let staged = staging(folder);

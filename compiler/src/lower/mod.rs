@@ -172,7 +172,8 @@ fn system(
         return;
     }
     let robot = |node: usize| line.robot_of(node);
-    let edges = report.edges.iter().map(|e| connect::Edge { from: robot(e.from), to: robot(e.to), ..*e }).collect();
+    let edges =
+        report.edges.iter().map(|e| connect::Edge { from: robot(e.from), to: robot(e.to), ..*e }).collect();
     let Some(system) = line.system(report, layout.scan_ms) else {
         outcome.diagnostics.append(&mut line.diagnostics);
         return;

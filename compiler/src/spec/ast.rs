@@ -235,7 +235,7 @@ pub struct Transition {
 #[derive(Clone, Debug)]
 pub enum Clause {
     Condition(Expr),
-    Bind(Binder),
+    Bind(Box<Binder>),
 }
 
 #[derive(Clone, Debug)]

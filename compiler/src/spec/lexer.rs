@@ -119,7 +119,8 @@ pub fn tokens(file: FileId, text: &str) -> (Vec<(Token, Span)>, Vec<Diagnostic>)
             );
         }
     }
-    found.push((Token::End, Span::new(file, text.len(), text.len())));
+    let end = text.trim_end().len();
+    found.push((Token::End, Span::new(file, end, end)));
     (found, diagnostics)
 }
 

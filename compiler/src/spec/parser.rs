@@ -214,7 +214,7 @@ impl Parser {
                 self.next();
                 Some(Spanned { value: w, span })
             }
-            Token::Word(w) => {
+            Token::Word(w) if w != "in" => {
                 self.next();
                 Some(Spanned { value: w, span })
             }

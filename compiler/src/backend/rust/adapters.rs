@@ -46,19 +46,21 @@ struct RobotView {
 
 pub fn adapters(shared: Shared) -> String {
     let model = &shared.system.model;
-    let interfaces = model.interfaces.iter().zip(&shared.names.interfaces).map(|(interface, names)| InterfaceView {
-        keyword: interface.name.clone(),
-        field: names.field.clone(),
-        reference: names.reference.clone(),
-        cells_type: names.cells.clone(),
-        has_cells: !interface.cells.is_empty(),
-        parameters_type: names.parameters.clone(),
-        parameters: names.parameter.clone(),
-    });
-    let relations = model.relations.iter().zip(&shared.names.relations).map(|(relation, name)| RelationView {
-        keyword: format!("{}_{}", model.interface(relation.from).name, model.interface(relation.to).name),
-        name: name.clone(),
-    });
+    let interfaces =
+        model.interfaces.iter().zip(&shared.names.interfaces).map(|(interface, names)| InterfaceView {
+            keyword: interface.name.clone(),
+            field: names.field.clone(),
+            reference: names.reference.clone(),
+            cells_type: names.cells.clone(),
+            has_cells: !interface.cells.is_empty(),
+            parameters_type: names.parameters.clone(),
+            parameters: names.parameter.clone(),
+        });
+    let relations =
+        model.relations.iter().zip(&shared.names.relations).map(|(relation, name)| RelationView {
+            keyword: format!("{}_{}", model.interface(relation.from).name, model.interface(relation.to).name),
+            name: name.clone(),
+        });
     let interfaces: Vec<InterfaceView> = interfaces.collect();
     let view = Adapters {
         enums: shared.names.enums.iter().map(|e| e.ty.clone()).collect(),
@@ -83,7 +85,10 @@ fn robot(shared: Shared, id: usize) -> RobotView {
     };
     let owned = automaton.implements.iter().zip(&names.rows).flat_map(|(implements, row)| {
         let interface = &shared.names.interfaces[implements.interface.0];
-        interface.cell.iter().map(move |cell| format!("cells.{}[robot.parameters.{row}].{cell}", interface.field))
+        interface
+            .cell
+            .iter()
+            .map(move |cell| format!("cells.{}[robot.parameters.{row}].{cell}", interface.field))
     });
     RobotView {
         keyword: automaton.name.clone(),

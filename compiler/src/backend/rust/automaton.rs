@@ -64,14 +64,25 @@ pub fn module(context: &Context) -> String {
     let mut asked = uses.clone();
     asked.join(invariant_uses(context));
     automaton.defines.iter().for_each(|d| asked.expr(automaton, &d.value));
-    let stops: Vec<String> = ports(Direction::Output).filter_map(|(port, name)| stop(context, port, name)).collect();
+    let stops: Vec<String> =
+        ports(Direction::Output).filter_map(|(port, name)| stop(context, port, name)).collect();
     let module = Module {
-        title: format!("{}: what every `{}` does. Made by autogen from {}.", names.ty, automaton.name, context.line(automaton.place)),
+        title: format!(
+            "{}: what every `{}` does. Made by autogen from {}.",
+            names.ty,
+            automaton.name,
+            context.line(automaton.place)
+        ),
         about: automaton.doc.clone(),
         device: format!("`{}`: {}", device.name, device.purpose),
         ty: names.ty.clone(),
         parameters: parameters(context),
-        states: automaton.states.iter().zip(&names.states).map(|(s, name)| plain(doc(&s.doc), name)).collect(),
+        states: automaton
+            .states
+            .iter()
+            .zip(&names.states)
+            .map(|(s, name)| plain(doc(&s.doc), name))
+            .collect(),
         inputs: ports(Direction::Input).map(|(p, name)| port_field(context, p, name)).collect(),
         limits: ports(Direction::Input).filter_map(|(p, name)| limit(p, name)).collect(),
         outputs: ports(Direction::Output).map(|(p, name)| port_field(context, p, name)).collect(),
@@ -81,7 +92,10 @@ pub fn module(context: &Context) -> String {
             .verbs
             .iter()
             .zip(&names.verbs)
-            .map(|(v, name)| Field { initial: v.number.to_string(), ..plain(doc(&[v.meaning.into()]), name) })
+            .map(|(v, name)| Field {
+                initial: v.number.to_string(),
+                ..plain(doc(&[sentence(v.meaning)]), name)
+            })
             .collect(),
         locals: automaton
             .locals
@@ -115,7 +129,12 @@ fn plain(doc: String, name: &str) -> Field {
 fn parameters(context: &Context) -> Vec<Field> {
     let automaton = context.automaton();
     let names = context.own();
-    let field = |doc: String, name: &String, ty: String| Field { doc, name: name.clone(), ty, initial: String::new() };
+    let field = |doc: String, name: &String, ty: String| Field {
+        doc,
+        name: name.clone(),
+        ty,
+        initial: String::new(),
+    };
     let values = automaton.parameters.iter().zip(&names.parameters);
     let roles = automaton.roles.iter().zip(&names.roles);
     let rows = automaton.implements.iter().zip(&names.rows);
@@ -150,10 +169,15 @@ fn port_field(context: &Context, port: &Port, name: &str) -> Field {
         PortType::Point => Value::Point([0.0; 3]),
     };
     let unit = if port.unit.is_empty() { String::new() } else { format!(", in {}", port.unit) };
-    let mut letters = port.meaning.chars();
-    let first_letter: String = letters.next().into_iter().flat_map(char::to_uppercase).collect();
-    let text = format!("{first_letter}{}{unit}.", letters.as_str());
+    let text = sentence(&format!("{}{unit}", port.meaning));
     Field { doc: doc(&[text]), name: name.into(), ty: context.ty(ty), initial: context.filled(ty, first) }
+}
+
+/// With a capital and a full stop.
+fn sentence(text: &str) -> String {
+    let mut letters = text.chars();
+    let first: String = letters.next().into_iter().flat_map(char::to_uppercase).collect();
+    format!("{first}{}.", letters.as_str())
 }
 
 fn limit(port: &Port, name: &str) -> Option<String> {

@@ -1,6 +1,7 @@
 //! The choice of a transition's variables: binders as nested loops.
 
 use super::context::Context;
+use super::expression::{Condition, all};
 use super::walk::Uses;
 use crate::ir::{Binder, Clause, Domain, Scalar, Transition, VariableId};
 use std::fmt::Write;
@@ -16,7 +17,7 @@ pub struct Test {
 /// A clause of a guard with binders: conditions have been put behind the binder after which they stand.
 struct Loop<'a> {
     binder: &'a Binder,
-    conditions: Vec<String>,
+    conditions: Vec<Condition>,
 }
 
 impl Context<'_> {
@@ -25,8 +26,7 @@ impl Context<'_> {
         let (leading, bound) = transition.clauses.split_at(split.unwrap_or(transition.clauses.len()));
         let mut conditions = self.conditions(leading);
         if bound.is_empty() {
-            let condition = (!conditions.is_empty()).then(|| conditions.join(" && "));
-            return Test { condition, method: None };
+            return Test { condition: all(&conditions), method: None };
         }
         let loops = self.loops(bound);
         let updates = Uses::of_updates(self.automaton(), &transition.updates);
@@ -34,8 +34,8 @@ impl Context<'_> {
             loops.iter().map(|l| l.binder.variable).filter(|v| updates.variables.contains(v)).collect();
         let is_simple = loops.len() == 1 && loops[0].binder.key.is_none();
         if is_simple && chosen.is_empty() {
-            conditions.push(self.any(&loops[0], bound));
-            return Test { condition: Some(conditions.join(" && ")), method: None };
+            conditions.push(Condition::new(self.any(&loops[0], bound)));
+            return Test { condition: all(&conditions), method: None };
         }
         let names = tuple(chosen.iter().map(|v| self.variable(*v)));
         let types = tuple(chosen.iter().map(|v| self.scalar(self.automaton().variables[v.0].ty.scalar)));
@@ -47,21 +47,21 @@ impl Context<'_> {
         } else {
             (format!("Option<{types}>"), format!("let Some({names}) = {call}"))
         };
-        conditions.push(condition);
+        conditions.push(Condition::new(condition));
         let body = if is_simple { self.find(&loops[0]) } else { self.search(&loops, &chosen) };
         let parameters = self.parameters(&uses);
         let separator = if parameters.is_empty() { "" } else { ", " };
         let method = format!("fn {method}(&self{separator}{parameters}) -> {result} {{ {body} }}");
-        Test { condition: Some(conditions.join(" && ")), method: Some(method) }
+        Test { condition: all(&conditions), method: Some(method) }
     }
 
-    /// Conditions as operands of `&&`, without those that are always true.
-    pub fn conditions(&self, clauses: &[Clause]) -> Vec<String> {
-        let text = |clause: &Clause| match clause {
-            Clause::Condition(condition) => Some(self.conjunct(condition)).filter(|text| text != "true"),
+    /// Without those that are always true.
+    pub fn conditions(&self, clauses: &[Clause]) -> Vec<Condition> {
+        let of_clause = |clause: &Clause| match clause {
+            Clause::Condition(condition) => self.condition(condition),
             Clause::Bind(_) => None,
         };
-        clauses.iter().filter_map(text).collect()
+        clauses.iter().filter_map(of_clause).collect()
     }
 
     fn loops<'c>(&self, clauses: &'c [Clause]) -> Vec<Loop<'c>> {
@@ -80,27 +80,30 @@ impl Context<'_> {
     }
 
     /// The condition of the binder and those behind it.
-    fn candidate(&self, step: &Loop) -> Vec<String> {
-        let own = step.binder.condition.as_ref().map(|c| self.conjunct(c)).filter(|text| text != "true");
+    fn candidate(&self, step: &Loop) -> Vec<Condition> {
+        let own = step.binder.condition.as_ref().and_then(|c| self.condition(c));
         own.into_iter().chain(step.conditions.iter().cloned()).collect()
     }
 
     fn any(&self, step: &Loop, clauses: &[Clause]) -> String {
         let variable = step.binder.variable;
         let is_read = Uses::of_clauses(self.automaton(), clauses).variables.contains(&variable);
-        let name = if is_read { self.variable(variable) } else { "_".into() };
-        let conditions = self.candidate(step);
-        let body = if conditions.is_empty() { "true".into() } else { conditions.join(" && ") };
+        let name = if is_read { self.pattern(variable, &step.binder.domain) } else { "_".into() };
+        let body = all(&self.candidate(step)).unwrap_or_else(|| "true".into());
         format!("{}.any(|{name}| {body})", self.iterator(&step.binder.domain))
     }
 
     fn find(&self, step: &Loop) -> String {
-        let values = self.iterator(&step.binder.domain);
-        let conditions = self.candidate(step);
-        if conditions.is_empty() {
-            return format!("{values}.next()");
-        }
-        let condition = conditions.join(" && ");
+        let domain = &step.binder.domain;
+        let condition = match (all(&self.candidate(step)), domain) {
+            (Some(condition), _) => condition,
+            (None, Domain::Role(role)) => {
+                return format!("self.parameters.{}.first().copied()", self.own().roles[role.0]);
+            }
+            (None, _) => return format!("{}.next()", self.iterator(domain)),
+        };
+        let copied = if matches!(domain, Domain::Role(_)) { ".copied()" } else { "" };
+        let values = format!("{}{copied}", self.iterator(domain));
         let name = self.variable(step.binder.variable);
         let reads = Uses::of_clauses(self.automaton(), &[Clause::Bind(step.binder.clone())]);
         let is_read = reads.variables.contains(&step.binder.variable) || !step.conditions.is_empty();
@@ -117,29 +120,31 @@ impl Context<'_> {
             (format!("return Some({names});"), "None")
         };
         if loops[0].binder.key.is_some() && !chosen.is_empty() {
-            return format!("{} best.map(|(_, chosen)| chosen)", self.best(loops, chosen, 0).0);
+            return format!("{} best.map(|(_, chosen)| chosen)", self.best(loops, chosen, 1).0);
         }
-        format!("{} {failure}", self.nested(loops, chosen, 0, &success))
+        format!("{} {failure}", self.nested(loops, chosen, 1, &success))
     }
 
-    fn nested(&self, loops: &[Loop], chosen: &[VariableId], depth: usize, success: &str) -> String {
+    fn nested(&self, loops: &[Loop], chosen: &[VariableId], rank: usize, success: &str) -> String {
         let Some((step, rest)) = loops.split_first() else { return success.to_string() };
         if step.binder.key.is_some() {
-            let (search, found) = self.best(loops, chosen, depth);
+            let (search, found) = self.best(loops, chosen, rank);
             return format!("{search} if {found} {{ {success} }}");
         }
-        let body = self.nested(rest, chosen, depth + 1, success);
+        let body = self.nested(rest, chosen, rank, success);
         let body = guarded(&self.candidate(step), &body);
-        let pattern = self.pattern(loops, chosen);
+        let pattern = self.loop_pattern(loops, chosen);
         format!("for {pattern} in {} {{ {body} }}", self.values(&step.binder.domain))
     }
 
-    /// The search for the best candidate, and the condition that there is one.
-    fn best(&self, loops: &[Loop], chosen: &[VariableId], depth: usize) -> (String, String) {
+    /// The search for the best candidate, and the condition that there is one. Searches within
+    /// others have a higher rank.
+    fn best(&self, loops: &[Loop], chosen: &[VariableId], rank: usize) -> (String, String) {
         let (step, rest) = (&loops[0], &loops[1..]);
         let Some(key) = &step.binder.key else { return Default::default() };
-        let number = if depth == 0 { String::new() } else { (depth + 1).to_string() };
-        let (best, key_name, label) = (format!("best{number}"), format!("key{number}"), format!("'best{number}"));
+        let number = if rank == 1 { String::new() } else { rank.to_string() };
+        let (best, key_name, label) =
+            (format!("best{number}"), format!("key{number}"), format!("'best{number}"));
         let kept: Vec<VariableId> =
             loops.iter().map(|l| l.binder.variable).filter(|v| chosen.contains(v)).collect();
         let names = tuple(kept.iter().map(|v| self.variable(*v)));
@@ -157,30 +162,30 @@ impl Context<'_> {
         };
         let again = if rest.is_empty() { String::new() } else { format!(" continue {label};") };
         let success = format!("{best} = Some({value});{again}");
-        let inner = self.nested(rest, &kept, depth + 1, &success);
-        let mut better = vec![format!("{best}.is_none_or(|{least}| {key_name} < least)")];
+        let inner = self.nested(rest, &kept, rank + 1, &success);
+        let mut better = vec![Condition::new(format!("{best}.is_none_or(|{least}| {key_name} < least)"))];
         better.extend(step.conditions.iter().cloned());
         let body = format!("let {key_name} = {}; {}", self.expr(key), guarded(&better, &inner));
-        let own: Vec<String> =
-            step.binder.condition.iter().map(|c| self.conjunct(c)).filter(|text| text != "true").collect();
+        let own: Vec<Condition> = step.binder.condition.iter().filter_map(|c| self.condition(c)).collect();
         let body = guarded(&own, &body);
         let label = if rest.is_empty() { String::new() } else { format!("{label}: ") };
         let mut text = format!("let mut {best}: Option<{ty}> = None;");
-        let pattern = self.pattern(loops, chosen);
+        let pattern = self.loop_pattern(loops, chosen);
         let _ = write!(text, "{label}for {pattern} in {} {{ {body} }}", self.values(&step.binder.domain));
         (text, found)
     }
 
     /// The variable of the first loop, or `_` if nothing reads it.
-    fn pattern(&self, loops: &[Loop], chosen: &[VariableId]) -> String {
+    fn loop_pattern(&self, loops: &[Loop], chosen: &[VariableId]) -> String {
         let variable = loops[0].binder.variable;
         let clauses: Vec<Clause> = loops.iter().map(|l| Clause::Bind(l.binder.clone())).collect();
         let name = self.variable(variable);
-        let is_word = |text: &String| text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').any(|w| *w == name);
+        let is_word =
+            |text: &str| text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').any(|w| *w == name);
         let is_read = Uses::of_clauses(self.automaton(), &clauses).variables.contains(&variable)
-            || loops.iter().flat_map(|l| &l.conditions).any(is_word)
+            || loops.iter().flat_map(|l| &l.conditions).any(|c| is_word(&c.alone))
             || chosen.contains(&variable);
-        if is_read { name } else { "_".into() }
+        if is_read { self.pattern(variable, &loops[0].binder.domain) } else { "_".into() }
     }
 
     /// A domain behind `in`.
@@ -188,13 +193,13 @@ impl Context<'_> {
         match domain {
             Domain::Enum(id) => format!("{}::ALL", self.names.enums[id.0].ty),
             Domain::Range(low, high) => format!("{}..={}", self.expr(low), self.expr(high)),
-            Domain::Role(_) => self.iterator(domain),
+            Domain::Role(role) => format!("self.parameters.{}", self.own().roles[role.0]),
         }
     }
 }
 
-fn guarded(conditions: &[String], body: &str) -> String {
-    if conditions.is_empty() { body.to_string() } else { format!("if {} {{ {body} }}", conditions.join(" && ")) }
+fn guarded(conditions: &[Condition], body: &str) -> String {
+    all(conditions).map_or_else(|| body.to_string(), |condition| format!("if {condition} {{ {body} }}"))
 }
 
 /// One name, or several in brackets.

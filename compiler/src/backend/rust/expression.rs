@@ -23,6 +23,28 @@ struct Code {
     level: Level,
 }
 
+/// A condition by itself, and as an operand of `&&`.
+#[derive(Clone)]
+pub struct Condition {
+    pub alone: String,
+    operand: String,
+}
+
+impl Condition {
+    pub fn new(text: String) -> Self {
+        Self { alone: text.clone(), operand: text }
+    }
+}
+
+/// All of them together; `None` if there are none.
+pub fn all(conditions: &[Condition]) -> Option<String> {
+    match conditions {
+        [] => None,
+        [one] => Some(one.alone.clone()),
+        many => Some(many.iter().map(|c| c.operand.as_str()).collect::<Vec<_>>().join(" && ")),
+    }
+}
+
 impl Code {
     fn primary(text: impl Into<String>) -> Self {
         Self { text: text.into(), level: Level::Primary }
@@ -39,9 +61,10 @@ impl Context<'_> {
         self.code(expr).text
     }
 
-    /// As an operand of `&&`.
-    pub fn conjunct(&self, expr: &Expr) -> String {
-        self.code(expr).at(Level::And)
+    /// Unless it is always true.
+    pub fn condition(&self, expr: &Expr) -> Option<Condition> {
+        let alone = self.expr(expr);
+        (alone != "true").then(|| Condition { alone, operand: self.code(expr).at(Level::And) })
     }
 
     fn code(&self, expr: &Expr) -> Code {
@@ -54,12 +77,12 @@ impl Context<'_> {
                 Code::primary(format!("self.{}({})", self.own().defines[*define], self.arguments(&uses)))
             }
             ExprKind::Own(interface) => Code::primary(self.own_row(*interface)),
-            ExprKind::After(time) => {
-                compared("self.elapsed".into(), ">=", self.code(time).at(Level::Sum))
-            }
+            ExprKind::After(time) => compared("self.elapsed".into(), ">=", self.code(time).at(Level::Sum)),
             ExprKind::Done => Code::primary("self.command_done()"),
             ExprKind::Failed => Code::primary("self.command_failed()"),
-            ExprKind::Not(inner) => Code { text: format!("!{}", self.code(inner).at(Level::Unary)), level: Level::Unary },
+            ExprKind::Not(inner) => {
+                Code { text: format!("!{}", self.code(inner).at(Level::Unary)), level: Level::Unary }
+            }
             ExprKind::Negate(inner) => {
                 Code { text: format!("-{}", self.code(inner).at(Level::Primary)), level: Level::Unary }
             }
@@ -79,26 +102,36 @@ impl Context<'_> {
                 let axis = ["x", "y", "z"][*axis];
                 Code::primary(format!("{}.{axis}", self.code(inner).at(Level::Primary)))
             }
-            ExprKind::SquaredDistance(a, b) => {
-                Code::primary(format!("{}.squared_distance({})", self.code(a).at(Level::Primary), self.expr(b)))
-            }
+            ExprKind::SquaredDistance(a, b) => Code::primary(format!(
+                "{}.squared_distance({})",
+                self.code(a).at(Level::Primary),
+                self.expr(b)
+            )),
             ExprKind::Exists { variable, domain, body } => self.quantified("any", *variable, domain, body),
             ExprKind::Forall { variable, domain, body } => self.quantified("all", *variable, domain, body),
             ExprKind::Count { variable, domain, body } => {
-                let parameter = self.closure_parameter(*variable, &[body]);
-                let reference = if parameter == "_" { "_".into() } else { format!("&{parameter}") };
-                let text = format!("{}.filter(|{reference}| {}).count() as i32", self.iterator(domain), self.expr(body));
+                let parameter = self.parameter(*variable, domain, body);
+                let reference = if parameter == "_" { parameter } else { format!("&{parameter}") };
+                let text = format!(
+                    "{}.filter(|{reference}| {}).count() as i32",
+                    self.iterator(domain),
+                    self.expr(body)
+                );
                 Code { text, level: Level::Cast }
             }
             ExprKind::Sum { variable, domain, body } => {
-                let parameter = self.closure_parameter(*variable, &[body]);
+                let parameter = self.parameter(*variable, domain, body);
                 let zero = if expr.ty == Scalar::Real { "0.0" } else { "0" };
                 let summand = self.code(body).at(Level::Product);
-                Code::primary(format!("{}.fold({zero}, |sum, {parameter}| sum + {summand})", self.iterator(domain)))
+                Code::primary(format!(
+                    "{}.fold({zero}, |sum, {parameter}| sum + {summand})",
+                    self.iterator(domain)
+                ))
             }
-            ExprKind::Members(role) => {
-                Code { text: format!("self.parameters.{}.len() as i32", self.own().roles[role.0]), level: Level::Cast }
-            }
+            ExprKind::Members(role) => Code {
+                text: format!("self.parameters.{}.len() as i32", self.own().roles[role.0]),
+                level: Level::Cast,
+            },
             ExprKind::IsMember(value, role) => Code::primary(format!(
                 "self.parameters.{}.contains(&{})",
                 self.own().roles[role.0],
@@ -112,20 +145,29 @@ impl Context<'_> {
     }
 
     fn quantified(&self, method: &str, variable: VariableId, domain: &Domain, body: &Expr) -> Code {
-        let parameter = self.closure_parameter(variable, &[body]);
+        let parameter = self.parameter(variable, domain, body);
         Code::primary(format!("{}.{method}(|{parameter}| {})", self.iterator(domain), self.expr(body)))
     }
 
-    /// The name of a variable, or `_` if the expressions do not read it.
-    pub fn closure_parameter(&self, variable: VariableId, bodies: &[&Expr]) -> String {
-        let is_read = |body: &&Expr| Uses::of_expr(self.automaton(), body).variables.contains(&variable);
-        if bodies.iter().any(is_read) { self.variable(variable) } else { "_".into() }
+    /// The parameter of a closure over a domain: `_` if its body does not read it.
+    fn parameter(&self, variable: VariableId, domain: &Domain, body: &Expr) -> String {
+        if Uses::of_expr(self.automaton(), body).variables.contains(&variable) {
+            self.pattern(variable, domain)
+        } else {
+            "_".into()
+        }
     }
 
-    /// The values of a domain in order.
+    /// A variable that takes the values of [`Context::iterator`].
+    pub fn pattern(&self, variable: VariableId, domain: &Domain) -> String {
+        let name = self.variable(variable);
+        if matches!(domain, Domain::Role(_)) { format!("&{name}") } else { name }
+    }
+
+    /// The values of a domain in order; references to them for a role.
     pub fn iterator(&self, domain: &Domain) -> String {
         match domain {
-            Domain::Role(role) => format!("self.parameters.{}.iter().copied()", self.own().roles[role.0]),
+            Domain::Role(role) => format!("self.parameters.{}.iter()", self.own().roles[role.0]),
             Domain::Enum(id) => format!("{}::ALL.into_iter()", self.names.enums[id.0].ty),
             Domain::Range(low, high) => format!("({}..={})", self.expr(low), self.expr(high)),
         }
@@ -149,7 +191,9 @@ impl Context<'_> {
             Operator::Add => self.joined(Level::Sum, "+", a, b),
             Operator::Subtract => self.joined(Level::Sum, "-", a, b),
             Operator::Multiply => self.joined(Level::Product, "*", a, b),
-            Operator::Divide if is_whole && !is_plain_divisor(b) => self.extreme(a.ty, ["quotient", ""], a, b),
+            Operator::Divide if is_whole && !is_plain_divisor(b) => {
+                self.extreme(a.ty, ["quotient", ""], a, b)
+            }
             Operator::Divide => self.joined(Level::Product, "/", a, b),
             Operator::Modulo if is_plain_divisor(b) => self.joined(Level::Product, "%", a, b),
             Operator::Modulo => self.extreme(a.ty, ["remainder", ""], a, b),
@@ -195,7 +239,9 @@ impl Context<'_> {
     }
 
     pub fn place(&self, place: &Place) -> String {
-        let index = |index: &Option<Box<Expr>>| index.as_ref().map_or(String::new(), |i| format!("[{}]", self.expr(i)));
+        let index = |index: &Option<Box<Expr>>| {
+            index.as_ref().map_or(String::new(), |i| format!("[{}]", self.expr(i)))
+        };
         match place {
             Place::Local { local, index: i } => format!("self.{}{}", self.own().locals[*local], index(i)),
             Place::Port { port, index: i } => {
@@ -215,7 +261,13 @@ impl Context<'_> {
             }
             Place::Shown { interface, parameter, of, index: i } => {
                 let names = &self.names.interfaces[interface.0];
-                format!("wiring.{}[{}].{}{}", names.field, self.expr(of), names.parameter[*parameter], index(i))
+                format!(
+                    "wiring.{}[{}].{}{}",
+                    names.field,
+                    self.expr(of),
+                    names.parameter[*parameter],
+                    index(i)
+                )
             }
         }
     }

@@ -16,19 +16,23 @@ pub fn module(text: &str, importable: &Importable) -> String {
     let file = parse(text);
     let mut used = Used::default();
     used.visit_file(&file);
-    let mut imports = String::new();
+    for own in file.items.iter().filter_map(defined) {
+        used.0.remove(&own);
+    }
+    let (own, rest): (Vec<&str>, Vec<&str>) = text.lines().partition(|line| line.starts_with("use "));
+    let mut imports: Vec<String> = own.into_iter().map(String::from).collect();
     for (module, names) in importable {
         let names: Vec<&str> = names.iter().map(String::as_str).filter(|n| used.0.contains(*n)).collect();
         match names.as_slice() {
             [] => {}
-            [one] => imports += &format!("use {module}::{one};\n"),
-            many => imports += &format!("use {module}::{{{}}};\n", many.join(", ")),
+            [one] => imports.push(format!("use {module}::{one};")),
+            many => imports.push(format!("use {module}::{{{}}};", many.join(", "))),
         }
     }
-    let inner = text.lines().take_while(|line| line.starts_with("//!") || line.trim().is_empty()).count();
-    let lines: Vec<&str> = text.lines().collect();
-    let (head, rest) = lines.split_at(inner);
-    print(&format!("{}\n{imports}\n{}", head.join("\n"), rest.join("\n")))
+    imports.sort();
+    let head = rest.iter().take_while(|line| line.starts_with("//!") || line.trim().is_empty()).count();
+    let (head, rest) = rest.split_at(head);
+    print(&format!("{}\n{}\n{}", head.join("\n"), imports.join("\n"), rest.join("\n")))
 }
 
 /// Lays out a file that is complete.
@@ -36,34 +40,80 @@ pub fn print(text: &str) -> String {
     let printed = prettyplease::unparse(&parse(text));
     let mut out = String::new();
     let mut before = "";
-    for line in printed.lines() {
+    let mut is_import = false;
+    let mut lines = printed.lines();
+    while let Some(line) = lines.next() {
         let trimmed = line.trim_start();
         let indent = &line[..line.len() - trimmed.len()];
-        // A blank line between items, and between a head of documentation and what follows.
-        let is_item = ["pub ", "impl", "fn ", "///", "#[", "use ", "mod ", "const "].iter().any(|s| trimmed.starts_with(s));
-        let ends_item = before.trim_end() == "}" || before.ends_with("};") || before.starts_with("//!");
-        if is_item && ends_item && !line.starts_with("//!") && is_between(before, indent) {
+        if needs_blank(before, line, is_import) {
             out.push('\n');
         }
-        match trimmed.strip_prefix("comment!(").and_then(|t| t.strip_suffix(");")) {
-            Some(literal) => {
-                let text = syn::parse_str::<syn::LitStr>(literal).map(|l| l.value()).unwrap_or_default();
-                out += &format!("{indent}// {text}\n");
-            }
-            None => {
-                out += line;
-                out.push('\n');
-            }
+        if !indent.is_empty() || !trimmed.starts_with('}') {
+            is_import = trimmed.starts_with("use ") || is_import && !indent.is_empty();
         }
         before = line;
+        let Some(literal) = trimmed.strip_prefix("comment!(") else {
+            out += line;
+            out.push('\n');
+            continue;
+        };
+        // A long literal has been put on a line of its own.
+        let literal = if literal.is_empty() {
+            let inner = lines.next().unwrap_or_default().trim();
+            lines.next();
+            inner
+        } else {
+            literal.trim_end_matches(");")
+        };
+        let text = syn::parse_str::<syn::LitStr>(literal).map(|l| l.value()).unwrap_or_default();
+        put_comment(&mut out, indent, &text);
     }
     out
 }
 
-/// The line before ends an item of the same level, or a file's head.
-fn is_between(before: &str, indent: &str) -> bool {
-    let trimmed = before.trim_start();
-    before.starts_with("//!") || before.len() - trimmed.len() == indent.len()
+/// Lines of a comment; what follows the first is set in.
+fn put_comment(out: &mut String, indent: &str, text: &str) {
+    let mut line = format!("{indent}//");
+    for word in text.split(' ') {
+        if line.len() + 1 + word.len() > WIDTH && line.trim_start().len() > 2 {
+            *out += &line;
+            out.push('\n');
+            line = format!("{indent}//   {word}");
+        } else {
+            line.push(' ');
+            line += word;
+        }
+    }
+    *out += &line;
+    out.push('\n');
+}
+
+/// Longest line of a comment.
+const WIDTH: usize = 100;
+
+/// Whether a blank line belongs between two lines: before items, but for imports and modules in a row.
+fn needs_blank(before: &str, line: &str, is_import: bool) -> bool {
+    let level = |line: &str| line.len() - line.trim_start().len();
+    if before.is_empty() || level(before) != level(line) || line.starts_with("//!") {
+        return false;
+    }
+    let (first, next) = (before.trim_start(), line.trim_start());
+    let begins = ["pub ", "impl", "fn ", "///", "#[", "const "].iter().any(|start| next.starts_with(start));
+    let in_row = first.starts_with("///") || first.starts_with("#[");
+    if level(line) > 0 {
+        return begins && matches!(first, "}" | "};" | "];");
+    }
+    let modules = first.starts_with("pub mod ") && next.starts_with("pub mod ");
+    if next.starts_with("use ") { !is_import } else { begins && !in_row && !modules }
+}
+
+/// The name that an item defines.
+fn defined(item: &syn::Item) -> Option<String> {
+    match item {
+        syn::Item::Enum(item) => Some(item.ident.to_string()),
+        syn::Item::Struct(item) => Some(item.ident.to_string()),
+        _ => None,
+    }
 }
 
 /// Text that does not parse is a mistake of this back end; it comes out as it is, for the compiler of Rust to point at.
@@ -72,7 +122,11 @@ fn parse(text: &str) -> syn::File {
         Ok(file) => file,
         Err(error) => {
             let message = format!("autogen printed what is no Rust: {error}\n{text}");
-            syn::File { shebang: None, attrs: Vec::new(), items: vec![syn::parse_quote!(compile_error!(#message);)] }
+            syn::File {
+                shebang: None,
+                attrs: Vec::new(),
+                items: vec![syn::parse_quote!(compile_error!(#message);)],
+            }
         }
     }
 }

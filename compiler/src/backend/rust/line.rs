@@ -34,12 +34,15 @@ pub fn robot(shared: Shared, number: usize) -> String {
     let automaton = system.automaton_of(number);
     let names = &shared.names.automata[instance.automaton.0];
     let mut fields = Vec::new();
-    for ((parameter, name), values) in automaton.parameters.iter().zip(&names.parameters).zip(&instance.parameters) {
+    for ((parameter, name), values) in
+        automaton.parameters.iter().zip(&names.parameters).zip(&instance.parameters)
+    {
         fields.push((name.clone(), shared.elements(parameter.ty, values)));
     }
     let mut roles = Vec::new();
     for ((role, name), rows) in automaton.roles.iter().zip(&names.roles).zip(&instance.roles) {
-        let references: Vec<String> = rows.iter().map(|row| reference(shared, role.interface, *row)).collect();
+        let references: Vec<String> =
+            rows.iter().map(|row| reference(shared, role.interface, *row)).collect();
         fields.push((name.clone(), format!("&[{}]", references.join(", "))));
         let members: Vec<String> = (rows.iter())
             .map(|row| format!("`{}`", system.instances[system.members[role.interface.0][*row]].name))
@@ -97,7 +100,8 @@ struct RobotView {
 
 pub fn line(shared: Shared) -> String {
     let system = shared.system;
-    let interfaces: Vec<InterfaceView> = (0..system.model.interfaces.len()).map(|i| interface(shared, i)).collect();
+    let interfaces: Vec<InterfaceView> =
+        (0..system.model.interfaces.len()).map(|i| interface(shared, i)).collect();
     let relations = system.reaches.iter().zip(&shared.names.relations).map(|(rows, name)| {
         let rows: Vec<String> = rows
             .iter()
@@ -130,7 +134,9 @@ fn interface(shared: Shared, id: usize) -> InterfaceView {
     let row = |instance: &usize| -> Vec<(String, String)> {
         let automaton = system.automaton_of(*instance);
         let own = &shared.names.automata[system.instances[*instance].automaton.0];
-        let Some(implements) = automaton.implements.iter().find(|i| i.interface.0 == id) else { return Vec::new() };
+        let Some(implements) = automaton.implements.iter().find(|i| i.interface.0 == id) else {
+            return Vec::new();
+        };
         let value = |supplied: usize| {
             format!("robots::{}::PARAMETERS.{}", shared.names.robots[*instance], own.parameters[supplied])
         };

@@ -1,24 +1,77 @@
 //! The identifiers of one system in Rust.
 
-use crate::ir::{Automaton, Enum, Interface, Relation, System};
+use crate::ir::{Automaton, Clause, Enum, Interface, Relation, State, System, Transition};
 use crate::naming::{Scope, camel, screaming, snake};
 
 /// Types that generated modules have beside those of the specification.
 const TYPES: &[&str] = &[
-    "Array", "Cells", "Fault", "Inputs", "Outputs", "Parameters", "Point", "Reference", "Relation", "Robot", "Rows",
-    "State", "System", "SystemInputs", "SystemOutputs", "Table", "Verb", "Wiring", "Memory", "Deployed",
+    "Array",
+    "Cells",
+    "Fault",
+    "Inputs",
+    "Outputs",
+    "Parameters",
+    "Point",
+    "Reference",
+    "Relation",
+    "Robot",
+    "Rows",
+    "State",
+    "System",
+    "SystemInputs",
+    "SystemOutputs",
+    "Table",
+    "Verb",
+    "Wiring",
+    "Memory",
+    "Deployed",
 ];
-const MODULES: &[&str] =
-    &["cells", "core", "kinds", "line", "robot", "robots", "std", "system", "types", "controllers", "commissioning"];
+const MODULES: &[&str] = &[
+    "cells",
+    "core",
+    "kinds",
+    "line",
+    "robot",
+    "robots",
+    "std",
+    "system",
+    "types",
+    "controllers",
+    "commissioning",
+];
 const FIELDS: &[&str] = &["parameters", "inputs", "outputs", "state", "elapsed"];
 const METHODS: &[&str] = &[
-    "new", "step", "invariants", "published", "limit", "enter", "command", "command_done", "command_failed", "fmt",
+    "new",
+    "step",
+    "invariants",
+    "published",
+    "limit",
+    "enter",
+    "command",
+    "command_done",
+    "command_failed",
+    "fmt",
     "clone",
 ];
 const PARAMETERS: &[&str] = &["name"];
 const VARIABLES: &[&str] = &[
-    "best", "cells", "greater", "key", "lesser", "next_command", "place", "quotient", "remainder", "source", "store_point",
-    "store_real", "store_whole", "sum", "value", "wiring", "within",
+    "best",
+    "cells",
+    "greater",
+    "key",
+    "lesser",
+    "next_command",
+    "place",
+    "quotient",
+    "remainder",
+    "source",
+    "store_point",
+    "store_real",
+    "store_whole",
+    "sum",
+    "value",
+    "wiring",
+    "within",
 ];
 const CELLS: &[&str] = &["cells", "robot", "robots", "scan_ms", "wiring", "words"];
 
@@ -72,11 +125,14 @@ pub fn names(system: &System) -> Names {
     let mut types = Scope::rust(TYPES);
     let enums = model.enums.iter().map(|e| enum_names(e, &mut types)).collect();
     let mut fields = Scope::rust(CELLS);
-    let interfaces: Vec<_> = model.interfaces.iter().map(|i| interface_names(i, &mut types, &mut fields)).collect();
-    let relation = |r: &Relation| format!("{}_reaches_{}", interfaces[r.from.0].field, interfaces[r.to.0].field);
+    let interfaces: Vec<_> =
+        model.interfaces.iter().map(|i| interface_names(i, &mut types, &mut fields)).collect();
+    let relation =
+        |r: &Relation| format!("{}_reaches_{}", interfaces[r.from.0].field, interfaces[r.to.0].field);
     let relations = model.relations.iter().map(|r| fields.take(relation(r))).collect();
     let mut modules = Scope::rust(MODULES);
-    let automata = model.automata.iter().map(|a| automaton_names(a, &interfaces, &mut types, &mut modules)).collect();
+    let automata =
+        model.automata.iter().map(|a| automaton_names(a, &interfaces, &mut types, &mut modules)).collect();
     let mut robots = Scope::rust(MODULES);
     let robots = system.instances.iter().map(|i| robots.take(snake(&i.name))).collect();
     Names { enums, interfaces, relations, automata, robots }
@@ -129,15 +185,21 @@ fn automaton_names(
         defines: source.defines.iter().map(|d| method_of(&mut methods, &d.name)).collect(),
         states: source.states.iter().map(|s| states.take(camel(&s.name))).collect(),
         methods: source.states.iter().map(|s| method_of(&mut methods, &s.name)).collect(),
-        choices: source.states.iter().map(|s| choices(&s.name, s.transitions.len(), &mut methods)).collect(),
+        choices: source.states.iter().map(|s| choices(s, &mut methods)).collect(),
         ports: source.device.ports.iter().map(|p| ports.take(snake(p.name))).collect(),
         verbs: source.device.verbs.iter().map(|v| verbs.take(camel(v.name))).collect(),
         variables: variables(source),
     }
 }
 
-fn choices(state: &str, transitions: usize, methods: &mut Scope) -> Vec<String> {
-    (0..transitions).map(|_| methods.take(format!("choose_in_{}", snake(state)))).collect()
+/// Transitions without binders have none.
+fn choices(state: &State, methods: &mut Scope) -> Vec<String> {
+    let is_binder = |clause: &Clause| matches!(clause, Clause::Bind(_));
+    let name = format!("choose_in_{}", snake(&state.name));
+    let mut choice = |t: &Transition| {
+        if t.clauses.iter().any(is_binder) { methods.take(name.clone()) } else { String::new() }
+    };
+    state.transitions.iter().map(&mut choice).collect()
 }
 
 /// Variables of one name never meet, so they may share the identifier.
@@ -149,6 +211,7 @@ fn variables(source: &Automaton) -> Vec<String> {
             known.push((&variable.name, scope.take(snake(&variable.name))));
         }
     }
-    let find = |name: &str| known.iter().find(|(n, _)| *n == name).map(|(_, i)| i.clone()).unwrap_or_default();
+    let find =
+        |name: &str| known.iter().find(|(n, _)| *n == name).map(|(_, i)| i.clone()).unwrap_or_default();
     source.variables.iter().map(|v| find(&v.name)).collect()
 }

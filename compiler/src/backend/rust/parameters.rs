@@ -21,7 +21,10 @@ pub fn parameters_text(system: &System) -> String {
         let name = |id: InterfaceId| &model.interface(id).name;
         let _ = writeln!(out, "{}_{} {}", name(relation.from), name(relation.to), rows.len());
         for row in rows {
-            entry(&mut out, [row.len().to_string()].into_iter().chain(row.iter().map(|b| u8::from(*b).to_string())));
+            entry(
+                &mut out,
+                [row.len().to_string()].into_iter().chain(row.iter().map(|b| u8::from(*b).to_string())),
+            );
         }
     }
     let _ = writeln!(out, "robots {}", system.instances.len());

@@ -16,8 +16,13 @@ struct Library {
 }
 
 pub fn library(shared: Shared) -> String {
-    let mut files: Vec<&str> =
-        shared.system.model.automata.iter().map(|a| shared.sources.file(a.place.file).name.as_str()).collect();
+    let mut files: Vec<&str> = shared
+        .system
+        .model
+        .automata
+        .iter()
+        .map(|a| shared.sources.file(a.place.file).name.as_str())
+        .collect();
     files.sort_unstable();
     files.dedup();
     let own = ["cells", "kinds", "line", "robot", "robots", "system", "types"].map(String::from);
@@ -41,7 +46,8 @@ struct EnumView {
 
 pub fn kinds(shared: Shared) -> String {
     let enums = shared.system.model.enums.iter().zip(&shared.names.enums);
-    let enums = enums.map(|(e, n)| EnumView { doc: doc(&e.doc), ty: n.ty.clone(), members: n.members.clone() });
+    let enums =
+        enums.map(|(e, n)| EnumView { doc: doc(&e.doc), ty: n.ty.clone(), members: n.members.clone() });
     format::module(&render(&Kinds { enums: enums.collect() }), &shared.importable("crate"))
 }
 
@@ -83,13 +89,20 @@ pub fn cells(shared: Shared) -> String {
     let relations: Vec<RelationView> = (shared.system.model.relations.iter().zip(&shared.names.relations))
         .map(|(relation, name)| {
             let interface = |id: InterfaceId| &shared.system.model.interface(id).name;
-            let text = format!("Whether items can get from a `{}` to a `{}`.", interface(relation.from), interface(relation.to));
+            let text = format!(
+                "Whether items can get from a `{}` to a `{}`.",
+                interface(relation.from),
+                interface(relation.to)
+            );
             RelationView { doc: doc(&[text]), name: name.clone() }
         })
         .collect();
     let has_cells = interfaces.iter().any(|i| !i.cells.is_empty());
     let has_wiring = !relations.is_empty() || interfaces.iter().any(|i| !i.parameters.is_empty());
-    format::module(&render(&Cells { interfaces, relations, has_cells, has_wiring }), &shared.importable("crate"))
+    format::module(
+        &render(&Cells { interfaces, relations, has_cells, has_wiring }),
+        &shared.importable("crate"),
+    )
 }
 
 fn interface(shared: Shared, id: InterfaceId) -> InterfaceView {
@@ -209,7 +222,12 @@ pub fn robot(shared: Shared) -> String {
         })
         .collect();
     let view = RobotView {
-        step_parameters: if uses_cells(shared) { "wiring: &Wiring, cells: &mut Cells" } else { "wiring: &Wiring" }.into(),
+        step_parameters: if uses_cells(shared) {
+            "wiring: &Wiring, cells: &mut Cells"
+        } else {
+            "wiring: &Wiring"
+        }
+        .into(),
         limits_inputs: robots.iter().any(|r| r.limits),
         invariants: robots.iter().any(|r| r.has_invariants),
         invariants_parameters: contexts(shared).next().map(|c| c.parameters(&invariants)).unwrap_or_default(),
@@ -230,13 +248,29 @@ impl Shared<'_> {
         let mut kinds: Vec<String> = self.names.enums.iter().map(|e| e.ty.clone()).collect();
         kinds.sort();
         let mut all = vec![(format!("{name}::cells"), cells), (format!("{name}::kinds"), kinds)];
-        all.extend([("robot", own(&["Robot"])), ("types", own(TYPES))].map(|(m, names)| (format!("{name}::{m}"), names)));
+        all.extend(
+            [("robot", own(&["Robot"])), ("types", own(TYPES))]
+                .map(|(m, names)| (format!("{name}::{m}"), names)),
+        );
         all
     }
-
 }
 
 const TYPES: &[&str] = &[
-    "Array", "Fault", "Point", "Reference", "Relation", "Rows", "Table", "greater", "lesser", "next_command", "quotient",
-    "remainder", "store_point", "store_real", "store_whole", "within",
+    "Array",
+    "Fault",
+    "Point",
+    "Reference",
+    "Relation",
+    "Rows",
+    "Table",
+    "greater",
+    "lesser",
+    "next_command",
+    "quotient",
+    "remainder",
+    "store_point",
+    "store_real",
+    "store_whole",
+    "within",
 ];

@@ -3,7 +3,7 @@
 use super::context::Context;
 use super::format::comment;
 use super::walk::Uses;
-use crate::ir::State;
+use crate::ir::{Clause, ExprKind, State, Transition, UpdateKind, Value};
 
 /// Methods of one state.
 pub struct Methods {
@@ -22,12 +22,19 @@ impl Context<'_> {
         let variant = &names.states[number];
         let uses = self.state_uses(state);
         if state.transitions.is_empty() && state.within.is_none() {
-            return Methods { arm: format!("State::{variant} => Ok(()),"), text: String::new(), uses, commands: false };
+            return Methods {
+                arm: format!("State::{variant} => Ok(()),"),
+                text: String::new(),
+                uses,
+                commands: false,
+            };
         }
         let method = &names.methods[number];
         let end = state.within.as_ref().map_or_else(
             || "Ok(())".to_string(),
-            |(longest, fault)| format!("within(self.elapsed, {}, {})", self.expr(longest), self.fault(*fault)),
+            |(longest, fault)| {
+                format!("within(self.elapsed, {}, {})", self.expr(longest), self.fault(*fault))
+            },
         );
         let mut body = String::new();
         let mut choices = String::new();
@@ -36,7 +43,10 @@ impl Context<'_> {
         for (i, transition) in state.transitions.iter().enumerate() {
             let test = self.test(transition, &names.choices[number][i]);
             if let Some(choice) = test.method {
-                choices += &format!("/// What the transition at {} chooses.\n{choice}\n", self.line(transition.place));
+                choices += &format!(
+                    "/// What the transition at {} chooses.\n{choice}\n",
+                    self.line(transition.place)
+                );
             }
             commands |= gives_command(transition);
             body += &comment(&self.title(number, i));
@@ -53,7 +63,7 @@ impl Context<'_> {
                 break;
             };
             // The last one may run on into the end of the method.
-            let is_last = i + 1 == state.transitions.len() && result == end;
+            let is_last = i + 1 == state.transitions.len() && result == end && !block.is_empty();
             let leave = if is_last { String::new() } else { format!("return {result};") };
             body += &format!("if {condition} {{ {block} {leave} }}\n");
         }
@@ -81,9 +91,9 @@ impl Context<'_> {
     fn title(&self, state: usize, transition: usize) -> String {
         let automaton = self.automaton();
         let transition = &automaton.states[state].transitions[transition];
-        let target = transition.target.map(|t| format!(" -> {}", automaton.states[t.0].name)).unwrap_or_default();
-        let when = if state == 0 { "" } else { "when " };
-        format!("{}: {when}{}{target}", self.line(transition.place), transition.text)
+        let target =
+            transition.target.map(|t| format!(" -> {}", automaton.states[t.0].name)).unwrap_or_default();
+        format!("{}: {}{target}", self.line(transition.place), guard(transition))
     }
 
     fn state_uses(&self, state: &State) -> Uses {
@@ -101,10 +111,24 @@ impl Context<'_> {
     }
 }
 
-fn is_plain(transition: &crate::ir::Transition) -> bool {
-    transition.clauses.iter().all(|c| matches!(c, crate::ir::Clause::Condition(_)))
+/// The guard as written. In a sequence what is written is the step whose end is waited for.
+fn guard(transition: &Transition) -> String {
+    let text = &transition.text;
+    match transition.clauses.as_slice() {
+        [Clause::Condition(only)] => match only.kind {
+            ExprKind::Constant(Value::Bool(true)) => "at once".into(),
+            ExprKind::Done if text != "done" => format!("when {text} is done"),
+            ExprKind::Failed if text != "failed" => format!("when {text} has failed"),
+            _ => format!("when {text}"),
+        },
+        _ => format!("when {text}"),
+    }
 }
 
-fn gives_command(transition: &crate::ir::Transition) -> bool {
-    transition.updates.iter().any(|u| matches!(u.kind, crate::ir::UpdateKind::Command { .. }))
+fn is_plain(transition: &Transition) -> bool {
+    transition.clauses.iter().all(|c| matches!(c, Clause::Condition(_)))
+}
+
+fn gives_command(transition: &Transition) -> bool {
+    transition.updates.iter().any(|u| matches!(u.kind, UpdateKind::Command { .. }))
 }

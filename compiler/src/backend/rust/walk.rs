@@ -139,7 +139,9 @@ impl Uses {
 
     fn place(&mut self, automaton: &Automaton, place: &Place) {
         let (of, index) = match place {
-            Place::Local { index, .. } | Place::Port { index, .. } | Place::Parameter { index, .. } => (None, index),
+            Place::Local { index, .. } | Place::Port { index, .. } | Place::Parameter { index, .. } => {
+                (None, index)
+            }
             Place::Cell { of, index, .. } => {
                 self.cells = self.cells.max(Access::Read);
                 (of.as_ref(), index)

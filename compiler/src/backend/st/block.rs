@@ -4,7 +4,7 @@ use super::code::{self, Ex, Member, Stmt, advance, assign, binary, name, not, or
 use super::context::{Lowering, Phase, Shared};
 use super::declaration::{Basic, Unit, Variable, constants};
 use super::globals::{Globals, about, array_names, first_value, meaning};
-use super::expression::limited;
+use super::expression::{guarded, limited};
 use super::role::Members;
 use crate::ir::{Automaton, AutomatonId, Extent, RoleId, Scalar, Value};
 use runtime_sim::device::{Direction, PortType};
@@ -130,11 +130,11 @@ fn invariant_body(lowering: &mut Lowering) -> Vec<Stmt> {
         lowering.phase = Phase::Update;
         lowering.release();
         let mut before = Vec::new();
-        let holds = lowering.value(&invariant.condition, &mut before);
+        let fails = lowering.contrary(&invariant.condition, &mut before);
         body.push(Stmt::Comment(format!("invariant {}   {}", invariant.text, lowering.line(invariant.place))));
         body.append(&mut lowering.hoisted);
         body.extend(before);
-        body.push(when(not(holds), lowering.raise(invariant.fault)));
+        body.extend(guarded(fails, lowering.raise(invariant.fault)));
     }
     body
 }

@@ -48,11 +48,8 @@ impl Parser {
             states: Vec::new(),
         };
         if self.maybe_word("is") {
-            loop {
-                match self.implements() {
-                    Some(implements) => automaton.implements.push(implements),
-                    None => break,
-                }
+            while let Some(implements) = self.implements() {
+                automaton.implements.push(implements);
                 if !self.maybe_sign(",") {
                     break;
                 }

@@ -171,7 +171,12 @@ impl Parser {
             Some("counter") => ast::Rule::Counter,
             Some("token") => {
                 self.next();
-                return self.token_rule();
+                let rule = self.token_rule();
+                if rule.is_none() {
+                    self.skip_to(&[]);
+                    self.maybe_sign("}");
+                }
+                return rule;
             }
             _ => {
                 let found = self.found();

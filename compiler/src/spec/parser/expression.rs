@@ -261,7 +261,7 @@ impl Parser {
             }
             "after" => {
                 self.next();
-                let time = self.sum();
+                let time = self.parse_sum();
                 Expr { span: span.to(time.span), kind: ExprKind::After(Box::new(time)) }
             }
             "exists" => self.quantified(Quantifier::Exists, span),

@@ -141,7 +141,7 @@ impl Parser {
         };
         let condition = if self.maybe_word("with") { Some(self.parse_expr()) } else { None };
         let span = span.to(self.last_span());
-        Some(ast::Clause::Bind(ast::Binder { span, choice, variable, domain, condition }))
+        Some(ast::Clause::Bind(Box::new(ast::Binder { span, choice, variable, domain, condition })))
     }
 
     pub(super) fn parse_updates(&mut self) -> Vec<ast::Update> {

@@ -1,0 +1,70 @@
+//! The generated Rust workspace on disk, and what cargo makes of it.
+
+use autogen::backend::rust;
+use autogen::ir::System;
+use autogen::simulator;
+use autogen::source::Sources;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::{env, fs};
+
+/// A workspace in a folder of its own, which stays until the next run.
+pub struct Workspace {
+    pub folder: PathBuf,
+}
+
+impl Workspace {
+    pub fn write(name: &str, system: &System, sources: &Sources) -> Self {
+        let folder = env::temp_dir().join(format!("autogen-tests-{}", std::process::id())).join(name);
+        let _ = fs::remove_dir_all(&folder);
+        let workspace = Self { folder };
+        for (path, text) in rust::files(system, sources) {
+            workspace.put(&path, &text);
+        }
+        for (path, text) in simulator::SOURCES {
+            workspace.put(&format!("runtime-sim/{path}"), text);
+        }
+        workspace.put("runtime-sim/Cargo.toml", simulator::MANIFEST);
+        workspace.put("parameters.txt", &rust::parameters_text(system));
+        workspace
+    }
+
+    pub fn put(&self, path: &str, text: &str) {
+        let path = self.folder.join(path);
+        fs::create_dir_all(path.parent().expect("a file in a folder")).expect("a folder that can be made");
+        fs::write(path, text).expect("a file that can be written");
+    }
+
+    /// Runs cargo, which has to succeed. All workspaces share a folder of results.
+    pub fn cargo(&self, arguments: &[&str]) -> Output {
+        let output = Command::new(env!("CARGO"))
+            .args(arguments)
+            .current_dir(&self.folder)
+            .env("CARGO_TARGET_DIR", self.target())
+            .env_remove("RUSTFLAGS")
+            .output()
+            .expect("cargo can be started");
+        let errors = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "cargo {arguments:?} in {}:\n{errors}", self.folder.display());
+        output
+    }
+
+    pub fn target(&self) -> PathBuf {
+        self.folder.join("target")
+    }
+
+    /// A program that was built for release.
+    pub fn program(&self, path: &str) -> PathBuf {
+        self.target().join("release").join(path).with_extension(env::consts::EXE_EXTENSION)
+    }
+}
+
+impl Drop for Workspace {
+    fn drop(&mut self) {
+        // What a failed test leaves is there to be looked at.
+        if !std::thread::panicking() {
+            let _ = fs::remove_dir_all(&self.folder);
+            let _ = self.folder.parent().map(Path::to_path_buf).map(fs::remove_dir);
+        }
+    }
+}

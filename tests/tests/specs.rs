@@ -1,0 +1,226 @@
+//! Every diagnostic of the language, where it is expected and nowhere else.
+//!
+//! In a fixture `//~ E0311 part of the message` expects a diagnostic on its own
+//! line, `//~^` on the line above, with one `^` more for each line further up.
+
+use autogen::diagnostic::Diagnostic;
+use autogen::library;
+use autogen::source::Sources;
+use autogen::{check, spec};
+use autogen_tests::{plain, root};
+use std::collections::BTreeSet;
+
+/// What is wrong with a file: of the check only if the syntax is right, as the compiler does it.
+fn diagnostics(sources: &mut Sources, name: &str, text: &str) -> Vec<Diagnostic> {
+    let file = sources.add(name, text);
+    let (tree, found) = spec::parser::parse(file, text);
+    let checked = check::check(sources, &[(file, tree)], &["part".to_string()]);
+    if !found.is_empty() {
+        return found;
+    }
+    checked.err().unwrap_or_default()
+}
+
+/// Line, code and a part of the message.
+fn expectations(text: &str) -> Vec<(usize, String, String)> {
+    let mut found = Vec::new();
+    for (number, line) in text.lines().enumerate() {
+        let Some((_, rest)) = line.split_once("//~") else { continue };
+        let up = rest.len() - rest.trim_start_matches('^').len();
+        let rest = rest.trim_start_matches('^').trim();
+        let (code, part) = rest.split_once(' ').unwrap_or((rest, ""));
+        found.push((number + 1 - up, code.to_string(), part.trim().to_string()));
+    }
+    found
+}
+
+#[test]
+fn diagnostics_stand_where_they_are_expected() {
+    let mut wrong = Vec::new();
+    let mut codes = BTreeSet::new();
+    let mut cases = 0;
+    for entry in std::fs::read_dir(root().join("tests/fixtures/spec")).expect("the folder of fixtures") {
+        let path = entry.expect("an entry").path();
+        let text = std::fs::read_to_string(&path).expect("a text");
+        let mut sources = Sources::default();
+        let mut found =
+            diagnostics(&mut sources, &path.file_name().expect("a name").to_string_lossy(), &text);
+        for (line, code, part) in expectations(&text) {
+            cases += 1;
+            codes.insert(code.clone());
+            let is_meant = |d: &Diagnostic| {
+                d.code == code && sources.position(d.place).0 == line && d.message.contains(&part)
+            };
+            match found.iter().position(is_meant) {
+                Some(i) => {
+                    let diagnostic = found.remove(i);
+                    if diagnostic.help.is_empty() {
+                        wrong.push(format!("{}:{line}: {code} has no help", path.display()));
+                    }
+                }
+                None => wrong.push(format!("{}:{line}: {code} {part}: not found", path.display())),
+            }
+        }
+        if !found.is_empty() {
+            wrong.push(format!("{}: not expected\n{}", path.display(), plain(&sources, &found)));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    assert!(cases >= 60, "{cases} cases");
+    let text = autogen_tests::text("docs/errors.md");
+    let headings = text.lines().filter_map(|l| l.strip_prefix("## ")).map(str::trim);
+    let language = headings.filter(|c| c.starts_with("E02") || c.starts_with("E03"));
+    let missing: Vec<&str> = language.filter(|c| !codes.contains(*c) && *c != "E0211").collect();
+    assert!(missing.is_empty(), "no fixture for {missing:?}");
+}
+
+/// Parses and checks; that it ends is what is tested.
+fn survives(text: &str) -> usize {
+    let mut sources = Sources::default();
+    let found = diagnostics(&mut sources, "x.aut", text);
+    plain(&sources, &found[..found.len().min(3)]);
+    found.len()
+}
+
+#[test]
+fn no_prefix_of_the_library_is_too_much() {
+    let all: String = library::FILES.iter().map(|(_, text)| *text).collect();
+    for (_, text) in library::FILES {
+        for end in (0..text.len()).filter(|i| text.is_char_boundary(*i)) {
+            survives(&text[..end]);
+        }
+    }
+    assert_eq!(survives(&all), 0);
+}
+
+#[test]
+fn no_change_of_the_library_is_too_much() {
+    let all: String = library::FILES.iter().map(|(_, text)| *text).collect();
+    let mut seed = 1_u64;
+    let mut random = move |below: usize| {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (seed >> 33) as usize % below.max(1)
+    };
+    const WORDS: &[&str] = &[
+        "{",
+        "}",
+        "(",
+        ")",
+        "[",
+        "]",
+        ";",
+        ":",
+        ":=",
+        "->",
+        "..",
+        ",",
+        "when",
+        "state",
+        "first",
+        "in",
+        "not",
+        "-",
+        "sequence",
+        "else",
+        "any",
+        "shared",
+        "automaton",
+        "interface",
+        "by",
+        "with",
+        "0",
+        "2147483647",
+        "1e308",
+        "\"",
+        "//",
+        "é",
+        "self",
+        "Kind",
+        "slot",
+        "exists",
+        "mod",
+        "/",
+        "int",
+        "point",
+        "token",
+        "enum",
+    ];
+    for _ in 0..3000 {
+        let mut words: Vec<String> = all.split_inclusive([' ', '\n']).map(String::from).collect();
+        for _ in 0..=random(4) {
+            let at = random(words.len());
+            match random(4) {
+                0 => drop(words.remove(at)),
+                1 => words.insert(at, format!(" {} ", WORDS[random(WORDS.len())])),
+                2 => words[at] = format!(" {} ", WORDS[random(WORDS.len())]),
+                _ => {
+                    let other = random(words.len());
+                    words.swap(at, other);
+                }
+            }
+        }
+        survives(&words.concat());
+    }
+}
+
+#[test]
+fn endless_expressions_do_not_overflow_the_stack() {
+    const MANY: usize = 100_000;
+    let forms = [
+        format!("x = {}1", "1 + ".repeat(MANY)),
+        format!("x = {}1", "1 * ".repeat(MANY)),
+        format!("{}true", "true and ".repeat(MANY)),
+        format!("{}true", "true or ".repeat(MANY)),
+        format!("{}true", "not ".repeat(MANY)),
+        format!("x = {}1", "-".repeat(MANY)),
+        format!("{}true{}", "(".repeat(MANY), ")".repeat(MANY)),
+        "(".repeat(MANY),
+        format!("x{}", ".y".repeat(MANY)),
+        format!("x{}", "[0]".repeat(MANY)),
+        format!("x{}", "[x".repeat(MANY)),
+        format!("exists {}i in 0..1: true", "i in 0..1, ".repeat(MANY)),
+        format!("{}true", "exists i in 0..1: ".repeat(MANY)),
+        format!("x = {}1{}", "min(1, ".repeat(MANY), ")".repeat(MANY)),
+        format!("{}true", "after ".repeat(MANY)),
+    ];
+    for form in forms {
+        let text = format!(
+            "automaton A on bin {{ local x: int 0..9; initial state S {{ when {form} -> S {{}} when oops -> S {{}} }} }}"
+        );
+        let mut sources = Sources::default();
+        let found = diagnostics(&mut sources, "x.aut", &text);
+        let codes: Vec<&str> = found.iter().map(|d| d.code).collect();
+        assert_eq!(codes, ["E0211"], "{}", &form[..20]);
+        let text = format!(
+            "automaton A on bin {{ local x: bool; initial state S {{ when x -> S {{ x := {form}; }} }} }}"
+        );
+        survives(&text);
+    }
+    let targets = format!(
+        "automaton A on bin {{ initial state S {{ when x -> S {{ x{} := 1; }} }} }}",
+        "[0]".repeat(MANY)
+    );
+    survives(&targets);
+    let types = format!("automaton A on bin {{ local x: int {}1..2; }}", "-".repeat(MANY));
+    survives(&types);
+}
+
+/// The longest expression that is allowed needs no more stack than a thread has.
+#[test]
+fn the_longest_expression_is_checked() {
+    let sum = format!("x = {}1", "1 + ".repeat(255));
+    let nested = format!("{}true{}", "(not ".repeat(30), ")".repeat(30));
+    let many = format!("{}true", "true and ".repeat(250));
+    for form in [sum, nested, many] {
+        let text = format!(
+            "automaton A on bin {{ local x: int 0..9; initial state S {{ when {form} -> S {{}} }} }}"
+        );
+        assert_eq!(survives(&text), 0);
+    }
+    let mut chain = String::from("define d0 = true;\n");
+    for i in 1..200 {
+        chain += &format!("define d{i} = d{} and true;\n", i - 1);
+    }
+    let text = format!("automaton A on bin {{ {chain} initial state S {{ when true -> S {{}} }} }}");
+    assert_eq!(survives(&text), 1);
+}
