@@ -13,9 +13,14 @@ pub enum Dialect {
 /// Lines longer than this are broken at AND and OR.
 const WIDTH: usize = 108;
 
-/// Text in a comment, which must not end it.
+/// A text as a comment.
 pub fn comment(text: &str) -> String {
-    format!("(* {} *)", text.replace("(*", "( *").replace("*)", "* )"))
+    format!("(* {} *)", harmless(text))
+}
+
+/// Text that neither begins nor ends a comment.
+pub fn harmless(text: &str) -> String {
+    text.replace("(*", "( *").replace("*)", "* )")
 }
 
 pub fn real(value: f64) -> String {
