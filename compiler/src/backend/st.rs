@@ -27,6 +27,7 @@ mod table;
 mod text;
 mod update;
 mod walk;
+mod xml;
 
 use super::Files;
 use crate::ir::{AutomatonId, System};
@@ -42,6 +43,13 @@ pub fn files(system: &System, sources: &Sources) -> Files {
     let line = line(shared);
     let mut files = Files::new();
     files.insert("portable/main.st".into(), text::portable(shared, &line));
+    files.insert("portable/project.xml".into(), xml::plcopen(shared, &line));
+    for (name, text) in text::codesys(shared, &line) {
+        files.insert(format!("codesys/{name}"), text);
+    }
+    files.insert("codesys/project.xml".into(), xml::codesys(shared, &line));
+    files.insert("io.csv".into(), table::io(shared));
+    files.insert("alarms.csv".into(), table::alarms(shared));
     files.insert("bounds.txt".into(), figures::report(shared, &line));
     if !names.renamed.is_empty() {
         files.insert("names.csv".into(), table::renamed(&names.renamed));

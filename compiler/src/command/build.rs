@@ -69,13 +69,13 @@ fn files(project: &Project, sources: &Sources) -> Files {
     for (name, text) in rust::files(&project.system, sources) {
         files.insert(format!("rust/{name}"), text);
     }
+    for (name, text) in st::files(&project.system, sources) {
+        files.insert(format!("plc/{name}"), text);
+    }
     for (name, text) in dot::files(&project.system, &project.edges) {
         files.insert(format!("graph/{name}"), text);
     }
     files.insert("graph/plan.svg".into(), plan::svg(&project.plant, &project.edges, &project.obstacles));
-    for (name, text) in st::files(&project.system, sources) {
-        files.insert(format!("plc/{name}"), text);
-    }
     for (name, text) in simulator::SOURCES {
         files.insert(format!("rust/runtime-sim/{name}"), (*text).into());
     }

@@ -4,7 +4,7 @@ use super::code::{self, Ex, Member, Stmt, advance, assign, binary, name, not, or
 use super::context::{Lowering, Phase, Shared};
 use super::declaration::{Basic, Unit, Variable, constants};
 use super::globals::{Globals, about, array_names, first_value, meaning};
-use super::expression::limited;
+use super::expression::{guarded, limited};
 use super::role::Members;
 use crate::ir::{Automaton, AutomatonId, Extent, RoleId, Scalar, Value};
 use runtime_sim::device::{Direction, PortType};
@@ -63,7 +63,7 @@ pub fn steps(shared: Shared, id: AutomatonId, globals: &Globals) -> Block {
         matches!(c.origin, Origin::Kept) && (used.contains(&c.variable.name) || asked.contains(&c.variable.name))
     };
     let kept: Vec<&Candidate> = candidates.iter().filter(is_kept).collect();
-    body.insert(0, when(not(name("init_done")), power_up(&kept)));
+    body.insert(0, when(not(name("init_done")), power_up(shared.state(id, 0), &kept)));
     let used = code::names(&body);
     let mut outputs = vec![state_variable(shared, id), Variable::new("elapsed", Basic::Dint).with_comment("ms in this state")];
     let mut variables = Vec::new();
@@ -130,11 +130,11 @@ fn invariant_body(lowering: &mut Lowering) -> Vec<Stmt> {
         lowering.phase = Phase::Update;
         lowering.release();
         let mut before = Vec::new();
-        let holds = lowering.value(&invariant.condition, &mut before);
+        let fails = lowering.contrary(&invariant.condition, &mut before);
         body.push(Stmt::Comment(format!("invariant {}   {}", invariant.text, lowering.line(invariant.place))));
         body.append(&mut lowering.hoisted);
         body.extend(before);
-        body.push(when(not(holds), lowering.raise(invariant.fault)));
+        body.extend(guarded(fails, lowering.raise(invariant.fault)));
     }
     body
 }
@@ -169,8 +169,8 @@ fn state_variable(shared: Shared, id: AutomatonId) -> Variable {
 }
 
 /// Values at power-up.
-fn power_up(kept: &[&Candidate]) -> Vec<Stmt> {
-    let mut body = vec![assign("state", Ex::Int(0)), assign("elapsed", Ex::Int(0))];
+fn power_up(beginning: Member, kept: &[&Candidate]) -> Vec<Stmt> {
+    let mut body = vec![assign("state", Ex::Member(beginning)), assign("elapsed", Ex::Int(0))];
     for candidate in kept {
         let Some(initial) = &candidate.initial else { continue };
         match candidate.variable.elements {

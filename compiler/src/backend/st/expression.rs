@@ -225,6 +225,29 @@ impl Lowering<'_> {
         binary(operator, left, right)
     }
 
+    /// Whether a condition does not hold; order of reals is not turned round, because of NaN.
+    pub fn contrary(&mut self, expr: &Expr, before: &mut Vec<Stmt>) -> Ex {
+        let ExprKind::Binary(operator, a, b) = &expr.kind else { return not(self.value(expr, before)) };
+        let turned = match operator {
+            Operator::Less => ">=",
+            Operator::LessEqual => ">",
+            Operator::Greater => "<=",
+            Operator::GreaterEqual => "<",
+            Operator::And if is_plain(a) && is_plain(b) && !self.may_fault(b) => {
+                let a = self.contrary(a, before);
+                let b = self.contrary(b, before);
+                return or(vec![a, b]);
+            }
+            _ => return not(self.value(expr, before)),
+        };
+        if a.ty == Scalar::Real {
+            return not(self.value(expr, before));
+        }
+        let a = self.value(a, before);
+        let b = self.value(b, before);
+        binary(turned, a, b)
+    }
+
     /// The right side is computed only if the left one does not decide, if that makes a difference.
     fn logical(&mut self, a: &Expr, b: &Expr, before: &mut Vec<Stmt>, operator: Operator) -> Ex {
         let left = self.value(a, before);
@@ -304,8 +327,8 @@ impl Lowering<'_> {
             } else if sought {
                 inner = lowering.if_all(&conjuncts(body), found);
             } else {
-                let value = lowering.value(body, &mut inner);
-                inner.extend(guarded(not(value), found));
+                let contrary = lowering.contrary(body, &mut inner);
+                inner.extend(guarded(contrary, found));
             }
             inner
         });
@@ -483,6 +506,20 @@ impl Lowering<'_> {
             Some(index) => sum(times(row, self.system.model.elements(ty.extent) as i32), index),
         }
     }
+}
+
+/// Whether an expression is computed without statements before it.
+fn is_plain(expr: &Expr) -> bool {
+    let is_loop = matches!(
+        expr.kind,
+        ExprKind::Exists { .. }
+            | ExprKind::Forall { .. }
+            | ExprKind::Count { .. }
+            | ExprKind::Sum { .. }
+            | ExprKind::IsMember(..)
+            | ExprKind::Define(_)
+    );
+    !is_loop && expr.parts().into_iter().all(is_plain)
 }
 
 pub fn guarded(condition: Ex, then: Vec<Stmt>) -> Vec<Stmt> {

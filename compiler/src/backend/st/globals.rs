@@ -26,6 +26,12 @@ pub struct Globals {
     pub parameters: Vec<Table>,
 }
 
+pub struct List {
+    pub name: &'static str,
+    pub about: &'static str,
+    pub variables: Vec<Variable>,
+}
+
 impl Globals {
     pub fn new(shared: Shared) -> Self {
         Self {
@@ -40,6 +46,18 @@ impl Globals {
     pub fn retain(&mut self, is_used: impl Fn(&str) -> bool) {
         self.cells.retain(|table| is_used(&table.variable.name));
         self.parameters.retain(|table| is_used(&table.variable.name));
+    }
+
+    /// The globals as lists that have a name.
+    pub fn lists(&self) -> Vec<List> {
+        let tables = |tables: &[Table]| tables.iter().map(|t| t.variable.clone()).collect::<Vec<_>>();
+        let lists = [
+            List { name: "GVL_System", about: "inputs and outputs of the line", variables: self.system.clone() },
+            List { name: "GVL_Ports", about: "ports of the robots", variables: self.ports.concat() },
+            List { name: "GVL_Cells", about: "shared cells", variables: tables(&self.cells) },
+            List { name: "GVL_Parameters", about: "parameters", variables: tables(&self.parameters) },
+        ];
+        lists.into_iter().filter(|list| !list.variables.is_empty()).collect()
     }
 
     pub fn all(&self) -> impl Iterator<Item = &Variable> {

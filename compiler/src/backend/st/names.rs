@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 
 const TAKEN: &[&str] = &[
     "F_following", "F_next_command", "F_limit", "F_lesser", "F_greater", "F_lesser_real", "F_greater_real",
-    "F_magnitude", "F_is_finite", "F_is_finite_point", "F_absolute", "F_squared_distance", "MAIN", "FB_Layout", "Line", "Controller",
+    "F_magnitude", "F_is_finite", "F_is_finite_point", "F_absolute", "F_squared_distance", "MAIN", "FB_Layout", "GVL_System", "GVL_Ports", "GVL_Cells", "GVL_Parameters", "Line", "Controller",
     "Scan", "Main_program", "run_permit", "start", "reset", "running", "fault", "fault_code", "fault_robot",
     "init_done", "dt_ms",
 ];

@@ -13,9 +13,14 @@ pub enum Dialect {
 /// Lines longer than this are broken at AND and OR.
 const WIDTH: usize = 108;
 
-/// Text in a comment, which must not end it.
+/// A text as a comment.
 pub fn comment(text: &str) -> String {
-    format!("(* {} *)", text.replace("(*", "( *").replace("*)", "* )"))
+    format!("(* {} *)", harmless(text))
+}
+
+/// Text that neither begins nor ends a comment.
+pub fn harmless(text: &str) -> String {
+    text.replace("(*", "( *").replace("*)", "* )")
 }
 
 pub fn real(value: f64) -> String {
@@ -133,16 +138,23 @@ impl Printer {
     fn statement(&mut self, statement: &Stmt, depth: usize) {
         match statement {
             Stmt::Comment(text) => self.comment(depth, text),
-            Stmt::Assign(target, value) => {
-                let value = match value {
+            Stmt::Assign(target, assigned) => {
+                let value = match assigned {
                     // The comment of a member stands behind the statement.
                     Ex::Member(m) if self.dialect == Dialect::Portable || m.qualified.is_none() => {
                         format!("{}; {}", m.value, comment(&m.note))
                     }
-                    _ => self.dialect.expression(value) + ";",
+                    _ => self.dialect.expression(assigned) + ";",
                 };
                 let text = format!("{} := {value}", self.dialect.expression(target));
-                self.line(depth, &text);
+                match assigned {
+                    Ex::Call(function, arguments) if 4 * depth + text.len() > WIDTH => {
+                        let begin = format!("{} := {function}", self.dialect.expression(target));
+                        let arguments = arguments.iter().map(|(name, value)| (*name, value));
+                        self.call(&begin, arguments, depth);
+                    }
+                    _ => self.line(depth, &text),
+                }
             }
             Stmt::If(arms, otherwise) => {
                 for (i, arm) in arms.iter().enumerate() {
@@ -165,7 +177,7 @@ impl Printer {
                     self.line(depth + 1, &label);
                     self.block(body, depth + 2);
                 }
-                self.line(depth, "ELSE");
+                self.line(depth + 1, "ELSE");
                 self.block(otherwise, depth + 2);
                 self.line(depth, "END_CASE;");
             }
@@ -176,7 +188,9 @@ impl Printer {
             }
             Stmt::Exit => self.line(depth, "EXIT;"),
             Stmt::Return => self.line(depth, "RETURN;"),
-            Stmt::Call { instance, arguments } => self.call(instance, arguments, depth),
+            Stmt::Call { instance, arguments } => {
+                self.call(instance, arguments.iter().map(|(name, value)| (name.as_str(), value)), depth);
+            }
         }
     }
 
@@ -186,14 +200,15 @@ impl Printer {
         self.block(&arm.body, depth + 1);
     }
 
-    fn call(&mut self, instance: &str, arguments: &[(String, Ex)], depth: usize) {
+    /// A call on one line, or with an argument on each.
+    fn call<'a>(&mut self, begin: &str, arguments: impl Iterator<Item = (&'a str, &'a Ex)>, depth: usize) {
         let arguments: Vec<_> =
-            arguments.iter().map(|(name, value)| format!("{name} := {}", self.dialect.expression(value))).collect();
-        let one_line = format!("{instance}({});", arguments.join(", "));
+            arguments.map(|(name, value)| format!("{name} := {}", self.dialect.expression(value))).collect();
+        let one_line = format!("{begin}({});", arguments.join(", "));
         if 4 * depth + one_line.len() <= WIDTH {
             return self.line(depth, &one_line);
         }
-        self.line(depth, &format!("{instance}("));
+        self.line(depth, &format!("{begin}("));
         let last = arguments.len().saturating_sub(1);
         for (i, argument) in arguments.iter().enumerate() {
             self.line(depth + 1, &format!("{argument}{}", if i == last { ");" } else { "," }));
