@@ -4,7 +4,7 @@ use super::options::{BuildOptions, Format};
 use super::write::{self, Files, Overwrite, Refusal};
 use super::{load, print};
 use crate::Status;
-use autogen::backend::{dot, plan, rust};
+use autogen::backend::{dot, plan, rust, st};
 use autogen::library;
 use autogen::lower::{Outcome, Project, compile};
 use autogen::simulator;
@@ -35,6 +35,9 @@ pub fn run(options: &BuildOptions) -> Status {
                 );
             } else if !options.input.quiet {
                 say!("{} files written to {}", built.files.len() + 1, built.folder.display());
+                if let Some(bounds) = built.files.get("plc/bounds.txt") {
+                    say_part!("\n{bounds}");
+                }
             }
             Status::Done
         }
@@ -87,6 +90,9 @@ fn files(project: &Project, sources: &Sources) -> Files {
     let mut files = Files::new();
     for (name, text) in rust::files(&project.system, sources) {
         files.insert(format!("rust/{name}"), text);
+    }
+    for (name, text) in st::files(&project.system, sources) {
+        files.insert(format!("plc/{name}"), text);
     }
     for (name, text) in dot::files(&project.system, &project.edges) {
         files.insert(format!("graph/{name}"), text);
