@@ -87,7 +87,8 @@ fn line(shared: Shared) -> Line {
         })
         .collect();
     let program = program::program(shared, &blocks, &globals);
-    let units = blocks.iter().flatten().flat_map(|b| [Some(&b.steps), b.invariants.as_ref()].into_iter().flatten());
+    let units =
+        blocks.iter().flatten().flat_map(|b| [Some(&b.steps), b.invariants.as_ref()].into_iter().flatten());
     let mut used = code::names(&program.body);
     units.clone().for_each(|b| used.extend(code::names(&b.unit.body)));
     globals.retain(|name| used.contains(name));

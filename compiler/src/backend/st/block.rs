@@ -3,8 +3,9 @@
 use super::code::{self, Ex, Member, Stmt, advance, assign, binary, name, not, or, when};
 use super::context::{Lowering, Phase, Shared};
 use super::declaration::{Basic, Unit, Variable, constants};
-use super::globals::{Globals, about, array_names, first_value, meaning};
 use super::expression::{guarded, limited};
+use super::globals::{Globals, about, array_names, first_value, meaning};
+use super::names::ELEMENT;
 use super::role::Members;
 use crate::ir::{Automaton, AutomatonId, Extent, RoleId, Scalar, Value};
 use runtime_sim::device::{Direction, PortType};
@@ -18,10 +19,16 @@ pub const NO_SUCH_STATE: i32 = 32767;
 enum Origin {
     Robot,
     Row(usize),
-    Parameter { parameter: usize, part: usize },
+    Parameter {
+        parameter: usize,
+        part: usize,
+    },
     Members(usize),
     MemberCount(usize),
-    Input { port: usize, part: usize },
+    Input {
+        port: usize,
+        part: usize,
+    },
     /// Kept in the block of the steps.
     Kept,
 }
@@ -47,8 +54,7 @@ pub fn steps(shared: Shared, id: AutomatonId, globals: &Globals) -> Block {
     let own = lowering.own();
     let state = name("state");
     let unknown = Member { value: NO_SUCH_STATE, note: "no such state".into(), qualified: None };
-    let otherwise =
-        vec![assign("fault_code", Ex::Member(unknown)), assign("fault_robot", name("robot"))];
+    let otherwise = vec![assign("fault_code", Ex::Member(unknown)), assign("fault_robot", name("robot"))];
     let mut body = vec![when(stopped(), vec![Stmt::Return])];
     body.push(elapse());
     let mut case = vec![Stmt::Case { selector: state, branches, otherwise }];
@@ -60,12 +66,16 @@ pub fn steps(shared: Shared, id: AutomatonId, globals: &Globals) -> Block {
     let used = code::names(&body);
     let asked = code::names(&invariant_body(&mut Lowering::new(shared, id)));
     let is_kept = |c: &&Candidate| {
-        matches!(c.origin, Origin::Kept) && (used.contains(&c.variable.name) || asked.contains(&c.variable.name))
+        matches!(c.origin, Origin::Kept)
+            && (used.contains(&c.variable.name) || asked.contains(&c.variable.name))
     };
     let kept: Vec<&Candidate> = candidates.iter().filter(is_kept).collect();
     body.insert(0, when(not(name("init_done")), power_up(shared.state(id, 0), &kept)));
     let used = code::names(&body);
-    let mut outputs = vec![state_variable(shared, id), Variable::new("elapsed", Basic::Dint).with_comment("ms in this state")];
+    let mut outputs = vec![
+        state_variable(shared, id),
+        Variable::new("elapsed", Basic::Dint).with_comment("ms in this state"),
+    ];
     let mut variables = Vec::new();
     for candidate in kept {
         let is_seen = candidate.is_output || asked.contains(&candidate.variable.name);
@@ -113,7 +123,10 @@ pub fn invariants(shared: Shared, id: AutomatonId, globals: &Globals) -> Option<
     Some(Block {
         unit: Unit {
             name: lowering.own().invariants.clone(),
-            comments: vec![format!("What always holds for each {}, tested behind the steps of all robots.", automaton.name)],
+            comments: vec![format!(
+                "What always holds for each {}, tested behind the steps of all robots.",
+                automaton.name
+            )],
             inputs,
             externals: externals(globals, &used),
             variables,
@@ -131,7 +144,11 @@ fn invariant_body(lowering: &mut Lowering) -> Vec<Stmt> {
         lowering.release();
         let mut before = Vec::new();
         let fails = lowering.contrary(&invariant.condition, &mut before);
-        body.push(Stmt::Comment(format!("invariant {}   {}", invariant.text, lowering.line(invariant.place))));
+        body.push(Stmt::Comment(format!(
+            "invariant {}   {}",
+            invariant.text,
+            lowering.line(invariant.place)
+        )));
         body.append(&mut lowering.hoisted);
         body.extend(before);
         body.extend(guarded(fails, lowering.raise(invariant.fault)));
@@ -176,10 +193,10 @@ fn power_up(beginning: Member, kept: &[&Candidate]) -> Vec<Stmt> {
         match candidate.variable.elements {
             None => body.push(assign(&candidate.variable.name, initial.clone())),
             Some(n) => {
-                let target = Ex::Element(candidate.variable.name.clone(), Box::new(name("e")));
-                let stores = vec![Stmt::Assign(target, initial.clone()), advance("e")];
-                let condition = binary("<", name("e"), Ex::Int(n as i32));
-                body.push(assign("e", Ex::Int(0)));
+                let target = Ex::Element(candidate.variable.name.clone(), Box::new(name(ELEMENT)));
+                let stores = vec![Stmt::Assign(target, initial.clone()), advance(ELEMENT)];
+                let condition = binary("<", name(ELEMENT), Ex::Int(n as i32));
+                body.push(assign(ELEMENT, Ex::Int(0)));
                 body.push(Stmt::While { condition, body: stores, most: n as u64 });
             }
         }
@@ -195,7 +212,8 @@ fn externals(globals: &Globals, used: &BTreeSet<String>) -> Vec<Variable> {
 fn candidates(shared: Shared, id: AutomatonId) -> Vec<Candidate> {
     let automaton = shared.system.model.automaton(id);
     let own = &shared.names.automata[id.0];
-    let given = |variable: Variable, origin: Origin| Candidate { variable, origin, initial: None, is_output: false };
+    let given =
+        |variable: Variable, origin: Origin| Candidate { variable, origin, initial: None, is_output: false };
     let mut all = vec![given(
         Variable::new("robot", Basic::Dint).with_comment("its number, for fault_robot"),
         Origin::Robot,
@@ -219,7 +237,10 @@ fn candidates(shared: Shared, id: AutomatonId) -> Vec<Candidate> {
         let Members::Listed(most) = shared.members(id, RoleId(i)) else { continue };
         let interface = &shared.system.model.interface(role.interface).name;
         let list = Variable::new(&own.roles[i].members, Basic::Dint).with_elements(Some(most.max(1)));
-        all.push(given(list.with_comment(format!("rows of its {}: {interface}", role.name)), Origin::Members(i)));
+        all.push(given(
+            list.with_comment(format!("rows of its {}: {interface}", role.name)),
+            Origin::Members(i),
+        ));
         let count = Variable::new(&own.roles[i].count, Basic::Dint).with_comment("number of them");
         all.push(given(count, Origin::MemberCount(i)));
     }
@@ -227,7 +248,8 @@ fn candidates(shared: Shared, id: AutomatonId) -> Vec<Candidate> {
     for (i, local) in automaton.locals.iter().enumerate() {
         let initial = shared.constants(local.ty.scalar, local.initial);
         for (part, (held, initial)) in own.locals[i].iter().zip(initial).enumerate() {
-            let mut variable = Variable::new(held, Basic::of(local.ty.scalar)).with_elements(array(shared, local.ty.extent));
+            let mut variable =
+                Variable::new(held, Basic::of(local.ty.scalar)).with_elements(array(shared, local.ty.extent));
             if part == 0 {
                 variable.comments = about(&local.doc, meaning(shared, local.ty.scalar));
             }
@@ -252,9 +274,12 @@ fn ports(shared: Shared, automaton: &Automaton, id: AutomatonId) -> Vec<Candidat
                 .with_elements(elements)
                 .with_comment(if part == 0 { format!("{}{unit}", port.meaning) } else { String::new() });
             all.push(match port.direction {
-                Direction::Input => {
-                    Candidate { variable, origin: Origin::Input { port: i, part }, initial: None, is_output: false }
-                }
+                Direction::Input => Candidate {
+                    variable,
+                    origin: Origin::Input { port: i, part },
+                    initial: None,
+                    is_output: false,
+                },
                 Direction::Output => {
                     Candidate { variable, origin: Origin::Kept, initial: Some(first), is_output: true }
                 }
@@ -265,7 +290,12 @@ fn ports(shared: Shared, automaton: &Automaton, id: AutomatonId) -> Vec<Candidat
 }
 
 /// Variables that a block computes anew in each step.
-fn locals(shared: Shared, id: AutomatonId, temporaries: &[Variable], used: &BTreeSet<String>) -> Vec<Variable> {
+fn locals(
+    shared: Shared,
+    id: AutomatonId,
+    temporaries: &[Variable],
+    used: &BTreeSet<String>,
+) -> Vec<Variable> {
     let automaton = shared.system.model.automaton(id);
     let own = &shared.names.automata[id.0];
     let mut all = vec![
@@ -284,7 +314,7 @@ fn locals(shared: Shared, id: AutomatonId, temporaries: &[Variable], used: &BTre
             all.push(Variable::new(held, Basic::Dint).with_comment(about));
         }
     }
-    all.push(Variable::new("e", Basic::Dint).with_comment("number of an element"));
+    all.push(Variable::new(ELEMENT, Basic::Dint).with_comment("number of an element"));
     all.extend(temporaries.iter().cloned());
     all.retain(|v| used.contains(&v.name));
     all
@@ -295,7 +325,10 @@ fn inputs(candidates: Vec<Candidate>, used: &BTreeSet<String>) -> (Vec<Variable>
     inputs_and_kept(candidates, used)
 }
 
-fn inputs_and_kept(candidates: Vec<Candidate>, used: &BTreeSet<String>) -> (Vec<Variable>, Vec<(String, Origin)>) {
+fn inputs_and_kept(
+    candidates: Vec<Candidate>,
+    used: &BTreeSet<String>,
+) -> (Vec<Variable>, Vec<(String, Origin)>) {
     candidates
         .into_iter()
         .filter(|c| used.contains(&c.variable.name))
@@ -307,7 +340,8 @@ impl Block {
     /// The call of this block for a robot; what the robot keeps is read from the instance of its steps.
     pub fn call(&self, shared: Shared, instance: &str, robot: usize) -> Stmt {
         let arguments = self.arguments.iter();
-        let arguments = arguments.map(|(input, origin)| (input.clone(), argument(shared, robot, input, origin)));
+        let arguments =
+            arguments.map(|(input, origin)| (input.clone(), argument(shared, robot, input, origin)));
         Stmt::Call { instance: instance.into(), arguments: arguments.collect() }
     }
 }
@@ -345,4 +379,3 @@ fn argument(shared: Shared, robot: usize, input: &str, origin: &Origin) -> Ex {
 pub fn publishes(block: &Block, output: &str) -> bool {
     block.unit.outputs.iter().any(|v| v.name == output)
 }
-

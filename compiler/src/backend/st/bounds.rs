@@ -52,7 +52,9 @@ pub fn written(block: &[Stmt]) -> u64 {
         .map(|statement| match statement {
             Stmt::Comment(_) => 0,
             Stmt::Assign(..) | Stmt::Exit | Stmt::Return | Stmt::Call { .. } => 1,
-            Stmt::If(arms, otherwise) => 1 + arms.iter().map(|a| written(&a.body)).sum::<u64>() + written(otherwise),
+            Stmt::If(arms, otherwise) => {
+                1 + arms.iter().map(|a| written(&a.body)).sum::<u64>() + written(otherwise)
+            }
             Stmt::Case { branches, otherwise, .. } => {
                 1 + branches.iter().map(|(_, body)| written(body)).sum::<u64>() + written(otherwise)
             }

@@ -35,12 +35,23 @@ pub enum Stmt {
     Comment(String),
     Assign(Ex, Ex),
     If(Vec<Arm>, Vec<Stmt>),
-    Case { selector: Ex, branches: Vec<(Member, Vec<Stmt>)>, otherwise: Vec<Stmt> },
+    Case {
+        selector: Ex,
+        branches: Vec<(Member, Vec<Stmt>)>,
+        otherwise: Vec<Stmt>,
+    },
     /// Runs at most so often.
-    While { condition: Ex, body: Vec<Stmt>, most: u64 },
+    While {
+        condition: Ex,
+        body: Vec<Stmt>,
+        most: u64,
+    },
     Exit,
     Return,
-    Call { instance: String, arguments: Vec<(String, Ex)> },
+    Call {
+        instance: String,
+        arguments: Vec<(String, Ex)>,
+    },
 }
 
 /// What is done if a condition holds and none before it.

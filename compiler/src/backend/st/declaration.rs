@@ -112,10 +112,12 @@ impl Variable {
     }
 
     fn lines(&self, dialect: Dialect, ty: &str) -> String {
-        let initial = self.initial.as_ref().map(|e| format!(" := {}", dialect.expression(e))).unwrap_or_default();
+        let initial =
+            self.initial.as_ref().map(|e| format!(" := {}", dialect.expression(e))).unwrap_or_default();
         let mut text = format!("    {} : {ty}{initial};", self.name);
         for (i, line) in self.comments.iter().enumerate() {
-            text += &if i == 0 { format!(" {}", comment(line)) } else { format!("\n        {}", comment(line)) };
+            text +=
+                &if i == 0 { format!(" {}", comment(line)) } else { format!("\n        {}", comment(line)) };
         }
         text + "\n"
     }
@@ -133,7 +135,8 @@ impl Unit {
             block(keyword, lines.collect())
         };
         let instances = self.instances.iter().map(|i| {
-            let about = if i.comment.is_empty() { String::new() } else { format!(" {}", comment(&i.comment)) };
+            let about =
+                if i.comment.is_empty() { String::new() } else { format!(" {}", comment(&i.comment)) };
             format!("    {} : {};{about}\n", i.name, i.block)
         });
         let externals = match dialect {

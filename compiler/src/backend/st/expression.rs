@@ -60,7 +60,9 @@ impl Lowering<'_> {
             },
             ExprKind::Constant(Value::Bool(b)) => Ex::Bool(*b),
             ExprKind::Constant(Value::Real(r)) => Ex::Real(*r),
-            ExprKind::Constant(Value::Point(_)) | ExprKind::MakePoint(_) => self.coordinates(expr, before)[0].clone(),
+            ExprKind::Constant(Value::Point(_)) | ExprKind::MakePoint(_) => {
+                self.coordinates(expr, before)[0].clone()
+            }
             ExprKind::Read(place) => self.spot(place, before).value(0),
             ExprKind::Variable(id) => name(&self.own().variables[id.0]),
             ExprKind::Define(define) => self.define(*define, before),
@@ -191,7 +193,13 @@ impl Lowering<'_> {
         position.map_or(Ex::Int(0), |p| name(&self.own().rows[p]))
     }
 
-    fn function(&mut self, [whole, real]: [&'static str; 2], a: &Expr, b: &Expr, before: &mut Vec<Stmt>) -> Ex {
+    fn function(
+        &mut self,
+        [whole, real]: [&'static str; 2],
+        a: &Expr,
+        b: &Expr,
+        before: &mut Vec<Stmt>,
+    ) -> Ex {
         let function = if a.ty == Scalar::Real { real } else { whole };
         let a = self.value(a, before);
         let b = self.value(b, before);
@@ -408,7 +416,13 @@ impl Lowering<'_> {
             Domain::Role(role) => match self.members(self.id, *role) {
                 Members::All(n) => {
                     out.push(assign(&counter, Ex::Int(0)));
-                    self.count_to(&counter, binary("<", name(&counter), Ex::Int(n as i32)), n as u64, out, body);
+                    self.count_to(
+                        &counter,
+                        binary("<", name(&counter), Ex::Int(n as i32)),
+                        n as u64,
+                        out,
+                        body,
+                    );
                 }
                 Members::Listed(most) => {
                     let names = &self.own().roles[role.0];
@@ -444,7 +458,9 @@ impl Lowering<'_> {
                 Some(end) => binary("<", name(counter), Ex::Int(end)),
                 None => binary("<=", name(counter), Ex::Int(i)),
             },
-            Ex::Binary("-", a, one) if *one == Ex::Int(1) && matches!(*a, Ex::Name(_)) => binary("<", name(counter), *a),
+            Ex::Binary("-", a, one) if *one == Ex::Int(1) && matches!(*a, Ex::Name(_)) => {
+                binary("<", name(counter), *a)
+            }
             simple @ Ex::Name(_) => binary("<=", name(counter), simple),
             other => {
                 let last = self.temporary(&format!("{counter}_last"), Basic::Dint);
@@ -469,7 +485,9 @@ impl Lowering<'_> {
             Place::Port { port, index } => {
                 let device_port = &self.automaton().device.ports[*port];
                 let limit = match device_port.ty {
-                    PortType::Int { lo, hi } if device_port.extent != runtime_sim::device::Extent::One => Some((lo, hi)),
+                    PortType::Int { lo, hi } if device_port.extent != runtime_sim::device::Extent::One => {
+                        Some((lo, hi))
+                    }
                     _ => None,
                 };
                 let index = self.index(index, before);

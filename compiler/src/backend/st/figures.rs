@@ -23,7 +23,8 @@ impl Bound<'_> {
 
 /// `bounds.txt`
 pub fn report(shared: Shared, line: &Line) -> String {
-    let count = |unit: &Unit| line.program.instances.iter().filter(|i| i.block == unit.name).count().max(1) as u64;
+    let count =
+        |unit: &Unit| line.program.instances.iter().filter(|i| i.block == unit.name).count().max(1) as u64;
     let bounds: Vec<Bound> = line
         .units()
         .map(|unit| Bound { name: &unit.name, once: greatest(&unit.body), instances: count(unit) })
@@ -33,7 +34,14 @@ pub fn report(shared: Shared, line: &Line) -> String {
     );
     let _ = writeln!(text, "{:<32} {:>8} {:>9} {:>9}", "unit", "once", "instances", "together");
     for bound in &bounds {
-        let _ = writeln!(text, "{:<32} {:>8} {:>9} {:>9}", bound.name, bound.once, bound.instances, bound.total());
+        let _ = writeln!(
+            text,
+            "{:<32} {:>8} {:>9} {:>9}",
+            bound.name,
+            bound.once,
+            bound.instances,
+            bound.total()
+        );
     }
     let total = bounds.iter().fold(0u64, |sum, bound| sum.saturating_add(bound.total()));
     let _ = writeln!(text, "{:<32} {:>8} {:>9} {total:>9}", "all", "", "");

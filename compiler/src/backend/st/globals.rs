@@ -52,7 +52,11 @@ impl Globals {
     pub fn lists(&self) -> Vec<List> {
         let tables = |tables: &[Table]| tables.iter().map(|t| t.variable.clone()).collect::<Vec<_>>();
         let lists = [
-            List { name: "GVL_System", about: "inputs and outputs of the line", variables: self.system.clone() },
+            List {
+                name: "GVL_System",
+                about: "inputs and outputs of the line",
+                variables: self.system.clone(),
+            },
             List { name: "GVL_Ports", about: "ports of the robots", variables: self.ports.concat() },
             List { name: "GVL_Cells", about: "shared cells", variables: tables(&self.cells) },
             List { name: "GVL_Parameters", about: "parameters", variables: tables(&self.parameters) },
@@ -75,13 +79,21 @@ fn system(shared: Shared) -> Vec<Variable> {
         Variable::new(name, basic).with_initial(initial).with_comment(about)
     };
     vec![
-        variable("run_permit", Ex::Bool(false), "input: false when the emergency stop has acted or the fieldbus is lost"),
+        variable(
+            "run_permit",
+            Ex::Bool(false),
+            "input: false when the emergency stop has acted or the fieldbus is lost",
+        ),
         variable("start", Ex::Bool(false), "input: its rising edge starts the line"),
         variable("reset", Ex::Bool(false), "input: its rising edge clears a fault"),
         variable("running", Ex::Bool(false), "output: the blocks step"),
         variable("fault", Ex::Bool(false), "output: a fault is latched"),
         variable("fault_code", Ex::Int(0), "output: see alarms.csv; 0 without a fault"),
-        variable("fault_robot", Ex::Int(-1), "output: number of the robot in the order of the calls; -1 without a fault"),
+        variable(
+            "fault_robot",
+            Ex::Int(-1),
+            "output: number of the robot in the order of the calls; -1 without a fault",
+        ),
         variable("init_done", Ex::Bool(false), "false in the first scan"),
         variable("dt_ms", Ex::Int(shared.system.scan_ms), "length of a scan, ms: the INTERVAL of the task"),
     ]
@@ -122,7 +134,8 @@ fn ports(shared: Shared, robot: usize) -> Vec<Variable> {
             let variable = Variable::new(name, Basic::of(Scalar::from(port.ty)))
                 .with_elements(elements)
                 .with_comment(format!("{word}: {}{unit}", port.meaning));
-            let variable = if *name == held[0] { variable } else { Variable { comments: Vec::new(), ..variable } };
+            let variable =
+                if *name == held[0] { variable } else { Variable { comments: Vec::new(), ..variable } };
             let has_initial = port.direction == Direction::Output && elements.is_none();
             variables.push(if has_initial { variable.with_initial(first) } else { variable });
         }
@@ -132,8 +145,10 @@ fn ports(shared: Shared, robot: usize) -> Vec<Variable> {
 
 /// `0 agv1, 1 agv2`, or `12 for each of agv1, agv2`
 fn rows(shared: Shared, interface: InterfaceId, each: Option<usize>) -> String {
-    let members: Vec<&str> =
-        shared.system.members[interface.0].iter().map(|i| shared.system.instances[*i].name.as_str()).collect();
+    let members: Vec<&str> = shared.system.members[interface.0]
+        .iter()
+        .map(|i| shared.system.instances[*i].name.as_str())
+        .collect();
     match each {
         None => members.iter().enumerate().map(|(i, m)| format!("{i} {m}")).collect::<Vec<_>>().join(", "),
         Some(n) => {
@@ -222,14 +237,15 @@ fn table(scalar: Scalar, held: &[String], values: &[Vec<Ex>], comments: &[String
                 comments: if part == 0 { comments.to_vec() } else { Vec::new() },
                 ..Variable::new(name, basic)
             }
-                .with_elements(Some(values.len().max(1))),
+            .with_elements(Some(values.len().max(1))),
             values: values.iter().map(|v| v[part].clone()).collect(),
         })
         .collect()
 }
 
 fn relations(shared: Shared) -> Vec<Table> {
-    let relations = shared.system.model.relations.iter().zip(&shared.system.reaches).zip(&shared.names.relations);
+    let relations =
+        shared.system.model.relations.iter().zip(&shared.system.reaches).zip(&shared.names.relations);
     relations
         .map(|((relation, reaches), name)| {
             let n = reaches.iter().map(Vec::len).sum::<usize>();
@@ -240,7 +256,8 @@ fn relations(shared: Shared) -> Vec<Table> {
                 rows(shared, relation.to, None),
             ];
             Table {
-                variable: Variable { comments, ..Variable::new(name, Basic::Bool) }.with_elements(Some(n.max(1))),
+                variable: Variable { comments, ..Variable::new(name, Basic::Bool) }
+                    .with_elements(Some(n.max(1))),
                 values: reaches.iter().flatten().map(|b| Ex::Bool(*b)).collect(),
             }
         })
@@ -252,7 +269,9 @@ fn own(shared: Shared, id: AutomatonId) -> Vec<Table> {
     let automaton = shared.system.model.automaton(id);
     let robots = shared.instances(id);
     let mut tables = Vec::new();
-    for (number, parameter) in automaton.parameters.iter().enumerate().filter(|(_, p)| p.ty.extent != Extent::One) {
+    for (number, parameter) in
+        automaton.parameters.iter().enumerate().filter(|(_, p)| p.ty.extent != Extent::One)
+    {
         let comments = about(&parameter.doc, meaning(shared, parameter.ty.scalar));
         let names = robots.iter().map(|r| array_names(shared, *r, number));
         for (robot, held) in robots.iter().zip(names) {

@@ -52,7 +52,13 @@ impl Lowering<'_> {
     }
 
     /// The loop over the candidates of a binder.
-    fn candidates(&mut self, binder: &Binder, rest: &[Clause], flag: &str, used: &BTreeSet<VariableId>) -> Vec<Stmt> {
+    fn candidates(
+        &mut self,
+        binder: &Binder,
+        rest: &[Clause],
+        flag: &str,
+        used: &BTreeSet<VariableId>,
+    ) -> Vec<Stmt> {
         let mut out = Vec::new();
         let own: Vec<&Expr> = binder.condition.iter().flat_map(conjuncts).collect();
         let Some(key) = &binder.key else {
@@ -75,8 +81,11 @@ impl Lowering<'_> {
         let own_key = self.temporary(&format!("{variable}_key"), basic);
         let least = self.temporary(&format!("{variable}_least"), basic);
         // The choice, and those of later binders that go with it.
-        let chosen: BTreeSet<VariableId> =
-            [binder.variable].into_iter().chain(rest.iter().filter_map(bound)).filter(|v| used.contains(v)).collect();
+        let chosen: BTreeSet<VariableId> = [binder.variable]
+            .into_iter()
+            .chain(rest.iter().filter_map(bound))
+            .filter(|v| used.contains(v))
+            .collect();
         let names: Vec<String> = chosen.iter().map(|v| self.own().variables[v.0].clone()).collect();
         let best: Vec<(String, String)> =
             names.into_iter().map(|v| (self.temporary(&format!("{v}_best"), Basic::Dint), v)).collect();

@@ -4,7 +4,8 @@ use super::declaration::suffixes;
 use super::role::{self, Members};
 use super::walk;
 use crate::ir::{
-    Automaton, AutomatonId, Domain, Enum, Expr, ExprKind, Extent, Interface, Model, RoleId, Scalar, System, Type,
+    Automaton, AutomatonId, Domain, Enum, Expr, ExprKind, Extent, Interface, Model, RoleId, Scalar, System,
+    Type,
 };
 use crate::naming::st::{Renamed, Scope};
 use crate::naming::{camel, snake};
@@ -12,13 +13,42 @@ use runtime_sim::device::Port;
 use std::collections::BTreeMap;
 
 const TAKEN: &[&str] = &[
-    "F_following", "F_next_command", "F_limit", "F_lesser", "F_greater", "F_lesser_real", "F_greater_real",
-    "F_magnitude", "F_is_finite", "F_is_finite_point", "F_absolute", "F_squared_distance", "MAIN", "FB_Layout", "GVL_System", "GVL_Ports", "GVL_Cells", "GVL_Parameters", "Line", "Controller",
-    "Scan", "Main_program", "run_permit", "start", "reset", "running", "fault", "fault_code", "fault_robot",
-    "init_done", "dt_ms",
+    "F_following",
+    "F_next_command",
+    "F_limit",
+    "F_lesser",
+    "F_greater",
+    "F_lesser_real",
+    "F_greater_real",
+    "F_magnitude",
+    "F_is_finite",
+    "F_is_finite_point",
+    "F_absolute",
+    "F_squared_distance",
+    "MAIN",
+    "FB_Layout",
+    "GVL_System",
+    "GVL_Ports",
+    "GVL_Cells",
+    "GVL_Parameters",
+    "Line",
+    "Controller",
+    "Scan",
+    "Main_program",
+    "run_permit",
+    "start",
+    "reset",
+    "running",
+    "fault",
+    "fault_code",
+    "fault_robot",
+    "init_done",
+    "dt_ms",
 ];
-const LOCAL: &[&str] = &["robot", "state", "elapsed", "done", "failed", "found", "e"];
-const PROGRAM: &[&str] = &["start_before", "reset_before", "had_fault", "layout", "e"];
+/// The counter over the elements of an array.
+pub const ELEMENT: &str = "element_no";
+const LOCAL: &[&str] = &["robot", "state", "elapsed", "done", "failed", "found", ELEMENT];
+const PROGRAM: &[&str] = &["start_before", "reset_before", "had_fault", "layout"];
 
 pub struct Names {
     pub enums: Vec<EnumNames>,
@@ -98,9 +128,8 @@ pub fn names(system: &System) -> Names {
     let automata: Vec<_> = (blocks.into_iter().enumerate())
         .map(|(id, names)| automaton_names(system, AutomatonId(id), names, &inner, &mut global, &mut renamed))
         .collect();
-    let robots: Vec<_> = (system.instances.iter())
-        .map(|i| robot_names(system, &i.name, i.automaton, &mut global))
-        .collect();
+    let robots: Vec<_> =
+        (system.instances.iter()).map(|i| robot_names(system, &i.name, i.automaton, &mut global)).collect();
     let mut program = global.inner();
     PROGRAM.iter().for_each(|name| drop(program.take(name)));
     let robots = (robots.into_iter().zip(&system.instances))
@@ -139,9 +168,8 @@ fn held(scope: &mut Scope, wanted: &str, scalar: Scalar) -> Held {
 }
 
 fn interface_names(source: &Interface, global: &mut Scope) -> InterfaceNames {
-    let mut take = |name: &str, ty: Type| {
-        held(global, &format!("{}_{}", snake(&source.name), snake(name)), ty.scalar)
-    };
+    let mut take =
+        |name: &str, ty: Type| held(global, &format!("{}_{}", snake(&source.name), snake(name)), ty.scalar);
     InterfaceNames {
         cells: source.cells.iter().map(|c| take(&c.name, c.ty)).collect(),
         parameters: source.parameters.iter().map(|p| take(&p.name, p.ty)).collect(),
@@ -159,7 +187,8 @@ fn automaton_names(
     let source = system.model.automaton(id);
     let mut scope = inner.inner();
     LOCAL.iter().for_each(|name| drop(scope.take(name)));
-    let parameters = source.parameters.iter().map(|p| held(&mut scope, &snake(&p.name), p.ty.scalar)).collect();
+    let parameters =
+        source.parameters.iter().map(|p| held(&mut scope, &snake(&p.name), p.ty.scalar)).collect();
     let table = |name: &str| format!("{}_{}", snake(&source.name), snake(name));
     let tables = (source.parameters.iter().enumerate())
         .map(|(i, p)| match role::is_alike(system, id, i) {
@@ -182,7 +211,20 @@ fn automaton_names(
     let defines = source.defines.iter().map(|d| held(&mut scope, &snake(&d.name), d.ty)).collect();
     let variables = variables(&system.model, source, &mut scope);
     renamed.extend(scope.renamed().iter().map(|r| (block.clone(), r.clone())));
-    AutomatonNames { block, invariants, states, parameters, tables, roles, rows, locals, defines, ports, variables, scope }
+    AutomatonNames {
+        block,
+        invariants,
+        states,
+        parameters,
+        tables,
+        roles,
+        rows,
+        locals,
+        defines,
+        ports,
+        variables,
+        scope,
+    }
 }
 
 /// Variables of one name never meet within a transition, so they share the identifier. Those of a `define` too,
@@ -201,7 +243,9 @@ fn variables(model: &Model, source: &Automaton, scope: &mut Scope) -> Vec<String
         let wanted = &source.variables[i].name;
         known.entry((owners[i], wanted)).or_insert_with(|| scope.take(&snake(wanted)));
     }
-    (source.variables.iter().zip(&owners)).map(|(v, owner)| known[&(*owner, v.name.as_str())].clone()).collect()
+    (source.variables.iter().zip(&owners))
+        .map(|(v, owner)| known[&(*owner, v.name.as_str())].clone())
+        .collect()
 }
 
 fn own(expr: &Expr, owner: usize, owners: &mut [usize]) {
@@ -222,7 +266,8 @@ fn own(expr: &Expr, owner: usize, owners: &mut [usize]) {
 fn robot_names(system: &System, name: &str, id: AutomatonId, global: &mut Scope) -> RobotNames {
     let automaton = system.model.automaton(id);
     let own = |part: &str| format!("{}_{}", snake(name), snake(part));
-    let ports = automaton.device.ports.iter().map(|p| held(global, &own(p.name), Scalar::from(p.ty))).collect();
+    let ports =
+        automaton.device.ports.iter().map(|p| held(global, &own(p.name), Scalar::from(p.ty))).collect();
     let parameters = (automaton.parameters.iter().enumerate())
         .map(|(i, p)| match p.ty.extent != Extent::One && !role::is_alike(system, id, i) {
             true => held(global, &own(&p.name), p.ty.scalar),

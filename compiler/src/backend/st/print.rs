@@ -1,6 +1,6 @@
 //! Text of statements and expressions, in one of two dialects.
 
-use super::code::{Arm, Ex, Member, Stmt};
+use super::code::{self, Arm, Ex, Member, Stmt};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dialect {
@@ -32,6 +32,20 @@ pub fn real(value: f64) -> String {
     }
 }
 
+/// A number that is too great or too small for a literal of old tools, as a product that is exactly it.
+fn factors(value: f64) -> Option<(f64, f64)> {
+    /// 2 to the power of 100.
+    const POWER: f64 = 1_267_650_600_228_229_401_496_703_205_376.0;
+    let size = value.abs();
+    if size > 1.0e38 {
+        Some((value / POWER, POWER))
+    } else if size > 0.0 && size < 1.0e-37 {
+        Some((value * POWER, 1.0 / POWER))
+    } else {
+        None
+    }
+}
+
 impl Dialect {
     pub fn member(self, member: &Member) -> String {
         match (self, &member.qualified) {
@@ -46,7 +60,10 @@ impl Dialect {
             Ex::Bool(false) => "FALSE".into(),
             Ex::Int(i32::MIN) => "-2147483647 - 1".into(),
             Ex::Int(i) => i.to_string(),
-            Ex::Real(r) => real(*r),
+            Ex::Real(r) => match factors(*r) {
+                Some((rest, power)) => self.expression(&code::binary("*", Ex::Real(rest), Ex::Real(power))),
+                None => real(*r),
+            },
             Ex::Member(member) => self.member(member),
             Ex::Name(name) => name.clone(),
             Ex::Element(name, index) => format!("{name}[{}]", self.expression(index)),
@@ -75,6 +92,7 @@ impl Dialect {
         let text = self.expression(ex);
         let is_simple = match ex {
             Ex::Not(_) | Ex::Minus(_) | Ex::Binary(..) | Ex::Chain(..) => false,
+            Ex::Real(r) if factors(*r).is_some() => false,
             Ex::Int(_) | Ex::Real(_) => !text.starts_with('-'),
             _ => true,
         };

@@ -5,6 +5,7 @@ use super::code::{self, Arm, Ex, Stmt, and, assign, binary, name, not, or, when}
 use super::context::Shared;
 use super::declaration::{Basic, Instance, Unit, Variable, constants};
 use super::globals::{Globals, fill, stop_value};
+use super::names::ELEMENT;
 use runtime_sim::device::Direction;
 
 pub const LAYOUT: &str = "FB_Layout";
@@ -28,7 +29,11 @@ pub fn program(shared: Shared, blocks: &[Option<Blocks>], globals: &Globals) -> 
         .collect();
     for (robot, names, blocks) in &robots {
         let comment = format!("robot {robot}");
-        instances.push(Instance { name: names.instance.clone(), block: blocks.steps.unit.name.clone(), comment });
+        instances.push(Instance {
+            name: names.instance.clone(),
+            block: blocks.steps.unit.name.clone(),
+            comment,
+        });
         body.push(blocks.steps.call(shared, &names.instance, *robot));
     }
     let mut tests = Vec::new();
@@ -44,7 +49,9 @@ pub fn program(shared: Shared, blocks: &[Option<Blocks>], globals: &Globals) -> 
     }
     body.push(assign("fault", binary("<>", name("fault_code"), Ex::Int(0))));
     body.push(when(name("fault"), vec![assign("running", Ex::Bool(false))]));
-    body.push(Stmt::Comment("Outputs: as the blocks left them, or with stop values while the line does not run.".into()));
+    body.push(Stmt::Comment(
+        "Outputs: as the blocks left them, or with stop values while the line does not run.".into(),
+    ));
     for (robot, _, blocks) in &robots {
         body.extend(publish(shared, *robot, &blocks.steps));
     }
@@ -55,9 +62,12 @@ pub fn program(shared: Shared, blocks: &[Option<Blocks>], globals: &Globals) -> 
         comments: vec!["One scan: every robot steps once, in layout order.".into()],
         externals: globals.all().filter(|v| used.contains(&v.name)).map(Variable::uncommented).collect(),
         variables: vec![
-            Variable::new("start_before", Basic::Bool).with_initial(Ex::Bool(true)).with_comment("no edge at power-up"),
+            Variable::new("start_before", Basic::Bool)
+                .with_initial(Ex::Bool(true))
+                .with_comment("no edge at power-up"),
             Variable::new("reset_before", Basic::Bool).with_initial(Ex::Bool(true)),
-            Variable::new("had_fault", Basic::Bool).with_comment("there was a fault at the beginning of the scan"),
+            Variable::new("had_fault", Basic::Bool)
+                .with_comment("there was a fault at the beginning of the scan"),
         ],
         instances,
         body,
@@ -70,7 +80,9 @@ fn status() -> Vec<Stmt> {
     let edge = |input: &str| and(vec![name(input), not(name(&format!("{input}_before")))]);
     let arm = |condition: Ex, body: Vec<Stmt>| Arm { comments: Vec::new(), condition, body };
     vec![
-        Stmt::Comment("Running: from a rising edge of start, as long as there are permit and no fault.".into()),
+        Stmt::Comment(
+            "Running: from a rising edge of start, as long as there are permit and no fault.".into(),
+        ),
         assign("had_fault", has_fault()),
         when(edge("reset"), vec![assign("fault_code", Ex::Int(0)), assign("fault_robot", Ex::Int(-1))]),
         Stmt::If(
@@ -95,7 +107,9 @@ fn publish(shared: Shared, robot: usize, block: &Block) -> Vec<Stmt> {
     let mut running = Vec::new();
     let mut stopped = Vec::new();
     let mut always = Vec::new();
-    for (i, port) in automaton.device.ports.iter().enumerate().filter(|(_, p)| p.direction == Direction::Output) {
+    for (i, port) in
+        automaton.device.ports.iter().enumerate().filter(|(_, p)| p.direction == Direction::Output)
+    {
         let stop = stop_value(port).map(constants);
         for (part, (global, output)) in names.ports[i].iter().zip(&own[i]).enumerate() {
             let is_written = publishes(block, output);
@@ -126,20 +140,20 @@ pub fn layout(globals: &Globals) -> Unit {
     let mut body = vec![when(not(name("cold_start")), vec![Stmt::Return])];
     if !cells.is_empty() {
         body.push(Stmt::Comment("Shared cells.".into()));
-        body.extend(fill(&cells, "e"));
+        body.extend(fill(&cells, ELEMENT));
     }
     if !parameters.is_empty() {
         body.push(Stmt::Comment("Parameters.".into()));
-        body.extend(fill(&parameters, "e"));
+        body.extend(fill(&parameters, ELEMENT));
     }
     let used = code::names(&body);
-    let counter = Variable::new("e", Basic::Dint).with_comment("number of an element");
+    let counter = Variable::new(ELEMENT, Basic::Dint).with_comment("number of an element");
     Unit {
         name: LAYOUT.into(),
         comments: vec!["The numbers of this layout, and what shared cells hold at power-up.".into()],
         inputs: vec![Variable::new("cold_start", Basic::Bool).with_comment("this is the first scan")],
         externals: globals.all().filter(|v| used.contains(&v.name)).map(Variable::uncommented).collect(),
-        variables: if used.contains("e") { vec![counter] } else { Vec::new() },
+        variables: if used.contains(ELEMENT) { vec![counter] } else { Vec::new() },
         body,
         ..Unit::default()
     }

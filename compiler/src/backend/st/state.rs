@@ -52,7 +52,11 @@ impl Lowering<'_> {
         } else {
             out.insert(0, Stmt::Comment(title));
         }
-        let body = if body.is_empty() { vec![assign("state", Ex::Member(self.state(self.id, number)))] } else { body };
+        let body = if body.is_empty() {
+            vec![assign("state", Ex::Member(self.state(self.id, number)))]
+        } else {
+            body
+        };
         let mut arms = vec![Arm { comments, condition, body }];
         let mut otherwise = self.chain(number, others);
         if let [Stmt::If(more, rest)] = otherwise.as_mut_slice() {
@@ -81,8 +85,12 @@ impl Lowering<'_> {
         let guard = match transition.clauses.as_slice() {
             [] if number == 0 => text.clone(),
             [] => "at once".into(),
-            [Clause::Condition(Expr { kind: ExprKind::Done, .. })] if text != "done" => format!("when done: {text}"),
-            [Clause::Condition(Expr { kind: ExprKind::Failed, .. })] if text != "failed" => format!("when failed: {text}"),
+            [Clause::Condition(Expr { kind: ExprKind::Done, .. })] if text != "done" => {
+                format!("when done: {text}")
+            }
+            [Clause::Condition(Expr { kind: ExprKind::Failed, .. })] if text != "failed" => {
+                format!("when failed: {text}")
+            }
             _ => format!("when {text}"),
         };
         format!("{guard}{target}   {}", self.line(transition.place))

@@ -28,7 +28,17 @@ pub fn renamed(names: &[(String, Renamed)]) -> String {
 }
 
 const IO: [&str; 12] = [
-    "robot", "name", "direction", "type", "unit", "stop value", "meaning", "address", "raw type", "scale", "offset",
+    "robot",
+    "name",
+    "direction",
+    "type",
+    "unit",
+    "stop value",
+    "meaning",
+    "address",
+    "raw type",
+    "scale",
+    "offset",
     "invert",
 ];
 
@@ -56,7 +66,8 @@ pub fn io(shared: Shared) -> String {
             let ty = Basic::of(Scalar::from(port.ty)).name();
             for element in 0..port.extent.elements(shared.system.kinds()) {
                 for (part, name) in held.iter().enumerate() {
-                    let name = if port.extent == Extent::One { name.clone() } else { format!("{name}[{element}]") };
+                    let name =
+                        if port.extent == Extent::One { name.clone() } else { format!("{name}[{element}]") };
                     let stop = stop_text(port, part);
                     point(&instance.name, &name, direction, ty, [port.unit, &stop, port.meaning]);
                 }

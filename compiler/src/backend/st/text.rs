@@ -1,10 +1,10 @@
 //! Files of Structured Text.
 
 use super::Line;
-use crate::backend::Files;
 use super::context::Shared;
 use super::declaration::{Unit, globals};
 use super::print::{Dialect, harmless};
+use crate::backend::Files;
 use askama::Template;
 
 #[derive(Template)]
@@ -37,7 +37,8 @@ struct Configuration {
 pub fn portable(shared: Shared, line: &Line) -> String {
     let dialect = Dialect::Portable;
     let first = shared.names.robots.iter().flat_map(|r| r.ports.iter().flatten()).next().cloned();
-    let mut parts = vec![render(&Header { made_from: made_from(shared), example: first.unwrap_or_default() })];
+    let mut parts =
+        vec![render(&Header { made_from: made_from(shared), example: first.unwrap_or_default() })];
     parts.extend(line.functions.iter().map(|f| f.text.to_string()));
     parts.extend(line.units().map(|u| unit(shared, u, dialect)));
     let all: Vec<_> = line.globals.all().cloned().collect();
@@ -71,7 +72,8 @@ pub fn codesys(shared: Shared, line: &Line) -> Files {
     let mut files = Files::new();
     for (name, members) in enumerations(shared, line) {
         let members: Vec<_> = members.iter().enumerate().map(|(i, m)| format!("    {m} := {i}")).collect();
-        let text = Enumeration { made_from: made_from(shared), name: name.clone(), members: members.join(",\n") };
+        let text =
+            Enumeration { made_from: made_from(shared), name: name.clone(), members: members.join(",\n") };
         files.insert(format!("{name}.st"), render(&text));
     }
     for function in &line.functions {

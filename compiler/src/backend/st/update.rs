@@ -4,6 +4,7 @@ use super::code::{Ex, Member, Stmt, advance, assign, binary, name, not, or, when
 use super::context::{Lowering, Phase};
 use super::declaration::Basic;
 use super::expression::{Spot, limited};
+use super::names::ELEMENT;
 use crate::ir::{Expr, Extent, FaultId, Place, Scalar, Target, Type, Update, UpdateKind};
 use std::collections::BTreeSet;
 
@@ -44,7 +45,8 @@ impl Lowering<'_> {
             self.own().ports[position][0].clone()
         };
         let note = device.verbs.iter().find(|v| v.number == verb).map_or("", |v| v.name).to_string();
-        let number = [("last", "cmd"), ("got", "got"), ("ack", "ack")].map(|(input, p)| (input, name(&port(p))));
+        let number =
+            [("last", "cmd"), ("got", "got"), ("ack", "ack")].map(|(input, p)| (input, name(&port(p))));
         vec![
             assign(&port("verb"), Ex::Member(Member { value: verb, note, qualified: None })),
             assign(&port("cmd"), Ex::Call("F_next_command", number.into())),
@@ -99,16 +101,20 @@ impl Lowering<'_> {
         let n = self.system.model.elements(target.ty.extent);
         let spot = self.spot(&at_element(&target.place), out);
         let spot = self.at(spot, target.ty);
-        out.push(assign("e", Ex::Int(0)));
+        out.push(assign(ELEMENT, Ex::Int(0)));
         let mut inner = Vec::new();
         body(self, spot, &mut inner);
-        inner.push(advance("e"));
-        out.push(Stmt::While { condition: binary("<", name("e"), Ex::Int(n as i32)), body: inner, most: n as u64 });
+        inner.push(advance(ELEMENT));
+        out.push(Stmt::While {
+            condition: binary("<", name(ELEMENT), Ex::Int(n as i32)),
+            body: inner,
+            most: n as u64,
+        });
     }
 
     /// The element `e` of a place that was looked up without index.
     fn at(&self, spot: Spot, ty: Type) -> Spot {
-        let element = name("e");
+        let element = name(ELEMENT);
         let index = match spot.index {
             None => element,
             Some(row) => self.in_table(row, ty, Some(element)),
@@ -142,22 +148,36 @@ impl Lowering<'_> {
         };
         match (check, bounds, scalar) {
             (Some(fault), Some(bounds), _) => {
-                self.store_whole(spot, values.into_iter().next().unwrap_or(Ex::Int(0)), bounds, range, fault, out);
+                self.store_whole(
+                    spot,
+                    values.into_iter().next().unwrap_or(Ex::Int(0)),
+                    bounds,
+                    range,
+                    fault,
+                    out,
+                );
             }
             (Some(fault), None, Scalar::Real | Scalar::Point) => {
                 let is_point = scalar == Scalar::Point;
                 let purposes: &[&str] = if is_point { &["new_x", "new_y", "new_z"] } else { &["new_value"] };
-                let values: Vec<Ex> =
-                    values.into_iter().zip(purposes).map(|(v, purpose)| self.kept(v, purpose, Basic::Lreal, out)).collect();
+                let values: Vec<Ex> = values
+                    .into_iter()
+                    .zip(purposes)
+                    .map(|(v, purpose)| self.kept(v, purpose, Basic::Lreal, out))
+                    .collect();
                 let function = if is_point { "F_is_finite_point" } else { "F_is_finite" };
                 let inputs: &[&str] = if is_point { &["x", "y", "z"] } else { &["value"] };
-                let is_finite = Ex::Call(function, inputs.iter().copied().zip(values.iter().cloned()).collect());
+                let is_finite =
+                    Ex::Call(function, inputs.iter().copied().zip(values.iter().cloned()).collect());
                 out.push(when(not(is_finite), self.raise(fault)));
-                out.extend((0..values.len()).map(|part| Stmt::Assign(spot.target(part), values[part].clone())));
+                out.extend(
+                    (0..values.len()).map(|part| Stmt::Assign(spot.target(part), values[part].clone())),
+                );
             }
             _ => {
                 let values = self.independent(&spot, values, out);
-                let stores = values.into_iter().enumerate().map(|(part, v)| Stmt::Assign(spot.target(part), v));
+                let stores =
+                    values.into_iter().enumerate().map(|(part, v)| Stmt::Assign(spot.target(part), v));
                 out.extend(stores);
             }
         }
@@ -174,7 +194,11 @@ impl Lowering<'_> {
             return values;
         }
         let purposes = ["new_x", "new_y", "new_z"];
-        values.into_iter().zip(purposes).map(|(v, purpose)| self.kept(v, purpose, Basic::Lreal, out)).collect()
+        values
+            .into_iter()
+            .zip(purposes)
+            .map(|(v, purpose)| self.kept(v, purpose, Basic::Lreal, out))
+            .collect()
     }
 
     /// Stores a whole number, then limits it if it can leave its bounds.

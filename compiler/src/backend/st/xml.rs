@@ -57,10 +57,14 @@ pub fn plcopen(shared: Shared, line: &Line) -> String {
 
 /// For CODESYS and TwinCAT.
 pub fn codesys(shared: Shared, line: &Line) -> String {
-    let value = |(i, member): (usize, &String)| format!("              <value name=\"{member}\" value=\"{i}\"/>\n");
+    let value =
+        |(i, member): (usize, &String)| format!("              <value name=\"{member}\" value=\"{i}\"/>\n");
     let enumerations = enumerations(shared, line)
         .into_iter()
-        .map(|(name, members)| Enumeration { name: name.clone(), members: members.iter().enumerate().map(value).collect() })
+        .map(|(name, members)| Enumeration {
+            name: name.clone(),
+            members: members.iter().enumerate().map(value).collect(),
+        })
         .collect();
     let lists = (line.globals.lists().into_iter())
         .map(|list| List {
@@ -68,7 +72,12 @@ pub fn codesys(shared: Shared, line: &Line) -> String {
             variables: list.variables.iter().map(|v| variable(v, Dialect::Codesys, None, 8)).collect(),
         })
         .collect();
-    render(&Codesys { made_from: escaped(&made_from(shared)), enumerations, pous: pous(line, Dialect::Codesys), lists })
+    render(&Codesys {
+        made_from: escaped(&made_from(shared)),
+        enumerations,
+        pous: pous(line, Dialect::Codesys),
+        lists,
+    })
 }
 
 fn pous(line: &Line, dialect: Dialect) -> Vec<Pou> {
@@ -86,7 +95,8 @@ fn pou(unit: &Unit, dialect: Dialect) -> Pou {
     interface += &section("inputVars", unit.inputs.iter().map(of).collect());
     interface += &section("outputVars", unit.outputs.iter().map(of).collect());
     let instances = unit.instances.iter();
-    let instances = instances.map(|i| typed(&i.name, &format!("<derived name=\"{}\"/>", i.block), "", "", 12));
+    let instances =
+        instances.map(|i| typed(&i.name, &format!("<derived name=\"{}\"/>", i.block), "", "", 12));
     interface += &section("localVars", unit.variables.iter().map(of).chain(instances).collect());
     if dialect == Dialect::Portable {
         interface += &section("externalVars", unit.externals.iter().map(of).collect());
@@ -154,7 +164,9 @@ fn variable(variable: &Variable, dialect: Dialect, derived: Option<&str>, indent
         (true, _) => String::new(),
         (false, Dialect::Portable) => format!("<documentation><xhtml:p>{about}</xhtml:p></documentation>"),
         (false, Dialect::Codesys) => {
-            format!("<documentation><xhtml xmlns=\"http://www.w3.org/1999/xhtml\">{about}</xhtml></documentation>")
+            format!(
+                "<documentation><xhtml xmlns=\"http://www.w3.org/1999/xhtml\">{about}</xhtml></documentation>"
+            )
         }
     };
     typed(&variable.name, &ty, &initial.unwrap_or_default(), &about, indent)
