@@ -139,9 +139,6 @@ fn a_state_that_there_is_not_is_a_fault() {
     }
 }
 
-/// Traces that the emitter does not follow yet: a literal beyond 1.0E38, an index that relies on `and`.
-const OPEN: [&str; 2] = ["not_finite", "short_circuit"];
-
 /// Where a text differs, it is written to the folder that AUTOGEN_ST names.
 fn keep(name: &str, text: &str) {
     if let Some(folder) = std::env::var_os("AUTOGEN_ST") {
@@ -173,7 +170,7 @@ fn hand_written_traces_are_followed() {
         }
     }
     println!("{} traces, {} wrong\n{}", paths.len(), wrong.len(), wrong.join("\n"));
-    assert_eq!(differ, OPEN, "{}", wrong.join("\n\n"));
+    assert!(differ.is_empty(), "{}", wrong.join("\n\n"));
 }
 
 #[test]
