@@ -46,9 +46,27 @@ fn fixtures_read_well() {
     }
 }
 
-/// All fixtures in one system.
+/// All fixtures in one system, of robots and files with odd names.
 fn together() -> (System, Sources) {
-    instantiate(&fixtures())
+    let mut files = fixtures();
+    for (name, _) in files.iter_mut().filter(|(name, _)| name == "text.aut") {
+        *name = "te\u{202e}xt\r\n\t.aut".into();
+    }
+    let (mut system, sources) = instantiate(&files);
+    let names = ["lib", "mod", "self", "crate", "super", "line", "Self", "WIRING", "main", "con"];
+    for (instance, name) in system.instances.iter_mut().zip(names) {
+        instance.name = name.into();
+    }
+    (system, sources)
+}
+
+#[test]
+fn text_of_the_user_comes_without_what_is_not_shown() {
+    let (system, sources) = together();
+    for (path, text) in rust::files(&system, &sources) {
+        let hidden = |c: &char| c.is_control() && *c != '\n' || ('\u{202a}'..='\u{202e}').contains(c);
+        assert_eq!(text.chars().find(hidden), None, "{path}");
+    }
 }
 
 /// Inputs drawn by lot, of which some are beyond what a device may send: a line for each scan.
@@ -92,8 +110,8 @@ impl Lots {
     fn next(&mut self, system: &System, outputs: &[Vec<f64>]) -> SystemInputs {
         // Times in which much happens take turns with others in which little does.
         self.scan += 1;
-        let (changes, answers) = if self.scan / 64 % 3 == 0 { (6, 2) } else { (150, 60) };
-        for robot in 0..self.images.len() {
+        let (changes, answers) = if (self.scan / 64).is_multiple_of(3) { (6, 2) } else { (150, 60) };
+        for (robot, output) in outputs.iter().enumerate() {
             let device = system.automaton_of(robot).device;
             for word in 0..self.images[robot].len() {
                 if self.one_in(changes) {
@@ -101,7 +119,7 @@ impl Lots {
                 }
             }
             if device.is_commanded() && self.one_in(answers) {
-                let command = outputs[robot].first().copied().unwrap_or(0.0);
+                let command = output.first().copied().unwrap_or(0.0);
                 let error = if self.one_in(4) { 2.0 } else { 0.0 };
                 for (port, value) in [("got", command), ("ack", command), ("error", error)] {
                     let at = device.offset(port, system.kinds()).expect("a commanded device");
