@@ -251,7 +251,7 @@ pub struct Binder {
     pub key: Option<Expr>,
 }
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Domain {
     Role(RoleId),
     Enum(EnumId),
@@ -298,7 +298,7 @@ pub struct Target {
 }
 
 /// Where a value is kept.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Place {
     Local {
         local: usize,
@@ -330,13 +330,13 @@ pub enum Place {
     },
 }
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Expr {
     pub ty: Scalar,
     pub kind: ExprKind,
 }
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum ExprKind {
     Constant(Value),
     Read(Place),

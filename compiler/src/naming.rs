@@ -30,11 +30,11 @@ impl Scope {
     /// The wanted identifier; with an underscore behind it if it has another meaning,
     /// with a number behind it if it was given away before.
     pub fn take(&mut self, wanted: String) -> String {
-        let is_used = RUST.contains(&wanted.as_str()) || self.reserved.contains(&wanted.as_str());
-        let wanted = if is_used { wanted + "_" } else { wanted };
-        let name = (1..)
-            .map(|n| if n == 1 { wanted.clone() } else { format!("{wanted}{n}") })
-            .find(|name| !self.taken.contains(name))
+        let is_used = |name: &str| RUST.contains(&name) || self.reserved.contains(&name);
+        let first = if is_used(&wanted) { format!("{wanted}_") } else { wanted.clone() };
+        let name = std::iter::once(first)
+            .chain((2..).map(|n| format!("{wanted}{n}")))
+            .find(|name| !is_used(name) && !self.taken.contains(name))
             .unwrap_or_default();
         self.taken.insert(name.clone());
         name
@@ -117,7 +117,8 @@ mod tests {
     #[test]
     fn a_scope_gives_each_name_once() {
         let mut scope = Scope::rust(&["state"]);
-        let given: Vec<_> = ["type", "state", "x", "x", "x", "Self"].map(|n| scope.take(n.into())).into();
-        assert_eq!(given, ["type_", "state_", "x", "x2", "x3", "Self_"]);
+        let given: Vec<_> =
+            ["type", "state", "x", "x", "x", "Self", "Self"].map(|n| scope.take(n.into())).into();
+        assert_eq!(given, ["type_", "state_", "x", "x2", "x3", "Self_", "Self2"]);
     }
 }

@@ -46,9 +46,27 @@ fn fixtures_read_well() {
     }
 }
 
-/// All fixtures in one system.
+/// All fixtures in one system, of robots and files with odd names.
 fn together() -> (System, Sources) {
-    instantiate(&fixtures())
+    let mut files = fixtures();
+    for (name, _) in files.iter_mut().filter(|(name, _)| name == "text.aut") {
+        *name = "te\u{202e}xt\r\n\t.aut".into();
+    }
+    let (mut system, sources) = instantiate(&files);
+    let names = ["lib", "mod", "self", "crate", "super", "line", "Self", "WIRING", "main", "con"];
+    for (instance, name) in system.instances.iter_mut().zip(names) {
+        instance.name = name.into();
+    }
+    (system, sources)
+}
+
+#[test]
+fn text_of_the_user_comes_without_what_is_not_shown() {
+    let (system, sources) = together();
+    for (path, text) in rust::files(&system, &sources) {
+        let hidden = |c: &char| c.is_control() && *c != '\n' || ('\u{202a}'..='\u{202e}').contains(c);
+        assert_eq!(text.chars().find(hidden), None, "{path}");
+    }
 }
 
 /// What the executor answers to so many scans of inputs drawn by lot: the inputs as the replay reads them,

@@ -20,7 +20,7 @@ mod walk;
 pub use parameters::parameters_text;
 
 use super::Files;
-use crate::ir::{AutomatonId, System};
+use crate::ir::{AutomatonId, ExprKind, System, Update, UpdateKind};
 use crate::source::Sources;
 use askama::Template;
 use context::{Context, Shared};
@@ -41,6 +41,7 @@ const COMMISSIONING: [(&str, &str); 5] = [
 
 /// The files of the workspace `rust/`, but for the simulator's.
 pub fn files(system: &System, sources: &Sources) -> Files {
+    let system = &without_idle_updates(system);
     let names = names::names(system);
     let shared = Shared { system, sources, names: &names };
     let mut files = Files::new();
@@ -73,6 +74,22 @@ pub fn files(system: &System, sources: &Sources) -> Files {
         include_str!("../../../templates/rust/commissioning/host.rs").into(),
     );
     files
+}
+
+/// Without assignments of a place to itself, which have no effect.
+fn without_idle_updates(system: &System) -> System {
+    let acts = |update: &Update| match &update.kind {
+        UpdateKind::Assign { target, value, .. } => {
+            !matches!(&value.kind, ExprKind::Read(place) if *place == target.place)
+        }
+        UpdateKind::Copy { target, source, .. } => *source != target.place,
+        UpdateKind::Fill { .. } | UpdateKind::Command { .. } => true,
+    };
+    let mut system = system.clone();
+    for state in system.model.automata.iter_mut().flat_map(|a| &mut a.states) {
+        state.transitions.iter_mut().for_each(|t| t.updates.retain(acts));
+    }
+    system
 }
 
 /// The text of a template. Writing to memory does not fail.

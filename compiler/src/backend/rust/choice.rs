@@ -17,6 +17,8 @@ pub struct Test {
 /// A clause of a guard with binders: conditions have been put behind the binder after which they stand.
 struct Loop<'a> {
     binder: &'a Binder,
+    /// The binder and the conditions behind it.
+    clauses: &'a [Clause],
     conditions: Vec<Condition>,
 }
 
@@ -34,7 +36,7 @@ impl Context<'_> {
             loops.iter().map(|l| l.binder.variable).filter(|v| updates.variables.contains(v)).collect();
         let is_simple = loops.len() == 1 && loops[0].binder.key.is_none();
         if is_simple && chosen.is_empty() {
-            conditions.push(Condition::new(self.any(&loops[0], bound)));
+            conditions.push(self.any(&loops[0]));
             return Test { condition: all(&conditions), method: None };
         }
         let names = tuple(chosen.iter().map(|v| self.variable(*v)));
@@ -66,15 +68,12 @@ impl Context<'_> {
 
     fn loops<'c>(&self, clauses: &'c [Clause]) -> Vec<Loop<'c>> {
         let mut loops: Vec<Loop> = Vec::new();
-        for clause in clauses {
-            match clause {
-                Clause::Bind(binder) => loops.push(Loop { binder, conditions: Vec::new() }),
-                Clause::Condition(_) => {
-                    if let Some(last) = loops.last_mut() {
-                        last.conditions.extend(self.conditions(std::slice::from_ref(clause)));
-                    }
-                }
-            }
+        for (i, clause) in clauses.iter().enumerate() {
+            let Clause::Bind(binder) = clause else { continue };
+            let is_binder = |clause: &Clause| matches!(clause, Clause::Bind(_));
+            let behind = clauses[i + 1..].iter().position(is_binder).map_or(clauses.len(), |n| i + 1 + n);
+            let clauses = &clauses[i..behind];
+            loops.push(Loop { binder, clauses, conditions: self.conditions(clauses) });
         }
         loops
     }
@@ -85,30 +84,60 @@ impl Context<'_> {
         own.into_iter().chain(step.conditions.iter().cloned()).collect()
     }
 
-    fn any(&self, step: &Loop, clauses: &[Clause]) -> String {
-        let variable = step.binder.variable;
-        let is_read = Uses::of_clauses(self.automaton(), clauses).variables.contains(&variable);
-        let name = if is_read { self.pattern(variable, &step.binder.domain) } else { "_".into() };
-        let body = all(&self.candidate(step)).unwrap_or_else(|| "true".into());
-        format!("{}.any(|{name}| {body})", self.iterator(&step.binder.domain))
+    fn any(&self, step: &Loop) -> Condition {
+        let body = all(&self.candidate(step));
+        let Some(body) = body else { return self.not_empty(&step.binder.domain) };
+        let name = self.loop_pattern(std::slice::from_ref(step), &[]);
+        Condition::new(format!("{}.any(|{name}| {body})", self.iterator(&step.binder.domain)))
     }
 
     fn find(&self, step: &Loop) -> String {
         let domain = &step.binder.domain;
-        let condition = match (all(&self.candidate(step)), domain) {
-            (Some(condition), _) => condition,
-            (None, Domain::Role(role)) => {
-                return format!("self.parameters.{}.first().copied()", self.own().roles[role.0]);
-            }
-            (None, _) => return format!("{}.next()", self.iterator(domain)),
-        };
         let copied = if matches!(domain, Domain::Role(_)) { ".copied()" } else { "" };
+        let Some(condition) = all(&self.candidate(step)) else {
+            return format!("{}{copied}", self.first(domain));
+        };
         let values = format!("{}{copied}", self.iterator(domain));
-        let name = self.variable(step.binder.variable);
-        let reads = Uses::of_clauses(self.automaton(), &[Clause::Bind(step.binder.clone())]);
-        let is_read = reads.variables.contains(&step.binder.variable) || !step.conditions.is_empty();
-        let pattern = if is_read { format!("&{name}") } else { "_".into() };
+        let variable = step.binder.variable;
+        let is_read = Uses::of_clauses(self.automaton(), step.clauses).variables.contains(&variable);
+        let pattern = if is_read { format!("&{}", self.variable(variable)) } else { "_".into() };
         format!("{values}.find(|{pattern}| {condition})")
+    }
+
+    /// The first value of a domain, if there is one; a reference to it for a role.
+    fn first(&self, domain: &Domain) -> String {
+        match domain {
+            Domain::Role(role) => format!("self.parameters.{}.first()", self.own().roles[role.0]),
+            _ => format!("{}.next()", self.iterator(domain)),
+        }
+    }
+
+    fn not_empty(&self, domain: &Domain) -> Condition {
+        Condition::new(match domain {
+            Domain::Role(role) => format!("!self.parameters.{}.is_empty()", self.own().roles[role.0]),
+            _ => format!("{}.is_some()", self.first(domain)),
+        })
+    }
+
+    /// Conditions, and the loops behind them. A last loop that would end with its first value is a condition too.
+    fn ahead<'l, 'c>(
+        &self,
+        mut conditions: Vec<Condition>,
+        rest: &'l [Loop<'c>],
+        chosen: &[VariableId],
+    ) -> (Vec<Condition>, &'l [Loop<'c>]) {
+        let [last] = rest else { return (conditions, rest) };
+        if last.binder.key.is_some() || !self.candidate(last).is_empty() {
+            return (conditions, rest);
+        }
+        let Binder { variable, domain, .. } = last.binder;
+        if chosen.contains(variable) {
+            let name = self.pattern(*variable, domain);
+            conditions.push(Condition::new(format!("let Some({name}) = {}", self.first(domain))));
+        } else {
+            conditions.push(self.not_empty(domain));
+        }
+        (conditions, &[])
     }
 
     /// Nested loops; each choice by a key remembers the best candidate with which the rest holds.
@@ -131,8 +160,8 @@ impl Context<'_> {
             let (search, found) = self.best(loops, chosen, rank);
             return format!("{search} if {found} {{ {success} }}");
         }
-        let body = self.nested(rest, chosen, rank, success);
-        let body = guarded(&self.candidate(step), &body);
+        let (conditions, rest) = self.ahead(self.candidate(step), rest, chosen);
+        let body = guarded(&conditions, &self.nested(rest, chosen, rank, success));
         let pattern = self.loop_pattern(loops, chosen);
         format!("for {pattern} in {} {{ {body} }}", self.values(&step.binder.domain))
     }
@@ -160,11 +189,12 @@ impl Context<'_> {
                 format!("let Some((_, {names})) = {best}"),
             )
         };
+        let mut better = vec![Condition::new(format!("{best}.is_none_or(|{least}| {key_name} < least)"))];
+        better.extend(step.conditions.iter().cloned());
+        let (better, rest) = self.ahead(better, rest, &kept);
         let again = if rest.is_empty() { String::new() } else { format!(" continue {label};") };
         let success = format!("{best} = Some({value});{again}");
         let inner = self.nested(rest, &kept, rank + 1, &success);
-        let mut better = vec![Condition::new(format!("{best}.is_none_or(|{least}| {key_name} < least)"))];
-        better.extend(step.conditions.iter().cloned());
         let body = format!("let {key_name} = {}; {}", self.expr(key), guarded(&better, &inner));
         let own: Vec<Condition> = step.binder.condition.iter().filter_map(|c| self.condition(c)).collect();
         let body = guarded(&own, &body);
@@ -178,14 +208,13 @@ impl Context<'_> {
     /// The variable of the first loop, or `_` if nothing reads it.
     fn loop_pattern(&self, loops: &[Loop], chosen: &[VariableId]) -> String {
         let variable = loops[0].binder.variable;
-        let clauses: Vec<Clause> = loops.iter().map(|l| Clause::Bind(l.binder.clone())).collect();
-        let name = self.variable(variable);
-        let is_word =
-            |text: &str| text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').any(|w| *w == name);
-        let is_read = Uses::of_clauses(self.automaton(), &clauses).variables.contains(&variable)
-            || loops.iter().flat_map(|l| &l.conditions).any(|c| is_word(&c.alone))
-            || chosen.contains(&variable);
-        if is_read { self.pattern(variable, &loops[0].binder.domain) } else { "_".into() }
+        let is_read =
+            |step: &Loop| Uses::of_clauses(self.automaton(), step.clauses).variables.contains(&variable);
+        if loops.iter().any(is_read) || chosen.contains(&variable) {
+            self.pattern(variable, &loops[0].binder.domain)
+        } else {
+            "_".into()
+        }
     }
 
     /// A domain behind `in`.

@@ -239,34 +239,38 @@ impl Context<'_> {
     }
 
     pub fn place(&self, place: &Place) -> String {
-        let index = |index: &Option<Box<Expr>>| {
-            index.as_ref().map_or(String::new(), |i| format!("[{}]", self.expr(i)))
-        };
+        self.place_at(place, |_, part| self.expr(part))
+    }
+
+    /// A place, with the texts of what finds it: of the `row` of a cell, of the `element` of an array.
+    pub fn place_at(&self, place: &Place, mut part: impl FnMut(&'static str, &Expr) -> String) -> String {
         match place {
-            Place::Local { local, index: i } => format!("self.{}{}", self.own().locals[*local], index(i)),
+            Place::Local { local, index: i } => {
+                format!("self.{}{}", self.own().locals[*local], index(i, &mut part))
+            }
             Place::Port { port, index: i } => {
                 let image = match self.automaton().device.ports[*port].direction {
                     Direction::Input => "inputs",
                     Direction::Output => "outputs",
                 };
-                format!("self.{image}.{}{}", self.own().ports[*port], index(i))
+                format!("self.{image}.{}{}", self.own().ports[*port], index(i, &mut part))
             }
             Place::Parameter { parameter, index: i } => {
-                format!("self.parameters.{}{}", self.own().parameters[*parameter], index(i))
+                format!("self.parameters.{}{}", self.own().parameters[*parameter], index(i, &mut part))
             }
             Place::Cell { interface, cell, of, index: i } => {
                 let names = &self.names.interfaces[interface.0];
-                let row = of.as_ref().map_or_else(|| self.own_row(*interface), |of| self.expr(of));
-                format!("cells.{}[{row}].{}{}", names.field, names.cell[*cell], index(i))
+                let row = of.as_ref().map_or_else(|| self.own_row(*interface), |of| part("row", of));
+                format!("cells.{}[{row}].{}{}", names.field, names.cell[*cell], index(i, &mut part))
             }
             Place::Shown { interface, parameter, of, index: i } => {
                 let names = &self.names.interfaces[interface.0];
                 format!(
                     "wiring.{}[{}].{}{}",
                     names.field,
-                    self.expr(of),
+                    part("row", of),
                     names.parameter[*parameter],
-                    index(i)
+                    index(i, &mut part)
                 )
             }
         }
@@ -283,6 +287,10 @@ impl Context<'_> {
     pub fn variable(&self, id: VariableId) -> String {
         self.own().variables[id.0].clone()
     }
+}
+
+fn index(index: &Option<Box<Expr>>, part: &mut impl FnMut(&'static str, &Expr) -> String) -> String {
+    index.as_ref().map_or(String::new(), |i| format!("[{}]", part("element", i)))
 }
 
 fn constant(text: String) -> Code {

@@ -8,7 +8,16 @@ pub type Importable = [(String, Vec<String>)];
 
 /// A statement that becomes a comment.
 pub fn comment(text: &str) -> String {
-    format!("comment!({text:?});\n")
+    format!("comment!({:?});\n", clean(text))
+}
+
+/// Text of the user as it may stand in a comment: on one line, and in the order in which it is read.
+pub fn clean(text: &str) -> String {
+    let is_shown = |c: &char| {
+        let turns = matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+        !turns && !c.is_control()
+    };
+    text.chars().map(|c| if c.is_whitespace() { ' ' } else { c }).filter(is_shown).collect()
 }
 
 /// Lays out a module, with the imports that its code needs.
@@ -116,19 +125,10 @@ fn defined(item: &syn::Item) -> Option<String> {
     }
 }
 
-/// Text that does not parse is a mistake of this back end; it comes out as it is, for the compiler of Rust to point at.
+/// Text that does not parse is a mistake of this back end, and nothing of it may be written.
 fn parse(text: &str) -> syn::File {
-    match syn::parse_file(text) {
-        Ok(file) => file,
-        Err(error) => {
-            let message = format!("autogen printed what is no Rust: {error}\n{text}");
-            syn::File {
-                shebang: None,
-                attrs: Vec::new(),
-                items: vec![syn::parse_quote!(compile_error!(#message);)],
-            }
-        }
-    }
+    let title = text.lines().next().unwrap_or_default();
+    syn::parse_file(text).unwrap_or_else(|error| panic!("what was printed is no Rust: {error}, in `{title}`"))
 }
 
 /// First names of all paths.
@@ -141,5 +141,21 @@ impl<'ast> Visit<'ast> for Used {
             self.0.insert(first.ident.to_string());
         }
         visit_path(self, path);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    #[should_panic(expected = "what was printed is no Rust")]
+    fn what_is_no_rust_is_not_written() {
+        print("//! A module.\nfn {}\n");
+    }
+
+    #[test]
+    fn text_becomes_one_line_in_the_order_in_which_it_is_read() {
+        assert_eq!(clean("a\tb\r\u{1b}[m \u{202e}c\u{2069}\nd — ü"), "a b [m c d — ü");
     }
 }

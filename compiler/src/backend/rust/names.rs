@@ -8,10 +8,18 @@ const TYPES: &[&str] = &[
     "Array",
     "Cells",
     "Fault",
+    "Image",
+    "Index",
+    "IndexMut",
     "Inputs",
+    "Latch",
+    "Layout",
+    "N",
     "Outputs",
     "Parameters",
     "Point",
+    "Put",
+    "Read",
     "Reference",
     "Relation",
     "Robot",
@@ -20,13 +28,30 @@ const TYPES: &[&str] = &[
     "System",
     "SystemInputs",
     "SystemOutputs",
+    "T",
     "Table",
     "Verb",
     "Wiring",
+    "Words",
     "Memory",
     "Deployed",
 ];
+/// Modules and crates, primitive types, and names that a file cannot have everywhere.
 const MODULES: &[&str] = &[
+    "aux",
+    "bool",
+    "con",
+    "f64",
+    "i32",
+    "lib",
+    "main",
+    "nul",
+    "prn",
+    "runtime_sim",
+    "str",
+    "u16",
+    "u8",
+    "usize",
     "cells",
     "core",
     "kinds",
@@ -57,13 +82,18 @@ const PARAMETERS: &[&str] = &["name"];
 const VARIABLES: &[&str] = &[
     "best",
     "cells",
+    "chosen",
+    "element",
     "greater",
+    "holds",
     "key",
+    "least",
     "lesser",
     "next_command",
     "place",
     "quotient",
     "remainder",
+    "row",
     "source",
     "store_point",
     "store_real",
@@ -73,7 +103,9 @@ const VARIABLES: &[&str] = &[
     "wiring",
     "within",
 ];
-const CELLS: &[&str] = &["cells", "robot", "robots", "scan_ms", "wiring", "words"];
+const CELLS: &[&str] =
+    &["cells", "leak", "relation", "robot", "robots", "rows", "scan_ms", "wiring", "words"];
+const CONSTANTS: &[&str] = &["WIRING"];
 
 pub struct Names {
     pub enums: Vec<EnumNames>,
@@ -125,8 +157,10 @@ pub fn names(system: &System) -> Names {
     let mut types = Scope::rust(TYPES);
     let enums = model.enums.iter().map(|e| enum_names(e, &mut types)).collect();
     let mut fields = Scope::rust(CELLS);
-    let interfaces: Vec<_> =
-        model.interfaces.iter().map(|i| interface_names(i, &mut types, &mut fields)).collect();
+    let mut constants = Scope::rust(CONSTANTS);
+    let interfaces: Vec<_> = (model.interfaces.iter())
+        .map(|i| interface_names(i, &mut types, &mut fields, &mut constants))
+        .collect();
     let relation =
         |r: &Relation| format!("{}_reaches_{}", interfaces[r.from.0].field, interfaces[r.to.0].field);
     let relations = model.relations.iter().map(|r| fields.take(relation(r))).collect();
@@ -146,7 +180,12 @@ fn enum_names(source: &Enum, types: &mut Scope) -> EnumNames {
     }
 }
 
-fn interface_names(source: &Interface, types: &mut Scope, fields: &mut Scope) -> InterfaceNames {
+fn interface_names(
+    source: &Interface,
+    types: &mut Scope,
+    fields: &mut Scope,
+    constants: &mut Scope,
+) -> InterfaceNames {
     let name = camel(&source.name);
     let (mut cell, mut parameter) = (Scope::rust(&[]), Scope::rust(&[]));
     InterfaceNames {
@@ -156,7 +195,7 @@ fn interface_names(source: &Interface, types: &mut Scope, fields: &mut Scope) ->
         parameters: types.take(format!("{name}Parameters")),
         cell: source.cells.iter().map(|c| cell.take(snake(&c.name))).collect(),
         parameter: source.parameters.iter().map(|p| parameter.take(snake(&p.name))).collect(),
-        constant: screaming(&source.name),
+        constant: constants.take(screaming(&source.name)),
     }
 }
 
@@ -205,6 +244,13 @@ fn choices(state: &State, methods: &mut Scope) -> Vec<String> {
 /// Variables of one name never meet, so they may share the identifier.
 fn variables(source: &Automaton) -> Vec<String> {
     let mut scope = Scope::rust(VARIABLES);
+    // Searches within others have numbers.
+    let binders = |t: &Transition| t.clauses.iter().filter(|c| matches!(c, Clause::Bind(_))).count();
+    let deepest = source.states.iter().flat_map(|s| &s.transitions).map(binders).max().unwrap_or(0);
+    for rank in 2..=deepest {
+        scope.take(format!("best{rank}"));
+        scope.take(format!("key{rank}"));
+    }
     let mut known: Vec<(&str, String)> = Vec::new();
     for variable in &source.variables {
         if !known.iter().any(|(name, _)| *name == variable.name) {

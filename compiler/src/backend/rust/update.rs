@@ -5,6 +5,12 @@ use crate::ir::{Expr, ExprKind, Extent, FaultId, Operator, Place, Scalar, Type, 
 
 impl Context<'_> {
     pub fn update(&self, update: &Update) -> String {
+        let text = self.statements(update);
+        if text.starts_with("let ") { format!("{{ {text} }}\n") } else { text }
+    }
+
+    /// Those that begin with `let` want a block of their own.
+    fn statements(&self, update: &Update) -> String {
         match &update.kind {
             UpdateKind::Assign { target, value, check } => {
                 let (hoisted, place) = self.target(&target.place);
@@ -98,26 +104,14 @@ impl Context<'_> {
     /// Statements that come first, and the place. What is computed to find the place is computed
     /// before the place is borrowed.
     fn target(&self, place: &Place) -> (String, String) {
-        let mut place = place.clone();
         let mut hoisted = String::new();
-        let (of, index) = match &mut place {
-            Place::Cell { of, index, .. } => (of.as_mut(), index.as_mut()),
-            Place::Local { index, .. } | Place::Port { index, .. } => (None, index.as_mut()),
-            Place::Parameter { .. } | Place::Shown { .. } => (None, None),
-        };
-        let mut names = Vec::new();
-        for (name, part) in [("row", of), ("element", index)] {
-            if let Some(part) = part
-                && !is_simple(part)
-            {
-                hoisted += &format!("let {name} = {};", self.expr(part));
-                names.push((name, self.expr(part)));
+        let text = self.place_at(place, |name, part| {
+            if is_simple(part) {
+                return self.expr(part);
             }
-        }
-        let mut text = self.place(&place);
-        for (name, part) in names {
-            text = text.replacen(&format!("[{part}]"), &format!("[{name}]"), 1);
-        }
+            hoisted += &format!("let {name} = {};", self.expr(part));
+            name.into()
+        });
         (hoisted, text)
     }
 }
