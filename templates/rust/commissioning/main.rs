@@ -3,7 +3,8 @@
 //! `commissioning LINE PARAMETERS [--hashes FILE] [--progress]`: both are texts that autogen wrote.
 //! `commissioning --replay PARAMETERS`: no simulator. Each line of the standard input holds a scan:
 //! `run_permit start reset`, then the inputs of all robots, the number of each robot's words before them.
-//! Answered with a line of the bits, in hexadecimal, of the system's outputs, the published outputs and the trace.
+//! Answered with a line of the bits, in hexadecimal, of the system's outputs, the published outputs and the
+//! trace; all that is no number reads `nan`.
 
 use commissioning::deployed::Deployed;
 use runtime_sim::line::Line;
@@ -99,7 +100,8 @@ fn replay(deployed: &mut Deployed) -> Result<(), String> {
         ];
         all.extend(outputs.iter().flatten());
         deployed.trace(&mut all);
-        let bits: Vec<String> = all.iter().map(|word| format!("{:x}", word.to_bits())).collect();
+        let bits = |word: &f64| if word.is_nan() { "nan".into() } else { format!("{:x}", word.to_bits()) };
+        let bits: Vec<String> = all.iter().map(bits).collect();
         writeln!(out, "{}", bits.join(" ")).map_err(|e| e.to_string())?;
     }
     Ok(())
