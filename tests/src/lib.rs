@@ -1,5 +1,6 @@
 //! What the tests of the whole share.
 
+pub mod generate;
 pub mod instances;
 pub mod trace;
 pub mod workspace;

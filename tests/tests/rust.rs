@@ -36,7 +36,10 @@ fn fixtures_read_well() {
         let mut shown = text;
         for automaton in &system.model.automata {
             let module = autogen::naming::snake(&automaton.name);
-            let path = files.keys().find(|path| path.starts_with(&format!("controllers/src/{module}"))).expect("its module");
+            let path = files
+                .keys()
+                .find(|path| path.starts_with(&format!("controllers/src/{module}")))
+                .expect("its module");
             shown += &format!("\n---- {path}\n{}", files[path]);
         }
         insta::assert_snapshot!(name.trim_end_matches(".aut"), shown);
@@ -57,7 +60,10 @@ struct Lots {
 impl Lots {
     fn new(system: &System, seed: u64) -> Self {
         let words = |i: usize| system.automaton_of(i).device.words(Direction::Input, system.kinds());
-        Self { random: Random::new(seed), images: (0..system.instances.len()).map(|i| vec![0.0; words(i)]).collect() }
+        Self {
+            random: Random::new(seed),
+            images: (0..system.instances.len()).map(|i| vec![0.0; words(i)]).collect(),
+        }
     }
 
     fn one_in(&mut self, count: u32) -> bool {
@@ -164,7 +170,8 @@ fn fixtures_run_as_on_the_executor() {
     workspace.cargo(&["build", "--quiet", "--release", "-p", "commissioning", "--bins", "--examples"]);
     let (inputs, expected) = executed(&system, 20_000, 1);
 
-    let replay = run(&workspace.program("commissioning"), &["--replay", "parameters.txt"], &workspace.folder, &inputs);
+    let replay =
+        run(&workspace.program("commissioning"), &["--replay", "parameters.txt"], &workspace.folder, &inputs);
     let replayed: Vec<&str> = replay.lines().collect();
     assert_eq!(replayed.len(), expected.len());
     for (scan, (found, wanted)) in replayed.iter().zip(&expected).enumerate() {
@@ -260,8 +267,17 @@ fn links_without_a_panic(workspace: &Workspace) {
     workspace.put("bare/Cargo.toml", BARE_MANIFEST);
     workspace.put("bare/src/main.rs", BARE);
     for level in ["2", "\"s\""] {
-        workspace.put("bare/Cargo.toml", &BARE_MANIFEST.replace("opt-level = 2", &format!("opt-level = {level}")));
-        workspace.cargo(&["rustc", "--quiet", "--release", "--manifest-path", "bare/Cargo.toml", "--target", "thumbv7em-none-eabihf"]);
+        workspace
+            .put("bare/Cargo.toml", &BARE_MANIFEST.replace("opt-level = 2", &format!("opt-level = {level}")));
+        workspace.cargo(&[
+            "rustc",
+            "--quiet",
+            "--release",
+            "--manifest-path",
+            "bare/Cargo.toml",
+            "--target",
+            "thumbv7em-none-eabihf",
+        ]);
     }
 }
 
