@@ -6,7 +6,7 @@ use crate::plant::Plant;
 use crate::point::Point;
 
 /// What the briefcase of each open order lacks or has too much, which stations wait for `complete` to fall,
-/// then the parts that are lost.
+/// then the parts that are neither on a belt nor in a briefcase, and those that passed.
 pub fn shortage(line: &Line, plant: &Plant) -> String {
     let mut facts = Vec::new();
     for (machine, station) in line.machines.iter().enumerate() {
@@ -25,10 +25,17 @@ pub fn shortage(line: &Line, plant: &Plant) -> String {
         ));
     }
     for (index, item) in plant.items().all().iter().enumerate() {
-        if let Carrier::Floor { point } = item.carrier {
-            let kind = &line.kinds[item.kind].name;
-            facts.push(format!("{kind} (item {index}) lies on the floor at {}", point_text(point)));
-        }
+        let kind = &line.kinds[item.kind].name;
+        let on = |machine: usize, what: &str| format!("{what} of {}", line.machines[machine].name);
+        let carrier = match item.carrier {
+            Carrier::Floor { .. } => "the floor".to_string(),
+            Carrier::Tray { machine, .. } => on(machine, "the tray"),
+            Carrier::Gripper { machine, .. } => on(machine, "the gripper"),
+            Carrier::Bin { machine, .. } => line.machines[machine].name.clone(),
+            _ => continue,
+        };
+        let place = plant.place(index).map_or(String::new(), |point| format!(" at {}", point_text(point)));
+        facts.push(format!("{kind} (item {index}) lies on {carrier}{place}"));
     }
     for (kind, name) in line.kinds.iter().map(|kind| &kind.name).enumerate() {
         let parts = |wanted: fn(&Carrier) -> bool| {

@@ -1,6 +1,9 @@
 //! What the tests of the whole share.
 
+<<<<<<< HEAD
 pub mod generate;
+=======
+>>>>>>> main
 pub mod instances;
 pub mod trace;
 pub mod workspace;

@@ -148,15 +148,27 @@ fn devices_may_answer_late() {
 fn the_line_may_be_stopped_at_any_moment() {
     let mut random = Random::new(7);
     let scans: Vec<u64> = (0..campaign(12, 100)).map(|_| u64::from(random.up_to(59_000)) + 3).collect();
-    assert_all_made(
-        &scans,
-        |scan| format!("stopped at scan {scan}"),
-        |scan| {
-            let mut project = ariac("default").project();
-            project.plant.scenario.pauses = vec![Pause { at_scan: *scan, scans: 300 }];
-            project
-        },
-    );
+    let project = ariac("default").project();
+    on_all_processors(&scans, |scan| {
+        let mut plant = project.plant.clone();
+        plant.scenario.pauses = vec![Pause { at_scan: *scan, scans: 300 }];
+        let mut executor = Executor::new(&project.system);
+        let (mut kept, mut stopped) = (Vec::new(), 0);
+        let report = run(&plant, &mut executor, &mut |seen| {
+            if seen.answer.running {
+                kept = seen.trace.to_vec();
+            } else if seen.scan >= *scan {
+                stopped += 1;
+                assert!(kept == seen.trace, "stopped at {scan}: something changes in scan {}", seen.scan);
+            }
+        });
+        let report = report.expect("a line that can be run");
+        assert_eq!(failure(&format!("stopped at {scan}"), &report), None);
+        assert!(stopped >= 300, "stopped at {scan}: only {stopped} scans without running");
+        let lost = report.items.iter().filter(|item| item.carrier.contains("floor")).count();
+        assert_eq!(lost, 0, "stopped at {scan}: {lost} items on the floor");
+    });
+    println!("{} stops, nothing changed and nothing was lost", scans.len());
 }
 
 #[test]
@@ -185,6 +197,52 @@ fn a_part_that_slips_is_made_up_for() {
             "{input:?}: {} of {} orders, {}",
             report.orders_done,
             report.orders,
+            report.reason
+        );
+    }
+}
+
+/// Tools lower than this over a tray and within its rectangle are at work on it, m.
+const AT_WORK: f64 = 0.4;
+
+#[test]
+fn one_arm_at_a_time_is_over_a_tray_and_none_when_it_moves() {
+    for (folder, delay) in [("shared_agv", 0), ("shared_agv", 5), ("buffer", 0)] {
+        let mut project = example(folder).set("agv.capacity=6").project();
+        project.plant.io_delay = IoDelay::Fixed(delay);
+        let of = |device: &[&str]| -> Vec<usize> {
+            (0..project.system.instances.len())
+                .filter(|i| device.contains(&project.system.automaton_of(*i).device.name))
+                .collect()
+        };
+        let (arms, vehicles) = (of(&["rail_arm", "gantry"]), of(&["vehicle", "bin"]));
+        let mut before: Vec<_> = vehicles.iter().map(|_| None).collect();
+        let mut visits = 0;
+        let mut executor = Executor::new(&project.system);
+        let report = run(&project.plant, &mut executor, &mut |seen| {
+            for (vehicle, before) in vehicles.iter().zip(&mut before) {
+                let at = seen.plant.position(*vehicle).expect("a vehicle is somewhere");
+                let is_bin = project.system.automaton_of(*vehicle).device.name == "bin";
+                // A tray is 0.70 by 0.50 m around (0.15, 0) from its vehicle, with its top at 0.755 m; a bin 0.60 by 0.60, at 0.725 m.
+                let (ahead, half, height) =
+                    if is_bin { (0.0, (0.3, 0.3), 0.725) } else { (0.15, (0.35, 0.25), 0.755) };
+                let over = arms.iter().filter(|arm| {
+                    let tool = seen.plant.position(**arm).expect("a tool is somewhere");
+                    let (x, y, z) = (tool.x - at.x - ahead, tool.y - at.y, tool.z - at.z - height);
+                    x.abs() < half.0 && y.abs() < half.1 && z < AT_WORK
+                });
+                let over = over.count();
+                assert!(over <= 1, "{folder}: {over} arms over one tray in scan {}", seen.scan);
+                let moves = before.is_some_and(|b| b != at);
+                assert!(!moves || over == 0, "{folder}: a vehicle moves under an arm in scan {}", seen.scan);
+                visits += over;
+                *before = Some(at);
+            }
+        })
+        .expect("a line that can be run");
+        assert!(
+            report.finished && visits > 100,
+            "{folder}: {}, {visits} scans with an arm over a tray",
             report.reason
         );
     }

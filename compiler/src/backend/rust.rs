@@ -26,6 +26,7 @@ use askama::Template;
 use context::{Context, Shared};
 
 const MANIFEST: &str = include_str!("../../../templates/rust/Cargo.toml");
+/// Versions of what the simulator depends on, so that every build is the same.
 const LOCK: &str = include_str!("../../../templates/rust/Cargo.lock");
 const CONTROLLERS_MANIFEST: &str = include_str!("../../../templates/rust/controllers/Cargo.toml");
 const TYPES: &str = include_str!("../../../templates/rust/controllers/types.rs");

@@ -42,7 +42,12 @@ pub fn build(options: &BuildOptions) -> Result<Built, Status> {
     let Outcome { sources, diagnostics, verdict, project } = compile(input);
     let Some(project) = project else {
         match options.input.format {
-            Format::Json => println!("{}", print::verdict_json(verdict.as_ref(), &sources, &diagnostics)),
+            Format::Json => {
+                let mut answer = print::verdict_json(verdict.as_ref(), &sources, &diagnostics);
+                answer["finished"] = json!(false);
+                answer["reason"] = json!("the input has errors");
+                println!("{answer}");
+            }
             Format::Text => print::diagnostics(&sources, &diagnostics),
         }
         return Err(Status::WrongInput);

@@ -94,9 +94,16 @@ impl Context<'_> {
     }
 
     fn find(&self, step: &Loop) -> String {
-        let copied = if matches!(step.binder.domain, Domain::Role(_)) { ".copied()" } else { "" };
-        let values = format!("{}{copied}", self.iterator(&step.binder.domain));
-        let Some(condition) = all(&self.candidate(step)) else { return format!("{values}.next()") };
+        let domain = &step.binder.domain;
+        let condition = match (all(&self.candidate(step)), domain) {
+            (Some(condition), _) => condition,
+            (None, Domain::Role(role)) => {
+                return format!("self.parameters.{}.first().copied()", self.own().roles[role.0]);
+            }
+            (None, _) => return format!("{}.next()", self.iterator(domain)),
+        };
+        let copied = if matches!(domain, Domain::Role(_)) { ".copied()" } else { "" };
+        let values = format!("{}{copied}", self.iterator(domain));
         let name = self.variable(step.binder.variable);
         let reads = Uses::of_clauses(self.automaton(), &[Clause::Bind(step.binder.clone())]);
         let is_read = reads.variables.contains(&step.binder.variable) || !step.conditions.is_empty();

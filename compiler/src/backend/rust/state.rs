@@ -63,7 +63,7 @@ impl Context<'_> {
                 break;
             };
             // The last one may run on into the end of the method.
-            let is_last = i + 1 == state.transitions.len() && result == end;
+            let is_last = i + 1 == state.transitions.len() && result == end && !block.is_empty();
             let leave = if is_last { String::new() } else { format!("return {result};") };
             body += &format!("if {condition} {{ {block} {leave} }}\n");
         }

@@ -1,0 +1,223 @@
+//! The program as a user runs it.
+
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::{env, fs};
+
+/// A new empty folder with the compiled programs of all tests beside it.
+fn folder(name: &str) -> PathBuf {
+    let folder = env::temp_dir().join(format!("autogen-command-line-{}", std::process::id())).join(name);
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).expect("a folder that can be made");
+    folder
+}
+
+fn example(path: &str) -> String {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples").join(path).display().to_string()
+}
+
+fn autogen(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_autogen"))
+        .args(arguments)
+        .current_dir(folder)
+        .env("XDG_CACHE_HOME", folder.with_file_name("cache"))
+        .output()
+        .expect("autogen can be started")
+}
+
+fn status(output: &Output) -> i32 {
+    output.status.code().expect("it ends by itself")
+}
+
+fn json(output: &Output) -> Value {
+    serde_json::from_slice(&output.stdout)
+        .unwrap_or_else(|e| panic!("{e}: {}", String::from_utf8_lossy(&output.stdout)))
+}
+
+fn errors(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+/// All files of a folder with their texts.
+fn contents(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
+    let mut found = Vec::new();
+    let mut open = vec![folder.to_path_buf()];
+    while let Some(folder) = open.pop() {
+        for entry in fs::read_dir(folder).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() {
+                open.push(path)
+            } else {
+                found.push((path.clone(), fs::read(path).expect("a file")))
+            }
+        }
+    }
+    found.sort();
+    found
+}
+
+#[test]
+fn check_answers_scripts() {
+    let folder = folder("check");
+    let output = autogen(&folder, &["check", &example("ariac2021/default.json"), "--format", "json"]);
+    assert_eq!(status(&output), 0);
+    let answer = json(&output);
+    assert_eq!(answer["feasible"], true);
+    assert_eq!(answer["edges"].as_array().map(Vec::len), Some(13));
+    for key in ["robots", "sources", "destinations", "unreachable", "dead_ends", "diagnostics"] {
+        assert!(answer[key].is_array(), "{key}");
+    }
+}
+
+#[test]
+fn an_infeasible_layout_is_status_1_with_place_and_mend() {
+    let folder = folder("infeasible");
+    let layout = fs::read_to_string(example("ariac2021/default.json")).expect("the example");
+    fs::write(
+        folder.join("moved.json"),
+        layout.replace("[-2.265685, -1.333917, 0]", "[-2.765685, -1.333917, 0]"),
+    )
+    .expect("a file");
+    for command in ["check", "build", "commission"] {
+        let output = autogen(&folder, &[command, "moved.json", "--format", "json"]);
+        assert_eq!(status(&output), 1, "{command}");
+        let answer = json(&output);
+        assert_eq!(answer["feasible"], false);
+        let diagnostic = &answer["diagnostics"][0];
+        assert_eq!(diagnostic["code"], "E0401");
+        assert_eq!(diagnostic["file"], "moved.json");
+        assert!(diagnostic["line"].as_u64().is_some_and(|l| l > 1) && diagnostic["column"].is_u64());
+        assert!(diagnostic["help"].as_str().is_some_and(|h| h.contains("pose[0]")), "{diagnostic}");
+    }
+    assert!(!folder.join("out").exists(), "nothing is written of a layout that has errors");
+}
+
+#[test]
+fn wrong_command_lines_are_status_2() {
+    let folder = folder("wrong");
+    let layout = example("ariac2021/default.json");
+    let cases: &[&[&str]] = &[
+        &["check"],
+        &["chek", &layout],
+        &["check", "no_such_file.json"],
+        &["check", &layout, "--set", "capacity"],
+        &["check", &layout, "--specs", "no_such_folder"],
+        &["check", &layout, "--scenario", "no_such_file.json"],
+        &["commission", &layout, "--io-delay", "often"],
+        &["explain", "E9999"],
+    ];
+    for case in cases {
+        let output = autogen(&folder, case);
+        assert_eq!(status(&output), 2, "{case:?}: {}", errors(&output));
+        assert!(!output.stderr.is_empty(), "{case:?}");
+    }
+}
+
+#[test]
+fn build_never_overwrites_what_is_not_its_own() {
+    let folder = folder("overwrite");
+    let layout = example("ariac2021/less_agv.json");
+    let build = |more: &[&str]| {
+        let mut arguments = vec!["build", layout.as_str(), "-o", "made"];
+        arguments.extend(more);
+        autogen(&folder, &arguments)
+    };
+    assert_eq!(status(&build(&[])), 0);
+    let first = contents(&folder.join("made"));
+    assert_eq!(status(&build(&[])), 0, "its own files may be written anew");
+    assert_eq!(first, contents(&folder.join("made")), "the same input gives the same bytes");
+
+    let changed = folder.join("made/rust/controllers/src/agv.rs");
+    fs::write(&changed, "// changed by hand").expect("a file");
+    let before = contents(&folder.join("made"));
+    let output = build(&["--set", "agv.capacity=3"]);
+    assert_eq!(status(&output), 2);
+    assert!(errors(&output).contains("agv.rs"), "{}", errors(&output));
+    assert_eq!(before, contents(&folder.join("made")), "nothing is written if something cannot be");
+    assert_eq!(status(&build(&["--force"])), 0);
+    assert_eq!(first, contents(&folder.join("made")));
+
+    // Robots that are no more leave no file behind.
+    let larger = example("ariac2021/default.json");
+    assert_eq!(status(&autogen(&folder, &["build", &larger, "-o", "made"])), 0);
+    assert!(folder.join("made/rust/controllers/src/robots/agv4.rs").exists());
+    assert_eq!(status(&build(&[])), 0);
+    assert!(!folder.join("made/rust/controllers/src/robots/agv4.rs").exists());
+    assert_eq!(first, contents(&folder.join("made")));
+}
+
+#[test]
+fn commission_works_without_the_source_tree_and_twice_the_same() {
+    let folder = folder("commission");
+    let program = folder.join("autogen").with_extension(env::consts::EXE_EXTENSION);
+    fs::copy(env!("CARGO_BIN_EXE_autogen"), &program).expect("a program that can be copied");
+    fs::copy(example("ariac2021/default.json"), folder.join("default.json")).expect("the example");
+    let run = |out: &str| {
+        Command::new(&program)
+            .args(["commission", "default.json", "--format", "json", "-o", out])
+            .current_dir(&folder)
+            .env("XDG_CACHE_HOME", folder.with_file_name("cache"))
+            .output()
+            .expect("autogen can be started")
+    };
+    let (first, second) = (run("a"), run("b"));
+    assert_eq!(status(&first), 0, "{}", errors(&first));
+    assert_eq!(status(&second), 0);
+    let files = |out: &str| -> Vec<(PathBuf, Vec<u8>)> {
+        let root = folder.join(out);
+        contents(&root)
+            .into_iter()
+            .map(|(p, t)| (p.strip_prefix(&root).expect("within").to_path_buf(), t))
+            .collect()
+    };
+    assert_eq!(files("a"), files("b"));
+    let (mut first, mut second) = (json(&first), json(&second));
+    assert_eq!(first["finished"], true);
+    assert_eq!(first["orders_done"], 8);
+    assert_eq!(first["orders"], 8);
+    assert_eq!(first["collisions"], "not watched");
+    let total = first["simulated_s"].as_f64().expect("a number");
+    for (name, robot) in first["robots"].as_object().expect("robots") {
+        let sum: f64 = ["moving_s", "working_s", "waiting_s", "stopped_s"]
+            .iter()
+            .map(|k| robot[k].as_f64().expect("a number"))
+            .sum();
+        assert!((sum - total).abs() < 1e-6, "{name}: {sum} of {total}");
+    }
+    first["wall_s"].take();
+    second["wall_s"].take();
+    assert_eq!(first, second);
+}
+
+#[test]
+fn a_run_that_misses_its_goal_is_status_3_and_names_part_and_place() {
+    let folder = folder("missed");
+    let scenario = r#"{
+        "kinds": [{"name": "battery", "height": 0.053}],
+        "orders": [{"station": "as1", "parts": {"battery": 1}}],
+        "supply": {"items": ["battery"]},
+        "faults": {"slips": [{"robot": "kitting", "pick": 1, "after_s": 4.0}]}
+    }"#;
+    fs::write(folder.join("scenario.json"), scenario).expect("a file");
+    let layout = example("ariac2021/default.json");
+    let output =
+        autogen(&folder, &["commission", &layout, "--scenario", "scenario.json", "--format", "json"]);
+    assert_eq!(status(&output), 3, "{}", errors(&output));
+    let answer = json(&output);
+    assert_eq!(answer["finished"], false);
+    let reason = answer["reason"].as_str().expect("a reason");
+    assert!(reason.contains("battery (item 0) lies on "), "{reason}");
+}
+
+#[test]
+fn the_picture_of_the_readme_is_drawn_from_the_default_layout() {
+    let folder = folder("picture");
+    let output = autogen(&folder, &["graph", &example("ariac2021/default.json"), "--of", "plan"]);
+    let picture =
+        fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/default.svg")).expect("the picture");
+    assert!(
+        output.stdout == picture,
+        "draw it anew: autogen graph examples/ariac2021/default.json --of plan > docs/default.svg"
+    );
+}
