@@ -1,10 +1,9 @@
 //! What the tests of the whole share.
 
-<<<<<<< HEAD
+pub mod constructs;
 pub mod generate;
-=======
->>>>>>> main
 pub mod instances;
+pub mod replay;
 pub mod trace;
 pub mod workspace;
 
@@ -17,6 +16,11 @@ use std::path::{Path, PathBuf};
 /// The project's folder.
 pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// Whether the long forms of the tests are wanted.
+pub fn is_full_campaign() -> bool {
+    std::env::var("AUTOGEN_CAMPAIGN").is_ok_and(|campaign| campaign == "full")
 }
 
 /// A file of the project by its path from the project's folder.

@@ -559,7 +559,7 @@ fn image(variables: &[Variable], running: bool) -> Vec<f64> {
 }
 
 /// What each number of a trace is.
-fn columns(system: &ir::System) -> Vec<String> {
+pub fn columns(system: &ir::System) -> Vec<String> {
     let mut names = Vec::new();
     for (index, instance) in system.instances.iter().enumerate() {
         names.push(format!("{}: state", instance.name));

@@ -17,6 +17,7 @@ pub use lot::Lot;
 use crate::trace;
 use autogen::ir::System;
 use autogen::source::Sources;
+use autogen::spec::{ast, parser};
 use std::collections::BTreeMap;
 use world::World;
 
@@ -27,6 +28,7 @@ const AT_ONCE: usize = 4;
 pub struct Generated {
     pub text: String,
     pub sources: Sources,
+    pub tree: ast::File,
     pub layouts: Vec<System>,
     pub automata: usize,
     /// Refused by the checker: how often each code.
@@ -61,6 +63,7 @@ pub fn generate(seed: u64, automata: usize) -> Generated {
         text += &accepted(&mut lot, &shared, &|lot| automaton::automaton(lot, &world, &name));
     }
     let (sources, model) = trace::model(&text, &kinds).expect("what was accepted one by one");
+    let tree = parser::parse(Sources::default().add("spec.aut", text.as_str()), &text).0;
     let numbers: Vec<usize> = (0..model.automata.len()).collect();
     let (anchors, others): (Vec<usize>, Vec<usize>) =
         numbers.into_iter().partition(|n| model.automata[*n].name == "Anchor");
@@ -70,5 +73,5 @@ pub fn generate(seed: u64, automata: usize) -> Generated {
         trace::system(&layout, &model).unwrap_or_else(|e| panic!("{e}\n{layout}"))
     });
     let layouts = layouts.collect();
-    Generated { text, sources, layouts, automata: automata + 1, refused, examples }
+    Generated { text, sources, tree, layouts, automata: automata + 1, refused, examples }
 }
