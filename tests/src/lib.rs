@@ -84,6 +84,16 @@ pub fn ariac(layout: &str) -> Texts {
     Texts::of_layout(text(&format!("examples/ariac2021/{layout}.json")))
 }
 
+/// A layout of the user's own, with its types and its scenario if it has any.
+pub fn own_line(folder: &str) -> Texts {
+    let specs = match folder {
+        "buffer" => vec![text("examples/buffer/specs/buffer.aut")],
+        _ => Vec::new(),
+    };
+    let scenario = std::fs::read_to_string(root().join(format!("examples/{folder}/scenario.json"))).ok();
+    Texts { layout: text(&format!("examples/{folder}/{folder}.json")), specs, scenario, ..Texts::default() }
+}
+
 /// Runs `job` for each of the inputs on all processors; results in the order of the inputs.
 pub fn on_all_processors<T: Sync, R: Send>(inputs: &[T], job: impl Fn(&T) -> R + Sync) -> Vec<R> {
     let next = std::sync::atomic::AtomicUsize::new(0);

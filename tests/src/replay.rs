@@ -17,6 +17,8 @@ pub struct Lots {
     random: Random,
     pub images: Vec<Vec<f64>>,
     scan: u32,
+    /// One in how many inputs changes in a scan when little happens, and one in how many commands is answered.
+    calm: (u32, u32),
 }
 
 impl Lots {
@@ -26,7 +28,13 @@ impl Lots {
             random: Random::new(seed),
             images: (0..system.instances.len()).map(|i| vec![0.0; words(i)]).collect(),
             scan: 0,
+            calm: (150, 60),
         }
+    }
+
+    /// Something happens always.
+    pub fn lively(system: &System, seed: u64) -> Self {
+        Self { calm: (20, 5), ..Self::new(system, seed) }
     }
 
     fn one_in(&mut self, count: u32) -> bool {
@@ -53,7 +61,7 @@ impl Lots {
     pub fn next(&mut self, system: &System, outputs: &[Vec<f64>]) -> SystemInputs {
         // Times in which much happens take turns with others in which little does.
         self.scan += 1;
-        let (changes, answers) = if self.scan / 64 % 3 == 0 { (6, 2) } else { (150, 60) };
+        let (changes, answers) = if self.scan / 64 % 3 == 0 { (6, 2) } else { self.calm };
         for robot in 0..self.images.len() {
             let device = system.automaton_of(robot).device;
             for word in 0..self.images[robot].len() {
@@ -122,9 +130,8 @@ impl Recording {
 }
 
 /// So many scans of the executor with inputs drawn by lot.
-pub fn record(executor: &mut Executor, system: &System, scans: usize, seed: u64) -> Recording {
+pub fn record(executor: &mut Executor, system: &System, scans: usize, mut lots: Lots) -> Recording {
     let mut recording = Recording::default();
-    let mut lots = Lots::new(system, seed);
     let mut outputs = vec![Vec::new(); system.instances.len()];
     for _ in 0..scans {
         let given = lots.next(system, &outputs);

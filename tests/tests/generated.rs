@@ -8,7 +8,7 @@ use autogen::executor::Executor;
 use autogen_tests::constructs::Table;
 use autogen_tests::generate::generate;
 use autogen_tests::is_full_campaign;
-use autogen_tests::replay::{difference, record, replay};
+use autogen_tests::replay::{Lots, difference, record, replay};
 use autogen_tests::workspace::Workspace;
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -49,7 +49,8 @@ fn executor_and_rust_agree() {
         let mut raised = std::collections::BTreeSet::new();
         for (number, system) in made.layouts.iter().enumerate() {
             let mut executor = Executor::new(system);
-            let recording = record(&mut executor, system, SCANS, seed * 1000 + number as u64);
+            let lots = Lots::lively(system, seed * 1000 + number as u64);
+            let recording = record(&mut executor, system, SCANS, lots);
             add(&mut fired, executor.fired());
             raised.extend(recording.faults.iter().copied());
             running += recording.running;

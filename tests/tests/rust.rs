@@ -6,7 +6,7 @@ use autogen::executor::Executor;
 use autogen::ir::System;
 use autogen::source::Sources;
 use autogen_tests::instances::instantiate;
-use autogen_tests::replay::{Recording, bits, difference, record, replay, run, silent};
+use autogen_tests::replay::{Lots, Recording, bits, difference, record, replay, run, silent};
 use autogen_tests::workspace::Workspace;
 use autogen_tests::{ariac, root};
 use runtime_sim::device::Direction;
@@ -50,7 +50,7 @@ fn together() -> (System, Sources) {
 /// What the executor answers to inputs drawn by lot, of which every transition has fired.
 fn executed(system: &System, scans: usize, seed: u64) -> Recording {
     let mut executor = Executor::new(system);
-    let recording = record(&mut executor, system, scans, seed);
+    let recording = record(&mut executor, system, scans, Lots::new(system, seed));
     let silent = silent(system, &executor);
     assert!(silent.is_empty(), "never fired:\n{}", silent.join("\n"));
     recording

@@ -28,18 +28,23 @@ pub fn automaton(tree: &Automaton, counts: &dyn Fn(Span) -> bool, names: &mut Na
             Body::Transitions(all) => {
                 all.iter().filter(|t| counts(t.span)).for_each(|t| transition(t, names))
             }
-            Body::Sequence(all) => sequence(all, counts, names),
+            Body::Sequence(all) => sequence(all, state.name.span, counts, names),
         }
     }
 }
 
-fn sequence(sequence: &Sequence, counts: &dyn Fn(Span) -> bool, names: &mut Names) {
+fn sequence(sequence: &Sequence, name: Span, counts: &dyn Fn(Span) -> bool, names: &mut Names) {
     if let Some(otherwise) = sequence.otherwise.as_ref().filter(|o| counts(o.span)) {
         names.add("sequence: else");
         updates(&otherwise.updates, names);
     }
-    // Its end is reached when all of its steps were made.
-    if !counts(sequence.then.span) {
+    // All of its steps were made when the last wait of it has ended.
+    let waits = sequence.steps.iter().filter_map(|step| match step {
+        Step::Act(Update { kind: UpdateKind::Assign { .. }, .. }) => None,
+        Step::Act(update) => Some(update.span),
+        Step::Until { span, .. } | Step::Wait { span, .. } => Some(*span),
+    });
+    if !counts(waits.last().unwrap_or(name)) {
         return;
     }
     names.add("sequence");

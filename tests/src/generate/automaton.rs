@@ -71,6 +71,7 @@ fn text(lot: &mut Lot, world: &World, name: &str, device: &'static Device, own: 
     for line in declarations {
         let _ = writeln!(out, "    {line}");
     }
+    out += &requirement(writer.lot, own);
     out += &writer.definitions();
     out += &writer.states();
     out += &writer.invariants();
@@ -140,6 +141,7 @@ fn own_declarations(lot: &mut Lot, name: &str) -> Vec<String> {
         "local u: Turn;",
         "local bs: bool[Turn];",
         "local flag: bool;",
+        "local flags_seen: bool[Colour] := true;",
         "local shelves_seen: Shelf[3];",
         "local by_kind: Shelf[Kind];",
         "local e: int 7..9;",
@@ -159,6 +161,18 @@ fn own_declarations(lot: &mut Lot, name: &str) -> Vec<String> {
         lines.push(format!("local twin: {name};"));
     }
     lines
+}
+
+/// What holds in every layout.
+fn requirement(lot: &mut Lot, own: &[&str]) -> String {
+    let condition = match own.contains(&"Shelf") {
+        true => "size >= 1 and count(shelves) < 100",
+        false => "forall s in shelves: s.size > 0 or s.wide",
+    };
+    match lot.one_in(3) {
+        true => format!("    require {condition} else \"too much\";\n"),
+        false => String::new(),
+    }
 }
 
 /// Kind, name and interfaces of each role.
@@ -182,9 +196,9 @@ fn roles(lot: &mut Lot, _name: &str, device: &Device) -> Vec<(&'static str, Stri
 impl Writer<'_> {
     fn definitions(&mut self) -> String {
         let mut out = String::new();
-        for number in 0..self.lot.below(5) {
+        for number in 0..self.lot.below(7) {
             let name = format!("d{number}");
-            let (ty, value) = match self.lot.below(6) {
+            let (ty, value) = match self.lot.below(8) {
                 0 | 1 => (Ty::Bool, self.boolean(2)),
                 2 => {
                     let (text, lo, hi) = self.whole(2);
@@ -192,6 +206,8 @@ impl Writer<'_> {
                 }
                 3 => (Ty::Real, self.real(2)),
                 4 => (Ty::Point, self.point(2)),
+                5 => (Ty::Enum("Kind".into()), self.member("Kind")),
+                6 => (Ty::Ref("Shelf".into()), self.plain_reference("Shelf", 2).unwrap_or("shelf".into())),
                 _ => (Ty::Time(i64::from(i32::MAX)), self.time(1).0),
             };
             let _ = writeln!(out, "    define {name} = {value};");
@@ -212,7 +228,7 @@ impl Writer<'_> {
         if self.lot.one_in(3) {
             let _ = writeln!(out, "    invariant n <= 40 or {};", self.boolean(2));
         }
-        if self.lot.one_in(4) {
+        if self.device.name != "bin" && self.lot.one_in(8) {
             let _ = writeln!(
                 out,
                 "    invariant {} or {} or {};",
@@ -255,17 +271,19 @@ impl Writer<'_> {
             let _ = writeln!(out, "    state {name}{within} {{");
             for _ in 0..1 + self.lot.below(3) {
                 let target = self.lot.pick(&states).clone();
-                let target = if self.lot.one_in(3) { String::new() } else { format!(" -> {target}") };
+                let stays = if within.is_empty() { 3 } else { 8 };
+                let target = if self.lot.one_in(stays) { String::new() } else { format!(" -> {target}") };
                 out += &self.transition(&target);
             }
             let wait = self.lot.between(10, 60);
             let updates = self.fresh(|w| w.guarded_updates(1));
             let _ = writeln!(out, "        when after {wait} ms, {} -> {next} {{{} }}", updates.0, updates.1);
-            if number + 1 == count && self.lot.one_in(6) {
-                out += "        when after 150 ms, first s in shelves with s.bell -> Ended;\n";
-                out += "    }\n    final state Ended;\n";
-            } else {
-                let _ = writeln!(out, "        when after {} ms -> {next} {{}}\n    }}", wait + 50);
+            if number + 1 == count && self.lot.one_in(5) {
+                out += "        when after 10 ms, first s in shelves with s.bell -> Ended;\n";
+            }
+            let _ = writeln!(out, "        when after {} ms -> {next} {{}}\n    }}", wait + 50);
+            if out.contains(" -> Ended;") && !out.contains("final") {
+                out += "    final state Ended;\n";
             }
         }
         for _ in 0..self.lot.below(3) {
@@ -278,7 +296,8 @@ impl Writer<'_> {
                 0 => format!(" -> {}", self.lot.pick(&states)),
                 _ => String::new(),
             };
-            out += &self.transition(&target);
+            let passing = self.passing();
+            out += &self.transition(&target).replacen("when ", &format!("when ({passing}), "), 1);
             out += "    }\n";
         }
         out

@@ -19,7 +19,7 @@ impl Writer<'_> {
             };
         }
         let next = depth - 1;
-        match self.lot.below(22) {
+        match self.lot.below(26) {
             0 | 1 => format!("({} and {})", self.boolean(next), self.boolean(next)),
             2 | 3 => format!("({} or {})", self.boolean(next), self.boolean(next)),
             4 => format!("not ({})", self.boolean(next)),
@@ -50,6 +50,9 @@ impl Writer<'_> {
                     None => "true".into(),
                 }
             }
+            20 | 21 => format!("{} {} {}", self.real(next), self.order(), self.real(next)),
+            22 | 23 => format!("{} {} {}", self.time(next).0, self.order(), self.time(next).0),
+            24 => self.equality(),
             _ => self.boolean(0),
         }
     }
@@ -402,7 +405,7 @@ impl Writer<'_> {
                 let (text, low, high) = self.whole(depth);
                 if low >= *lo && high <= *hi {
                     text
-                } else if self.caution == Caution::Risky && self.lot.one_in(3) {
+                } else if self.caution == Caution::Risky && self.lot.one_in(8) {
                     self.faults += 1;
                     text
                 } else {

@@ -1,7 +1,7 @@
 //! Guards: conditions, binders, and facts that make what follows provable.
 
 use super::world::{Extent, Ty};
-use super::writer::{Caution, Stage, Writer};
+use super::writer::{Caution, Stage, Writer, is_definition};
 
 impl Writer<'_> {
     /// Clauses joined by commas; what they prove is known afterwards.
@@ -25,7 +25,7 @@ impl Writer<'_> {
     /// A condition that narrows what is known of an own name.
     fn fact(&mut self) -> Option<String> {
         // What is read through a definition, or changed by a command, cannot be known.
-        let is_known = |name: &str| !["d0", "d1", "d2", "d3", "d4", "cmd", "verb"].contains(&name);
+        let is_known = |name: &str| !is_definition(name) && !["cmd", "verb"].contains(&name);
         let own = self
             .names
             .iter()

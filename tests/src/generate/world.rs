@@ -101,7 +101,7 @@ impl World {
     shared bells: bool[3] by handshake;
     shared held: bool by lock;
     shared locks: bool[Kind] by lock;
-    shared parts: int 0..{high}[Kind] := 1 by counter;
+    shared parts: int 0..9{high}[Kind] := 50 by counter;
     shared level: int -5..5 by counter;
     shared turn: Turn := Ours by token {{ Mine: owner, Yours: others, Ours: owner }};
     shared load: Kind with turn;
@@ -125,7 +125,7 @@ impl World {
     shared what: Kind[5] with slot;
     shared whose: Post[5] with slot;
     shared goes_to: Shelf[5] with slot;
-    shared tally: int -3..3 by counter;
+    shared tally: int -300..300 by counter;
     shared flags: bool[Colour] by owner;
     shared pause: time by owner;
     shared alarm: bool by handshake;

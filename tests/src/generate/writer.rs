@@ -68,6 +68,11 @@ impl Writer<'_> {
         if own.is_empty() {
             return self.shown(fits, 1);
         }
+        let defined: Vec<&Named> = own.iter().filter(|n| is_definition(&n.name)).collect();
+        if !defined.is_empty() && self.lot.one_in(3) {
+            let named = self.lot.pick(&defined);
+            return Some((named.name.clone(), named.ty.clone()));
+        }
         let named = self.lot.pick(&own).clone();
         let text = self.element(&named.name, &named.extent);
         Some((text, named.ty))
@@ -182,4 +187,9 @@ impl Writer<'_> {
         }
         arrays
     }
+}
+
+/// Definitions are `d0`, `d1` and so on.
+pub fn is_definition(name: &str) -> bool {
+    name.strip_prefix('d').is_some_and(|rest| rest.parse::<u8>().is_ok())
 }
