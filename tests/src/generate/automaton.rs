@@ -115,6 +115,9 @@ fn own_declarations(lot: &mut Lot, name: &str) -> Vec<String> {
         "local post: Post;".into(),
         "local x: real;".into(),
         "local b: bool := true;".into(),
+        "local counts: int 0..6[Kind];".into(),
+        "local seen: bool[Kind];".into(),
+        "local zs: point[Kind];".into(),
     ];
     let more = [
         "parameter limit: int 1..9 := 4;",
@@ -134,7 +137,6 @@ fn own_declarations(lot: &mut Lot, name: &str) -> Vec<String> {
         "local p: point;",
         "local q: point := point(-1, 2.5, 1e200);",
         "local ps: point[3];",
-        "local zs: point[Kind];",
         "local k: Kind;",
         "local c: Colour := Blue;",
         "local cs: Colour[4] := Red;",
