@@ -3,6 +3,7 @@
 pub mod dot;
 pub mod plan;
 pub mod rust;
+pub mod st;
 
 use std::collections::BTreeMap;
 

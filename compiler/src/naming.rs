@@ -1,5 +1,7 @@
 //! Identifiers of generated code, made from the names of a specification.
 
+pub mod st;
+
 use std::collections::BTreeSet;
 
 /// Keywords of Rust, reserved ones included, and the names of its prelude that generated code uses.

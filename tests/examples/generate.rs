@@ -3,7 +3,8 @@
 use autogen::executor::Executor;
 use autogen_tests::constructs::Table;
 use autogen_tests::generate::generate;
-use autogen_tests::replay::{Lots, record};
+use autogen_tests::lots::Lots;
+use autogen_tests::replay::record;
 use std::collections::{BTreeMap, BTreeSet};
 
 fn main() {

@@ -3,7 +3,9 @@
 pub mod constructs;
 pub mod generate;
 pub mod instances;
+pub mod lots;
 pub mod replay;
+pub mod st;
 pub mod trace;
 pub mod workspace;
 

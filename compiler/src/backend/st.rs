@@ -1,0 +1,99 @@
+//! Structured Text: the same automata for a PLC.
+//!
+//! The intermediate representation becomes units of statements ([`code`], [`declaration`]), once; one printer
+//! writes them in two dialects. `portable/main.st` keeps to what every compiler takes and runs alike: no enumeration,
+//! no timer of the standard, no reliance on short circuit or on initial values.
+//!
+//! A type is a function block, a robot an instance of it that the program calls with the robot's ports and
+//! parameters. Where the generated Rust leaves a step by `?`, the block returns: what was written stays, and
+//! the blocks behind it find `fault_code` set and do nothing.
+
+mod block;
+mod bounds;
+mod code;
+mod context;
+mod declaration;
+mod expression;
+mod figures;
+mod functions;
+mod globals;
+mod guard;
+mod names;
+mod print;
+mod program;
+mod role;
+mod state;
+mod table;
+mod text;
+mod update;
+mod walk;
+mod xml;
+
+use super::Files;
+use crate::ir::{AutomatonId, System};
+use crate::source::Sources;
+use context::Shared;
+use globals::Globals;
+use program::Blocks;
+
+/// The files of the folder `plc/`.
+pub fn files(system: &System, sources: &Sources) -> Files {
+    let names = names::names(system);
+    let shared = Shared { system, sources, names: &names };
+    let line = line(shared);
+    let mut files = Files::new();
+    files.insert("portable/main.st".into(), text::portable(shared, &line));
+    files.insert("portable/project.xml".into(), xml::plcopen(shared, &line));
+    for (name, text) in text::codesys(shared, &line) {
+        files.insert(format!("codesys/{name}"), text);
+    }
+    files.insert("codesys/project.xml".into(), xml::codesys(shared, &line));
+    files.insert("io.csv".into(), table::io(shared));
+    files.insert("alarms.csv".into(), table::alarms(shared));
+    files.insert("bounds.txt".into(), figures::report(shared, &line));
+    if !names.renamed.is_empty() {
+        files.insert("names.csv".into(), table::renamed(&names.renamed));
+    }
+    files
+}
+
+/// The units of a line, in the order in which they must be declared.
+struct Line {
+    functions: Vec<&'static functions::Function>,
+    blocks: Vec<Option<Blocks>>,
+    layout: declaration::Unit,
+    program: declaration::Unit,
+    globals: Globals,
+}
+
+impl Line {
+    /// Function blocks, then the program.
+    fn units(&self) -> impl Iterator<Item = &declaration::Unit> {
+        let blocks = self.blocks.iter().flatten();
+        let blocks = blocks.flat_map(|b| [Some(&b.steps), b.invariants.as_ref()].into_iter().flatten());
+        [&self.layout].into_iter().chain(blocks.map(|b| &b.unit)).chain([&self.program])
+    }
+}
+
+fn line(shared: Shared) -> Line {
+    let mut globals = Globals::new(shared);
+    let blocks: Vec<Option<Blocks>> = (0..shared.system.model.automata.len())
+        .map(AutomatonId)
+        .map(|id| {
+            (!shared.instances(id).is_empty()).then(|| Blocks {
+                steps: block::steps(shared, id, &globals),
+                invariants: block::invariants(shared, id, &globals),
+            })
+        })
+        .collect();
+    let program = program::program(shared, &blocks, &globals);
+    let units =
+        blocks.iter().flatten().flat_map(|b| [Some(&b.steps), b.invariants.as_ref()].into_iter().flatten());
+    let mut used = code::names(&program.body);
+    units.clone().for_each(|b| used.extend(code::names(&b.unit.body)));
+    globals.retain(|name| used.contains(name));
+    let bodies = units.map(|b| &b.unit.body).chain([&program.body]);
+    let functions = functions::needed(&bodies.flat_map(|b| code::functions(b)).collect::<Vec<_>>());
+    let layout = program::layout(&globals);
+    Line { functions, blocks, layout, program, globals }
+}

@@ -1,0 +1,381 @@
+//! The function blocks of a type: its steps, and its invariants.
+
+use super::code::{self, Ex, Member, Stmt, advance, assign, binary, name, not, or, when};
+use super::context::{Lowering, Phase, Shared};
+use super::declaration::{Basic, Unit, Variable, constants};
+use super::expression::{guarded, limited};
+use super::globals::{Globals, about, array_names, first_value, meaning};
+use super::names::ELEMENT;
+use super::role::Members;
+use crate::ir::{Automaton, AutomatonId, Extent, RoleId, Scalar, Value};
+use runtime_sim::device::{Direction, PortType};
+use std::collections::BTreeSet;
+
+/// Published if the state has no meaning: the controller's memory is damaged.
+pub const NO_SUCH_STATE: i32 = 32767;
+
+/// Where a variable of a block comes from.
+#[derive(Clone, Debug)]
+enum Origin {
+    Robot,
+    Row(usize),
+    Parameter {
+        parameter: usize,
+        part: usize,
+    },
+    Members(usize),
+    MemberCount(usize),
+    Input {
+        port: usize,
+        part: usize,
+    },
+    /// Kept in the block of the steps.
+    Kept,
+}
+
+/// A variable that a block of a type may need.
+struct Candidate {
+    variable: Variable,
+    origin: Origin,
+    initial: Option<Ex>,
+    is_output: bool,
+}
+
+/// A function block with what it is called with.
+pub struct Block {
+    pub unit: Unit,
+    arguments: Vec<(String, Origin)>,
+}
+
+pub fn steps(shared: Shared, id: AutomatonId, globals: &Globals) -> Block {
+    let mut lowering = Lowering::new(shared, id);
+    let branches = lowering.branches();
+    let automaton = lowering.automaton();
+    let own = lowering.own();
+    let state = name("state");
+    let unknown = Member { value: NO_SUCH_STATE, note: "no such state".into(), qualified: None };
+    let otherwise = vec![assign("fault_code", Ex::Member(unknown)), assign("fault_robot", name("robot"))];
+    let mut body = vec![when(stopped(), vec![Stmt::Return])];
+    body.push(elapse());
+    let mut case = vec![Stmt::Case { selector: state, branches, otherwise }];
+    let answer = lowering.answer();
+    let used = code::names(&case);
+    body.extend(answer.into_iter().filter(|s| matches!(s, Stmt::Assign(Ex::Name(n), _) if used.contains(n))));
+    body.append(&mut case);
+    let candidates = candidates(shared, id);
+    let used = code::names(&body);
+    let asked = code::names(&invariant_body(&mut Lowering::new(shared, id)));
+    let is_kept = |c: &&Candidate| {
+        matches!(c.origin, Origin::Kept)
+            && (used.contains(&c.variable.name) || asked.contains(&c.variable.name))
+    };
+    let kept: Vec<&Candidate> = candidates.iter().filter(is_kept).collect();
+    body.insert(0, when(not(name("init_done")), power_up(shared.state(id, 0), &kept)));
+    let used = code::names(&body);
+    let mut outputs = vec![
+        state_variable(shared, id),
+        Variable::new("elapsed", Basic::Dint).with_comment("ms in this state"),
+    ];
+    let mut variables = Vec::new();
+    for candidate in kept {
+        let is_seen = candidate.is_output || asked.contains(&candidate.variable.name);
+        if is_seen { &mut outputs } else { &mut variables }.push(candidate.variable.clone());
+    }
+    variables.extend(locals(shared, id, &lowering.temporaries, &used));
+    let (inputs, arguments) = inputs(candidates, &used);
+    let mut comments = automaton.doc.clone();
+    comments.push(format!("On the device {}: {}", automaton.device.name, automaton.device.purpose));
+    Block {
+        unit: Unit {
+            name: own.block.clone(),
+            comments,
+            inputs,
+            outputs,
+            externals: externals(globals, &used),
+            variables,
+            state: Some(("state".into(), own.states.ty.clone())),
+            instances: Vec::new(),
+            body,
+        },
+        arguments,
+    }
+}
+
+/// The block that tests the invariants of a type behind the steps of all robots.
+pub fn invariants(shared: Shared, id: AutomatonId, globals: &Globals) -> Option<Block> {
+    let mut lowering = Lowering::new(shared, id);
+    let automaton = lowering.automaton();
+    if automaton.invariants.is_empty() {
+        return None;
+    }
+    let mut body = vec![when(stopped(), vec![Stmt::Return])];
+    body.extend(invariant_body(&mut lowering));
+    let used = code::names(&body);
+    let mut candidates = candidates(shared, id);
+    candidates.push(Candidate {
+        variable: Variable::new("elapsed", Basic::Dint).with_comment("ms in this state"),
+        origin: Origin::Kept,
+        initial: None,
+        is_output: true,
+    });
+    let variables = locals(shared, id, &lowering.temporaries, &used).into_iter().collect();
+    let (inputs, arguments) = inputs_and_kept(candidates, &used);
+    Some(Block {
+        unit: Unit {
+            name: lowering.own().invariants.clone(),
+            comments: vec![format!(
+                "What always holds for each {}, tested behind the steps of all robots.",
+                automaton.name
+            )],
+            inputs,
+            externals: externals(globals, &used),
+            variables,
+            body,
+            ..Unit::default()
+        },
+        arguments,
+    })
+}
+
+fn invariant_body(lowering: &mut Lowering) -> Vec<Stmt> {
+    let mut body = Vec::new();
+    for invariant in &lowering.automaton().invariants {
+        lowering.phase = Phase::Update;
+        lowering.release();
+        let mut before = Vec::new();
+        let fails = lowering.contrary(&invariant.condition, &mut before);
+        body.push(Stmt::Comment(format!(
+            "invariant {}   {}",
+            invariant.text,
+            lowering.line(invariant.place)
+        )));
+        body.append(&mut lowering.hoisted);
+        body.extend(before);
+        body.extend(guarded(fails, lowering.raise(invariant.fault)));
+    }
+    body
+}
+
+/// Not running, or faulted earlier in this scan.
+fn stopped() -> Ex {
+    or(vec![not(name("running")), binary("<>", name("fault_code"), Ex::Int(0))])
+}
+
+/// Time in the state, which stops at its greatest value.
+fn elapse() -> Stmt {
+    let room = binary("-", Ex::Int(i32::MAX), name("dt_ms"));
+    Stmt::If(
+        vec![code::Arm {
+            comments: Vec::new(),
+            condition: binary("<", name("elapsed"), room),
+            body: vec![assign("elapsed", binary("+", name("elapsed"), name("dt_ms")))],
+        }],
+        vec![assign("elapsed", Ex::Int(i32::MAX))],
+    )
+}
+
+fn state_variable(shared: Shared, id: AutomatonId) -> Variable {
+    let states = &shared.system.model.automaton(id).states;
+    let mut variable = Variable::new("state", Basic::Dint);
+    for (number, state) in states.iter().enumerate() {
+        let about = if number == 0 { "nothing was done yet".into() } else { state.doc.join(" ") };
+        let about = if about.is_empty() { about } else { format!(": {}", about.trim()) };
+        variable = variable.with_comment(format!("{number} {}{about}", state.name));
+    }
+    variable
+}
+
+/// Values at power-up.
+fn power_up(beginning: Member, kept: &[&Candidate]) -> Vec<Stmt> {
+    let mut body = vec![assign("state", Ex::Member(beginning)), assign("elapsed", Ex::Int(0))];
+    for candidate in kept {
+        let Some(initial) = &candidate.initial else { continue };
+        match candidate.variable.elements {
+            None => body.push(assign(&candidate.variable.name, initial.clone())),
+            Some(n) => {
+                let target = Ex::Element(candidate.variable.name.clone(), Box::new(name(ELEMENT)));
+                let stores = vec![Stmt::Assign(target, initial.clone()), advance(ELEMENT)];
+                let condition = binary("<", name(ELEMENT), Ex::Int(n as i32));
+                body.push(assign(ELEMENT, Ex::Int(0)));
+                body.push(Stmt::While { condition, body: stores, most: n as u64 });
+            }
+        }
+    }
+    body
+}
+
+fn externals(globals: &Globals, used: &BTreeSet<String>) -> Vec<Variable> {
+    globals.all().filter(|v| used.contains(&v.name)).map(Variable::external).collect()
+}
+
+/// Everything that a block of the type may be given or keep.
+fn candidates(shared: Shared, id: AutomatonId) -> Vec<Candidate> {
+    let automaton = shared.system.model.automaton(id);
+    let own = &shared.names.automata[id.0];
+    let given =
+        |variable: Variable, origin: Origin| Candidate { variable, origin, initial: None, is_output: false };
+    let mut all = vec![given(
+        Variable::new("robot", Basic::Dint).with_comment("its number, for fault_robot"),
+        Origin::Robot,
+    )];
+    for (i, implemented) in automaton.implements.iter().enumerate() {
+        let interface = &shared.system.model.interface(implemented.interface).name;
+        let about = format!("its own row as {interface}");
+        all.push(given(Variable::new(&own.rows[i], Basic::Dint).with_comment(about), Origin::Row(i)));
+    }
+    for (i, parameter) in automaton.parameters.iter().enumerate() {
+        let elements = array(shared, parameter.ty.extent);
+        for (part, held) in own.parameters[i].iter().enumerate() {
+            let mut variable = Variable::new(held, Basic::of(parameter.ty.scalar)).with_elements(elements);
+            if part == 0 {
+                variable.comments = about(&parameter.doc, meaning(shared, parameter.ty.scalar));
+            }
+            all.push(given(variable, Origin::Parameter { parameter: i, part }));
+        }
+    }
+    for (i, role) in automaton.roles.iter().enumerate() {
+        let Members::Listed(most) = shared.members(id, RoleId(i)) else { continue };
+        let interface = &shared.system.model.interface(role.interface).name;
+        let list = Variable::new(&own.roles[i].members, Basic::Dint).with_elements(Some(most.max(1)));
+        all.push(given(
+            list.with_comment(format!("rows of its {}: {interface}", role.name)),
+            Origin::Members(i),
+        ));
+        let count = Variable::new(&own.roles[i].count, Basic::Dint).with_comment("number of them");
+        all.push(given(count, Origin::MemberCount(i)));
+    }
+    all.extend(ports(shared, automaton, id));
+    for (i, local) in automaton.locals.iter().enumerate() {
+        let initial = shared.constants(local.ty.scalar, local.initial);
+        for (part, (held, initial)) in own.locals[i].iter().zip(initial).enumerate() {
+            let mut variable =
+                Variable::new(held, Basic::of(local.ty.scalar)).with_elements(array(shared, local.ty.extent));
+            if part == 0 {
+                variable.comments = about(&local.doc, meaning(shared, local.ty.scalar));
+            }
+            all.push(Candidate { variable, origin: Origin::Kept, initial: Some(initial), is_output: false });
+        }
+    }
+    all
+}
+
+fn array(shared: Shared, extent: Extent) -> Option<usize> {
+    (extent != Extent::One).then(|| shared.system.model.elements(extent))
+}
+
+fn ports(shared: Shared, automaton: &Automaton, id: AutomatonId) -> Vec<Candidate> {
+    let mut all = Vec::new();
+    for (i, port) in automaton.device.ports.iter().enumerate() {
+        let elements = array(shared, port.extent.into());
+        let held = &shared.names.automata[id.0].ports[i];
+        for (part, (held, first)) in held.iter().zip(constants(first_value(port.ty))).enumerate() {
+            let unit = if port.unit.is_empty() { String::new() } else { format!(", {}", port.unit) };
+            let variable = Variable::new(held, Basic::of(Scalar::from(port.ty)))
+                .with_elements(elements)
+                .with_comment(if part == 0 { format!("{}{unit}", port.meaning) } else { String::new() });
+            all.push(match port.direction {
+                Direction::Input => Candidate {
+                    variable,
+                    origin: Origin::Input { port: i, part },
+                    initial: None,
+                    is_output: false,
+                },
+                Direction::Output => {
+                    Candidate { variable, origin: Origin::Kept, initial: Some(first), is_output: true }
+                }
+            });
+        }
+    }
+    all
+}
+
+/// Variables that a block computes anew in each step.
+fn locals(
+    shared: Shared,
+    id: AutomatonId,
+    temporaries: &[Variable],
+    used: &BTreeSet<String>,
+) -> Vec<Variable> {
+    let automaton = shared.system.model.automaton(id);
+    let own = &shared.names.automata[id.0];
+    let mut all = vec![
+        Variable::new("done", Basic::Bool).with_comment("the last command has ended well"),
+        Variable::new("failed", Basic::Bool).with_comment("the last command has ended in error"),
+    ];
+    let defines = automaton.defines.iter().zip(&own.defines).map(|(define, held)| {
+        let variable = Variable::new(&held[0], Basic::of(define.ty));
+        Variable { comments: about(&define.doc, String::new()), ..variable }
+    });
+    all.extend(defines);
+    all.push(Variable::new("found", Basic::Bool).with_comment("the guard with loops holds"));
+    for (i, held) in own.variables.iter().enumerate() {
+        if all.iter().all(|v| v.name != *held) {
+            let about = meaning(shared, automaton.variables[i].ty.scalar);
+            all.push(Variable::new(held, Basic::Dint).with_comment(about));
+        }
+    }
+    all.push(Variable::new(ELEMENT, Basic::Dint).with_comment("number of an element"));
+    all.extend(temporaries.iter().cloned());
+    all.retain(|v| used.contains(&v.name));
+    all
+}
+
+fn inputs(candidates: Vec<Candidate>, used: &BTreeSet<String>) -> (Vec<Variable>, Vec<(String, Origin)>) {
+    let candidates = candidates.into_iter().filter(|c| !matches!(c.origin, Origin::Kept)).collect();
+    inputs_and_kept(candidates, used)
+}
+
+fn inputs_and_kept(
+    candidates: Vec<Candidate>,
+    used: &BTreeSet<String>,
+) -> (Vec<Variable>, Vec<(String, Origin)>) {
+    candidates
+        .into_iter()
+        .filter(|c| used.contains(&c.variable.name))
+        .map(|c| (c.variable.clone(), (c.variable.name, c.origin)))
+        .unzip()
+}
+
+impl Block {
+    /// The call of this block for a robot; what the robot keeps is read from the instance of its steps.
+    pub fn call(&self, shared: Shared, instance: &str, robot: usize) -> Stmt {
+        let arguments = self.arguments.iter();
+        let arguments =
+            arguments.map(|(input, origin)| (input.clone(), argument(shared, robot, input, origin)));
+        Stmt::Call { instance: instance.into(), arguments: arguments.collect() }
+    }
+}
+
+fn argument(shared: Shared, robot: usize, input: &str, origin: &Origin) -> Ex {
+    let instance = &shared.system.instances[robot];
+    let automaton = shared.system.automaton_of(robot);
+    let names = &shared.names.robots[robot];
+    match *origin {
+        Origin::Robot => Ex::Int(robot as i32),
+        Origin::Row(i) => Ex::Int(instance.rows[i] as i32),
+        Origin::Parameter { parameter, part } if automaton.parameters[parameter].ty.extent == Extent::One => {
+            let scalar = automaton.parameters[parameter].ty.scalar;
+            let value = instance.parameters[parameter].first().copied().unwrap_or(Value::Int(0));
+            shared.constants(scalar, value).into_iter().nth(part).unwrap_or(Ex::Int(0))
+        }
+        Origin::Parameter { parameter, part } => name(&array_names(shared, robot, parameter)[part]),
+        Origin::Members(role) => name(&names.roles[role]),
+        Origin::MemberCount(role) => Ex::Int(instance.roles[role].len() as i32),
+        Origin::Input { port, part } => {
+            let value = name(&names.ports[port][part]);
+            let device_port = &automaton.device.ports[port];
+            match device_port.ty {
+                PortType::Int { lo, hi } if device_port.extent == runtime_sim::device::Extent::One => {
+                    limited(value, (lo, hi))
+                }
+                _ => value,
+            }
+        }
+        Origin::Kept => Ex::Field(names.instance.clone(), input.into()),
+    }
+}
+
+/// Whether the block of the steps has such an output.
+pub fn publishes(block: &Block, output: &str) -> bool {
+    block.unit.outputs.iter().any(|v| v.name == output)
+}

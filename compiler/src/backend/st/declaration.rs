@@ -1,0 +1,176 @@
+//! Variables, and the units that declare them.
+
+use super::code::{Ex, Stmt};
+use super::print::{Dialect, comment};
+use crate::ir::{Scalar, Value};
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Basic {
+    Bool,
+    Dint,
+    Lreal,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct Variable {
+    pub name: String,
+    pub basic: Basic,
+    /// Number of elements of an array.
+    pub elements: Option<usize>,
+    /// Of a scalar; every other value is set by code.
+    pub initial: Option<Ex>,
+    /// The first line stands behind the declaration, the others below it.
+    pub comments: Vec<String>,
+}
+
+/// An instance of a function block.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Instance {
+    pub name: String,
+    pub block: String,
+    pub comment: String,
+}
+
+/// A function block or the program.
+#[derive(Clone, Debug, Default)]
+pub struct Unit {
+    pub name: String,
+    pub comments: Vec<String>,
+    pub inputs: Vec<Variable>,
+    pub outputs: Vec<Variable>,
+    pub externals: Vec<Variable>,
+    pub variables: Vec<Variable>,
+    /// Outputs that hold the state: an enumeration in some dialects.
+    pub state: Option<(String, String)>,
+    pub instances: Vec<Instance>,
+    pub body: Vec<Stmt>,
+}
+
+impl Basic {
+    pub fn of(scalar: Scalar) -> Self {
+        match scalar {
+            Scalar::Bool => Basic::Bool,
+            Scalar::Real | Scalar::Point => Basic::Lreal,
+            Scalar::Int { .. } | Scalar::Time | Scalar::Enum(_) | Scalar::Ref(_) => Basic::Dint,
+        }
+    }
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Basic::Bool => "BOOL",
+            Basic::Dint => "DINT",
+            Basic::Lreal => "LREAL",
+        }
+    }
+
+    pub fn zero(self) -> Ex {
+        match self {
+            Basic::Bool => Ex::Bool(false),
+            Basic::Dint => Ex::Int(0),
+            Basic::Lreal => Ex::Real(0.0),
+        }
+    }
+}
+
+impl Variable {
+    pub fn new(name: impl Into<String>, basic: Basic) -> Self {
+        Self { name: name.into(), basic, elements: None, initial: None, comments: Vec::new() }
+    }
+
+    pub fn with_comment(mut self, text: impl Into<String>) -> Self {
+        let text = text.into();
+        if !text.is_empty() {
+            self.comments.push(text);
+        }
+        self
+    }
+
+    pub fn with_initial(mut self, value: Ex) -> Self {
+        self.initial = Some(value);
+        self
+    }
+
+    pub fn with_elements(mut self, elements: Option<usize>) -> Self {
+        self.elements = elements;
+        self
+    }
+
+    pub fn ty(&self) -> String {
+        match self.elements {
+            None => self.basic.name().into(),
+            Some(n) => format!("ARRAY[0..{}] OF {}", n.max(1) - 1, self.basic.name()),
+        }
+    }
+
+    /// The same variable without initial value, as it is declared where it is used.
+    pub fn external(&self) -> Self {
+        Self { initial: None, comments: self.comments.iter().take(1).cloned().collect(), ..self.clone() }
+    }
+
+    pub fn uncommented(&self) -> Self {
+        Self { initial: None, comments: Vec::new(), ..self.clone() }
+    }
+
+    fn lines(&self, dialect: Dialect, ty: &str) -> String {
+        let initial =
+            self.initial.as_ref().map(|e| format!(" := {}", dialect.expression(e))).unwrap_or_default();
+        let mut text = format!("    {} : {ty}{initial};", self.name);
+        for (i, line) in self.comments.iter().enumerate() {
+            text +=
+                &if i == 0 { format!(" {}", comment(line)) } else { format!("\n        {}", comment(line)) };
+        }
+        text + "\n"
+    }
+}
+
+impl Unit {
+    /// All sections of declarations.
+    pub fn declarations(&self, dialect: Dialect) -> String {
+        let state = self.state.as_ref().filter(|_| dialect == Dialect::Codesys);
+        let section = |keyword: &str, variables: &[Variable]| {
+            let lines = variables.iter().map(|v| match state {
+                Some((name, ty)) if *name == v.name => v.lines(dialect, ty),
+                _ => v.lines(dialect, &v.ty()),
+            });
+            block(keyword, lines.collect())
+        };
+        let instances = self.instances.iter().map(|i| {
+            let about =
+                if i.comment.is_empty() { String::new() } else { format!(" {}", comment(&i.comment)) };
+            format!("    {} : {};{about}\n", i.name, i.block)
+        });
+        let externals = match dialect {
+            Dialect::Portable => section("VAR_EXTERNAL", &self.externals),
+            Dialect::Codesys => String::new(),
+        };
+        section("VAR_INPUT", &self.inputs)
+            + &section("VAR_OUTPUT", &self.outputs)
+            + &externals
+            + &section("VAR", &self.variables)
+            + &block("VAR", instances.collect())
+    }
+}
+
+fn block(keyword: &str, lines: Vec<String>) -> String {
+    if lines.is_empty() { String::new() } else { format!("{keyword}\n{}END_VAR\n", lines.concat()) }
+}
+
+/// Declarations of globals.
+pub fn globals(variables: &[Variable], dialect: Dialect) -> String {
+    block("VAR_GLOBAL", variables.iter().map(|v| v.lines(dialect, &v.ty())).collect())
+}
+
+/// The suffixes of the variables that hold one value.
+pub fn suffixes(scalar: Scalar) -> &'static [&'static str] {
+    if scalar == Scalar::Point { &["_x", "_y", "_z"] } else { &[""] }
+}
+
+/// A value as the constants of its variables; members are shown by name.
+pub fn constants(value: Value) -> Vec<Ex> {
+    match value {
+        Value::Bool(b) => vec![Ex::Bool(b)],
+        Value::Int(i) => vec![Ex::Int(i)],
+        Value::Real(r) => vec![Ex::Real(r)],
+        Value::Point(p) => p.map(Ex::Real).into(),
+    }
+}

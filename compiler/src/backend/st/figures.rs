@@ -1,0 +1,73 @@
+//! How large the program is, and how much a scan can execute at most.
+
+use super::Line;
+use super::bounds::{greatest, written};
+use super::code::Stmt;
+use super::context::Shared;
+use super::declaration::Unit;
+use crate::ir::AutomatonId;
+use std::fmt::Write;
+
+/// Name and most statements of a unit, and how many instances there are of it.
+struct Bound<'a> {
+    name: &'a str,
+    once: u64,
+    instances: u64,
+}
+
+impl Bound<'_> {
+    fn total(&self) -> u64 {
+        self.once.saturating_mul(self.instances)
+    }
+}
+
+/// `bounds.txt`
+pub fn report(shared: Shared, line: &Line) -> String {
+    let count =
+        |unit: &Unit| line.program.instances.iter().filter(|i| i.block == unit.name).count().max(1) as u64;
+    let bounds: Vec<Bound> = line
+        .units()
+        .map(|unit| Bound { name: &unit.name, once: greatest(&unit.body), instances: count(unit) })
+        .collect();
+    let mut text = String::from(
+        "The most statements that one scan executes. An assignment, a call, a test and a round of a loop count one.\n\n",
+    );
+    let _ = writeln!(text, "{:<32} {:>8} {:>9} {:>9}", "unit", "once", "instances", "together");
+    for bound in &bounds {
+        let _ = writeln!(
+            text,
+            "{:<32} {:>8} {:>9} {:>9}",
+            bound.name,
+            bound.once,
+            bound.instances,
+            bound.total()
+        );
+    }
+    let total = bounds.iter().fold(0u64, |sum, bound| sum.saturating_add(bound.total()));
+    let _ = writeln!(text, "{:<32} {:>8} {:>9} {total:>9}", "all", "", "");
+    let (statements, transitions) = transitions(shared, line);
+    let _ = writeln!(
+        text,
+        "\n{} statements are written; {statements} of them for {transitions} transitions: {:.1} each.",
+        line.units().map(|unit| written(&unit.body)).sum::<u64>(),
+        statements as f64 / transitions.max(1) as f64
+    );
+    text
+}
+
+/// Statements in the branches of the states, and the transitions that they are for.
+fn transitions(shared: Shared, line: &Line) -> (u64, usize) {
+    let mut statements = 0;
+    let mut transitions = 0;
+    for (number, blocks) in line.blocks.iter().enumerate() {
+        let Some(blocks) = blocks else { continue };
+        let automaton = shared.system.model.automaton(AutomatonId(number));
+        transitions += automaton.states.iter().map(|s| s.transitions.len()).sum::<usize>();
+        for statement in &blocks.steps.unit.body {
+            if let Stmt::Case { branches, .. } = statement {
+                statements += branches.iter().map(|(_, body)| written(body)).sum::<u64>();
+            }
+        }
+    }
+    (statements, transitions)
+}

@@ -1,0 +1,342 @@
+//! Variables that stand outside the blocks: the system's, ports, shared cells, tables of parameters.
+//!
+//! A shared cell is one array over the rows of its interface, which a reference indexes: `tray_open[t]` is as
+//! short as `t.open` of the specification, and nothing is copied into blocks and back. The comment at its
+//! declaration says which robot has which element. Elements of arrays follow each other row by row.
+
+use super::code::{Ex, Stmt, advance, binary, name};
+use super::context::Shared;
+use super::declaration::{Basic, Variable, constants};
+use super::role::{Members, is_alike};
+use crate::ir::{AutomatonId, Extent, InterfaceId, RoleId, Scalar, Type, Value};
+use runtime_sim::device::{Direction, Port, PortType, Stop};
+
+/// A global array and what its elements are at power-up.
+pub struct Table {
+    pub variable: Variable,
+    pub values: Vec<Ex>,
+}
+
+/// Globals by what they are.
+pub struct Globals {
+    pub system: Vec<Variable>,
+    /// For each robot its ports.
+    pub ports: Vec<Vec<Variable>>,
+    pub cells: Vec<Table>,
+    pub parameters: Vec<Table>,
+}
+
+pub struct List {
+    pub name: &'static str,
+    pub about: &'static str,
+    pub variables: Vec<Variable>,
+}
+
+impl Globals {
+    pub fn new(shared: Shared) -> Self {
+        Self {
+            system: system(shared),
+            ports: (0..shared.system.instances.len()).map(|robot| ports(shared, robot)).collect(),
+            cells: cells(shared),
+            parameters: parameters(shared),
+        }
+    }
+
+    /// Without the cells and parameters that nothing reads or writes.
+    pub fn retain(&mut self, is_used: impl Fn(&str) -> bool) {
+        self.cells.retain(|table| is_used(&table.variable.name));
+        self.parameters.retain(|table| is_used(&table.variable.name));
+    }
+
+    /// The globals as lists that have a name.
+    pub fn lists(&self) -> Vec<List> {
+        let tables = |tables: &[Table]| tables.iter().map(|t| t.variable.clone()).collect::<Vec<_>>();
+        let lists = [
+            List {
+                name: "GVL_System",
+                about: "inputs and outputs of the line",
+                variables: self.system.clone(),
+            },
+            List { name: "GVL_Ports", about: "ports of the robots", variables: self.ports.concat() },
+            List { name: "GVL_Cells", about: "shared cells", variables: tables(&self.cells) },
+            List { name: "GVL_Parameters", about: "parameters", variables: tables(&self.parameters) },
+        ];
+        lists.into_iter().filter(|list| !list.variables.is_empty()).collect()
+    }
+
+    pub fn all(&self) -> impl Iterator<Item = &Variable> {
+        let tables = self.cells.iter().chain(&self.parameters).map(|t| &t.variable);
+        self.system.iter().chain(self.ports.iter().flatten()).chain(tables)
+    }
+}
+
+fn system(shared: Shared) -> Vec<Variable> {
+    let variable = |name: &str, initial: Ex, about: &str| {
+        let basic = match initial {
+            Ex::Bool(_) => Basic::Bool,
+            _ => Basic::Dint,
+        };
+        Variable::new(name, basic).with_initial(initial).with_comment(about)
+    };
+    vec![
+        variable(
+            "run_permit",
+            Ex::Bool(false),
+            "input: false when the emergency stop has acted or the fieldbus is lost",
+        ),
+        variable("start", Ex::Bool(false), "input: its rising edge starts the line"),
+        variable("reset", Ex::Bool(false), "input: its rising edge clears a fault"),
+        variable("running", Ex::Bool(false), "output: the blocks step"),
+        variable("fault", Ex::Bool(false), "output: a fault is latched"),
+        variable("fault_code", Ex::Int(0), "output: see alarms.csv; 0 without a fault"),
+        variable(
+            "fault_robot",
+            Ex::Int(-1),
+            "output: number of the robot in the order of the calls; -1 without a fault",
+        ),
+        variable("init_done", Ex::Bool(false), "false in the first scan"),
+        variable("dt_ms", Ex::Int(shared.system.scan_ms), "length of a scan, ms: the INTERVAL of the task"),
+    ]
+}
+
+/// What a port holds before anything was latched or written.
+pub fn first_value(ty: PortType) -> Value {
+    match ty {
+        PortType::Bool => Value::Bool(false),
+        PortType::Int { lo, hi } => Value::Int(0.clamp(lo, hi)),
+        PortType::Real => Value::Real(0.0),
+        PortType::Point => Value::Point([0.0; 3]),
+    }
+}
+
+/// The value that is published while the system does not run, if it is not the last one.
+pub fn stop_value(port: &Port) -> Option<Value> {
+    let Stop::Value(value) = port.stop else { return None };
+    Some(match port.ty {
+        PortType::Bool => Value::Bool(value != 0.0),
+        PortType::Int { .. } => Value::Int(value as i32),
+        PortType::Real => Value::Real(value),
+        PortType::Point => Value::Point([value; 3]),
+    })
+}
+
+fn ports(shared: Shared, robot: usize) -> Vec<Variable> {
+    let automaton = shared.system.automaton_of(robot);
+    let names = &shared.names.robots[robot].ports;
+    let mut variables = Vec::new();
+    for (port, held) in automaton.device.ports.iter().zip(names) {
+        let elements = (port.extent != runtime_sim::device::Extent::One)
+            .then(|| port.extent.elements(shared.system.kinds()));
+        let word = if port.direction == Direction::Input { "input" } else { "output" };
+        let unit = if port.unit.is_empty() { String::new() } else { format!(", {}", port.unit) };
+        let first = stop_value(port).unwrap_or(first_value(port.ty));
+        for (name, first) in held.iter().zip(constants(first)) {
+            let variable = Variable::new(name, Basic::of(Scalar::from(port.ty)))
+                .with_elements(elements)
+                .with_comment(format!("{word}: {}{unit}", port.meaning));
+            let variable =
+                if *name == held[0] { variable } else { Variable { comments: Vec::new(), ..variable } };
+            let has_initial = port.direction == Direction::Output && elements.is_none();
+            variables.push(if has_initial { variable.with_initial(first) } else { variable });
+        }
+    }
+    variables
+}
+
+/// `0 agv1, 1 agv2`, or `12 for each of agv1, agv2`
+fn rows(shared: Shared, interface: InterfaceId, each: Option<usize>) -> String {
+    let members: Vec<&str> = shared.system.members[interface.0]
+        .iter()
+        .map(|i| shared.system.instances[*i].name.as_str())
+        .collect();
+    match each {
+        None => members.iter().enumerate().map(|(i, m)| format!("{i} {m}")).collect::<Vec<_>>().join(", "),
+        Some(n) => {
+            let of = |(i, m): (usize, &&str)| format!("{} {m}", i * n);
+            format!("{n} each, from {}", members.iter().enumerate().map(of).collect::<Vec<_>>().join(", "))
+        }
+    }
+}
+
+fn each(shared: Shared, ty: Type) -> Option<usize> {
+    (ty.extent != Extent::One).then(|| shared.system.model.elements(ty.extent))
+}
+
+/// The members of an enumeration by number, or to what a reference refers.
+pub fn meaning(shared: Shared, scalar: Scalar) -> String {
+    match scalar {
+        Scalar::Enum(id) => {
+            let members = &shared.system.model.enums[id.0].members;
+            members.iter().enumerate().map(|(i, m)| format!("{i} {m}")).collect::<Vec<_>>().join(", ")
+        }
+        Scalar::Ref(id) => rows(shared, id, None),
+        Scalar::Time => "ms".into(),
+        _ => String::new(),
+    }
+}
+
+pub fn about(doc: &[String], meaning: String) -> Vec<String> {
+    let text = doc.iter().map(|l| l.trim()).collect::<Vec<_>>().join(" ");
+    [text, meaning].into_iter().filter(|t| !t.is_empty()).collect()
+}
+
+fn cells(shared: Shared) -> Vec<Table> {
+    let mut tables = Vec::new();
+    for (i, interface) in shared.system.model.interfaces.iter().enumerate() {
+        let members = shared.system.members[i].len().max(1);
+        for (cell, held) in interface.cells.iter().zip(&shared.names.interfaces[i].cells) {
+            let n = members * shared.system.model.elements(cell.ty.extent);
+            let mut comments = about(&cell.doc, rows(shared, InterfaceId(i), each(shared, cell.ty)));
+            comments.extend(about(&[], meaning(shared, cell.ty.scalar)));
+            for (name, first) in held.iter().zip(shared.constants(cell.ty.scalar, cell.initial)) {
+                let variable = Variable::new(name, Basic::of(cell.ty.scalar)).with_elements(Some(n));
+                let comments = if *name == held[0] { comments.clone() } else { Vec::new() };
+                let variable = Variable { comments, ..variable };
+                tables.push(Table { variable, values: vec![first; n] });
+            }
+        }
+    }
+    tables
+}
+
+fn parameters(shared: Shared) -> Vec<Table> {
+    let mut tables = shown(shared);
+    tables.extend(relations(shared));
+    for id in (0..shared.system.model.automata.len()).map(AutomatonId) {
+        tables.extend(own(shared, id));
+    }
+    tables
+}
+
+/// Parameters that members of an interface show to others.
+fn shown(shared: Shared) -> Vec<Table> {
+    let mut tables = Vec::new();
+    for (i, interface) in shared.system.model.interfaces.iter().enumerate() {
+        let id = InterfaceId(i);
+        let members = shared.system.members[i].len();
+        for (number, (parameter, held)) in
+            interface.parameters.iter().zip(&shared.names.interfaces[i].parameters).enumerate()
+        {
+            let values: Vec<Vec<Ex>> = (0..members)
+                .flat_map(|row| shared.system.shown(id, row, number))
+                .map(|v| shared.constants(parameter.ty.scalar, *v))
+                .collect();
+            let comments = about(&parameter.doc, rows(shared, id, each(shared, parameter.ty)));
+            tables.extend(table(parameter.ty.scalar, held, &values, &comments));
+        }
+    }
+    tables
+}
+
+/// One array for each variable of a value.
+fn table(scalar: Scalar, held: &[String], values: &[Vec<Ex>], comments: &[String]) -> Vec<Table> {
+    let basic = Basic::of(scalar);
+    (held.iter().enumerate())
+        .map(|(part, name)| Table {
+            variable: Variable {
+                comments: if part == 0 { comments.to_vec() } else { Vec::new() },
+                ..Variable::new(name, basic)
+            }
+            .with_elements(Some(values.len().max(1))),
+            values: values.iter().map(|v| v[part].clone()).collect(),
+        })
+        .collect()
+}
+
+fn relations(shared: Shared) -> Vec<Table> {
+    let relations =
+        shared.system.model.relations.iter().zip(&shared.system.reaches).zip(&shared.names.relations);
+    relations
+        .map(|((relation, reaches), name)| {
+            let n = reaches.iter().map(Vec::len).sum::<usize>();
+            let width = reaches.first().map_or(0, Vec::len);
+            let comments = vec![
+                "whether items get from the one to the other".to_string(),
+                rows(shared, relation.from, Some(width)),
+                rows(shared, relation.to, None),
+            ];
+            Table {
+                variable: Variable { comments, ..Variable::new(name, Basic::Bool) }
+                    .with_elements(Some(n.max(1))),
+                values: reaches.iter().flatten().map(|b| Ex::Bool(*b)).collect(),
+            }
+        })
+        .collect()
+}
+
+/// Arrays that robots of a type are given: one for all if they are alike, else one for each robot.
+fn own(shared: Shared, id: AutomatonId) -> Vec<Table> {
+    let automaton = shared.system.model.automaton(id);
+    let robots = shared.instances(id);
+    let mut tables = Vec::new();
+    for (number, parameter) in
+        automaton.parameters.iter().enumerate().filter(|(_, p)| p.ty.extent != Extent::One)
+    {
+        let comments = about(&parameter.doc, meaning(shared, parameter.ty.scalar));
+        let names = robots.iter().map(|r| array_names(shared, *r, number));
+        for (robot, held) in robots.iter().zip(names) {
+            if tables.iter().any(|t: &Table| t.variable.name == held[0]) {
+                continue;
+            }
+            let values = &shared.system.instances[*robot].parameters[number];
+            let values: Vec<_> = values.iter().map(|v| shared.constants(parameter.ty.scalar, *v)).collect();
+            tables.extend(table(parameter.ty.scalar, held, &values, &comments));
+        }
+    }
+    for (number, role) in automaton.roles.iter().enumerate() {
+        let Members::Listed(most) = shared.members(id, RoleId(number)) else { continue };
+        for robot in &robots {
+            let list = &shared.system.instances[*robot].roles[number];
+            let value = |i: usize| Ex::Int(list.get(i).map_or(0, |row| *row as i32));
+            let comments = about(&role.doc, rows(shared, role.interface, None));
+            let variable = Variable::new(&shared.names.robots[*robot].roles[number], Basic::Dint);
+            tables.push(Table {
+                variable: Variable { comments, ..variable }.with_elements(Some(most.max(1))),
+                values: (0..most).map(value).collect(),
+            });
+        }
+    }
+    tables
+}
+
+/// The globals that hold an array of parameters of a robot.
+pub fn array_names<'a>(shared: Shared<'a>, robot: usize, parameter: usize) -> &'a [String] {
+    let id = shared.system.instances[robot].automaton;
+    if is_alike(shared.system, id, parameter) {
+        &shared.names.automata[id.0].tables[parameter]
+    } else {
+        &shared.names.robots[robot].parameters[parameter]
+    }
+}
+
+/// Statements that give all elements of tables their values: loops where they are alike.
+pub fn fill(tables: &[&Table], counter: &str) -> Vec<Stmt> {
+    let mut out = Vec::new();
+    let mut alike: Vec<(usize, Vec<Stmt>)> = Vec::new();
+    let mut single = Vec::new();
+    for table in tables {
+        let n = table.values.len();
+        let is_alike = n > 2 && table.values.iter().all(|v| *v == table.values[0]);
+        if is_alike {
+            let target = Ex::Element(table.variable.name.clone(), Box::new(name(counter)));
+            let store = Stmt::Assign(target, table.values[0].clone());
+            match alike.iter_mut().find(|(size, _)| *size == n) {
+                Some((_, stores)) => stores.push(store),
+                None => alike.push((n, vec![store])),
+            }
+            continue;
+        }
+        for (i, value) in table.values.iter().enumerate() {
+            let target = Ex::Element(table.variable.name.clone(), Box::new(Ex::Int(i as i32)));
+            single.push(Stmt::Assign(target, value.clone()));
+        }
+    }
+    for (n, mut stores) in alike {
+        stores.push(advance(counter));
+        out.push(super::code::assign(counter, Ex::Int(0)));
+        let condition = binary("<", name(counter), Ex::Int(n as i32));
+        out.push(Stmt::While { condition, body: stores, most: n as u64 });
+    }
+    out.extend(single);
+    out
+}

@@ -1,0 +1,284 @@
+//! The identifiers of one system in Structured Text.
+
+use super::declaration::suffixes;
+use super::role::{self, Members};
+use super::walk;
+use crate::ir::{
+    Automaton, AutomatonId, Domain, Enum, Expr, ExprKind, Extent, Interface, Model, RoleId, Scalar, System,
+    Type,
+};
+use crate::naming::st::{Renamed, Scope};
+use crate::naming::{camel, snake};
+use runtime_sim::device::Port;
+use std::collections::BTreeMap;
+
+const TAKEN: &[&str] = &[
+    "F_following",
+    "F_next_command",
+    "F_limit",
+    "F_lesser",
+    "F_greater",
+    "F_lesser_real",
+    "F_greater_real",
+    "F_magnitude",
+    "F_is_finite",
+    "F_is_finite_point",
+    "F_absolute",
+    "F_squared_distance",
+    "MAIN",
+    "FB_Layout",
+    "GVL_System",
+    "GVL_Ports",
+    "GVL_Cells",
+    "GVL_Parameters",
+    "Line",
+    "Controller",
+    "Scan",
+    "Main_program",
+    "run_permit",
+    "start",
+    "reset",
+    "running",
+    "fault",
+    "fault_code",
+    "fault_robot",
+    "init_done",
+    "dt_ms",
+];
+/// The counter over the elements of an array.
+pub const ELEMENT: &str = "element_no";
+const LOCAL: &[&str] = &["robot", "state", "elapsed", "done", "failed", "found", ELEMENT];
+const PROGRAM: &[&str] = &["start_before", "reset_before", "had_fault", "layout"];
+
+pub struct Names {
+    pub enums: Vec<EnumNames>,
+    pub interfaces: Vec<InterfaceNames>,
+    pub relations: Vec<String>,
+    pub automata: Vec<AutomatonNames>,
+    pub robots: Vec<RobotNames>,
+    /// What could not stay as it was, with the unit in which it stands.
+    pub renamed: Vec<(String, Renamed)>,
+}
+
+pub struct EnumNames {
+    pub ty: String,
+    pub members: Vec<String>,
+}
+
+/// The variables that hold one value: one, or three for a point.
+pub type Held = Vec<String>;
+
+pub struct InterfaceNames {
+    pub cells: Vec<Held>,
+    pub parameters: Vec<Held>,
+}
+
+pub struct AutomatonNames {
+    pub block: String,
+    pub invariants: String,
+    /// The enumeration of the states, and its members.
+    pub states: EnumNames,
+    pub parameters: Vec<Held>,
+    /// Arrays of parameters that are alike for all robots of the type.
+    pub tables: Vec<Held>,
+    pub roles: Vec<RoleNames>,
+    /// The own row in each interface.
+    pub rows: Vec<String>,
+    pub locals: Vec<Held>,
+    pub defines: Vec<Held>,
+    pub ports: Vec<Held>,
+    pub variables: Vec<String>,
+    /// For temporary variables.
+    pub scope: Scope,
+}
+
+pub struct RoleNames {
+    pub members: String,
+    pub count: String,
+}
+
+pub struct RobotNames {
+    pub instance: String,
+    pub invariants: String,
+    pub ports: Vec<Held>,
+    pub parameters: Vec<Held>,
+    pub roles: Vec<String>,
+}
+
+pub fn names(system: &System) -> Names {
+    let model = &system.model;
+    let mut global = Scope::new(TAKEN);
+    let enums: Vec<_> = model.enums.iter().map(|e| enum_names(e, &mut global)).collect();
+    let blocks: Vec<_> = (model.automata.iter())
+        .map(|a| {
+            let block = global.take(&format!("FB_{}", camel(&a.name)));
+            let invariants = global.take(&format!("FB_{}_invariants", camel(&a.name)));
+            (block, invariants, states(a, &mut global))
+        })
+        .collect();
+    let interfaces: Vec<_> = model.interfaces.iter().map(|i| interface_names(i, &mut global)).collect();
+    let relations = (model.relations.iter())
+        .map(|r| {
+            let (from, to) = (model.interface(r.from), model.interface(r.to));
+            global.take(&format!("{}_reaches_{}", snake(&from.name), snake(&to.name)))
+        })
+        .collect();
+    let mut renamed = Vec::new();
+    let inner = global.inner();
+    let automata: Vec<_> = (blocks.into_iter().enumerate())
+        .map(|(id, names)| automaton_names(system, AutomatonId(id), names, &inner, &mut global, &mut renamed))
+        .collect();
+    let robots: Vec<_> =
+        (system.instances.iter()).map(|i| robot_names(system, &i.name, i.automaton, &mut global)).collect();
+    let mut program = global.inner();
+    PROGRAM.iter().for_each(|name| drop(program.take(name)));
+    let robots = (robots.into_iter().zip(&system.instances))
+        .map(|(robot, i)| RobotNames {
+            instance: program.take(&snake(&i.name)),
+            invariants: program.take(&format!("{}_invariants", snake(&i.name))),
+            ..robot
+        })
+        .collect();
+    let log = |unit: &str, scope: &Scope| -> Vec<_> {
+        scope.renamed().iter().map(|r| (unit.to_string(), r.clone())).collect()
+    };
+    renamed.extend(log("globals", &global));
+    renamed.extend(log("MAIN", &program));
+    Names { enums, interfaces, relations, automata, robots, renamed }
+}
+
+fn enum_names(source: &Enum, global: &mut Scope) -> EnumNames {
+    let mut members = Scope::default();
+    EnumNames {
+        ty: global.take(&format!("E_{}", camel(&source.name))),
+        members: source.members.iter().map(|m| members.take(m)).collect(),
+    }
+}
+
+fn states(automaton: &Automaton, global: &mut Scope) -> EnumNames {
+    let mut members = Scope::default();
+    EnumNames {
+        ty: global.take(&format!("E_{}State", camel(&automaton.name))),
+        members: automaton.states.iter().map(|s| members.take(&s.name.replace('.', "_"))).collect(),
+    }
+}
+
+fn held(scope: &mut Scope, wanted: &str, scalar: Scalar) -> Held {
+    scope.take_all(wanted, suffixes(scalar))
+}
+
+fn interface_names(source: &Interface, global: &mut Scope) -> InterfaceNames {
+    let mut take =
+        |name: &str, ty: Type| held(global, &format!("{}_{}", snake(&source.name), snake(name)), ty.scalar);
+    InterfaceNames {
+        cells: source.cells.iter().map(|c| take(&c.name, c.ty)).collect(),
+        parameters: source.parameters.iter().map(|p| take(&p.name, p.ty)).collect(),
+    }
+}
+
+fn automaton_names(
+    system: &System,
+    id: AutomatonId,
+    (block, invariants, states): (String, String, EnumNames),
+    inner: &Scope,
+    global: &mut Scope,
+    renamed: &mut Vec<(String, Renamed)>,
+) -> AutomatonNames {
+    let source = system.model.automaton(id);
+    let mut scope = inner.inner();
+    LOCAL.iter().for_each(|name| drop(scope.take(name)));
+    let parameters =
+        source.parameters.iter().map(|p| held(&mut scope, &snake(&p.name), p.ty.scalar)).collect();
+    let table = |name: &str| format!("{}_{}", snake(&source.name), snake(name));
+    let tables = (source.parameters.iter().enumerate())
+        .map(|(i, p)| match role::is_alike(system, id, i) {
+            true => held(global, &table(&p.name), p.ty.scalar),
+            false => Held::new(),
+        })
+        .collect();
+    let port = |p: &Port, scope: &mut Scope| held(scope, &snake(p.name), Scalar::from(p.ty));
+    let ports = source.device.ports.iter().map(|p| port(p, &mut scope)).collect();
+    let locals = source.locals.iter().map(|l| held(&mut scope, &snake(&l.name), l.ty.scalar)).collect();
+    let roles = (source.roles.iter())
+        .map(|r| {
+            let names = scope.take_all(&snake(&r.name), &["", "_count"]);
+            RoleNames { members: names[0].clone(), count: names[1].clone() }
+        })
+        .collect();
+    let rows = (source.implements.iter())
+        .map(|i| scope.take(&format!("own_{}", snake(&system.model.interface(i.interface).name))))
+        .collect();
+    let defines = source.defines.iter().map(|d| held(&mut scope, &snake(&d.name), d.ty)).collect();
+    let variables = variables(&system.model, source, &mut scope);
+    renamed.extend(scope.renamed().iter().map(|r| (block.clone(), r.clone())));
+    AutomatonNames {
+        block,
+        invariants,
+        states,
+        parameters,
+        tables,
+        roles,
+        rows,
+        locals,
+        defines,
+        ports,
+        variables,
+        scope,
+    }
+}
+
+/// Variables of one name never meet within a transition, so they share the identifier. Those of a `define` too,
+/// if it is computed before the loops of guards only; others are computed while a transition's are in use.
+fn variables(model: &Model, source: &Automaton, scope: &mut Scope) -> Vec<String> {
+    let mut owners = vec![0; source.variables.len()];
+    for (i, define) in source.defines.iter().enumerate() {
+        if !walk::is_for_guards_only(model, source, i) {
+            own(&define.value, i + 1, &mut owners);
+        }
+    }
+    let mut known: BTreeMap<(usize, &str), String> = BTreeMap::new();
+    let mut order: Vec<usize> = (0..owners.len()).collect();
+    order.sort_by_key(|i| owners[*i]);
+    for i in order {
+        let wanted = &source.variables[i].name;
+        known.entry((owners[i], wanted)).or_insert_with(|| scope.take(&snake(wanted)));
+    }
+    (source.variables.iter().zip(&owners))
+        .map(|(v, owner)| known[&(*owner, v.name.as_str())].clone())
+        .collect()
+}
+
+fn own(expr: &Expr, owner: usize, owners: &mut [usize]) {
+    if let ExprKind::Exists { variable, domain, .. }
+    | ExprKind::Forall { variable, domain, .. }
+    | ExprKind::Count { variable, domain, .. }
+    | ExprKind::Sum { variable, domain, .. } = &expr.kind
+    {
+        owners[variable.0] = owner;
+        if let Domain::Range(low, high) = &**domain {
+            own(low, owner, owners);
+            own(high, owner, owners);
+        }
+    }
+    expr.parts().into_iter().for_each(|part| own(part, owner, owners));
+}
+
+fn robot_names(system: &System, name: &str, id: AutomatonId, global: &mut Scope) -> RobotNames {
+    let automaton = system.model.automaton(id);
+    let own = |part: &str| format!("{}_{}", snake(name), snake(part));
+    let ports =
+        automaton.device.ports.iter().map(|p| held(global, &own(p.name), Scalar::from(p.ty))).collect();
+    let parameters = (automaton.parameters.iter().enumerate())
+        .map(|(i, p)| match p.ty.extent != Extent::One && !role::is_alike(system, id, i) {
+            true => held(global, &own(&p.name), p.ty.scalar),
+            false => Held::new(),
+        })
+        .collect();
+    let roles = (automaton.roles.iter().enumerate())
+        .map(|(i, r)| match role::members(system, id, RoleId(i)) {
+            Members::Listed(_) => global.take(&own(&r.name)),
+            Members::All(_) => String::new(),
+        })
+        .collect();
+    RobotNames { instance: String::new(), invariants: String::new(), ports, parameters, roles }
+}

@@ -1,0 +1,235 @@
+//! Text of statements and expressions, in one of two dialects.
+
+use super::code::{self, Arm, Ex, Member, Stmt};
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Dialect {
+    /// What every compiler takes: numbers for members and states, globals declared where they are used.
+    Portable,
+    /// CODESYS and TwinCAT: enumerations, global variable lists.
+    Codesys,
+}
+
+/// Lines longer than this are broken at AND and OR.
+const WIDTH: usize = 108;
+
+/// A text as a comment.
+pub fn comment(text: &str) -> String {
+    format!("(* {} *)", harmless(text))
+}
+
+/// Text that neither begins nor ends a comment.
+pub fn harmless(text: &str) -> String {
+    text.replace("(*", "( *").replace("*)", "* )")
+}
+
+pub fn real(value: f64) -> String {
+    let text = format!("{value:?}");
+    match text.split_once('e') {
+        None => text,
+        Some((digits, power)) if digits.contains('.') => format!("{digits}E{power}"),
+        Some((digits, power)) => format!("{digits}.0E{power}"),
+    }
+}
+
+/// A number that is too great or too small for a literal of old tools, as a product that is exactly it.
+fn factors(value: f64) -> Option<(f64, f64)> {
+    /// 2 to the power of 100.
+    const POWER: f64 = 1_267_650_600_228_229_401_496_703_205_376.0;
+    let size = value.abs();
+    if size > 1.0e38 {
+        Some((value / POWER, POWER))
+    } else if size > 0.0 && size < 1.0e-37 {
+        Some((value * POWER, 1.0 / POWER))
+    } else {
+        None
+    }
+}
+
+impl Dialect {
+    pub fn member(self, member: &Member) -> String {
+        match (self, &member.qualified) {
+            (Dialect::Codesys, Some(qualified)) => qualified.clone(),
+            _ => format!("{} {}", member.value, comment(&member.note)),
+        }
+    }
+
+    pub fn expression(self, ex: &Ex) -> String {
+        match ex {
+            Ex::Bool(true) => "TRUE".into(),
+            Ex::Bool(false) => "FALSE".into(),
+            Ex::Int(i32::MIN) => "-2147483647 - 1".into(),
+            Ex::Int(i) => i.to_string(),
+            Ex::Real(r) => match factors(*r) {
+                Some((rest, power)) => self.expression(&code::binary("*", Ex::Real(rest), Ex::Real(power))),
+                None => real(*r),
+            },
+            Ex::Member(member) => self.member(member),
+            Ex::Name(name) => name.clone(),
+            Ex::Element(name, index) => format!("{name}[{}]", self.expression(index)),
+            Ex::Field(instance, output) => format!("{instance}.{output}"),
+            Ex::Not(a) => format!("NOT {}", self.operand(a)),
+            Ex::Minus(a) => format!("-{}", self.operand(a)),
+            Ex::Binary(operator, a, b) => format!("{} {operator} {}", self.operand(a), self.operand(b)),
+            Ex::Chain(operator, parts) => self.operands(parts).join(&format!(" {operator} ")),
+            Ex::Call(function, arguments) => {
+                let argument = |(name, value): &(&str, Ex)| match *name {
+                    // Functions of the standard are called by position.
+                    "" => self.expression(value),
+                    name => format!("{name} := {}", self.expression(value)),
+                };
+                let arguments: Vec<_> = arguments.iter().map(argument).collect();
+                format!("{function}({})", arguments.join(", "))
+            }
+        }
+    }
+
+    fn operands(self, parts: &[Ex]) -> Vec<String> {
+        parts.iter().map(|p| self.operand(p)).collect()
+    }
+
+    fn operand(self, ex: &Ex) -> String {
+        let text = self.expression(ex);
+        let is_simple = match ex {
+            Ex::Not(_) | Ex::Minus(_) | Ex::Binary(..) | Ex::Chain(..) => false,
+            Ex::Real(r) if factors(*r).is_some() => false,
+            Ex::Int(_) | Ex::Real(_) => !text.starts_with('-'),
+            _ => true,
+        };
+        if is_simple { text } else { format!("({text})") }
+    }
+
+    pub fn statements(self, statements: &[Stmt], depth: usize) -> String {
+        let mut printer = Printer { dialect: self, text: String::new() };
+        printer.block(statements, depth);
+        printer.text
+    }
+}
+
+struct Printer {
+    dialect: Dialect,
+    text: String,
+}
+
+impl Printer {
+    fn line(&mut self, depth: usize, text: &str) {
+        self.text += &"    ".repeat(depth);
+        self.text += text;
+        self.text.push('\n');
+    }
+
+    /// Long ones go over several lines.
+    fn comment(&mut self, depth: usize, text: &str) {
+        let text = comment(text);
+        let mut line = String::new();
+        for word in text.split_inclusive(' ') {
+            if !line.is_empty() && 4 * depth + line.len() + word.trim_end().len() > WIDTH {
+                self.line(depth, line.trim_end());
+                line = "   ".into();
+            }
+            line += word;
+        }
+        self.line(depth, line.trim_end());
+    }
+
+    /// A line that begins and ends so around a condition.
+    fn conditional(&mut self, depth: usize, begin: &str, condition: &Ex, end: &str) {
+        let text = format!("{begin} {} {end}", self.dialect.expression(condition));
+        let (true, Ex::Chain(operator, parts)) = (4 * depth + text.len() > WIDTH, condition) else {
+            return self.line(depth, &text);
+        };
+        let parts = self.dialect.operands(parts);
+        let last = parts.len() - 1;
+        for (i, part) in parts.iter().enumerate() {
+            let tail = if i == last { format!(" {end}") } else { String::new() };
+            match i {
+                0 => self.line(depth, &format!("{begin} {part}{tail}")),
+                _ => self.line(depth + 1, &format!("{operator} {part}{tail}")),
+            }
+        }
+    }
+
+    fn block(&mut self, statements: &[Stmt], depth: usize) {
+        statements.iter().for_each(|s| self.statement(s, depth));
+    }
+
+    fn statement(&mut self, statement: &Stmt, depth: usize) {
+        match statement {
+            Stmt::Comment(text) => self.comment(depth, text),
+            Stmt::Assign(target, assigned) => {
+                let value = match assigned {
+                    // The comment of a member stands behind the statement.
+                    Ex::Member(m) if self.dialect == Dialect::Portable || m.qualified.is_none() => {
+                        format!("{}; {}", m.value, comment(&m.note))
+                    }
+                    _ => self.dialect.expression(assigned) + ";",
+                };
+                let text = format!("{} := {value}", self.dialect.expression(target));
+                match assigned {
+                    Ex::Call(function, arguments) if 4 * depth + text.len() > WIDTH => {
+                        let begin = format!("{} := {function}", self.dialect.expression(target));
+                        let arguments = arguments.iter().map(|(name, value)| (*name, value));
+                        self.call(&begin, arguments, depth);
+                    }
+                    _ => self.line(depth, &text),
+                }
+            }
+            Stmt::If(arms, otherwise) => {
+                for (i, arm) in arms.iter().enumerate() {
+                    self.arm(arm, if i == 0 { "IF" } else { "ELSIF" }, depth);
+                }
+                if !otherwise.is_empty() {
+                    self.line(depth, "ELSE");
+                    self.block(otherwise, depth + 1);
+                }
+                self.line(depth, "END_IF;");
+            }
+            Stmt::Case { selector, branches, otherwise } => {
+                let selector = self.dialect.expression(selector);
+                self.line(depth, &format!("CASE {selector} OF"));
+                for (label, body) in branches {
+                    let label = match (self.dialect, &label.qualified) {
+                        (Dialect::Codesys, Some(qualified)) => format!("{qualified}:"),
+                        _ => format!("{}: {}", label.value, comment(&label.note)),
+                    };
+                    self.line(depth + 1, &label);
+                    self.block(body, depth + 2);
+                }
+                self.line(depth + 1, "ELSE");
+                self.block(otherwise, depth + 2);
+                self.line(depth, "END_CASE;");
+            }
+            Stmt::While { condition, body, .. } => {
+                self.conditional(depth, "WHILE", condition, "DO");
+                self.block(body, depth + 1);
+                self.line(depth, "END_WHILE;");
+            }
+            Stmt::Exit => self.line(depth, "EXIT;"),
+            Stmt::Return => self.line(depth, "RETURN;"),
+            Stmt::Call { instance, arguments } => {
+                self.call(instance, arguments.iter().map(|(name, value)| (name.as_str(), value)), depth);
+            }
+        }
+    }
+
+    fn arm(&mut self, arm: &Arm, word: &str, depth: usize) {
+        arm.comments.iter().for_each(|text| self.comment(depth, text));
+        self.conditional(depth, word, &arm.condition, "THEN");
+        self.block(&arm.body, depth + 1);
+    }
+
+    /// A call on one line, or with an argument on each.
+    fn call<'a>(&mut self, begin: &str, arguments: impl Iterator<Item = (&'a str, &'a Ex)>, depth: usize) {
+        let arguments: Vec<_> =
+            arguments.map(|(name, value)| format!("{name} := {}", self.dialect.expression(value))).collect();
+        let one_line = format!("{begin}({});", arguments.join(", "));
+        if 4 * depth + one_line.len() <= WIDTH {
+            return self.line(depth, &one_line);
+        }
+        self.line(depth, &format!("{begin}("));
+        let last = arguments.len().saturating_sub(1);
+        for (i, argument) in arguments.iter().enumerate() {
+            self.line(depth + 1, &format!("{argument}{}", if i == last { ");" } else { "," }));
+        }
+    }
+}

@@ -1,0 +1,160 @@
+//! The program: status, steps in layout order, invariants, outputs; and the block that sets tables up.
+
+use super::block::{Block, publishes};
+use super::code::{self, Arm, Ex, Stmt, and, assign, binary, name, not, or, when};
+use super::context::Shared;
+use super::declaration::{Basic, Instance, Unit, Variable, constants};
+use super::globals::{Globals, fill, stop_value};
+use super::names::ELEMENT;
+use runtime_sim::device::Direction;
+
+pub const LAYOUT: &str = "FB_Layout";
+
+/// The blocks of a type that has robots.
+pub struct Blocks {
+    pub steps: Block,
+    pub invariants: Option<Block>,
+}
+
+pub fn program(shared: Shared, blocks: &[Option<Blocks>], globals: &Globals) -> Unit {
+    let mut body = Vec::new();
+    let mut instances = Vec::new();
+    instances.push(Instance { name: "layout".into(), block: LAYOUT.into(), comment: String::new() });
+    let cold = vec![("cold_start".to_string(), not(name("init_done")))];
+    body.push(Stmt::Call { instance: "layout".into(), arguments: cold });
+    body.extend(status());
+    body.push(Stmt::Comment("Steps, in layout order.".into()));
+    let robots: Vec<_> = (shared.system.instances.iter().zip(&shared.names.robots).enumerate())
+        .filter_map(|(robot, (instance, names))| Some((robot, names, blocks[instance.automaton.0].as_ref()?)))
+        .collect();
+    for (robot, names, blocks) in &robots {
+        let comment = format!("robot {robot}");
+        instances.push(Instance {
+            name: names.instance.clone(),
+            block: blocks.steps.unit.name.clone(),
+            comment,
+        });
+        body.push(blocks.steps.call(shared, &names.instance, *robot));
+    }
+    let mut tests = Vec::new();
+    for (robot, names, blocks) in &robots {
+        let Some(block) = &blocks.invariants else { continue };
+        let comment = String::new();
+        instances.push(Instance { name: names.invariants.clone(), block: block.unit.name.clone(), comment });
+        tests.push(block.call(shared, &names.invariants, *robot));
+    }
+    if !tests.is_empty() {
+        body.push(Stmt::Comment("Invariants.".into()));
+        body.extend(tests);
+    }
+    body.push(assign("fault", binary("<>", name("fault_code"), Ex::Int(0))));
+    body.push(when(name("fault"), vec![assign("running", Ex::Bool(false))]));
+    body.push(Stmt::Comment(
+        "Outputs: as the blocks left them, or with stop values while the line does not run.".into(),
+    ));
+    for (robot, _, blocks) in &robots {
+        body.extend(publish(shared, *robot, &blocks.steps));
+    }
+    body.push(assign("init_done", Ex::Bool(true)));
+    let used = code::names(&body);
+    Unit {
+        name: "MAIN".into(),
+        comments: vec!["One scan: every robot steps once, in layout order.".into()],
+        externals: globals.all().filter(|v| used.contains(&v.name)).map(Variable::uncommented).collect(),
+        variables: vec![
+            Variable::new("start_before", Basic::Bool)
+                .with_initial(Ex::Bool(true))
+                .with_comment("no edge at power-up"),
+            Variable::new("reset_before", Basic::Bool).with_initial(Ex::Bool(true)),
+            Variable::new("had_fault", Basic::Bool)
+                .with_comment("there was a fault at the beginning of the scan"),
+        ],
+        instances,
+        body,
+        ..Unit::default()
+    }
+}
+
+fn status() -> Vec<Stmt> {
+    let has_fault = || binary("<>", name("fault_code"), Ex::Int(0));
+    let edge = |input: &str| and(vec![name(input), not(name(&format!("{input}_before")))]);
+    let arm = |condition: Ex, body: Vec<Stmt>| Arm { comments: Vec::new(), condition, body };
+    vec![
+        Stmt::Comment(
+            "Running: from a rising edge of start, as long as there are permit and no fault.".into(),
+        ),
+        assign("had_fault", has_fault()),
+        when(edge("reset"), vec![assign("fault_code", Ex::Int(0)), assign("fault_robot", Ex::Int(-1))]),
+        Stmt::If(
+            vec![
+                arm(or(vec![not(name("run_permit")), has_fault()]), vec![assign("running", Ex::Bool(false))]),
+                arm(
+                    and(vec![edge("start"), not(name("had_fault"))]),
+                    vec![assign("running", Ex::Bool(true))],
+                ),
+            ],
+            Vec::new(),
+        ),
+        assign("start_before", name("start")),
+        assign("reset_before", name("reset")),
+    ]
+}
+
+fn publish(shared: Shared, robot: usize, block: &Block) -> Vec<Stmt> {
+    let automaton = shared.system.automaton_of(robot);
+    let own = &shared.names.automata[shared.system.instances[robot].automaton.0].ports;
+    let names = &shared.names.robots[robot];
+    let mut running = Vec::new();
+    let mut stopped = Vec::new();
+    let mut always = Vec::new();
+    for (i, port) in
+        automaton.device.ports.iter().enumerate().filter(|(_, p)| p.direction == Direction::Output)
+    {
+        let stop = stop_value(port).map(constants);
+        for (part, (global, output)) in names.ports[i].iter().zip(&own[i]).enumerate() {
+            let is_written = publishes(block, output);
+            let value = is_written.then(|| Ex::Field(names.instance.clone(), output.clone()));
+            match (value, stop.as_ref().map(|s| s[part].clone())) {
+                (Some(value), None) => always.push(assign(global, value)),
+                (None, None) => {}
+                (None, Some(Ex::Bool(true))) => always.push(assign(global, not(name("running")))),
+                (value, Some(stop)) => {
+                    let first = constants(super::globals::first_value(port.ty))[part].clone();
+                    running.push(assign(global, value.unwrap_or(first)));
+                    stopped.push(assign(global, stop));
+                }
+            }
+        }
+    }
+    if !running.is_empty() {
+        let arm = Arm { comments: Vec::new(), condition: name("running"), body: running };
+        always.push(Stmt::If(vec![arm], stopped));
+    }
+    always
+}
+
+/// Sets cells and tables of parameters in the first scan.
+pub fn layout(globals: &Globals) -> Unit {
+    let cells: Vec<_> = globals.cells.iter().collect();
+    let parameters: Vec<_> = globals.parameters.iter().collect();
+    let mut body = vec![when(not(name("cold_start")), vec![Stmt::Return])];
+    if !cells.is_empty() {
+        body.push(Stmt::Comment("Shared cells.".into()));
+        body.extend(fill(&cells, ELEMENT));
+    }
+    if !parameters.is_empty() {
+        body.push(Stmt::Comment("Parameters.".into()));
+        body.extend(fill(&parameters, ELEMENT));
+    }
+    let used = code::names(&body);
+    let counter = Variable::new(ELEMENT, Basic::Dint).with_comment("number of an element");
+    Unit {
+        name: LAYOUT.into(),
+        comments: vec!["The numbers of this layout, and what shared cells hold at power-up.".into()],
+        inputs: vec![Variable::new("cold_start", Basic::Bool).with_comment("this is the first scan")],
+        externals: globals.all().filter(|v| used.contains(&v.name)).map(Variable::uncommented).collect(),
+        variables: if used.contains(ELEMENT) { vec![counter] } else { Vec::new() },
+        body,
+        ..Unit::default()
+    }
+}

@@ -1,0 +1,118 @@
+//! The branch of a state: its transitions, tested in order.
+
+use super::code::{Arm, Ex, Member, Stmt, and, assign, binary, name, when};
+use super::context::{Lowering, Phase};
+use crate::ir::{Clause, Expr, ExprKind, State, Transition, Value};
+
+impl Lowering<'_> {
+    pub fn branches(&mut self) -> Vec<(Member, Vec<Stmt>)> {
+        let automaton = self.automaton();
+        (automaton.states.iter().enumerate())
+            .map(|(number, state)| (self.state(self.id, number), self.branch(number, state)))
+            .collect()
+    }
+
+    fn branch(&mut self, number: usize, state: &State) -> Vec<Stmt> {
+        self.known.clear();
+        let mut body = self.chain(number, &state.transitions);
+        body.extend(self.within(state));
+        if !body.iter().any(|s| !matches!(s, Stmt::Comment(_))) {
+            let text = if state.is_final { "the end" } else { "nothing leads on" };
+            body.push(Stmt::Comment(text.into()));
+            body.push(assign("state", Ex::Member(self.state(self.id, number))));
+        }
+        body
+    }
+
+    /// The first transition whose guard holds; the others stand in its ELSE.
+    fn chain(&mut self, number: usize, transitions: &[Transition]) -> Vec<Stmt> {
+        let Some((transition, others)) = transitions.split_first() else { return Vec::new() };
+        let title = self.title(number, transition);
+        let known_before = self.known.clone();
+        let (mut out, condition) = self.guard(transition);
+        let known = self.known.clone();
+        let body = self.firing(transition);
+        self.known = known;
+        match condition {
+            Ex::Bool(true) => {
+                out.insert(0, Stmt::Comment(title));
+                out.extend(body);
+                return out;
+            }
+            // It never fires: what stands behind it decides.
+            Ex::Bool(false) => {
+                self.known = known_before;
+                return self.chain(number, others);
+            }
+            _ => {}
+        }
+        let mut comments = Vec::new();
+        if out.is_empty() {
+            comments.push(title);
+        } else {
+            out.insert(0, Stmt::Comment(title));
+        }
+        let body = if body.is_empty() {
+            vec![assign("state", Ex::Member(self.state(self.id, number)))]
+        } else {
+            body
+        };
+        let mut arms = vec![Arm { comments, condition, body }];
+        let mut otherwise = self.chain(number, others);
+        if let [Stmt::If(more, rest)] = otherwise.as_mut_slice() {
+            arms.append(more);
+            otherwise = std::mem::take(rest);
+        }
+        out.push(Stmt::If(arms, otherwise));
+        out
+    }
+
+    fn firing(&mut self, transition: &Transition) -> Vec<Stmt> {
+        let mut body = self.updates(&transition.updates);
+        if let Some(target) = transition.target {
+            body.push(assign("state", Ex::Member(self.state(self.id, target.0))));
+            body.push(assign("elapsed", Ex::Int(0)));
+        }
+        body
+    }
+
+    /// `when done -> Dropping   agv.aut:24`
+    fn title(&self, number: usize, transition: &Transition) -> String {
+        let states = &self.automaton().states;
+        let target = transition.target.map(|t| format!(" -> {}", states[t.0].name)).unwrap_or_default();
+        let text = &transition.text;
+        // A transition of a sequence has the text of its step.
+        let guard = match transition.clauses.as_slice() {
+            [] if number == 0 => text.clone(),
+            [] => "at once".into(),
+            [Clause::Condition(Expr { kind: ExprKind::Done, .. })] if text != "done" => {
+                format!("when done: {text}")
+            }
+            [Clause::Condition(Expr { kind: ExprKind::Failed, .. })] if text != "failed" => {
+                format!("when failed: {text}")
+            }
+            _ => format!("when {text}"),
+        };
+        format!("{guard}{target}   {}", self.line(transition.place))
+    }
+
+    /// The longest stay. A state that was entered in this step has `elapsed` 0.
+    fn within(&mut self, state: &State) -> Vec<Stmt> {
+        let Some((longest, fault)) = &state.within else { return Vec::new() };
+        self.phase = Phase::Update;
+        self.release();
+        self.known.clear();
+        let mut out = Vec::new();
+        let time = self.value(longest, &mut out);
+        let is_positive = matches!(longest.kind, ExprKind::Constant(Value::Int(ms)) if ms > 0);
+        let is_over = binary(">=", name("elapsed"), time);
+        let condition = match is_positive {
+            true => is_over,
+            false => and(vec![binary(">", name("elapsed"), Ex::Int(0)), is_over]),
+        };
+        out.push(when(condition, self.raise(*fault)));
+        let mut first = std::mem::take(&mut self.hoisted);
+        first.extend(out);
+        first
+    }
+}

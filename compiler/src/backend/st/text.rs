@@ -1,0 +1,127 @@
+//! Files of Structured Text.
+
+use super::Line;
+use super::context::Shared;
+use super::declaration::{Unit, globals};
+use super::print::{Dialect, harmless};
+use crate::backend::Files;
+use askama::Template;
+
+#[derive(Template)]
+#[template(path = "plc/header.st")]
+struct Header {
+    made_from: String,
+    example: String,
+}
+
+#[derive(Template)]
+#[template(path = "plc/unit.st")]
+struct UnitText {
+    keyword: &'static str,
+    name: String,
+    comments: Vec<String>,
+    made_from: String,
+    declarations: String,
+    body: String,
+}
+
+#[derive(Template)]
+#[template(path = "plc/configuration.st")]
+struct Configuration {
+    made_from: String,
+    globals: String,
+    scan_ms: i32,
+}
+
+/// The whole program as one file.
+pub fn portable(shared: Shared, line: &Line) -> String {
+    let dialect = Dialect::Portable;
+    let first = shared.names.robots.iter().flat_map(|r| r.ports.iter().flatten()).next().cloned();
+    let mut parts =
+        vec![render(&Header { made_from: made_from(shared), example: first.unwrap_or_default() })];
+    parts.extend(line.functions.iter().map(|f| f.text.to_string()));
+    parts.extend(line.units().map(|u| unit(shared, u, dialect)));
+    let all: Vec<_> = line.globals.all().cloned().collect();
+    parts.push(render(&Configuration {
+        made_from: made_from(shared),
+        globals: globals(&all, dialect),
+        scan_ms: shared.system.scan_ms,
+    }));
+    parts.join("\n")
+}
+
+#[derive(Template)]
+#[template(path = "plc/enumeration.st")]
+struct Enumeration {
+    made_from: String,
+    name: String,
+    members: String,
+}
+
+#[derive(Template)]
+#[template(path = "plc/global_list.st")]
+struct GlobalList {
+    made_from: String,
+    name: String,
+    about: String,
+    globals: String,
+}
+
+/// A file for each object of a project.
+pub fn codesys(shared: Shared, line: &Line) -> Files {
+    let mut files = Files::new();
+    for (name, members) in enumerations(shared, line) {
+        let members: Vec<_> = members.iter().enumerate().map(|(i, m)| format!("    {m} := {i}")).collect();
+        let text =
+            Enumeration { made_from: made_from(shared), name: name.clone(), members: members.join(",\n") };
+        files.insert(format!("{name}.st"), render(&text));
+    }
+    for function in &line.functions {
+        files.insert(format!("{}.st", function.name), function.text.into());
+    }
+    for part in line.units() {
+        files.insert(format!("{}.st", part.name), unit(shared, part, Dialect::Codesys));
+    }
+    for list in line.globals.lists() {
+        let text = GlobalList {
+            made_from: made_from(shared),
+            name: list.name.into(),
+            about: list.about.into(),
+            globals: globals(&list.variables, Dialect::Codesys),
+        };
+        files.insert(format!("{}.st", list.name), render(&text));
+    }
+    let task = include_str!("../../../../templates/plc/task.txt");
+    files.insert("TASK.txt".into(), task.replace("SCAN_MS", &shared.system.scan_ms.to_string()));
+    files
+}
+
+/// Enumerations and their members: those of the specification, and the states of each type that has robots.
+pub fn enumerations<'a>(shared: Shared<'a>, line: &Line) -> Vec<(&'a String, &'a Vec<String>)> {
+    let with_robots = line.blocks.iter().zip(&shared.names.automata).filter(|(blocks, _)| blocks.is_some());
+    let states = with_robots.map(|(_, names)| &names.states);
+    shared.names.enums.iter().chain(states).map(|e| (&e.ty, &e.members)).collect()
+}
+
+pub fn unit(shared: Shared, unit: &Unit, dialect: Dialect) -> String {
+    render(&UnitText {
+        keyword: if unit.name == "MAIN" { "PROGRAM" } else { "FUNCTION_BLOCK" },
+        name: unit.name.clone(),
+        comments: unit.comments.iter().map(|line| harmless(line.trim())).collect(),
+        made_from: made_from(shared),
+        declarations: unit.declarations(dialect),
+        body: dialect.statements(&unit.body, 0),
+    })
+}
+
+/// The names of the files that were read.
+pub fn made_from(shared: Shared) -> String {
+    let short = |name: &str| name.rsplit(['/', '\\']).next().unwrap_or(name).to_string();
+    shared.sources.files().iter().map(|f| short(&f.name)).collect::<Vec<_>>().join(", ")
+}
+
+/// The text of a template, with one line break at its end. Writing to memory does not fail.
+pub fn render(template: &impl Template) -> String {
+    let text = template.render().unwrap_or_default();
+    format!("{}\n", text.trim_end())
+}

@@ -1,0 +1,187 @@
+//! What expressions need: defines that they read, and whether they may be computed where no guard protects them.
+
+use crate::ir::{
+    Automaton, Clause, Domain, Expr, ExprKind, Model, Operator, Place, Scalar, Type, UpdateKind, Value,
+    VariableId,
+};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Whether a `define` is read in guards only, and can be computed before them.
+pub fn is_for_guards_only(model: &Model, automaton: &Automaton, define: usize) -> bool {
+    let mut elsewhere = BTreeSet::new();
+    for state in &automaton.states {
+        state.within.iter().for_each(|(longest, _)| defines(automaton, longest, &mut elsewhere));
+        for update in state.transitions.iter().flat_map(|t| &t.updates) {
+            update_parts(&update.kind).into_iter().for_each(|e| defines(automaton, e, &mut elsewhere));
+        }
+    }
+    !elsewhere.contains(&define) && !may_fault(model, automaton, &automaton.defines[define].value)
+}
+
+/// The defines that an expression reads, and those that these read.
+fn defines(automaton: &Automaton, expr: &Expr, found: &mut BTreeSet<usize>) {
+    if let ExprKind::Define(define) = expr.kind
+        && found.insert(define)
+    {
+        defines(automaton, &automaton.defines[define].value, found);
+    }
+    expr.parts().into_iter().for_each(|part| defines(automaton, part, found));
+}
+
+/// Expressions of an update: of what it writes, and what it stores.
+pub fn update_parts(update: &UpdateKind) -> Vec<&Expr> {
+    match update {
+        UpdateKind::Assign { target, value, .. } | UpdateKind::Fill { target, value, .. } => {
+            target.place.parts().into_iter().chain([value]).collect()
+        }
+        UpdateKind::Copy { target, source, .. } => {
+            target.place.parts().into_iter().chain(source.parts()).collect()
+        }
+        UpdateKind::Command { arguments, .. } => arguments.iter().map(|a| &a.value).collect(),
+    }
+}
+
+/// Whether guards of an automaton ask for the answer to its last command: well, in error.
+pub fn answers(automaton: &Automaton) -> (bool, bool) {
+    let mut found = (false, false);
+    for clause in automaton.states.iter().flat_map(|s| &s.transitions).flat_map(|t| &t.clauses) {
+        match clause {
+            Clause::Condition(condition) => answer(condition, &mut found),
+            Clause::Bind(binder) => {
+                if let Domain::Range(low, high) = &binder.domain {
+                    answer(low, &mut found);
+                    answer(high, &mut found);
+                }
+                binder.condition.iter().chain(&binder.key).for_each(|e| answer(e, &mut found));
+            }
+        }
+    }
+    found
+}
+
+fn answer(expr: &Expr, found: &mut (bool, bool)) {
+    found.0 |= matches!(expr.kind, ExprKind::Done);
+    found.1 |= matches!(expr.kind, ExprKind::Failed);
+    expr.parts().into_iter().for_each(|part| answer(part, found));
+}
+
+/// Whether an expression could index beyond an array, divide by zero or leave 32 bits if what stands before it
+/// did not hold: then it must not be computed where that is not tested first. The types of expressions are no
+/// help, since guards have narrowed them: only what is declared counts.
+pub fn may_fault(model: &Model, automaton: &Automaton, expr: &Expr) -> bool {
+    let ranges = Ranges { model, automaton };
+    ranges.may_fault(expr, &BTreeMap::new())
+}
+
+/// Bounds of the variables of quantifiers around an expression.
+type Bound = BTreeMap<VariableId, (i64, i64)>;
+
+struct Ranges<'a> {
+    model: &'a Model,
+    automaton: &'a Automaton,
+}
+
+impl Ranges<'_> {
+    fn may_fault(&self, expr: &Expr, bound: &Bound) -> bool {
+        let is_in_32_bits = |(lo, hi): (i64, i64)| i32::try_from(lo).is_ok() && i32::try_from(hi).is_ok();
+        let here = match &expr.kind {
+            ExprKind::Read(place) => self.index_may_leave(place, bound),
+            ExprKind::Binary(Operator::Divide | Operator::Modulo, _, divisor) => match divisor.kind {
+                ExprKind::Constant(Value::Real(r)) => r == 0.0,
+                _ => self.range(divisor, bound).is_none_or(|(lo, hi)| lo <= 0 && hi >= -1),
+            },
+            ExprKind::Binary(Operator::Add | Operator::Subtract | Operator::Multiply, ..) => {
+                self.range(expr, bound).is_some_and(|range| !is_in_32_bits(range))
+            }
+            ExprKind::Define(define) => self.may_fault(&self.automaton.defines[*define].value, &Bound::new()),
+            ExprKind::Exists { variable, domain, body }
+            | ExprKind::Forall { variable, domain, body }
+            | ExprKind::Count { variable, domain, body }
+            | ExprKind::Sum { variable, domain, body } => {
+                let mut inner = bound.clone();
+                if let Domain::Range(low, high) = &**domain
+                    && let (Some(low), Some(high)) = (self.range(low, bound), self.range(high, bound))
+                {
+                    inner.insert(*variable, (low.0, high.1));
+                }
+                return expr.parts().into_iter().any(|part| {
+                    let is_body = std::ptr::eq(part, &raw const **body);
+                    self.may_fault(part, if is_body { &inner } else { bound })
+                });
+            }
+            _ => false,
+        };
+        here || expr.parts().into_iter().any(|part| self.may_fault(part, bound))
+    }
+
+    fn index_may_leave(&self, place: &Place, bound: &Bound) -> bool {
+        let (Place::Local { index, .. }
+        | Place::Port { index, .. }
+        | Place::Parameter { index, .. }
+        | Place::Cell { index, .. }
+        | Place::Shown { index, .. }) = place;
+        let Some(index) = index else { return false };
+        let n = self.model.elements(self.declared(place).extent) as i64;
+        self.range(index, bound).is_some_and(|(lo, hi)| lo < 0 || hi >= n)
+    }
+
+    fn declared(&self, place: &Place) -> Type {
+        match place {
+            Place::Local { local, .. } => self.automaton.locals[*local].ty,
+            Place::Parameter { parameter, .. } => self.automaton.parameters[*parameter].ty,
+            Place::Port { port, .. } => {
+                let port = &self.automaton.device.ports[*port];
+                Type { scalar: port.ty.into(), extent: port.extent.into() }
+            }
+            Place::Cell { interface, cell, .. } => self.model.interface(*interface).cells[*cell].ty,
+            Place::Shown { interface, parameter, .. } => {
+                self.model.interface(*interface).parameters[*parameter].ty
+            }
+        }
+    }
+
+    /// Bounds of a whole number or a time as far as declarations say; none for other types.
+    fn range(&self, expr: &Expr, bound: &Bound) -> Option<(i64, i64)> {
+        let of = |scalar: Scalar| match scalar {
+            Scalar::Int { lo, hi } => Some((i64::from(lo), i64::from(hi))),
+            Scalar::Time => Some((0, i64::from(i32::MAX))),
+            _ => None,
+        };
+        of(expr.ty)?;
+        match &expr.kind {
+            ExprKind::Constant(Value::Int(i)) => Some((i64::from(*i), i64::from(*i))),
+            ExprKind::Read(place) => of(self.declared(place).scalar),
+            ExprKind::Variable(id) => {
+                bound.get(id).copied().or_else(|| of(self.automaton.variables[id.0].ty.scalar))
+            }
+            ExprKind::Define(define) => self.range(&self.automaton.defines[*define].value, &Bound::new()),
+            ExprKind::Negate(inner) => self.range(inner, bound).map(|(lo, hi)| (-hi, -lo)),
+            ExprKind::Min(a, b) | ExprKind::Max(a, b) => {
+                let (a, b) = (self.range(a, bound)?, self.range(b, bound)?);
+                Some((a.0.min(b.0), a.1.max(b.1)))
+            }
+            ExprKind::Binary(operator, a, b) => {
+                let (a, b) = (self.range(a, bound)?, self.range(b, bound)?);
+                match operator {
+                    Operator::Add => Some((a.0.saturating_add(b.0), a.1.saturating_add(b.1))),
+                    Operator::Subtract => Some((a.0.saturating_sub(b.1), a.1.saturating_sub(b.0))),
+                    Operator::Multiply => {
+                        let ends = [(a.0, b.0), (a.0, b.1), (a.1, b.0), (a.1, b.1)]
+                            .map(|(x, y)| x.saturating_mul(y));
+                        Some((ends.into_iter().min()?, ends.into_iter().max()?))
+                    }
+                    // Not greater than the left side, whatever its sign.
+                    _ => {
+                        let most = a.0.saturating_abs().max(a.1.saturating_abs());
+                        Some((-most, most))
+                    }
+                }
+            }
+            ExprKind::Absolute(inner) => {
+                let (lo, hi) = self.range(inner, bound)?;
+                Some((0, lo.saturating_abs().max(hi.saturating_abs())))
+            }
+            _ => of(expr.ty),
+        }
+    }
+}

@@ -1,0 +1,186 @@
+//! PLCopen XML, in the two flavours that tools import: bodies are the same text as in the files of Structured Text.
+
+use super::Line;
+use super::context::Shared;
+use super::declaration::{Unit, Variable};
+use super::functions::Function;
+use super::print::Dialect;
+use super::text::{enumerations, made_from, render};
+use askama::Template;
+use std::fmt::Write;
+
+#[derive(Template)]
+#[template(path = "plc/plcopen.xml")]
+struct Plcopen {
+    made_from: String,
+    pous: Vec<Pou>,
+    scan_ms: i32,
+    globals: String,
+}
+
+#[derive(Template)]
+#[template(path = "plc/codesys.xml")]
+struct Codesys {
+    made_from: String,
+    enumerations: Vec<Enumeration>,
+    pous: Vec<Pou>,
+    lists: Vec<List>,
+}
+
+struct Pou {
+    name: String,
+    kind: &'static str,
+    interface: String,
+    body: String,
+}
+
+struct Enumeration {
+    name: String,
+    members: String,
+}
+
+struct List {
+    name: &'static str,
+    variables: String,
+}
+
+/// For Beremiz, OpenPLC and other tools that keep to the standard.
+pub fn plcopen(shared: Shared, line: &Line) -> String {
+    let globals: String = line.globals.all().map(|v| variable(v, Dialect::Portable, None, 10)).collect();
+    render(&Plcopen {
+        made_from: escaped(&made_from(shared)),
+        pous: pous(line, Dialect::Portable),
+        scan_ms: shared.system.scan_ms,
+        globals,
+    })
+}
+
+/// For CODESYS and TwinCAT.
+pub fn codesys(shared: Shared, line: &Line) -> String {
+    let value =
+        |(i, member): (usize, &String)| format!("              <value name=\"{member}\" value=\"{i}\"/>\n");
+    let enumerations = enumerations(shared, line)
+        .into_iter()
+        .map(|(name, members)| Enumeration {
+            name: name.clone(),
+            members: members.iter().enumerate().map(value).collect(),
+        })
+        .collect();
+    let lists = (line.globals.lists().into_iter())
+        .map(|list| List {
+            name: list.name,
+            variables: list.variables.iter().map(|v| variable(v, Dialect::Codesys, None, 8)).collect(),
+        })
+        .collect();
+    render(&Codesys {
+        made_from: escaped(&made_from(shared)),
+        enumerations,
+        pous: pous(line, Dialect::Codesys),
+        lists,
+    })
+}
+
+fn pous(line: &Line, dialect: Dialect) -> Vec<Pou> {
+    let functions = line.functions.iter().map(|f| function(f));
+    functions.chain(line.units().map(|unit| pou(unit, dialect))).collect()
+}
+
+fn pou(unit: &Unit, dialect: Dialect) -> Pou {
+    let enumeration = unit.state.as_ref().filter(|_| dialect == Dialect::Codesys);
+    let of = |v: &Variable| {
+        let ty = enumeration.filter(|(name, _)| *name == v.name).map(|(_, ty)| ty.as_str());
+        variable(v, dialect, ty, 12)
+    };
+    let mut interface = String::new();
+    interface += &section("inputVars", unit.inputs.iter().map(of).collect());
+    interface += &section("outputVars", unit.outputs.iter().map(of).collect());
+    let instances = unit.instances.iter();
+    let instances =
+        instances.map(|i| typed(&i.name, &format!("<derived name=\"{}\"/>", i.block), "", "", 12));
+    interface += &section("localVars", unit.variables.iter().map(of).chain(instances).collect());
+    if dialect == Dialect::Portable {
+        interface += &section("externalVars", unit.externals.iter().map(of).collect());
+    }
+    Pou {
+        name: unit.name.clone(),
+        kind: if unit.name == "MAIN" { "program" } else { "functionBlock" },
+        interface,
+        body: cdata(&dialect.statements(&unit.body, 0)),
+    }
+}
+
+/// A function from its text: its type stands in the first line behind the comment, then come sections.
+fn function(function: &Function) -> Pou {
+    let text = function.text.split_once("FUNCTION ").map_or("", |(_, rest)| rest);
+    let mut lines = text.lines();
+    let result = lines.next().and_then(|l| l.split(" : ").nth(1)).unwrap_or_default();
+    let mut interface = format!("          <returnType><{result}/></returnType>\n");
+    let mut open: Option<(&str, Vec<String>)> = None;
+    let mut body = String::new();
+    for line in lines {
+        match (line, &mut open) {
+            ("VAR_INPUT", _) => open = Some(("inputVars", Vec::new())),
+            ("VAR", _) => open = Some(("localVars", Vec::new())),
+            ("END_VAR", Some((name, variables))) => {
+                interface += &section(name, variables.clone());
+                open = None;
+            }
+            ("END_FUNCTION", _) => {}
+            (line, Some((_, variables))) => {
+                if let Some((name, ty)) = line.trim().trim_end_matches(';').split_once(" : ") {
+                    variables.push(typed(name, &format!("<{ty}/>"), "", "", 12));
+                }
+            }
+            (line, None) => {
+                let _ = writeln!(body, "{line}");
+            }
+        }
+    }
+    Pou { name: function.name.into(), kind: "function", interface, body: cdata(&body) }
+}
+
+fn section(name: &str, variables: Vec<String>) -> String {
+    match variables.is_empty() {
+        true => String::new(),
+        false => format!("          <{name}>\n{}          </{name}>\n", variables.concat()),
+    }
+}
+
+fn variable(variable: &Variable, dialect: Dialect, derived: Option<&str>, indent: usize) -> String {
+    let basic = variable.basic.name();
+    let ty = match (derived, variable.elements) {
+        (Some(name), _) => format!("<derived name=\"{name}\"/>"),
+        (None, None) => format!("<{basic}/>"),
+        (None, Some(n)) => format!(
+            "<array><dimension lower=\"0\" upper=\"{}\"/><baseType><{basic}/></baseType></array>",
+            n.max(1) - 1
+        ),
+    };
+    let initial = variable.initial.as_ref().map(|e| {
+        format!("<initialValue><simpleValue value=\"{}\"/></initialValue>", escaped(&dialect.expression(e)))
+    });
+    let about = escaped(&variable.comments.join("; "));
+    let about = match (about.is_empty(), dialect) {
+        (true, _) => String::new(),
+        (false, Dialect::Portable) => format!("<documentation><xhtml:p>{about}</xhtml:p></documentation>"),
+        (false, Dialect::Codesys) => {
+            format!(
+                "<documentation><xhtml xmlns=\"http://www.w3.org/1999/xhtml\">{about}</xhtml></documentation>"
+            )
+        }
+    };
+    typed(&variable.name, &ty, &initial.unwrap_or_default(), &about, indent)
+}
+
+fn typed(name: &str, ty: &str, initial: &str, about: &str, indent: usize) -> String {
+    format!("{}<variable name=\"{name}\"><type>{ty}</type>{initial}{about}</variable>\n", " ".repeat(indent))
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+/// Text that does not end a CDATA section.
+fn cdata(text: &str) -> String {
+    text.replace("]]>", "]]]]><![CDATA[>")
+}
