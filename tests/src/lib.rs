@@ -1,7 +1,10 @@
 //! What the tests of the whole share.
 
+pub mod constructs;
+pub mod generate;
 pub mod instances;
 pub mod lots;
+pub mod replay;
 pub mod st;
 pub mod trace;
 pub mod workspace;
@@ -15,6 +18,11 @@ use std::path::{Path, PathBuf};
 /// The project's folder.
 pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// Whether the long forms of the tests are wanted.
+pub fn is_full_campaign() -> bool {
+    std::env::var("AUTOGEN_CAMPAIGN").is_ok_and(|campaign| campaign == "full")
 }
 
 /// A file of the project by its path from the project's folder.
@@ -76,6 +84,16 @@ pub const LAYOUTS: [&str; 3] = ["default", "spaced", "less_agv"];
 /// A layout of the paper by name.
 pub fn ariac(layout: &str) -> Texts {
     Texts::of_layout(text(&format!("examples/ariac2021/{layout}.json")))
+}
+
+/// A layout of the user's own, with its types and its scenario if it has any.
+pub fn own_line(folder: &str) -> Texts {
+    let specs = match folder {
+        "buffer" => vec![text("examples/buffer/specs/buffer.aut")],
+        _ => Vec::new(),
+    };
+    let scenario = std::fs::read_to_string(root().join(format!("examples/{folder}/scenario.json"))).ok();
+    Texts { layout: text(&format!("examples/{folder}/{folder}.json")), specs, scenario, ..Texts::default() }
 }
 
 /// Runs `job` for each of the inputs on all processors; results in the order of the inputs.

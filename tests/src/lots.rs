@@ -10,6 +10,8 @@ pub struct Lots {
     random: Random,
     pub images: Vec<Vec<f64>>,
     scan: u32,
+    /// One in how many inputs changes when little happens, and one in how many commands is answered.
+    calm: (u32, u32),
 }
 
 impl Lots {
@@ -19,7 +21,13 @@ impl Lots {
             random: Random::new(seed),
             images: (0..system.instances.len()).map(|i| vec![0.0; words(i)]).collect(),
             scan: 0,
+            calm: (150, 60),
         }
+    }
+
+    /// Something happens always.
+    pub fn lively(system: &System, seed: u64) -> Self {
+        Self { calm: (20, 5), ..Self::new(system, seed) }
     }
 
     fn one_in(&mut self, count: u32) -> bool {
@@ -46,7 +54,7 @@ impl Lots {
     pub fn next(&mut self, system: &System, outputs: &[Vec<f64>]) -> SystemInputs {
         // Times in which much happens take turns with others in which little does.
         self.scan += 1;
-        let (changes, answers) = if (self.scan / 64).is_multiple_of(3) { (6, 2) } else { (150, 60) };
+        let (changes, answers) = if (self.scan / 64).is_multiple_of(3) { (6, 2) } else { self.calm };
         for (robot, published) in outputs.iter().enumerate() {
             let device = system.automaton_of(robot).device;
             for word in 0..self.images[robot].len() {

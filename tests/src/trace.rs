@@ -106,19 +106,30 @@ pub fn load(text: &str) -> Result<Fixture, String> {
         Ok((start + 2, lines.join("\n")))
     };
     let (_, spec_text) = part("spec")?;
-    let mut sources = Sources::default();
-    let file = sources.add("spec.aut", spec_text.as_str());
-    let (tree, found) = spec::parser::parse(file, &spec_text);
-    if !found.is_empty() {
-        return Err(plain(&sources, &found));
-    }
     let (first, layout_text) = part("layout")?;
     let layout = Layout::read(first, &layout_text)?;
-    let checked = check::check(&sources, &[(file, tree)], &layout.kinds).map_err(|d| plain(&sources, &d))?;
-    let system = layout.system(checked.into_model())?;
+    let (sources, model) = model(&spec_text, &layout.kinds)?;
+    let system = layout.system(&model)?;
     let (first, scans_text) = part("scans")?;
     let scans = Script::new(&system).read(first, &scans_text)?;
     Ok(Fixture { sources, system, scans })
+}
+
+/// The model of a specification.
+pub fn model(spec_text: &str, kinds: &[String]) -> Result<(Sources, ir::Model), String> {
+    let mut sources = Sources::default();
+    let file = sources.add("spec.aut", spec_text);
+    let (tree, found) = spec::parser::parse(file, spec_text);
+    if !found.is_empty() {
+        return Err(plain(&sources, &found));
+    }
+    let checked = check::check(&sources, &[(file, tree)], kinds).map_err(|d| plain(&sources, &d))?;
+    Ok((sources, checked.into_model()))
+}
+
+/// A model with the instances of a layout.
+pub fn system(layout_text: &str, model: &ir::Model) -> Result<ir::System, String> {
+    Layout::read(1, layout_text)?.system(model)
 }
 
 fn lines(first: usize, text: &str) -> impl Iterator<Item = (usize, Vec<&str>)> {
@@ -168,7 +179,7 @@ impl Layout {
         Ok(layout)
     }
 
-    fn system(&self, model: ir::Model) -> Result<ir::System, String> {
+    fn system(&self, model: &ir::Model) -> Result<ir::System, String> {
         let number = |name: &str| {
             self.machines.iter().position(|m| m.0 == name).ok_or(format!("there is no instance `{name}`"))
         };
@@ -548,7 +559,7 @@ fn image(variables: &[Variable], running: bool) -> Vec<f64> {
 }
 
 /// What each number of a trace is.
-fn columns(system: &ir::System) -> Vec<String> {
+pub fn columns(system: &ir::System) -> Vec<String> {
     let mut names = Vec::new();
     for (index, instance) in system.instances.iter().enumerate() {
         names.push(format!("{}: state", instance.name));

@@ -18,15 +18,20 @@ impl Workspace {
         let folder = env::temp_dir().join(format!("autogen-tests-{}", std::process::id())).join(name);
         let _ = fs::remove_dir_all(&folder);
         let workspace = Self { folder };
-        for (path, text) in rust::files(system, sources) {
-            workspace.put(&path, &text);
-        }
         for (path, text) in simulator::SOURCES {
             workspace.put(&format!("runtime-sim/{path}"), text);
         }
         workspace.put("runtime-sim/Cargo.toml", simulator::MANIFEST);
-        workspace.put("parameters.txt", &rust::parameters_text(system));
+        workspace.replace(system, sources);
         workspace
+    }
+
+    /// Another system in the place of the one before; what was compiled of the simulator stays.
+    pub fn replace(&self, system: &System, sources: &Sources) {
+        for (path, text) in rust::files(system, sources) {
+            self.put(&path, &text);
+        }
+        self.put("parameters.txt", &rust::parameters_text(system));
     }
 
     pub fn put(&self, path: &str, text: &str) {
@@ -51,6 +56,11 @@ impl Workspace {
 
     pub fn target(&self) -> PathBuf {
         self.folder.join("target")
+    }
+
+    /// A program that was built without optimization: what overflows panics.
+    pub fn debug_program(&self, path: &str) -> PathBuf {
+        self.target().join("debug").join(path).with_extension(env::consts::EXE_EXTENSION)
     }
 
     /// A program that was built for release.

@@ -3,7 +3,7 @@
 
 use autogen::executor::Executor;
 use autogen::lower::Project;
-use autogen_tests::{LAYOUTS, Texts, ariac, on_all_processors, root, text};
+use autogen_tests::{LAYOUTS, Texts, ariac, on_all_processors, own_line};
 use runtime_sim::line::{IoDelay, Pause, Slip};
 use runtime_sim::random::Random;
 use runtime_sim::report::Report;
@@ -42,7 +42,7 @@ fn assert_all_made<T: Sync>(
 
 /// How many runs a campaign makes: a short form, or all of them with AUTOGEN_CAMPAIGN=full.
 fn campaign(short: usize, full: usize) -> usize {
-    if std::env::var("AUTOGEN_CAMPAIGN").is_ok_and(|v| v == "full") { full } else { short }
+    if autogen_tests::is_full_campaign() { full } else { short }
 }
 
 #[test]
@@ -60,16 +60,6 @@ fn every_layout_works_with_every_capacity() {
     );
 }
 
-/// A layout of the user's own, with its types and its scenario if it has any.
-fn example(folder: &str) -> Texts {
-    let specs = match folder {
-        "buffer" => vec![text("examples/buffer/specs/buffer.aut")],
-        _ => Vec::new(),
-    };
-    let scenario = std::fs::read_to_string(root().join(format!("examples/{folder}/scenario.json"))).ok();
-    Texts { layout: text(&format!("examples/{folder}/{folder}.json")), specs, scenario, ..Texts::default() }
-}
-
 #[test]
 fn lines_of_the_users_own_make_their_orders() {
     let mut inputs = Vec::new();
@@ -82,7 +72,7 @@ fn lines_of_the_users_own_make_their_orders() {
         &inputs,
         |input| format!("{input:?}"),
         |(folder, seed)| {
-            let mut project = Texts { order: Some(*seed), ..example(folder) }
+            let mut project = Texts { order: Some(*seed), ..own_line(folder) }
                 .set(&format!("agv.capacity={}", 1 + seed % 12))
                 .project();
             project.plant.io_delay = IoDelay::Random { max: 5, seed: *seed };
@@ -208,7 +198,7 @@ const AT_WORK: f64 = 0.4;
 #[test]
 fn one_arm_at_a_time_is_over_a_tray_and_none_when_it_moves() {
     for (folder, delay) in [("shared_agv", 0), ("shared_agv", 5), ("buffer", 0)] {
-        let mut project = example(folder).set("agv.capacity=6").project();
+        let mut project = own_line(folder).set("agv.capacity=6").project();
         project.plant.io_delay = IoDelay::Fixed(delay);
         let of = |device: &[&str]| -> Vec<usize> {
             (0..project.system.instances.len())

@@ -7,14 +7,11 @@ use autogen::ir::System;
 use autogen::source::Sources;
 use autogen_tests::instances::instantiate;
 use autogen_tests::lots::Lots;
+use autogen_tests::replay::{Recording, bits, difference, record, replay, run, silent};
 use autogen_tests::workspace::Workspace;
 use autogen_tests::{ariac, root};
 use runtime_sim::device::Direction;
 use runtime_sim::run::{Seen, run as simulate};
-use runtime_sim::scan::Controllers;
-use std::io::Write;
-use std::path::Path;
-use std::process::{Command, Stdio};
 
 /// Names and texts of the fixtures.
 fn fixtures() -> Vec<(String, String)> {
@@ -69,74 +66,13 @@ fn text_of_the_user_comes_without_what_is_not_shown() {
     }
 }
 
-/// What the executor answers to so many scans of inputs drawn by lot: the inputs as the replay reads them,
-/// and the bits as it prints them.
-fn executed(system: &System, scans: usize, seed: u64) -> (String, Vec<String>) {
+/// What the executor answers to inputs drawn by lot, of which every transition has fired.
+fn executed(system: &System, scans: usize, seed: u64) -> Recording {
     let mut executor = Executor::new(system);
-    let mut lots = Lots::new(system, seed);
-    let mut outputs = vec![Vec::new(); system.instances.len()];
-    let (mut inputs, mut answers) = (String::new(), Vec::new());
-    for _ in 0..scans {
-        let given = lots.next(system, &outputs);
-        let flag = |b: bool| u8::from(b);
-        inputs += &format!("{} {} {}", flag(given.run_permit), flag(given.start), flag(given.reset));
-        for image in &lots.images {
-            inputs += &format!(" {}", image.len());
-            image.iter().for_each(|word| inputs += &format!(" {word:?}"));
-        }
-        inputs.push('\n');
-        let answer = executor.scan(given, &lots.images, &mut outputs);
-        let mut all = vec![
-            f64::from(flag(answer.running)),
-            f64::from(flag(answer.fault)),
-            f64::from(answer.fault_code),
-            f64::from(answer.fault_robot),
-        ];
-        all.extend(outputs.iter().flatten());
-        executor.trace(&mut all);
-        answers.push(bits(&all));
-    }
+    let recording = record(&mut executor, system, scans, Lots::new(system, seed));
     let silent = silent(system, &executor);
     assert!(silent.is_empty(), "never fired:\n{}", silent.join("\n"));
-    (inputs, answers)
-}
-
-/// Transitions that have not fired.
-fn silent(system: &System, executor: &Executor) -> Vec<String> {
-    let mut silent = Vec::new();
-    for (automaton, fired) in system.model.automata.iter().zip(executor.fired()) {
-        for (state, fired) in automaton.states.iter().zip(fired) {
-            // What stands behind `when true` cannot fire.
-            let end = state.transitions.iter().position(|t| t.text == "true").map_or(fired.len(), |i| i + 1);
-            for (transition, _) in state.transitions.iter().zip(&fired[..end]).filter(|(_, n)| **n == 0) {
-                silent.push(format!("{}.{}: {}", automaton.name, state.name, transition.text));
-            }
-        }
-    }
-    silent
-}
-
-/// NaN has many bit patterns, and which one an operation yields is nobody's promise.
-fn bits(words: &[f64]) -> String {
-    let bits = |word: &f64| if word.is_nan() { "nan".into() } else { format!("{:x}", word.to_bits()) };
-    words.iter().map(bits).collect::<Vec<String>>().join(" ")
-}
-
-fn run(program: &Path, arguments: &[&str], folder: &Path, input: &str) -> String {
-    let mut child = Command::new(program)
-        .args(arguments)
-        .current_dir(folder)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .spawn()
-        .expect("a program that can be started");
-    let mut stdin = child.stdin.take().expect("a pipe");
-    let input = input.to_string();
-    let writer = std::thread::spawn(move || stdin.write_all(input.as_bytes()));
-    let output = child.wait_with_output().expect("a program that ends");
-    writer.join().expect("no panic").expect("a program that reads its input");
-    assert!(output.status.success(), "{program:?} {arguments:?}: {}", output.status);
-    String::from_utf8(output.stdout).expect("text")
+    recording
 }
 
 #[test]
@@ -145,22 +81,17 @@ fn fixtures_run_as_on_the_executor() {
     let workspace = Workspace::write("fixtures", &system, &sources);
     workspace.cargo(&["clippy", "--quiet", "--all-targets", "--", "-D", "warnings"]);
     workspace.cargo(&["build", "--quiet", "--release", "-p", "commissioning", "--bins", "--examples"]);
-    let (inputs, expected) = executed(&system, 30_000, 1);
+    let recording = executed(&system, 30_000, 1);
 
-    let replay =
-        run(&workspace.program("commissioning"), &["--replay", "parameters.txt"], &workspace.folder, &inputs);
-    let replayed: Vec<&str> = replay.lines().collect();
-    assert_eq!(replayed.len(), expected.len());
-    for (scan, (found, wanted)) in replayed.iter().zip(&expected).enumerate() {
-        assert_eq!(found, wanted, "scan {scan}");
-    }
+    let found = replay(&workspace.program("commissioning"), &workspace, "parameters.txt", &recording);
+    assert_eq!(difference(&system, &recording.answers, &found), None);
 
     // The constants of the layout make the same controllers as the words.
-    let host = run(&workspace.program("examples/host"), &[], &workspace.folder, &inputs);
+    let host = run(&workspace.program("examples/host"), &[], &workspace.folder, &recording.inputs);
     let outputs: usize = (0..system.instances.len())
         .map(|i| system.automaton_of(i).device.words(Direction::Output, system.kinds()))
         .sum();
-    for (scan, (found, wanted)) in host.lines().zip(&expected).enumerate() {
+    for (scan, (found, wanted)) in host.lines().zip(&recording.answers).enumerate() {
         let words: Vec<f64> = found.split(' ').map(|w| w.parse().expect("a number")).collect();
         let wanted: Vec<&str> = wanted.split(' ').collect();
         let wanted = [&wanted[..1], &wanted[2..3], &wanted[4..4 + outputs]].concat().join(" ");

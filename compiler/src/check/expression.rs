@@ -24,18 +24,6 @@ impl Context<'_, '_> {
             }
             Tree::Real(r) => Some(constant(Scalar::Real, Value::Real(*r))),
             Tree::Duration(ms) => Some(constant(Scalar::Time, Value::Int(*ms as i32))),
-            Tree::Name(name) if name == "done" || name == "failed" => {
-                if !self.automaton.device.is_commanded() {
-                    let message = format!("the device `{}` obeys no commands", self.automaton.device.name);
-                    self.report(
-                        Diagnostic::new("E0314", tree.span, message)
-                            .help("`done` and `failed` answer a command"),
-                    );
-                    return None;
-                }
-                let kind = if name == "done" { ExprKind::Done } else { ExprKind::Failed };
-                Some(Expr { ty: Scalar::Bool, kind })
-            }
             Tree::Name(_) | Tree::Member(..) | Tree::Index(..) => match self.path(tree, expected)? {
                 Path::Value(expr) => Some(expr),
                 Path::Place(place, ty) if ty.extent == Extent::One => Some(self.read(place, ty.scalar)),
@@ -81,6 +69,19 @@ impl Context<'_, '_> {
                 Some(Expr { ty: Scalar::Bool, kind })
             }
         }
+    }
+
+    /// `done` or `failed`.
+    pub(super) fn answer(&mut self, name: &str, span: Span) -> Option<Expr> {
+        if !self.automaton.device.is_commanded() {
+            let message = format!("the device `{}` obeys no commands", self.automaton.device.name);
+            self.report(
+                Diagnostic::new("E0314", span, message).help("`done` and `failed` answer a command"),
+            );
+            return None;
+        }
+        let kind = if name == "done" { ExprKind::Done } else { ExprKind::Failed };
+        Some(Expr { ty: Scalar::Bool, kind })
     }
 
     fn reference(&mut self, tree: &ast::Expr) -> Option<Expr> {

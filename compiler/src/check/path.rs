@@ -30,6 +30,9 @@ impl Context<'_, '_> {
         if let Some((_, id, ty)) = self.variables.iter().rev().find(|(n, _, _)| n == name) {
             return Some(Path::Value(Expr { ty: *ty, kind: ExprKind::Variable(*id) }));
         }
+        if name == "done" || name == "failed" {
+            return self.answer(name, span).map(Path::Value);
+        }
         if name == "self" {
             return self.own_reference(span, expected).map(Path::Value);
         }

@@ -1,0 +1,236 @@
+//! Whole lines, on the reference executor and as compiled controllers: the hash of every scan agrees, and
+//! every transition of every automaton has fired.
+
+use autogen::executor::Executor;
+use autogen::ir::System;
+use autogen::lower::Project;
+use autogen::scenario;
+use autogen::source::Sources;
+use autogen_tests::replay::run as start;
+use autogen_tests::workspace::Workspace;
+use autogen_tests::{LAYOUTS, Texts, ariac, is_full_campaign, on_all_processors, own_line};
+use runtime_sim::line::{IoDelay, Line, Pause, Refusal, Slip};
+use runtime_sim::random::Random;
+use runtime_sim::run::{Seen, run as simulate};
+use std::collections::BTreeMap;
+use std::time::Instant;
+
+struct Job {
+    name: String,
+    project: Project,
+    /// For the constants that are printed.
+    sources: Sources,
+}
+
+fn job(name: impl Into<String>, texts: Texts, change: impl FnOnce(&mut Line)) -> Job {
+    let outcome = texts.compile();
+    let mut project = outcome.project.expect("a line that is right");
+    change(&mut project.plant);
+    Job { name: name.into(), project, sources: outcome.sources }
+}
+
+/// The standard orders, but so many, and parts enough to lose some.
+fn orders(texts: Texts, count: usize) -> Texts {
+    let scenario = scenario::DEFAULT
+        .replace("\"count\": 8", &format!("\"count\": {count}"))
+        .replace("\"surplus\": [1, 3]", "\"surplus\": [8, 8]");
+    Texts { scenario: Some(scenario), ..texts }
+}
+
+fn undisturbed() -> Vec<Job> {
+    let mut jobs = Vec::new();
+    let capacities: &[u32] = if is_full_campaign() { &[1, 2, 3, 4, 6, 8, 10, 12] } else { &[1, 8] };
+    for layout in LAYOUTS {
+        for capacity in capacities {
+            let texts = ariac(layout).set(&format!("agv.capacity={capacity}"));
+            jobs.push(job(format!("{layout}, capacity {capacity}"), texts, |_| ()));
+        }
+    }
+    for line in ["buffer", "shared_agv"] {
+        jobs.push(job(line, own_line(line), |_| ()));
+    }
+    for seed in 1..=if is_full_campaign() { 20 } else { 2 } {
+        let texts = Texts { order: Some(seed), ..ariac("default") };
+        jobs.push(job(format!("order {seed}"), texts, |_| ()));
+        let late = move |line: &mut Line| line.io_delay = IoDelay::Random { max: 5, seed };
+        jobs.push(job(format!("late answers {seed}"), ariac("default"), late));
+    }
+    jobs
+}
+
+/// Everything that can go wrong, and often.
+fn disturbed() -> Vec<Job> {
+    let mut jobs = Vec::new();
+    jobs.push(job("pauses", ariac("default"), |line| {
+        line.scenario.pauses = (1..20).map(|i| Pause { at_scan: i * 1700, scans: 100 + i * 10 }).collect();
+    }));
+    for line in ["default", "buffer", "shared_agv"] {
+        let texts = || match line {
+            "default" => orders(ariac(line), 2),
+            _ => orders(own_line(line), 2),
+        };
+        for seed in 1..=if is_full_campaign() { 40 } else { 2 } {
+            // A belt that does not start is not asked again.
+            for (device, one_in) in [("belt", 8), ("vehicle", 3), ("rail_arm", 4), ("gantry", 3)] {
+                let name = format!("{line}, refused commands of each {device}, {seed}");
+                jobs.push(job(name, texts(), |line| refuse(line, device, one_in, seed)));
+            }
+        }
+        for seed in 1..=if is_full_campaign() { 60 } else { 6 } {
+            for (device, one_in) in [("rail_arm", 5), ("gantry", 3)] {
+                let name = format!("{line}, parts lost by each {device}, {seed}");
+                jobs.push(job(name, texts(), |line| slip(line, device, one_in, seed)));
+            }
+        }
+    }
+    jobs
+}
+
+/// The first command of the machines of one kind is refused, and one in so many of the others.
+fn refuse(line: &mut Line, device: &str, one_in: u32, seed: u64) {
+    let mut random = Random::new(seed);
+    line.scenario.time_limit_s = 500.0;
+    for machine in all(line, device) {
+        for command in (1..300).filter(|command| random.up_to(one_in - 1) == 0 || *command == 1) {
+            line.scenario.refusals.push(Refusal { machine, command });
+        }
+    }
+}
+
+/// Every second part is lost, at any moment; some of the commands after it are refused.
+fn slip(line: &mut Line, device: &str, one_in: u32, seed: u64) {
+    let mut random = Random::new(seed);
+    refuse(line, device, one_in, seed);
+    for machine in all(line, device) {
+        for pick in 1..60 {
+            let after_s = f64::from(random.up_to(1000)) / 100.0;
+            if random.up_to(1) == 0 {
+                line.scenario.slips.push(Slip { machine, pick, after_s });
+            }
+        }
+    }
+}
+
+/// The machines of one kind of device.
+fn all(line: &Line, device: &str) -> Vec<usize> {
+    (0..line.machines.len()).filter(|m| line.machines[*m].geometry.device() == device).collect()
+}
+
+/// What a program is compiled from: all but the values of the layout, which it reads.
+fn types(job: &Job) -> BTreeMap<String, String> {
+    let mut files = autogen::backend::rust::files(&job.project.system, &job.sources);
+    files.retain(|name, _| !name.starts_with("controllers/src/robots") && name != "controllers/src/line.rs");
+    files
+}
+
+/// How often each transition has fired.
+type Fired = BTreeMap<String, u64>;
+
+fn fired(system: &System, executor: &Executor) -> Fired {
+    let mut found = Fired::new();
+    for (automaton, counts) in system.model.automata.iter().zip(executor.fired()) {
+        for (state, counts) in automaton.states.iter().zip(counts) {
+            for (transition, count) in state.transitions.iter().zip(counts) {
+                let target = transition.target.map_or("(stays)", |t| &automaton.states[t.0].name);
+                let name = format!("{}.{} when {} -> {target}", automaton.name, state.name, transition.text);
+                *found.entry(name).or_default() += count;
+            }
+        }
+    }
+    found
+}
+
+/// Runs a line on both engines: the number of scans, and what fired; or how they differ.
+fn compare(job: &Job, workspace: &Workspace, number: usize) -> Result<(usize, Fired, String), String> {
+    let file = |what: &str| format!("{what}{number}.txt");
+    workspace.put(&file("line"), &job.project.plant.to_text());
+    let parameters = autogen::backend::rust::parameters_text(&job.project.system);
+    workspace.put(&file("parameters"), &parameters);
+    let (line, parameters, hashes) = (file("line"), file("parameters"), file("hashes"));
+    let arguments = [line.as_str(), &parameters, "--hashes", &hashes];
+    let report = start(&workspace.program("commissioning"), &arguments, &workspace.folder, "");
+    let found = std::fs::read_to_string(workspace.folder.join(file("hashes"))).expect("the hashes");
+    let mut hashes = Vec::new();
+    let mut executor = Executor::new(&job.project.system);
+    let expected = simulate(&job.project.plant, &mut executor, &mut |seen: &Seen| {
+        hashes.push(format!("{:016x}", seen.hash));
+    });
+    let expected = expected.expect("a line that can be run");
+    for (scan, (wanted, found)) in hashes.iter().zip(found.lines()).enumerate() {
+        if wanted != found {
+            return Err(format!("{}: scan {scan} differs", job.name));
+        }
+    }
+    if hashes.len() != found.lines().count() || report.trim_end() != expected.to_json() {
+        return Err(format!("{}: the reports differ", job.name));
+    }
+    let outcome =
+        format!("{}: {} of {} orders, {}", job.name, expected.orders_done, expected.orders, expected.reason);
+    Ok((hashes.len(), fired(&job.project.system, &executor), outcome))
+}
+
+#[test]
+fn every_transition_of_the_library_fires_alike() {
+    let begin = Instant::now();
+    let jobs: Vec<Job> = undisturbed().into_iter().chain(disturbed()).collect();
+    let mut programs: Vec<(BTreeMap<String, String>, Workspace)> = Vec::new();
+    let mut inputs = Vec::new();
+    for (number, job) in jobs.iter().enumerate() {
+        let types = types(job);
+        let known = programs.iter().position(|(known, _)| *known == types);
+        let program = known.unwrap_or_else(|| {
+            let name = format!("lines{}", programs.len());
+            let workspace = Workspace::write(&name, &job.project.system, &job.sources);
+            workspace.cargo(&["build", "--quiet", "--release", "-p", "commissioning", "--bins"]);
+            programs.push((types, workspace));
+            programs.len() - 1
+        });
+        inputs.push((job, number, program));
+    }
+    let results =
+        on_all_processors(&inputs, |(job, number, program)| compare(job, &programs[*program].1, *number));
+    let (mut scans, mut all, mut different) = (0, Fired::new(), Vec::new());
+    for result in results {
+        match result {
+            Ok((count, fired, outcome)) => {
+                println!("{outcome}");
+                scans += count;
+                fired.into_iter().for_each(|(name, count)| *all.entry(name).or_default() += count);
+            }
+            Err(text) => different.push(text),
+        }
+    }
+    let silent: Vec<&String> = all.iter().filter(|(_, count)| **count == 0).map(|(name, _)| name).collect();
+    println!(
+        "{} runs on {} programs, {scans} scans compared, {} differences, {} transitions, {} of them never fired, {:.1} s",
+        jobs.len(),
+        programs.len(),
+        different.len(),
+        all.len(),
+        silent.len(),
+        begin.elapsed().as_secs_f64()
+    );
+    assert!(different.is_empty(), "{}", different.join("\n"));
+    assert!(silent.is_empty(), "never fired:\n{silent:#?}");
+}
+
+#[test]
+fn debug_and_release_give_the_same_trace() {
+    let job = job("default", ariac("default"), |_| ());
+    let workspace = Workspace::write("debug", &job.project.system, &job.sources);
+    workspace.put("line.txt", &job.project.plant.to_text());
+    let mut found = Vec::new();
+    for profile in [&["--release"][..], &[]] {
+        workspace.cargo(&[&["build", "--quiet", "-p", "commissioning", "--bins"], profile].concat());
+        let program = match profile {
+            [] => workspace.debug_program("commissioning"),
+            _ => workspace.program("commissioning"),
+        };
+        let arguments = ["line.txt", "parameters.txt", "--hashes", "hashes.txt"];
+        let report = start(&program, &arguments, &workspace.folder, "");
+        let hashes = std::fs::read_to_string(workspace.folder.join("hashes.txt")).expect("the hashes");
+        found.push((report, hashes));
+    }
+    println!("{} scans", found[0].1.lines().count());
+    assert!(found[0] == found[1], "debug and release differ");
+}
