@@ -70,14 +70,18 @@ pub fn sort(diagnostics: &mut Vec<Diagnostic>) {
     diagnostics.dedup();
 }
 
-/// The name among `known` that is nearest to `name`, if it is near enough to be meant.
+/// The name among `known` that is nearest to `name`, if it is near enough to be meant: first of all
+/// one that differs in small and capital letters only.
 pub fn suggestion<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     known
         .into_iter()
-        .map(|candidate| (edit_distance(&name.to_lowercase(), &candidate.to_lowercase()), candidate))
-        .filter(|(distance, candidate)| *distance <= 1 + candidate.len().min(name.len()) / 3)
+        .map(|candidate| {
+            let distance = edit_distance(&name.to_lowercase(), &candidate.to_lowercase());
+            (distance, edit_distance(name, candidate), candidate)
+        })
+        .filter(|(distance, _, candidate)| *distance <= 1 + candidate.len().min(name.len()) / 3)
         .min()
-        .map(|(_, candidate)| candidate)
+        .map(|(_, _, candidate)| candidate)
 }
 
 fn edit_distance(a: &str, b: &str) -> usize {
@@ -146,4 +150,17 @@ pub fn render(sources: &Sources, diagnostics: &[Diagnostic], renderer: &Renderer
 fn range(span: Span, len: usize) -> std::ops::Range<usize> {
     let start = (span.start as usize).min(len);
     start..(span.end as usize).clamp(start, len)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::suggestion;
+
+    #[test]
+    fn another_case_is_nearest() {
+        assert_eq!(suggestion("FULL", ["FALL", "FUL", "full"]), Some("full"));
+        assert_eq!(suggestion("Full", ["FULL", "full"]), Some("full"));
+        assert_eq!(suggestion("full", ["fill", "Full", "bull"]), Some("Full"));
+        assert_eq!(suggestion("full", ["empty"]), None);
+    }
 }

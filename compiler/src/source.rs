@@ -61,6 +61,12 @@ impl Sources {
         self.file(span.file).text.get(span.start as usize..span.end as usize).unwrap_or("")
     }
 
+    /// The same texts under other names.
+    pub fn renamed(&self, name: impl Fn(&str) -> String) -> Self {
+        let rename = |file: &SourceFile| SourceFile { name: name(&file.name), text: file.text.clone() };
+        Self { files: self.files.iter().map(rename).collect() }
+    }
+
     /// Line and column of the beginning of a span, both from 1; columns count characters.
     pub fn position(&self, span: Span) -> (usize, usize) {
         let text = &self.file(span.file).text;

@@ -221,3 +221,45 @@ fn the_picture_of_the_readme_is_drawn_from_the_default_layout() {
         "draw it anew: autogen graph examples/ariac2021/default.json --of plan > docs/default.svg"
     );
 }
+
+#[test]
+fn what_is_in_the_way_is_named_and_nothing_is_written() {
+    let folder = folder("in_the_way");
+    let layout = example("ariac2021/less_agv.json");
+    fs::write(folder.join("file"), "").expect("a file");
+    let output = autogen(&folder, &["build", &layout, "-o", "file"]);
+    assert_eq!(status(&output), 2);
+    assert!(
+        errors(&output).contains("in the way") && errors(&output).lines().count() < 5,
+        "{}",
+        errors(&output)
+    );
+    fs::create_dir_all(folder.join("made/manifest.json")).expect("a folder");
+    let output = autogen(&folder, &["build", &layout, "-o", "made", "--force"]);
+    assert_eq!(status(&output), 2);
+    assert!(contents(&folder.join("made")).is_empty(), "nothing is written");
+}
+
+#[test]
+fn the_same_input_gives_the_same_bytes_from_any_folder() {
+    let folder = folder("any_folder");
+    let line = folder.join("line");
+    fs::create_dir_all(line.join("types")).expect("a folder");
+    let layout = fs::read_to_string(example("buffer/buffer.json")).expect("the example");
+    fs::write(line.join("buffer.json"), layout.replace("\"specs\": \"specs\"", "\"specs\": \"types\""))
+        .expect("a file");
+    fs::copy(example("buffer/specs/buffer.aut"), line.join("types/buffer.aut")).expect("the example");
+    let here = autogen(&folder, &["build", "line/buffer.json", "-o", "a"]);
+    let there = autogen(&line, &["build", "buffer.json", "-o", "../b"]);
+    let anywhere = autogen(&folder, &["build", &line.join("buffer.json").display().to_string(), "-o", "c"]);
+    for output in [&here, &there, &anywhere] {
+        assert_eq!(status(output), 0, "{}", errors(output));
+    }
+    let first = contents(&folder.join("a"));
+    for other in ["b", "c"] {
+        for ((path, text), (_, same)) in first.iter().zip(contents(&folder.join(other))) {
+            assert!(*text == same, "{} differs in {other}", path.display());
+        }
+        assert_eq!(first.len(), contents(&folder.join(other)).len());
+    }
+}

@@ -14,6 +14,8 @@ pub struct Report {
     pub finished: bool,
     /// Why the run ended, and what is missing if it did not finish.
     pub reason: String,
+    /// Code and machine of the fault that ended the run.
+    pub fault: Option<(i32, String)>,
     pub scan_ms: u32,
     pub scans: u64,
     pub simulated_s: f64,
@@ -47,6 +49,8 @@ pub struct OrderTimes {
 #[derive(Clone, Debug, PartialEq)]
 pub struct MachineReport {
     pub name: String,
+    /// The state in which its automaton is at the end; empty if it has none.
+    pub state: String,
     /// In scans.
     pub account: Account,
 }
@@ -65,8 +69,12 @@ pub struct ItemReport {
 pub(crate) struct Outcome {
     pub finished: bool,
     pub reason: String,
+    /// Code and machine of the fault that ended the run.
+    pub fault: Option<(i32, Option<usize>)>,
     pub scans: u64,
     pub accounts: Vec<Account>,
+    /// Number of the last state of each machine.
+    pub states: Vec<usize>,
     pub trace_hash: u64,
 }
 
@@ -104,6 +112,9 @@ impl Report {
         Self {
             finished: outcome.finished,
             reason: outcome.reason,
+            fault: outcome.fault.map(|(code, machine)| {
+                (code, machine.map_or_else(String::new, |machine| line.machines[machine].name.clone()))
+            }),
             scan_ms: line.scan_ms,
             scans: outcome.scans,
             simulated_s,
@@ -115,7 +126,12 @@ impl Report {
                 .machines
                 .iter()
                 .zip(outcome.accounts)
-                .map(|(machine, account)| MachineReport { name: machine.name.clone(), account })
+                .zip(outcome.states)
+                .map(|((machine, account), state)| MachineReport {
+                    name: machine.name.clone(),
+                    state: machine.states.get(state).map_or_else(String::new, |s| s.name.clone()),
+                    account,
+                })
                 .collect(),
             items: items.collect(),
             trace_hash: outcome.trace_hash,
@@ -128,6 +144,12 @@ impl Report {
         Json::object(|json| {
             json.put_truth("finished", self.finished);
             json.put_text("reason", &self.reason);
+            if let Some((code, robot)) = &self.fault {
+                json.put_object("fault", |json| {
+                    json.put_int("code", u64::from(code.unsigned_abs()));
+                    json.put_text("robot", robot);
+                });
+            }
             json.put_real("simulated_s", Some(self.simulated_s));
             json.put_int("scans", self.scans);
             json.put_int("orders_done", self.orders_done as u64);
@@ -141,7 +163,10 @@ impl Report {
             });
             json.put_object("robots", |json| {
                 for machine in &self.machines {
-                    json.put_object(&machine.name, |json| self.put_machine(json, &machine.account));
+                    json.put_object(&machine.name, |json| {
+                        self.put_machine(json, &machine.account);
+                        json.put_text("state", &machine.state);
+                    });
                 }
             });
             json.put_list("items", &self.items, |json, item| {

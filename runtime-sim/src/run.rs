@@ -49,6 +49,7 @@ pub fn run(
     let mut progress = Progress::default();
     let mut scan = 0;
 
+    let mut fault = None;
     let (finished, reason) = loop {
         let mut changed = bus.exchange(scan, plant.images(), &mut inputs);
         let system = operator.inputs(scan, &line.scenario);
@@ -91,7 +92,10 @@ pub fn run(
         changed |= plant.is_busy() || operator.is_busy(scan, &line.scenario);
         progress.quiet_scans = if changed { 0 } else { progress.quiet_scans + 1 };
         if answer.fault {
-            break (false, fault_text(line, answer));
+            let machine =
+                usize::try_from(answer.fault_robot).ok().filter(|&robot| robot < line.machines.len());
+            fault = Some((answer.fault_code, machine));
+            break (false, fault_text(line, answer.fault_code, machine));
         }
         if let Some(end) = progress.end(line, &plant, scan) {
             break end;
@@ -101,7 +105,8 @@ pub fn run(
         Ok(()) => (finished, reason),
         Err(violation) => (false, format!("bug: {violation}")),
     };
-    let outcome = Outcome { finished, reason, scans: scan, accounts, trace_hash: hash.value() };
+    let outcome =
+        Outcome { finished, reason, fault, scans: scan, accounts, states, trace_hash: hash.value() };
     Ok(Report::new(line, &plant, outcome))
 }
 
@@ -142,10 +147,9 @@ fn is_moving(line: &Line, machine: usize, inputs: &[f64], outputs: &[f64]) -> bo
     }
 }
 
-fn fault_text(line: &Line, answer: SystemOutputs) -> String {
-    let robot = usize::try_from(answer.fault_robot).ok().and_then(|robot| line.machines.get(robot));
-    match robot {
-        Some(robot) => format!("fault {} of {}", answer.fault_code, robot.name),
-        None => format!("fault {}", answer.fault_code),
+fn fault_text(line: &Line, code: i32, machine: Option<usize>) -> String {
+    match machine {
+        Some(machine) => format!("fault {code} of {}", line.machines[machine].name),
+        None => format!("fault {code}"),
     }
 }

@@ -1,6 +1,8 @@
 //! What the tests of the whole share.
 
 pub mod instances;
+pub mod lots;
+pub mod st;
 pub mod trace;
 pub mod workspace;
 

@@ -52,6 +52,7 @@ fn examples_are_as_they_say() {
         let (file, expected) = match kind[1..] {
             [] => (block.text.clone(), None),
             ["wrong", code] => (block.text.clone(), Some(code)),
+            ["library"] => (format!("{}\n{}", text("compiler/library/handover.aut"), block.text), None),
             ["item"] => (framed(&block.text, "initial state S { when false -> S {} }\n"), None),
             ["transition"] => (in_state(&block.text), None),
             ["update"] => (in_state(&format!("when true -> S {{ {} }}", block.text)), None),
@@ -150,6 +151,13 @@ fn devices_are_those_of_the_simulator() {
         return;
     }
     assert!(after == devices(), "run this test with UPDATE=1 and look at the change of docs/language.md");
+}
+
+#[test]
+fn the_buffer_is_that_of_the_examples() {
+    let blocks = blocks(&text("docs/language.md"));
+    let shown = blocks.iter().find(|b| b.kind == "aut library").expect("the document shows the buffer");
+    assert!(shown.text == text("examples/buffer/specs/buffer.aut"), "docs/language.md:{}", shown.line);
 }
 
 #[test]

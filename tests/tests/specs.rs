@@ -2,6 +2,7 @@
 //!
 //! In a fixture `//~ E0311 part of the message` expects a diagnostic on its own
 //! line, `//~^` on the line above, with one `^` more for each line further up.
+//! Behind ` => ` may stand a part of its help.
 
 use autogen::diagnostic::Diagnostic;
 use autogen::library;
@@ -21,15 +22,16 @@ fn diagnostics(sources: &mut Sources, name: &str, text: &str) -> Vec<Diagnostic>
     checked.err().unwrap_or_default()
 }
 
-/// Line, code and a part of the message.
-fn expectations(text: &str) -> Vec<(usize, String, String)> {
+/// Line, code, a part of the message and a part of the help.
+fn expectations(text: &str) -> Vec<(usize, String, String, String)> {
     let mut found = Vec::new();
     for (number, line) in text.lines().enumerate() {
         let Some((_, rest)) = line.split_once("//~") else { continue };
         let up = rest.len() - rest.trim_start_matches('^').len();
         let rest = rest.trim_start_matches('^').trim();
         let (code, part) = rest.split_once(' ').unwrap_or((rest, ""));
-        found.push((number + 1 - up, code.to_string(), part.trim().to_string()));
+        let (part, help) = part.split_once(" => ").unwrap_or((part, ""));
+        found.push((number + 1 - up, code.to_string(), part.trim().to_string(), help.trim().to_string()));
     }
     found
 }
@@ -45,7 +47,7 @@ fn diagnostics_stand_where_they_are_expected() {
         let mut sources = Sources::default();
         let mut found =
             diagnostics(&mut sources, &path.file_name().expect("a name").to_string_lossy(), &text);
-        for (line, code, part) in expectations(&text) {
+        for (line, code, part, help) in expectations(&text) {
             cases += 1;
             codes.insert(code.clone());
             let is_meant = |d: &Diagnostic| {
@@ -54,8 +56,12 @@ fn diagnostics_stand_where_they_are_expected() {
             match found.iter().position(is_meant) {
                 Some(i) => {
                     let diagnostic = found.remove(i);
-                    if diagnostic.help.is_empty() {
-                        wrong.push(format!("{}:{line}: {code} has no help", path.display()));
+                    if diagnostic.help.is_empty() || !diagnostic.help.contains(&help) {
+                        wrong.push(format!(
+                            "{}:{line}: {code} has the help {:?}",
+                            path.display(),
+                            diagnostic.help
+                        ));
                     }
                 }
                 None => wrong.push(format!("{}:{line}: {code} {part}: not found", path.display())),

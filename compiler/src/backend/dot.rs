@@ -3,6 +3,7 @@
 use super::Files;
 use crate::connect::Edge;
 use crate::ir::{Automaton, System};
+use crate::naming;
 use std::fmt::Write;
 
 /// `connectivity.dot`, and a file for each automaton. Edges are between instances.
@@ -10,7 +11,7 @@ pub fn files(system: &System, edges: &[Edge]) -> Files {
     let mut files = Files::new();
     files.insert("connectivity.dot".into(), connectivity(system, edges));
     for automaton in &system.model.automata {
-        files.insert(format!("{}.dot", automaton.name.to_lowercase()), states(automaton));
+        files.insert(format!("{}.dot", naming::snake(&automaton.name)), states(automaton));
     }
     files
 }

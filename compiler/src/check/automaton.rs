@@ -37,6 +37,8 @@ pub struct Context<'c, 'a> {
     pub(super) broken: BTreeSet<String>,
     /// An interface is not known, and with it the names of its cells.
     pub(super) lacks_names: bool,
+    /// States, as the text names them.
+    pub(super) states: Vec<String>,
     /// Own interface, if the automaton shows something that no declared interface has.
     own_interface: Option<ir::InterfaceId>,
 }
@@ -76,6 +78,7 @@ pub(super) fn check(checker: &mut Checker, tree: &ast::Automaton) {
         in_guard: false,
         broken: BTreeSet::new(),
         lacks_names: false,
+        states: tree.states.iter().map(|s| s.name.value.clone()).collect(),
         own_interface,
     };
     context.names(tree);
@@ -107,6 +110,7 @@ pub(super) fn check(checker: &mut Checker, tree: &ast::Automaton) {
             });
         }
     }
+    context.bounded_work();
     let automaton = context.automaton;
     checker.model.automata.push(automaton);
 }

@@ -107,7 +107,7 @@ impl Context<'_, '_> {
                 let (found, wanted) = (self.checker.type_name(found), self.checker.type_name(wanted));
                 self.report(
                     Diagnostic::new("E0315", tree.span, format!("this has type {found}, {wanted} is wanted"))
-                        .help(type_help(&found, &wanted)),
+                        .help(type_help(&found, &wanted, tree)),
                 );
                 None
             }
@@ -251,10 +251,15 @@ impl Context<'_, '_> {
             _ => false,
         };
         if !fits {
+            let help = match (a.ty, b.ty) {
+                (Scalar::Time, Scalar::Int { .. } | Scalar::Real) => unit_help(right),
+                (Scalar::Int { .. } | Scalar::Real, Scalar::Time) => unit_help(left),
+                _ => "numbers and times have an order; other values are equal or not".into(),
+            };
             let (left, right) = (self.checker.type_name(a.ty), self.checker.type_name(b.ty));
             self.report(
                 Diagnostic::new("E0315", span, format!("{left} and {right} cannot be compared in this way"))
-                    .help("numbers and times have an order; other values are equal or not"),
+                    .help(help),
             );
             return None;
         }
@@ -290,10 +295,19 @@ impl Context<'_, '_> {
             (Scalar::Int { lo, .. }, Scalar::Time, Operator::Multiply) => self.time_product(b, a, lo, span),
             (Scalar::Time, Scalar::Time, Operator::Add) => self.time_sum(a, b, span),
             (a, b, _) => {
+                let help = match (a, b, operator) {
+                    (Scalar::Time, Scalar::Int { .. } | Scalar::Real, Operator::Add) => unit_help(right),
+                    (Scalar::Int { .. } | Scalar::Real, Scalar::Time, Operator::Add) => unit_help(left),
+                    _ => "`+ - * /` join numbers; `+ -` points; a time can be added to a time or multiplied by a whole number".into(),
+                };
                 let (left, right) = (self.checker.type_name(a), self.checker.type_name(b));
                 self.report(
-                    Diagnostic::new("E0315", span, format!("{left} and {right} cannot be joined in this way"))
-                        .help("`+ - * /` join numbers; `+ -` points; a time can be added to a time or multiplied by a whole number"),
+                    Diagnostic::new(
+                        "E0315",
+                        span,
+                        format!("{left} and {right} cannot be joined in this way"),
+                    )
+                    .help(help),
                 );
                 None
             }
@@ -685,9 +699,18 @@ fn lowered(operator: Operator) -> ir::Operator {
     }
 }
 
-fn type_help(found: &str, wanted: &str) -> String {
+/// How a number becomes a duration.
+pub(super) fn unit_help(tree: &ast::Expr) -> String {
+    match &tree.kind {
+        ast::ExprKind::Int(number) => format!("write a unit: `{number} s`"),
+        ast::ExprKind::Real(number) => format!("write a unit: `{number} s`"),
+        _ => "write a duration with its unit, such as `60 s` or `300 ms`".into(),
+    }
+}
+
+fn type_help(found: &str, wanted: &str, tree: &ast::Expr) -> String {
     match (found, wanted) {
-        (_, "time") => "write a duration with its unit, such as `2 s` or `300 ms`".into(),
+        (_, "time") => unit_help(tree),
         ("real", _) if wanted.starts_with("int") => {
             "a real does not become a whole number; compute with whole numbers".into()
         }

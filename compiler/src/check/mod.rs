@@ -10,6 +10,7 @@ mod state;
 mod types;
 mod update;
 mod used;
+mod work;
 
 pub use used::used;
 

@@ -125,8 +125,14 @@ impl Context<'_, '_> {
         let mut known: Vec<String> = self.symbols.keys().cloned().collect();
         known.extend(self.variables.iter().map(|(n, _, _)| n.clone()));
         known.extend(self.checker.model.enums.iter().flat_map(|e| e.members.iter().cloned()));
+        known.extend(["done", "failed", "self"].map(String::from));
         let diagnostic = Diagnostic::new("E0311", span, format!("there is no `{name}` here"));
         let help = match suggestion(name, known.iter().map(String::as_str)) {
+            _ if self.states.iter().any(|s| s == name) => {
+                format!(
+                    "`{name}` is a state: the next state stands behind the guard, `when done -> {name} {{}}`"
+                )
+            }
             Some(near) => format!("is `{near}` meant?"),
             None => format!(
                 "names are those of `{}`, of its interfaces, of the ports and constants of its device `{}`",
@@ -144,7 +150,10 @@ impl Context<'_, '_> {
         {
             let members = &self.checker.model.enums[id.0].members;
             let Some(ordinal) = members.iter().position(|m| *m == member.value) else {
-                let help = format!("its members are {}", members.join(", "));
+                let help = suggestion(&member.value, members.iter().map(String::as_str))
+                    .map_or(format!("its members are {}", members.join(", ")), |n| {
+                        format!("is `{n}` meant?")
+                    });
                 self.report(
                     Diagnostic::new(
                         "E0311",

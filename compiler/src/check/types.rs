@@ -182,10 +182,13 @@ impl Checker<'_> {
 
     fn not_constant(&mut self, ty: Scalar, expr: &ast::Expr) -> Option<Value> {
         let name = self.type_name(ty);
+        let help = match (ty, &expr.kind) {
+            (Scalar::Time, ExprKind::Int(_) | ExprKind::Real(_)) => super::expression::unit_help(expr),
+            _ => "write a literal value; what is to be computed belongs into the updates of `initial ->`"
+                .into(),
+        };
         self.report(
-            Diagnostic::new("E0305", expr.span, format!("this is no constant of type {name}")).help(
-                "write a literal value; what is to be computed belongs into the updates of `initial ->`",
-            ),
+            Diagnostic::new("E0305", expr.span, format!("this is no constant of type {name}")).help(help),
         );
         None
     }

@@ -5,15 +5,21 @@ use super::write::{self, Files, Overwrite, Refusal};
 use super::{load, print};
 use crate::Status;
 use autogen::backend::{dot, plan, rust, st};
+use autogen::library;
 use autogen::lower::{Outcome, Project, compile};
 use autogen::simulator;
 use autogen::source::Sources;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
+/// Written by `commission` beside the files of the manifest.
+pub const RESULTS: &str = "results.json";
+
 /// A line that was compiled and written.
 pub struct Built {
     pub project: Project,
+    /// Under the names that the output shows.
+    pub sources: Sources,
     pub files: Files,
     pub folder: PathBuf,
 }
@@ -23,14 +29,14 @@ pub fn run(options: &BuildOptions) -> Status {
         Ok(built) => {
             if options.input.format == Format::Json {
                 let names: Vec<&String> = built.files.keys().collect();
-                println!(
+                say!(
                     "{}",
                     json!({ "feasible": true, "folder": built.folder.display().to_string(), "files": names, "diagnostics": [] })
                 );
             } else if !options.input.quiet {
-                println!("{} files written to {}", built.files.len() + 1, built.folder.display());
+                say!("{} files written to {}", built.files.len() + 1, built.folder.display());
                 if let Some(bounds) = built.files.get("plc/bounds.txt") {
-                    print!("\n{bounds}");
+                    say_part!("\n{bounds}");
                 }
             }
             Status::Done
@@ -49,18 +55,34 @@ pub fn build(options: &BuildOptions) -> Result<Built, Status> {
                 let mut answer = print::verdict_json(verdict.as_ref(), &sources, &diagnostics);
                 answer["finished"] = json!(false);
                 answer["reason"] = json!("the input has errors");
-                println!("{answer}");
+                say!("{answer}");
             }
             Format::Text => print::diagnostics(&sources, &diagnostics),
         }
         return Err(Status::WrongInput);
     };
+    // The same input gives the same bytes, from whatever folder it is compiled.
+    let sources = sources.renamed(|name| title(&options.input.layout, name));
     let files = files(&project, &sources);
     let folder = options.output.clone().unwrap_or_else(|| Path::new("out").join(&project.name));
     let overwrite = if options.force { Overwrite::Everything } else { Overwrite::Own };
     write::write(&folder, &files, about(&project, &sources), overwrite)
         .map_err(|refusal| refused(options, &refusal))?;
-    Ok(Built { project, files, folder })
+    Ok(Built { project, sources, files, folder })
+}
+
+/// The name of an input as the output shows it: its path from the layout's folder, or its own name.
+fn title(layout: &Path, name: &str) -> String {
+    if library::FILES.iter().any(|(built_in, _)| *built_in == name) {
+        return name.to_string();
+    }
+    let path = Path::new(name);
+    let within =
+        layout.parent().and_then(|folder| path.strip_prefix(folder).ok()).filter(|rest| rest.is_relative());
+    match within {
+        Some(rest) => rest.display().to_string().replace('\\', "/"),
+        None => path.file_name().map_or(name.to_string(), |own| own.to_string_lossy().into_owned()),
+    }
 }
 
 /// All files of the output.
@@ -89,8 +111,7 @@ fn files(project: &Project, sources: &Sources) -> Files {
 fn about(project: &Project, sources: &Sources) -> Value {
     let inputs: serde_json::Map<String, Value> = (sources.files().iter())
         .map(|file| {
-            let name = file.name.rsplit(['/', '\\']).next().unwrap_or(&file.name);
-            let name = if name == "--set" { format!("--set {}", file.text) } else { name.to_string() };
+            let name = if file.name == "--set" { format!("--set {}", file.text) } else { file.name.clone() };
             (name, json!(write::hash(&file.text)))
         })
         .collect();
@@ -112,10 +133,17 @@ fn refused(options: &BuildOptions, refusal: &Refusal) -> Status {
                 names.join("\n  ")
             )
         }
+        Refusal::InTheWay(paths) => {
+            let names: Vec<String> = paths.iter().map(|p| p.display().to_string()).collect();
+            format!(
+                "not written: these are in the way, a file where a folder has to be or the other way round:\n  {}",
+                names.join("\n  ")
+            )
+        }
         Refusal::Io(path, error) => format!("{}: {error}", path.display()),
     };
     match options.input.format {
-        Format::Json => println!("{}", json!({ "finished": false, "reason": text, "diagnostics": [] })),
+        Format::Json => say!("{}", json!({ "finished": false, "reason": text, "diagnostics": [] })),
         Format::Text => eprintln!("autogen: {text}"),
     }
     Status::WrongCommand

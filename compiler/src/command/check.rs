@@ -21,14 +21,25 @@ pub fn run(options: &InputOptions) -> Status {
 fn show(options: &InputOptions, outcome: &Outcome) {
     let Outcome { sources, diagnostics, verdict, project } = outcome;
     match options.format {
-        Format::Json => println!("{}", print::verdict_json(verdict.as_ref(), sources, diagnostics)),
+        Format::Json => say!("{}", print::verdict_json(verdict.as_ref(), sources, diagnostics)),
         Format::Text => {
-            if let Some(verdict) = verdict.as_ref().filter(|_| !options.quiet) {
-                print!("{}", print::verdict(verdict));
+            // What the geometry says is of use only where nothing else is wrong.
+            let is_geometry = diagnostics.iter().all(|d| d.code.starts_with("E04"));
+            if let Some(verdict) = verdict.as_ref().filter(|_| !options.quiet && is_geometry) {
+                say_part!("{}", print::verdict(verdict));
             }
             print::diagnostics(sources, diagnostics);
             if !options.quiet {
-                println!("{}", if project.is_some() { "feasible" } else { "not feasible" });
+                say!(
+                    "{}",
+                    if project.is_some() {
+                        "feasible"
+                    } else if is_geometry {
+                        "not feasible"
+                    } else {
+                        "not checked: the input has errors"
+                    }
+                );
             }
         }
     }

@@ -7,7 +7,7 @@ use crate::Status;
 use runtime_sim::line::IoDelay;
 use serde_json::{Value, json};
 use std::io::{IsTerminal, Read};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::{Command, Stdio};
 use std::time::Instant;
 use std::{env, fs, io};
@@ -23,9 +23,11 @@ pub fn run(options: &CommissionOptions) -> Status {
         Err(status) => return status,
     };
     match commission(options, &built, delay) {
-        Ok(report) => {
+        Ok(mut report) => {
+            name_fault(&mut report, &built);
             let status = match report["finished"].as_bool() {
                 Some(true) => Status::Done,
+                _ if report["reason"].as_str().is_some_and(|r| r.starts_with("bug: ")) => Status::Bug,
                 _ => Status::NotReached,
             };
             show(options, &built, report, begin);
@@ -35,9 +37,23 @@ pub fn run(options: &CommissionOptions) -> Status {
     }
 }
 
+/// Adds to a fault what and where it is in the text: the simulator knows its number only.
+fn name_fault(report: &mut Value, built: &Built) {
+    let Some(code) = report["fault"]["code"].as_u64().filter(|code| *code > 0) else { return };
+    let Some(site) = built.project.system.model.faults.get(code as usize - 1) else { return };
+    let place =
+        format!("{}:{}", built.sources.file(site.place.file).name, built.sources.position(site.place).0);
+    let robot = report["fault"]["robot"].as_str().unwrap_or("").to_string();
+    let state = report["robots"][&robot]["state"].as_str().unwrap_or("").to_string();
+    report["reason"] = json!(format!("fault {code} of {robot}, in state {state}: {} ({place})", site.text));
+    report["fault"]["text"] = json!(site.text);
+    report["fault"]["place"] = json!(place);
+    report["fault"]["state"] = json!(state);
+}
+
 fn fail(options: &CommissionOptions, text: String) -> Status {
     match options.build.input.format {
-        Format::Json => println!("{}", json!({ "finished": false, "reason": text, "diagnostics": [] })),
+        Format::Json => say!("{}", json!({ "finished": false, "reason": text, "diagnostics": [] })),
         Format::Text => eprintln!("autogen: {text}"),
     }
     Status::WrongCommand
@@ -105,7 +121,8 @@ fn program(options: &CommissionOptions, built: &Built) -> Result<PathBuf, String
     if !options.build.input.quiet && options.build.input.format == Format::Text {
         eprintln!("compiling the controllers and the simulator (once for these types) ...");
     }
-    let target = folder.join("target");
+    // Of this process alone: another one may be compiling the same.
+    let target = folder.join(format!("target-{}", std::process::id()));
     let result = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
         .args(["build", "--release", "--quiet", "-p", "commissioning", "--manifest-path"])
         .arg(workspace.join("Cargo.toml"))
@@ -137,42 +154,50 @@ fn is_of_layout(name: &str) -> bool {
 
 /// Where compiled programs are kept: the user's cache.
 fn cache() -> PathBuf {
-    let base = env::var_os("XDG_CACHE_HOME")
-        .map(PathBuf::from)
-        .or_else(|| Some(Path::new(&env::var_os("HOME")?).join(".cache")));
+    let set = |name: &str| env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
+    let base = set("XDG_CACHE_HOME").or_else(|| Some(set("HOME")?.join(".cache")));
     base.unwrap_or_else(env::temp_dir).join("autogen")
 }
 
 fn show(options: &CommissionOptions, built: &Built, mut report: Value, begin: Instant) {
     let wall = begin.elapsed().as_secs_f64();
     report["wall_s"] = json!((wall * 1000.0).round() / 1000.0);
-    let path = built.folder.join("results.json");
+    report["layout"] = json!(built.project.name);
+    report["settings"] = json!(options.build.input.settings);
+    report["order_seed"] = json!(options.build.input.order);
+    report["io_delay"] = json!(options.io_delay);
+    let path = built.folder.join(build::RESULTS);
     let mut kept = report.clone();
     if let Some(object) = kept.as_object_mut() {
         object.remove("wall_s");
     }
     let _ = fs::write(path, format!("{kept:#}\n"));
     match options.build.input.format {
-        Format::Json => println!("{report}"),
-        Format::Text if options.build.input.quiet => {}
-        Format::Text => print!("{}", text(&report, wall)),
+        Format::Json => say!("{report}"),
+        Format::Text if !options.build.input.quiet => say_part!("{}", text(&report, wall, built)),
+        Format::Text if report["finished"] != true => {
+            eprintln!("autogen: {}", report["reason"].as_str().unwrap_or(""))
+        }
+        Format::Text => {}
     }
 }
 
 /// The report for people.
-fn text(report: &Value, wall: f64) -> String {
+fn text(report: &Value, wall: f64, built: &Built) -> String {
     let number = |v: &Value| v.as_f64().unwrap_or(0.0);
-    let mut out = format!("{}\n\n", report["reason"].as_str().unwrap_or(""));
+    let mut out = format!("{}\n\n", report["reason"].as_str().unwrap_or("").replace("; ", "\n  "));
     out += &format!("orders made        {} of {}\n", report["orders_done"], report["orders"]);
-    out += &format!("seconds per order  {:.2}\n", number(&report["seconds_per_order"]));
+    let per_order = report["seconds_per_order"].as_f64().map_or("-".into(), |s| format!("{s:.2}"));
+    out += &format!("seconds per order  {per_order}\n");
     out += &format!("simulated          {:.2} s, in {wall:.2} s\n", number(&report["simulated_s"]));
     out += &format!("collisions         {}\n\n", report["collisions"].as_str().unwrap_or(""));
     let empty = serde_json::Map::new();
     let robots = report["robots"].as_object().unwrap_or(&empty);
     let width = robots.keys().map(String::len).max().unwrap_or(5).max(5);
+    let (moving, working, waiting, stopped) = ("moving", "working", "waiting", "stopped");
     out += &format!(
-        "{:width$}  {:>9} {:>9} {:>9} {:>9}  waits for\n",
-        "robot", "moving", "working", "waiting", "stopped"
+        "{:width$}  {moving:>9} {working:>9} {waiting:>9} {stopped:>9}  {:12}  waited for\n",
+        "robot", "at the end"
     );
     for (name, robot) in robots {
         let seconds = |key: &str| format!("{:9.2}", number(&robot[key]));
@@ -181,11 +206,12 @@ fn text(report: &Value, wall: f64) -> String {
             .map(|(owner, _)| owner.clone())
             .collect();
         out += &format!(
-            "{name:width$}  {} {} {} {}  {}\n",
+            "{name:width$}  {} {} {} {}  {:12}  {}\n",
             seconds("moving_s"),
             seconds("working_s"),
             seconds("waiting_s"),
             seconds("stopped_s"),
+            robot["state"].as_str().unwrap_or(""),
             owners.join(", ")
         );
     }
@@ -198,5 +224,6 @@ fn text(report: &Value, wall: f64) -> String {
     }
     let places: Vec<String> = places.iter().map(|(place, n)| format!("{n} {place}")).collect();
     out += &format!("\nitems              {} ({})\n", items.len(), places.join(", "));
+    out += &format!("written to         {}\n", built.folder.display());
     out
 }

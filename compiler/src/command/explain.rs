@@ -4,9 +4,9 @@ use super::options::ExplainOptions;
 use crate::Status;
 
 pub fn run(options: &ExplainOptions) -> Status {
-    match autogen::diagnostic::explain(&options.code) {
+    match autogen::diagnostic::explain(&options.code.to_uppercase()) {
         Some(text) => {
-            println!("{text}");
+            say!("{text}");
             Status::Done
         }
         None => {

@@ -5,6 +5,7 @@ use super::{load, print};
 use crate::Status;
 use autogen::backend::{dot, plan};
 use autogen::lower::compile;
+use autogen::naming;
 
 pub fn run(options: &GraphOptions) -> Status {
     let input = match load::load(&options.input) {
@@ -17,13 +18,13 @@ pub fn run(options: &GraphOptions) -> Status {
         return Status::WrongInput;
     };
     if options.of == "plan" {
-        print!("{}", plan::svg(&project.plant, &project.edges, &project.obstacles));
+        say_part!("{}", plan::svg(&project.plant, &project.edges, &project.obstacles));
         return Status::Done;
     }
     let files = dot::files(&project.system, &project.edges);
-    match files.get(&format!("{}.dot", options.of)) {
+    match files.get(&format!("{}.dot", naming::snake(&options.of))) {
         Some(text) => {
-            print!("{text}");
+            say_part!("{text}");
             Status::Done
         }
         None => {

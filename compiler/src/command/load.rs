@@ -57,11 +57,8 @@ fn named_specs(layout: &Option<Layout>) -> Vec<String> {
     layout.iter().flat_map(|l| l.specs.iter().map(|s| s.value.clone())).collect()
 }
 
-/// The automata of a folder in the order of their names, or one file.
+/// The automata of a folder in the order of their names.
 fn automata(path: &Path) -> Result<Vec<PathBuf>, Failure> {
-    if path.is_file() {
-        return Ok(vec![path.into()]);
-    }
     let entries = std::fs::read_dir(path).map_err(|e| unreadable(path, &e))?;
     let mut files = Vec::new();
     for entry in entries {
@@ -79,7 +76,8 @@ fn automata(path: &Path) -> Result<Vec<PathBuf>, Failure> {
 
 fn add(sources: &mut Sources, path: &Path) -> Result<FileId, Failure> {
     let bytes = std::fs::read(path).map_err(|e| unreadable(path, &e))?;
-    Ok(sources.add(path.display().to_string(), String::from_utf8_lossy(&bytes)))
+    let text = String::from_utf8_lossy(&bytes);
+    Ok(sources.add(path.display().to_string(), text.strip_prefix('\u{feff}').unwrap_or(&text)))
 }
 
 fn unreadable(path: &Path, error: &std::io::Error) -> Failure {

@@ -1,5 +1,15 @@
 //! One module for each command, and what they share.
 
+/// A line on standard output.
+macro_rules! say {
+    ($($text:tt)*) => { $crate::command::print::out(format_args!("{}\n", format_args!($($text)*))) };
+}
+
+/// Text on standard output.
+macro_rules! say_part {
+    ($($text:tt)*) => { $crate::command::print::out(format_args!($($text)*)) };
+}
+
 pub mod build;
 pub mod check;
 pub mod commission;

@@ -7,7 +7,18 @@ use autogen::diagnostic::{self, Diagnostic};
 use autogen::lower::{Apart, Verdict};
 use autogen::source::Sources;
 use serde_json::{Value, json};
-use std::io::IsTerminal;
+use std::io::{self, IsTerminal, Write};
+
+/// Writes to standard output. A reader that has enough ends the program quietly.
+pub fn out(text: std::fmt::Arguments) {
+    if let Err(error) = io::stdout().write_fmt(text).and_then(|()| io::stdout().flush()) {
+        if error.kind() == io::ErrorKind::BrokenPipe {
+            std::process::exit(Status::Done as i32);
+        }
+        eprintln!("autogen: standard output: {error}");
+        std::process::exit(Status::WrongCommand as i32);
+    }
+}
 
 /// Diagnostics on standard error.
 pub fn diagnostics(sources: &Sources, found: &[Diagnostic]) {
@@ -41,14 +52,11 @@ pub fn failure(options: &InputOptions, failure: &Failure) -> Status {
     match (failure, options.format) {
         (Failure::Unreadable(text), Format::Text) => eprintln!("autogen: {text}"),
         (Failure::Unreadable(text), Format::Json) => {
-            println!(
-                "{}",
-                json!({ "feasible": false, "finished": false, "reason": text, "diagnostics": [] })
-            );
+            say!("{}", json!({ "feasible": false, "finished": false, "reason": text, "diagnostics": [] }));
         }
         (Failure::Wrong(sources, found), Format::Text) => diagnostics(sources, found),
         (Failure::Wrong(sources, found), Format::Json) => {
-            println!(
+            say!(
                 "{}",
                 json!({ "feasible": false, "finished": false, "diagnostics": diagnostics_json(sources, found) })
             );
@@ -68,9 +76,14 @@ pub fn verdict_json(verdict: Option<&Verdict>, sources: &Sources, found: &[Diagn
         "destinations": v.destinations,
         "unreachable": v.unreachable,
         "dead_ends": v.dead_ends,
-        "apart": v.apart.iter().map(apart_json).collect::<Vec<_>>(),
+        "apart": v.apart.iter().filter(|a| is_missed(a, v)).map(apart_json).collect::<Vec<_>>(),
         "diagnostics": diagnostics_json(sources, found),
     })
+}
+
+/// Whether a machine is cut off that this handover could have connected.
+fn is_missed(apart: &Apart, verdict: &Verdict) -> bool {
+    verdict.unreachable.contains(&apart.to) || verdict.dead_ends.contains(&apart.from)
 }
 
 fn apart_json(apart: &Apart) -> Value {

@@ -24,7 +24,31 @@ pub enum Overwrite {
 pub enum Refusal {
     /// These would be overwritten or are in the way.
     NotOurs(Vec<PathBuf>),
+    /// Files where folders have to be, or folders where files have to be.
+    InTheWay(Vec<PathBuf>),
     Io(PathBuf, io::Error),
+}
+
+fn in_the_way(folder: &Path, files: &Files) -> Vec<PathBuf> {
+    if folder.symlink_metadata().is_ok() && !folder.is_dir() {
+        return vec![folder.into()];
+    }
+    let mut found: Vec<PathBuf> = Vec::new();
+    for name in files.keys().map(String::as_str).chain([MANIFEST]) {
+        let path = folder.join(name);
+        if path.is_dir() {
+            found.push(path.clone());
+        }
+        let within = Path::new(name)
+            .ancestors()
+            .skip(1)
+            .filter(|part| part.file_name().is_some())
+            .map(|part| folder.join(part));
+        found.extend(within.filter(|part| part.symlink_metadata().is_ok() && !part.is_dir()));
+    }
+    found.sort();
+    found.dedup();
+    found
 }
 
 pub fn hash(text: &str) -> String {
@@ -34,6 +58,10 @@ pub fn hash(text: &str) -> String {
 /// Writes the files and a manifest of them, with `about` first in it, and removes those of the last
 /// time that are no more. Everything is written beside the folder first.
 pub fn write(folder: &Path, files: &Files, about: Value, overwrite: Overwrite) -> Result<(), Refusal> {
+    let in_the_way = in_the_way(folder, files);
+    if !in_the_way.is_empty() {
+        return Err(Refusal::InTheWay(in_the_way));
+    }
     let before = manifest(folder);
     let is_own = |name: &str| match (fs::read(folder.join(name)), before.get(name)) {
         (Err(e), _) => e.kind() == io::ErrorKind::NotFound,

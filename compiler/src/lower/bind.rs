@@ -59,11 +59,13 @@ fn without_automaton(object: &Object, name: &str, model: &Model) -> Diagnostic {
 /// `assembly_station` is another word for `station`; other types are named as their automaton.
 fn automaton_name(kind: &str) -> String {
     let kind = if kind == "assembly_station" { "station" } else { kind };
-    kind.split('_')
-        .flat_map(|word| {
-            word[..word.len().min(1)].to_uppercase().chars().chain(word.chars().skip(1)).collect::<Vec<_>>()
-        })
-        .collect()
+    let mut name = String::new();
+    for word in kind.split('_') {
+        let mut letters = word.chars();
+        name.extend(letters.next().into_iter().flat_map(char::to_uppercase));
+        name.extend(letters);
+    }
+    name
 }
 
 /// The type under which a layout names an automaton.

@@ -2,7 +2,7 @@
 
 use super::role::Line;
 use crate::diagnostic::Diagnostic;
-use crate::ir::{Clause, Domain, Expr, ExprKind, Place, RoleKind, State, System};
+use crate::ir::{Clause, Domain, Expr, ExprKind, InterfaceId, Place, Role, RoleKind, State, System};
 use crate::scenario::{self, ResolvedScenario, Scenario};
 use runtime_sim::line;
 use std::collections::BTreeSet;
@@ -141,22 +141,40 @@ impl Reads<'_> {
         }
     }
 
+    /// A cell of its own is awaited from the arms that come here: they write it too.
+    fn partners(&mut self, interface: InterfaceId) {
+        let system = self.system;
+        for (other, instance) in system.instances.iter().enumerate() {
+            let mut roles = system.automaton_of(other).roles.iter().zip(&instance.roles);
+            let comes = roles.any(|(role, rows): (&Role, &Vec<usize>)| {
+                role.interface == interface
+                    && matches!(role.kind, RoleKind::Takes | RoleKind::Hands)
+                    && rows.iter().any(|row| system.members[interface.0][*row] == self.instance)
+            });
+            if comes {
+                self.owners.insert(other);
+            }
+        }
+    }
+
     fn place(&mut self, place: &Place) {
         let index = match place {
             Place::Port { index, .. } => {
                 self.working = true;
                 index
             }
-            Place::Cell { interface, of, index, .. } => {
-                if of.is_some() {
-                    let roles = &self.system.automaton_of(self.instance).roles;
-                    let rows = roles
-                        .iter()
-                        .zip(&self.system.instances[self.instance].roles)
-                        .filter(|(role, _)| role.interface == *interface && role.kind != RoleKind::Knows)
-                        .flat_map(|(_, rows)| rows);
-                    self.owners.extend(rows.map(|row| self.system.members[interface.0][*row]));
-                }
+            Place::Cell { interface, of: None, index, .. } => {
+                self.partners(*interface);
+                index
+            }
+            Place::Cell { interface, of: Some(_), index, .. } => {
+                let roles = &self.system.automaton_of(self.instance).roles;
+                let rows = roles
+                    .iter()
+                    .zip(&self.system.instances[self.instance].roles)
+                    .filter(|(role, _)| role.interface == *interface && role.kind != RoleKind::Knows)
+                    .flat_map(|(_, rows)| rows);
+                self.owners.extend(rows.map(|row| self.system.members[interface.0][*row]));
                 index
             }
             Place::Local { index, .. } | Place::Parameter { index, .. } | Place::Shown { index, .. } => index,

@@ -1,5 +1,7 @@
 //! Text to tokens.
 
+mod foreign;
+
 use crate::diagnostic::Diagnostic;
 use crate::source::{FileId, Span};
 
@@ -53,7 +55,15 @@ pub fn tokens(file: FileId, text: &str) -> (Vec<(Token, Span)>, Vec<Diagnostic>)
             );
         } else if c.is_ascii_alphabetic() || c == '_' {
             at += rest.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(rest.len());
-            found.push((Token::Word(text[start..at].to_string()), Span::new(file, start, at)));
+            let word = &text[start..at];
+            if text[at..].starts_with('#') && ["t", "time"].contains(&word.to_lowercase().as_str()) {
+                at += foreign::literal_length(&text[at..]);
+                let span = Span::new(file, start, at);
+                found.extend(foreign::duration(&text[start..at], span, &mut diagnostics));
+                continue;
+            }
+            let span = Span::new(file, start, at);
+            found.push((Token::Word(foreign::word(word, span, &mut diagnostics).into()), span));
         } else if c.is_ascii_digit() {
             at += number_length(rest);
             let span = Span::new(file, start, at);

@@ -221,12 +221,30 @@ impl Parser {
         Some(ast::Rule::Token(sides))
     }
 
+    /// Whether something stands behind `int` that begins no bound.
+    fn lacks_bounds(&self) -> bool {
+        match self.peek() {
+            Token::Word(w) => ["by", "with"].contains(&w.as_str()),
+            Token::Sign(sign) => !["-", "("].contains(sign),
+            Token::End => true,
+            _ => false,
+        }
+    }
+
     pub(super) fn parse_type(&mut self) -> Option<ast::Type> {
         let span = self.span();
         let name = self.expect_name("the type")?;
         let scalar = match name.value.as_str() {
             "bool" => ast::Scalar::Bool,
             "int" => {
+                if self.lacks_bounds() {
+                    self.error(
+                        "E0205",
+                        "the bounds of an `int` are missing".into(),
+                        "an int has bounds: `int 0..12`",
+                    );
+                    return None;
+                }
                 let lo = self.parse_bound();
                 self.expect_sign("..", "between the bounds of an `int`")?;
                 let hi = self.parse_bound();

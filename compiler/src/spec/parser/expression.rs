@@ -270,11 +270,13 @@ impl Parser {
             "sum" => self.quantified(Quantifier::Sum, span),
             "and" | "or" | "when" | "in" | "with" | "else" | "reaches" | "mod" | "first" | "nearest"
             | "least" | "state" | "until" | "wait" => {
-                self.error(
-                    "E0213",
-                    format!("`{word}` is no value"),
-                    "write a name, a number or an expression",
-                );
+                let is_binder = ["first", "nearest", "least"].contains(&word.as_str())
+                    && matches!(self.peek_second(), Token::Word(_));
+                let help = match is_binder {
+                    true => format!("binders are joined with a comma: `when ready, {word} x in ...`"),
+                    false => "write a name, a number or an expression".into(),
+                };
+                self.error("E0213", format!("`{word}` is no value"), help);
                 self.next();
                 error(span)
             }

@@ -5,6 +5,9 @@ use crate::source::Span;
 use crate::spec::ast;
 use crate::spec::lexer::Token;
 
+/// Clauses of one guard; they are nested loops.
+const MOST_CLAUSES: usize = 32;
+
 impl Parser {
     pub(super) fn parse_any(&mut self) -> Option<ast::AnyState> {
         self.next();
@@ -104,13 +107,28 @@ impl Parser {
         let errors = self.errors;
         let mut clauses: Vec<_> = self.clause().into_iter().collect();
         while self.errors == errors && self.maybe_sign(",") {
+            if clauses.len() == MOST_CLAUSES {
+                let message = format!("a guard has {MOST_CLAUSES} clauses at most");
+                self.error("E0211", message, "join conditions with `and`, or split the transition");
+                break;
+            }
             clauses.extend(self.clause());
         }
         let guard_span = guard_start.to(self.last_span());
         if self.errors > errors {
             self.skip_to(&["->"]);
         }
-        let target = if self.maybe_sign("->") { Some(self.expect_name("the next state")?) } else { None };
+        let goes_to = self.at_word("goto") && matches!(self.peek_second(), Token::Word(_));
+        if goes_to && self.errors == errors {
+            self.error(
+                "E0205",
+                "`->` is missing before the next state".into(),
+                "write `-> State {}` instead of `goto State`",
+            );
+            self.next();
+        }
+        let target =
+            if goes_to || self.maybe_sign("->") { Some(self.expect_name("the next state")?) } else { None };
         let updates =
             if target.is_some() && self.maybe_sign(";") { Vec::new() } else { self.parse_updates() };
         Some(ast::Transition { span: start.to(self.last_span()), clauses, guard_span, target, updates })
@@ -189,7 +207,9 @@ impl Parser {
                 let found = self.found();
                 let help = if self.at_sign("=") {
                     "an assignment is written with `:=`"
-                } else if matches!(&target.kind, ast::ExprKind::Name(n) if n == "if") {
+                } else if matches!(&target.kind, ast::ExprKind::Name(n) if n == "goto") {
+                    "the next state stands behind the guard: `when done -> State {}`; a command has parentheses: `goto(place);`"
+                } else if matches!(&target.kind, ast::ExprKind::Name(n) if n.eq_ignore_ascii_case("if")) {
                     "there is no `if`: write two transitions with different guards"
                 } else {
                     "an update is `name := value;` or a command such as `move(place);`"

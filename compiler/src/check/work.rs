@@ -1,0 +1,89 @@
+//! How much a scan may have to do: nested loops and definitions multiply, and a scan has to end in time.
+
+use super::automaton::Context;
+use crate::diagnostic::Diagnostic;
+use crate::ir::{Automaton, Clause, Domain, Expr, ExprKind, Model, Scalar, VariableId};
+use crate::source::Span;
+
+/// Operations that one guard, definition or condition may take at most.
+const MOST: u64 = 1_000_000;
+/// Members that a role is taken to have, before a layout is known.
+const MEMBERS: u64 = 16;
+
+impl Context<'_, '_> {
+    /// Refuses what could take too long.
+    pub(super) fn bounded_work(&mut self) {
+        let work = Work::new(&self.checker.model, &self.automaton);
+        let automaton = &self.automaton;
+        let mut found: Vec<(Span, u64)> =
+            automaton.defines.iter().zip(&work.defines).map(|(define, work)| (define.place, *work)).collect();
+        for state in &automaton.states {
+            found.extend(state.transitions.iter().map(|t| (t.place, work.guard(&t.clauses))));
+        }
+        found.extend(automaton.invariants.iter().map(|i| (i.place, work.of(&i.condition))));
+        found.extend(automaton.requires.iter().map(|r| (r.place, work.of(&r.condition))));
+        for (place, work) in found.into_iter().filter(|(_, work)| *work > MOST) {
+            self.report(
+                Diagnostic::new("E0320", place, "this could take too long for one scan")
+                    .label(format!("up to {work} operations, {MOST} are allowed"))
+                    .note(format!("nested ranges multiply; a role counts as {MEMBERS} members"))
+                    .help("use shorter ranges, nest fewer of them, or keep a result in a local variable"),
+            );
+        }
+    }
+}
+
+struct Work<'a> {
+    model: &'a Model,
+    automaton: &'a Automaton,
+    /// Of each definition.
+    defines: Vec<u64>,
+}
+
+impl<'a> Work<'a> {
+    fn new(model: &'a Model, automaton: &'a Automaton) -> Self {
+        let mut work = Self { model, automaton, defines: Vec::new() };
+        for define in &automaton.defines {
+            let of = work.of(&define.value);
+            work.defines.push(of);
+        }
+        work
+    }
+
+    fn of(&self, expr: &Expr) -> u64 {
+        match &expr.kind {
+            // A definition reads only those before it.
+            ExprKind::Define(define) => self.defines.get(*define).copied().unwrap_or(1).saturating_add(1),
+            ExprKind::Exists { variable, domain, body }
+            | ExprKind::Forall { variable, domain, body }
+            | ExprKind::Count { variable, domain, body }
+            | ExprKind::Sum { variable, domain, body } => {
+                self.size(*variable, domain).saturating_mul(self.of(body)).saturating_add(1)
+            }
+            _ => expr.parts().into_iter().fold(1, |sum, part| sum.saturating_add(self.of(part))),
+        }
+    }
+
+    /// Clauses are nested loops.
+    fn guard(&self, clauses: &[Clause]) -> u64 {
+        clauses.iter().rev().fold(1, |inner, clause| match clause {
+            Clause::Condition(condition) => inner.saturating_add(self.of(condition)),
+            Clause::Bind(binder) => {
+                let own = [&binder.condition, &binder.key].into_iter().flatten();
+                let once = own.fold(inner, |sum, expr| sum.saturating_add(self.of(expr)));
+                self.size(binder.variable, &binder.domain).saturating_mul(once)
+            }
+        })
+    }
+
+    fn size(&self, variable: VariableId, domain: &Domain) -> u64 {
+        match domain {
+            Domain::Role(_) => MEMBERS,
+            Domain::Enum(id) => self.model.enums[id.0].members.len() as u64,
+            Domain::Range(..) => match self.automaton.variables[variable.0].ty.scalar {
+                Scalar::Int { lo, hi } => (i64::from(hi) - i64::from(lo)).unsigned_abs() + 1,
+                _ => 1,
+            },
+        }
+    }
+}

@@ -1,0 +1,196 @@
+//! An evaluator: runs a checked text scan by scan.
+//!
+//! It is as strict as the strictest compiler: whole numbers do not wrap, both sides
+//! of AND and OR are evaluated, nothing may be divided by zero, an index is tested.
+//! Of initial values it knows those of scalars in PROGRAM and VAR_GLOBAL only, as
+//! one compiler ignores all others; so does a text that relies on them run wrong here.
+
+mod code;
+mod compile;
+mod construct;
+mod layout;
+mod place;
+mod run;
+
+pub use place::Place;
+
+use crate::finding::{Finding, Place as TextPlace, Span};
+use crate::types::Scalar;
+use code::{Code, Trap};
+use layout::Layouts;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::fmt;
+
+/// A text in execution.
+#[derive(Clone, Debug)]
+pub struct Machine {
+    source: String,
+    code: Code,
+    layouts: Layouts,
+    constructs: HashMap<Span, BTreeSet<String>>,
+    /// Every value takes one word.
+    memory: Vec<u64>,
+    counters: Counters,
+}
+
+#[derive(Clone, Debug, Default)]
+struct Counters {
+    /// For each branch of a CASE, how often it was entered.
+    branches: Vec<u64>,
+    /// For each statement, how often it was executed.
+    statements: Vec<u64>,
+    executed: u64,
+}
+
+/// Why a scan could not be ended.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RunError {
+    pub kind: TrapKind,
+    pub line: usize,
+    pub column: usize,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TrapKind {
+    Overflow,
+    DivisionByZero,
+    Index,
+    /// An argument outside of what a standard function is defined for.
+    Domain,
+    EndlessLoop,
+}
+
+/// A branch of a CASE.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CaseBranch {
+    pub unit: String,
+    /// The labels as written, `ELSE` for the last.
+    pub label: String,
+    pub line: usize,
+    pub entered: u64,
+}
+
+impl Machine {
+    /// The text at power-up, before its first scan.
+    pub fn new(source: &str) -> Result<Self, Vec<Finding>> {
+        let checked = crate::judge(source)?;
+        let layouts = Layouts::new(&checked);
+        let code = compile::compile(&checked, &layouts);
+        let mut memory = vec![0; layouts.size()];
+        layouts.initialise(&checked, &mut memory);
+        let counters = Counters {
+            branches: vec![0; code.branches.len()],
+            statements: vec![0; code.statements.len()],
+            executed: 0,
+        };
+        let constructs = construct::of_text(&checked);
+        Ok(Self { source: source.into(), code, layouts, constructs, memory, counters })
+    }
+
+    /// Runs every program once.
+    pub fn scan(&mut self) -> Result<(), RunError> {
+        run::scan(&self.code, &mut self.memory, &mut self.counters).map_err(|trap| self.located(trap))
+    }
+
+    fn located(&self, trap: Trap) -> RunError {
+        let place = TextPlace::of(&self.source, trap.at);
+        RunError { kind: trap.kind, line: place.line, column: place.column }
+    }
+
+    /// The place of a scalar: `global`, `global[2]`, `instance.variable`, `instance.array[2]`, where an
+    /// instance is a variable of the PROGRAM. Case does not count.
+    pub fn place(&self, path: &str) -> Option<Place> {
+        self.layouts.place(path)
+    }
+
+    /// The value as a number: 0 and 1 for BOOL.
+    pub fn read(&self, place: Place) -> f64 {
+        let word = self.memory[place.address];
+        match place.ty {
+            Scalar::Bool => word as f64,
+            Scalar::Dint => f64::from(word as u32 as i32),
+            Scalar::Lreal => f64::from_bits(word),
+        }
+    }
+
+    /// Sets a value from a number; for DINT without its fraction.
+    pub fn write(&mut self, place: Place, value: f64) {
+        self.memory[place.address] = match place.ty {
+            Scalar::Bool => u64::from(value != 0.0),
+            Scalar::Dint => u64::from(value as i32 as u32),
+            Scalar::Lreal => value.to_bits(),
+        };
+    }
+
+    /// The value at a path; a panic if there is none.
+    pub fn get(&self, path: &str) -> f64 {
+        self.read(self.place(path).unwrap_or_else(|| panic!("there is no `{path}`")))
+    }
+
+    pub fn set(&mut self, path: &str, value: f64) {
+        let place = self.place(path).unwrap_or_else(|| panic!("there is no `{path}`"));
+        self.write(place, value);
+    }
+
+    /// Names and types of the global variables, arrays by element.
+    pub fn globals(&self) -> Vec<String> {
+        self.layouts.globals()
+    }
+
+    pub fn branches(&self) -> Vec<CaseBranch> {
+        let branches = self.code.branches.iter().zip(&self.counters.branches);
+        branches
+            .map(|(branch, &entered)| CaseBranch {
+                unit: branch.unit.clone(),
+                label: branch.label.clone(),
+                line: TextPlace::of(&self.source, branch.at).line,
+                entered,
+            })
+            .collect()
+    }
+
+    /// Line and first words of the statements that were never executed.
+    pub fn never_executed(&self) -> Vec<(usize, String)> {
+        let statements = self.code.statements.iter().zip(&self.counters.statements);
+        statements
+            .filter(|(_, count)| **count == 0)
+            .map(|(span, _)| {
+                let text: String = self.source[span.start..span.end].chars().take(60).collect();
+                (TextPlace::of(&self.source, span.start).line, text.lines().next().unwrap_or("").into())
+            })
+            .collect()
+    }
+
+    /// The constructs of the language that the text uses, with how often a statement with one was executed.
+    pub fn constructs(&self) -> BTreeMap<String, u64> {
+        let mut counts = BTreeMap::new();
+        for (span, count) in self.code.statements.iter().zip(&self.counters.statements) {
+            for name in self.constructs.get(span).into_iter().flatten() {
+                *counts.entry(name.clone()).or_default() += count;
+            }
+        }
+        counts
+    }
+
+    pub fn statements(&self) -> usize {
+        self.code.statements.len()
+    }
+
+    /// How many statements have been executed since power-up.
+    pub fn executed(&self) -> u64 {
+        self.counters.executed
+    }
+
+    /// The period of the first task, ms.
+    pub fn interval_ms(&self) -> Option<u32> {
+        self.code.interval_ms
+    }
+}
+
+impl fmt::Display for RunError {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "{}:{}: {:?}", self.line, self.column, self.kind)
+    }
+}
+
+impl std::error::Error for RunError {}
