@@ -548,11 +548,12 @@ pub fn guarded(condition: Ex, then: Vec<Stmt>) -> Vec<Stmt> {
     }
 }
 
-/// A coordinate with another one added. Zero is added once: it changes nothing but -0, and that the first time.
+/// A coordinate with another one added or taken away. Zero is added once: it changes nothing but -0, and that
+/// the first time. Taken away it changes nothing.
 fn shifted(operator: &'static str, a: Ex, b: Ex) -> Ex {
     let is_zero = |e: &Ex| matches!(e, Ex::Real(r) if r.to_bits() == 0);
     let has_zero = matches!(&a, Ex::Binary("+", _, tail) if is_zero(tail));
-    if operator == "+" && is_zero(&b) && has_zero { a } else { binary(operator, a, b) }
+    if is_zero(&b) && (operator == "-" || has_zero) { a } else { binary(operator, a, b) }
 }
 
 fn equal_truth(operator: Operator, a: Ex, b: Ex) -> Ex {
