@@ -32,7 +32,7 @@ impl Lowering<'_> {
                 body.extend(self.command(*verb));
             }
         }
-        self.known.clear();
+        self.forget(&body);
         let mut first = std::mem::take(&mut self.hoisted);
         first.extend(body);
         first
