@@ -221,3 +221,26 @@ pub fn functions(statements: &[Stmt]) -> Vec<&'static str> {
     expressions(statements, &mut |e| e.functions(&mut found));
     found
 }
+
+/// Variables and arrays to which statements assign.
+pub fn written(statements: &[Stmt]) -> BTreeSet<String> {
+    let mut found = BTreeSet::new();
+    for statement in statements {
+        match statement {
+            Stmt::Assign(Ex::Name(name) | Ex::Element(name, _), _) => {
+                found.insert(name.clone());
+            }
+            Stmt::If(arms, otherwise) => {
+                arms.iter().for_each(|arm| found.extend(written(&arm.body)));
+                found.extend(written(otherwise));
+            }
+            Stmt::While { body, .. } => found.extend(written(body)),
+            Stmt::Case { branches, otherwise, .. } => {
+                branches.iter().for_each(|(_, body)| found.extend(written(body)));
+                found.extend(written(otherwise));
+            }
+            Stmt::Comment(_) | Stmt::Assign(..) | Stmt::Exit | Stmt::Return | Stmt::Call { .. } => {}
+        }
+    }
+    found
+}

@@ -1,6 +1,6 @@
 //! What every part of the emitter reads, and the state of lowering one automaton.
 
-use super::code::{Ex, Member, Stmt};
+use super::code::{Ex, Member, Stmt, written};
 use super::declaration::{Basic, Variable};
 use super::names::{AutomatonNames, Names};
 use crate::ir::{Automaton, AutomatonId, EnumId, System, Value};
@@ -34,8 +34,8 @@ pub struct Lowering<'a> {
     pub temporaries: Vec<Variable>,
     /// Computations of defines, which come before the statement or guard that reads them.
     pub hoisted: Vec<Stmt>,
-    /// Defines whose variables hold their present value.
-    pub known: BTreeSet<usize>,
+    /// Defines whose variables hold their present value, with all names that were read for it.
+    pub known: BTreeMap<usize, BTreeSet<String>>,
     scope: Scope,
     /// By what they are for and their number among those in use at once.
     given: BTreeMap<(String, Basic, usize), String>,
@@ -58,7 +58,7 @@ impl<'a> Lowering<'a> {
             phase: Phase::Guard,
             temporaries: Vec::new(),
             hoisted: Vec::new(),
-            known: BTreeSet::new(),
+            known: BTreeMap::new(),
             scope: shared.names.automata[id.0].scope.inner(),
             given: BTreeMap::new(),
             in_use: BTreeMap::new(),
@@ -85,6 +85,15 @@ impl<'a> Lowering<'a> {
         self.temporaries.push(Variable::new(name.clone(), basic));
         self.given.insert(key, name.clone());
         name
+    }
+
+    /// Forgets the defines that read what these statements write.
+    pub fn forget(&mut self, statements: &[Stmt]) {
+        let mut written = written(statements);
+        if self.answer_names().iter().any(|name| written.contains(name)) {
+            written.extend(["done".into(), "failed".into()]);
+        }
+        self.known.retain(|_, read| read.is_disjoint(&written));
     }
 
     /// Temporary variables hold nothing any more that is needed.

@@ -158,6 +158,13 @@ impl Lowering<'_> {
         ])
     }
 
+    /// The variables from which `done` and `failed` are computed.
+    pub fn answer_names(&self) -> Vec<String> {
+        let ports = self.automaton().device.ports.iter().zip(&self.own().ports);
+        let ports = ports.filter(|(port, _)| ["cmd", "ack", "error"].contains(&port.name));
+        ports.map(|(_, held)| held[0].clone()).collect()
+    }
+
     /// Statements that set `done` and `failed`.
     pub fn answer(&mut self) -> Vec<Stmt> {
         let (done, failed) = super::walk::answers(self.automaton());
@@ -178,10 +185,18 @@ impl Lowering<'_> {
             return self.value(&define.value, before);
         }
         let variable = self.own().defines[number][0].clone();
-        if self.known.insert(number) {
+        if !self.known.contains_key(&number) {
             let mut statements = Vec::new();
             let title = format!("{}   {}", self.definition(define.place), self.line(define.place));
             self.set(&variable, &define.value, &mut statements);
+            let mut read = super::code::names(&statements);
+            // What the defines among them read, it reads too.
+            for (inner, names) in &self.known {
+                if read.contains(&self.own().defines[*inner][0]) {
+                    read.extend(names.clone());
+                }
+            }
+            self.known.insert(number, read);
             self.hoisted.push(Stmt::Comment(title));
             self.hoisted.extend(statements);
         }
@@ -447,7 +462,9 @@ impl Lowering<'_> {
         body: impl FnOnce(&mut Self) -> Vec<Stmt>,
     ) {
         let mut body = body(self);
-        body.push(advance(counter));
+        if body.last() != Some(&Stmt::Exit) {
+            body.push(advance(counter));
+        }
         out.push(Stmt::While { condition, body, most });
     }
 
@@ -548,11 +565,12 @@ pub fn guarded(condition: Ex, then: Vec<Stmt>) -> Vec<Stmt> {
     }
 }
 
-/// A coordinate with another one added. Zero is added once: it changes nothing but -0, and that the first time.
+/// A coordinate with another one added or taken away. Zero is added once: it changes nothing but -0, and that
+/// the first time. Taken away it changes nothing.
 fn shifted(operator: &'static str, a: Ex, b: Ex) -> Ex {
     let is_zero = |e: &Ex| matches!(e, Ex::Real(r) if r.to_bits() == 0);
     let has_zero = matches!(&a, Ex::Binary("+", _, tail) if is_zero(tail));
-    if operator == "+" && is_zero(&b) && has_zero { a } else { binary(operator, a, b) }
+    if is_zero(&b) && (operator == "-" || has_zero) { a } else { binary(operator, a, b) }
 }
 
 fn equal_truth(operator: Operator, a: Ex, b: Ex) -> Ex {

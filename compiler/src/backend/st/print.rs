@@ -122,14 +122,15 @@ impl Printer {
     fn comment(&mut self, depth: usize, text: &str) {
         let text = comment(text);
         let mut line = String::new();
+        let text = text.strip_suffix(" *)").unwrap_or(&text);
         for word in text.split_inclusive(' ') {
-            if !line.is_empty() && 4 * depth + line.len() + word.trim_end().len() > WIDTH {
+            if !line.is_empty() && 4 * depth + line.len() + word.trim_end().len() > WIDTH - 3 {
                 self.line(depth, line.trim_end());
                 line = "   ".into();
             }
             line += word;
         }
-        self.line(depth, line.trim_end());
+        self.line(depth, &format!("{} *)", line.trim_end()));
     }
 
     /// A line that begins and ends so around a condition.

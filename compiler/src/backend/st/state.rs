@@ -83,7 +83,7 @@ impl Lowering<'_> {
         let text = &transition.text;
         // A transition of a sequence has the text of its step.
         let guard = match transition.clauses.as_slice() {
-            [] if number == 0 => text.clone(),
+            _ if number == 0 => text.clone(),
             [] => "at once".into(),
             [Clause::Condition(Expr { kind: ExprKind::Done, .. })] if text != "done" => {
                 format!("when done: {text}")

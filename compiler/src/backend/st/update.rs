@@ -32,7 +32,7 @@ impl Lowering<'_> {
                 body.extend(self.command(*verb));
             }
         }
-        self.known.clear();
+        self.forget(&body);
         let mut first = std::mem::take(&mut self.hoisted);
         first.extend(body);
         first
@@ -59,11 +59,7 @@ impl Lowering<'_> {
             _ => vec![self.value(value, out)],
         };
         let spot = self.spot(&target.place, out);
-        let range = match value.ty {
-            Scalar::Int { lo, hi } => (lo, hi),
-            _ => (i32::MIN, i32::MAX),
-        };
-        self.store(spot, target.ty.scalar, values, range, check, out);
+        self.store(spot, target.ty.scalar, values, range(value), check, out);
     }
 
     /// Every element of an array becomes the same value.
@@ -76,7 +72,7 @@ impl Lowering<'_> {
         let basic = Basic::of(scalar);
         let values = values.into_iter().map(|v| self.kept(v, new_value(basic), basic, out)).collect();
         self.elements(target, out, |lowering, spot, out| {
-            lowering.store(spot, scalar, values, (i32::MIN, i32::MAX), check, out);
+            lowering.store(spot, scalar, values, range(value), check, out);
         });
     }
 
@@ -87,7 +83,8 @@ impl Lowering<'_> {
         self.elements(target, out, |lowering, spot, out| {
             let from = lowering.at(from, ty);
             let values = (0..from.names.len()).map(|part| from.value(part)).collect();
-            lowering.store(spot, scalar, values, (i32::MIN, i32::MAX), check, out);
+            let range = from.limit.unwrap_or((i32::MIN, i32::MAX));
+            lowering.store(spot, scalar, values, range, check, out);
         });
     }
 
@@ -246,6 +243,14 @@ impl Lowering<'_> {
             assign("fault_robot", name("robot")),
             Stmt::Return,
         ]
+    }
+}
+
+/// Between which numbers a value lies, as far as is known.
+fn range(value: &Expr) -> (i32, i32) {
+    match value.ty {
+        Scalar::Int { lo, hi } => (lo, hi),
+        _ => (i32::MIN, i32::MAX),
     }
 }
 

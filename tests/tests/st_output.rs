@@ -1,0 +1,118 @@
+//! The generated Structured Text: how it reads, that an independent grammar takes it, and that the XML has
+//! the same text.
+
+use autogen::backend::Files;
+use autogen::backend::st;
+use autogen_tests::instances::instantiate;
+use autogen_tests::{LAYOUTS, ariac, root, text};
+use tree_sitter::{Node, Parser};
+
+/// Names and texts of the fixtures, which show one construct each.
+fn fixtures() -> Vec<(String, String)> {
+    let mut names: Vec<String> = std::fs::read_dir(root().join("tests/fixtures/rust"))
+        .expect("a folder of fixtures")
+        .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
+        .collect();
+    names.sort();
+    names.into_iter().map(|name| (name.clone(), text(&format!("tests/fixtures/rust/{name}")))).collect()
+}
+
+fn of_fixture(name: &str, text: &str) -> Files {
+    let (system, sources) = instantiate(&[(name.into(), text.into())]);
+    st::files(&system, &sources)
+}
+
+fn of_layout(layout: &str) -> Files {
+    let outcome = ariac(layout).compile();
+    let project = outcome.project.expect("a layout that can be built");
+    st::files(&project.system, &outcome.sources)
+}
+
+/// The function blocks of types, without what differs between layouts.
+fn blocks(main: &str) -> String {
+    let units = main.split("\n(* FB_").skip(1).filter(|unit| !unit.starts_with("Layout"));
+    let ends = units.filter_map(|unit| unit.split_once("END_FUNCTION_BLOCK").map(|(text, _)| text));
+    ends.map(|text| format!("(* FB_{text}END_FUNCTION_BLOCK\n")).collect::<Vec<_>>().join("\n")
+}
+
+#[test]
+fn fixtures_read_well() {
+    for (name, text) in fixtures() {
+        let files = of_fixture(&name, &text);
+        let shown = format!("{text}\n---- portable/main.st\n{}", blocks(&files["portable/main.st"]));
+        insta::assert_snapshot!(name.trim_end_matches(".aut"), shown);
+    }
+}
+
+#[test]
+fn the_agv_reads_well_in_both_dialects() {
+    let files = of_layout("default");
+    let main = &files["portable/main.st"];
+    let agv = main.split("\n(* FB_Agv").nth(1).and_then(|text| text.split("END_FUNCTION_BLOCK").next());
+    insta::assert_snapshot!("agv_portable", agv.expect("the block of the AGV"));
+    insta::assert_snapshot!("agv_codesys", files["codesys/FB_Agv.st"]);
+}
+
+fn errors(node: Node, found: &mut Vec<String>) {
+    if node.is_error() || node.is_missing() {
+        let at = node.start_position();
+        return found.push(format!("{}:{}: {}", at.row + 1, at.column + 1, node.kind()));
+    }
+    let mut cursor = node.walk();
+    node.children(&mut cursor).for_each(|child| errors(child, found));
+}
+
+fn parse(path: &str, text: &str) {
+    let mut parser = Parser::new();
+    parser.set_language(&tree_sitter_iec61131_3_st::LANGUAGE.into()).expect("a grammar of this version");
+    let tree = parser.parse(text, None).expect("a tree");
+    let mut found = Vec::new();
+    errors(tree.root_node(), &mut found);
+    assert!(found.is_empty(), "{path}\n{}", found.join("\n"));
+}
+
+fn all_files() -> Vec<(String, Files)> {
+    let layouts = LAYOUTS.iter().map(|name| (name.to_string(), of_layout(name)));
+    let fixtures = fixtures().into_iter().map(|(name, text)| (name.clone(), of_fixture(&name, &text)));
+    layouts.chain(fixtures).collect()
+}
+
+#[test]
+fn an_independent_grammar_takes_every_file() {
+    let mut parsed = 0;
+    for (name, files) in all_files() {
+        for (path, text) in files.iter().filter(|(path, _)| path.ends_with(".st")) {
+            parse(&format!("{name}: {path}"), text);
+            parsed += 1;
+        }
+    }
+    println!("{parsed} files parsed");
+}
+
+#[test]
+fn bodies_in_xml_are_the_same_text() {
+    for (name, files) in all_files() {
+        let main = &files["portable/main.st"];
+        let codesys: String =
+            files.iter().filter(|(path, _)| path.starts_with("codesys/F")).map(|(_, t)| t.as_str()).collect();
+        let codesys = codesys + &files["codesys/MAIN.st"];
+        for (flavour, text) in [("portable", main), ("codesys", &codesys)] {
+            let xml = &files[&format!("{flavour}/project.xml")];
+            let bodies = xml.split("<![CDATA[").skip(1).filter_map(|rest| rest.split("]]>").next());
+            let mut count = 0;
+            for body in bodies {
+                assert!(text.contains(body), "{name}: {flavour}: a body differs\n{body}");
+                count += 1;
+            }
+            assert_eq!(count, xml.matches("<pou ").count(), "{name}: {flavour}");
+        }
+    }
+}
+
+#[test]
+fn transitions_are_short() {
+    let files = of_layout("default");
+    let figures = files["bounds.txt"].lines().last().expect("a line");
+    let each = figures.rsplit(": ").next().and_then(|text| text.split(' ').next()).expect("a number");
+    assert!(each.parse::<f64>().expect("a number") <= 15.0, "{figures}");
+}
