@@ -75,9 +75,7 @@ impl Context<'_, '_> {
     pub(super) fn answer(&mut self, name: &str, span: Span) -> Option<Expr> {
         if !self.automaton.device.is_commanded() {
             let message = format!("the device `{}` obeys no commands", self.automaton.device.name);
-            self.report(
-                Diagnostic::new("E0314", span, message).help("`done` and `failed` answer a command"),
-            );
+            self.report(Diagnostic::new("E0314", span, message).help("`done` and `failed` answer a command"));
             return None;
         }
         let kind = if name == "done" { ExprKind::Done } else { ExprKind::Failed };
