@@ -4,6 +4,7 @@ pub mod constructs;
 pub mod generate;
 pub mod instances;
 pub mod lots;
+pub mod many;
 pub mod replay;
 pub mod st;
 pub mod trace;

@@ -70,6 +70,16 @@ pub fn record(executor: &mut Executor, system: &System, scans: usize, mut lots: 
     recording
 }
 
+/// The scans of a hand-written trace on an engine.
+pub fn record_trace(engine: &mut dyn Controllers, fixture: &trace::Fixture) -> Recording {
+    let mut recording = Recording::default();
+    let mut outputs = vec![Vec::new(); fixture.system.instances.len()];
+    for scan in &fixture.scans {
+        recording.scan(engine, scan.system, &scan.inputs, &mut outputs);
+    }
+    recording
+}
+
 /// What the columns of an answer are.
 pub fn columns(system: &System) -> Vec<String> {
     let mut names: Vec<String> = ["running", "fault", "fault_code", "fault_robot"].map(String::from).into();

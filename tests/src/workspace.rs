@@ -15,6 +15,13 @@ pub struct Workspace {
 
 impl Workspace {
     pub fn write(name: &str, system: &System, sources: &Sources) -> Self {
+        let workspace = Self::of_simulator(name);
+        workspace.replace(system, sources);
+        workspace
+    }
+
+    /// With the simulator only.
+    pub fn of_simulator(name: &str) -> Self {
         let folder = env::temp_dir().join(format!("autogen-tests-{}", std::process::id())).join(name);
         let _ = fs::remove_dir_all(&folder);
         let workspace = Self { folder };
@@ -22,7 +29,6 @@ impl Workspace {
             workspace.put(&format!("runtime-sim/{path}"), text);
         }
         workspace.put("runtime-sim/Cargo.toml", simulator::MANIFEST);
-        workspace.replace(system, sources);
         workspace
     }
 

@@ -112,7 +112,7 @@ impl Read for Robot<'static> {
 
 /// A layout in memory.
 pub struct Layout {
-    pub wiring: Wiring<'static>,
+    pub wiring: Wiring{% if has_wiring %}<'static>{% endif %},
     pub robots: Vec<Robot<'static>>,
     {%- if has_cells %}
     pub cells: Cells<'static>,

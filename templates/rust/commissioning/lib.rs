@@ -4,3 +4,4 @@ pub mod adapters;
 pub mod deployed;
 pub mod image;
 pub mod read;
+pub mod replay;

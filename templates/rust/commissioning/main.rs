@@ -7,14 +7,12 @@
 //! trace; all that is no number reads `nan`.
 
 use commissioning::deployed::Deployed;
+use commissioning::replay::replay;
 use runtime_sim::line::Line;
 use runtime_sim::run::{Seen, run};
-use runtime_sim::scan::{Controllers, SystemInputs};
-use runtime_sim::words::Words;
 use std::fmt::Write as _;
-use std::io::{BufRead, BufWriter, Write};
 use std::process::ExitCode;
-use std::{env, fs, io};
+use std::{env, fs};
 
 fn main() -> ExitCode {
     match start(&env::args().skip(1).collect::<Vec<_>>()) {
@@ -78,31 +76,5 @@ fn simulate(line: &Line, mut deployed: Deployed, hashes: Option<&String>, progre
         fs::write(path, kept).map_err(|e| format!("{path}: {e}"))?;
     }
     println!("{}", report.to_json());
-    Ok(())
-}
-
-fn replay(deployed: &mut Deployed) -> Result<(), String> {
-    let mut out = BufWriter::new(io::stdout().lock());
-    let mut outputs = vec![Vec::new(); deployed.robots()];
-    for line in io::stdin().lock().lines() {
-        let line = line.map_err(|e| e.to_string())?;
-        let mut words = Words::new(&line);
-        let mut flag = || Ok::<bool, String>(words.int::<u8>()? != 0);
-        let system = SystemInputs { run_permit: flag()?, start: flag()?, reset: flag()? };
-        let number = |w: &mut Words| w.name()?.parse::<f64>().map_err(|e| e.to_string());
-        let inputs = (0..outputs.len()).map(|_| words.list(number)).collect::<Result<Vec<_>, String>>()?;
-        let answer = deployed.scan(system, &inputs, &mut outputs);
-        let mut all = vec![
-            f64::from(u8::from(answer.running)),
-            f64::from(u8::from(answer.fault)),
-            f64::from(answer.fault_code),
-            f64::from(answer.fault_robot),
-        ];
-        all.extend(outputs.iter().flatten());
-        deployed.trace(&mut all);
-        let bits = |word: &f64| if word.is_nan() { "nan".into() } else { format!("{:x}", word.to_bits()) };
-        let bits: Vec<String> = all.iter().map(bits).collect();
-        writeln!(out, "{}", bits.join(" ")).map_err(|e| e.to_string())?;
-    }
     Ok(())
 }

@@ -15,6 +15,7 @@ struct Adapters {
     robots: Vec<RobotView>,
     has_cells: bool,
     uses_cells: bool,
+    has_wiring: bool,
 }
 
 struct InterfaceView {
@@ -62,6 +63,7 @@ pub fn adapters(shared: Shared) -> String {
             name: name.clone(),
         });
     let interfaces: Vec<InterfaceView> = interfaces.collect();
+    let has_wiring = !model.relations.is_empty() || interfaces.iter().any(|i| !i.parameters.is_empty());
     let view = Adapters {
         enums: shared.names.enums.iter().map(|e| e.ty.clone()).collect(),
         relations: relations.collect(),
@@ -69,6 +71,7 @@ pub fn adapters(shared: Shared) -> String {
         has_cells: interfaces.iter().any(|i| i.has_cells),
         interfaces,
         uses_cells: uses_cells(shared),
+        has_wiring,
     };
     let mut importable = shared.importable("controllers");
     importable.push(("crate::image".into(), ["Image", "Latch", "Put"].map(String::from).into()));
