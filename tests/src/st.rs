@@ -120,7 +120,11 @@ impl Finder<'_> {
             let is_point = local.ty.scalar == Scalar::Point;
             let named = |name: &str| self.paths(&format!("{robot}.{name}"), is_point, local.ty.extent, 0);
             // What cannot be a name in the text, or is another one's there, has got an ending.
-            let endings = ["", "_v", "_2"].map(|ending| named(&format!("{}{ending}", local.name)));
+            // A block's own names keep theirs: a local of that name stands under another one.
+            let own = ["state", "elapsed"].contains(&local.name.as_str());
+            let endings: &[&str] = if own { &["_v", "_2"] } else { &["", "_v", "_2"] };
+            let endings: Vec<_> =
+                endings.iter().map(|ending| named(&format!("{}{ending}", local.name))).collect();
             let found = endings.iter().find(|paths| paths.iter().all(|p| self.machine.place(p).is_some()));
             paths.extend_from_slice(found.unwrap_or(&endings[0]));
         }
