@@ -27,6 +27,7 @@ pub struct Texts<'a> {
 pub struct Draft {
     /// What is wrong whatever the values are.
     diagnostics: Vec<Diagnostic>,
+    name: Option<String>,
     orders: Option<usize>,
     parts: Option<Parts>,
 }
@@ -77,7 +78,8 @@ impl Draft {
             }
         };
         let orders = scenario.as_ref().map(|s| s.orders.list.len());
-        let mut draft = Self { diagnostics, orders, parts: None };
+        let name = layout.as_ref().map(|l| l.name.clone());
+        let mut draft = Self { diagnostics, name, orders, parts: None };
         if let (Some(layout), Some(checked), Some(scenario)) = (layout, checked, scenario)
             && syntax_is_right
         {
@@ -117,6 +119,11 @@ impl Draft {
     /// What is wrong whatever the values are.
     pub fn diagnostics(&self) -> &[Diagnostic] {
         &self.diagnostics
+    }
+
+    /// The layout's name, if that can be read.
+    pub fn name(&self) -> Option<&str> {
+        self.name.as_deref()
     }
 
     /// Number of orders of the scenario, if that can be read.
@@ -172,8 +179,7 @@ impl Parts {
             return;
         };
         let plant = plant::line(&system, &line, resolved, layout.scan_ms);
-        found.project =
-            Some(Project { name: layout.name, system, plant, edges, obstacles: bound.obstacles });
+        found.project = Some(Project { name: layout.name, system, plant, edges, obstacles: bound.obstacles });
     }
 }
 
