@@ -15,6 +15,7 @@ pub mod check;
 pub mod commission;
 pub mod explain;
 pub mod graph;
+pub mod io_trace;
 pub mod load;
 pub mod options;
 pub mod print;
