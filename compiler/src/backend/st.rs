@@ -11,6 +11,7 @@
 mod block;
 mod bounds;
 mod code;
+mod columns;
 mod context;
 mod declaration;
 mod expression;
@@ -35,6 +36,7 @@ use crate::source::Sources;
 use context::Shared;
 use globals::Globals;
 use program::Blocks;
+use runtime_sim::io_trace::Columns;
 
 /// The files of the folder `plc/`.
 pub fn files(system: &System, sources: &Sources) -> Files {
@@ -55,6 +57,13 @@ pub fn files(system: &System, sources: &Sources) -> Files {
         files.insert("names.csv".into(), table::renamed(&names.renamed));
     }
     files
+}
+
+/// The columns of an I/O trace, named as the globals of `portable/main.st`; the state of a robot as `robot.state`.
+pub fn columns(system: &System, sources: &Sources) -> Columns {
+    let names = names::names(system);
+    let shared = Shared { system, sources, names: &names };
+    columns::columns(shared, &line(shared).globals)
 }
 
 /// The units of a line, in the order in which they must be declared.

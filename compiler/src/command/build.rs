@@ -1,7 +1,7 @@
 //! `autogen build`.
 
 use super::options::{BuildOptions, Format};
-use super::write::{self, Files, Overwrite, Refusal};
+use super::write::{self, Files, Refusal};
 use super::{load, print};
 use crate::Status;
 use autogen::backend::{dot, plan, rust, st};
@@ -66,8 +66,7 @@ pub fn build(options: &BuildOptions) -> Result<Built, Status> {
     let sources = sources.renamed(|name| title(&options.input.layout, name));
     let files = files(&project, &sources);
     let folder = options.output.clone().unwrap_or_else(|| Path::new("out").join(&project.name));
-    let overwrite = if options.force { Overwrite::Everything } else { Overwrite::Own };
-    write::write(&folder, &files, about(&project, &sources), overwrite)
+    write::write(&folder, &files, about(&project, &sources), options.overwrite())
         .map_err(|refusal| refused(options, &refusal))?;
     Ok(Built { project, sources, files, folder })
 }
@@ -101,6 +100,10 @@ fn files(project: &Project, sources: &Sources) -> Files {
     files.insert("graph/plan.svg".into(), plan::svg(&project.plant, &project.edges));
     files.insert("rust/commissioning/data/line.txt".into(), project.plant.to_text());
     files.insert("rust/commissioning/data/parameters.txt".into(), rust::parameters_text(&project.system));
+    files.insert(
+        "rust/commissioning/data/columns.txt".into(),
+        st::columns(&project.system, sources).to_text(),
+    );
     files
 }
 

@@ -1,5 +1,6 @@
 //! The options of the command line.
 
+use super::write::Overwrite;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -73,6 +74,12 @@ pub struct BuildOptions {
     pub force: bool,
 }
 
+impl BuildOptions {
+    pub fn overwrite(&self) -> Overwrite {
+        if self.force { Overwrite::Everything } else { Overwrite::Own }
+    }
+}
+
 #[derive(Args, Debug)]
 pub struct CommissionOptions {
     #[command(flatten)]
@@ -80,6 +87,10 @@ pub struct CommissionOptions {
     /// How many scans late devices answer: a number, or `random` or `random:SEED` for 0 to 5
     #[arg(long, value_name = "N", default_value = "0")]
     pub io_delay: String,
+    /// Write a row for each scan to this file: inputs, outputs, states and shared cells, as comma-separated
+    /// values under the names of the Structured Text
+    #[arg(long, value_name = "FILE")]
+    pub io_trace: Option<PathBuf>,
     /// Write the hash of each scan's trace to this file, a line each
     #[arg(long, value_name = "FILE")]
     pub hashes: Option<PathBuf>,
