@@ -62,6 +62,16 @@ pub enum Format {
     Json,
 }
 
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Addresses {
+    /// %IW1 is the bytes 2 and 3 (CODESYS)
+    Words,
+    /// %IW1 is the bytes 1 and 2 (TwinCAT)
+    Bytes,
+    /// %IX, %IB, %IW and %ID are memories of their own (OpenPLC)
+    Apart,
+}
+
 #[derive(Args, Debug)]
 pub struct BuildOptions {
     #[command(flatten)]
@@ -69,6 +79,12 @@ pub struct BuildOptions {
     /// Where to write; default: out/<layout name>
     #[arg(short, long = "output", value_name = "DIR")]
     pub output: Option<PathBuf>,
+    /// Addresses of the process image: plc/io.csv, with its last five columns filled
+    #[arg(long, value_name = "FILE")]
+    pub io: Option<PathBuf>,
+    /// How the PLC counts addresses, to find two that overlap
+    #[arg(long, value_enum, default_value = "words", requires = "io")]
+    pub addresses: Addresses,
     /// Overwrite files that autogen did not write or that were changed since
     #[arg(long)]
     pub force: bool,
