@@ -453,6 +453,147 @@ fn a_pick_that_waits_does_not_end_while_it_is_held() {
     assert_eq!(rig.finish(KITTING) + 20, 51);
 }
 
+// --- pace, turns and places to pass
+
+#[test]
+fn a_pace_holds_for_all_later_motions() {
+    let (there, back) = (Point::new(-0.6, 3.0, 1.2), Point::new(-0.6, -1.0, 1.2));
+    let scans = |rig: &mut Rig, goal: Point| {
+        rig.command(KITTING, MOVE, Some(goal));
+        rig.finish(KITTING)
+    };
+    let mut rig = Rig::new(&line());
+    rig.go(KITTING, MOVE, there);
+    // 4 m of rail at 1 m/s, with 1 m/s2: 5 s.
+    assert_eq!(scans(&mut rig, back), 500);
+    assert_eq!(rig.pace(KITTING, 0.1, 2.0), 0.0);
+    assert_eq!(scans(&mut rig, there), 4005);
+    assert_eq!(scans(&mut rig, back), 4005);
+    assert_eq!(rig.pace(KITTING, 1.0, 1.0), 0.0);
+    assert_eq!(scans(&mut rig, there), 500);
+}
+
+#[test]
+fn a_pace_out_of_range_is_refused() {
+    let mut rig = Rig::new(&line());
+    let refused = f64::from(error::REFUSED);
+    for (speed, gain) in [
+        (0.0, 1.0),
+        (-0.5, 1.0),
+        (1.000001, 1.0),
+        (f64::NAN, 1.0),
+        (f64::INFINITY, 1.0),
+        (1e-310, 1.0),
+        (1.0, 0.0),
+        (1.0, -1.0),
+        (1.0, 100.1),
+        (1.0, f64::NAN),
+    ] {
+        for arm in [KITTING, GANTRY] {
+            assert_eq!(rig.pace(arm, speed, gain), refused, "{speed} {gain}");
+        }
+    }
+    for (speed, gain) in [(f64::MIN_POSITIVE, f64::MIN_POSITIVE), (f64::MIN_POSITIVE, 100.0), (1.0, 100.0)] {
+        assert_eq!(rig.pace(KITTING, speed, gain), 0.0, "{speed} {gain}");
+        rig.command(KITTING, MOVE, Some(Point::new(-0.6, 3.0, 1.2)));
+        rig.step(50);
+        assert!(point(rig.image(KITTING), input::TOOL).y.is_finite());
+        rig.outputs[KITTING][output::HOLD] = 1.0;
+        rig.step(50);
+        rig.outputs[KITTING][output::HOLD] = 0.0;
+        rig.step(50);
+        assert!(!rig.is_ended(KITTING));
+        if speed == 1.0 {
+            assert!(rig.finish(KITTING) < 1000);
+        }
+        rig = Rig::new(&line());
+    }
+}
+
+#[test]
+fn a_pace_on_the_way_is_refused_and_the_arm_brakes() {
+    let mut rig = Rig::new(&line());
+    let goal = Point::new(-0.6, 3.0, 1.2);
+    rig.command(KITTING, MOVE, Some(goal));
+    rig.step(100);
+    assert_eq!(rig.pace(KITTING, 0.1, 1.0), f64::from(error::REFUSED));
+    rig.step(300);
+    let stands = point(rig.image(KITTING), input::TOOL);
+    rig.step(100);
+    assert_eq!(point(rig.image(KITTING), input::TOOL), stands);
+    assert!(!near(stands, goal));
+    rig.command(KITTING, MOVE, Some(goal));
+    assert!(rig.finish(KITTING) < 500, "at full speed, as before");
+}
+
+#[test]
+fn the_torso_turns_as_far_as_it_is_told() {
+    use std::f64::consts::PI;
+    let mut rig = Rig::new(&line());
+    let goal = Point::new(-5.6, 0.5, 1.0);
+    let turn = |rig: &mut Rig, turn: f64, goal: Point| {
+        rig.outputs[GANTRY][output::TURN] = turn;
+        rig.command(GANTRY, TURN_TO, Some(goal));
+        let scans = rig.finish(GANTRY);
+        (rig.image(GANTRY)[input::ERROR], scans)
+    };
+    for angle in [PI / 2.0, PI, 0.0, -PI / 2.0, 2.0 * PI] {
+        assert_eq!(turn(&mut rig, angle, goal).0, 0.0, "{angle}");
+        assert!(near(point(rig.image(GANTRY), input::TOOL), goal), "{angle}");
+    }
+    assert_eq!(turn(&mut rig, PI, goal).0, 0.0);
+    // pi and -pi are one place and two values of the joint: a whole turn at pi/4 rad/s.
+    let (error, scans) = turn(&mut rig, -PI, goal);
+    assert_eq!(error, 0.0);
+    assert!((800..900).contains(&scans), "{scans}");
+    let unreachable = f64::from(error::UNREACHABLE);
+    for (angle, goal) in [
+        (2.0 * PI + 1e-9, goal),
+        (f64::NAN, goal),
+        (0.0, Point::new(f64::NAN, 0.0, 1.0)),
+        // The torso would be at y = -4.5 - 0.637.
+        (0.0, Point::new(-5.6, -4.5, 1.0)),
+        (0.0, Point::new(-5.6, 0.5, 0.6)),
+    ] {
+        assert_eq!(turn(&mut rig, angle, goal).0, unreachable, "{angle} {goal:?}");
+    }
+    assert_eq!(turn(&mut rig, PI, Point::new(-5.6, -4.5, 1.0)).0, 0.0);
+    assert_eq!(rig.go(KITTING, TURN_TO, Point::new(-0.6, 1.0, 1.2)), f64::from(error::REFUSED), "no torso");
+}
+
+#[test]
+fn an_arm_passes_a_place_without_a_stop() {
+    let (via, goal) = (Point::new(-0.6, 1.5, 1.5), Point::new(-0.6, 3.0, 1.1));
+    let mut rig = Rig::new(&line());
+    rig.command(KITTING, MOVE, Some(via));
+    let first = rig.finish(KITTING);
+    rig.command(KITTING, MOVE, Some(goal));
+    let with_a_stop = first + rig.finish(KITTING);
+    let distance = |a: Point| {
+        let d = a - via;
+        (d.x * d.x + d.y * d.y + d.z * d.z).sqrt()
+    };
+    let mut rig = Rig::new(&line());
+    rig.outputs[KITTING][output::VIA..output::VIA + 3].copy_from_slice(&[via.x, via.y, via.z]);
+    rig.command(KITTING, THROUGH, Some(goal));
+    let (mut scans, mut nearest, mut last) = (0, f64::INFINITY, point(rig.image(KITTING), input::TOOL));
+    rig.step(30);
+    while !rig.is_ended(KITTING) {
+        rig.step(1);
+        let tool = point(rig.image(KITTING), input::TOOL);
+        assert!(scans > 200 || tool != last, "stands after {scans} scans");
+        (last, scans) = (tool, scans + 1);
+        nearest = nearest.min(distance(tool));
+    }
+    assert!(near(point(rig.image(KITTING), input::TOOL), goal));
+    assert!(scans + 30 < with_a_stop - 50, "{scans} {with_a_stop}");
+    assert!(nearest < 0.1, "{nearest}");
+    for (via, goal) in [(Point::new(1.0, 0.0, 1.0), goal), (goal, Point::new(1.0, 0.0, 1.0))] {
+        rig.outputs[KITTING][output::VIA..output::VIA + 3].copy_from_slice(&[via.x, via.y, via.z]);
+        assert_eq!(rig.go(KITTING, THROUGH, goal), f64::from(error::UNREACHABLE));
+    }
+}
+
 // --- station
 
 #[test]
