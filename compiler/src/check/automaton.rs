@@ -31,6 +31,8 @@ pub struct Context<'c, 'a> {
     /// Variables in scope, innermost last.
     pub(super) variables: Vec<(String, VariableId, Scalar)>,
     pub(super) facts: Facts,
+    /// What the requirements say, and thus holds everywhere.
+    pub(super) required: Facts,
     /// `after` has a meaning.
     pub(super) in_guard: bool,
     /// Names whose declarations have errors: reading them is no further one.
@@ -75,6 +77,7 @@ pub(super) fn check(checker: &mut Checker, tree: &ast::Automaton) {
         symbols: BTreeMap::new(),
         variables: Vec::new(),
         facts: Facts::default(),
+        required: Facts::default(),
         in_guard: false,
         broken: BTreeSet::new(),
         lacks_names: false,
@@ -161,6 +164,7 @@ impl Context<'_, '_> {
                     .help("name parameters, device constants and roles only; what changes belongs into an `invariant`"),
             );
         }
+        self.required.learn(&condition, true);
         self.automaton.requires.push(ir::Require { place: tree.span, condition, text });
     }
 
