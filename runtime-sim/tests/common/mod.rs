@@ -69,7 +69,7 @@ pub fn line() -> Line {
             machine("bin", Geometry::Bin { pose: Point::new(-1.899, 2.565, 0.0) }),
         ],
         scenario: Scenario {
-            orders: vec![Order { station: STATION, parts: vec![1, 1] }],
+            orders: vec![Order { stations: vec![STATION], parts: vec![1, 1] }],
             supply: vec![Supply { belt: BELT, items: vec![BATTERY, PUMP] }],
             ..Scenario::default()
         },
