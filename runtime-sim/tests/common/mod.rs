@@ -70,7 +70,7 @@ pub fn line() -> Line {
         ],
         obstacles: vec![],
         scenario: Scenario {
-            orders: vec![Order { station: STATION, parts: vec![1, 1] }],
+            orders: vec![Order { stations: vec![STATION], parts: vec![1, 1] }],
             supply: vec![Supply { belt: BELT, items: vec![BATTERY, PUMP] }],
             ..Scenario::default()
         },
