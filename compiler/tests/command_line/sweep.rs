@@ -396,8 +396,8 @@ mod processes {
         let orders = r#"{"count": 10000, "parts": {"battery": 1}}"#;
         let long = ONE_PART
             .replace(r#"[{"station": "as1", "parts": {"battery": 1}}]"#, orders)
-            .replace(r#"{"items": ["battery"]}"#, r#"{"surplus": 0}"#)
-            .replacen('{', "{ \"time_limit_s\": 10000000,", 1);
+            .replace(r#"{"items": ["battery"]}"#, r#"{"surplus": [0, 1]}"#)
+            .replacen('{', "{ \"time_limit_s\": 1000000,", 1);
         put(&folder, "long.json", &long);
         let layout = example("ariac2021/default.json");
         let first = autogen(&folder, &["sweep", &layout, "--scenario", "short.json"]);
