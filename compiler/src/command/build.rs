@@ -4,7 +4,7 @@ use super::options::{BuildOptions, Format};
 use super::write::{self, Files, Overwrite, Refusal};
 use super::{load, print};
 use crate::Status;
-use autogen::backend::{dot, plan, rust, st};
+use autogen::backend::{dot, plan, rust, sdf, st};
 use autogen::library;
 use autogen::lower::{Outcome, Project, compile};
 use autogen::simulator;
@@ -98,6 +98,9 @@ fn files(project: &Project, sources: &Sources) -> Files {
         files.insert(format!("graph/{name}"), text);
     }
     files.insert("graph/plan.svg".into(), plan::svg(&project.plant, &project.edges));
+    for (name, text) in sdf::files(&project.name, &project.plant) {
+        files.insert(format!("world/{name}"), text);
+    }
     for (name, text) in simulator::SOURCES {
         files.insert(format!("rust/runtime-sim/{name}"), (*text).into());
     }

@@ -2,6 +2,9 @@
 
 use crate::point::Point;
 
+/// Below this cosine of the pitch, roll and yaw are taken to turn about the same axis.
+const LEVEL: f64 = 1e-9;
+
 /// A frame: the columns of `rotation` are its axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose {
@@ -35,6 +38,27 @@ impl Pose {
     /// Axis 0, 1 or 2 of the frame.
     pub fn axis(&self, i: usize) -> Point {
         Point::new(self.rotation[0][i], self.rotation[1][i], self.rotation[2][i])
+    }
+
+    /// This frame as `other` sees it, if both are given in the same one.
+    pub fn seen_from(&self, other: &Pose) -> Self {
+        let r = &other.rotation;
+        let back: [[f64; 3]; 3] = std::array::from_fn(|i| std::array::from_fn(|j| r[j][i]));
+        let turn = Self { rotation: back, position: Point::default() };
+        turn.then(&Pose { position: self.position - other.position, ..*self })
+    }
+
+    /// Angles in rad by which the outer frame turns into this one: about its x, then about its y, then about its z.
+    /// Where x points up or down, the last is 0.
+    pub fn roll_pitch_yaw(&self) -> [f64; 3] {
+        let r = &self.rotation;
+        let level = (r[0][0] * r[0][0] + r[1][0] * r[1][0]).sqrt();
+        let pitch = libm::atan2(-r[2][0], level);
+        if level < LEVEL {
+            let side = if pitch > 0.0 { 1.0 } else { -1.0 };
+            return [libm::atan2(side * r[0][1], r[1][1]), pitch, 0.0];
+        }
+        [libm::atan2(r[2][1], r[2][2]), pitch, libm::atan2(r[1][0], r[0][0])]
     }
 
     /// `inner`, given in this frame, in the frame this one is given in.
