@@ -49,7 +49,7 @@ struct Floor {
 pub fn files(name: &str, line: &Line) -> Files {
     let machines = line.machines.iter().flat_map(|machine| {
         let name = naming::sdf(&machine.name);
-        let cameras = sensor::over_stops(&name, &machine.geometry);
+        let cameras = sensor::over_stops(&machine.name, &machine.geometry);
         [Some(self::machine(name, &machine.geometry)), cameras].into_iter().flatten()
     });
     let world = World {
