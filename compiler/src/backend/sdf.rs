@@ -82,20 +82,16 @@ fn obstacle(obstacle: &Obstacle) -> Option<Model> {
     Some(Model::fixed(naming::sdf(&obstacle.name), obstacle.pose, &[solid], OBSTACLE))
 }
 
-/// A floor under every place that a machine has a number for.
+/// A floor under every machine and every obstacle.
 fn floor(line: &Line) -> Floor {
     let machines = line.machines.iter().flat_map(|m| places(&m.geometry));
     let places: Vec<Point> = machines.chain(line.obstacles.iter().map(|o| o.pose)).collect();
     let extent = |coordinate: fn(&Point) -> f64| {
         let values = places.iter().map(coordinate);
-        let low = values.clone().fold(f64::INFINITY, f64::min).min(f64::MAX);
-        let high = values.fold(f64::NEG_INFINITY, f64::max).max(f64::MIN);
-        ((low + high) / 2.0, high - low + 2.0 * BORDER)
+        let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
+        if low > high { (0.0, 2.0 * BORDER) } else { ((low + high) / 2.0, high - low + 2.0 * BORDER) }
     };
-    let ((x, length), (y, width)) = match places.is_empty() {
-        true => ((0.0, 2.0 * BORDER), (0.0, 2.0 * BORDER)),
-        false => (extent(|p| p.x), extent(|p| p.y)),
-    };
+    let ((x, length), (y, width)) = (extent(|p| p.x), extent(|p| p.y));
     let middle = Pose { position: Point::new(x, y, 0.0), ..Pose::IDENTITY };
     Floor { pose: number::pose(&middle), size: number::list(&[length, width]) }
 }

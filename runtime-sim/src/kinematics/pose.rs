@@ -75,3 +75,48 @@ impl Pose {
         Self { rotation, position: self.position + Point::new(along(&r[0]), along(&r[1]), along(&r[2])) }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::random::Random;
+    use super::*;
+    use std::f64::consts::{FRAC_PI_2, PI};
+
+    fn about_x(angle: f64) -> Pose {
+        let (sin, cos) = libm::sincos(angle);
+        Pose::link(0.0, 0.0, 0.0, (sin, cos))
+    }
+
+    fn about_y(angle: f64) -> Pose {
+        let quarter = |side: f64| Pose::turned(Point::default(), side * FRAC_PI_2);
+        quarter(1.0).then(&about_x(angle)).then(&quarter(-1.0))
+    }
+
+    fn assert_same(got: &Pose, expected: &Pose) {
+        let d = got.position - expected.position;
+        assert!(d.x.abs() < 1e-12 && d.y.abs() < 1e-12 && d.z.abs() < 1e-12, "{got:?} {expected:?}");
+        for (a, b) in got.rotation.iter().flatten().zip(expected.rotation.iter().flatten()) {
+            assert!((a - b).abs() < 1e-9, "{got:?} {expected:?}");
+        }
+    }
+
+    #[test]
+    fn angles_and_frames_lead_back() {
+        let mut random = Random::new(5);
+        for i in 0..1000 {
+            let pitch = match i % 4 {
+                0 => FRAC_PI_2,
+                1 => -FRAC_PI_2,
+                _ => random.between(-PI, PI),
+            };
+            let mut angle = || random.between(-PI, PI);
+            let at = Point::new(angle(), angle(), angle());
+            let pose = Pose::turned(at, angle()).then(&about_y(pitch)).then(&about_x(angle()));
+            let [roll, pitch, yaw] = pose.roll_pitch_yaw();
+            let again = Pose::turned(at, yaw).then(&about_y(pitch)).then(&about_x(roll));
+            assert_same(&again, &pose);
+            let other = Pose::turned(Point::new(angle(), angle(), angle()), angle()).then(&about_x(angle()));
+            assert_same(&other.then(&pose.seen_from(&other)), &pose);
+        }
+    }
+}

@@ -3,8 +3,8 @@
 
 use super::numbers;
 use crate::xml::Element;
+use Count::*;
 use Holds::*;
-use Times::*;
 
 /// What stands between the tags.
 #[derive(Clone, Copy, PartialEq)]
@@ -25,17 +25,17 @@ enum Holds {
 }
 
 #[derive(Clone, Copy, PartialEq)]
-enum Times {
+enum Count {
     Once,
     AtMostOnce,
-    AnyTimes,
+    Any,
     AtLeastOnce,
 }
 
 /// Parent, element, how often, what it holds, attributes; those with `!` must be there.
 /// Without elements in the text a simulator would take the specification's default, which is never meant here:
 /// lengths, masses and limits are therefore needed even where the specification calls them optional.
-const TABLE: &[(&str, &str, Times, Holds, &[&str])] = &[
+const TABLE: &[(&str, &str, Count, Holds, &[&str])] = &[
     ("", "sdf", Once, Elements, &["version!"]),
     ("sdf", "world", Once, Elements, &["name!"]),
     ("world", "physics", AtLeastOnce, Elements, &["name", "default", "type!"]),
@@ -47,18 +47,18 @@ const TABLE: &[(&str, &str, Times, Holds, &[&str])] = &[
     ("scene", "ambient", Once, Colour, &[]),
     ("scene", "background", Once, Colour, &[]),
     ("scene", "shadows", Once, Bool, &[]),
-    ("world", "light", AnyTimes, Elements, &["name!", "type!"]),
+    ("world", "light", Any, Elements, &["name!", "type!"]),
     ("light", "cast_shadows", AtMostOnce, Bool, &[]),
     ("light", "pose", AtMostOnce, Vector(6), &["relative_to"]),
     ("light", "diffuse", AtMostOnce, Colour, &[]),
     ("light", "specular", AtMostOnce, Colour, &[]),
     ("light", "direction", Once, Vector(3), &[]),
-    ("world", "model", AnyTimes, Elements, &["name!", "canonical_link"]),
+    ("world", "model", Any, Elements, &["name!", "canonical_link"]),
     ("model", "static", AtMostOnce, Bool, &[]),
     ("model", "pose", AtMostOnce, Vector(6), &["relative_to"]),
     ("model", "link", AtLeastOnce, Elements, &["name!"]),
-    ("model", "joint", AnyTimes, Elements, &["name!", "type!"]),
-    ("model", "frame", AnyTimes, Elements, &["name!", "attached_to"]),
+    ("model", "joint", Any, Elements, &["name!", "type!"]),
+    ("model", "frame", Any, Elements, &["name!", "attached_to"]),
     ("frame", "pose", AtMostOnce, Vector(6), &["relative_to"]),
     ("link", "pose", AtMostOnce, Vector(6), &["relative_to"]),
     ("link", "gravity", AtMostOnce, Bool, &[]),
@@ -72,7 +72,7 @@ const TABLE: &[(&str, &str, Times, Holds, &[&str])] = &[
     ("inertia", "iyy", Once, Positive, &[]),
     ("inertia", "iyz", Once, Number, &[]),
     ("inertia", "izz", Once, Positive, &[]),
-    ("link", "collision", AnyTimes, Elements, &["name!"]),
+    ("link", "collision", Any, Elements, &["name!"]),
     ("collision", "pose", AtMostOnce, Vector(6), &["relative_to"]),
     ("collision", "geometry", Once, Elements, &[]),
     ("collision", "surface", AtMostOnce, Elements, &[]),
@@ -80,7 +80,7 @@ const TABLE: &[(&str, &str, Times, Holds, &[&str])] = &[
     ("friction", "ode", AtMostOnce, Elements, &[]),
     ("ode", "mu", Once, Magnitude, &[]),
     ("ode", "mu2", Once, Magnitude, &[]),
-    ("link", "visual", AnyTimes, Elements, &["name!"]),
+    ("link", "visual", Any, Elements, &["name!"]),
     ("visual", "pose", AtMostOnce, Vector(6), &["relative_to"]),
     ("visual", "geometry", Once, Elements, &[]),
     ("visual", "material", AtMostOnce, Elements, &[]),
@@ -96,7 +96,7 @@ const TABLE: &[(&str, &str, Times, Holds, &[&str])] = &[
     ("geometry", "plane", AtMostOnce, Elements, &[]),
     ("plane", "normal", Once, Vector(3), &[]),
     ("plane", "size", Once, Sizes(2), &[]),
-    ("link", "sensor", AnyTimes, Elements, &["name!", "type!"]),
+    ("link", "sensor", Any, Elements, &["name!", "type!"]),
     ("sensor", "pose", AtMostOnce, Vector(6), &["relative_to"]),
     ("sensor", "always_on", AtMostOnce, Bool, &[]),
     ("sensor", "update_rate", Once, Positive, &[]),
@@ -138,7 +138,7 @@ fn within(parent: &Element, found: &mut Vec<String>) {
             Once => count == 1,
             AtMostOnce => count <= 1,
             AtLeastOnce => count >= 1,
-            AnyTimes => true,
+            Any => true,
         };
         if !is_right {
             found.push(format!("line {}: <{}> has {count} <{name}>", parent.line, parent.name));
