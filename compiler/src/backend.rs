@@ -3,6 +3,7 @@
 pub mod dot;
 pub mod plan;
 pub mod rust;
+pub mod sdf;
 pub mod st;
 
 use std::collections::BTreeMap;
