@@ -2,6 +2,7 @@
 
 use super::build::{self, Built};
 use super::options::{CommissionOptions, Format};
+use super::trajectories::Request;
 use super::write;
 use crate::Status;
 use runtime_sim::line::IoDelay;
@@ -18,11 +19,15 @@ pub fn run(options: &CommissionOptions) -> Status {
         Some(delay) => delay,
         None => return fail(options, "--io-delay takes a number of scans, `random` or `random:SEED`".into()),
     };
+    let trajectories = match Request::new(options) {
+        Ok(request) => request,
+        Err(text) => return fail(options, text),
+    };
     let built = match build::build(&options.build) {
         Ok(built) => built,
         Err(status) => return status,
     };
-    match commission(options, &built, delay) {
+    match commission(options, &built, delay, &trajectories) {
         Ok(mut report) => {
             name_fault(&mut report, &built);
             let status = match report["finished"].as_bool() {
@@ -68,7 +73,13 @@ fn io_delay(text: &str) -> Option<IoDelay> {
     }
 }
 
-fn commission(options: &CommissionOptions, built: &Built, delay: IoDelay) -> Result<Value, String> {
+fn commission(
+    options: &CommissionOptions,
+    built: &Built,
+    delay: IoDelay,
+    trajectories: &Request,
+) -> Result<Value, String> {
+    trajectories.check(&built.project.plant)?;
     let program = program(options, built)?;
     let mut line = built.project.plant.clone();
     line.io_delay = delay;
@@ -81,12 +92,22 @@ fn commission(options: &CommissionOptions, built: &Built, delay: IoDelay) -> Res
     if let Some(path) = &options.hashes {
         command.arg("--hashes").arg(path);
     }
+    trajectories.ask(&mut command, &folder);
     if is_chatty(options) {
         command.arg("--progress");
     }
-    let output = command.stderr(Stdio::inherit()).output();
+    let result = simulate(command).and_then(|report| {
+        trajectories.write(built, &folder)?;
+        Ok(report)
+    });
     let _ = fs::remove_dir_all(&folder);
-    let output = output.map_err(|e| format!("{}: {e}", program.display()))?;
+    result
+}
+
+/// What the linked simulation reports.
+fn simulate(mut command: Command) -> Result<Value, String> {
+    let output = command.stderr(Stdio::inherit()).output();
+    let output = output.map_err(|e| format!("{}: {e}", command.get_program().display()))?;
     if !output.status.success() {
         return Err(format!("the linked simulation did not run: {}", output.status));
     }
@@ -174,7 +195,12 @@ fn show(options: &CommissionOptions, built: &Built, mut report: Value, begin: In
     let _ = fs::write(path, format!("{kept:#}\n"));
     match options.build.input.format {
         Format::Json => say!("{report}"),
-        Format::Text if !options.build.input.quiet => say_part!("{}", text(&report, wall, built)),
+        Format::Text if !options.build.input.quiet => {
+            say_part!("{}", text(&report, wall, built));
+            for path in &options.trajectories.files {
+                say!("trajectories       {}", path.display());
+            }
+        }
         Format::Text if report["finished"] != true => {
             eprintln!("autogen: {}", report["reason"].as_str().unwrap_or(""))
         }

@@ -18,4 +18,5 @@ pub mod graph;
 pub mod load;
 pub mod options;
 pub mod print;
+pub mod trajectories;
 pub mod write;
