@@ -1,5 +1,8 @@
 //! The program as a user runs it.
 
+use runtime_sim::geometry::Geometry;
+use runtime_sim::kinematics::arm::{Arm, Joints};
+use runtime_sim::point::{Axis, Point};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -105,6 +108,8 @@ fn wrong_command_lines_are_status_2() {
         &["check", &layout, "--specs", "no_such_folder"],
         &["check", &layout, "--scenario", "no_such_file.json"],
         &["commission", &layout, "--io-delay", "often"],
+        &["commission", &layout, "--io-trace", "no_such_folder/trace.csv"],
+        &["commission", &layout, "--io-trace", &layout],
         &["explain", "E9999"],
     ];
     for case in cases {
@@ -112,6 +117,7 @@ fn wrong_command_lines_are_status_2() {
         assert_eq!(status(&output), 2, "{case:?}: {}", errors(&output));
         assert!(!output.stderr.is_empty(), "{case:?}");
     }
+    assert_eq!(status(&autogen(&folder, &["check", &layout])), 0, "the layout is still there");
 }
 
 #[test]
@@ -239,6 +245,57 @@ fn the_picture_of_two_batteries_is_drawn_from_the_run_of_the_default_layout() {
     );
 }
 
+fn numbers(value: &Value) -> Vec<f64> {
+    value.as_array().expect("a list").iter().map(|n| n.as_f64().expect("a number")).collect()
+}
+
+/// Both ends of a segment of the default line follow from its law.
+fn obeys_its_law(segment: &Value) {
+    let second = |value: &Value| value.as_f64().expect("seconds");
+    let [begin, end] = ["begin_s", "end_s"].map(|key| second(&segment[key]));
+    let near = |place: &[f64], key: &str| {
+        let known = numbers(&segment[key]);
+        let off = place.iter().zip(&known).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(place.len() == 3 && known.len() == 3 && off < 1e-9, "{place:?} is not {key} in {segment}");
+    };
+    let from = numbers(&segment["from"]);
+    match segment["law"].as_str() {
+        Some("rests") => near(&from, "to"),
+        Some("slides") => {
+            let velocity = numbers(&segment["velocity"]);
+            near(&[0, 1, 2].map(|i| from[i] + velocity[i] * (end - begin)), "to");
+        }
+        Some("hangs") => {
+            let geometry = match segment["carrier"].as_str() {
+                Some("gripper of kitting") => Geometry::RailArm {
+                    pose: Point::new(-1.3, 0.0, 1.127),
+                    rail_dim: Axis::Y,
+                    rail_range: [-4.8, 4.8],
+                },
+                _ => Geometry::Gantry {
+                    pose: Point::new(-4.0, 0.0, 2.0),
+                    x_rail_range: [-14.4, 0.4],
+                    y_rail_range: [-4.5, 4.5],
+                },
+            };
+            let arm = Arm::from_geometry(&geometry).expect("an arm");
+            let hang = numbers(&segment["hang"]);
+            let pieces = segment["pieces"].as_array().expect("pieces");
+            for (piece, at, key) in [(pieces.first(), begin, "from"), (pieces.last(), end, "to")] {
+                let piece = piece.expect("a piece");
+                let t = at - second(&piece["begin_s"]);
+                assert!(t >= -1e-9 && at <= second(&piece["end_s"]) + 1e-9, "{segment}");
+                let joints = piece["joints"].as_array().expect("joints").iter();
+                let joints =
+                    joints.map(|powers| numbers(powers).iter().rev().fold(0.0, |sum, c| sum * t + c));
+                let tool = arm.tool(&Joints::new(&joints.collect::<Vec<f64>>()));
+                near(&[tool.x + hang[0], tool.y + hang[1], tool.z + hang[2]], key);
+            }
+        }
+        _ => panic!("no law: {segment}"),
+    }
+}
+
 #[test]
 fn trajectories_are_sampled_exact_or_drawn_and_change_nothing() {
     let folder = folder("trajectories");
@@ -274,6 +331,7 @@ fn trajectories_are_sampled_exact_or_drawn_and_change_nothing() {
                 row[2] == millionths(&segment["begin_s"]) && row[3..6] == from && row[6] == segment["carrier"]
             };
             assert!(rows.iter().any(is_here), "{segment}");
+            obeys_its_law(segment);
         }
     }
     assert!(text("a.svg").contains("battery_4: conveyor_belt"));

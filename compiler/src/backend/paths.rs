@@ -78,7 +78,7 @@ pub fn svg(project: &Project, table: &str) -> String {
     let scale = SCALE.min(WIDEST / (high.y - low.y));
 
     let mut above = Panel::new("above", View::Above, (LEFT, TOP), scale, low, high);
-    for (_, obstacle) in &project.obstacles {
+    for obstacle in &project.plant.obstacles {
         let size = obstacle.size.unwrap_or(Point::new(0.4, 0.4, 0.0));
         above.rectangle(obstacle.pose, (size.x, size.y), "obstacle");
     }

@@ -1,8 +1,8 @@
 //! The option `--trajectories`: what is asked for, and writing it.
 
-use super::build::Built;
 use super::options::{CommissionOptions, TrajectoryOptions};
 use autogen::backend::paths;
+use autogen::lower::Project;
 use runtime_sim::item;
 use runtime_sim::line::Line;
 use runtime_sim::path::{FORMAT, HEAD};
@@ -113,7 +113,7 @@ impl Request {
     }
 
     /// Writes what the simulation has left in the temporary folder.
-    pub fn write(&self, built: &Built, folder: &Path) -> Result<(), String> {
+    pub fn write(&self, project: &Project, folder: &Path) -> Result<(), String> {
         let read = |name: &str| {
             let path = folder.join(name);
             fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))
@@ -122,7 +122,7 @@ impl Request {
             let text = match form {
                 Form::Table => read(TABLE)?,
                 Form::Segments => read(SEGMENTS)? + "\n",
-                Form::Drawing => paths::svg(&built.project, &read(DRAWN)?),
+                Form::Drawing => paths::svg(project, &read(DRAWN)?),
             };
             fs::write(path, text).map_err(|e| format!("{}: {e}", path.display()))?;
         }
