@@ -2,11 +2,13 @@
 //!
 //! `commissioning LINE PARAMETERS [--hashes FILE] [--io-trace COLUMNS FILE] [--progress]`: LINE, PARAMETERS and
 //! COLUMNS are texts that autogen wrote. The I/O trace is written while the run goes on.
+//! `commissioning --batch`: one run after another, asked for on the standard input (see [`batch`]).
 //! `commissioning --replay PARAMETERS`: no simulator. Each line of the standard input holds a scan:
 //! `run_permit start reset`, then the inputs of all robots, the number of each robot's words before them.
 //! Answered with a line of the bits, in hexadecimal, of the system's outputs, the published outputs and the
 //! trace; all that is no number reads `nan`.
 
+use commissioning::batch::batch;
 use commissioning::deployed::Deployed;
 use commissioning::replay::replay;
 use runtime_sim::io_trace::Columns;
@@ -31,7 +33,7 @@ fn main() -> ExitCode {
 fn start(arguments: &[String]) -> Result<(), String> {
     let mut files = Vec::new();
     let (mut hashes, mut io_trace) = (None, None);
-    let (mut progress, mut replays) = (false, false);
+    let (mut progress, mut replays, mut batches) = (false, false, false);
     let mut rest = arguments.iter();
     while let Some(argument) = rest.next() {
         match argument.as_str() {
@@ -43,17 +45,21 @@ fn start(arguments: &[String]) -> Result<(), String> {
             }
             "--progress" => progress = true,
             "--replay" => replays = true,
+            "--batch" => batches = true,
             _ => files.push(argument),
         }
+    }
+    if batches {
+        return batch();
     }
     match (files.as_slice(), replays) {
         ([parameters], true) => replay(&mut Deployed::read(&text(parameters)?)?),
         ([line, parameters], false) => {
             let line = Line::from_text(&text(line)?)?;
-            let deployed = Deployed::read(&text(parameters)?)?;
+            let deployed = Deployed::read(&text(parameters)?)?.of(&line)?;
             simulate(&line, deployed, hashes, io_trace, progress)
         }
-        _ => Err("wants LINE PARAMETERS [--hashes FILE] [--io-trace COLUMNS FILE] [--progress], or --replay PARAMETERS".into()),
+        _ => Err("wants LINE PARAMETERS [--hashes FILE] [--io-trace COLUMNS FILE] [--progress], --batch, or --replay PARAMETERS".into()),
     }
 }
 
@@ -100,9 +106,6 @@ fn simulate(
     mut io_trace: Option<IoTrace>,
     progress: bool,
 ) -> Result<(), String> {
-    if deployed.robots() != line.machines.len() {
-        return Err(format!("{} robots for {} machines", deployed.robots(), line.machines.len()));
-    }
     let mut kept = String::new();
     let mut shown = 0;
     let mut observe = |seen: &Seen| {
