@@ -1,6 +1,7 @@
 //! What the tests of the whole share.
 
 pub mod constructs;
+pub mod coverage;
 pub mod generate;
 pub mod instances;
 pub mod lots;
