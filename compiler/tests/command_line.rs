@@ -1,5 +1,8 @@
 //! The program as a user runs it.
 
+#[path = "command_line/sweep.rs"]
+mod sweep;
+
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

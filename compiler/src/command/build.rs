@@ -5,6 +5,7 @@ use super::write::{self, Files, Overwrite, Refusal};
 use super::{load, print};
 use crate::Status;
 use autogen::backend::{dot, plan, rust, st};
+use autogen::ir::System;
 use autogen::library;
 use autogen::lower::{Outcome, Project, compile};
 use autogen::simulator;
@@ -71,8 +72,8 @@ pub fn build(options: &BuildOptions) -> Result<Built, Status> {
     Ok(Built { project, sources, files, folder })
 }
 
-/// The name of an input as the output shows it: its path from the layout's folder, or its own name.
-fn title(layout: &Path, name: &str) -> String {
+/// The name of an input as outputs show it: its path from the layout's folder, or its own name.
+pub fn title(layout: &Path, name: &str) -> String {
     if library::FILES.iter().any(|(built_in, _)| *built_in == name) {
         return name.to_string();
     }
@@ -88,7 +89,7 @@ fn title(layout: &Path, name: &str) -> String {
 /// All files of the output.
 fn files(project: &Project, sources: &Sources) -> Files {
     let mut files = Files::new();
-    for (name, text) in rust::files(&project.system, sources) {
+    for (name, text) in files_of_rust(&project.system, sources) {
         files.insert(format!("rust/{name}"), text);
     }
     for (name, text) in st::files(&project.system, sources) {
@@ -98,12 +99,18 @@ fn files(project: &Project, sources: &Sources) -> Files {
         files.insert(format!("graph/{name}"), text);
     }
     files.insert("graph/plan.svg".into(), plan::svg(&project.plant, &project.edges, &project.obstacles));
-    for (name, text) in simulator::SOURCES {
-        files.insert(format!("rust/runtime-sim/{name}"), (*text).into());
-    }
-    files.insert("rust/runtime-sim/Cargo.toml".into(), simulator::MANIFEST.into());
     files.insert("rust/commissioning/data/line.txt".into(), project.plant.to_text());
     files.insert("rust/commissioning/data/parameters.txt".into(), rust::parameters_text(&project.system));
+    files
+}
+
+/// The Cargo workspace that links the controllers with the simulator, without the data that it runs.
+pub fn files_of_rust(system: &System, sources: &Sources) -> Files {
+    let mut files = rust::files(system, sources);
+    for (name, text) in simulator::SOURCES {
+        files.insert(format!("runtime-sim/{name}"), (*text).into());
+    }
+    files.insert("runtime-sim/Cargo.toml".into(), simulator::MANIFEST.into());
     files
 }
 

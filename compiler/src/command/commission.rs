@@ -1,13 +1,13 @@
 //! `autogen commission`: the generated controllers, linked with the simulator, run the scenario.
 
 use super::build::{self, Built};
+use super::fault;
 use super::options::{CommissionOptions, Format};
-use super::write;
+use super::program::{self, Notice};
 use crate::Status;
 use runtime_sim::line::IoDelay;
 use serde_json::{Value, json};
-use std::io::{IsTerminal, Read};
-use std::path::PathBuf;
+use std::io::IsTerminal;
 use std::process::{Command, Stdio};
 use std::time::Instant;
 use std::{env, fs, io};
@@ -24,7 +24,7 @@ pub fn run(options: &CommissionOptions) -> Status {
     };
     match commission(options, &built, delay) {
         Ok(mut report) => {
-            name_fault(&mut report, &built);
+            fault::name(&mut report, &built.project.system, &built.sources);
             let status = match report["finished"].as_bool() {
                 Some(true) => Status::Done,
                 _ if report["reason"].as_str().is_some_and(|r| r.starts_with("bug: ")) => Status::Bug,
@@ -37,20 +37,6 @@ pub fn run(options: &CommissionOptions) -> Status {
     }
 }
 
-/// Adds to a fault what and where it is in the text: the simulator knows its number only.
-fn name_fault(report: &mut Value, built: &Built) {
-    let Some(code) = report["fault"]["code"].as_u64().filter(|code| *code > 0) else { return };
-    let Some(site) = built.project.system.model.faults.get(code as usize - 1) else { return };
-    let place =
-        format!("{}:{}", built.sources.file(site.place.file).name, built.sources.position(site.place).0);
-    let robot = report["fault"]["robot"].as_str().unwrap_or("").to_string();
-    let state = report["robots"][&robot]["state"].as_str().unwrap_or("").to_string();
-    report["reason"] = json!(format!("fault {code} of {robot}, in state {state}: {} ({place})", site.text));
-    report["fault"]["text"] = json!(site.text);
-    report["fault"]["place"] = json!(place);
-    report["fault"]["state"] = json!(state);
-}
-
 fn fail(options: &CommissionOptions, text: String) -> Status {
     match options.build.input.format {
         Format::Json => say!("{}", json!({ "finished": false, "reason": text, "diagnostics": [] })),
@@ -59,7 +45,8 @@ fn fail(options: &CommissionOptions, text: String) -> Status {
     Status::WrongCommand
 }
 
-fn io_delay(text: &str) -> Option<IoDelay> {
+/// How late devices answer, as `--io-delay` says it.
+pub fn io_delay(text: &str) -> Option<IoDelay> {
     let random = |seed| Some(IoDelay::Random { max: 5, seed });
     match text.strip_prefix("random") {
         Some("") => random(1),
@@ -69,7 +56,12 @@ fn io_delay(text: &str) -> Option<IoDelay> {
 }
 
 fn commission(options: &CommissionOptions, built: &Built, delay: IoDelay) -> Result<Value, String> {
-    let program = program(options, built)?;
+    let input = &options.build.input;
+    let notice = match input.format {
+        Format::Text if !input.quiet => Notice::Compiling,
+        _ => Notice::None,
+    };
+    let program = program::linked(&built.project.system, &built.sources, notice)?;
     let mut line = built.project.plant.clone();
     line.io_delay = delay;
     let folder = env::temp_dir().join(format!("autogen-{}", std::process::id()));
@@ -96,67 +88,6 @@ fn commission(options: &CommissionOptions, built: &Built, delay: IoDelay) -> Res
 fn is_chatty(options: &CommissionOptions) -> bool {
     let input = &options.build.input;
     !input.quiet && input.format == Format::Text && io::stderr().is_terminal()
-}
-
-/// The program in which controllers and simulator are linked. It depends on the types and the kinds of
-/// part only, so it is compiled once for all layouts that have the same ones.
-fn program(options: &CommissionOptions, built: &Built) -> Result<PathBuf, String> {
-    let sources: write::Files = (built.files.iter())
-        .filter_map(|(name, text)| Some((name.strip_prefix("rust/")?.to_string(), text.clone())))
-        .filter(|(name, _)| !name.starts_with("controllers/src/robots") && !name.contains("/data/"))
-        .collect();
-    let key = write::hash(
-        &sources
-            .iter()
-            .filter(|(n, _)| !is_of_layout(n))
-            .map(|(n, t)| format!("{n}\n{t}\n"))
-            .collect::<String>(),
-    );
-    let folder = cache().join(&key[..16]);
-    let program = folder.join("commissioning").with_extension(env::consts::EXE_EXTENSION);
-    if program.is_file() {
-        return Ok(program);
-    }
-    let workspace = built.folder.join("rust");
-    if !options.build.input.quiet && options.build.input.format == Format::Text {
-        eprintln!("compiling the controllers and the simulator (once for these types) ...");
-    }
-    // Of this process alone: another one may be compiling the same.
-    let target = folder.join(format!("target-{}", std::process::id()));
-    let result = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
-        .args(["build", "--release", "--quiet", "-p", "commissioning", "--manifest-path"])
-        .arg(workspace.join("Cargo.toml"))
-        .arg("--target-dir")
-        .arg(&target)
-        .stdout(Stdio::null())
-        .stderr(Stdio::piped())
-        .spawn();
-    let mut child = result
-        .map_err(|e| format!("cargo cannot be started, and the controllers need it to be compiled: {e}"))?;
-    let mut errors = String::new();
-    if let Some(mut stderr) = child.stderr.take() {
-        let _ = stderr.read_to_string(&mut errors);
-    }
-    let status = child.wait().map_err(|e| e.to_string())?;
-    if !status.success() {
-        return Err(format!("the controllers could not be compiled:\n{errors}"));
-    }
-    let made = target.join("release").join("commissioning").with_extension(env::consts::EXE_EXTENSION);
-    fs::rename(&made, &program).map_err(|e| format!("{}: {e}", made.display()))?;
-    let _ = fs::remove_dir_all(&target);
-    Ok(program)
-}
-
-/// Files in which only the layout is written; the program reads its data at run time.
-fn is_of_layout(name: &str) -> bool {
-    name.starts_with("controllers/src/robots") || name == "controllers/src/line.rs" || name.contains("/data/")
-}
-
-/// Where compiled programs are kept: the user's cache.
-fn cache() -> PathBuf {
-    let set = |name: &str| env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
-    let base = set("XDG_CACHE_HOME").or_else(|| Some(set("HOME")?.join(".cache")));
-    base.unwrap_or_else(env::temp_dir).join("autogen")
 }
 
 fn show(options: &CommissionOptions, built: &Built, mut report: Value, begin: Instant) {

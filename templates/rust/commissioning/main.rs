@@ -1,11 +1,13 @@
 //! Runs the controllers against the simulator, and prints the report as JSON.
 //!
 //! `commissioning LINE PARAMETERS [--hashes FILE] [--progress]`: both are texts that autogen wrote.
+//! `commissioning --batch`: one run after another, asked for on the standard input (see [`batch`]).
 //! `commissioning --replay PARAMETERS`: no simulator. Each line of the standard input holds a scan:
 //! `run_permit start reset`, then the inputs of all robots, the number of each robot's words before them.
 //! Answered with a line of the bits, in hexadecimal, of the system's outputs, the published outputs and the
 //! trace; all that is no number reads `nan`.
 
+use commissioning::batch::batch;
 use commissioning::deployed::Deployed;
 use commissioning::replay::replay;
 use runtime_sim::line::Line;
@@ -27,24 +29,28 @@ fn main() -> ExitCode {
 fn start(arguments: &[String]) -> Result<(), String> {
     let mut files = Vec::new();
     let mut hashes = None;
-    let (mut progress, mut replays) = (false, false);
+    let (mut progress, mut replays, mut batches) = (false, false, false);
     let mut rest = arguments.iter();
     while let Some(argument) = rest.next() {
         match argument.as_str() {
             "--hashes" => hashes = Some(rest.next().ok_or("`--hashes` wants a file")?),
             "--progress" => progress = true,
             "--replay" => replays = true,
+            "--batch" => batches = true,
             _ => files.push(argument),
         }
+    }
+    if batches {
+        return batch();
     }
     match (files.as_slice(), replays) {
         ([parameters], true) => replay(&mut Deployed::read(&text(parameters)?)?),
         ([line, parameters], false) => {
             let line = Line::from_text(&text(line)?)?;
-            let deployed = Deployed::read(&text(parameters)?)?;
+            let deployed = Deployed::read(&text(parameters)?)?.of(&line)?;
             simulate(&line, deployed, hashes, progress)
         }
-        _ => Err("wants LINE PARAMETERS [--hashes FILE] [--progress], or --replay PARAMETERS".into()),
+        _ => Err("wants LINE PARAMETERS [--hashes FILE] [--progress], --batch, or --replay PARAMETERS".into()),
     }
 }
 
@@ -53,9 +59,6 @@ fn text(path: &str) -> Result<String, String> {
 }
 
 fn simulate(line: &Line, mut deployed: Deployed, hashes: Option<&String>, progress: bool) -> Result<(), String> {
-    if deployed.robots() != line.machines.len() {
-        return Err(format!("{} robots for {} machines", deployed.robots(), line.machines.len()));
-    }
     let mut kept = String::new();
     let mut shown = 0;
     let mut observe = |seen: &Seen| {
