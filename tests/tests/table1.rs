@@ -225,7 +225,7 @@ fn requirements_are_known_where_indices_are_proved() {
     let declarations = |required: &str| {
         format!(
             "parameter n: int 0..20 := 3; local v: bool[12]; {required} invariant not v[0];
-             any state {{ when n > 100 and v[n] -> S {{}} }}"
+             any state {{ when v[n] -> S {{}} }}"
         )
     };
     let codes =

@@ -2,6 +2,7 @@
 
 use super::build::{self, Built};
 use super::fault;
+use super::io_trace::IoTrace;
 use super::options::{CommissionOptions, Format};
 use super::program::{self, Notice};
 use crate::Status;
@@ -18,11 +19,16 @@ pub fn run(options: &CommissionOptions) -> Status {
         Some(delay) => delay,
         None => return fail(options, "--io-delay takes a number of scans, `random` or `random:SEED`".into()),
     };
+    let overwrite = options.build.overwrite();
+    let io_trace = match options.io_trace.as_ref().map(|path| IoTrace::new(path, overwrite)).transpose() {
+        Ok(io_trace) => io_trace,
+        Err(text) => return fail(options, text),
+    };
     let built = match build::build(&options.build) {
         Ok(built) => built,
         Err(status) => return status,
     };
-    match commission(options, &built, delay) {
+    match commission(options, &built, delay, io_trace) {
         Ok(mut report) => {
             fault::name(&mut report, &built.project.system, &built.sources);
             let status = match report["finished"].as_bool() {
@@ -55,7 +61,12 @@ pub fn io_delay(text: &str) -> Option<IoDelay> {
     }
 }
 
-fn commission(options: &CommissionOptions, built: &Built, delay: IoDelay) -> Result<Value, String> {
+fn commission(
+    options: &CommissionOptions,
+    built: &Built,
+    delay: IoDelay,
+    io_trace: Option<IoTrace>,
+) -> Result<Value, String> {
     let input = &options.build.input;
     let notice = match input.format {
         Format::Text if !input.quiet => Notice::Compiling,
@@ -69,7 +80,11 @@ fn commission(options: &CommissionOptions, built: &Built, delay: IoDelay) -> Res
     fs::create_dir_all(&folder).map_err(io)?;
     fs::write(folder.join("line.txt"), line.to_text()).map_err(io)?;
     let mut command = Command::new(&program);
-    command.arg(folder.join("line.txt")).arg(built.folder.join("rust/commissioning/data/parameters.txt"));
+    let data = built.folder.join("rust/commissioning/data");
+    command.arg(folder.join("line.txt")).arg(data.join("parameters.txt"));
+    if let Some(io_trace) = &io_trace {
+        command.arg("--io-trace").arg(data.join("columns.txt")).arg(io_trace.partial());
+    }
     if let Some(path) = &options.hashes {
         command.arg("--hashes").arg(path);
     }
@@ -81,6 +96,9 @@ fn commission(options: &CommissionOptions, built: &Built, delay: IoDelay) -> Res
     let output = output.map_err(|e| format!("{}: {e}", program.display()))?;
     if !output.status.success() {
         return Err(format!("the linked simulation did not run: {}", output.status));
+    }
+    if let Some(io_trace) = io_trace {
+        io_trace.keep()?;
     }
     serde_json::from_slice(&output.stdout).map_err(|e| format!("the linked simulation did not report: {e}"))
 }

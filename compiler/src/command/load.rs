@@ -98,7 +98,8 @@ fn automata(path: &Path) -> Result<Vec<PathBuf>, Failure> {
     Ok(files)
 }
 
-fn add(sources: &mut Sources, path: &Path) -> Result<FileId, Failure> {
+/// Without a byte order mark; what is no UTF-8 is replaced.
+pub fn add(sources: &mut Sources, path: &Path) -> Result<FileId, Failure> {
     let bytes = std::fs::read(path).map_err(|e| unreadable(path, &e))?;
     let text = String::from_utf8_lossy(&bytes);
     Ok(sources.add(path.display().to_string(), text.strip_prefix('\u{feff}').unwrap_or(&text)))

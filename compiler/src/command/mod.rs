@@ -16,6 +16,7 @@ pub mod commission;
 pub mod explain;
 pub mod fault;
 pub mod graph;
+pub mod io_trace;
 pub mod load;
 pub mod options;
 pub mod print;

@@ -1,5 +1,6 @@
 //! The options of the command line.
 
+use super::write::Overwrite;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -61,6 +62,16 @@ pub enum Format {
     Json,
 }
 
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Addresses {
+    /// %IW1 is the bytes 2 and 3 (CODESYS)
+    Words,
+    /// %IW1 is the bytes 1 and 2 (TwinCAT)
+    Bytes,
+    /// %IX, %IB, %IW and %ID are memories of their own (OpenPLC)
+    Apart,
+}
+
 #[derive(Args, Debug)]
 pub struct BuildOptions {
     #[command(flatten)]
@@ -68,9 +79,21 @@ pub struct BuildOptions {
     /// Where to write; default: out/<layout name>
     #[arg(short, long = "output", value_name = "DIR")]
     pub output: Option<PathBuf>,
+    /// Addresses of the process image: plc/io.csv, with its last five columns filled
+    #[arg(long, value_name = "FILE")]
+    pub io: Option<PathBuf>,
+    /// How the PLC counts addresses, to find two that overlap
+    #[arg(long, value_enum, default_value = "words", requires = "io")]
+    pub addresses: Addresses,
     /// Overwrite files that autogen did not write or that were changed since
     #[arg(long)]
     pub force: bool,
+}
+
+impl BuildOptions {
+    pub fn overwrite(&self) -> Overwrite {
+        if self.force { Overwrite::Everything } else { Overwrite::Own }
+    }
 }
 
 #[derive(Args, Debug)]
@@ -80,6 +103,10 @@ pub struct CommissionOptions {
     /// How many scans late devices answer: a number, or `random` or `random:SEED` for 0 to 5
     #[arg(long, value_name = "N", default_value = "0")]
     pub io_delay: String,
+    /// Write a row for each scan to this file: inputs, outputs, states and shared cells, as comma-separated
+    /// values under the names of the Structured Text
+    #[arg(long, value_name = "FILE")]
+    pub io_trace: Option<PathBuf>,
     /// Write the hash of each scan's trace to this file, a line each
     #[arg(long, value_name = "FILE")]
     pub hashes: Option<PathBuf>,

@@ -178,8 +178,8 @@ impl Parts {
             found.diagnostics.append(&mut line.diagnostics);
             return;
         };
-        let plant = plant::line(&system, &line, resolved, layout.scan_ms);
-        found.project = Some(Project { name: layout.name, system, plant, edges, obstacles: bound.obstacles });
+        let plant = plant::line(&system, &line, bound.obstacles, resolved, layout.scan_ms);
+        found.project = Some(Project { name: layout.name, system, plant, edges });
     }
 }
 

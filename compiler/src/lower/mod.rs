@@ -12,7 +12,6 @@ pub use draft::{Draft, Line, Texts};
 pub use setting::Setting;
 
 use crate::diagnostic::Diagnostic;
-use crate::layout::Obstacle;
 use crate::source::{FileId, Sources};
 use crate::{connect, ir};
 
@@ -39,7 +38,6 @@ pub struct Project {
     pub plant: runtime_sim::line::Line,
     /// Between instances.
     pub edges: Vec<connect::Edge>,
-    pub obstacles: Vec<(String, Obstacle)>,
 }
 
 /// What the connectivity check found, by names.

@@ -85,6 +85,10 @@ impl Writer<'_> {
                 fits && s.extent == target.extent && s.name != target.name
             });
             let sources: Vec<String> = sources.map(|s| s.name.clone()).collect();
+            // Few devices have array inputs, and few targets their type.
+            let inputs: Vec<String> =
+                sources.iter().filter(|s| self.device.port(s).is_some()).cloned().collect();
+            let sources = if inputs.is_empty() { sources } else { inputs };
             if !sources.is_empty() {
                 self.faults += 1;
                 return Some(format!(" {} := {};", target.name, self.lot.pick(&sources)));
