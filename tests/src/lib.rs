@@ -8,6 +8,7 @@ pub mod many;
 pub mod replay;
 pub mod st;
 pub mod trace;
+pub mod wired;
 pub mod workspace;
 
 use autogen::diagnostic::{self, Diagnostic};

@@ -204,6 +204,8 @@ impl Controllers for StructuredText {
 pub struct Beside<'a> {
     pub executor: autogen::executor::Executor<'a>,
     pub text: StructuredText,
+    /// What the globals of the text get instead of the inputs of the next scan.
+    pub instead: Option<(SystemInputs, Vec<Vec<f64>>)>,
     outputs: Vec<Vec<f64>>,
     pub scans: u64,
     /// Words compared.
@@ -216,6 +218,7 @@ impl<'a> Beside<'a> {
         Ok(Self {
             executor: autogen::executor::Executor::new(system),
             text: StructuredText::new(system, text)?,
+            instead: None,
             outputs: vec![Vec::new(); system.instances.len()],
             scans: 0,
             words: 0,
@@ -260,6 +263,8 @@ impl Controllers for Beside<'_> {
         let answer = self.executor.scan(system, inputs, outputs);
         if self.difference.is_none() {
             let mut own = std::mem::take(&mut self.outputs);
+            let instead = self.instead.take();
+            let (system, inputs) = instead.as_ref().map_or((system, inputs), |(s, i)| (*s, i.as_slice()));
             let other = self.text.scan(system, inputs, &mut own);
             self.outputs = own;
             self.difference =
