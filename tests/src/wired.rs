@@ -1,7 +1,7 @@
 //! Structured Text whose points have addresses, beside the executor without any: what stands in the process
 //! image is made and read here, from the rules of the table and not from the compiler.
 
-use crate::st::Beside;
+use crate::st::{Beside, Emitted};
 use autogen::io_map::{self, Counting, IoMap, Kind, Point};
 use autogen::ir::System;
 use autogen::source::Sources;
@@ -62,8 +62,8 @@ impl Row {
         }
     }
 
-    /// What is wrong with the raw value of an output: a boolean and an integer are exact, a real is off by
-    /// one raw step at most, unless it is beyond what the raw type holds.
+    /// What is wrong with the raw value of an output: a boolean and an integer are exact, a real is the
+    /// nearest raw value, unless it is beyond what the raw type holds.
     fn difference(&self, kind: Kind, value: f64, raw: f64) -> Option<String> {
         let (low, high) = self.bounds();
         let back = self.value_of(kind, raw);
@@ -71,7 +71,8 @@ impl Row {
             Kind::Real => {
                 let ends = [low, high].map(|end| self.value_of(kind, end));
                 let held = value.clamp(ends[0].min(ends[1]), ends[0].max(ends[1]));
-                (back - held).abs() <= self.scale.abs()
+                // Half a step, and what the arithmetic loses.
+                (back - held).abs() <= 0.500001 * self.scale.abs()
             }
             _ => back == value,
         };
@@ -178,8 +179,13 @@ pub struct Wired<'a> {
 }
 
 impl<'a> Wired<'a> {
-    pub fn new(system: &'a System, text: &str, points: &[Point], rows: &[Row]) -> Result<Self, String> {
-        let beside = Beside::new(system, text)?;
+    pub fn new(
+        system: &'a System,
+        emitted: &Emitted,
+        points: &[Point],
+        rows: &[Row],
+    ) -> Result<Self, String> {
+        let beside = Beside::new(system, emitted)?;
         let mut counts = vec![[0; 2]; system.instances.len() + 1];
         let words: Vec<Word> = points
             .iter()

@@ -6,9 +6,9 @@ use autogen::io_map::{self, Counting};
 use autogen::ir::System;
 use autogen::lower::Project;
 use autogen::source::Sources;
-use autogen_st_judge::{judge, listed};
 use autogen_tests::instances::instantiate;
 use autogen_tests::lots::Lots;
+use autogen_tests::st::Emitted;
 use autogen_tests::wired::{self, Wired};
 use autogen_tests::{LAYOUTS, ariac, root, text};
 use runtime_sim::scan::Controllers;
@@ -129,9 +129,8 @@ fn beside<'s>(system: &'s System, sources: &Sources, seed: u64) -> Wired<'s> {
     let points = st::points(system);
     let rows = wired::drawn(&points, seed);
     let files = st::mapped(system, sources, &wired::map(&points, &rows));
-    let text = &files["portable/main.st"];
-    judge(text).unwrap_or_else(|findings| panic!("{}", listed(&findings, text)));
-    Wired::new(system, text, &points, &rows).unwrap_or_else(|error| panic!("table {seed}: {error}"))
+    Wired::new(system, &Emitted::of(&files), &points, &rows)
+        .unwrap_or_else(|error| panic!("table {seed}: {error}"))
 }
 
 fn drawn(wired: &mut Wired, system: &System, seed: u64, scans: usize) {

@@ -7,17 +7,17 @@ use autogen_st_judge::machine::Machine;
 use autogen_st_judge::{faults, judge, listed};
 use autogen_tests::instances::instantiate;
 use autogen_tests::lots::Lots;
-use autogen_tests::st::{Beside, StructuredText};
+use autogen_tests::st::{Beside, Emitted, StructuredText};
 use autogen_tests::{LAYOUTS, ariac, root, trace};
 use runtime_sim::scan::Controllers;
 use std::collections::BTreeMap;
 
-fn emitted(system: &System, sources: &Sources) -> String {
-    st::files(system, sources).remove("portable/main.st").expect("the portable flavour")
+fn emitted(system: &System, sources: &Sources) -> Emitted {
+    Emitted::of(&st::files(system, sources))
 }
 
 /// The text of a layout of the paper.
-fn of_layout(layout: &str) -> (autogen::lower::Project, String) {
+fn of_layout(layout: &str) -> (autogen::lower::Project, Emitted) {
     let outcome = ariac(layout).compile();
     let project = outcome.project.expect("a layout that can be built");
     let text = emitted(&project.system, &outcome.sources);
@@ -73,7 +73,7 @@ fn same(beside: &Beside, name: &str) {
 }
 
 /// So many scans of inputs drawn by lot.
-fn drawn<'s>(system: &'s System, text: &str, scans: usize, seed: u64) -> Result<Beside<'s>, String> {
+fn drawn<'s>(system: &'s System, text: &Emitted, scans: usize, seed: u64) -> Result<Beside<'s>, String> {
     let mut beside = Beside::new(system, text)?;
     let mut lots = Lots::new(system, seed);
     let mut outputs = vec![Vec::new(); system.instances.len()];
@@ -128,7 +128,7 @@ fn fixtures_are_the_same_on_drawn_inputs() {
 fn a_state_that_there_is_not_is_a_fault() {
     let (project, text) = of_layout("default");
     for instance in &project.system.instances {
-        let mut machine = Machine::new(&text).expect("a clean text");
+        let mut machine = Machine::new(&text.main).expect("a clean text");
         machine.set("run_permit", 1.0);
         machine.scan().expect("a scan");
         machine.set("start", 1.0);
@@ -164,7 +164,7 @@ fn hand_written_traces_are_followed() {
         });
         if let Err(error) = outcome {
             let name = path.file_stem().expect("a name").to_string_lossy().into_owned();
-            keep(&name, &text);
+            keep(&name, &text.main);
             wrong.push(format!("{name}: {error}"));
             differ.push(name);
         }
@@ -175,7 +175,7 @@ fn hand_written_traces_are_followed() {
 
 #[test]
 fn every_fault_seeded_into_the_default_layout_is_found() {
-    let (_, text) = of_layout("default");
+    let text = of_layout("default").1.main;
     let checked = judge(&text).unwrap_or_else(|findings| panic!("{}", listed(&findings, &text)));
     let rows = faults::seed(&text, &checked, 10, 1);
     println!("{}", faults::table(&rows));
