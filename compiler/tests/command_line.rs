@@ -105,6 +105,8 @@ fn wrong_command_lines_are_status_2() {
         &["check", &layout, "--specs", "no_such_folder"],
         &["check", &layout, "--scenario", "no_such_file.json"],
         &["commission", &layout, "--io-delay", "often"],
+        &["commission", &layout, "--io-trace", "no_such_folder/trace.csv"],
+        &["commission", &layout, "--io-trace", &layout],
         &["explain", "E9999"],
     ];
     for case in cases {
@@ -112,6 +114,7 @@ fn wrong_command_lines_are_status_2() {
         assert_eq!(status(&output), 2, "{case:?}: {}", errors(&output));
         assert!(!output.stderr.is_empty(), "{case:?}");
     }
+    assert_eq!(status(&autogen(&folder, &["check", &layout])), 0, "the layout is still there");
 }
 
 #[test]

@@ -7,15 +7,11 @@ use crate::point::Point;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Event {
     /// An item was handed over. `point` is where its underside was afterwards.
-    Item {
-        scan: u64,
-        item: usize,
-        from: Carrier,
-        to: Carrier,
-        point: Point,
-    },
+    Item { scan: u64, item: usize, from: Carrier, to: Carrier, point: Point },
     Order {
         scan: u64,
+        /// The station.
+        machine: usize,
         order: usize,
         change: OrderChange,
     },
@@ -25,6 +21,8 @@ pub enum Event {
 pub enum OrderChange {
     Opened,
     Made,
+    /// It was made at another station.
+    Withdrawn,
     /// `complete` was set while the parts in the briefcase were not those of the order.
     Refused,
 }
@@ -99,6 +97,7 @@ mod tests {
             machines: machines
                 .map(|geometry| Machine { name: "m".into(), geometry, states: vec![] })
                 .collect(),
+            obstacles: vec![],
             scenario: Scenario { supply: vec![Supply { belt: 0, items: vec![0, 0] }], ..Scenario::default() },
             io_delay: IoDelay::Fixed(0),
         })

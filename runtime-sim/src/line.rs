@@ -4,6 +4,7 @@ mod check;
 mod text;
 
 use crate::geometry::Geometry;
+use crate::point::Point;
 
 /// A factory line, its machines in the order of the layout, and what is to happen on it.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,6 +13,8 @@ pub struct Line {
     pub scan_ms: u32,
     pub kinds: Vec<Kind>,
     pub machines: Vec<Machine>,
+    /// What stands about without a controller, in the order of the layout.
+    pub obstacles: Vec<Obstacle>,
     pub scenario: Scenario,
     pub io_delay: IoDelay,
 }
@@ -32,6 +35,16 @@ pub struct Machine {
     pub states: Vec<State>,
 }
 
+/// Something stationary without an automaton.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Obstacle {
+    pub name: String,
+    /// The box stands on it.
+    pub pose: Point,
+    /// Lengths along x, y and z, if the layout gives them.
+    pub size: Option<Point>,
+}
+
 /// What reports say of a machine in this state while it has no command under way.
 #[derive(Clone, Debug, PartialEq)]
 pub struct State {
@@ -47,7 +60,9 @@ pub struct State {
 pub struct Scenario {
     pub orders: Vec<Order>,
     pub supply: Vec<Supply>,
-    /// Seconds of a belt at full speed between two parts.
+    /// Seconds of a belt at full speed until its first part.
+    pub spawn_first_s: f64,
+    /// The same between two parts.
     pub spawn_every_s: f64,
     pub time_limit_s: f64,
     /// A run in which nothing at all changes for so long ends as a deadlock.
@@ -62,7 +77,9 @@ pub struct Scenario {
 /// Orders of one station open one after another, in the order of [`Scenario::orders`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Order {
-    pub station: usize,
+    /// Where it opens, each when its turn comes there. It is made at the first of them that has its parts,
+    /// and withdrawn at the others.
+    pub stations: Vec<usize>,
     /// Number of parts of each kind.
     pub parts: Vec<u32>,
 }
@@ -116,6 +133,7 @@ impl Default for Scenario {
             orders: Vec::new(),
             supply: Vec::new(),
             // Belt population of the qualifier trials: a part every 2 s at 0.2 m/s.
+            spawn_first_s: 2.0,
             spawn_every_s: 2.0,
             // Time limit of the same trials.
             time_limit_s: 500.0,

@@ -11,6 +11,7 @@
 mod block;
 mod bounds;
 mod code;
+mod columns;
 mod context;
 mod declaration;
 mod expression;
@@ -39,6 +40,7 @@ use context::Shared;
 use globals::Globals;
 use image::Image;
 use program::Blocks;
+use runtime_sim::io_trace::Columns;
 
 /// Every point of I/O, in the order of `io.csv`; an [`IoMap`] counts them so.
 pub fn points(system: &System) -> Vec<Point> {
@@ -73,6 +75,14 @@ pub fn mapped(system: &System, sources: &Sources, map: &IoMap) -> Files {
         files.insert("names.csv".into(), table::renamed(&renamed));
     }
     files
+}
+
+/// The columns of an I/O trace, named as the globals of `portable/main.st`; the state of a robot as `robot.state`.
+pub fn columns(system: &System, sources: &Sources) -> Columns {
+    let names = names::names(system);
+    let image = image::image(system, &names, &IoMap::default(), &mut names.program.inner());
+    let shared = Shared { system, sources, names: &names };
+    columns::columns(shared, &line(shared, &image).globals)
 }
 
 /// The units of a line, in the order in which they must be declared.

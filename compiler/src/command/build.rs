@@ -1,12 +1,13 @@
 //! `autogen build`.
 
 use super::options::{Addresses, BuildOptions, Format};
-use super::write::{self, Files, Overwrite, Refusal};
+use super::write::{self, Files, Refusal};
 use super::{load, print};
 use crate::Status;
 use autogen::backend::{dot, plan, rust, st};
 use autogen::diagnostic::Diagnostic;
 use autogen::io_map::{self, Counting, IoMap};
+use autogen::ir::System;
 use autogen::library;
 use autogen::lower::{Outcome, Project, compile};
 use autogen::simulator;
@@ -72,8 +73,7 @@ pub fn build(options: &BuildOptions) -> Result<Built, Status> {
     let sources = sources.renamed(|name| title(&options.input.layout, name));
     let files = files(&project, &sources, &map);
     let folder = options.output.clone().unwrap_or_else(|| Path::new("out").join(&project.name));
-    let overwrite = if options.force { Overwrite::Everything } else { Overwrite::Own };
-    write::write(&folder, &files, about(&project, &sources), overwrite)
+    write::write(&folder, &files, about(&project, &sources), options.overwrite())
         .map_err(|refusal| refused(options, &refusal))?;
     Ok(Built { project, sources, files, folder })
 }
@@ -94,8 +94,8 @@ fn io_map(
     io_map::read(sources, table, &st::points(&project.system), counting)
 }
 
-/// The name of an input as the output shows it: its path from the layout's folder, or its own name.
-fn title(layout: &Path, name: &str) -> String {
+/// The name of an input as outputs show it: its path from the layout's folder, or its own name.
+pub fn title(layout: &Path, name: &str) -> String {
     if library::FILES.iter().any(|(built_in, _)| *built_in == name) {
         return name.to_string();
     }
@@ -111,7 +111,7 @@ fn title(layout: &Path, name: &str) -> String {
 /// All files of the output.
 fn files(project: &Project, sources: &Sources, map: &IoMap) -> Files {
     let mut files = Files::new();
-    for (name, text) in rust::files(&project.system, sources) {
+    for (name, text) in files_of_rust(&project.system, sources) {
         files.insert(format!("rust/{name}"), text);
     }
     for (name, text) in st::mapped(&project.system, sources, map) {
@@ -120,13 +120,23 @@ fn files(project: &Project, sources: &Sources, map: &IoMap) -> Files {
     for (name, text) in dot::files(&project.system, &project.edges) {
         files.insert(format!("graph/{name}"), text);
     }
-    files.insert("graph/plan.svg".into(), plan::svg(&project.plant, &project.edges, &project.obstacles));
-    for (name, text) in simulator::SOURCES {
-        files.insert(format!("rust/runtime-sim/{name}"), (*text).into());
-    }
-    files.insert("rust/runtime-sim/Cargo.toml".into(), simulator::MANIFEST.into());
+    files.insert("graph/plan.svg".into(), plan::svg(&project.plant, &project.edges));
     files.insert("rust/commissioning/data/line.txt".into(), project.plant.to_text());
     files.insert("rust/commissioning/data/parameters.txt".into(), rust::parameters_text(&project.system));
+    files.insert(
+        "rust/commissioning/data/columns.txt".into(),
+        st::columns(&project.system, sources).to_text(),
+    );
+    files
+}
+
+/// The Cargo workspace that links the controllers with the simulator, without the data that it runs.
+pub fn files_of_rust(system: &System, sources: &Sources) -> Files {
+    let mut files = rust::files(system, sources);
+    for (name, text) in simulator::SOURCES {
+        files.insert(format!("runtime-sim/{name}"), (*text).into());
+    }
+    files.insert("runtime-sim/Cargo.toml".into(), simulator::MANIFEST.into());
     files
 }
 

@@ -26,7 +26,13 @@ pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec
     )
 }
 
-pub fn line(system: &System, line: &Line, scenario: ResolvedScenario, scan_ms: u32) -> line::Line {
+pub fn line(
+    system: &System,
+    line: &Line,
+    obstacles: Vec<line::Obstacle>,
+    scenario: ResolvedScenario,
+    scan_ms: u32,
+) -> line::Line {
     let scans = |seconds: f64| (seconds * 1000.0 / f64::from(scan_ms)).round() as u64;
     line::Line {
         scan_ms,
@@ -42,13 +48,15 @@ pub fn line(system: &System, line: &Line, scenario: ResolvedScenario, scan_ms: u
                 states: system.automaton_of(i).states.iter().map(|s| state(system, i, s)).collect(),
             })
             .collect(),
+        obstacles,
         scenario: line::Scenario {
             orders: scenario
                 .orders
                 .into_iter()
-                .map(|(station, parts)| line::Order { station, parts })
+                .map(|(stations, parts)| line::Order { stations, parts })
                 .collect(),
             supply: scenario.supply.into_iter().map(|(belt, items)| line::Supply { belt, items }).collect(),
+            spawn_first_s: scenario.spawn_first_s,
             spawn_every_s: scenario.spawn_every_s,
             time_limit_s: scenario.time_limit_s,
             slips: (scenario.slips.iter())

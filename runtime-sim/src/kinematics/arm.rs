@@ -18,6 +18,13 @@ pub struct Joints {
     count: usize,
 }
 
+/// A pose for each link of one robot, see [`Arm::frames`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frames {
+    poses: [Pose; MOST_JOINTS],
+    count: usize,
+}
+
 /// What a robot's joints can do at most.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
@@ -64,6 +71,21 @@ impl Joints {
     }
 }
 
+impl Frames {
+    fn new(poses: &[Pose]) -> Self {
+        let mut frames = Self { poses: [Pose::IDENTITY; MOST_JOINTS], count: poses.len() };
+        frames.poses[..poses.len()].copy_from_slice(poses);
+        frames
+    }
+}
+
+impl Deref for Frames {
+    type Target = [Pose];
+    fn deref(&self) -> &[Pose] {
+        &self.poses[..self.count]
+    }
+}
+
 impl Deref for Joints {
     type Target = [f64];
     fn deref(&self) -> &[f64] {
@@ -81,6 +103,11 @@ impl Limits {
     /// The same robot at a part of its speed; accelerations stay.
     pub fn at_speed(&self, part: f64) -> Self {
         Self { velocity: self.velocity.map(|_, v| v * part), ..*self }
+    }
+
+    /// The same robot with this acceleration of every joint, m/s2 or rad/s2.
+    pub fn at_gain(&self, gain: f64) -> Self {
+        Self { acceleration: self.acceleration.map(|_, _| gain), ..*self }
     }
 }
 
@@ -114,10 +141,31 @@ impl Arm {
         }
     }
 
+    /// Joints for a place of the tool, straight under the shoulder, with the torso at exactly this turn (rad);
+    /// none where the limits forbid it, and for a robot without a torso.
+    pub fn solve_turned(&self, tool: Point, turn: f64, from: &Joints) -> Option<Joints> {
+        match self {
+            Arm::Rail(_) => None,
+            Arm::Gantry(arm) => arm.solve_turned(tool, turn, &from.array()).map(|j| Joints::new(&j)),
+        }
+    }
+
+    pub fn has_torso(&self) -> bool {
+        matches!(self, Arm::Gantry(_))
+    }
+
     pub fn tool_pose(&self, joints: &Joints) -> Pose {
         match self {
             Arm::Rail(arm) => arm.tool_pose(&joints.array::<{ rail_arm::JOINTS }>()),
             Arm::Gantry(arm) => arm.tool_pose(&joints.array::<{ gantry::JOINTS }>()),
+        }
+    }
+
+    /// Pose of the link behind each joint, world frame, in the order of the joints; the last is the tool's.
+    pub fn frames(&self, joints: &Joints) -> Frames {
+        match self {
+            Arm::Rail(arm) => Frames::new(&arm.frames(&joints.array())),
+            Arm::Gantry(arm) => Frames::new(&arm.frames(&joints.array())),
         }
     }
 

@@ -1,19 +1,25 @@
 //! A UR10 that hangs sideways from a torso which travels on two rails and turns.
 
-use super::planar::{self, Wrist};
+use super::planar::{self, Links, Wrist};
 use super::pose::Pose;
 use super::ur10::{self, D1, D4};
 use super::{is_finite, nearest_turn, root};
 use crate::point::Point;
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Torso on both rails (m, world frame), its turn (0: the arm is mounted on the side of +y), then the angles of the UR10 (rad).
 pub type Joints = [f64; JOINTS];
 pub const JOINTS: usize = 9;
 
-/// From the torso's axis to the arm's base (`gantry.urdf.xacro`: mounted at 0.51 m) and on to its shoulder.
-const MOUNT: f64 = 0.51;
-const SHOULDER: f64 = MOUNT + D1;
+/// From the torso's axis to the arm's base (`gantry.urdf.xacro`: mounted at 0.51 m).
+const OUTREACH: f64 = 0.51;
+/// The arm's base in the torso's frame (x outward): its axes point up, to the right, and outward.
+pub const MOUNT: Pose = Pose {
+    rotation: [[0.0, 0.0, 1.0], [0.0, -1.0, 0.0], [1.0, 0.0, 0.0]],
+    position: Point::new(OUTREACH, 0.0, 0.0),
+};
+/// From the torso's axis to the arm's shoulder.
+const SHOULDER: f64 = OUTREACH + D1;
 /// The wrist outside comes first, as in the prototype.
 const WRISTS: [Wrist; 2] = [Wrist::Outside, Wrist::Inside];
 /// Turns tried on either side of the present one when the torso must turn: steps of 15 degrees.
@@ -84,6 +90,26 @@ impl Gantry {
         Some(self.joints(&view, place, best.wrist, from))
     }
 
+    /// Joints for a tool straight under the shoulder with the torso at exactly `turn`, the wrist outside;
+    /// none if the limits of the rails, of the torso or of the reach forbid it.
+    /// (The prototype's formula: torso at x + 0.637 sin r, y - 0.637 cos r, and d4 aside.)
+    pub fn solve_turned(&self, tool: Point, turn: f64, from: &Joints) -> Option<Joints> {
+        if !is_finite(tool) || !within([-TAU, TAU], turn) {
+            return None;
+        }
+        let dz = planar::wrist_height(tool, self.shoulder);
+        let wrist = Wrist::Outside;
+        let (x, y) = self.torso_at(tool, SHOULDER, turn)?;
+        planar::reaches(0.0, dz, wrist).then(|| arm_joints([x, y, turn], planar::links(0.0, dz, wrist), from))
+    }
+
+    /// The place of the torso at this turn with the tool `ahead` of its axis, if the rails allow it.
+    fn torso_at(&self, tool: Point, ahead: f64, turn: f64) -> Option<(f64, f64)> {
+        let (s, c) = libm::sincos(turn);
+        let (x, y) = (tool.x + ahead * s + D4 * c, tool.y - ahead * c + D4 * s);
+        (within(self.x, x) && within(self.y, y)).then_some((x, y))
+    }
+
     /// A place of the torso with the tool `ahead` of its axis, and as little turning as the rails allow.
     fn torso(&self, view: &View, ahead: f64, turn: f64) -> Option<(f64, f64)> {
         let [near, far] = view.distance;
@@ -91,14 +117,9 @@ impl Gantry {
         if radius < near || radius > far {
             return None;
         }
-        let turns =
+        let mut turns =
             (0..=TURN_STEPS).flat_map(|step| [step, -step]).map(|step| turn + f64::from(step) * PI / 12.0);
-        let on_rails = turns
-            .map(|turn| {
-                let (s, c) = libm::sincos(turn);
-                (view.tool.x + ahead * s + D4 * c, view.tool.y - ahead * c + D4 * s)
-            })
-            .find(|(x, y)| within(self.x, *x) && within(self.y, *y));
+        let on_rails = turns.find_map(|turn| self.torso_at(view.tool, ahead, turn));
         Some(on_rails.unwrap_or_else(|| self.between(view, radius)))
     }
 
@@ -119,26 +140,32 @@ impl Gantry {
         let ahead = root(dx * dx + dy * dy - D4 * D4);
         let turn = libm::atan2(dy, dx) - libm::atan2(D4, ahead) - FRAC_PI_2;
         let links = planar::links(ahead - SHOULDER, view.dz, wrist);
-        // The base lies on its side: what is level in the arm's own plane is a quarter turn back.
-        let lift = links.lift - FRAC_PI_2;
-        let angles = [turn, 0.0, lift, links.elbow, links.wrist_1, links.wrist_2, from[8]];
-        std::array::from_fn(|i| match i {
-            0 => x,
-            1 => y,
-            _ => nearest_turn(angles[i - 2], from[i]),
-        })
+        arm_joints([x, y, nearest_turn(turn, from[2])], links, from)
     }
 
     /// Pose of the tool, world frame.
     pub fn tool_pose(&self, joints: &Joints) -> Pose {
-        let [x, y, turn, angles @ ..] = *joints;
-        let torso = Pose::turned(Point::new(x, y, self.shoulder), turn + FRAC_PI_2);
-        // Axes of the arm's base in the torso's frame (x outward): x up, y to the right, z outward.
-        let mount = Pose {
-            rotation: [[0.0, 0.0, 1.0], [0.0, -1.0, 0.0], [1.0, 0.0, 0.0]],
-            position: Point::new(MOUNT, 0.0, 0.0),
-        };
-        torso.then(&mount).then(&ur10::forward(&angles))
+        let [_, _, _, angles @ ..] = joints;
+        self.torso_pose(joints).then(&MOUNT).then(&ur10::forward(angles))
+    }
+
+    /// Of each link behind a joint, world frame: the bridge and the trolley, which do not turn, and the torso,
+    /// all at the height of the shoulder and the bridge at y = 0; then [`ur10::frames`].
+    pub fn frames(&self, joints: &Joints) -> [Pose; JOINTS] {
+        let [x, y, _, angles @ ..] = joints;
+        let torso = self.torso_pose(joints);
+        let base = torso.then(&MOUNT);
+        let arm = ur10::frames(angles);
+        std::array::from_fn(|i| match i {
+            0 => Pose { position: Point::new(*x, 0.0, self.shoulder), ..Pose::IDENTITY },
+            1 => Pose { position: Point::new(*x, *y, self.shoulder), ..Pose::IDENTITY },
+            2 => torso,
+            _ => base.then(&arm[i - 3]),
+        })
+    }
+
+    fn torso_pose(&self, &[x, y, turn, ..]: &Joints) -> Pose {
+        Pose::turned(Point::new(x, y, self.shoulder), turn + FRAC_PI_2)
     }
 
     pub fn tool(&self, joints: &Joints) -> Point {
@@ -150,6 +177,17 @@ impl Gantry {
         let middle = |range: [f64; 2]| (range[0] + range[1]) / 2.0;
         [middle(self.x), middle(self.y), 0.0, 0.0, -1.13, 1.88, 1.13 - 1.88, FRAC_PI_2, 0.0]
     }
+}
+
+/// All joints for a place and a turn of the torso; the angles of the arm take the turn nearest to `from`.
+fn arm_joints(torso: [f64; 3], links: Links, from: &Joints) -> Joints {
+    // The base lies on its side: what is level in the arm's own plane is a quarter turn back.
+    let lift = links.lift - FRAC_PI_2;
+    let angles = [0.0, lift, links.elbow, links.wrist_1, links.wrist_2, from[8]];
+    std::array::from_fn(|i| match i {
+        0..3 => torso[i],
+        _ => nearest_turn(angles[i - 3], from[i]),
+    })
 }
 
 fn within(range: [f64; 2], value: f64) -> bool {

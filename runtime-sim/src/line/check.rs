@@ -1,6 +1,6 @@
 //! Whether a line can be run at all.
 
-use super::{Line, Machine};
+use super::{Line, Machine, Obstacle};
 use crate::geometry::Geometry;
 use crate::point::Point;
 
@@ -35,6 +35,10 @@ impl Line {
                 }
             }
         }
+        for obstacle in &self.obstacles {
+            check_name("obstacle", &obstacle.name)?;
+            check_obstacle(obstacle)?;
+        }
         self.check_scenario()
     }
 
@@ -50,16 +54,28 @@ impl Line {
                 return Err(format!("{name} {seconds:?} is not between 0.001 and {LONGEST_TIME:?}"));
             }
         }
+        if !(0.0..=LONGEST_TIME).contains(&scenario.spawn_first_s) {
+            let first = scenario.spawn_first_s;
+            return Err(format!("spawn_first_s {first:?} is not between 0 and {LONGEST_TIME:?}"));
+        }
         if scenario.start_scan == 0 {
             return Err("a rising edge of `start` in scan 0 has nothing before it".into());
         }
-        for order in &scenario.orders {
-            let station = self.machine(order.station, "an order")?;
-            if !matches!(station.geometry, Geometry::Station { .. }) {
-                return Err(format!("an order at {}, which is no station", station.name));
+        for (number, order) in (1..).zip(&scenario.orders) {
+            for (i, &index) in order.stations.iter().enumerate() {
+                let station = self.machine(index, "an order")?;
+                if !matches!(station.geometry, Geometry::Station { .. }) {
+                    return Err(format!("an order at {}, which is no station", station.name));
+                }
+                if order.stations[..i].contains(&index) {
+                    return Err(format!("order {number} names {} twice", station.name));
+                }
+            }
+            if order.stations.is_empty() {
+                return Err(format!("order {number} names no station"));
             }
             if order.parts.len() != self.kinds.len() {
-                return Err(format!("an order at {} without a number for each kind", station.name));
+                return Err(format!("order {number} is without a number for each kind"));
             }
         }
         for (i, supply) in scenario.supply.iter().enumerate() {
@@ -101,8 +117,24 @@ fn check_name(what: &str, name: &str) -> Result<(), String> {
     Ok(())
 }
 
+fn is_near(point: &Point) -> bool {
+    [point.x, point.y, point.z].iter().all(|c| c.abs() <= 1e6)
+}
+
+fn check_obstacle(obstacle: &Obstacle) -> Result<(), String> {
+    if !is_near(&obstacle.pose) {
+        return Err(format!("a coordinate of {} is no number within 1000 km", obstacle.name));
+    }
+    match obstacle.size {
+        Some(size) if !(is_near(&size) && size.x > 0.0 && size.y > 0.0 && size.z > 0.0) => {
+            Err(format!("a length of the box of {} is no positive number within 1000 km", obstacle.name))
+        }
+        _ => Ok(()),
+    }
+}
+
 fn check_geometry(machine: &Machine) -> Result<(), String> {
-    let points = |list: &[Point]| list.iter().all(|p| [p.x, p.y, p.z].iter().all(|c| c.abs() <= 1e6));
+    let points = |list: &[Point]| list.iter().all(is_near);
     let range = |[low, high]: [f64; 2]| low.abs() <= 1e6 && high.abs() <= 1e6 && low <= high;
     let sound = points(&[machine.geometry.pose()])
         && points(&machine.geometry.stops())

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::{IoDelay, Kind, Line, Machine, Order, Pause, Refusal, Scenario, Slip, State, Supply};
+use super::{IoDelay, Kind, Line, Machine, Obstacle, Order, Pause, Refusal, Scenario, Slip, State, Supply};
 use crate::geometry::Geometry;
 use crate::point::{Axis, Point};
 use crate::words::Words;
@@ -34,14 +34,20 @@ impl Line {
                 put(format!("      {} {activity} {}", state.name, list(&state.awaits)));
             }
         }
+        put(format!("obstacles {}", self.obstacles.len()));
+        for obstacle in &self.obstacles {
+            let size = obstacle.size.map_or("none".into(), |size| format!("box {}", point_text(size)));
+            put(format!("  {} {} {size}", obstacle.name, point_text(obstacle.pose)));
+        }
         let scenario = &self.scenario;
+        put(format!("spawn_first_s {:?}", scenario.spawn_first_s));
         put(format!("spawn_every_s {:?}", scenario.spawn_every_s));
         put(format!("time_limit_s {:?}", scenario.time_limit_s));
         put(format!("stall_limit_s {:?}", scenario.stall_limit_s));
         put(format!("start_scan {}", scenario.start_scan));
         put(format!("orders {}", scenario.orders.len()));
         for order in &scenario.orders {
-            put(format!("  {} {}", order.station, list(&order.parts)));
+            put(format!("  {} {}", list(&order.stations), list(&order.parts)));
         }
         put(format!("supply {}", scenario.supply.len()));
         for supply in &scenario.supply {
@@ -91,9 +97,11 @@ impl Line {
         let kinds = words.list(|w| Ok(Kind { name: w.name()?.into(), height: w.real()? }))?;
         words.expect("machines")?;
         let machines = words.list(read_machine)?;
+        words.expect("obstacles")?;
+        let obstacles = words.list(read_obstacle)?;
         let scenario = read_scenario(words)?;
         words.expect("end")?;
-        Ok(Line { scan_ms, kinds, machines, scenario, io_delay })
+        Ok(Line { scan_ms, kinds, machines, obstacles, scenario, io_delay })
     }
 }
 
@@ -169,6 +177,17 @@ fn read_geometry(words: &mut Words) -> Result<Geometry, String> {
     })
 }
 
+fn read_obstacle(words: &mut Words) -> Result<Obstacle, String> {
+    let name = words.name()?.into();
+    let pose = read_point(words)?;
+    let size = match words.name()? {
+        "box" => Some(read_point(words)?),
+        "none" => None,
+        other => return Err(words.error(format_args!("`{other}` is neither `box` nor `none`"))),
+    };
+    Ok(Obstacle { name, pose, size })
+}
+
 fn read_point(words: &mut Words) -> Result<Point, String> {
     Ok(Point::new(words.real()?, words.real()?, words.real()?))
 }
@@ -186,6 +205,8 @@ fn read_axis(words: &mut Words) -> Result<Axis, String> {
 }
 
 fn read_scenario(words: &mut Words) -> Result<Scenario, String> {
+    words.expect("spawn_first_s")?;
+    let spawn_first_s = words.real()?;
     words.expect("spawn_every_s")?;
     let spawn_every_s = words.real()?;
     words.expect("time_limit_s")?;
@@ -195,7 +216,7 @@ fn read_scenario(words: &mut Words) -> Result<Scenario, String> {
     words.expect("start_scan")?;
     let start_scan = words.int()?;
     words.expect("orders")?;
-    let orders = words.list(|w| Ok(Order { station: w.int()?, parts: w.list(|w| w.int())? }))?;
+    let orders = words.list(|w| Ok(Order { stations: w.list(|w| w.int())?, parts: w.list(|w| w.int())? }))?;
     words.expect("supply")?;
     let supply = words.list(|w| Ok(Supply { belt: w.int()?, items: w.list(|w| w.int())? }))?;
     words.expect("slips")?;
@@ -207,6 +228,7 @@ fn read_scenario(words: &mut Words) -> Result<Scenario, String> {
     Ok(Scenario {
         orders,
         supply,
+        spawn_first_s,
         spawn_every_s,
         time_limit_s,
         stall_limit_s,

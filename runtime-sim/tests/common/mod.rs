@@ -68,8 +68,9 @@ pub fn line() -> Line {
             machine("as1", Geometry::Station { pose: Point::new(-7.3, 3.0, 0.0) }),
             machine("bin", Geometry::Bin { pose: Point::new(-1.899, 2.565, 0.0) }),
         ],
+        obstacles: vec![],
         scenario: Scenario {
-            orders: vec![Order { station: STATION, parts: vec![1, 1] }],
+            orders: vec![Order { stations: vec![STATION], parts: vec![1, 1] }],
             supply: vec![Supply { belt: BELT, items: vec![BATTERY, PUMP] }],
             ..Scenario::default()
         },
@@ -102,6 +103,10 @@ pub mod output {
     pub const HOLD: usize = 2;
     pub const GOAL: usize = 3;
     pub const GRIP: usize = 6;
+    pub const TOP_SPEED: usize = 7;
+    pub const GAIN: usize = 8;
+    pub const VIA: usize = 9;
+    pub const TURN: usize = 12;
     pub const COMPLETE: usize = 0;
 }
 
@@ -109,6 +114,9 @@ pub const DRIVE: f64 = 1.0;
 pub const HALT: f64 = 2.0;
 pub const MOVE: f64 = 1.0;
 pub const PICK: f64 = 2.0;
+pub const PACE: f64 = 3.0;
+pub const TURN_TO: f64 = 4.0;
+pub const THROUGH: f64 = 5.0;
 
 /// Gives a command its number, verb and goal.
 pub fn command(outputs: &mut [f64], verb: f64, goal: Option<Point>) {
@@ -168,6 +176,16 @@ impl Rig {
         self.command(machine, verb, Some(goal));
         self.finish(machine);
         self.image(machine)[input::ERROR]
+    }
+
+    /// Sets the limits of an arm's motions; the answer comes in the next scan.
+    pub fn pace(&mut self, arm: usize, speed: f64, gain: f64) -> f64 {
+        self.outputs[arm][output::TOP_SPEED] = speed;
+        self.outputs[arm][output::GAIN] = gain;
+        self.command(arm, PACE, None);
+        self.step(1);
+        assert!(self.is_ended(arm));
+        self.image(arm)[input::ERROR]
     }
 
     /// Drives the belt until a part of this kind lies in the pick zone, and halts it; where it lies.

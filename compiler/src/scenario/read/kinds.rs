@@ -5,8 +5,7 @@ use crate::layout::decode::{Decoder, instead, listing};
 use crate::layout::json::Json;
 use crate::scenario::Kind;
 use crate::source::Spanned;
-
-const MOST_KINDS: usize = 16;
+use runtime_sim::geometry::MOST_KINDS;
 
 impl Decoder {
     pub(super) fn kinds(&mut self, json: &Json) -> Option<Vec<Kind>> {
