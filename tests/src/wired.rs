@@ -62,8 +62,8 @@ impl Row {
         }
     }
 
-    /// What is wrong with the raw value of an output: a boolean and an integer are exact, a real is the
-    /// nearest raw value, unless it is beyond what the raw type holds.
+    /// What is wrong with the raw value of an output: a boolean and an integer are exact, a real is the nearest
+    /// that the raw type holds.
     fn difference(&self, kind: Kind, value: f64, raw: f64) -> Option<String> {
         let (low, high) = self.bounds();
         let back = self.value_of(kind, raw);

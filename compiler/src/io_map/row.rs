@@ -21,7 +21,7 @@ pub struct Rows<'p> {
     pub places: Vec<Place>,
 }
 
-/// The numbers of a conversion as far as they could be read, with their places.
+/// The numbers of a conversion, finite both.
 struct Numbers {
     scale: f64,
     offset: f64,
@@ -204,7 +204,7 @@ impl<'p> Rows<'p> {
             let why = "a boolean has no scale and no offset";
             found.extend(refused("scale", why).into_iter().chain(refused("offset", why)));
             let is_inverted = record.get("inversion").map(|field| self.truth(field, found));
-            return (found.len() == count).then(|| match is_inverted {
+            return (found.len() == count).then_some(match is_inverted {
                 Some(Some(true)) => Conversion::Inverted,
                 _ => Conversion::None,
             });
