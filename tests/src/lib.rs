@@ -10,6 +10,7 @@ pub mod replay;
 pub mod sdf;
 pub mod st;
 pub mod trace;
+pub mod wired;
 pub mod workspace;
 pub mod xml;
 
