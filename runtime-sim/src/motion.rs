@@ -6,9 +6,11 @@
 //! 1/top + top/gain if top^2 >= gain, otherwise 2/sqrt(gain).
 
 mod path;
+mod pieces;
 mod profile;
 
 pub use path::CORNER_NEAR;
+pub use pieces::Piece;
 
 use crate::kinematics::arm::{Joints, Limits};
 use path::Path;

@@ -12,6 +12,8 @@ pub struct StructuredText {
     scans: u64,
     /// Why a scan could not be ended; none is run after it.
     pub ended: Option<String>,
+    /// The most statements that a scan has executed.
+    pub most: u64,
     /// For each robot its words; None stands for inputs that the text leaves out.
     inputs: Vec<Vec<Option<Place>>>,
     outputs: Vec<Vec<Place>>,
@@ -59,7 +61,7 @@ impl StructuredText {
         let (names, places): (Vec<_>, Vec<_>) = trace.into_iter().unzip();
         let words = places.into_iter().zip(first);
         let trace = words.map(|(place, first)| place.map_or(Word::Constant(first), Word::At)).collect();
-        Ok(Self { machine, scans: 0, ended: None, inputs, outputs, states, trace, names })
+        Ok(Self { machine, scans: 0, ended: None, most: 0, inputs, outputs, states, trace, names })
     }
 }
 
@@ -167,6 +169,7 @@ impl Controllers for StructuredText {
                 }
             }
         }
+        let before = machine.executed();
         if self.ended.is_none()
             && let Err(error) = machine.scan()
         {
@@ -176,6 +179,8 @@ impl Controllers for StructuredText {
             return SystemOutputs { running: false, fault: true, fault_code: -1, fault_robot: -1 };
         }
         self.scans += 1;
+        self.most = self.most.max(self.machine.executed() - before);
+        let machine = &self.machine;
         for (places, image) in self.outputs.iter().zip(outputs) {
             image.clear();
             image.extend(places.iter().map(|place| machine.read(*place)));

@@ -5,6 +5,7 @@ use super::fault;
 use super::io_trace::IoTrace;
 use super::options::{CommissionOptions, Format};
 use super::program::{self, Notice};
+use super::trajectories::Request;
 use crate::Status;
 use runtime_sim::line::IoDelay;
 use serde_json::{Value, json};
@@ -24,11 +25,15 @@ pub fn run(options: &CommissionOptions) -> Status {
         Ok(io_trace) => io_trace,
         Err(text) => return fail(options, text),
     };
+    let trajectories = match Request::new(options) {
+        Ok(request) => request,
+        Err(text) => return fail(options, text),
+    };
     let built = match build::build(&options.build) {
         Ok(built) => built,
         Err(status) => return status,
     };
-    match commission(options, &built, delay, io_trace) {
+    match commission(options, &built, delay, io_trace, &trajectories) {
         Ok(mut report) => {
             fault::name(&mut report, &built.project.system, &built.sources);
             let status = match report["finished"].as_bool() {
@@ -66,7 +71,9 @@ fn commission(
     built: &Built,
     delay: IoDelay,
     io_trace: Option<IoTrace>,
+    trajectories: &Request,
 ) -> Result<Value, String> {
+    trajectories.check(&built.project.plant)?;
     let input = &options.build.input;
     let notice = match input.format {
         Format::Text if !input.quiet => Notice::Compiling,
@@ -88,17 +95,27 @@ fn commission(
     if let Some(path) = &options.hashes {
         command.arg("--hashes").arg(path);
     }
+    trajectories.ask(&mut command, &folder);
     if is_chatty(options) {
         command.arg("--progress");
     }
-    let output = command.stderr(Stdio::inherit()).output();
+    let result = simulate(command).and_then(|report| {
+        trajectories.write(&built.project, &folder)?;
+        Ok(report)
+    });
     let _ = fs::remove_dir_all(&folder);
-    let output = output.map_err(|e| format!("{}: {e}", program.display()))?;
+    if let (Some(io_trace), Ok(_)) = (io_trace, &result) {
+        io_trace.keep()?;
+    }
+    result
+}
+
+/// What the linked simulation reports.
+fn simulate(mut command: Command) -> Result<Value, String> {
+    let output = command.stderr(Stdio::inherit()).output();
+    let output = output.map_err(|e| format!("{}: {e}", command.get_program().display()))?;
     if !output.status.success() {
         return Err(format!("the linked simulation did not run: {}", output.status));
-    }
-    if let Some(io_trace) = io_trace {
-        io_trace.keep()?;
     }
     serde_json::from_slice(&output.stdout).map_err(|e| format!("the linked simulation did not report: {e}"))
 }
@@ -123,7 +140,12 @@ fn show(options: &CommissionOptions, built: &Built, mut report: Value, begin: In
     let _ = fs::write(path, format!("{kept:#}\n"));
     match options.build.input.format {
         Format::Json => say!("{report}"),
-        Format::Text if !options.build.input.quiet => say_part!("{}", text(&report, wall, built)),
+        Format::Text if !options.build.input.quiet => {
+            say_part!("{}", text(&report, wall, built));
+            for path in &options.trajectories.files {
+                say!("trajectories       {}", path.display());
+            }
+        }
         Format::Text if report["finished"] != true => {
             eprintln!("autogen: {}", report["reason"].as_str().unwrap_or(""))
         }

@@ -22,4 +22,5 @@ pub mod options;
 pub mod print;
 pub mod program;
 pub mod sweep;
+pub mod trajectories;
 pub mod write;
