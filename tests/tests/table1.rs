@@ -203,7 +203,7 @@ fn a_parameter_takes_the_parts_of_all_orders() {
 
     let narrow = planner(&declare.replace("0..4", "0..3")).compile();
     let found: Vec<_> = narrow.diagnostics.iter().map(|d| (d.code, d.message.as_str())).collect();
-    let message = "the orders ask for 4 battery_green, and `planned` goes from 0 to 3";
+    let message = "the orders ask for 4 battery_green, 4 battery_blue, and `planned` goes from 0 to 3";
     assert_eq!(found[0], ("E0503", message));
 }
 
