@@ -1,0 +1,3 @@
+//! Contact of what moves with what is in its way.
+
+pub mod distance;
