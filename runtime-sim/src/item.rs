@@ -71,6 +71,19 @@ impl Carrier {
     }
 }
 
+/// Names of all items, in the order of the supply: the kind and the number among those of this kind, from 1,
+/// such as `battery_1`.
+pub fn names(line: &Line) -> Vec<String> {
+    let mut counts = vec![0; line.kinds.len()];
+    let kinds = line.scenario.supply.iter().flat_map(|supply| supply.items.iter());
+    kinds
+        .map(|&kind| {
+            counts[kind] += 1;
+            format!("{}_{}", line.kinds[kind].name, counts[kind])
+        })
+        .collect()
+}
+
 /// All items of a run, with the log of what became of them.
 #[derive(Clone, Debug)]
 pub struct Items {

@@ -15,6 +15,7 @@ mod json;
 pub mod kinematics;
 pub mod line;
 pub mod motion;
+pub mod path;
 pub mod plant;
 pub mod point;
 pub mod random;

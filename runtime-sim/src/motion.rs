@@ -21,6 +21,15 @@ pub struct Motion {
     rest: f64,
 }
 
+/// A part of a motion in which each joint is a polynomial of the seconds since `begin_s`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Piece {
+    pub begin_s: f64,
+    pub end_s: f64,
+    /// For each joint the coefficients of the powers of time, from the zeroth on.
+    pub joints: Vec<Vec<f64>>,
+}
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Drive {
     On,
@@ -167,6 +176,22 @@ impl Motion {
 
     pub fn goal(&self) -> Joints {
         self.to
+    }
+
+    /// What the joints do from the last call that changed the motion until they stand still.
+    pub fn pieces(&self) -> Vec<Piece> {
+        let mut pieces = Vec::new();
+        let mut begin_s = self.since;
+        for phase in self.phases.iter().filter(|phase| phase.duration > 0.0) {
+            let end_s = begin_s + phase.duration;
+            let joints = self.from.iter().zip(self.to.iter()).map(|(from, to)| {
+                let way = to - from;
+                vec![from + way * phase.place, way * phase.speed, way * phase.acceleration / 2.0]
+            });
+            pieces.push(Piece { begin_s, end_s, joints: joints.collect() });
+            begin_s = end_s;
+        }
+        pieces
     }
 
     /// Place on the line, 0 to 1.

@@ -20,6 +20,11 @@ impl Point {
         Self { z: self.z + height, ..self }
     }
 
+    /// This offset, so many times as long.
+    pub fn scaled(self, factor: f64) -> Self {
+        Self::new(self.x * factor, self.y * factor, self.z * factor)
+    }
+
     pub fn coordinate(self, axis: Axis) -> f64 {
         match axis {
             Axis::X => self.x,

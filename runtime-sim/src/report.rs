@@ -2,7 +2,7 @@
 
 use crate::account::Account;
 use crate::event::{Event, OrderChange};
-use crate::item::Carrier;
+use crate::item::{self, Carrier};
 use crate::json::Json;
 use crate::line::Line;
 use crate::plant::Plant;
@@ -58,6 +58,8 @@ pub struct MachineReport {
 #[derive(Clone, Debug, PartialEq)]
 pub struct ItemReport {
     pub id: usize,
+    /// As [`item::names`] gives it.
+    pub name: String,
     pub kind: String,
     /// Such as `tray of agv1`.
     pub carrier: String,
@@ -103,8 +105,10 @@ impl Report {
         }
         let orders_done = order_times.iter().filter(|times| times.made_s.is_some()).count();
         let simulated_s = seconds(outcome.scans);
-        let items = plant.items().all().iter().enumerate().map(|(id, item)| ItemReport {
+        let names = item::names(line);
+        let items = plant.items().all().iter().zip(names).enumerate().map(|(id, (item, name))| ItemReport {
             id,
+            name,
             kind: line.kinds[item.kind].name.clone(),
             carrier: carrier_text(line, item.carrier),
             place: plant.place(id).map_or_else(|| "-".into(), point_text),
@@ -171,6 +175,7 @@ impl Report {
             });
             json.put_list("items", &self.items, |json, item| {
                 json.put_int("id", item.id as u64);
+                json.put_text("name", &item.name);
                 json.put_text("kind", &item.kind);
                 json.put_text("place", &item.place);
                 json.put_text("carrier", &item.carrier);
@@ -200,7 +205,8 @@ pub(crate) fn seconds(scans: u64, scan_ms: u32) -> f64 {
     (scans * u64::from(scan_ms)) as f64 / 1000.0
 }
 
-fn carrier_text(line: &Line, carrier: Carrier) -> String {
+/// Such as `tray of agv1`.
+pub(crate) fn carrier_text(line: &Line, carrier: Carrier) -> String {
     let name = |machine: usize| &line.machines[machine].name;
     match carrier {
         Carrier::Supply => "supply".into(),

@@ -5,6 +5,7 @@ use crate::event::{Event, OrderChange, conservation};
 use crate::geometry::Geometry;
 use crate::hash::Hash;
 use crate::line::Line;
+use crate::path::{Path, Recorder};
 use crate::plant::image::{in_head, out};
 use crate::plant::{self, Bus, Plant};
 use crate::report::{Outcome, Report};
@@ -36,6 +37,25 @@ pub fn run(
     controllers: &mut dyn Controllers,
     observer: &mut dyn FnMut(&Seen),
 ) -> Result<Report, String> {
+    let (report, _) = simulate(line, controllers, observer, None)?;
+    Ok(report)
+}
+
+/// The same run, and the paths of all items, in the order of the line's supply.
+pub fn record(
+    line: &Line,
+    controllers: &mut dyn Controllers,
+    observer: &mut dyn FnMut(&Seen),
+) -> Result<(Report, Vec<Path>), String> {
+    simulate(line, controllers, observer, Some(Recorder::new(line)))
+}
+
+fn simulate(
+    line: &Line,
+    controllers: &mut dyn Controllers,
+    observer: &mut dyn FnMut(&Seen),
+    mut recorder: Option<Recorder>,
+) -> Result<(Report, Vec<Path>), String> {
     let mut plant = Plant::new(line)?;
     let mut bus = Bus::new(line.io_delay.clone(), plant.images());
     let mut operator = Operator::new();
@@ -87,7 +107,11 @@ pub fn run(
             account.book(line, machine, activity);
         }
 
-        plant.advance(&outputs);
+        plant.obey(&outputs);
+        if let Some(recorder) = &mut recorder {
+            recorder.look(&plant);
+        }
+        plant.proceed();
         scan += 1;
         changed |= plant.is_busy() || operator.is_busy(scan, &line.scenario);
         progress.quiet_scans = if changed { 0 } else { progress.quiet_scans + 1 };
@@ -107,7 +131,8 @@ pub fn run(
     };
     let outcome =
         Outcome { finished, reason, fault, scans: scan, accounts, states, trace_hash: hash.value() };
-    Ok(Report::new(line, &plant, outcome))
+    let paths = recorder.map_or_else(Vec::new, |recorder| recorder.finish(&plant));
+    Ok((Report::new(line, &plant, outcome), paths))
 }
 
 /// How far a run has come, and for how long nothing has happened.

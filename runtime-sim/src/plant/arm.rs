@@ -1,6 +1,7 @@
 //! An arm with a gripper, on a rail or under a gantry.
 
 use super::command::{Asked, Command, goal, is_held};
+use super::course::Course;
 use super::drive::{Drive, Moved};
 use super::gripper::Gripper;
 use super::image::{in_arm, put_bit, put_point};
@@ -34,6 +35,10 @@ impl Arm {
 
     pub fn tool(&self) -> Point {
         self.drive.tool()
+    }
+
+    pub fn course(&self) -> Course {
+        self.drive.motion().map_or(Course::Rests, |motion| Course::Swings(motion.clone()))
     }
 
     /// A command is under way and not held, or the part on the gripper is about to slip.

@@ -45,6 +45,14 @@ impl Drive {
         self.tool
     }
 
+    /// What moves the joints at present.
+    pub fn motion(&self) -> Option<&Motion> {
+        match &self.course {
+            Course::Rest => None,
+            Course::Going(motion) | Course::Braking(motion, _) => Some(motion),
+        }
+    }
+
     /// Sets out for a goal at `t`, in seconds; what moves still brakes first. `None` if no joints bring the
     /// tool there.
     pub fn start(&mut self, goal: Point, t: f64) -> Option<()> {
