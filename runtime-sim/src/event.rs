@@ -99,6 +99,7 @@ mod tests {
             machines: machines
                 .map(|geometry| Machine { name: "m".into(), geometry, states: vec![] })
                 .collect(),
+            obstacles: vec![],
             scenario: Scenario { supply: vec![Supply { belt: 0, items: vec![0, 0] }], ..Scenario::default() },
             io_delay: IoDelay::Fixed(0),
         })

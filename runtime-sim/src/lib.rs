@@ -23,5 +23,6 @@ pub mod report;
 pub mod run;
 pub mod scan;
 mod shortage;
+pub mod solid;
 mod system;
 pub mod words;

@@ -4,6 +4,7 @@ mod check;
 mod text;
 
 use crate::geometry::Geometry;
+use crate::point::Point;
 
 /// A factory line, its machines in the order of the layout, and what is to happen on it.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,6 +13,8 @@ pub struct Line {
     pub scan_ms: u32,
     pub kinds: Vec<Kind>,
     pub machines: Vec<Machine>,
+    /// What stands about without a controller, in the order of the layout.
+    pub obstacles: Vec<Obstacle>,
     pub scenario: Scenario,
     pub io_delay: IoDelay,
 }
@@ -30,6 +33,16 @@ pub struct Machine {
     pub geometry: Geometry,
     /// States of its automaton; empty if it has none.
     pub states: Vec<State>,
+}
+
+/// Something stationary without an automaton.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Obstacle {
+    pub name: String,
+    /// The box stands on it.
+    pub pose: Point,
+    /// Lengths along x, y and z, if the layout gives them.
+    pub size: Option<Point>,
 }
 
 /// What reports say of a machine in this state while it has no command under way.

@@ -4,13 +4,15 @@ mod common;
 
 use common::*;
 use runtime_sim::geometry::Geometry;
-use runtime_sim::line::{IoDelay, Line, Pause, Refusal, Slip};
+use runtime_sim::line::{IoDelay, Line, Obstacle, Pause, Refusal, Slip};
 use runtime_sim::point::Point;
 
 fn rich_line() -> Line {
     let mut line = line();
     line.machines[BELT].states = states(vec![1, 3]);
     line.machines[BIN].geometry = Geometry::Bin { pose: Point::new(-0.0, 0.1 + 0.2, 1.0 / 3.0) };
+    let obstacle = |name: &str, size| Obstacle { name: name.into(), pose: Point::new(0.1, -0.0, 2.5), size };
+    line.obstacles = vec![obstacle("post", Some(Point::new(0.2, 1.0 / 3.0, 1e-3))), obstacle("mark", None)];
     line.scenario.slips = vec![Slip { machine: GANTRY, pick: 2, after_s: 5e-324 }];
     line.scenario.refusals = vec![Refusal { machine: AGV, command: 3 }];
     line.scenario.pauses = vec![Pause { at_scan: 17, scans: u64::MAX }];
@@ -72,5 +74,10 @@ fn what_cannot_be_run_is_refused() {
         refused(|l| l.machines[0].states[0].awaits[0] = 6),
         "a state names machine 6, which is not there"
     );
+    assert_eq!(
+        refused(|l| l.obstacles[0].size = Some(Point::new(0.1, 0.0, 0.1))),
+        "a length of the box of post is no positive number within 1000 km"
+    );
+    assert_eq!(refused(|l| l.obstacles[1].pose.z = 1e7), "a coordinate of mark is no number within 1000 km");
     assert_eq!(refused(|l| l.io_delay = IoDelay::Fixed(4_000_000_000)), "answers more than 1000 scans late");
 }

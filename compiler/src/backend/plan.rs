@@ -1,7 +1,6 @@
 //! The layout from above, as SVG: x to the right, y upwards, with an arrow for each edge.
 
 use crate::connect::Edge;
-use crate::layout::Obstacle;
 use runtime_sim::geometry::Geometry;
 use runtime_sim::line::Line;
 use runtime_sim::point::{Axis, Point};
@@ -13,17 +12,17 @@ const SCALE: f64 = 60.0;
 const BORDER: f64 = 0.9;
 
 /// One drawing; edges are between machines.
-pub fn svg(line: &Line, edges: &[Edge], obstacles: &[(String, Obstacle)]) -> String {
+pub fn svg(line: &Line, edges: &[Edge]) -> String {
     let mut drawing = Drawing {
         body: String::new(),
         labels: String::new(),
         low: (f64::MAX, f64::MAX),
         high: (f64::MIN, f64::MIN),
     };
-    for (name, obstacle) in obstacles {
+    for obstacle in &line.obstacles {
         let size = obstacle.size.unwrap_or(Point::new(0.4, 0.4, 0.0));
         drawing.rectangle(obstacle.pose, (size.x, size.y), "obstacle");
-        drawing.label(obstacle.pose, name, "small");
+        drawing.label(obstacle.pose, &obstacle.name, "small");
     }
     for machine in &line.machines {
         drawing.machine(&machine.name, &machine.geometry);

@@ -97,7 +97,7 @@ fn files(project: &Project, sources: &Sources) -> Files {
     for (name, text) in dot::files(&project.system, &project.edges) {
         files.insert(format!("graph/{name}"), text);
     }
-    files.insert("graph/plan.svg".into(), plan::svg(&project.plant, &project.edges, &project.obstacles));
+    files.insert("graph/plan.svg".into(), plan::svg(&project.plant, &project.edges));
     for (name, text) in simulator::SOURCES {
         files.insert(format!("rust/runtime-sim/{name}"), (*text).into());
     }

@@ -18,7 +18,7 @@ pub fn run(options: &GraphOptions) -> Status {
         return Status::WrongInput;
     };
     if options.of == "plan" {
-        say_part!("{}", plan::svg(&project.plant, &project.edges, &project.obstacles));
+        say_part!("{}", plan::svg(&project.plant, &project.edges));
         return Status::Done;
     }
     let files = dot::files(&project.system, &project.edges);

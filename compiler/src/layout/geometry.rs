@@ -8,15 +8,8 @@ use crate::diagnostic::{Diagnostic, sort};
 use crate::source::Span;
 use runtime_sim::device::DEVICES;
 use runtime_sim::geometry::{END_INSET, Geometry, SPAWN_INSET};
+use runtime_sim::line::Obstacle;
 use runtime_sim::point::{Axis, Point};
-
-/// Something stationary without an automaton.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Obstacle {
-    pub pose: Point,
-    /// Lengths along x, y and z, if the layout gives them.
-    pub size: Option<Point>,
-}
 
 const OBSTACLES: [&str; 6] = ["bin", "station", "assembly_station", "collector", "rail", "box"];
 
@@ -51,7 +44,11 @@ pub fn obstacle(object: &Object) -> Result<Obstacle, Vec<Diagnostic>> {
         );
     }
     match decoder.diagnostics.is_empty() {
-        true => Ok(Obstacle { pose: object.pose.value, size: object.size.as_ref().map(|s| s.value) }),
+        true => Ok(Obstacle {
+            name: object.name.value.clone(),
+            pose: object.pose.value,
+            size: object.size.as_ref().map(|s| s.value),
+        }),
         false => Err(decoder.diagnostics),
     }
 }

@@ -6,7 +6,7 @@ pub mod json;
 mod object;
 mod read;
 
-pub use geometry::{Obstacle, geometry, obstacle};
+pub use geometry::{geometry, obstacle};
 pub use object::{Object, Part};
 pub use read::parse;
 

@@ -2,13 +2,14 @@
 
 use crate::diagnostic::{Diagnostic, suggestion};
 use crate::ir::Model;
-use crate::layout::{self, Layout, Number, Object, Obstacle, Part};
+use crate::layout::{self, Layout, Number, Object, Part};
 use runtime_sim::geometry::Geometry;
+use runtime_sim::line::Obstacle;
 
 /// Machines with an automaton, and things without one, both in layout order.
 pub struct Bound {
     pub robots: Vec<Robot>,
-    pub obstacles: Vec<(String, Obstacle)>,
+    pub obstacles: Vec<Obstacle>,
 }
 
 pub struct Robot {
@@ -31,7 +32,7 @@ pub fn bind(layout: &Layout, model: &Model, diagnostics: &mut Vec<Diagnostic>) -
             },
             None if object.part == Part::Robot => diagnostics.push(without_automaton(object, &name, model)),
             None => match layout::obstacle(object) {
-                Ok(obstacle) => bound.obstacles.push((object.name.value.clone(), obstacle)),
+                Ok(obstacle) => bound.obstacles.push(obstacle),
                 Err(found) => diagnostics.extend(found),
             },
         }

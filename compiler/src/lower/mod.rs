@@ -11,7 +11,7 @@ pub use setting::Setting;
 
 use crate::check::{self, Checked};
 use crate::diagnostic::{self, Diagnostic};
-use crate::layout::{Layout, Obstacle};
+use crate::layout::Layout;
 use crate::scenario::Scenario;
 use crate::source::{FileId, Sources};
 use crate::spec::{ast, parser};
@@ -42,7 +42,6 @@ pub struct Project {
     pub plant: runtime_sim::line::Line,
     /// Between instances.
     pub edges: Vec<connect::Edge>,
-    pub obstacles: Vec<(String, Obstacle)>,
 }
 
 /// What the connectivity check found, by names.
@@ -178,6 +177,6 @@ fn system(
         outcome.diagnostics.append(&mut line.diagnostics);
         return;
     };
-    let plant = plant::line(&system, &line, resolved, layout.scan_ms);
-    outcome.project = Some(Project { name: layout.name, system, plant, edges, obstacles: bound.obstacles });
+    let plant = plant::line(&system, &line, bound.obstacles, resolved, layout.scan_ms);
+    outcome.project = Some(Project { name: layout.name, system, plant, edges });
 }

@@ -26,7 +26,13 @@ pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec
     )
 }
 
-pub fn line(system: &System, line: &Line, scenario: ResolvedScenario, scan_ms: u32) -> line::Line {
+pub fn line(
+    system: &System,
+    line: &Line,
+    obstacles: Vec<line::Obstacle>,
+    scenario: ResolvedScenario,
+    scan_ms: u32,
+) -> line::Line {
     let scans = |seconds: f64| (seconds * 1000.0 / f64::from(scan_ms)).round() as u64;
     line::Line {
         scan_ms,
@@ -42,6 +48,7 @@ pub fn line(system: &System, line: &Line, scenario: ResolvedScenario, scan_ms: u
                 states: system.automaton_of(i).states.iter().map(|s| state(system, i, s)).collect(),
             })
             .collect(),
+        obstacles,
         scenario: line::Scenario {
             orders: scenario
                 .orders

@@ -18,6 +18,13 @@ pub struct Joints {
     count: usize,
 }
 
+/// A pose for each link of one robot, see [`Arm::frames`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frames {
+    poses: [Pose; MOST_JOINTS],
+    count: usize,
+}
+
 /// What a robot's joints can do at most.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
@@ -61,6 +68,21 @@ impl Joints {
     /// The first values as an array; missing ones are 0.
     fn array<const N: usize>(&self) -> [f64; N] {
         std::array::from_fn(|i| self.values[i])
+    }
+}
+
+impl Frames {
+    fn new(poses: &[Pose]) -> Self {
+        let mut frames = Self { poses: [Pose::IDENTITY; MOST_JOINTS], count: poses.len() };
+        frames.poses[..poses.len()].copy_from_slice(poses);
+        frames
+    }
+}
+
+impl Deref for Frames {
+    type Target = [Pose];
+    fn deref(&self) -> &[Pose] {
+        &self.poses[..self.count]
     }
 }
 
@@ -118,6 +140,14 @@ impl Arm {
         match self {
             Arm::Rail(arm) => arm.tool_pose(&joints.array::<{ rail_arm::JOINTS }>()),
             Arm::Gantry(arm) => arm.tool_pose(&joints.array::<{ gantry::JOINTS }>()),
+        }
+    }
+
+    /// Pose of the link behind each joint, world frame, in the order of the joints; the last is the tool's.
+    pub fn frames(&self, joints: &Joints) -> Frames {
+        match self {
+            Arm::Rail(arm) => Frames::new(&arm.frames(&joints.array())),
+            Arm::Gantry(arm) => Frames::new(&arm.frames(&joints.array())),
         }
     }
 

@@ -11,9 +11,15 @@ use std::f64::consts::{FRAC_PI_2, PI};
 pub type Joints = [f64; JOINTS];
 pub const JOINTS: usize = 9;
 
-/// From the torso's axis to the arm's base (`gantry.urdf.xacro`: mounted at 0.51 m) and on to its shoulder.
-const MOUNT: f64 = 0.51;
-const SHOULDER: f64 = MOUNT + D1;
+/// From the torso's axis to the arm's base (`gantry.urdf.xacro`: mounted at 0.51 m).
+const OUTREACH: f64 = 0.51;
+/// The arm's base in the torso's frame (x outward): its axes point up, to the right, and outward.
+pub const MOUNT: Pose = Pose {
+    rotation: [[0.0, 0.0, 1.0], [0.0, -1.0, 0.0], [1.0, 0.0, 0.0]],
+    position: Point::new(OUTREACH, 0.0, 0.0),
+};
+/// From the torso's axis to the arm's shoulder.
+const SHOULDER: f64 = OUTREACH + D1;
 /// The wrist outside comes first, as in the prototype.
 const WRISTS: [Wrist; 2] = [Wrist::Outside, Wrist::Inside];
 /// Turns tried on either side of the present one when the torso must turn: steps of 15 degrees.
@@ -131,14 +137,27 @@ impl Gantry {
 
     /// Pose of the tool, world frame.
     pub fn tool_pose(&self, joints: &Joints) -> Pose {
-        let [x, y, turn, angles @ ..] = *joints;
-        let torso = Pose::turned(Point::new(x, y, self.shoulder), turn + FRAC_PI_2);
-        // Axes of the arm's base in the torso's frame (x outward): x up, y to the right, z outward.
-        let mount = Pose {
-            rotation: [[0.0, 0.0, 1.0], [0.0, -1.0, 0.0], [1.0, 0.0, 0.0]],
-            position: Point::new(MOUNT, 0.0, 0.0),
-        };
-        torso.then(&mount).then(&ur10::forward(&angles))
+        let [_, _, _, angles @ ..] = joints;
+        self.torso_pose(joints).then(&MOUNT).then(&ur10::forward(angles))
+    }
+
+    /// Of each link behind a joint, world frame: the bridge and the trolley, which do not turn, and the torso,
+    /// all at the height of the shoulder and the bridge at y = 0; then [`ur10::frames`].
+    pub fn frames(&self, joints: &Joints) -> [Pose; JOINTS] {
+        let [x, y, _, angles @ ..] = joints;
+        let torso = self.torso_pose(joints);
+        let base = torso.then(&MOUNT);
+        let arm = ur10::frames(angles);
+        std::array::from_fn(|i| match i {
+            0 => Pose { position: Point::new(*x, 0.0, self.shoulder), ..Pose::IDENTITY },
+            1 => Pose { position: Point::new(*x, *y, self.shoulder), ..Pose::IDENTITY },
+            2 => torso,
+            _ => base.then(&arm[i - 3]),
+        })
+    }
+
+    fn torso_pose(&self, &[x, y, turn, ..]: &Joints) -> Pose {
+        Pose::turned(Point::new(x, y, self.shoulder), turn + FRAC_PI_2)
     }
 
     pub fn tool(&self, joints: &Joints) -> Point {

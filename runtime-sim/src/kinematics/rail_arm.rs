@@ -129,14 +129,27 @@ impl RailArm {
 
     /// Pose of the tool, world frame.
     pub fn tool_pose(&self, joints: &Joints) -> Pose {
-        let [place, angles @ ..] = *joints;
+        let [_, angles @ ..] = joints;
+        self.base(joints).then(&ur10::forward(angles))
+    }
+
+    /// Of each link behind a joint, world frame: the carriage with the arm's base, then [`ur10::frames`].
+    pub fn frames(&self, joints: &Joints) -> [Pose; JOINTS] {
+        let [_, angles @ ..] = joints;
+        let base = self.base(joints);
+        let arm = ur10::frames(angles);
+        std::array::from_fn(|i| if i == 0 { base } else { base.then(&arm[i - 1]) })
+    }
+
+    fn base(&self, joints: &Joints) -> Pose {
+        let place = joints[0];
         let height = self.shoulder - D1;
         let base = match self.rail {
             Axis::X => Point::new(place, self.line, height),
             Axis::Y => Point::new(self.line, place, height),
         };
         // The description's base and the one of the link table differ by half a turn.
-        Pose::turned(base, PI).then(&ur10::forward(&angles))
+        Pose::turned(base, PI)
     }
 
     pub fn tool(&self, joints: &Joints) -> Point {

@@ -1,10 +1,12 @@
 //! Both robots: every solution through the general forward kinematics, every refusal through the general inverse.
 
+use super::arm::{Arm, Joints};
 use super::gantry::Gantry;
 use super::pose::Pose;
 use super::rail_arm::RailArm;
 use super::random::Random;
 use super::ur10::{self, D1};
+use crate::geometry::Geometry;
 use crate::point::{Axis, Point};
 use std::f64::consts::{PI, TAU};
 
@@ -307,5 +309,50 @@ fn goals_that_are_no_places() {
         let tool = Point::new(-1.0, 0.0, z);
         assert_eq!(kitting(Axis::Y).solve(tool, &kitting(Axis::Y).start()), None);
         assert_eq!(gantry().solve(tool, &gantry().start()), None);
+    }
+}
+
+fn length(a: Point, b: Point) -> f64 {
+    let d = a - b;
+    (d.x * d.x + d.y * d.y + d.z * d.z).sqrt()
+}
+
+/// Each link behind the first keeps its length, and its far end turns about the axis that its joint has.
+fn assert_links(frames: &[Pose], first: usize) {
+    let at = |i: usize| frames[first + i].position;
+    let lengths = [ur10::A2, ur10::A3, ur10::D4, ur10::D5, ur10::TOOL];
+    for (i, expected) in lengths.iter().enumerate() {
+        let got = length(at(i), at(i + 1));
+        assert!((got - expected.abs()).abs() < 1e-9, "{i}: {got} for {expected}");
+    }
+}
+
+#[test]
+fn links_keep_their_lengths_and_end_at_the_tool() {
+    let mut random = Random::new(11);
+    for rail in [Axis::X, Axis::Y] {
+        let geometry = Geometry::RailArm { pose: KITTING, rail_dim: rail, rail_range: [-4.8, 4.8] };
+        assert_arm(&Arm::from_geometry(&geometry).unwrap(), 7, &mut random);
+    }
+    let geometry = Geometry::Gantry { pose: ABOVE, x_rail_range: [-14.4, 0.4], y_rail_range: [-4.5, 4.5] };
+    assert_arm(&Arm::from_geometry(&geometry).unwrap(), 9, &mut random);
+}
+
+fn assert_arm(arm: &Arm, count: usize, random: &mut Random) {
+    for _ in 0..1000 {
+        let joints: Vec<f64> = (0..count).map(|_| random.between(-TAU, TAU)).collect();
+        let frames = arm.frames(&Joints::new(&joints));
+        assert_eq!(frames.len(), count);
+        assert_eq!(frames.last(), Some(&arm.tool_pose(&Joints::new(&joints))));
+        assert_links(&frames, count - 6);
+        // A joint moves the links from its own on, and none before it.
+        for moved in 0..count {
+            let mut other = joints.clone();
+            other[moved] += 0.3;
+            let other = arm.frames(&Joints::new(&other));
+            for i in 0..count {
+                assert_eq!(frames[i] == other[i], i < moved, "joint {moved}, link {i}");
+            }
+        }
     }
 }

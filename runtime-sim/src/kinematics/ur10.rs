@@ -25,17 +25,26 @@ const ROUNDING: f64 = 1e-9;
 /// Joint angles from the base to the tool, rad.
 pub type Angles = [f64; 6];
 
-/// Pose of the tool in the frame of the base; the tool's axis is its z.
-pub fn forward(q: &Angles) -> Pose {
+/// The frames that the joints move, in the frame of the base: frame `i` is fixed to the link behind joint `i`.
+/// The first has its origin on the shoulder's axis and its y along the base's z; the second and the third lie
+/// at the far ends of upper arm and forearm, x pointing back along the link; the last is the tool, z its axis.
+pub fn frames(q: &Angles) -> [Pose; 6] {
     const STRAIGHT: (f64, f64) = (0.0, 1.0);
     const QUARTER: (f64, f64) = (1.0, 0.0);
     const BACK: (f64, f64) = (-1.0, 0.0);
-    Pose::link(q[0], D1, 0.0, QUARTER)
-        .then(&Pose::link(q[1], 0.0, A2, STRAIGHT))
-        .then(&Pose::link(q[2], 0.0, A3, STRAIGHT))
-        .then(&Pose::link(q[3], D4, 0.0, QUARTER))
-        .then(&Pose::link(q[4], D5, 0.0, BACK))
-        .then(&Pose::link(q[5], TOOL, 0.0, STRAIGHT))
+    let shoulder = Pose::link(q[0], D1, 0.0, QUARTER);
+    let upper_arm = shoulder.then(&Pose::link(q[1], 0.0, A2, STRAIGHT));
+    let forearm = upper_arm.then(&Pose::link(q[2], 0.0, A3, STRAIGHT));
+    let wrist_1 = forearm.then(&Pose::link(q[3], D4, 0.0, QUARTER));
+    let wrist_2 = wrist_1.then(&Pose::link(q[4], D5, 0.0, BACK));
+    let wrist_3 = wrist_2.then(&Pose::link(q[5], TOOL, 0.0, STRAIGHT));
+    [shoulder, upper_arm, forearm, wrist_1, wrist_2, wrist_3]
+}
+
+/// Pose of the tool in the frame of the base; the tool's axis is its z.
+pub fn forward(q: &Angles) -> Pose {
+    let [.., tool] = frames(q);
+    tool
 }
 
 /// All solutions for a pose of the tool in the frame of the base, at most eight, each angle in (-pi, pi].

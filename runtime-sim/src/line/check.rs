@@ -1,6 +1,6 @@
 //! Whether a line can be run at all.
 
-use super::{Line, Machine};
+use super::{Line, Machine, Obstacle};
 use crate::geometry::Geometry;
 use crate::point::Point;
 
@@ -34,6 +34,10 @@ impl Line {
                     self.machine(owner, "a state")?;
                 }
             }
+        }
+        for obstacle in &self.obstacles {
+            check_name("obstacle", &obstacle.name)?;
+            check_obstacle(obstacle)?;
         }
         self.check_scenario()
     }
@@ -101,8 +105,24 @@ fn check_name(what: &str, name: &str) -> Result<(), String> {
     Ok(())
 }
 
+fn is_near(point: &Point) -> bool {
+    [point.x, point.y, point.z].iter().all(|c| c.abs() <= 1e6)
+}
+
+fn check_obstacle(obstacle: &Obstacle) -> Result<(), String> {
+    if !is_near(&obstacle.pose) {
+        return Err(format!("a coordinate of {} is no number within 1000 km", obstacle.name));
+    }
+    match obstacle.size {
+        Some(size) if !(is_near(&size) && size.x > 0.0 && size.y > 0.0 && size.z > 0.0) => {
+            Err(format!("a length of the box of {} is no positive number within 1000 km", obstacle.name))
+        }
+        _ => Ok(()),
+    }
+}
+
 fn check_geometry(machine: &Machine) -> Result<(), String> {
-    let points = |list: &[Point]| list.iter().all(|p| [p.x, p.y, p.z].iter().all(|c| c.abs() <= 1e6));
+    let points = |list: &[Point]| list.iter().all(is_near);
     let range = |[low, high]: [f64; 2]| low.abs() <= 1e6 && high.abs() <= 1e6 && low <= high;
     let sound = points(&[machine.geometry.pose()])
         && points(&machine.geometry.stops())

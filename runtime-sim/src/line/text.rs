@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::{IoDelay, Kind, Line, Machine, Order, Pause, Refusal, Scenario, Slip, State, Supply};
+use super::{IoDelay, Kind, Line, Machine, Obstacle, Order, Pause, Refusal, Scenario, Slip, State, Supply};
 use crate::geometry::Geometry;
 use crate::point::{Axis, Point};
 use crate::words::Words;
@@ -33,6 +33,11 @@ impl Line {
                 let activity = if state.working { "working" } else { "waiting" };
                 put(format!("      {} {activity} {}", state.name, list(&state.awaits)));
             }
+        }
+        put(format!("obstacles {}", self.obstacles.len()));
+        for obstacle in &self.obstacles {
+            let size = obstacle.size.map_or("none".into(), |size| format!("box {}", point_text(size)));
+            put(format!("  {} {} {size}", obstacle.name, point_text(obstacle.pose)));
         }
         let scenario = &self.scenario;
         put(format!("spawn_every_s {:?}", scenario.spawn_every_s));
@@ -91,9 +96,11 @@ impl Line {
         let kinds = words.list(|w| Ok(Kind { name: w.name()?.into(), height: w.real()? }))?;
         words.expect("machines")?;
         let machines = words.list(read_machine)?;
+        words.expect("obstacles")?;
+        let obstacles = words.list(read_obstacle)?;
         let scenario = read_scenario(words)?;
         words.expect("end")?;
-        Ok(Line { scan_ms, kinds, machines, scenario, io_delay })
+        Ok(Line { scan_ms, kinds, machines, obstacles, scenario, io_delay })
     }
 }
 
@@ -167,6 +174,17 @@ fn read_geometry(words: &mut Words) -> Result<Geometry, String> {
         "bin" => Geometry::Bin { pose },
         _ => return Err(unknown),
     })
+}
+
+fn read_obstacle(words: &mut Words) -> Result<Obstacle, String> {
+    let name = words.name()?.into();
+    let pose = read_point(words)?;
+    let size = match words.name()? {
+        "box" => Some(read_point(words)?),
+        "none" => None,
+        other => return Err(words.error(format_args!("`{other}` is neither `box` nor `none`"))),
+    };
+    Ok(Obstacle { name, pose, size })
 }
 
 fn read_point(words: &mut Words) -> Result<Point, String> {

@@ -68,6 +68,7 @@ pub fn line() -> Line {
             machine("as1", Geometry::Station { pose: Point::new(-7.3, 3.0, 0.0) }),
             machine("bin", Geometry::Bin { pose: Point::new(-1.899, 2.565, 0.0) }),
         ],
+        obstacles: vec![],
         scenario: Scenario {
             orders: vec![Order { station: STATION, parts: vec![1, 1] }],
             supply: vec![Supply { belt: BELT, items: vec![BATTERY, PUMP] }],
