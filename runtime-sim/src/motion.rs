@@ -178,6 +178,11 @@ impl Motion {
         self.to
     }
 
+    /// How far each joint goes on the whole line, in one direction.
+    pub fn ways(&self) -> Joints {
+        self.from.map(|i, from| (self.to[i] - from).abs())
+    }
+
     /// What the joints do from the last call that changed the motion until they stand still.
     pub fn pieces(&self) -> Vec<Piece> {
         let mut pieces = Vec::new();

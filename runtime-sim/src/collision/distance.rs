@@ -17,18 +17,6 @@ pub struct Block {
     pub half: [f64; 3],
 }
 
-pub fn dot(a: Point, b: Point) -> f64 {
-    a.x * b.x + a.y * b.y + a.z * b.z
-}
-
-pub fn scaled(a: Point, factor: f64) -> Point {
-    Point::new(a.x * factor, a.y * factor, a.z * factor)
-}
-
-pub fn length(a: Point) -> f64 {
-    dot(a, a).sqrt()
-}
-
 /// How far two shapes are apart, and where they are nearest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gap {
@@ -39,7 +27,7 @@ pub struct Gap {
 
 impl Gap {
     fn between(points: [Point; 2]) -> Self {
-        Self { distance: length(points[1] - points[0]), points }
+        Self { distance: (points[1] - points[0]).length(), points }
     }
 
     /// The nearer one; one without a distance before all.
@@ -57,8 +45,8 @@ impl Gap {
 /// Between two segments, given by their ends. A segment may be a point.
 pub fn segment_segment(a: [Point; 2], b: [Point; 2]) -> Gap {
     let (u, v, w) = (a[1] - a[0], b[1] - b[0], a[0] - b[0]);
-    let (uu, uv, vv, uw, vw) = (dot(u, u), dot(u, v), dot(v, v), dot(u, w), dot(v, w));
-    let gap = |s: f64, t: f64| Gap::between([a[0] + scaled(u, s), b[0] + scaled(v, t)]);
+    let (uu, uv, vv, uw, vw) = (u.dot(u), u.dot(v), v.dot(v), u.dot(w), v.dot(w));
+    let gap = |s: f64, t: f64| Gap::between([a[0] + u.scaled(s), b[0] + v.scaled(t)]);
     let on_a = |t: f64| part(t * uv - uw, uu);
     let on_b = |s: f64| part(s * uv + vw, vv);
     // Nearest where both lines are, if that is within both; otherwise at an end of one of them.
@@ -79,7 +67,7 @@ impl Block {
     /// A point in the box's own frame.
     fn own(&self, point: Point) -> [f64; 3] {
         let way = point - self.middle;
-        self.axes.map(|axis| dot(way, axis))
+        self.axes.map(|axis| way.dot(axis))
     }
 
     /// How far a point of the box's own frame is outside along each axis.
@@ -91,11 +79,11 @@ impl Block {
     fn nearest(&self, point: Point) -> Point {
         let [x, y, z] = self.outside(self.own(point));
         let [u, v, w] = self.axes;
-        point - scaled(u, x) - scaled(v, y) - scaled(w, z)
+        point - u.scaled(x) - v.scaled(y) - w.scaled(z)
     }
 
     fn corner(&self, signs: [f64; 3]) -> Point {
-        let [x, y, z] = [0, 1, 2].map(|i| scaled(self.axes[i], self.half[i] * signs[i]));
+        let [x, y, z] = [0, 1, 2].map(|i| self.axes[i].scaled(self.half[i] * signs[i]));
         self.middle + x + y + z
     }
 
@@ -118,7 +106,7 @@ impl Block {
 /// Between a segment and a box, 0 if they meet.
 pub fn segment_block(segment: [Point; 2], block: &Block) -> Gap {
     let (t, _) = nearest_on(segment, block);
-    let on_segment = segment[0] + scaled(segment[1] - segment[0], t);
+    let on_segment = segment[0] + (segment[1] - segment[0]).scaled(t);
     Gap::between([on_segment, block.nearest(on_segment)])
 }
 

@@ -45,6 +45,10 @@ impl Drive {
         self.tool
     }
 
+    pub fn joints(&self) -> Joints {
+        self.joints
+    }
+
     /// What moves the joints at present.
     pub fn motion(&self) -> Option<&Motion> {
         match &self.course {
