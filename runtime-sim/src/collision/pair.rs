@@ -232,7 +232,9 @@ impl Scan<'_> {
                 }
             }
         }
-        // What was passed over is no nearer.
-        nearest.map_or(Apart::AtLeast(farther), |(gap, pieces)| Apart::Exactly(gap, pieces))
+        match nearest {
+            Some((gap, pieces)) if !(gap.distance > farther) => Apart::Exactly(gap, pieces),
+            _ => Apart::AtLeast(farther),
+        }
     }
 }
