@@ -1,6 +1,8 @@
 //! Back ends: pure functions from the intermediate representation to files. They cannot fail.
 
 pub mod dot;
+mod footprint;
+pub mod paths;
 pub mod plan;
 pub mod rust;
 pub mod st;

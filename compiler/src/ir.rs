@@ -156,10 +156,19 @@ pub struct Parameter {
     pub place: Span,
 }
 
+impl Parameter {
+    /// Whether the layout or the command line may set it.
+    pub fn is_settable(&self) -> bool {
+        !matches!(self.source, ParameterSource::Device)
+    }
+}
+
 #[derive(Clone, Debug)]
 pub enum ParameterSource {
     /// Set in the layout or on the command line; with what it is if it is not set.
     Layout(Option<Value>),
+    /// As of `Layout`; if it is not set, the parts of each kind that all orders of the scenario ask for.
+    Scenario,
     /// A constant of the device, from the machine's place in the layout.
     Device,
 }
@@ -478,7 +487,14 @@ pub struct Invariant {
 pub struct Require {
     pub place: Span,
     pub condition: Expr,
-    pub text: String,
+    pub text: Vec<TextPart>,
+}
+
+/// A piece of a text that shows values.
+#[derive(Clone, Debug)]
+pub enum TextPart {
+    Words(String),
+    Value(Expr),
 }
 
 #[derive(Clone, Debug)]

@@ -5,6 +5,7 @@ pub mod check;
 pub mod connect;
 pub mod diagnostic;
 pub mod executor;
+pub mod io_map;
 pub mod ir;
 pub mod layout;
 pub mod library;

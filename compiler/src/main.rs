@@ -30,6 +30,7 @@ fn main() -> ExitCode {
         Command::Check(options) => command::check::run(options),
         Command::Build(options) => command::build::run(options),
         Command::Commission(options) => command::commission::run(options),
+        Command::Sweep(options) => command::sweep::run(options),
         Command::Graph(options) => command::graph::run(options),
         Command::Explain(options) => command::explain::run(options),
     });

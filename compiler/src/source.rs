@@ -17,6 +17,11 @@ impl Span {
         Self { file, start: start as u32, end: end as u32 }
     }
 
+    /// The same piece of a text that begins `offset` bytes into the file.
+    pub fn after(self, offset: usize) -> Self {
+        Self::new(self.file, self.start as usize + offset, self.end as usize + offset)
+    }
+
     /// From the beginning of this span to the end of `last`.
     pub fn to(self, last: Span) -> Self {
         Self { end: last.end.max(self.end), ..self }

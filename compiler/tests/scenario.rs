@@ -55,12 +55,13 @@ fn default_scenario() {
     let resolved = resolve(scenario::DEFAULT, &LINE).unwrap();
     let kinds: Vec<&str> = resolved.kinds.iter().map(|kind| kind.name.value.as_str()).collect();
     assert_eq!(kinds, ["battery", "sensor", "regulator", "pump"]);
-    let stations: Vec<usize> = resolved.orders.iter().map(|(station, _)| *station).collect();
-    assert_eq!(stations, [7, 8, 9, 10, 7, 8, 9, 10]);
+    let stations: Vec<&[usize]> = resolved.orders.iter().map(|(stations, _)| &stations[..]).collect();
+    assert_eq!(stations, [[7], [8], [9], [10], [7], [8], [9], [10]]);
     assert!(resolved.orders.iter().all(|(_, parts)| *parts == [1, 1, 1, 1]));
     let [(0, items)] = &resolved.supply[..] else { panic!("{:?}", resolved.supply) };
     assert_eq!(items.len(), 4 * (8 + 3));
-    assert_eq!((resolved.spawn_every_s, resolved.time_limit_s), (2.0, 3600.0));
+    let times = [resolved.spawn_first_s, resolved.spawn_every_s, resolved.time_limit_s];
+    assert_eq!(times, [2.0, 2.0, 3600.0]);
     assert_eq!(resolved, resolve(scenario::DEFAULT, &LINE).unwrap());
     // Before order n+1 can be wanted, n whole orders have been brought.
     for kind in 0..4 {
@@ -114,4 +115,33 @@ fn faults_find_their_machines() {
     assert_eq!((resolved.slips[0].robot, resolved.slips[0].pick), (1, 3));
     assert_eq!((resolved.refusals[0].robot, resolved.refusals[0].command), (4, 2));
     assert_eq!((resolved.pauses[0].at_s, resolved.pauses[0].for_s), (60.0, 3.0));
+}
+
+#[test]
+fn an_order_at_one_of_several_stations() {
+    let orders = r#"[{"station": ["as3", "as1"], "parts": {"pump": 1}}, {"parts": {"pump": 1}},
+        {"station": "as4", "parts": {"pump": 1}}]"#;
+    let text =
+        format!(r#"{{"kinds": [{{"name": "pump", "height": 0.11}}], "orders": {orders}, "supply": {{}}}}"#);
+    let resolved = resolve(&text, &LINE).unwrap();
+    let stations: Vec<&[usize]> = resolved.orders.iter().map(|(stations, _)| &stations[..]).collect();
+    assert_eq!(stations, [&[9, 7][..], &[7], &[10]]);
+}
+
+#[test]
+fn the_first_part_comes_when_it_is_told_and_otherwise_as_late_as_the_next() {
+    for (supply, first, every) in [
+        ("", 2.0, 2.0),
+        (r#", "supply": {}"#, 2.0, 2.0),
+        (r#", "supply": {"every_s": 3}"#, 3.0, 3.0),
+        (r#", "supply": {"first_s": 8}"#, 8.0, 2.0),
+        (r#", "supply": {"first_s": 0, "every_s": 3}"#, 0.0, 3.0),
+        (r#", "supply": {"first_s": 8.5, "items": ["pump"]}"#, 8.5, 2.0),
+    ] {
+        let text = format!(
+            r#"{{"kinds": [{{"name": "pump", "height": 0.11}}], "orders": [{{"parts": {{"pump": 1}}}}] {supply}}}"#
+        );
+        let resolved = resolve(&text, &LINE).unwrap();
+        assert_eq!((resolved.spawn_first_s, resolved.spawn_every_s), (first, every), "{supply}");
+    }
 }

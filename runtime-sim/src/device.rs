@@ -165,7 +165,7 @@ pub const LAST_COMMAND: i32 = 32767;
 /// Answers of a device in `error`.
 pub mod error {
     pub const NONE: i32 = 0;
-    /// The goal has no inverse-kinematic solution within the limits.
+    /// The goal, or a place to pass, has no inverse-kinematic solution within the limits.
     pub const UNREACHABLE: i32 = 1;
     /// The tool came to its goal and nothing was gripped.
     pub const NO_PART: i32 = 2;
@@ -247,6 +247,18 @@ const ATTACHED: Port = input(
     "a part hangs on the gripper; changes when it is gripped, let go or lost",
 );
 const TOOL: Port = input("tool", PortType::Point, Extent::One, "m", "tool centre point; moves with the arm");
+const TOP_SPEED: Port =
+    output("top_speed", PortType::Real, "", "part of full speed, above 0 to 1", Stop::Hold);
+const GAIN: Port =
+    output("gain", PortType::Real, "m/s2, rad/s2", "acceleration of every joint, above 0 to 100", Stop::Hold);
+const VIA: Port = output("via", PortType::Point, "m", "where to pass on the way to `goal`", Stop::Hold);
+const TURN: Port = output(
+    "turn",
+    PortType::Real,
+    "rad",
+    "turn of the torso, -2 pi to 2 pi; 0: the arm is on the side of +y; pi and -pi are different joint values",
+    Stop::Hold,
+);
 const POINTS_12: Extent = Extent::Times(crate::geometry::SLOTS);
 
 const HEIGHTS: Constant = Constant {
@@ -263,15 +275,32 @@ const REST: Constant = Constant {
     unit: "m",
     meaning: "where the tool rests",
 };
-const ARM_VERBS: &[Verb] = &[
-    Verb { name: "move", number: 1, arguments: &["goal"], meaning: "tool to `goal`, all joints together" },
-    Verb {
-        name: "pick",
-        number: 2,
-        arguments: &["goal"],
-        meaning: "tool to `goal`, then wait for the grip; ends when a part is attached, in error 2 if none is",
-    },
-];
+const MOVE: Verb =
+    Verb { name: "move", number: 1, arguments: &["goal"], meaning: "tool to `goal`, all joints together" };
+const PICK: Verb = Verb {
+    name: "pick",
+    number: 2,
+    arguments: &["goal"],
+    meaning: "tool to `goal`, then wait for the grip; ends when a part is attached, in error 2 if none is",
+};
+const PACE: Verb = Verb {
+    name: "pace",
+    number: 3,
+    arguments: &["top_speed", "gain"],
+    meaning: "limits of all later motions, until the next `pace`; before the first one they are 1 and 1; ends at once, in error 3 if a value is out of range or the arm moves: it brakes then, and the limits stay",
+};
+const TURN_TO: Verb = Verb {
+    name: "turn_to",
+    number: 4,
+    arguments: &["goal", "turn"],
+    meaning: "tool to `goal`, straight under the shoulder, with the torso at exactly `turn`; in error 1 where the rails or the reach forbid it",
+};
+const THROUGH: Verb = Verb {
+    name: "through",
+    number: 5,
+    arguments: &["via", "goal"],
+    meaning: "tool to `goal` past `via` without a stop: where the joints turn off, none is further than 0.05 m or rad from its value at `via`",
+};
 
 pub const DEVICES: &[Device] = &[
     Device {
@@ -376,16 +405,18 @@ pub const DEVICES: &[Device] = &[
     Device {
         name: "rail_arm",
         purpose: "A UR10 with a vacuum gripper on a rail.",
-        ports: &[READY, GOT, ACK, ERROR, ATTACHED, TOOL, CMD, VERB, HOLD, GOAL, GRIP],
-        verbs: ARM_VERBS,
+        ports: &[READY, GOT, ACK, ERROR, ATTACHED, TOOL, CMD, VERB, HOLD, GOAL, GRIP, TOP_SPEED, GAIN, VIA],
+        verbs: &[MOVE, PICK, PACE, THROUGH],
         constants: &[REST, HEIGHTS],
         handovers: &[],
     },
     Device {
         name: "gantry",
         purpose: "A UR10 with a vacuum gripper under a torso that travels on two rails and turns.",
-        ports: &[READY, GOT, ACK, ERROR, ATTACHED, TOOL, CMD, VERB, HOLD, GOAL, GRIP],
-        verbs: ARM_VERBS,
+        ports: &[
+            READY, GOT, ACK, ERROR, ATTACHED, TOOL, CMD, VERB, HOLD, GOAL, GRIP, TOP_SPEED, GAIN, VIA, TURN,
+        ],
+        verbs: &[MOVE, PICK, PACE, TURN_TO, THROUGH],
         constants: &[REST, HEIGHTS],
         handovers: &[],
     },

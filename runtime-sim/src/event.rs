@@ -7,15 +7,11 @@ use crate::point::Point;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Event {
     /// An item was handed over. `point` is where its underside was afterwards.
-    Item {
-        scan: u64,
-        item: usize,
-        from: Carrier,
-        to: Carrier,
-        point: Point,
-    },
+    Item { scan: u64, item: usize, from: Carrier, to: Carrier, point: Point },
     Order {
         scan: u64,
+        /// The station.
+        machine: usize,
         order: usize,
         change: OrderChange,
     },
@@ -25,6 +21,8 @@ pub enum Event {
 pub enum OrderChange {
     Opened,
     Made,
+    /// It was made at another station.
+    Withdrawn,
     /// `complete` was set while the parts in the briefcase were not those of the order.
     Refused,
 }
@@ -95,11 +93,12 @@ mod tests {
         let machines = [belt, Geometry::Bin { pose }, Geometry::Bin { pose }].into_iter();
         Items::new(&Line {
             scan_ms: 10,
-            kinds: vec![Kind { name: "part".into(), height: 0.1 }],
+            kinds: vec![Kind { name: "part".into(), height: 0.1, size: [0.1, 0.1] }],
             machines: machines
                 .map(|geometry| Machine { name: "m".into(), geometry, states: vec![] })
                 .collect(),
             obstacles: vec![],
+            may_touch: vec![],
             scenario: Scenario { supply: vec![Supply { belt: 0, items: vec![0, 0] }], ..Scenario::default() },
             io_delay: IoDelay::Fixed(0),
         })

@@ -56,9 +56,17 @@ pub fn bin_offset(i: usize) -> Point {
     Point::new(-0.2 + 0.20 * (i / 4) as f64, -0.18 + 0.12 * (i % 4) as f64, BIN_FLOOR)
 }
 
-/// Where kind number `kind` lies in a briefcase, from the station's pose: two columns 0.2 m apart.
+/// Most kinds of part that a line has; a briefcase has a place for each.
+pub const MOST_KINDS: usize = 16;
+
+/// Where kind number `kind` lies in a briefcase, from the station's pose: the first four in two columns 0.2 m
+/// apart, the others around them, 0.14 m and 0.12 m apart (no part is longer than 0.135 m in x or 0.113 m in y).
 pub fn briefcase_offset(kind: usize) -> Point {
-    BRIEFCASE + Point::new(-0.1 + 0.2 * (kind % 2) as f64, -0.12 + 0.24 * (kind / 2 % 2) as f64, 0.0)
+    let place = |sign: usize, outer: usize, distances: [f64; 2]| {
+        let distance = distances[(kind >> outer) & 1];
+        if (kind >> sign) & 1 == 0 { -distance } else { distance }
+    };
+    BRIEFCASE + Point::new(place(0, 2, [0.1, 0.24]), place(1, 3, [0.12, 0.24]), 0.0)
 }
 
 impl Geometry {
@@ -288,5 +296,20 @@ mod tests {
         assert_eq!(belt.with_number("orient_range[1]", f64::NAN), None);
         assert_eq!(belt.with_number("rail_range[0]", 0.0), None);
         assert!(belt.with_number("orient_range[0]", 4.999).is_some());
+    }
+
+    #[test]
+    fn parts_of_all_kinds_lie_side_by_side_in_a_briefcase() {
+        const LONGEST: [f64; 2] = [0.135, 0.113];
+        const INSIDE: [f64; 2] = [0.621 / 2.0, 0.761 / 2.0];
+        for kind in 0..MOST_KINDS {
+            let here = briefcase_offset(kind) - BRIEFCASE;
+            assert!(here.x.abs() + LONGEST[0] / 2.0 <= INSIDE[0], "{kind}");
+            assert!(here.y.abs() + LONGEST[1] / 2.0 <= INSIDE[1], "{kind}");
+            for other in 0..kind {
+                let gap = briefcase_offset(kind) - briefcase_offset(other);
+                assert!(gap.x.abs() >= LONGEST[0] || gap.y.abs() >= LONGEST[1], "{kind} on {other}");
+            }
+        }
     }
 }

@@ -135,7 +135,7 @@ impl Items {
         self.log.push(Event::Item { scan: self.scan, item, from, to, point });
     }
 
-    pub(crate) fn note_order(&mut self, order: usize, change: OrderChange) {
-        self.log.push(Event::Order { scan: self.scan, order, change });
+    pub(crate) fn note_order(&mut self, machine: usize, order: usize, change: OrderChange) {
+        self.log.push(Event::Order { scan: self.scan, machine, order, change });
     }
 }

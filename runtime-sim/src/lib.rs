@@ -10,6 +10,7 @@ pub mod device;
 pub mod event;
 pub mod geometry;
 pub mod hash;
+pub mod io_trace;
 pub mod item;
 mod json;
 pub mod kinematics;

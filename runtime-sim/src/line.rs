@@ -64,7 +64,9 @@ pub struct State {
 pub struct Scenario {
     pub orders: Vec<Order>,
     pub supply: Vec<Supply>,
-    /// Seconds of a belt at full speed between two parts.
+    /// Seconds of a belt at full speed until its first part.
+    pub spawn_first_s: f64,
+    /// The same between two parts.
     pub spawn_every_s: f64,
     pub time_limit_s: f64,
     /// A run in which nothing at all changes for so long ends as a deadlock.
@@ -79,7 +81,9 @@ pub struct Scenario {
 /// Orders of one station open one after another, in the order of [`Scenario::orders`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Order {
-    pub station: usize,
+    /// Where it opens, each when its turn comes there. It is made at the first of them that has its parts,
+    /// and withdrawn at the others.
+    pub stations: Vec<usize>,
     /// Number of parts of each kind.
     pub parts: Vec<u32>,
 }
@@ -133,6 +137,7 @@ impl Default for Scenario {
             orders: Vec::new(),
             supply: Vec::new(),
             // Belt population of the qualifier trials: a part every 2 s at 0.2 m/s.
+            spawn_first_s: 2.0,
             spawn_every_s: 2.0,
             // Time limit of the same trials.
             time_limit_s: 500.0,

@@ -1,33 +1,31 @@
-//! Motion of all joints together, along a straight line between two sets of joints.
+//! Motion of all joints together, between two sets of joints: straight, or past a third without a stop.
 //!
-//! The place on the line is one number from 0 to 1. It gains speed, keeps it and
-//! loses it again, as fast as the slowest joint allows:
+//! The place on the way is one number from 0 to 1. It gains speed, keeps it and
+//! loses it again, as fast as the slowest joint allows. On a straight line
 //! `top` = min v/way, `gain` = min a/way over the joints; an undisturbed motion takes
 //! 1/top + top/gain if top^2 >= gain, otherwise 2/sqrt(gain).
 
-use crate::kinematics::arm::{Joints, Limits};
+mod path;
+mod pieces;
+mod profile;
 
-/// A motion that may be held on its line and go on. Times are seconds on any one clock.
+pub use path::CORNER_NEAR;
+pub use pieces::Piece;
+
+use crate::kinematics::arm::{Joints, Limits};
+use path::Path;
+use profile::{Phase, Zone};
+
+/// A motion that may be held on its way and go on. Times are seconds on any one clock.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Motion {
-    from: Joints,
-    to: Joints,
-    top: f64,
-    gain: f64,
+    path: Path,
+    zones: Vec<Zone>,
     drive: Drive,
     /// What the motion does from `since` on, one phase after the other; then it rests at `rest`.
-    phases: [Phase; 3],
+    phases: Vec<Phase>,
     since: f64,
     rest: f64,
-}
-
-/// A part of a motion in which each joint is a polynomial of the seconds since `begin_s`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Piece {
-    pub begin_s: f64,
-    pub end_s: f64,
-    /// For each joint the coefficients of the powers of time, from the zeroth on.
-    pub joints: Vec<Vec<f64>>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,50 +34,21 @@ enum Drive {
     Held,
 }
 
-/// A time with one acceleration.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Phase {
-    duration: f64,
-    place: f64,
-    speed: f64,
-    acceleration: f64,
-}
-
-impl Phase {
-    fn place_after(&self, t: f64) -> f64 {
-        self.place + (self.speed + self.acceleration * t / 2.0) * t
-    }
-
-    fn speed_after(&self, t: f64) -> f64 {
-        self.speed + self.acceleration * t
-    }
-}
-
 impl Motion {
     /// A motion that begins at time `begin` from rest.
     pub fn between(from: Joints, to: Joints, limits: &Limits, begin: f64) -> Self {
-        let ways = from.iter().zip(to.iter()).map(|(a, b)| (b - a).abs());
-        let least = |limit: &Joints| {
-            ways.clone()
-                .zip(limit.iter())
-                .filter(|(way, _)| *way > 0.0)
-                .fold(f64::INFINITY, |least, (way, limit)| least.min(limit / way))
-        };
-        let (top, gain) = (least(&limits.velocity), least(&limits.acceleration));
-        let mut motion = Self {
-            from,
-            to,
-            top,
-            gain,
-            drive: Drive::On,
-            phases: Default::default(),
-            since: begin,
-            rest: 1.0,
-        };
-        if top.is_finite() {
-            motion.go_on(begin, 0.0, 0.0);
-        }
-        motion
+        Self::on(Path::straight(from, to, limits), begin)
+    }
+
+    /// The same past `via`: along both lines, with a corner between them that is short of `via`
+    /// by at most [`CORNER_NEAR`] for each joint.
+    pub fn through(from: Joints, via: Joints, to: Joints, limits: &Limits, begin: f64) -> Self {
+        Self::on(Path::past(from, via, to, limits), begin)
+    }
+
+    fn on((path, zones): (Path, Vec<Zone>), begin: f64) -> Self {
+        let phases = profile::to_the_end(&zones, 0.0, 0.0);
+        Self { path, zones, drive: Drive::On, phases, since: begin, rest: 1.0 }
     }
 
     /// Time of the whole motion if nothing holds it.
@@ -87,33 +56,7 @@ impl Motion {
         Self::between(from, to, limits, 0.0).rests_at()
     }
 
-    /// From `place` with `speed` to the end: gain speed, keep it, lose it.
-    fn go_on(&mut self, t: f64, place: f64, speed: f64) {
-        let way = (1.0 - place).max(0.0);
-        let peak = (self.gain * way + speed * speed / 2.0).max(0.0).sqrt().min(self.top).max(speed);
-        let rise = (peak - speed) / self.gain;
-        let fall = peak / self.gain;
-        let rest = (way - (speed + peak) / 2.0 * rise - peak / 2.0 * fall).max(0.0);
-        let rising = Phase { duration: rise, place, speed, acceleration: self.gain };
-        let level = Phase {
-            duration: rest / peak.max(f64::MIN_POSITIVE),
-            place: rising.place_after(rise),
-            speed: peak,
-            acceleration: 0.0,
-        };
-        let falling = Phase {
-            duration: fall,
-            place: level.place_after(level.duration),
-            speed: peak,
-            acceleration: -self.gain,
-        };
-        self.drive = Drive::On;
-        self.phases = [rising, level, falling];
-        self.since = t;
-        self.rest = 1.0;
-    }
-
-    /// Brakes on the line from time `t` on; later calls change nothing until it goes on.
+    /// Brakes on its way from time `t` on; later calls change nothing until it goes on.
     pub fn hold(&mut self, t: f64) {
         if self.drive == Drive::Held {
             return;
@@ -121,13 +64,11 @@ impl Motion {
         let (place, speed) = (self.place(t), self.speed(t));
         self.drive = Drive::Held;
         if speed > 0.0 {
-            let braking = Phase { duration: speed / self.gain, place, speed, acceleration: -self.gain };
-            self.rest = braking.place_after(braking.duration).min(1.0);
-            self.phases = [braking, Phase::default(), Phase::default()];
+            (self.phases, self.rest) = profile::to_rest(&self.zones, place, speed);
             self.since = t;
         } else if t < self.rests_at() {
             self.rest = place;
-            self.phases = Default::default();
+            self.phases = Vec::new();
             self.since = t;
         }
     }
@@ -140,7 +81,9 @@ impl Motion {
         self.drive = Drive::On;
         let (place, speed) = (self.place(t), self.speed(t));
         if place < 1.0 {
-            self.go_on(t, place, speed);
+            self.phases = profile::to_the_end(&self.zones, place, speed);
+            self.since = t;
+            self.rest = 1.0;
         }
     }
 
@@ -164,42 +107,19 @@ impl Motion {
 
     /// Joints at time `t`, not before the last call that changed the motion; exact at both ends.
     pub fn at(&self, t: f64) -> Joints {
-        let place = self.place(t);
-        if place <= 0.0 {
-            return self.from;
-        }
-        if place >= 1.0 {
-            return self.to;
-        }
-        self.from.map(|i, start| start + place * (self.to[i] - start))
+        self.path.at(self.place(t))
     }
 
     pub fn goal(&self) -> Joints {
-        self.to
+        self.path.goal()
     }
 
-    /// How far each joint goes on the whole line, in one direction.
-    pub fn ways(&self) -> Joints {
-        self.from.map(|i, from| (self.to[i] - from).abs())
+    /// How far each joint goes at most for each unit of the place on the way.
+    pub fn rates(&self) -> Joints {
+        self.path.rates()
     }
 
-    /// What the joints do from the last call that changed the motion until they stand still.
-    pub fn pieces(&self) -> Vec<Piece> {
-        let mut pieces = Vec::new();
-        let mut begin_s = self.since;
-        for phase in self.phases.iter().filter(|phase| phase.duration > 0.0) {
-            let end_s = begin_s + phase.duration;
-            let joints = self.from.iter().zip(self.to.iter()).map(|(from, to)| {
-                let way = to - from;
-                vec![from + way * phase.place, way * phase.speed, way * phase.acceleration / 2.0]
-            });
-            pieces.push(Piece { begin_s, end_s, joints: joints.collect() });
-            begin_s = end_s;
-        }
-        pieces
-    }
-
-    /// Place on the line, 0 to 1.
+    /// Place on the way, 0 to 1.
     pub fn place(&self, t: f64) -> f64 {
         match self.phase(t) {
             Some((phase, passed)) => phase.place_after(passed).clamp(0.0, 1.0),
@@ -207,7 +127,7 @@ impl Motion {
         }
     }
 
-    /// Change of the place on the line, 1/s.
+    /// Change of the place on the way, 1/s.
     fn speed(&self, t: f64) -> f64 {
         self.phase(t).map_or(0.0, |(phase, passed)| phase.speed_after(passed).max(0.0))
     }
@@ -230,6 +150,7 @@ impl Motion {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::kinematics::random::Random;
 
     const STEP: f64 = 1e-3;
 
@@ -246,8 +167,16 @@ mod tests {
     }
 
     /// Highest velocity and acceleration over their limits, by differences, while `steer` acts on the motion.
-    fn worst(mut motion: Motion, end: f64, mut steer: impl FnMut(&mut Motion, f64)) -> (f64, f64, Motion) {
-        let limits = limits();
+    fn worst(motion: Motion, end: f64, steer: impl FnMut(&mut Motion, f64)) -> (f64, f64, Motion) {
+        worst_of(motion, &limits(), end, steer)
+    }
+
+    fn worst_of(
+        mut motion: Motion,
+        limits: &Limits,
+        end: f64,
+        mut steer: impl FnMut(&mut Motion, f64),
+    ) -> (f64, f64, Motion) {
         let (mut velocity, mut acceleration): (f64, f64) = (0.0, 0.0);
         let (mut last, mut before) = (motion.at(0.0), motion.at(0.0));
         let mut i = 1;
@@ -352,5 +281,108 @@ mod tests {
         nothing.hold(7.0);
         nothing.resume(8.0);
         assert!(nothing.has_ended(8.0));
+    }
+
+    fn corner() -> Motion {
+        let via = joints(&[2.0, 0.2, 1.0]);
+        Motion::through(joints(&[0.0, 1.0, -0.5]), via, joints(&[1.0, -1.2, 0.3]), &limits(), 0.0)
+    }
+
+    /// Least distance of a motion from `via`, in the joint that is furthest from it.
+    fn passes(motion: &Motion, via: &Joints) -> f64 {
+        let end = motion.ends_at().unwrap();
+        let far =
+            |t: f64| motion.at(t).iter().zip(via.iter()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        (0..=20_000).map(|i| far(end * f64::from(i) / 20_000.0)).fold(f64::INFINITY, f64::min)
+    }
+
+    #[test]
+    fn a_corner_is_passed_without_a_stop_near_its_place_and_within_the_limits() {
+        let mut random = Random::new(21);
+        let mut anywhere = |half: f64| joints(&[0.0; 3].map(|_: f64| random.between(-half, half)));
+        let mut slowest = f64::INFINITY;
+        for i in 0..300 {
+            let half = [3.0, 0.3, 0.01][i % 3];
+            let [from, via, to] = [0; 3].map(|_| anywhere(half));
+            let limits = limits().at_speed([1.0, 0.1][i % 2]);
+            let motion = Motion::through(from, via, to, &limits, 0.0);
+            let end = motion.ends_at().unwrap();
+            assert_eq!((motion.at(0.0), motion.at(end)), (from, to));
+            let near = passes(&motion, &via);
+            assert!(near <= CORNER_NEAR + 1e-3 * half, "{near} from {via:?}");
+            let stop = Motion::undisturbed(from, via, &limits) + Motion::undisturbed(via, to, &limits);
+            assert!(end < 1.01 * stop, "{end}, with a stop {stop}");
+            let (velocity, acceleration, motion) = worst_of(motion, &limits, end + 0.1, |_, _| {});
+            assert!(velocity <= 1.0 + 1e-9, "{velocity} through {via:?}");
+            assert!(acceleration <= 1.0 + 1e-6, "{acceleration} through {via:?}");
+            // On the way it never stands.
+            for step in 1..1000 {
+                slowest = slowest.min(motion.speed(end * f64::from(step) / 1000.0) * end);
+            }
+        }
+        assert!(slowest > 1e-3, "{slowest}");
+    }
+
+    #[test]
+    fn held_anywhere_about_a_corner_it_stops_on_its_way_and_ends_at_the_goal() {
+        let whole = corner().ends_at().unwrap();
+        let at_place = |place: f64| corner().path.at(place);
+        for part in 0..150 {
+            let halt = whole * f64::from(part) / 148.0;
+            for pause in [0.0, 0.004, 0.1, 0.3, 0.9, 3.0] {
+                let mut rest = 0.0;
+                let steer = |motion: &mut Motion, t: f64| {
+                    if t >= halt && t < halt + pause {
+                        motion.hold(t);
+                        rest = motion.rests_at();
+                    } else if t >= halt + pause {
+                        motion.resume(t);
+                    }
+                };
+                let (velocity, acceleration, motion) =
+                    worst_of(corner(), &limits(), whole + pause + 4.0, steer);
+                assert!(velocity <= 1.0 + 1e-9, "{velocity} held at {halt}");
+                assert!(acceleration <= 1.0 + 1e-6, "{acceleration} held at {halt} for {pause}");
+                assert!(pause < 3.0 || rest <= halt + 3.0, "{rest} held at {halt}");
+                let end = motion.ends_at().unwrap();
+                assert_eq!(motion.at(end), joints(&[1.0, -1.2, 0.3]));
+                assert!(end >= whole - 1e-9 && end <= whole + pause + 4.0, "{end} of {whole}");
+                let t = halt + pause + 0.05;
+                assert_eq!(motion.at(t), at_place(motion.place(t)));
+            }
+        }
+    }
+
+    #[test]
+    fn a_corner_held_and_held_again_keeps_its_limits() {
+        let mut random = Random::new(22);
+        for _ in 0..200 {
+            let mut change = 0.0;
+            let (velocity, acceleration, motion) = worst_of(corner(), &limits(), 60.0, |motion, t| {
+                if t < change {
+                    return;
+                }
+                change = t + random.between(0.0, 0.8);
+                if motion.is_held() || t > 40.0 { motion.resume(t) } else { motion.hold(t) }
+            });
+            assert!(velocity <= 1.0 + 1e-9, "{velocity}");
+            assert!(acceleration <= 1.0 + 1e-6, "{acceleration}");
+            assert_eq!(motion.at(60.0), joints(&[1.0, -1.2, 0.3]));
+        }
+    }
+
+    #[test]
+    fn a_way_without_a_corner() {
+        let (from, via, to) = (joints(&[0.0; 3]), joints(&[1.0, 0.5, -0.2]), joints(&[3.0, 1.5, -0.6]));
+        let straight = Motion::undisturbed(from, to, &limits());
+        for (via, duration) in [(via, straight), (from, straight), (to, straight)] {
+            let motion = Motion::through(from, via, to, &limits(), 0.0);
+            assert!((motion.rests_at() - duration).abs() < 1e-6, "{} {duration}", motion.rests_at());
+        }
+        // There and back: the corner turns round.
+        let motion = Motion::through(from, via, from, &limits(), 0.0);
+        assert_eq!(motion.at(motion.rests_at()), from);
+        assert!(passes(&motion, &via) <= CORNER_NEAR);
+        assert_eq!(Motion::through(from, from, from, &limits(), 3.0).ends_at(), Some(3.0));
     }
 }

@@ -19,16 +19,16 @@ use crate::device::{Device, Direction};
 use crate::geometry::Geometry;
 use crate::item::{Carrier, Items};
 use crate::kinematics::arm::Joints;
-use crate::line::{Line, Order};
+use crate::line::Line;
 use crate::point::Point;
 use arm::Arm;
-use belt::Belt;
+use belt::{Belt, Spawn};
 use command::Command;
 use course::Course;
 use drive::Drive;
 use gripper::{CONTACT, Gripper, Slip};
 use image::out;
-use station::Station;
+use station::{Desk, Station};
 use vehicle::Vehicle;
 
 /// The state of the plant at the start of a scan.
@@ -40,7 +40,7 @@ pub struct Plant {
     items: Items,
     /// Heights of the kinds.
     heights: Vec<f64>,
-    orders: Vec<Order>,
+    desk: Desk,
     images: Vec<Vec<f64>>,
 }
 
@@ -60,8 +60,9 @@ impl Plant {
     pub fn new(line: &Line) -> Result<Self, String> {
         line.check()?;
         let mut items = Items::new(line);
+        let desk = Desk::new(line.scenario.orders.clone());
         let machines = (0..line.machines.len())
-            .map(|index| Machine::new(line, index, &mut items))
+            .map(|index| Machine::new(line, index, &desk, &mut items))
             .collect::<Result<Vec<_>, _>>()?;
         let kinds = line.kinds.len();
         let images =
@@ -72,7 +73,7 @@ impl Plant {
             machines,
             items,
             heights: line.kinds.iter().map(|kind| kind.height).collect(),
-            orders: line.scenario.orders.clone(),
+            desk,
             images,
         };
         plant.write_images();
@@ -102,8 +103,13 @@ impl Plant {
         for (index, machine) in self.machines.iter_mut().enumerate() {
             match machine {
                 Machine::Arm(arm) => arm.settle(),
-                Machine::Station(station) => station.advance(index, &self.orders, &mut self.items),
+                Machine::Station(station) => station.advance(index, &mut self.desk, &mut self.items),
                 Machine::Belt(_) | Machine::Vehicle(_) | Machine::Bin(_) => {}
+            }
+        }
+        for (index, machine) in self.machines.iter_mut().enumerate() {
+            if let Machine::Station(station) = machine {
+                station.withdraw(index, &self.desk, &mut self.items);
             }
         }
         self.scan += 1;
@@ -190,7 +196,7 @@ impl Plant {
                 Machine::Belt(belt) => belt.write(image, kinds, index, &self.items),
                 Machine::Vehicle(vehicle) => vehicle.write(image),
                 Machine::Arm(arm) => arm.write(image),
-                Machine::Station(station) => station.write(image, &self.orders),
+                Machine::Station(station) => station.write(image, &self.desk),
                 Machine::Bin(_) => {}
             }
         }
@@ -266,7 +272,7 @@ impl Plant {
     /// Number of the orders of a station that have not opened yet.
     pub fn orders_to_open(&self, machine: usize) -> usize {
         match self.machines.get(machine) {
-            Some(Machine::Station(station)) => station.orders_to_open(),
+            Some(Machine::Station(station)) => station.orders_to_open(&self.desk),
             _ => 0,
         }
     }
@@ -287,7 +293,7 @@ impl Plant {
 }
 
 impl Machine {
-    fn new(line: &Line, index: usize, items: &mut Items) -> Result<Self, String> {
+    fn new(line: &Line, index: usize, desk: &Desk, items: &mut Items) -> Result<Self, String> {
         let scenario = &line.scenario;
         let command = || {
             let refusals = scenario.refusals.iter().filter(|r| r.machine == index);
@@ -304,8 +310,11 @@ impl Machine {
                     }
                     first += other.items.len();
                 }
-                let spawn_ms = milliseconds(scenario.spawn_every_s);
-                Machine::Belt(Belt::new(command(), *pose, *orient, *orient_range, spawn_ms, supply))
+                let spawn = Spawn {
+                    first_ms: milliseconds(scenario.spawn_first_s),
+                    every_ms: milliseconds(scenario.spawn_every_s),
+                };
+                Machine::Belt(Belt::new(command(), *pose, *orient, *orient_range, spawn, supply))
             }
             Geometry::Vehicle { pose, .. } => {
                 Machine::Vehicle(Vehicle::new(command(), machine.geometry.stops(), *pose))
@@ -321,9 +330,9 @@ impl Machine {
             }
             Geometry::Station { pose } => {
                 let orders = scenario.orders.iter().enumerate();
-                let queue = orders.filter(|(_, order)| order.station == index).map(|(i, _)| i).collect();
-                let mut station = Station::new(*pose, queue);
-                station.open(items);
+                let here = orders.filter(|(_, order)| order.stations.contains(&index));
+                let mut station = Station::new(*pose, here.map(|(i, _)| i).collect());
+                station.open(index, desk, items);
                 Machine::Station(station)
             }
             Geometry::Bin { pose } => Machine::Bin(*pose),

@@ -39,6 +39,7 @@ pub struct Report {
 pub struct OrderTimes {
     /// From 1.
     pub number: usize,
+    /// Where it was made; before that, all at which it may be.
     pub station: String,
     pub opened_s: Option<f64>,
     pub made_s: Option<f64>,
@@ -79,6 +80,10 @@ pub(crate) struct Outcome {
     pub collisions: Vec<Contact>,
 }
 
+fn names(line: &Line, machines: &[usize]) -> String {
+    machines.iter().map(|&machine| line.machines[machine].name.as_str()).collect::<Vec<_>>().join(", ")
+}
+
 impl Report {
     pub(crate) fn new(line: &Line, plant: &Plant, outcome: Outcome) -> Self {
         let seconds = |scans: u64| seconds(scans, line.scan_ms);
@@ -89,17 +94,21 @@ impl Report {
             .enumerate()
             .map(|(i, order)| OrderTimes {
                 number: i + 1,
-                station: line.machines[order.station].name.clone(),
+                station: names(line, &order.stations),
                 opened_s: None,
                 made_s: None,
             })
             .collect();
         for event in plant.items().log() {
-            let Event::Order { scan, order, change } = *event else { continue };
+            let Event::Order { scan, machine, order, change } = *event else { continue };
+            let times = &mut order_times[order];
             match change {
-                OrderChange::Opened => order_times[order].opened_s = Some(seconds(scan)),
-                OrderChange::Made => order_times[order].made_s = Some(seconds(scan)),
-                OrderChange::Refused => {}
+                OrderChange::Opened => times.opened_s = times.opened_s.or(Some(seconds(scan))),
+                OrderChange::Made => {
+                    times.made_s = Some(seconds(scan));
+                    times.station = line.machines[machine].name.clone();
+                }
+                OrderChange::Refused | OrderChange::Withdrawn => {}
             }
         }
         let orders_done = order_times.iter().filter(|times| times.made_s.is_some()).count();

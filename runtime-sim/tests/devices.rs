@@ -4,9 +4,10 @@ mod common;
 
 use common::*;
 use runtime_sim::device::error;
+use runtime_sim::event::{Event, OrderChange, conservation};
 use runtime_sim::geometry::{Geometry, TRAY_SURFACE, slot_offset};
 use runtime_sim::item::Carrier;
-use runtime_sim::line::{Machine, Order, Refusal, Slip, Supply};
+use runtime_sim::line::{Line, Machine, Order, Refusal, Slip, Supply};
 use runtime_sim::point::Point;
 
 fn near(a: Point, b: Point) -> bool {
@@ -108,6 +109,27 @@ fn parts_appear_a_pitch_apart_while_the_belt_runs() {
     rig.step(1);
     let (first, second) = (rig.plant.place(0).unwrap(), rig.plant.place(1).unwrap());
     assert!((second.y - 4.3).abs() < 1e-12 && (second.y - first.y - 0.4).abs() < 1e-12);
+}
+
+#[test]
+fn the_first_part_may_appear_earlier_or_later_than_the_next() {
+    for (first_s, scans) in [(0.0, 1), (0.5, 50), (8.0, 800)] {
+        let mut line = line();
+        line.scenario.spawn_first_s = first_s;
+        let mut rig = Rig::new(&line);
+        rig.command(BELT, DRIVE, None);
+        rig.step(scans - 1);
+        assert_eq!(rig.plant.place(0), None, "{first_s}");
+        rig.step(1);
+        let first = rig.plant.place(0).unwrap();
+        let travelled = 0.01 * scans as f64 - first_s;
+        assert!(near(first, Point::new(-0.573076, 4.3 - 0.2 * travelled, 0.875)), "{first:?}");
+        rig.step(199);
+        assert_eq!(rig.plant.place(1).is_some(), scans == 1);
+        rig.step(1);
+        let (first, second) = (rig.plant.place(0).unwrap(), rig.plant.place(1).unwrap());
+        assert!((second.y - first.y - 0.4).abs() < 1e-12);
+    }
 }
 
 #[test]
@@ -453,14 +475,156 @@ fn a_pick_that_waits_does_not_end_while_it_is_held() {
     assert_eq!(rig.finish(KITTING) + 20, 51);
 }
 
+// --- pace, turns and places to pass
+
+#[test]
+fn a_pace_holds_for_all_later_motions() {
+    let (there, back) = (Point::new(-0.6, 3.0, 1.2), Point::new(-0.6, -1.0, 1.2));
+    let scans = |rig: &mut Rig, goal: Point| {
+        rig.command(KITTING, MOVE, Some(goal));
+        rig.finish(KITTING)
+    };
+    let mut rig = Rig::new(&line());
+    rig.go(KITTING, MOVE, there);
+    // 4 m of rail at 1 m/s, with 1 m/s2: 5 s.
+    assert_eq!(scans(&mut rig, back), 500);
+    assert_eq!(rig.pace(KITTING, 0.1, 2.0), 0.0);
+    assert_eq!(scans(&mut rig, there), 4005);
+    assert_eq!(scans(&mut rig, back), 4005);
+    assert_eq!(rig.pace(KITTING, 1.0, 1.0), 0.0);
+    assert_eq!(scans(&mut rig, there), 500);
+}
+
+#[test]
+fn a_pace_out_of_range_is_refused() {
+    let mut rig = Rig::new(&line());
+    let refused = f64::from(error::REFUSED);
+    for (speed, gain) in [
+        (0.0, 1.0),
+        (-0.5, 1.0),
+        (1.000001, 1.0),
+        (f64::NAN, 1.0),
+        (f64::INFINITY, 1.0),
+        (1e-310, 1.0),
+        (1.0, 0.0),
+        (1.0, -1.0),
+        (1.0, 100.1),
+        (1.0, f64::NAN),
+    ] {
+        for arm in [KITTING, GANTRY] {
+            assert_eq!(rig.pace(arm, speed, gain), refused, "{speed} {gain}");
+        }
+    }
+    for (speed, gain) in [(f64::MIN_POSITIVE, f64::MIN_POSITIVE), (f64::MIN_POSITIVE, 100.0), (1.0, 100.0)] {
+        assert_eq!(rig.pace(KITTING, speed, gain), 0.0, "{speed} {gain}");
+        rig.command(KITTING, MOVE, Some(Point::new(-0.6, 3.0, 1.2)));
+        rig.step(50);
+        assert!(point(rig.image(KITTING), input::TOOL).y.is_finite());
+        rig.outputs[KITTING][output::HOLD] = 1.0;
+        rig.step(50);
+        rig.outputs[KITTING][output::HOLD] = 0.0;
+        rig.step(50);
+        assert!(!rig.is_ended(KITTING));
+        if speed == 1.0 {
+            assert!(rig.finish(KITTING) < 1000);
+        }
+        rig = Rig::new(&line());
+    }
+}
+
+#[test]
+fn a_pace_on_the_way_is_refused_and_the_arm_brakes() {
+    let mut rig = Rig::new(&line());
+    let goal = Point::new(-0.6, 3.0, 1.2);
+    rig.command(KITTING, MOVE, Some(goal));
+    rig.step(100);
+    assert_eq!(rig.pace(KITTING, 0.1, 1.0), f64::from(error::REFUSED));
+    rig.step(300);
+    let stands = point(rig.image(KITTING), input::TOOL);
+    rig.step(100);
+    assert_eq!(point(rig.image(KITTING), input::TOOL), stands);
+    assert!(!near(stands, goal));
+    rig.command(KITTING, MOVE, Some(goal));
+    assert!(rig.finish(KITTING) < 500, "at full speed, as before");
+}
+
+#[test]
+fn the_torso_turns_as_far_as_it_is_told() {
+    use std::f64::consts::PI;
+    let mut rig = Rig::new(&line());
+    let goal = Point::new(-5.6, 0.5, 1.0);
+    let turn = |rig: &mut Rig, turn: f64, goal: Point| {
+        rig.outputs[GANTRY][output::TURN] = turn;
+        rig.command(GANTRY, TURN_TO, Some(goal));
+        let scans = rig.finish(GANTRY);
+        (rig.image(GANTRY)[input::ERROR], scans)
+    };
+    for angle in [PI / 2.0, PI, 0.0, -PI / 2.0, 2.0 * PI] {
+        assert_eq!(turn(&mut rig, angle, goal).0, 0.0, "{angle}");
+        assert!(near(point(rig.image(GANTRY), input::TOOL), goal), "{angle}");
+    }
+    assert_eq!(turn(&mut rig, PI, goal).0, 0.0);
+    // pi and -pi are one place and two values of the joint: a whole turn at pi/4 rad/s.
+    let (error, scans) = turn(&mut rig, -PI, goal);
+    assert_eq!(error, 0.0);
+    assert!((800..900).contains(&scans), "{scans}");
+    let unreachable = f64::from(error::UNREACHABLE);
+    for (angle, goal) in [
+        (2.0 * PI + 1e-9, goal),
+        (f64::NAN, goal),
+        (0.0, Point::new(f64::NAN, 0.0, 1.0)),
+        // The torso would be at y = -4.5 - 0.637.
+        (0.0, Point::new(-5.6, -4.5, 1.0)),
+        (0.0, Point::new(-5.6, 0.5, 0.6)),
+    ] {
+        assert_eq!(turn(&mut rig, angle, goal).0, unreachable, "{angle} {goal:?}");
+    }
+    assert_eq!(turn(&mut rig, PI, Point::new(-5.6, -4.5, 1.0)).0, 0.0);
+    assert_eq!(rig.go(KITTING, TURN_TO, Point::new(-0.6, 1.0, 1.2)), f64::from(error::REFUSED), "no torso");
+}
+
+#[test]
+fn an_arm_passes_a_place_without_a_stop() {
+    let (via, goal) = (Point::new(-0.6, 1.5, 1.5), Point::new(-0.6, 3.0, 1.1));
+    let mut rig = Rig::new(&line());
+    rig.command(KITTING, MOVE, Some(via));
+    let first = rig.finish(KITTING);
+    rig.command(KITTING, MOVE, Some(goal));
+    let with_a_stop = first + rig.finish(KITTING);
+    let distance = |a: Point| {
+        let d = a - via;
+        (d.x * d.x + d.y * d.y + d.z * d.z).sqrt()
+    };
+    let mut rig = Rig::new(&line());
+    rig.outputs[KITTING][output::VIA..output::VIA + 3].copy_from_slice(&[via.x, via.y, via.z]);
+    rig.command(KITTING, THROUGH, Some(goal));
+    let (mut scans, mut nearest, mut last) = (0, f64::INFINITY, point(rig.image(KITTING), input::TOOL));
+    rig.step(30);
+    while !rig.is_ended(KITTING) {
+        rig.step(1);
+        let tool = point(rig.image(KITTING), input::TOOL);
+        assert!(scans > 200 || tool != last, "stands after {scans} scans");
+        (last, scans) = (tool, scans + 1);
+        nearest = nearest.min(distance(tool));
+    }
+    assert!(near(point(rig.image(KITTING), input::TOOL), goal));
+    assert!(scans + 30 < with_a_stop - 50, "{scans} {with_a_stop}");
+    assert!(nearest < 0.1, "{nearest}");
+    for (via, goal) in [(Point::new(1.0, 0.0, 1.0), goal), (goal, Point::new(1.0, 0.0, 1.0))] {
+        rig.outputs[KITTING][output::VIA..output::VIA + 3].copy_from_slice(&[via.x, via.y, via.z]);
+        assert_eq!(rig.go(KITTING, THROUGH, goal), f64::from(error::UNREACHABLE));
+    }
+}
+
 // --- station
 
 #[test]
 fn orders_of_a_station_open_one_after_another() {
     let mut line = line();
     // An order of nothing is made as soon as it is reported complete.
-    line.scenario.orders =
-        [[0, 0], [1, 0], [0, 0]].map(|parts| Order { station: STATION, parts: parts.to_vec() }).to_vec();
+    line.scenario.orders = [[0, 0], [1, 0], [0, 0]]
+        .map(|parts| Order { stations: vec![STATION], parts: parts.to_vec() })
+        .to_vec();
     let mut rig = Rig::new(&line);
     assert_eq!(rig.image(STATION), [1.0, 0.0, 0.0, 1.0]);
     rig.outputs[STATION][output::COMPLETE] = 1.0;
@@ -483,19 +647,23 @@ fn orders_of_a_station_open_one_after_another() {
 
 /// The gantry takes a part of this kind from the belt and lets it go over the station.
 fn deliver(rig: &mut Rig, kind: usize) {
+    deliver_at(rig, kind, Point::new(-7.2, 3.1, 1.5));
+}
+
+fn deliver_at(rig: &mut Rig, kind: usize, place: Point) {
     let at = grip_point(rig.bring(kind), kind);
     assert_eq!(rig.go(GANTRY, MOVE, at.up(0.3)), 0.0);
     rig.outputs[GANTRY][output::GRIP] = 1.0;
     assert_eq!(rig.go(GANTRY, PICK, at), 0.0);
     assert_eq!(rig.go(GANTRY, MOVE, at.up(0.3)), 0.0);
-    assert_eq!(rig.go(GANTRY, MOVE, Point::new(-7.2, 3.1, 1.5)), 0.0);
+    assert_eq!(rig.go(GANTRY, MOVE, place), 0.0);
     rig.let_go(GANTRY);
 }
 
 #[test]
 fn an_order_is_made_of_its_parts_and_no_others() {
     let mut line = line();
-    line.scenario.orders = vec![Order { station: STATION, parts: vec![1, 0] }];
+    line.scenario.orders = vec![Order { stations: vec![STATION], parts: vec![1, 0] }];
     for (kinds, made) in [(vec![BATTERY], true), (vec![BATTERY, PUMP], false), (vec![PUMP], false)] {
         let mut rig = Rig::new(&line);
         for kind in kinds {
@@ -517,4 +685,99 @@ fn without_an_order_there_is_no_briefcase() {
     deliver(&mut rig, BATTERY);
     assert_eq!(rig.image(STATION), [0.0; 4]);
     assert!(matches!(rig.plant.items().all()[0].carrier, Carrier::Floor { .. }));
+}
+
+/// A second station beside the first; orders of one battery each lie open at both.
+fn two_stations(orders: usize) -> (Line, usize) {
+    let mut line = line();
+    let other = line.machines.len();
+    let geometry = Geometry::Station { pose: Point::new(-7.3, -3.0, 0.0) };
+    line.machines.push(Machine { name: "as3".into(), geometry, states: vec![] });
+    line.scenario.orders = vec![Order { stations: vec![STATION, other], parts: vec![1, 0] }; orders];
+    line.scenario.supply = vec![Supply { belt: BELT, items: vec![BATTERY, PUMP, BATTERY, BATTERY] }];
+    (line, other)
+}
+
+#[test]
+fn an_order_at_two_stations_is_made_at_one_and_withdrawn_at_the_other() {
+    let (line, other) = two_stations(2);
+    let mut rig = Rig::new(&line);
+    for station in [STATION, other] {
+        assert_eq!(rig.image(station), [1.0, 1.0, 0.0, 1.0]);
+        rig.outputs[station][output::COMPLETE] = 1.0;
+    }
+    deliver(&mut rig, BATTERY);
+    rig.step(50);
+    // Made where its parts fell; gone at the other in the same scan, and `complete` is not answered there.
+    assert_eq!(rig.image(STATION), [0.0; 4]);
+    assert_eq!(rig.image(other), [0.0; 4]);
+    assert_eq!(rig.plant.items().all()[0].carrier, Carrier::Shipped { order: 0 });
+    // The next one opens at each station when `complete` has fallen there.
+    rig.outputs[other][output::COMPLETE] = 0.0;
+    rig.step(2);
+    assert_eq!(rig.image(STATION), [0.0; 4]);
+    assert_eq!(rig.image(other), [1.0, 1.0, 0.0, 2.0]);
+    rig.outputs[STATION][output::COMPLETE] = 0.0;
+    rig.step(2);
+    assert_eq!(rig.image(STATION), [1.0, 1.0, 0.0, 2.0]);
+    assert_eq!(conservation(rig.plant.items().log(), rig.plant.items()), Ok(()));
+}
+
+#[test]
+fn what_lies_in_a_withdrawn_briefcase_is_collected() {
+    let (line, other) = two_stations(1);
+    let mut rig = Rig::new(&line);
+    deliver_at(&mut rig, BATTERY, Point::new(-7.2, -2.9, 1.5));
+    deliver_at(&mut rig, PUMP, Point::new(-7.2, -2.9, 1.5));
+    assert_eq!(rig.plant.items().borne_by(other), [0, 1]);
+    deliver(&mut rig, BATTERY);
+    for station in [STATION, other] {
+        rig.outputs[station][output::COMPLETE] = 1.0;
+    }
+    rig.step(1);
+    assert_eq!((rig.image(STATION)[input::ORDER_OPEN], rig.image(other)[input::ORDER_OPEN]), (0.0, 0.0));
+    let carriers: Vec<Carrier> = rig.plant.items().all().iter().map(|item| item.carrier).collect();
+    assert_eq!(carriers[..3], [Carrier::Collector, Carrier::Collector, Carrier::Shipped { order: 0 }]);
+    assert_eq!(rig.plant.items().borne_by(other), []);
+    assert_eq!(conservation(rig.plant.items().log(), rig.plant.items()), Ok(()));
+    assert_eq!(rig.plant.orders_to_open(STATION) + rig.plant.orders_to_open(other), 0);
+}
+
+#[test]
+fn an_order_that_is_made_before_its_turn_does_not_open() {
+    let (mut line, other) = two_stations(1);
+    // At the first station its turn comes after another order.
+    line.scenario.orders.insert(0, Order { stations: vec![STATION], parts: vec![0, 1] });
+    let mut rig = Rig::new(&line);
+    assert_eq!(rig.image(STATION), [1.0, 0.0, 1.0, 1.0]);
+    assert_eq!(rig.image(other), [1.0, 1.0, 0.0, 2.0]);
+    assert_eq!(rig.plant.orders_to_open(STATION), 1);
+    rig.outputs[other][output::COMPLETE] = 1.0;
+    deliver_at(&mut rig, BATTERY, Point::new(-7.2, -2.9, 1.5));
+    assert_eq!(rig.plant.items().all()[0].carrier, Carrier::Shipped { order: 1 });
+    assert_eq!(rig.plant.orders_to_open(STATION), 0);
+    rig.outputs[STATION][output::COMPLETE] = 1.0;
+    deliver(&mut rig, PUMP);
+    assert_eq!(rig.plant.items().all()[1].carrier, Carrier::Shipped { order: 0 });
+    rig.outputs[STATION][output::COMPLETE] = 0.0;
+    rig.step(5);
+    assert_eq!(rig.image(STATION), [0.0; 4]);
+    assert!(!rig.plant.is_busy() || rig.image(BELT)[input::MOVING] != 0.0);
+}
+
+#[test]
+fn two_stations_that_have_the_parts_at_once_make_one_order() {
+    let (line, other) = two_stations(1);
+    let mut rig = Rig::new(&line);
+    deliver(&mut rig, BATTERY);
+    deliver_at(&mut rig, BATTERY, Point::new(-7.2, -2.9, 1.5));
+    for station in [STATION, other] {
+        rig.outputs[station][output::COMPLETE] = 1.0;
+    }
+    rig.step(1);
+    assert_eq!(rig.plant.items().all()[0].carrier, Carrier::Shipped { order: 0 });
+    let second = rig.plant.items().all().iter().rposition(|item| item.carrier == Carrier::Collector);
+    assert_eq!(second, Some(2));
+    let made = |event: &&Event| matches!(event, Event::Order { change: OrderChange::Made, .. });
+    assert_eq!(rig.plant.items().log().iter().filter(made).count(), 1);
 }

@@ -64,7 +64,16 @@ fn what_cannot_be_run_is_refused() {
     };
     assert_eq!(refused(|l| l.scan_ms = 0), "a scan of 0 ms is not between 1 and 1000 ms");
     assert_eq!(refused(|l| l.kinds[1].height = 0.0), "the height of pump is no positive number");
-    assert_eq!(refused(|l| l.scenario.orders[0].station = 1), "an order at kitting, which is no station");
+    assert_eq!(
+        refused(|l| l.scenario.orders[0].stations = vec![1]),
+        "an order at kitting, which is no station"
+    );
+    assert_eq!(refused(|l| l.scenario.orders[0].stations.clear()), "order 1 names no station");
+    assert_eq!(refused(|l| l.scenario.orders[0].stations.push(STATION)), "order 1 names as1 twice");
+    assert_eq!(
+        refused(|l| l.scenario.spawn_first_s = -1.0),
+        "spawn_first_s -1.0 is not between 0 and 32000000.0"
+    );
     assert_eq!(
         refused(|l| l.scenario.supply[0].items[1] = 2),
         "the supply of belt names kind 2, which is not there"

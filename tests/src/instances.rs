@@ -77,6 +77,7 @@ fn parameters(model: &Model, automaton: &Automaton, random: &mut Random) -> Vec<
     };
     let mut of = |p: &autogen::ir::Parameter| match &p.source {
         ParameterSource::Layout(default) => vec![default.expect("a default"); elements(model, p.ty.extent)],
+        ParameterSource::Scenario => vec![Value::Int(0); elements(model, p.ty.extent)],
         ParameterSource::Device => (0..elements(model, p.ty.extent)).map(|_| value(p.ty.scalar)).collect(),
     };
     automaton.parameters.iter().map(&mut of).collect()

@@ -97,6 +97,13 @@ pub fn own_line(folder: &str) -> Texts {
     Texts { layout: text(&format!("examples/{folder}/{folder}.json")), specs, scenario, ..Texts::default() }
 }
 
+/// Every line of the examples by name.
+pub fn examples() -> Vec<(String, Texts)> {
+    let layouts = LAYOUTS.map(|layout| (layout.to_string(), ariac(layout)));
+    let own = ["buffer", "shared_agv"].map(|line| (line.to_string(), own_line(line)));
+    layouts.into_iter().chain(own).collect()
+}
+
 /// Runs `job` for each of the inputs on all processors; results in the order of the inputs.
 pub fn on_all_processors<T: Sync, R: Send>(inputs: &[T], job: impl Fn(&T) -> R + Sync) -> Vec<R> {
     let next = std::sync::atomic::AtomicUsize::new(0);

@@ -1,7 +1,7 @@
 //! The generated Rust: how it reads, that it compiles without a warning, that no path leads to a panic,
 //! and that it does what the reference executor does.
 
-use autogen::backend::rust;
+use autogen::backend::{rust, st};
 use autogen::executor::Executor;
 use autogen::ir::System;
 use autogen::source::Sources;
@@ -12,6 +12,7 @@ use autogen_tests::workspace::Workspace;
 use autogen_tests::{ariac, root};
 use runtime_sim::device::Direction;
 use runtime_sim::run::{Seen, run as simulate};
+use std::io::{BufRead, BufReader};
 
 /// Names and texts of the fixtures.
 fn fixtures() -> Vec<(String, String)> {
@@ -107,13 +108,30 @@ fn the_line_runs_as_on_the_executor() {
     workspace.put("line.txt", &project.plant.to_text());
     workspace.cargo(&["clippy", "--quiet", "--all-targets", "--", "-D", "warnings"]);
     workspace.cargo(&["build", "--quiet", "--release", "-p", "commissioning", "--bins"]);
-    let arguments = ["line.txt", "parameters.txt", "--hashes", "hashes.txt"];
+    let columns = st::columns(&project.system, &outcome.sources);
+    workspace.put("columns.txt", &columns.to_text());
+    let hashes = ["--hashes", "hashes.txt"];
+    let arguments =
+        [&["line.txt", "parameters.txt"], &hashes[..], &["--io-trace", "columns.txt", "trace.csv"]].concat();
     let report = run(&workspace.program("commissioning"), &arguments, &workspace.folder, "");
 
     let mut hashes = String::new();
+    let trace = std::fs::File::open(workspace.folder.join("trace.csv")).expect("the I/O trace");
+    let mut trace = BufReader::new(trace);
+    let (mut wanted, mut found) = (columns.header(), String::new());
+    trace.read_line(&mut found).expect("a line");
+    assert_eq!(found, wanted);
     let mut executor = Executor::new(&project.system);
-    let observe = &mut |seen: &Seen| hashes += &format!("{:016x}\n", seen.hash);
+    let observe = &mut |seen: &Seen| {
+        hashes += &format!("{:016x}\n", seen.hash);
+        wanted.clear();
+        found.clear();
+        columns.row(seen, &mut wanted);
+        trace.read_line(&mut found).expect("a line");
+        assert_eq!(found, wanted, "scan {}", seen.scan);
+    };
     let expected = simulate(&project.plant, &mut executor, observe).expect("a line that can be run");
+    assert_eq!(trace.read_line(&mut found).expect("the end"), 0);
     let found = std::fs::read_to_string(workspace.folder.join("hashes.txt")).expect("the hashes");
     for (scan, (found, wanted)) in found.lines().zip(hashes.lines()).enumerate() {
         assert_eq!(found, wanted, "scan {scan}");

@@ -11,6 +11,7 @@
 mod block;
 mod bounds;
 mod code;
+mod columns;
 mod context;
 mod declaration;
 mod expression;
@@ -18,7 +19,9 @@ mod figures;
 mod functions;
 mod globals;
 mod guard;
+mod image;
 mod names;
+mod points;
 mod print;
 mod program;
 mod role;
@@ -30,17 +33,32 @@ mod walk;
 mod xml;
 
 use super::Files;
+use crate::io_map::{IoMap, Point};
 use crate::ir::{AutomatonId, System};
 use crate::source::Sources;
 use context::Shared;
 use globals::Globals;
+use image::Image;
 use program::Blocks;
+use runtime_sim::io_trace::Columns;
 
-/// The files of the folder `plc/`.
+/// Every point of I/O, in the order of `io.csv`; an [`IoMap`] counts them so.
+pub fn points(system: &System) -> Vec<Point> {
+    points::terminals(system, &names::names(system)).into_iter().map(|terminal| terminal.point).collect()
+}
+
+/// The files of the folder `plc/`, without addresses.
 pub fn files(system: &System, sources: &Sources) -> Files {
+    mapped(system, sources, &IoMap::default())
+}
+
+/// The files of the folder `plc/`, with the addresses of a map for [`points`] of the same system.
+pub fn mapped(system: &System, sources: &Sources, map: &IoMap) -> Files {
     let names = names::names(system);
+    let mut program = names.program.inner();
+    let image = image::image(system, &names, map, &mut program);
     let shared = Shared { system, sources, names: &names };
-    let line = line(shared);
+    let line = line(shared, &image);
     let mut files = Files::new();
     files.insert("portable/main.st".into(), text::portable(shared, &line));
     files.insert("portable/project.xml".into(), xml::plcopen(shared, &line));
@@ -48,13 +66,23 @@ pub fn files(system: &System, sources: &Sources) -> Files {
         files.insert(format!("codesys/{name}"), text);
     }
     files.insert("codesys/project.xml".into(), xml::codesys(shared, &line));
-    files.insert("io.csv".into(), table::io(shared));
+    files.insert("io.csv".into(), table::io(shared, map));
     files.insert("alarms.csv".into(), table::alarms(shared));
     files.insert("bounds.txt".into(), figures::report(shared, &line));
-    if !names.renamed.is_empty() {
-        files.insert("names.csv".into(), table::renamed(&names.renamed));
+    let raw = program.renamed().iter().map(|renamed| ("globals".to_string(), renamed.clone()));
+    let renamed: Vec<_> = names.renamed.iter().cloned().chain(raw).collect();
+    if !renamed.is_empty() {
+        files.insert("names.csv".into(), table::renamed(&renamed));
     }
     files
+}
+
+/// The columns of an I/O trace, named as the globals of `portable/main.st`; the state of a robot as `robot.state`.
+pub fn columns(system: &System, sources: &Sources) -> Columns {
+    let names = names::names(system);
+    let image = image::image(system, &names, &IoMap::default(), &mut names.program.inner());
+    let shared = Shared { system, sources, names: &names };
+    columns::columns(shared, &line(shared, &image).globals)
 }
 
 /// The units of a line, in the order in which they must be declared.
@@ -75,8 +103,8 @@ impl Line {
     }
 }
 
-fn line(shared: Shared) -> Line {
-    let mut globals = Globals::new(shared);
+fn line(shared: Shared, image: &Image) -> Line {
+    let mut globals = Globals::new(shared, image);
     let blocks: Vec<Option<Blocks>> = (0..shared.system.model.automata.len())
         .map(AutomatonId)
         .map(|id| {
@@ -86,7 +114,7 @@ fn line(shared: Shared) -> Line {
             })
         })
         .collect();
-    let program = program::program(shared, &blocks, &globals);
+    let program = program::program(shared, &blocks, &globals, image);
     let units =
         blocks.iter().flatten().flat_map(|b| [Some(&b.steps), b.invariants.as_ref()].into_iter().flatten());
     let mut used = code::names(&program.body);

@@ -31,6 +31,8 @@ pub struct Context<'c, 'a> {
     /// Variables in scope, innermost last.
     pub(super) variables: Vec<(String, VariableId, Scalar)>,
     pub(super) facts: Facts,
+    /// What the requirements say, and thus holds everywhere.
+    pub(super) required: Facts,
     /// `after` has a meaning.
     pub(super) in_guard: bool,
     /// Names whose declarations have errors: reading them is no further one.
@@ -75,6 +77,7 @@ pub(super) fn check(checker: &mut Checker, tree: &ast::Automaton) {
         symbols: BTreeMap::new(),
         variables: Vec::new(),
         facts: Facts::default(),
+        required: Facts::default(),
         in_guard: false,
         broken: BTreeSet::new(),
         lacks_names: false,
@@ -85,16 +88,7 @@ pub(super) fn check(checker: &mut Checker, tree: &ast::Automaton) {
     context.implements(tree);
     context.defines(tree);
     for require in &tree.requires {
-        if let Some(condition) = context.typed(&require.condition, Scalar::Bool) {
-            if reads_changing(&context.automaton, &condition) {
-                context.report(
-                    Diagnostic::new("E0325", require.span, "a requirement is decided before the line runs")
-                        .help("name parameters, device constants and roles only; what changes belongs into an `invariant`"),
-                );
-            }
-            let text = require.text.clone();
-            context.automaton.requires.push(ir::Require { place: require.span, condition, text });
-        }
+        context.require(require);
     }
     state::check(&mut context, tree);
     for invariant in &tree.invariants {
@@ -150,6 +144,30 @@ impl Context<'_, '_> {
         ir::FaultId(self.checker.model.faults.len() - 1)
     }
 
+    fn require(&mut self, tree: &ast::Require) {
+        let condition = self.typed(&tree.condition, Scalar::Bool);
+        let mut text = Vec::new();
+        for part in &tree.text {
+            match part {
+                ast::TextPart::Words(words) => text.push(ir::TextPart::Words(words.clone())),
+                ast::TextPart::Value(value) => text.extend(self.expr(value, None).map(ir::TextPart::Value)),
+            }
+        }
+        let Some(condition) = condition else { return };
+        let values = text.iter().filter_map(|part| match part {
+            ir::TextPart::Words(_) => None,
+            ir::TextPart::Value(value) => Some(value),
+        });
+        if values.chain([&condition]).any(|expr| reads_changing(&self.automaton, expr)) {
+            self.report(
+                Diagnostic::new("E0325", tree.span, "a requirement is decided before the line runs")
+                    .help("name parameters, device constants and roles only; what changes belongs into an `invariant`"),
+            );
+        }
+        self.required.learn(&condition, true);
+        self.automaton.requires.push(ir::Require { place: tree.span, condition, text });
+    }
+
     fn declare(&mut self, name: &ast::Name, symbol: Symbol) {
         if name.value == "self" || self.symbols.contains_key(&name.value) {
             let meaning = match self.symbols.get(&name.value) {
@@ -203,18 +221,17 @@ impl Context<'_, '_> {
         }
         for parameter in &tree.parameters {
             let ty = self.checker.resolve_type(&parameter.ty);
-            let default = parameter.default.as_ref().map(|expr| self.checker.constant(ty?.scalar, expr));
-            let (Some(ty), None | Some(Some(_))) = (ty, default) else {
+            let source = ty.and_then(|ty| self.checker.parameter_source(ty, parameter.default.as_ref()));
+            let (Some(ty), Some(source)) = (ty, source) else {
                 self.broken.insert(parameter.name.value.clone());
                 continue;
             };
-            let default = default.flatten();
             self.declare(&parameter.name, Symbol::Parameter(self.automaton.parameters.len()));
             self.automaton.parameters.push(ir::Parameter {
                 name: parameter.name.value.clone(),
                 doc: parameter.doc.clone(),
                 ty,
-                source: ir::ParameterSource::Layout(default),
+                source,
                 place: parameter.name.span,
             });
         }

@@ -1,7 +1,7 @@
 //! States and transitions.
 
 use super::automaton::Context;
-use super::{facts, sequence};
+use super::sequence;
 use crate::diagnostic::{Diagnostic, suggestion};
 use crate::ir::{self, Scalar, StateId};
 use crate::spec::ast;
@@ -178,7 +178,7 @@ fn transition(
     tree: &ast::Transition,
     number: &dyn Fn(&str) -> Option<StateId>,
 ) -> Option<ir::Transition> {
-    context.facts = facts::Facts::default();
+    context.facts = context.required.clone();
     let depth = context.variables.len();
     context.in_guard = true;
     let mut clauses = Vec::new();
@@ -222,7 +222,7 @@ fn transition(
         }
     }
     context.variables.truncate(depth);
-    context.facts = facts::Facts::default();
+    context.facts = context.required.clone();
     let text = context.checker.sources.text(tree.guard_span).split_whitespace().collect::<Vec<_>>().join(" ");
     whole.then_some(ir::Transition { place: tree.span, text, clauses, target, updates })
 }

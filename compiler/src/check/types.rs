@@ -128,6 +128,26 @@ impl Checker<'_> {
         None
     }
 
+    /// Where a parameter with this default takes its value from.
+    pub(super) fn parameter_source(
+        &mut self,
+        ty: ir::Type,
+        default: Option<&ast::Expr>,
+    ) -> Option<ir::ParameterSource> {
+        let Some(expr) = default else { return Some(ir::ParameterSource::Layout(None)) };
+        if !is_scenario_parts(expr) {
+            return self.constant(ty.scalar, expr).map(|value| ir::ParameterSource::Layout(Some(value)));
+        }
+        if matches!(ty.scalar, Scalar::Int { .. }) && ty.extent == Extent::By(ir::KIND) {
+            return Some(ir::ParameterSource::Scenario);
+        }
+        self.report(
+            Diagnostic::new("E0305", expr.span, "`scenario.parts` is a whole number for each kind")
+                .help("declare the parameter as `int 0..9999[Kind]`"),
+        );
+        None
+    }
+
     /// What a variable of this type holds at first.
     pub(super) fn initial(&mut self, ty: ir::Type, expr: Option<&ast::Expr>) -> Option<Value> {
         match expr {
@@ -213,5 +233,14 @@ fn number(expr: &ast::Expr) -> Option<f64> {
         ExprKind::Real(value) => Some(*value),
         ExprKind::Negate(inner) => number(inner).map(|v| -v),
         _ => None,
+    }
+}
+
+fn is_scenario_parts(expr: &ast::Expr) -> bool {
+    match &expr.kind {
+        ExprKind::Member(base, member) => {
+            matches!(&base.kind, ExprKind::Name(name) if name == "scenario") && member.value == "parts"
+        }
+        _ => false,
     }
 }

@@ -65,7 +65,14 @@ fn of_automaton(automaton: &ast::Automaton) -> Vec<String> {
 /// All words of the expressions: an enumeration may be mentioned there only, by its name or a member's.
 fn of_text(automaton: &ast::Automaton, names: &mut Vec<String>) {
     automaton.defines.iter().for_each(|d| of_expr(&d.value, names));
-    automaton.requires.iter().for_each(|r| of_expr(&r.condition, names));
+    for require in &automaton.requires {
+        of_expr(&require.condition, names);
+        for part in &require.text {
+            if let ast::TextPart::Value(value) = part {
+                of_expr(value, names);
+            }
+        }
+    }
     automaton.invariants.iter().for_each(|i| of_expr(&i.value, names));
     automaton.initial.iter().for_each(|i| of_updates(&i.updates, names));
     automaton.any.iter().for_each(|a| of_transitions(&a.transitions, names));

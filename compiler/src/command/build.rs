@@ -1,14 +1,17 @@
 //! `autogen build`.
 
-use super::options::{BuildOptions, Format};
-use super::write::{self, Files, Overwrite, Refusal};
+use super::options::{Addresses, BuildOptions, Format};
+use super::write::{self, Files, Refusal};
 use super::{load, print};
 use crate::Status;
 use autogen::backend::{dot, plan, rust, st};
+use autogen::diagnostic::Diagnostic;
+use autogen::io_map::{self, Counting, IoMap};
+use autogen::ir::System;
 use autogen::library;
 use autogen::lower::{Outcome, Project, compile};
 use autogen::simulator;
-use autogen::source::Sources;
+use autogen::source::{FileId, Sources};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
@@ -47,32 +50,52 @@ pub fn run(options: &BuildOptions) -> Status {
 
 /// Compiles and writes; what is wrong has been printed.
 pub fn build(options: &BuildOptions) -> Result<Built, Status> {
-    let input = load::load(&options.input).map_err(|failure| print::failure(&options.input, &failure))?;
+    let failed = |failure| print::failure(&options.input, &failure);
+    let mut input = load::load(&options.input).map_err(failed)?;
+    let table = options.io.as_ref().map(|path| load::add(&mut input.sources, path));
+    let table = table.transpose().map_err(failed)?;
     let Outcome { sources, diagnostics, verdict, project } = compile(input);
-    let Some(project) = project else {
+    let wrong = |diagnostics: &[Diagnostic]| {
         match options.input.format {
             Format::Json => {
-                let mut answer = print::verdict_json(verdict.as_ref(), &sources, &diagnostics);
+                let mut answer = print::verdict_json(verdict.as_ref(), &sources, diagnostics);
                 answer["finished"] = json!(false);
                 answer["reason"] = json!("the input has errors");
                 say!("{answer}");
             }
-            Format::Text => print::diagnostics(&sources, &diagnostics),
+            Format::Text => print::diagnostics(&sources, diagnostics),
         }
-        return Err(Status::WrongInput);
+        Status::WrongInput
     };
+    let Some(project) = project else { return Err(wrong(&diagnostics)) };
+    let map = io_map(options, &project, &sources, table).map_err(|found| wrong(&found))?;
     // The same input gives the same bytes, from whatever folder it is compiled.
     let sources = sources.renamed(|name| title(&options.input.layout, name));
-    let files = files(&project, &sources);
+    let files = files(&project, &sources, &map);
     let folder = options.output.clone().unwrap_or_else(|| Path::new("out").join(&project.name));
-    let overwrite = if options.force { Overwrite::Everything } else { Overwrite::Own };
-    write::write(&folder, &files, about(&project, &sources), overwrite)
+    write::write(&folder, &files, about(&project, &sources), options.overwrite())
         .map_err(|refusal| refused(options, &refusal))?;
     Ok(Built { project, sources, files, folder })
 }
 
-/// The name of an input as the output shows it: its path from the layout's folder, or its own name.
-fn title(layout: &Path, name: &str) -> String {
+/// The addresses that the table gives, if there is one.
+fn io_map(
+    options: &BuildOptions,
+    project: &Project,
+    sources: &Sources,
+    table: Option<FileId>,
+) -> Result<IoMap, Vec<Diagnostic>> {
+    let Some(table) = table else { return Ok(IoMap::default()) };
+    let counting = match options.addresses {
+        Addresses::Words => Counting::Words,
+        Addresses::Bytes => Counting::Bytes,
+        Addresses::Apart => Counting::Apart,
+    };
+    io_map::read(sources, table, &st::points(&project.system), counting)
+}
+
+/// The name of an input as outputs show it: its path from the layout's folder, or its own name.
+pub fn title(layout: &Path, name: &str) -> String {
     if library::FILES.iter().any(|(built_in, _)| *built_in == name) {
         return name.to_string();
     }
@@ -86,24 +109,34 @@ fn title(layout: &Path, name: &str) -> String {
 }
 
 /// All files of the output.
-fn files(project: &Project, sources: &Sources) -> Files {
+fn files(project: &Project, sources: &Sources, map: &IoMap) -> Files {
     let mut files = Files::new();
-    for (name, text) in rust::files(&project.system, sources) {
+    for (name, text) in files_of_rust(&project.system, sources) {
         files.insert(format!("rust/{name}"), text);
     }
-    for (name, text) in st::files(&project.system, sources) {
+    for (name, text) in st::mapped(&project.system, sources, map) {
         files.insert(format!("plc/{name}"), text);
     }
     for (name, text) in dot::files(&project.system, &project.edges) {
         files.insert(format!("graph/{name}"), text);
     }
     files.insert("graph/plan.svg".into(), plan::svg(&project.plant, &project.edges));
-    for (name, text) in simulator::SOURCES {
-        files.insert(format!("rust/runtime-sim/{name}"), (*text).into());
-    }
-    files.insert("rust/runtime-sim/Cargo.toml".into(), simulator::MANIFEST.into());
     files.insert("rust/commissioning/data/line.txt".into(), project.plant.to_text());
     files.insert("rust/commissioning/data/parameters.txt".into(), rust::parameters_text(&project.system));
+    files.insert(
+        "rust/commissioning/data/columns.txt".into(),
+        st::columns(&project.system, sources).to_text(),
+    );
+    files
+}
+
+/// The Cargo workspace that links the controllers with the simulator, without the data that it runs.
+pub fn files_of_rust(system: &System, sources: &Sources) -> Files {
+    let mut files = rust::files(system, sources);
+    for (name, text) in simulator::SOURCES {
+        files.insert(format!("runtime-sim/{name}"), (*text).into());
+    }
+    files.insert("runtime-sim/Cargo.toml".into(), simulator::MANIFEST.into());
     files
 }
 

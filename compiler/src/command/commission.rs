@@ -1,13 +1,15 @@
 //! `autogen commission`: the generated controllers, linked with the simulator, run the scenario.
 
 use super::build::{self, Built};
+use super::fault;
+use super::io_trace::IoTrace;
 use super::options::{CommissionOptions, Format};
-use super::write;
+use super::program::{self, Notice};
+use super::trajectories::Request;
 use crate::Status;
 use runtime_sim::line::IoDelay;
 use serde_json::{Value, json};
-use std::io::{IsTerminal, Read};
-use std::path::PathBuf;
+use std::io::IsTerminal;
 use std::process::{Command, Stdio};
 use std::time::Instant;
 use std::{env, fs, io};
@@ -18,13 +20,22 @@ pub fn run(options: &CommissionOptions) -> Status {
         Some(delay) => delay,
         None => return fail(options, "--io-delay takes a number of scans, `random` or `random:SEED`".into()),
     };
+    let overwrite = options.build.overwrite();
+    let io_trace = match options.io_trace.as_ref().map(|path| IoTrace::new(path, overwrite)).transpose() {
+        Ok(io_trace) => io_trace,
+        Err(text) => return fail(options, text),
+    };
+    let trajectories = match Request::new(options) {
+        Ok(request) => request,
+        Err(text) => return fail(options, text),
+    };
     let built = match build::build(&options.build) {
         Ok(built) => built,
         Err(status) => return status,
     };
-    match commission(options, &built, delay) {
+    match commission(options, &built, delay, io_trace, &trajectories) {
         Ok(mut report) => {
-            name_fault(&mut report, &built);
+            fault::name(&mut report, &built.project.system, &built.sources);
             let status = match report["finished"].as_bool() {
                 Some(true) => Status::Done,
                 _ if report["reason"].as_str().is_some_and(|r| r.starts_with("bug: ")) => Status::Bug,
@@ -37,20 +48,6 @@ pub fn run(options: &CommissionOptions) -> Status {
     }
 }
 
-/// Adds to a fault what and where it is in the text: the simulator knows its number only.
-fn name_fault(report: &mut Value, built: &Built) {
-    let Some(code) = report["fault"]["code"].as_u64().filter(|code| *code > 0) else { return };
-    let Some(site) = built.project.system.model.faults.get(code as usize - 1) else { return };
-    let place =
-        format!("{}:{}", built.sources.file(site.place.file).name, built.sources.position(site.place).0);
-    let robot = report["fault"]["robot"].as_str().unwrap_or("").to_string();
-    let state = report["robots"][&robot]["state"].as_str().unwrap_or("").to_string();
-    report["reason"] = json!(format!("fault {code} of {robot}, in state {state}: {} ({place})", site.text));
-    report["fault"]["text"] = json!(site.text);
-    report["fault"]["place"] = json!(place);
-    report["fault"]["state"] = json!(state);
-}
-
 fn fail(options: &CommissionOptions, text: String) -> Status {
     match options.build.input.format {
         Format::Json => say!("{}", json!({ "finished": false, "reason": text, "diagnostics": [] })),
@@ -59,7 +56,8 @@ fn fail(options: &CommissionOptions, text: String) -> Status {
     Status::WrongCommand
 }
 
-fn io_delay(text: &str) -> Option<IoDelay> {
+/// How late devices answer, as `--io-delay` says it.
+pub fn io_delay(text: &str) -> Option<IoDelay> {
     let random = |seed| Some(IoDelay::Random { max: 5, seed });
     match text.strip_prefix("random") {
         Some("") => random(1),
@@ -68,8 +66,20 @@ fn io_delay(text: &str) -> Option<IoDelay> {
     }
 }
 
-fn commission(options: &CommissionOptions, built: &Built, delay: IoDelay) -> Result<Value, String> {
-    let program = program(options, built)?;
+fn commission(
+    options: &CommissionOptions,
+    built: &Built,
+    delay: IoDelay,
+    io_trace: Option<IoTrace>,
+    trajectories: &Request,
+) -> Result<Value, String> {
+    trajectories.check(&built.project.plant)?;
+    let input = &options.build.input;
+    let notice = match input.format {
+        Format::Text if !input.quiet => Notice::Compiling,
+        _ => Notice::None,
+    };
+    let program = program::linked(&built.project.system, &built.sources, notice)?;
     let mut line = built.project.plant.clone();
     line.io_delay = delay;
     let folder = env::temp_dir().join(format!("autogen-{}", std::process::id()));
@@ -77,16 +87,33 @@ fn commission(options: &CommissionOptions, built: &Built, delay: IoDelay) -> Res
     fs::create_dir_all(&folder).map_err(io)?;
     fs::write(folder.join("line.txt"), line.to_text()).map_err(io)?;
     let mut command = Command::new(&program);
-    command.arg(folder.join("line.txt")).arg(built.folder.join("rust/commissioning/data/parameters.txt"));
+    let data = built.folder.join("rust/commissioning/data");
+    command.arg(folder.join("line.txt")).arg(data.join("parameters.txt"));
+    if let Some(io_trace) = &io_trace {
+        command.arg("--io-trace").arg(data.join("columns.txt")).arg(io_trace.partial());
+    }
     if let Some(path) = &options.hashes {
         command.arg("--hashes").arg(path);
     }
+    trajectories.ask(&mut command, &folder);
     if is_chatty(options) {
         command.arg("--progress");
     }
-    let output = command.stderr(Stdio::inherit()).output();
+    let result = simulate(command).and_then(|report| {
+        trajectories.write(&built.project, &folder)?;
+        Ok(report)
+    });
     let _ = fs::remove_dir_all(&folder);
-    let output = output.map_err(|e| format!("{}: {e}", program.display()))?;
+    if let (Some(io_trace), Ok(_)) = (io_trace, &result) {
+        io_trace.keep()?;
+    }
+    result
+}
+
+/// What the linked simulation reports.
+fn simulate(mut command: Command) -> Result<Value, String> {
+    let output = command.stderr(Stdio::inherit()).output();
+    let output = output.map_err(|e| format!("{}: {e}", command.get_program().display()))?;
     if !output.status.success() {
         return Err(format!("the linked simulation did not run: {}", output.status));
     }
@@ -96,67 +123,6 @@ fn commission(options: &CommissionOptions, built: &Built, delay: IoDelay) -> Res
 fn is_chatty(options: &CommissionOptions) -> bool {
     let input = &options.build.input;
     !input.quiet && input.format == Format::Text && io::stderr().is_terminal()
-}
-
-/// The program in which controllers and simulator are linked. It depends on the types and the kinds of
-/// part only, so it is compiled once for all layouts that have the same ones.
-fn program(options: &CommissionOptions, built: &Built) -> Result<PathBuf, String> {
-    let sources: write::Files = (built.files.iter())
-        .filter_map(|(name, text)| Some((name.strip_prefix("rust/")?.to_string(), text.clone())))
-        .filter(|(name, _)| !name.starts_with("controllers/src/robots") && !name.contains("/data/"))
-        .collect();
-    let key = write::hash(
-        &sources
-            .iter()
-            .filter(|(n, _)| !is_of_layout(n))
-            .map(|(n, t)| format!("{n}\n{t}\n"))
-            .collect::<String>(),
-    );
-    let folder = cache().join(&key[..16]);
-    let program = folder.join("commissioning").with_extension(env::consts::EXE_EXTENSION);
-    if program.is_file() {
-        return Ok(program);
-    }
-    let workspace = built.folder.join("rust");
-    if !options.build.input.quiet && options.build.input.format == Format::Text {
-        eprintln!("compiling the controllers and the simulator (once for these types) ...");
-    }
-    // Of this process alone: another one may be compiling the same.
-    let target = folder.join(format!("target-{}", std::process::id()));
-    let result = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
-        .args(["build", "--release", "--quiet", "-p", "commissioning", "--manifest-path"])
-        .arg(workspace.join("Cargo.toml"))
-        .arg("--target-dir")
-        .arg(&target)
-        .stdout(Stdio::null())
-        .stderr(Stdio::piped())
-        .spawn();
-    let mut child = result
-        .map_err(|e| format!("cargo cannot be started, and the controllers need it to be compiled: {e}"))?;
-    let mut errors = String::new();
-    if let Some(mut stderr) = child.stderr.take() {
-        let _ = stderr.read_to_string(&mut errors);
-    }
-    let status = child.wait().map_err(|e| e.to_string())?;
-    if !status.success() {
-        return Err(format!("the controllers could not be compiled:\n{errors}"));
-    }
-    let made = target.join("release").join("commissioning").with_extension(env::consts::EXE_EXTENSION);
-    fs::rename(&made, &program).map_err(|e| format!("{}: {e}", made.display()))?;
-    let _ = fs::remove_dir_all(&target);
-    Ok(program)
-}
-
-/// Files in which only the layout is written; the program reads its data at run time.
-fn is_of_layout(name: &str) -> bool {
-    name.starts_with("controllers/src/robots") || name == "controllers/src/line.rs" || name.contains("/data/")
-}
-
-/// Where compiled programs are kept: the user's cache.
-fn cache() -> PathBuf {
-    let set = |name: &str| env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
-    let base = set("XDG_CACHE_HOME").or_else(|| Some(set("HOME")?.join(".cache")));
-    base.unwrap_or_else(env::temp_dir).join("autogen")
 }
 
 fn show(options: &CommissionOptions, built: &Built, mut report: Value, begin: Instant) {
@@ -174,7 +140,12 @@ fn show(options: &CommissionOptions, built: &Built, mut report: Value, begin: In
     let _ = fs::write(path, format!("{kept:#}\n"));
     match options.build.input.format {
         Format::Json => say!("{report}"),
-        Format::Text if !options.build.input.quiet => say_part!("{}", text(&report, wall, built)),
+        Format::Text if !options.build.input.quiet => {
+            say_part!("{}", text(&report, wall, built));
+            for path in &options.trajectories.files {
+                say!("trajectories       {}", path.display());
+            }
+        }
         Format::Text if report["finished"] != true => {
             eprintln!("autogen: {}", report["reason"].as_str().unwrap_or(""))
         }

@@ -19,30 +19,12 @@ pub enum Failure {
 /// All texts of a compilation.
 pub fn load(options: &InputOptions) -> Result<Input, Failure> {
     let mut sources = Sources::default();
-    let layout = add(&mut sources, &options.layout)?;
-    let mut specs: Vec<FileId> =
-        library::FILES.iter().map(|(name, text)| sources.add(*name, *text)).collect();
-    // What is wrong with the layout the compiler reports; here only the files it names are of interest.
-    let named = layout::parse(&sources, layout).0;
-    let beside = |name: &str| options.layout.parent().unwrap_or(Path::new("")).join(name);
-    let folders =
-        named_specs(&named).into_iter().map(|name| beside(&name)).chain(options.specs.iter().cloned());
-    for folder in folders {
-        for path in automata(&folder)? {
-            specs.push(add(&mut sources, &path)?);
-        }
-    }
-    let scenario = match (&options.scenario, named.and_then(|l| l.scenario)) {
-        (Some(path), _) => add(&mut sources, path)?,
-        (None, Some(name)) => add(&mut sources, &beside(&name.value))?,
-        (None, None) if beside("scenario.json").is_file() => add(&mut sources, &beside("scenario.json"))?,
-        (None, None) => sources.add("built-in scenario", scenario::DEFAULT),
-    };
+    let Texts { layout, specs, scenario } =
+        texts(&mut sources, &options.layout, &options.specs, options.scenario.as_deref())?;
     let mut settings = Vec::new();
     let mut diagnostics = Vec::new();
     for text in &options.settings {
-        let file = sources.add("--set", text.as_str());
-        match Setting::parse(&sources, file) {
+        match setting(&mut sources, text) {
             Ok(setting) => settings.push(setting),
             Err(found) => diagnostics.extend(found),
         }
@@ -51,6 +33,48 @@ pub fn load(options: &InputOptions) -> Result<Input, Failure> {
         return Err(Failure::Wrong(sources, diagnostics));
     }
     Ok(Input { sources, layout, specs, scenario, settings, order: options.order })
+}
+
+/// The texts of a line, by their numbers in the sources.
+pub struct Texts {
+    pub layout: FileId,
+    pub specs: Vec<FileId>,
+    pub scenario: FileId,
+}
+
+/// Reads a layout, the library, the folders of types and the scenario. What is named here stands above what
+/// the layout names.
+pub fn texts(
+    sources: &mut Sources,
+    path: &Path,
+    folders: &[PathBuf],
+    scenario: Option<&Path>,
+) -> Result<Texts, Failure> {
+    let layout = add(sources, path)?;
+    let mut specs: Vec<FileId> =
+        library::FILES.iter().map(|(name, text)| sources.add(*name, *text)).collect();
+    // What is wrong with the layout the compiler reports; here only the files it names are of interest.
+    let named = layout::parse(sources, layout).0;
+    let beside = |name: &str| path.parent().unwrap_or(Path::new("")).join(name);
+    let folders = named_specs(&named).into_iter().map(|name| beside(&name)).chain(folders.iter().cloned());
+    for folder in folders {
+        for path in automata(&folder)? {
+            specs.push(add(sources, &path)?);
+        }
+    }
+    let scenario = match (scenario, named.and_then(|l| l.scenario)) {
+        (Some(path), _) => add(sources, path)?,
+        (None, Some(name)) => add(sources, &beside(&name.value))?,
+        (None, None) if beside("scenario.json").is_file() => add(sources, &beside("scenario.json"))?,
+        (None, None) => sources.add("built-in scenario", scenario::DEFAULT),
+    };
+    Ok(Texts { layout, specs, scenario })
+}
+
+/// A setting from the command line.
+pub fn setting(sources: &mut Sources, text: &str) -> Result<Setting, Vec<Diagnostic>> {
+    let file = sources.add("--set", text);
+    Setting::parse(sources, file)
 }
 
 fn named_specs(layout: &Option<Layout>) -> Vec<String> {
@@ -74,7 +98,8 @@ fn automata(path: &Path) -> Result<Vec<PathBuf>, Failure> {
     Ok(files)
 }
 
-fn add(sources: &mut Sources, path: &Path) -> Result<FileId, Failure> {
+/// Without a byte order mark; what is no UTF-8 is replaced.
+pub fn add(sources: &mut Sources, path: &Path) -> Result<FileId, Failure> {
     let bytes = std::fs::read(path).map_err(|e| unreadable(path, &e))?;
     let text = String::from_utf8_lossy(&bytes);
     Ok(sources.add(path.display().to_string(), text.strip_prefix('\u{feff}').unwrap_or(&text)))

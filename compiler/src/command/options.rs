@@ -1,6 +1,8 @@
 //! The options of the command line.
 
+use super::write::Overwrite;
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 /// Compiles a factory layout and parameterized automata into controllers that can be deployed.
@@ -22,6 +24,9 @@ pub enum Command {
     Build(BuildOptions),
     /// Build, link the controllers with the simulator, run the scenario
     Commission(CommissionOptions),
+    /// Run every layout with every combination of values, and print a table
+    #[command(after_help = SWEEP_STATUS)]
+    Sweep(SweepOptions),
     /// Print the connectivity graph or an automaton as DOT, or the layout from above as SVG
     Graph(GraphOptions),
     /// Print the long text of a diagnostic
@@ -57,6 +62,16 @@ pub enum Format {
     Json,
 }
 
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Addresses {
+    /// %IW1 is the bytes 2 and 3 (CODESYS)
+    Words,
+    /// %IW1 is the bytes 1 and 2 (TwinCAT)
+    Bytes,
+    /// %IX, %IB, %IW and %ID are memories of their own (OpenPLC)
+    Apart,
+}
+
 #[derive(Args, Debug)]
 pub struct BuildOptions {
     #[command(flatten)]
@@ -64,9 +79,21 @@ pub struct BuildOptions {
     /// Where to write; default: out/<layout name>
     #[arg(short, long = "output", value_name = "DIR")]
     pub output: Option<PathBuf>,
+    /// Addresses of the process image: plc/io.csv, with its last five columns filled
+    #[arg(long, value_name = "FILE")]
+    pub io: Option<PathBuf>,
+    /// How the PLC counts addresses, to find two that overlap
+    #[arg(long, value_enum, default_value = "words", requires = "io")]
+    pub addresses: Addresses,
     /// Overwrite files that autogen did not write or that were changed since
     #[arg(long)]
     pub force: bool,
+}
+
+impl BuildOptions {
+    pub fn overwrite(&self) -> Overwrite {
+        if self.force { Overwrite::Everything } else { Overwrite::Own }
+    }
 }
 
 #[derive(Args, Debug)]
@@ -76,9 +103,76 @@ pub struct CommissionOptions {
     /// How many scans late devices answer: a number, or `random` or `random:SEED` for 0 to 5
     #[arg(long, value_name = "N", default_value = "0")]
     pub io_delay: String,
+    /// Write a row for each scan to this file: inputs, outputs, states and shared cells, as comma-separated
+    /// values under the names of the Structured Text
+    #[arg(long, value_name = "FILE")]
+    pub io_trace: Option<PathBuf>,
     /// Write the hash of each scan's trace to this file, a line each
     #[arg(long, value_name = "FILE")]
     pub hashes: Option<PathBuf>,
+    #[command(flatten)]
+    pub trajectories: TrajectoryOptions,
+}
+
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Paths of the items")]
+pub struct TrajectoryOptions {
+    /// Write the path of each item: sampled (.csv), as exact segments (.json) or drawn from above (.svg);
+    /// may be given several times
+    #[arg(long = "trajectories", value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    /// Seconds between two samples of a .csv, in whole milliseconds
+    #[arg(long, value_name = "SECONDS", default_value = "0.1", requires = "files")]
+    pub every: String,
+    /// These items only, such as battery_1,pump_3; default: all that came onto the line
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', requires = "files")]
+    pub items: Vec<String>,
+}
+
+#[derive(Args, Debug)]
+pub struct SweepOptions {
+    /// The layouts, JSON files
+    #[arg(required = true)]
+    pub layouts: Vec<PathBuf>,
+    /// A folder of automata (*.aut) that adds to the library and replaces types of the same name
+    #[arg(long, value_name = "DIR")]
+    pub specs: Vec<PathBuf>,
+    /// What is to be made; default: `scenario.json` beside each layout, else the built-in one
+    #[arg(long, value_name = "FILE")]
+    pub scenario: Option<PathBuf>,
+    /// Values of a parameter of a type or of one robot, such as agv.capacity=2,4,8; commas within
+    /// brackets or quotes belong to a value
+    #[arg(long = "set", value_name = "NAME.PARAM=V1,V2,...")]
+    pub settings: Vec<String>,
+    /// Seeds of orders of the steps; without it, layout order
+    #[arg(long, value_name = "SEED,...", value_delimiter = ',')]
+    pub order: Vec<u64>,
+    /// How many scans late devices answer: numbers, `random` or `random:SEED` for 0 to 5
+    #[arg(long, value_name = "N,...", value_delimiter = ',')]
+    pub io_delay: Vec<String>,
+    /// Points that are worked on at the same time; default: one for each processor
+    #[arg(short, long, value_name = "N")]
+    pub jobs: Option<NonZeroUsize>,
+    #[arg(long, value_enum, default_value = "text")]
+    pub format: TableFormat,
+    /// Print no progress, and as text only the rows that did not finish
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+const SWEEP_STATUS: &str = "A point that is refused, faults or runs out of time is a row with its reason.
+
+Exit status: 0 all points made all their orders; 1 every layout has errors that no value mends; \
+2 wrong command line, or the controllers could not be compiled; 3 some points were refused or did not reach their goal; 70 a bug in autogen.";
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum TableFormat {
+    Text,
+    /// One object
+    Json,
+    Csv,
+    /// An object for each row, a line each
+    Jsonl,
 }
 
 #[derive(Args, Debug)]

@@ -49,7 +49,12 @@ pub fn diagnostics_json(sources: &Sources, found: &[Diagnostic]) -> Value {
 
 /// What stopped a command before anything was compiled.
 pub fn failure(options: &InputOptions, failure: &Failure) -> Status {
-    match (failure, options.format) {
+    failure_in(options.format, failure)
+}
+
+/// What stopped a command before anything was compiled.
+pub fn failure_in(format: Format, failure: &Failure) -> Status {
+    match (failure, format) {
         (Failure::Unreadable(text), Format::Text) => eprintln!("autogen: {text}"),
         (Failure::Unreadable(text), Format::Json) => {
             say!("{}", json!({ "feasible": false, "finished": false, "reason": text, "diagnostics": [] }));

@@ -121,6 +121,16 @@ fn stage(staged: &Path, files: &Files, manifest: &str) -> Result<(), Refusal> {
     Ok(())
 }
 
+/// Writes files into a folder of the program's own, over whatever is there.
+pub fn put(folder: &Path, files: &Files) -> io::Result<()> {
+    for (name, text) in files {
+        let path = folder.join(name);
+        fs::create_dir_all(path.parent().unwrap_or(folder))?;
+        fs::write(path, text)?;
+    }
+    Ok(())
+}
+
 fn create_parent(path: &Path) -> Result<(), Refusal> {
     match path.parent() {
         Some(parent) => fs::create_dir_all(parent).map_err(|e| Refusal::Io(parent.into(), e)),

@@ -2,22 +2,18 @@
 //! connectivity, roles. The hinge between what knows source text and what does not.
 
 mod bind;
+mod draft;
 mod parameter;
 mod plant;
 mod role;
 mod setting;
 
+pub use draft::{Draft, Line, Texts};
 pub use setting::Setting;
 
-use crate::check::{self, Checked};
-use crate::diagnostic::{self, Diagnostic};
-use crate::layout::Layout;
-use crate::scenario::Scenario;
+use crate::diagnostic::Diagnostic;
 use crate::source::{FileId, Sources};
-use crate::spec::{ast, parser};
-use crate::{connect, ir, layout, scenario};
-use runtime_sim::random::Random;
-use std::collections::BTreeSet;
+use crate::{connect, ir};
 
 /// What is to be compiled; every text is in `sources` already.
 #[derive(Clone, Debug)]
@@ -83,100 +79,8 @@ pub struct Outcome {
 
 /// Compiles a line as far as it is right.
 pub fn compile(input: Input) -> Outcome {
-    let Input { sources, layout: layout_file, specs, scenario: scenario_file, settings, order } = input;
-    let mut diagnostics = Vec::new();
-
-    let (layout, found) = layout::parse(&sources, layout_file);
-    let layout_is_right = found.is_empty();
-    diagnostics.extend(found);
-    let mut files = Vec::new();
-    let mut syntax_is_right = true;
-    for file in specs {
-        let (tree, found) = parser::parse(file, &sources.file(file).text);
-        syntax_is_right &= found.is_empty();
-        diagnostics.extend(found);
-        files.push((file, tree));
-    }
-    let (scenario, found) = scenario::parse(&sources, scenario_file);
-    diagnostics.extend(found);
-    let kinds: Vec<String> = match &scenario {
-        Some(scenario) => scenario.kinds.iter().map(|k| k.name.value.clone()).collect(),
-        None => vec!["part".into()],
-    };
-    let checked = match check::check(&sources, &files, &kinds) {
-        Ok(checked) => Some(checked),
-        // What could not be read is missed by what was read: those messages would only confuse.
-        Err(found) => {
-            if syntax_is_right {
-                diagnostics.extend(found);
-            }
-            None
-        }
-    };
-    let mut outcome = Outcome { sources, diagnostics, verdict: None, project: None };
-    if let (Some(mut layout), Some(checked), Some(scenario)) = (layout, checked, scenario)
-        && syntax_is_right
-    {
-        if let Some(seed) = order {
-            Random::new(seed).shuffle(&mut layout.objects);
-        }
-        let is_whole = layout_is_right && outcome.diagnostics.is_empty();
-        system(&mut outcome, layout, &files, &checked, &scenario, &settings, is_whole);
-    }
-    diagnostic::sort(&mut outcome.diagnostics);
-    if !outcome.diagnostics.is_empty() {
-        outcome.project = None;
-    }
-    outcome
-}
-
-fn system(
-    outcome: &mut Outcome,
-    layout: Layout,
-    files: &[(FileId, ast::File)],
-    checked: &Checked,
-    scenario: &Scenario,
-    settings: &[Setting],
-    is_whole: bool,
-) {
-    let bound = bind::bind(&layout, checked.model(), &mut outcome.diagnostics);
-    setting::check(settings, &bound, checked.model(), &mut outcome.diagnostics);
-    if !is_whole || bound.robots.len() + bound.obstacles.len() != layout.objects.len() {
-        return;
-    }
-    let names: BTreeSet<String> = bound.robots.iter().map(|r| r.automaton.clone()).collect();
-    let kinds: Vec<String> = scenario.kinds.iter().map(|k| k.name.value.clone()).collect();
-    let model = match check::check(&outcome.sources, &check::used(files, &names), &kinds) {
-        Ok(checked) => checked.into_model(),
-        Err(found) => {
-            outcome.diagnostics.extend(found);
-            return;
-        }
-    };
-    let mut line = role::Line::new(&layout, bound.robots, model, scenario);
-    line.parameters(settings);
-    let report = line.connect();
-    outcome.verdict = Some(line.verdict(&report));
-    outcome.diagnostics.append(&mut line.diagnostics);
-    outcome.diagnostics.extend(report.diagnostics.iter().cloned());
-    let resolved = plant::resolve(scenario, &line);
-    let resolved = match resolved {
-        Ok(resolved) => resolved,
-        Err(found) => {
-            outcome.diagnostics.extend(found);
-            return;
-        }
-    };
-    if !outcome.diagnostics.is_empty() {
-        return;
-    }
-    let robot = |node: usize| line.robot_of(node);
-    let edges =
-        report.edges.iter().map(|e| connect::Edge { from: robot(e.from), to: robot(e.to), ..*e }).collect();
-    let Some(system) = line.system(report, layout.scan_ms) else {
-        outcome.diagnostics.append(&mut line.diagnostics);
-        return;
-    };
-    let plant = plant::line(&system, &line, bound.obstacles, resolved, layout.scan_ms);
-    outcome.project = Some(Project { name: layout.name, system, plant, edges });
+    let Input { sources, layout, specs, scenario, settings, order } = input;
+    let draft = Draft::new(&sources, Texts { layout, specs: &specs, scenario }, &settings);
+    let Line { diagnostics, verdict, project } = draft.line(&settings, order);
+    Outcome { sources, diagnostics, verdict, project }
 }

@@ -19,7 +19,7 @@ impl Line<'_> {
 
     fn unknown_parameters(&mut self, robot: usize) {
         let known: Vec<String> = (self.automaton(robot).parameters.iter())
-            .filter(|p| matches!(p.source, ParameterSource::Layout(_)))
+            .filter(|p| p.is_settable())
             .map(|p| p.name.clone())
             .collect();
         for (name, _) in &self.robots[robot].object.parameters {
@@ -38,20 +38,18 @@ impl Line<'_> {
 
     fn parameter(&mut self, robot: usize, parameter: &Parameter, settings: &[Setting]) -> Vec<Value> {
         let size = self.model.elements(parameter.ty.extent);
-        let default = match &parameter.source {
-            ParameterSource::Device => return self.constant(robot, parameter),
-            ParameterSource::Layout(default) => *default,
-        };
         let set = settings
             .iter()
             .rev()
             .find(|s| s.parameter == parameter.name && s.applies_to(&self.robots[robot]));
         let in_layout = self.robots[robot].object.parameters.iter().find(|(n, _)| n.value == parameter.name);
         let json = set.map(|s| s.value.clone()).or_else(|| in_layout.map(|(_, json)| json.clone()));
-        match (json, default) {
+        match (json, &parameter.source) {
+            (_, ParameterSource::Device) => self.constant(robot, parameter),
             (Some(json), _) => self.decode(&json, parameter.ty, &parameter.name),
-            (None, Some(value)) => vec![value; size],
-            (None, None) => {
+            (None, ParameterSource::Scenario) => self.ordered(parameter),
+            (None, ParameterSource::Layout(Some(value))) => vec![*value; size],
+            (None, ParameterSource::Layout(None)) => {
                 let object = &self.robots[robot].object;
                 self.diagnostics.push(
                     Diagnostic::new(
@@ -65,6 +63,28 @@ impl Line<'_> {
                 vec![first(parameter.ty.scalar); size]
             }
         }
+    }
+
+    /// The parts of each kind that all orders of the scenario ask for.
+    fn ordered(&mut self, parameter: &Parameter) -> Vec<Value> {
+        let Scalar::Int { lo, hi } = parameter.ty.scalar else { return Vec::new() };
+        let mut values = Vec::new();
+        for (count, (kind, _)) in self.ordered.iter().zip(&self.kinds) {
+            let value = i32::try_from(*count).unwrap_or(i32::MAX);
+            if !(lo..=hi).contains(&value) {
+                let message = format!(
+                    "the orders ask for {count} {kind}, and `{}` goes from {lo} to {hi}",
+                    parameter.name
+                );
+                self.diagnostics.push(
+                    Diagnostic::new("E0503", parameter.place, message)
+                        .other(self.orders_place, "the orders are here")
+                        .help("widen the bounds of the parameter, or set it"),
+                );
+            }
+            values.push(Value::Int(value.clamp(lo, hi)));
+        }
+        values
     }
 
     fn constant(&self, robot: usize, parameter: &Parameter) -> Vec<Value> {

@@ -54,9 +54,10 @@ pub fn line(
             orders: scenario
                 .orders
                 .into_iter()
-                .map(|(station, parts)| line::Order { station, parts })
+                .map(|(stations, parts)| line::Order { stations, parts })
                 .collect(),
             supply: scenario.supply.into_iter().map(|(belt, items)| line::Supply { belt, items }).collect(),
+            spawn_first_s: scenario.spawn_first_s,
             spawn_every_s: scenario.spawn_every_s,
             time_limit_s: scenario.time_limit_s,
             slips: (scenario.slips.iter())

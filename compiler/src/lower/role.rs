@@ -5,7 +5,8 @@ use super::{Apart, Verdict};
 use crate::connect::{self, Connected, Node, Proposal, Site};
 use crate::diagnostic::Diagnostic;
 use crate::ir::{
-    Automaton, AutomatonId, Handover, Instance, InterfaceId, Model, Role, RoleKind, System, Value, Way,
+    Automaton, AutomatonId, Expr, Handover, Instance, InterfaceId, Model, Role, RoleKind, Scalar, System,
+    TextPart, Value, Way,
 };
 use crate::layout::Layout;
 use crate::scenario::Scenario;
@@ -20,6 +21,9 @@ pub struct Line<'a> {
     pub model: Model,
     pub kinds: Vec<(String, f64)>,
     pub heights: Vec<f64>,
+    /// Parts of each kind that all orders of the scenario ask for, and where these stand.
+    pub ordered: Vec<u64>,
+    pub orders_place: Span,
     /// For each interface its members, in layout order.
     pub members: Vec<Vec<usize>>,
     /// For each robot and parameter the elements.
@@ -37,12 +41,16 @@ impl<'a> Line<'a> {
         let kinds: Vec<(String, f64)> =
             scenario.kinds.iter().map(|k| (k.name.value.clone(), k.height)).collect();
         let heights = kinds.iter().map(|k| k.1).collect();
+        let asked = |kind: usize| scenario.orders.list.iter().map(|o| u64::from(o.parts[kind])).sum();
+        let ordered = (0..kinds.len()).map(asked).collect();
         let mut line = Self {
             layout,
             robots,
             model,
             kinds,
             heights,
+            ordered,
+            orders_place: scenario.orders.span,
             members: Vec::new(),
             values: Vec::new(),
             diagnostics: Vec::new(),
@@ -361,12 +369,17 @@ impl<'a> Line<'a> {
         for robot in 0..self.robots.len() {
             for require in &self.automaton(robot).requires.clone() {
                 if !executor::requirement_holds(system, robot, &require.condition) {
+                    let text = require.text.iter().map(|part| match part {
+                        TextPart::Words(words) => words.clone(),
+                        TextPart::Value(value) => shown(system, robot, value),
+                    });
+                    let text: String = text.collect();
                     let object = &self.robots[robot].object;
                     self.diagnostics.push(
                         Diagnostic::new(
                             "E0507",
                             object.name.span,
-                            format!("`{}`: {}", object.name.value, require.text),
+                            format!("`{}`: {text}", object.name.value),
                         )
                         .other(require.place, "required here")
                         .help("change the parameters or the layout so that the requirement holds"),
@@ -374,5 +387,21 @@ impl<'a> Line<'a> {
                 }
             }
         }
+    }
+}
+
+/// A value of a requirement's text, for people: seconds with `s`, points in metres, members and robots by name.
+fn shown(system: &System, robot: usize, expr: &Expr) -> String {
+    let value = executor::requirement_value(system, robot, expr);
+    match (value, expr.ty) {
+        (Value::Bool(b), _) => b.to_string(),
+        (Value::Int(ms), Scalar::Time) => format!("{} s", f64::from(ms) / 1000.0),
+        (Value::Int(ordinal), Scalar::Enum(id)) => system.model.enums[id.0].members[ordinal as usize].clone(),
+        (Value::Int(row), Scalar::Ref(id)) => {
+            system.instances[system.members[id.0][row as usize]].name.clone()
+        }
+        (Value::Int(i), _) => i.to_string(),
+        (Value::Real(r), _) => r.to_string(),
+        (Value::Point([x, y, z]), _) => format!("({x}, {y}, {z})"),
     }
 }

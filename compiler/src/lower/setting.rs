@@ -2,7 +2,7 @@
 
 use super::bind::{Bound, Robot};
 use crate::diagnostic::{Diagnostic, suggestion};
-use crate::ir::{Model, ParameterSource};
+use crate::ir::Model;
 use crate::layout::json::{self, Json};
 use crate::source::{FileId, Sources, Span};
 
@@ -79,7 +79,7 @@ pub fn check(settings: &[Setting], bound: &Bound, model: &Model, diagnostics: &m
         let parameters: Vec<&str> = (model.automata.iter())
             .filter(|a| meant.iter().any(|r| r.automaton == a.name))
             .flat_map(|a| &a.parameters)
-            .filter(|p| matches!(p.source, ParameterSource::Layout(_)))
+            .filter(|p| p.is_settable())
             .map(|p| p.name.as_str())
             .collect();
         if !parameters.contains(&setting.parameter.as_str()) {

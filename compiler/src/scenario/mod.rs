@@ -43,8 +43,8 @@ pub struct Orders {
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Order {
-    /// `None`: the next in turn.
-    pub station: Option<Spanned<String>>,
+    /// Where it opens: at each of these, to be made at one of them. `None`: at the next in turn.
+    pub stations: Option<Vec<Spanned<String>>>,
     /// Number of parts of each kind.
     pub parts: Vec<u32>,
 }
@@ -53,6 +53,8 @@ pub struct Order {
 pub struct Supply {
     /// Of the key `supply`, or of the scenario that has none.
     pub span: Span,
+    /// Time until the first part on each belt.
+    pub first_s: f64,
     /// Time between two parts on one belt.
     pub every_s: f64,
     pub items: Items,
@@ -104,10 +106,11 @@ pub struct Pause {
 #[derive(Clone, Debug, PartialEq)]
 pub struct ResolvedScenario {
     pub kinds: Vec<Kind>,
-    /// Station, and the number of parts of each kind.
-    pub orders: Vec<(usize, Vec<u32>)>,
+    /// Stations, and the number of parts of each kind.
+    pub orders: Vec<(Vec<usize>, Vec<u32>)>,
     /// Belt, and the kinds it brings, in order.
     pub supply: Vec<(usize, Vec<usize>)>,
+    pub spawn_first_s: f64,
     pub spawn_every_s: f64,
     pub time_limit_s: f64,
     pub slips: Vec<Slip<usize>>,

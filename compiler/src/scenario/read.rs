@@ -41,6 +41,7 @@ impl Decoder {
             Some(supply) => self.supply(supply, &names),
             None => Some(Supply {
                 span: json.span,
+                first_s: EVERY_S,
                 every_s: EVERY_S,
                 items: Items::Shuffled { surplus: SURPLUS, seed: SEED },
             }),

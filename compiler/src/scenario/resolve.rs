@@ -40,6 +40,7 @@ pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec
             kinds: scenario.kinds.clone(),
             orders,
             supply,
+            spawn_first_s: scenario.supply.first_s,
             spawn_every_s: scenario.supply.every_s,
             time_limit_s: scenario.time_limit_s,
             slips,
@@ -78,14 +79,10 @@ impl Resolver<'_> {
         );
     }
 
-    fn orders(&mut self) -> Option<Vec<(usize, Vec<u32>)>> {
+    fn orders(&mut self) -> Option<Vec<(Vec<usize>, Vec<u32>)>> {
         let orders = &self.scenario.orders;
         let turn: Option<Vec<usize>> = match &orders.stations {
-            Some(names) => {
-                let found: Vec<_> =
-                    names.iter().map(|n| self.named(n, self.line.stations, "station")).collect();
-                found.into_iter().collect()
-            }
+            Some(names) => self.stations(names),
             None => Some(self.line.stations.iter().map(|(_, index)| *index).collect()),
         };
         let turn = turn?;
@@ -98,14 +95,19 @@ impl Resolver<'_> {
             .list
             .iter()
             .map(|order| {
-                let station = match &order.station {
-                    Some(name) => self.named(name, self.line.stations, "station"),
-                    None => next.next().copied(),
+                let stations = match &order.stations {
+                    Some(names) => self.stations(names),
+                    None => next.next().map(|station| vec![*station]),
                 };
-                Some((station?, order.parts.clone()))
+                Some((stations?, order.parts.clone()))
             })
             .collect();
         resolved.into_iter().collect()
+    }
+
+    fn stations(&mut self, names: &[Spanned<String>]) -> Option<Vec<usize>> {
+        let found: Vec<_> = names.iter().map(|n| self.named(n, self.line.stations, "station")).collect();
+        found.into_iter().collect()
     }
 
     fn supply(&mut self) -> Option<Vec<(usize, Vec<usize>)>> {

@@ -161,7 +161,14 @@ pub struct Define {
 pub struct Require {
     pub span: Span,
     pub condition: Expr,
-    pub text: String,
+    pub text: Vec<TextPart>,
+}
+
+/// A piece of a text that shows values: `"{count(trays)} trays"`.
+#[derive(Clone, Debug)]
+pub enum TextPart {
+    Words(String),
+    Value(Expr),
 }
 
 #[derive(Clone, Debug)]

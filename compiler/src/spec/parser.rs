@@ -28,8 +28,7 @@ const LONGEST: usize = 256;
 /// Reads a whole file. What is wrong is in the list; the tree holds the rest.
 pub fn parse(file: FileId, text: &str) -> (ast::File, Vec<Diagnostic>) {
     let (tokens, diagnostics) = lexer::tokens(file, text);
-    let mut parser =
-        Parser { tokens, position: 0, diagnostics, depth: 0, length: 0, error_at: None, errors: 0 };
+    let mut parser = Parser::new(tokens, diagnostics);
     let tree = parser.file();
     (tree, parser.diagnostics)
 }
@@ -49,6 +48,10 @@ pub(super) struct Parser {
 }
 
 impl Parser {
+    fn new(tokens: Vec<(Token, Span)>, diagnostics: Vec<Diagnostic>) -> Self {
+        Self { tokens, position: 0, diagnostics, depth: 0, length: 0, error_at: None, errors: 0 }
+    }
+
     fn file(&mut self) -> ast::File {
         let mut file = ast::File::default();
         loop {
@@ -73,6 +76,53 @@ impl Parser {
                 }
             }
         }
+    }
+
+    /// The pieces of a text that begins at `start` of the file: words, and in braces values to show.
+    fn shown_text(&mut self, text: &str, start: usize) -> Vec<ast::TextPart> {
+        let mut parts = Vec::new();
+        let mut at = 0;
+        while let Some(opens) = text[at..].find('{').map(|i| at + i) {
+            if opens > at {
+                parts.push(ast::TextPart::Words(text[at..opens].into()));
+            }
+            let closes = text[opens..].find('}').map(|i| opens + i);
+            let end = closes.unwrap_or(text.len());
+            let (mut tokens, mut diagnostics) = lexer::tokens(self.span().file, &text[opens + 1..end]);
+            tokens.iter_mut().for_each(|(_, span)| *span = span.after(start + opens + 1));
+            diagnostics.iter_mut().for_each(|d| d.place = d.place.after(start + opens + 1));
+            let mut inner = Parser::new(tokens, diagnostics);
+            if *inner.peek() == Token::End {
+                inner.error(
+                    "E0205",
+                    "nothing stands between the braces".into(),
+                    "a text shows an expression between two braces",
+                );
+            }
+            let value = inner.parse_expr();
+            if *inner.peek() != Token::End {
+                let found = inner.found();
+                inner.error(
+                    "E0205",
+                    format!("`}}` is missing before {found}"),
+                    "a text shows one expression between two braces",
+                );
+            } else if closes.is_none() {
+                inner.error(
+                    "E0205",
+                    "`}` is missing after the value".into(),
+                    "a text shows an expression between two braces",
+                );
+            }
+            self.errors += inner.errors;
+            self.diagnostics.append(&mut inner.diagnostics);
+            parts.push(ast::TextPart::Value(value));
+            at = (end + 1).min(text.len());
+        }
+        if at < text.len() {
+            parts.push(ast::TextPart::Words(text[at..].into()));
+        }
+        parts
     }
 
     fn recover_to_item(&mut self) {

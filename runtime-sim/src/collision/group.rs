@@ -25,7 +25,7 @@ pub struct Body {
     levers: Option<Levers>,
     /// Metres that no point of it has gone more than, from the start of the run to the end of the scan.
     pub path: f64,
-    /// Metres for the whole of an arm's motion.
+    /// Metres for each unit of the place on an arm's way.
     rate: f64,
 }
 
@@ -195,13 +195,13 @@ impl Group {
         if let Movement::Still = self.movement {
             return;
         }
-        let ways = match &self.movement {
-            Movement::Swings { motion, .. } => Some(motion.ways()),
+        let rates = match &self.movement {
+            Movement::Swings { motion, .. } => Some(motion.rates()),
             Movement::Still | Movement::Slides { .. } => None,
         };
         for body in self.bodies.iter_mut().flatten() {
-            let parts = ways.iter().flat_map(|ways| ways.iter()).zip(body.levers.iter().flatten());
-            body.rate = parts.map(|(way, lever)| way * lever).sum();
+            let parts = rates.iter().flat_map(|rates| rates.iter()).zip(body.levers.iter().flatten());
+            body.rate = parts.map(|(rate, lever)| rate * lever).sum();
         }
         let mut longest = 0.0_f64;
         for body in self.bodies.iter_mut().flatten() {

@@ -104,6 +104,11 @@ impl Limits {
     pub fn at_speed(&self, part: f64) -> Self {
         Self { velocity: self.velocity.map(|_, v| v * part), ..*self }
     }
+
+    /// The same robot with this acceleration of every joint, m/s2 or rad/s2.
+    pub fn at_gain(&self, gain: f64) -> Self {
+        Self { acceleration: self.acceleration.map(|_, _| gain), ..*self }
+    }
 }
 
 impl Arm {
@@ -134,6 +139,19 @@ impl Arm {
             Arm::Rail(arm) => arm.solve(tool, &from.array()).map(|joints| Joints::new(&joints)),
             Arm::Gantry(arm) => arm.solve(tool, &from.array()).map(|joints| Joints::new(&joints)),
         }
+    }
+
+    /// Joints for a place of the tool, straight under the shoulder, with the torso at exactly this turn (rad);
+    /// none where the limits forbid it, and for a robot without a torso.
+    pub fn solve_turned(&self, tool: Point, turn: f64, from: &Joints) -> Option<Joints> {
+        match self {
+            Arm::Rail(_) => None,
+            Arm::Gantry(arm) => arm.solve_turned(tool, turn, &from.array()).map(|j| Joints::new(&j)),
+        }
+    }
+
+    pub fn has_torso(&self) -> bool {
+        matches!(self, Arm::Gantry(_))
     }
 
     pub fn tool_pose(&self, joints: &Joints) -> Pose {

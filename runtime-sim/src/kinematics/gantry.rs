@@ -1,11 +1,11 @@
 //! A UR10 that hangs sideways from a torso which travels on two rails and turns.
 
-use super::planar::{self, Wrist};
+use super::planar::{self, Links, Wrist};
 use super::pose::Pose;
 use super::ur10::{self, D1, D4};
 use super::{is_finite, nearest_turn, root};
 use crate::point::Point;
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Torso on both rails (m, world frame), its turn (0: the arm is mounted on the side of +y), then the angles of the UR10 (rad).
 pub type Joints = [f64; JOINTS];
@@ -90,6 +90,26 @@ impl Gantry {
         Some(self.joints(&view, place, best.wrist, from))
     }
 
+    /// Joints for a tool straight under the shoulder with the torso at exactly `turn`, the wrist outside;
+    /// none if the limits of the rails, of the torso or of the reach forbid it.
+    /// (The prototype's formula: torso at x + 0.637 sin r, y - 0.637 cos r, and d4 aside.)
+    pub fn solve_turned(&self, tool: Point, turn: f64, from: &Joints) -> Option<Joints> {
+        if !is_finite(tool) || !within([-TAU, TAU], turn) {
+            return None;
+        }
+        let dz = planar::wrist_height(tool, self.shoulder);
+        let wrist = Wrist::Outside;
+        let (x, y) = self.torso_at(tool, SHOULDER, turn)?;
+        planar::reaches(0.0, dz, wrist).then(|| arm_joints([x, y, turn], planar::links(0.0, dz, wrist), from))
+    }
+
+    /// The place of the torso at this turn with the tool `ahead` of its axis, if the rails allow it.
+    fn torso_at(&self, tool: Point, ahead: f64, turn: f64) -> Option<(f64, f64)> {
+        let (s, c) = libm::sincos(turn);
+        let (x, y) = (tool.x + ahead * s + D4 * c, tool.y - ahead * c + D4 * s);
+        (within(self.x, x) && within(self.y, y)).then_some((x, y))
+    }
+
     /// A place of the torso with the tool `ahead` of its axis, and as little turning as the rails allow.
     fn torso(&self, view: &View, ahead: f64, turn: f64) -> Option<(f64, f64)> {
         let [near, far] = view.distance;
@@ -97,14 +117,9 @@ impl Gantry {
         if radius < near || radius > far {
             return None;
         }
-        let turns =
+        let mut turns =
             (0..=TURN_STEPS).flat_map(|step| [step, -step]).map(|step| turn + f64::from(step) * PI / 12.0);
-        let on_rails = turns
-            .map(|turn| {
-                let (s, c) = libm::sincos(turn);
-                (view.tool.x + ahead * s + D4 * c, view.tool.y - ahead * c + D4 * s)
-            })
-            .find(|(x, y)| within(self.x, *x) && within(self.y, *y));
+        let on_rails = turns.find_map(|turn| self.torso_at(view.tool, ahead, turn));
         Some(on_rails.unwrap_or_else(|| self.between(view, radius)))
     }
 
@@ -125,14 +140,7 @@ impl Gantry {
         let ahead = root(dx * dx + dy * dy - D4 * D4);
         let turn = libm::atan2(dy, dx) - libm::atan2(D4, ahead) - FRAC_PI_2;
         let links = planar::links(ahead - SHOULDER, view.dz, wrist);
-        // The base lies on its side: what is level in the arm's own plane is a quarter turn back.
-        let lift = links.lift - FRAC_PI_2;
-        let angles = [turn, 0.0, lift, links.elbow, links.wrist_1, links.wrist_2, from[8]];
-        std::array::from_fn(|i| match i {
-            0 => x,
-            1 => y,
-            _ => nearest_turn(angles[i - 2], from[i]),
-        })
+        arm_joints([x, y, nearest_turn(turn, from[2])], links, from)
     }
 
     /// Pose of the tool, world frame.
@@ -169,6 +177,17 @@ impl Gantry {
         let middle = |range: [f64; 2]| (range[0] + range[1]) / 2.0;
         [middle(self.x), middle(self.y), 0.0, 0.0, -1.13, 1.88, 1.13 - 1.88, FRAC_PI_2, 0.0]
     }
+}
+
+/// All joints for a place and a turn of the torso; the angles of the arm take the turn nearest to `from`.
+fn arm_joints(torso: [f64; 3], links: Links, from: &Joints) -> Joints {
+    // The base lies on its side: what is level in the arm's own plane is a quarter turn back.
+    let lift = links.lift - FRAC_PI_2;
+    let angles = [0.0, lift, links.elbow, links.wrist_1, links.wrist_2, from[8]];
+    std::array::from_fn(|i| match i {
+        0..3 => torso[i],
+        _ => nearest_turn(angles[i - 3], from[i]),
+    })
 }
 
 fn within(range: [f64; 2], value: f64) -> bool {

@@ -11,7 +11,7 @@ pub mod rail_arm;
 pub mod ur10;
 
 #[cfg(test)]
-mod random;
+pub(crate) mod random;
 #[cfg(test)]
 mod tests;
 

@@ -99,6 +99,11 @@ pub fn comfortable(u: f64, dz: f64, wrists: [Wrist; 2]) -> Option<Wrist> {
     wrists.into_iter().find(|wrist| slack(distance(u + wrist.offset(), dz)) >= COMFORT)
 }
 
+/// Whether the wrist can be where `u` asks for it.
+pub fn reaches(u: f64, dz: f64, wrist: Wrist) -> bool {
+    slack(distance(u + wrist.offset(), dz)) >= 0.0
+}
+
 /// Joints with the elbow up. The wrist must be in reach; what rounding puts beyond is taken for stretched or folded.
 pub fn links(u: f64, dz: f64, wrist: Wrist) -> Links {
     let out = u + wrist.offset();

@@ -63,16 +63,28 @@ impl Line {
                 return Err(format!("{name} {seconds:?} is not between 0.001 and {LONGEST_TIME:?}"));
             }
         }
+        if !(0.0..=LONGEST_TIME).contains(&scenario.spawn_first_s) {
+            let first = scenario.spawn_first_s;
+            return Err(format!("spawn_first_s {first:?} is not between 0 and {LONGEST_TIME:?}"));
+        }
         if scenario.start_scan == 0 {
             return Err("a rising edge of `start` in scan 0 has nothing before it".into());
         }
-        for order in &scenario.orders {
-            let station = self.machine(order.station, "an order")?;
-            if !matches!(station.geometry, Geometry::Station { .. }) {
-                return Err(format!("an order at {}, which is no station", station.name));
+        for (number, order) in (1..).zip(&scenario.orders) {
+            for (i, &index) in order.stations.iter().enumerate() {
+                let station = self.machine(index, "an order")?;
+                if !matches!(station.geometry, Geometry::Station { .. }) {
+                    return Err(format!("an order at {}, which is no station", station.name));
+                }
+                if order.stations[..i].contains(&index) {
+                    return Err(format!("order {number} names {} twice", station.name));
+                }
+            }
+            if order.stations.is_empty() {
+                return Err(format!("order {number} names no station"));
             }
             if order.parts.len() != self.kinds.len() {
-                return Err(format!("an order at {} without a number for each kind", station.name));
+                return Err(format!("order {number} is without a number for each kind"));
             }
         }
         for (i, supply) in scenario.supply.iter().enumerate() {

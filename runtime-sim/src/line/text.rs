@@ -45,13 +45,14 @@ impl Line {
             put(format!("  {a} {b}"));
         }
         let scenario = &self.scenario;
+        put(format!("spawn_first_s {:?}", scenario.spawn_first_s));
         put(format!("spawn_every_s {:?}", scenario.spawn_every_s));
         put(format!("time_limit_s {:?}", scenario.time_limit_s));
         put(format!("stall_limit_s {:?}", scenario.stall_limit_s));
         put(format!("start_scan {}", scenario.start_scan));
         put(format!("orders {}", scenario.orders.len()));
         for order in &scenario.orders {
-            put(format!("  {} {}", order.station, list(&order.parts)));
+            put(format!("  {} {}", list(&order.stations), list(&order.parts)));
         }
         put(format!("supply {}", scenario.supply.len()));
         for supply in &scenario.supply {
@@ -212,6 +213,8 @@ fn read_axis(words: &mut Words) -> Result<Axis, String> {
 }
 
 fn read_scenario(words: &mut Words) -> Result<Scenario, String> {
+    words.expect("spawn_first_s")?;
+    let spawn_first_s = words.real()?;
     words.expect("spawn_every_s")?;
     let spawn_every_s = words.real()?;
     words.expect("time_limit_s")?;
@@ -221,7 +224,7 @@ fn read_scenario(words: &mut Words) -> Result<Scenario, String> {
     words.expect("start_scan")?;
     let start_scan = words.int()?;
     words.expect("orders")?;
-    let orders = words.list(|w| Ok(Order { station: w.int()?, parts: w.list(|w| w.int())? }))?;
+    let orders = words.list(|w| Ok(Order { stations: w.list(|w| w.int())?, parts: w.list(|w| w.int())? }))?;
     words.expect("supply")?;
     let supply = words.list(|w| Ok(Supply { belt: w.int()?, items: w.list(|w| w.int())? }))?;
     words.expect("slips")?;
@@ -233,6 +236,7 @@ fn read_scenario(words: &mut Words) -> Result<Scenario, String> {
     Ok(Scenario {
         orders,
         supply,
+        spawn_first_s,
         spawn_every_s,
         time_limit_s,
         stall_limit_s,

@@ -2,15 +2,17 @@
 
 use super::command::{Asked, Command, goal, is_held};
 use super::course::Course;
-use super::drive::{Drive, Moved};
+use super::drive::{Drive, Moved, Target};
 use super::gripper::Gripper;
-use super::image::{in_arm, put_bit, put_point};
+use super::image::{in_arm, out, point, put_bit, put_point};
 use crate::device::error;
 use crate::kinematics::arm::Joints;
 use crate::point::Point;
 
 /// A `pick` waits so long at its goal for a part to be attached.
 const PICK_WAIT_MS: u64 = 500;
+/// Highest acceleration that `pace` takes, m/s2 or rad/s2: ten times that of a fall, more than any drive has.
+const HIGHEST_GAIN: f64 = 100.0;
 
 #[derive(Clone, Debug)]
 pub struct Arm {
@@ -43,7 +45,7 @@ impl Arm {
     }
 
     pub fn course(&self) -> Course {
-        self.drive.motion().map_or(Course::Rests, |motion| Course::Swings(motion.clone()))
+        self.drive.under_way().map_or(Course::Rests, |motion| Course::Swings(motion.clone()))
     }
 
     /// A command is under way and not held, or the part on the gripper is about to slip.
@@ -55,9 +57,7 @@ impl Arm {
         let now = seconds(now_ms);
         match self.command.accept(outputs) {
             Asked::Nothing => {}
-            Asked::Start(1) => self.start(Task::Move, goal(outputs), now),
-            Asked::Start(2) => self.start(Task::PickMove, goal(outputs), now),
-            Asked::Start(_) => self.fail(error::REFUSED, now),
+            Asked::Start(verb) => self.begin(verb, outputs, now),
             Asked::Refused => self.abandon(now),
         }
         self.held = is_held(outputs);
@@ -68,11 +68,36 @@ impl Arm {
         }
     }
 
-    fn start(&mut self, task: Task, goal: Point, now: f64) {
-        if self.drive.start(goal, now).is_some() {
+    fn begin(&mut self, verb: i32, outputs: &[f64], now: f64) {
+        match verb {
+            1 => self.start(Task::Move, Target::Place(goal(outputs)), now),
+            2 => self.start(Task::PickMove, Target::Place(goal(outputs)), now),
+            3 => self.pace(outputs[out::TOP_SPEED], outputs[out::GAIN], now),
+            4 if self.drive.has_torso() => {
+                self.start(Task::Move, Target::Turned(goal(outputs), outputs[out::TURN]), now);
+            }
+            5 => self.start(Task::Move, Target::Past(point(outputs, out::VIA), goal(outputs)), now),
+            _ => self.fail(error::REFUSED, now),
+        }
+    }
+
+    fn start(&mut self, task: Task, target: Target, now: f64) {
+        if self.drive.start(target, now).is_some() {
             self.task = task;
         } else {
             self.fail(error::UNREACHABLE, now);
+        }
+    }
+
+    fn pace(&mut self, speed: f64, gain: f64, now: f64) {
+        let is_part = speed.is_normal() && speed > 0.0 && speed <= 1.0;
+        let is_gain = gain.is_normal() && gain > 0.0 && gain <= HIGHEST_GAIN;
+        if is_part && is_gain && self.drive.is_at_rest() {
+            self.drive.set_pace(speed, gain);
+            self.task = Task::None;
+            self.command.end(error::NONE);
+        } else {
+            self.fail(error::REFUSED, now);
         }
     }
 

@@ -26,10 +26,23 @@ pub struct Belt {
     held: bool,
     /// Milliseconds at full speed since the start of the run.
     travel_ms: u64,
-    spawn_ms: u64,
+    spawn: Spawn,
     /// Items that are still to appear, last one first.
     supply: Vec<usize>,
     spawned: u64,
+}
+
+/// When parts appear, in milliseconds at full speed.
+#[derive(Clone, Copy, Debug)]
+pub struct Spawn {
+    pub first_ms: u64,
+    pub every_ms: u64,
+}
+
+impl Spawn {
+    fn at_ms(&self, number: u64) -> u64 {
+        self.first_ms.saturating_add(number.saturating_mul(self.every_ms))
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,7 +57,7 @@ impl Belt {
         pose: Point,
         orient: Axis,
         range: [f64; 2],
-        spawn_ms: u64,
+        spawn: Spawn,
         mut supply: Vec<usize>,
     ) -> Self {
         supply.reverse();
@@ -56,7 +69,7 @@ impl Belt {
             drive: Drive::Rest,
             held: false,
             travel_ms: 0,
-            spawn_ms,
+            spawn,
             supply,
             spawned: 0,
         }
@@ -83,10 +96,10 @@ impl Belt {
             return;
         }
         self.travel_ms += dt_ms;
-        while self.spawned.saturating_add(1).saturating_mul(self.spawn_ms) <= self.travel_ms {
+        while self.spawn.at_ms(self.spawned) <= self.travel_ms {
             let Some(item) = self.supply.pop() else { break };
+            let at = self.range[1] - SPAWN_INSET + distance(self.spawn.at_ms(self.spawned));
             self.spawned += 1;
-            let at = self.range[1] - SPAWN_INSET + distance(self.spawned * self.spawn_ms);
             items.pass(item, Carrier::Belt { machine, at, across: 0.0 }, self.place(at, 0.0));
         }
         let end = self.range[0] + END_INSET + self.travel();

@@ -1,6 +1,6 @@
 //! The head of every commanded device: numbered commands and their answers.
 
-use super::image::{in_head, out};
+use super::image::{in_head, out, point};
 use crate::device::error;
 use crate::point::Point;
 
@@ -66,7 +66,7 @@ impl Command {
 
 /// The argument `goal` of a command.
 pub fn goal(outputs: &[f64]) -> Point {
-    Point::new(outputs[out::GOAL], outputs[out::GOAL + 1], outputs[out::GOAL + 2])
+    point(outputs, out::GOAL)
 }
 
 pub fn is_held(outputs: &[f64]) -> bool {

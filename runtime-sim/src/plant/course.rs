@@ -6,6 +6,7 @@ use crate::point::Point;
 /// The movement of whatever lies or hangs on a machine, until a command, a hold or the end of it changes it.
 /// Times are counted from the start of the run.
 #[derive(Clone, Debug, PartialEq)]
+#[expect(clippy::large_enum_variant)] // one for each machine
 pub enum Course {
     Rests,
     /// Straight on with one velocity, in m/s, between two times; before and after it rests.

@@ -32,13 +32,18 @@ pub mod in_station {
     pub const ORDER_PARTS: usize = 1;
 }
 
-/// Outputs of commanded devices: the head, then the goal, then the gripper.
+/// Outputs of commanded devices: the head, then the goal; of arms then the gripper and what its other
+/// commands take. Only a gantry has a `turn`.
 pub mod out {
     pub const CMD: usize = 0;
     pub const VERB: usize = 1;
     pub const HOLD: usize = 2;
     pub const GOAL: usize = 3;
     pub const GRIP: usize = 6;
+    pub const TOP_SPEED: usize = 7;
+    pub const GAIN: usize = 8;
+    pub const VIA: usize = 9;
+    pub const TURN: usize = 12;
 }
 
 pub mod out_station {
@@ -47,6 +52,10 @@ pub mod out_station {
 
 pub fn put_point(image: &mut [f64], at: usize, point: Point) {
     image[at..at + 3].copy_from_slice(&[point.x, point.y, point.z]);
+}
+
+pub fn point(image: &[f64], at: usize) -> Point {
+    Point::new(image[at], image[at + 1], image[at + 2])
 }
 
 pub fn put_bit(image: &mut [f64], at: usize, value: bool) {
@@ -76,9 +85,13 @@ mod tests {
         }
         for device in ["rail_arm", "gantry"] {
             assert_eq!(offset(device, "grip"), out::GRIP);
+            assert_eq!(offset(device, "top_speed"), out::TOP_SPEED);
+            assert_eq!(offset(device, "gain"), out::GAIN);
+            assert_eq!(offset(device, "via"), out::VIA);
             assert_eq!(offset(device, "attached"), in_arm::ATTACHED);
             assert_eq!(offset(device, "tool"), in_arm::TOOL);
         }
+        assert_eq!(offset("gantry", "turn"), out::TURN);
         assert_eq!(offset("belt", "moving"), in_belt::MOVING);
         assert_eq!(offset("belt", "sees"), in_belt::SEES);
         assert_eq!(offset("belt", "seen_at"), in_belt::SEES + kinds);

@@ -10,6 +10,19 @@ use crate::point::Point;
 /// The briefcase seen from above (mesh of the competition's briefcase).
 const SIZE: [f64; 2] = [0.621, 0.761];
 
+/// The orders, and which of them have been made: known at all stations.
+#[derive(Clone, Debug)]
+pub struct Desk {
+    orders: Vec<Order>,
+    made: Vec<bool>,
+}
+
+impl Desk {
+    pub fn new(orders: Vec<Order>) -> Self {
+        Self { made: vec![false; orders.len()], orders }
+    }
+}
+
 #[derive(Clone, Debug)]
 pub struct Station {
     pose: Point,
@@ -44,39 +57,56 @@ impl Station {
         self.complete = outputs[out_station::COMPLETE] != 0.0;
     }
 
-    /// Opens the next order, if there is one.
-    pub fn open(&mut self, items: &mut Items) {
-        self.table = match self.queue.pop() {
-            Some(order) => {
-                items.note_order(order, OrderChange::Opened);
-                Table::Open { order, refused: false }
+    /// Opens the next order that was not made elsewhere, if there is one.
+    pub fn open(&mut self, machine: usize, desk: &Desk, items: &mut Items) {
+        self.table = Table::Bare;
+        while let Some(order) = self.queue.pop() {
+            if !desk.made[order] {
+                items.note_order(machine, order, OrderChange::Opened);
+                self.table = Table::Open { order, refused: false };
+                return;
             }
-            None => Table::Bare,
-        };
+        }
     }
 
-    pub fn advance(&mut self, machine: usize, orders: &[Order], items: &mut Items) {
+    /// Takes away an order that was made at another station. What lies in its briefcase is collected.
+    pub fn withdraw(&mut self, machine: usize, desk: &Desk, items: &mut Items) {
+        if let Some(order) = self.open_order()
+            && desk.made[order]
+        {
+            self.clear(machine, Carrier::Collector, items);
+            items.note_order(machine, order, OrderChange::Withdrawn);
+            self.table = Table::Gone;
+        }
+    }
+
+    fn clear(&self, machine: usize, to: Carrier, items: &mut Items) {
+        while let Some(&item) = items.borne_by(machine).first() {
+            let place = self.place(items.all()[item].carrier);
+            items.pass(item, to, place);
+        }
+    }
+
+    pub fn advance(&mut self, machine: usize, desk: &mut Desk, items: &mut Items) {
         match self.table {
-            Table::Open { order, refused } => {
+            Table::Open { order, refused } if !desk.made[order] => {
                 if !self.complete {
                     self.table = Table::Open { order, refused: false };
-                } else if is_made(&orders[order], items, machine) {
-                    while let Some(&item) = items.borne_by(machine).first() {
-                        let place = self.place(items.all()[item].carrier);
-                        items.pass(item, Carrier::Shipped { order }, place);
-                    }
-                    items.note_order(order, OrderChange::Made);
+                } else if is_made(&desk.orders[order], items, machine) {
+                    self.clear(machine, Carrier::Shipped { order }, items);
+                    items.note_order(machine, order, OrderChange::Made);
+                    desk.made[order] = true;
                     self.table = Table::Gone;
                 } else if !refused {
-                    items.note_order(order, OrderChange::Refused);
+                    items.note_order(machine, order, OrderChange::Refused);
                     self.table = Table::Open { order, refused: true };
                 }
             }
             Table::Gone if !self.complete => {
-                self.table = if self.queue.is_empty() { Table::Bare } else { Table::Opening };
+                self.table = if self.orders_to_open(desk) == 0 { Table::Bare } else { Table::Opening };
             }
-            Table::Opening => self.open(items),
-            Table::Gone | Table::Bare => {}
+            Table::Opening => self.open(machine, desk, items),
+            Table::Open { .. } | Table::Gone | Table::Bare => {}
         }
     }
 
@@ -92,8 +122,8 @@ impl Station {
         }
     }
 
-    pub fn orders_to_open(&self) -> usize {
-        self.queue.len()
+    pub fn orders_to_open(&self, desk: &Desk) -> usize {
+        self.queue.iter().filter(|&&order| !desk.made[order]).count()
     }
 
     pub fn pose(&self) -> Point {
@@ -116,11 +146,11 @@ impl Station {
         meets.then_some((self.pose.z + BRIEFCASE.z, Carrier::Briefcase { machine, offset }))
     }
 
-    pub fn write(&self, image: &mut [f64], orders: &[Order]) {
+    pub fn write(&self, image: &mut [f64], desk: &Desk) {
         image.fill(0.0);
         let Some(order) = self.open_order() else { return };
         put_bit(image, in_station::ORDER_OPEN, true);
-        let parts = &orders[order].parts;
+        let parts = &desk.orders[order].parts;
         for (word, &count) in image[in_station::ORDER_PARTS..].iter_mut().zip(parts) {
             *word = f64::from(count);
         }

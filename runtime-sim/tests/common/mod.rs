@@ -30,8 +30,8 @@ pub fn line() -> Line {
     Line {
         scan_ms: 10,
         kinds: vec![
-            Kind { name: "battery".into(), height: BATTERY_HEIGHT },
-            Kind { name: "pump".into(), height: PUMP_HEIGHT },
+            Kind { name: "battery".into(), height: BATTERY_HEIGHT, size: [0.135, 0.06] },
+            Kind { name: "pump".into(), height: PUMP_HEIGHT, size: [0.11, 0.11] },
         ],
         machines: vec![
             machine(
@@ -69,8 +69,10 @@ pub fn line() -> Line {
             machine("bin", Geometry::Bin { pose: Point::new(-1.899, 2.565, 0.0) }),
         ],
         obstacles: vec![],
+        // The scripts go straight from place to place.
+        may_touch: ["agv", "as1"].map(|name| ["gantry".into(), name.into()]).to_vec(),
         scenario: Scenario {
-            orders: vec![Order { station: STATION, parts: vec![1, 1] }],
+            orders: vec![Order { stations: vec![STATION], parts: vec![1, 1] }],
             supply: vec![Supply { belt: BELT, items: vec![BATTERY, PUMP] }],
             ..Scenario::default()
         },
@@ -103,6 +105,10 @@ pub mod output {
     pub const HOLD: usize = 2;
     pub const GOAL: usize = 3;
     pub const GRIP: usize = 6;
+    pub const TOP_SPEED: usize = 7;
+    pub const GAIN: usize = 8;
+    pub const VIA: usize = 9;
+    pub const TURN: usize = 12;
     pub const COMPLETE: usize = 0;
 }
 
@@ -110,6 +116,9 @@ pub const DRIVE: f64 = 1.0;
 pub const HALT: f64 = 2.0;
 pub const MOVE: f64 = 1.0;
 pub const PICK: f64 = 2.0;
+pub const PACE: f64 = 3.0;
+pub const TURN_TO: f64 = 4.0;
+pub const THROUGH: f64 = 5.0;
 
 /// Gives a command its number, verb and goal.
 pub fn command(outputs: &mut [f64], verb: f64, goal: Option<Point>) {
@@ -169,6 +178,16 @@ impl Rig {
         self.command(machine, verb, Some(goal));
         self.finish(machine);
         self.image(machine)[input::ERROR]
+    }
+
+    /// Sets the limits of an arm's motions; the answer comes in the next scan.
+    pub fn pace(&mut self, arm: usize, speed: f64, gain: f64) -> f64 {
+        self.outputs[arm][output::TOP_SPEED] = speed;
+        self.outputs[arm][output::GAIN] = gain;
+        self.command(arm, PACE, None);
+        self.step(1);
+        assert!(self.is_ended(arm));
+        self.image(arm)[input::ERROR]
     }
 
     /// Drives the belt until a part of this kind lies in the pick zone, and halts it; where it lies.

@@ -2,6 +2,7 @@
 
 use crate::adapters::{Layout, latch, publish};
 use controllers::system::{self, System};
+use runtime_sim::line::Line;
 use runtime_sim::scan::{Controllers, SystemInputs, SystemOutputs};
 use runtime_sim::words::Words;
 
@@ -20,6 +21,14 @@ impl Deployed {
     /// With a layout from text.
     pub fn read(text: &str) -> Result<Self, String> {
         Ok(Self { layout: Layout::read(&mut Words::new(text))?, system: System::new() })
+    }
+
+    /// If there is a robot for each machine of the line.
+    pub fn of(self, line: &Line) -> Result<Self, String> {
+        match self.robots() == line.machines.len() {
+            true => Ok(self),
+            false => Err(format!("{} robots for {} machines", self.robots(), line.machines.len())),
+        }
     }
 
     pub fn robots(&self) -> usize {

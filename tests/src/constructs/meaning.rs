@@ -32,6 +32,7 @@ impl<'a> Names<'a> {
             let source = match parameter.source {
                 ParameterSource::Layout(Some(_)) => "with a default",
                 ParameterSource::Layout(None) => "from the layout",
+                ParameterSource::Scenario => "from the scenario",
                 ParameterSource::Device => "device constant",
             };
             self.add(format!("parameter: {source}"));

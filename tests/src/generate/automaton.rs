@@ -96,8 +96,9 @@ fn of_device(device: &'static Device) -> Vec<Named> {
         finite,
     };
     let ports = device.ports.iter().map(|port| {
-        let is_written =
-            port.direction == Direction::Output && !["cmd", "verb", "hold", "goal"].contains(&port.name);
+        let is_of_commands = ["cmd", "verb", "hold"].contains(&port.name)
+            || device.verbs.iter().any(|verb| verb.arguments.contains(&port.name));
+        let is_written = port.direction == Direction::Output && !is_of_commands;
         let rule = if is_written { Rule::Owner } else { Rule::Fixed };
         named(port.name, port.ty, port.extent, rule, Finite::Perhaps)
     });

@@ -31,7 +31,11 @@ impl Writer<'_> {
 
     pub fn command(&mut self) -> String {
         let verb = self.lot.pick(self.device.verbs);
-        let arguments: Vec<String> = verb.arguments.iter().map(|_| self.value(&Ty::Point, 2)).collect();
+        let types: Vec<Ty> = (verb.arguments.iter())
+            .filter_map(|argument| self.names.iter().find(|n| n.name == *argument))
+            .map(|port| port.ty.clone())
+            .collect();
+        let arguments: Vec<String> = types.iter().map(|ty| self.value(ty, 2)).collect();
         let name = if verb.name == "move" && self.lot.one_in(4) { "goto" } else { verb.name };
         format!(" {name}({});", arguments.join(", "))
     }
@@ -81,6 +85,10 @@ impl Writer<'_> {
                 fits && s.extent == target.extent && s.name != target.name
             });
             let sources: Vec<String> = sources.map(|s| s.name.clone()).collect();
+            // Few devices have array inputs, and few targets their type.
+            let inputs: Vec<String> =
+                sources.iter().filter(|s| self.device.port(s).is_some()).cloned().collect();
+            let sources = if inputs.is_empty() { sources } else { inputs };
             if !sources.is_empty() {
                 self.faults += 1;
                 return Some(format!(" {} := {};", target.name, self.lot.pick(&sources)));

@@ -4,6 +4,7 @@ mod call;
 mod configuration;
 mod declare;
 mod expression;
+mod located;
 mod name;
 mod precedence;
 mod statement;
@@ -117,7 +118,9 @@ impl<'t> Checker<'t> {
             return None;
         };
         match self.type_of_name(element)? {
-            Type::Scalar(scalar) => Some(Type::Array(scalar, upper_value as usize)),
+            Type::Scalar(scalar) if !matches!(scalar, crate::types::Scalar::Narrow(_)) => {
+                Some(Type::Array(scalar, upper_value as usize))
+            }
             other => {
                 self.report("array-element", element.span, format!("an array of {other}"));
                 None

@@ -108,7 +108,7 @@ impl Machine {
         let word = self.memory[place.address];
         match place.ty {
             Scalar::Bool => word as f64,
-            Scalar::Dint => f64::from(word as u32 as i32),
+            Scalar::Dint | Scalar::Narrow(_) => f64::from(word as u32 as i32),
             Scalar::Lreal => f64::from_bits(word),
         }
     }
@@ -117,7 +117,7 @@ impl Machine {
     pub fn write(&mut self, place: Place, value: f64) {
         self.memory[place.address] = match place.ty {
             Scalar::Bool => u64::from(value != 0.0),
-            Scalar::Dint => u64::from(value as i32 as u32),
+            Scalar::Dint | Scalar::Narrow(_) => u64::from(value as i32 as u32),
             Scalar::Lreal => value.to_bits(),
         };
     }
@@ -130,6 +130,11 @@ impl Machine {
     pub fn set(&mut self, path: &str, value: f64) {
         let place = self.place(path).unwrap_or_else(|| panic!("there is no `{path}`"));
         self.write(place, value);
+    }
+
+    /// The variable at an address such as `%IX0.3`.
+    pub fn at_address(&self, address: &str) -> Option<Place> {
+        self.layouts.located(address)
     }
 
     /// Names and types of the global variables, arrays by element.

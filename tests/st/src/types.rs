@@ -7,6 +7,17 @@ pub enum Scalar {
     Bool,
     Dint,
     Lreal,
+    /// Of variables in the process image only.
+    Narrow(Narrow),
+}
+
+/// Whole numbers of less than 32 bits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Narrow {
+    Sint,
+    Usint,
+    Int,
+    Uint,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -28,7 +39,47 @@ impl Scalar {
             "BOOL" => Some(Scalar::Bool),
             "DINT" => Some(Scalar::Dint),
             "LREAL" => Some(Scalar::Lreal),
-            _ => None,
+            word => Narrow::named(word).map(Scalar::Narrow),
+        }
+    }
+
+    /// What arithmetic and order are for.
+    pub fn is_number(self) -> bool {
+        matches!(self, Scalar::Dint | Scalar::Lreal)
+    }
+}
+
+impl Narrow {
+    const ALL: [Self; 4] = [Narrow::Sint, Narrow::Usint, Narrow::Int, Narrow::Uint];
+
+    /// In capital letters.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|narrow| narrow.name() == name)
+    }
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Narrow::Sint => "SINT",
+            Narrow::Usint => "USINT",
+            Narrow::Int => "INT",
+            Narrow::Uint => "UINT",
+        }
+    }
+
+    /// Least and greatest value.
+    pub fn bounds(self) -> (i32, i32) {
+        match self {
+            Narrow::Sint => (-128, 127),
+            Narrow::Usint => (0, 255),
+            Narrow::Int => (-32_768, 32_767),
+            Narrow::Uint => (0, 65_535),
+        }
+    }
+
+    pub fn bits(self) -> u32 {
+        match self {
+            Narrow::Sint | Narrow::Usint => 8,
+            Narrow::Int | Narrow::Uint => 16,
         }
     }
 }
@@ -39,6 +90,7 @@ impl fmt::Display for Scalar {
             Scalar::Bool => "BOOL",
             Scalar::Dint => "DINT",
             Scalar::Lreal => "LREAL",
+            Scalar::Narrow(narrow) => narrow.name(),
         })
     }
 }

@@ -56,6 +56,8 @@ pub enum Section {
 pub struct Variable {
     pub section: Section,
     pub name: Name,
+    /// Such as `%IX0.3`, as written.
+    pub address: Option<Name>,
     pub ty: TypeName,
     pub initial: Option<Expression>,
     pub span: Span,

@@ -318,3 +318,92 @@ fn statements_are_counted() {
     assert_eq!((machine.statements(), machine.executed()), (4, 3));
     assert_eq!(machine.never_executed(), [(7, "j := 2;".to_string())]);
 }
+
+/// Raw values of the process image.
+const IMAGE: &str = "s AT %IB0 : SINT; us AT %IB1 : USINT; n AT %IW4 : INT; u AT %QW4 : UINT := 7; \
+    d AT %MD3 : DINT; bit AT %IX9.7 : BOOL; p : DINT; q : LREAL;";
+
+fn with_image(image: &str, body: &str) -> Result<Machine, String> {
+    let externals: String = image
+        .split(';')
+        .filter_map(|line| line.split_once(':'))
+        .map(|(name, ty)| {
+            let name = name.split(" AT ").next().unwrap_or_default();
+            format!("{name} : {}; ", ty.split(":=").next().unwrap_or_default())
+        })
+        .collect();
+    let source = format!(
+        "PROGRAM Run\nVAR_EXTERNAL {externals} END_VAR\n{body}\nEND_PROGRAM\n\
+         CONFIGURATION Conf\nVAR_GLOBAL {image} END_VAR\nRESOURCE Res ON PLC\n\
+         TASK Cyclic(INTERVAL := T#10ms, PRIORITY := 0);\nPROGRAM Inst WITH Cyclic : Run;\nEND_RESOURCE\nEND_CONFIGURATION\n"
+    );
+    Machine::new(&source).map_err(|findings| listed(&findings, &source))
+}
+
+#[test]
+fn raw_values_are_converted_without_a_change() {
+    for (name, body, values) in [
+        ("s", "p := SINT_TO_DINT(s);", [-128.0, 127.0]),
+        ("us", "p := USINT_TO_DINT(us);", [0.0, 255.0]),
+        ("n", "p := INT_TO_DINT(n);", [-32768.0, 32767.0]),
+        ("u", "p := UINT_TO_DINT(u);", [0.0, 65535.0]),
+    ] {
+        let mut machine = with_image(IMAGE, body).expect(body);
+        for value in values {
+            machine.set(name, value);
+            machine.scan().expect(body);
+            assert_eq!(machine.get("p"), value, "{body}");
+        }
+    }
+    assert_eq!(with_image(IMAGE, "p := 0;").expect("a clean text").get("u"), 7.0);
+}
+
+#[test]
+fn a_number_that_a_raw_type_does_not_hold_ends_the_scan() {
+    for (body, inside, outside) in [
+        ("s := DINT_TO_SINT(p);", -128.0, 128.0),
+        ("us := DINT_TO_USINT(p);", 255.0, -1.0),
+        ("n := DINT_TO_INT(p);", 32767.0, -32769.0),
+        ("u := DINT_TO_UINT(p);", 65535.0, 65536.0),
+    ] {
+        let mut machine = with_image(IMAGE, body).expect(body);
+        machine.set("p", inside);
+        machine.scan().expect(body);
+        assert_eq!(machine.get(body.split(' ').next().expect("a name")), inside, "{body}");
+        machine.set("p", outside);
+        assert_eq!(machine.scan().expect_err(body).kind, TrapKind::Overflow, "{body}");
+    }
+}
+
+#[test]
+fn variables_are_found_by_their_address() {
+    let machine = with_image(IMAGE, "d := 3; bit := TRUE;");
+    let mut machine = machine.expect("a clean text");
+    machine.scan().expect("a scan");
+    let at = |address: &str| machine.at_address(address).map(|place| machine.read(place));
+    assert_eq!((at("%MD3"), at("%IX9.7"), at("%IX9.6")), (Some(3.0), Some(1.0), None));
+}
+
+#[test]
+fn raw_values_are_only_converted() {
+    for (image, body, code) in [
+        (IMAGE, "p := n;", "type"),
+        (IMAGE, "n := p;", "type"),
+        (IMAGE, "n := 1;", "type"),
+        (IMAGE, "p := UINT_TO_DINT(n);", "argument"),
+        (IMAGE, "n := DINT_TO_UINT(p);", "type"),
+        (IMAGE, "n := n + n;", "type"),
+        (IMAGE, "bit := n = n;", "type"),
+        (IMAGE, "q := DINT_TO_LREAL(n);", "argument"),
+        ("n : INT;", "n := DINT_TO_INT(1);", "narrow"),
+        ("n AT %ID0 : INT;", "n := DINT_TO_INT(1);", "address"),
+        ("n AT %IX0.0 : DINT;", "n := 1;", "address"),
+        ("n AT %IX0.9 : BOOL;", "n := TRUE;", "address"),
+        ("n AT %QW0 : UINT := -1;", "n := DINT_TO_UINT(1);", "type"),
+        ("n AT %IX0.0 : BOOL; m AT %IX0.0 : BOOL;", "n := m;", "address"),
+        ("n : ARRAY[0..1] OF INT;", "n[0] := DINT_TO_INT(1);", "array-element"),
+    ] {
+        let found = with_image(image, body).err().unwrap_or_default();
+        assert!(found.contains(&format!(": {code}: ")), "{image} {body}: {found}");
+    }
+}

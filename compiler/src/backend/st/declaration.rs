@@ -2,6 +2,7 @@
 
 use super::code::{Ex, Stmt};
 use super::print::{Dialect, comment};
+use crate::io_map::Raw;
 use crate::ir::{Scalar, Value};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -9,12 +10,19 @@ pub enum Basic {
     Bool,
     Dint,
     Lreal,
+    /// Of raw values in the process image only.
+    Sint,
+    Usint,
+    Int,
+    Uint,
 }
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Variable {
     pub name: String,
     pub basic: Basic,
+    /// In the process image, such as `%IX0.3`.
+    pub address: Option<String>,
     /// Number of elements of an array.
     pub elements: Option<usize>,
     /// Of a scalar; every other value is set by code.
@@ -60,21 +68,44 @@ impl Basic {
             Basic::Bool => "BOOL",
             Basic::Dint => "DINT",
             Basic::Lreal => "LREAL",
+            Basic::Sint => "SINT",
+            Basic::Usint => "USINT",
+            Basic::Int => "INT",
+            Basic::Uint => "UINT",
         }
     }
 
     pub fn zero(self) -> Ex {
         match self {
             Basic::Bool => Ex::Bool(false),
-            Basic::Dint => Ex::Int(0),
+            Basic::Dint | Basic::Sint | Basic::Usint | Basic::Int | Basic::Uint => Ex::Int(0),
             Basic::Lreal => Ex::Real(0.0),
+        }
+    }
+}
+
+impl From<Raw> for Basic {
+    fn from(raw: Raw) -> Self {
+        match raw {
+            Raw::Bool => Basic::Bool,
+            Raw::Sint => Basic::Sint,
+            Raw::Usint => Basic::Usint,
+            Raw::Int => Basic::Int,
+            Raw::Uint => Basic::Uint,
+            Raw::Dint => Basic::Dint,
         }
     }
 }
 
 impl Variable {
     pub fn new(name: impl Into<String>, basic: Basic) -> Self {
-        Self { name: name.into(), basic, elements: None, initial: None, comments: Vec::new() }
+        let name = name.into();
+        Self { name, basic, address: None, elements: None, initial: None, comments: Vec::new() }
+    }
+
+    pub fn with_address(mut self, address: String) -> Self {
+        self.address = Some(address);
+        self
     }
 
     pub fn with_comment(mut self, text: impl Into<String>) -> Self {
@@ -104,17 +135,19 @@ impl Variable {
 
     /// The same variable without initial value, as it is declared where it is used.
     pub fn external(&self) -> Self {
-        Self { initial: None, comments: self.comments.iter().take(1).cloned().collect(), ..self.clone() }
+        let comments = self.comments.iter().take(1).cloned().collect();
+        Self { address: None, initial: None, comments, ..self.clone() }
     }
 
     pub fn uncommented(&self) -> Self {
-        Self { initial: None, comments: Vec::new(), ..self.clone() }
+        Self { address: None, initial: None, comments: Vec::new(), ..self.clone() }
     }
 
     fn lines(&self, dialect: Dialect, ty: &str) -> String {
         let initial =
             self.initial.as_ref().map(|e| format!(" := {}", dialect.expression(e))).unwrap_or_default();
-        let mut text = format!("    {} : {ty}{initial};", self.name);
+        let address = self.address.as_ref().map(|at| format!(" AT {at}")).unwrap_or_default();
+        let mut text = format!("    {}{address} : {ty}{initial};", self.name);
         for (i, line) in self.comments.iter().enumerate() {
             text +=
                 &if i == 0 { format!(" {}", comment(line)) } else { format!("\n        {}", comment(line)) };

@@ -33,6 +33,7 @@ const FUNCTIONS: &[Function] = &[
     function!("F_is_finite", &[], 1),
     function!("F_is_finite_point", &["F_is_finite"], 4),
     function!("F_squared_distance", &[], 4),
+    function!("F_rounded", &[], 2),
 ];
 
 /// The functions of these names and those that they call.

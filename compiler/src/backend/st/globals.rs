@@ -7,6 +7,7 @@
 use super::code::{Ex, Stmt, advance, binary, name};
 use super::context::Shared;
 use super::declaration::{Basic, Variable, constants};
+use super::image::Image;
 use super::role::{Members, is_alike};
 use crate::ir::{AutomatonId, Extent, InterfaceId, RoleId, Scalar, Type, Value};
 use runtime_sim::device::{Direction, Port, PortType, Stop};
@@ -22,6 +23,8 @@ pub struct Globals {
     pub system: Vec<Variable>,
     /// For each robot its ports.
     pub ports: Vec<Vec<Variable>>,
+    /// Raw values at their addresses.
+    pub raw: Vec<Variable>,
     pub cells: Vec<Table>,
     pub parameters: Vec<Table>,
 }
@@ -33,10 +36,16 @@ pub struct List {
 }
 
 impl Globals {
-    pub fn new(shared: Shared) -> Self {
+    pub fn new(shared: Shared, image: &Image) -> Self {
+        let located = |variables: Vec<Variable>| {
+            let address = |v: &Variable| image.located.get(&v.name).cloned();
+            variables.into_iter().map(|v| Variable { address: address(&v), ..v }).collect()
+        };
+        let robots = 0..shared.system.instances.len();
         Self {
-            system: system(shared),
-            ports: (0..shared.system.instances.len()).map(|robot| ports(shared, robot)).collect(),
+            system: located(system(shared)),
+            ports: robots.map(|robot| located(ports(shared, robot))).collect(),
+            raw: image.raw.clone(),
             cells: cells(shared),
             parameters: parameters(shared),
         }
@@ -58,6 +67,7 @@ impl Globals {
                 variables: self.system.clone(),
             },
             List { name: "GVL_Ports", about: "ports of the robots", variables: self.ports.concat() },
+            List { name: "GVL_Raw", about: "raw values of the process image", variables: self.raw.clone() },
             List { name: "GVL_Cells", about: "shared cells", variables: tables(&self.cells) },
             List { name: "GVL_Parameters", about: "parameters", variables: tables(&self.parameters) },
         ];
@@ -66,7 +76,7 @@ impl Globals {
 
     pub fn all(&self) -> impl Iterator<Item = &Variable> {
         let tables = self.cells.iter().chain(&self.parameters).map(|t| &t.variable);
-        self.system.iter().chain(self.ports.iter().flatten()).chain(tables)
+        self.system.iter().chain(self.ports.iter().flatten()).chain(&self.raw).chain(tables)
     }
 }
 

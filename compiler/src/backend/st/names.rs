@@ -25,10 +25,12 @@ const TAKEN: &[&str] = &[
     "F_is_finite_point",
     "F_absolute",
     "F_squared_distance",
+    "F_rounded",
     "MAIN",
     "FB_Layout",
     "GVL_System",
     "GVL_Ports",
+    "GVL_Raw",
     "GVL_Cells",
     "GVL_Parameters",
     "Line",
@@ -56,6 +58,8 @@ pub struct Names {
     pub relations: Vec<String>,
     pub automata: Vec<AutomatonNames>,
     pub robots: Vec<RobotNames>,
+    /// The names of MAIN, for raw variables.
+    pub program: Scope,
     /// What could not stay as it was, with the unit in which it stands.
     pub renamed: Vec<(String, Renamed)>,
 }
@@ -144,7 +148,7 @@ pub fn names(system: &System) -> Names {
     };
     renamed.extend(log("globals", &global));
     renamed.extend(log("MAIN", &program));
-    Names { enums, interfaces, relations, automata, robots, renamed }
+    Names { enums, interfaces, relations, automata, robots, program, renamed }
 }
 
 fn enum_names(source: &Enum, global: &mut Scope) -> EnumNames {

@@ -73,14 +73,18 @@ impl Dialect {
             Ex::Binary(operator, a, b) => format!("{} {operator} {}", self.operand(a), self.operand(b)),
             Ex::Chain(operator, parts) => self.operands(parts).join(&format!(" {operator} ")),
             Ex::Call(function, arguments) => {
-                let argument = |(name, value): &(&str, Ex)| match *name {
-                    // Functions of the standard are called by position.
-                    "" => self.expression(value),
-                    name => format!("{name} := {}", self.expression(value)),
-                };
-                let arguments: Vec<_> = arguments.iter().map(argument).collect();
+                let arguments: Vec<_> =
+                    arguments.iter().map(|(name, value)| self.argument(name, value)).collect();
                 format!("{function}({})", arguments.join(", "))
             }
+        }
+    }
+
+    /// Functions of the standard are called by position: their arguments have no names.
+    fn argument(self, name: &str, value: &Ex) -> String {
+        match name {
+            "" => self.expression(value),
+            name => format!("{name} := {}", self.expression(value)),
         }
     }
 
@@ -221,8 +225,7 @@ impl Printer {
 
     /// A call on one line, or with an argument on each.
     fn call<'a>(&mut self, begin: &str, arguments: impl Iterator<Item = (&'a str, &'a Ex)>, depth: usize) {
-        let arguments: Vec<_> =
-            arguments.map(|(name, value)| format!("{name} := {}", self.dialect.expression(value))).collect();
+        let arguments: Vec<_> = arguments.map(|(name, value)| self.dialect.argument(name, value)).collect();
         let one_line = format!("{begin}({});", arguments.join(", "));
         if 4 * depth + one_line.len() <= WIDTH {
             return self.line(depth, &one_line);

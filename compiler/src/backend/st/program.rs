@@ -5,6 +5,7 @@ use super::code::{self, Arm, Ex, Stmt, and, assign, binary, name, not, or, when}
 use super::context::Shared;
 use super::declaration::{Basic, Instance, Unit, Variable, constants};
 use super::globals::{Globals, fill, stop_value};
+use super::image::Image;
 use super::names::ELEMENT;
 use runtime_sim::device::Direction;
 
@@ -16,12 +17,13 @@ pub struct Blocks {
     pub invariants: Option<Block>,
 }
 
-pub fn program(shared: Shared, blocks: &[Option<Blocks>], globals: &Globals) -> Unit {
+pub fn program(shared: Shared, blocks: &[Option<Blocks>], globals: &Globals, image: &Image) -> Unit {
     let mut body = Vec::new();
     let mut instances = Vec::new();
     instances.push(Instance { name: "layout".into(), block: LAYOUT.into(), comment: String::new() });
     let cold = vec![("cold_start".to_string(), not(name("init_done")))];
     body.push(Stmt::Call { instance: "layout".into(), arguments: cold });
+    body.extend(commented("Inputs: from raw values.", &image.inputs));
     body.extend(status());
     body.push(Stmt::Comment("Steps, in layout order.".into()));
     let robots: Vec<_> = (shared.system.instances.iter().zip(&shared.names.robots).enumerate())
@@ -55,6 +57,7 @@ pub fn program(shared: Shared, blocks: &[Option<Blocks>], globals: &Globals) -> 
     for (robot, _, blocks) in &robots {
         body.extend(publish(shared, *robot, &blocks.steps));
     }
+    body.extend(commented("Outputs: to raw values.", &image.outputs));
     body.push(assign("init_done", Ex::Bool(true)));
     let used = code::names(&body);
     Unit {
@@ -73,6 +76,12 @@ pub fn program(shared: Shared, blocks: &[Option<Blocks>], globals: &Globals) -> 
         body,
         ..Unit::default()
     }
+}
+
+/// Statements with a comment before them, if there are any.
+fn commented(text: &str, statements: &[Stmt]) -> Vec<Stmt> {
+    let comment = (!statements.is_empty()).then(|| Stmt::Comment(text.into()));
+    comment.into_iter().chain(statements.iter().cloned()).collect()
 }
 
 fn status() -> Vec<Stmt> {

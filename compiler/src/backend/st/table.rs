@@ -2,12 +2,11 @@
 
 use super::block::NO_SUCH_STATE;
 use super::context::Shared;
-use super::declaration::{Basic, constants};
-use super::globals::stop_value;
-use super::print::Dialect;
-use crate::ir::{FaultKind, Scalar};
+use super::points::{Terminal, terminals};
+use crate::io_map::{Conversion, IoMap, Wire};
+use crate::ir::FaultKind;
 use crate::naming::st::Renamed;
-use runtime_sim::device::{Direction, Extent, Port};
+use runtime_sim::device::Direction;
 
 /// A line of fields, in quotes where they need them.
 pub fn row(fields: &[&str]) -> String {
@@ -39,50 +38,33 @@ const IO: [&str; 12] = [
     "raw type",
     "scale",
     "offset",
-    "invert",
+    "inversion",
 ];
 
-/// Every point of I/O by the name of its variable; the columns behind the meaning are for the user to fill.
-pub fn io(shared: Shared) -> String {
+/// Every point of I/O by the name of its variable. The columns behind the meaning are for a person to fill;
+/// they hold what the map says.
+pub fn io(shared: Shared, map: &IoMap) -> String {
     let mut text = row(&IO);
-    let mut point = |robot: &str, name: &str, direction: &str, ty: &str, [unit, stop, meaning]: [&str; 3]| {
-        text += &row(&[robot, name, direction, ty, unit, stop, meaning, "", "", "", "", ""]);
-    };
-    let system = [
-        ("run_permit", "input", "BOOL", "false when the emergency stop has acted or the fieldbus is lost"),
-        ("start", "input", "BOOL", "its rising edge starts the line"),
-        ("reset", "input", "BOOL", "its rising edge clears a fault"),
-        ("running", "output", "BOOL", "the robots step"),
-        ("fault", "output", "BOOL", "a fault is latched"),
-        ("fault_code", "output", "DINT", "see alarms.csv; 0 without a fault"),
-        ("fault_robot", "output", "DINT", "number of the robot; -1 without a fault"),
-    ];
-    for (name, direction, ty, meaning) in system {
-        point("", name, direction, ty, ["", "", meaning]);
-    }
-    for (robot, (instance, names)) in shared.system.instances.iter().zip(&shared.names.robots).enumerate() {
-        for (port, held) in shared.system.automaton_of(robot).device.ports.iter().zip(&names.ports) {
-            let direction = if port.direction == Direction::Input { "input" } else { "output" };
-            let ty = Basic::of(Scalar::from(port.ty)).name();
-            for element in 0..port.extent.elements(shared.system.kinds()) {
-                for (part, name) in held.iter().enumerate() {
-                    let name =
-                        if port.extent == Extent::One { name.clone() } else { format!("{name}[{element}]") };
-                    let stop = stop_text(port, part);
-                    point(&instance.name, &name, direction, ty, [port.unit, &stop, port.meaning]);
-                }
-            }
-        }
+    for (number, Terminal { point, .. }) in terminals(shared.system, shared.names).iter().enumerate() {
+        let direction = if point.direction == Direction::Input { "input" } else { "output" };
+        let about = [&point.robot, &point.name, direction, point.kind.name(), point.unit, &point.stop];
+        let wired = map.wire(number).map(wire).unwrap_or_default();
+        let fields: Vec<&str> =
+            about.into_iter().chain([point.meaning]).chain(wired.iter().map(String::as_str)).collect();
+        text += &row(&fields);
     }
     text
 }
 
-fn stop_text(port: &Port, part: usize) -> String {
-    match (port.direction, stop_value(port)) {
-        (Direction::Input, _) => String::new(),
-        (Direction::Output, None) => "hold".into(),
-        (Direction::Output, Some(value)) => Dialect::Portable.expression(&constants(value)[part]),
-    }
+/// Address, raw type, scale, offset, inversion.
+fn wire(wire: &Wire) -> [String; 5] {
+    let (scale, offset, inversion) = match wire.conversion {
+        Conversion::None => (String::new(), String::new(), ""),
+        Conversion::Inverted => (String::new(), String::new(), "TRUE"),
+        Conversion::Shifted(offset) => (String::new(), offset.to_string(), ""),
+        Conversion::Scaled { scale, offset } => (format!("{scale:?}"), format!("{offset:?}"), ""),
+    };
+    [wire.address.to_string(), wire.raw.name().into(), scale, offset, inversion.into()]
 }
 
 /// The codes that are published with a fault.

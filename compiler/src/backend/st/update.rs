@@ -257,7 +257,7 @@ fn range(value: &Expr) -> (i32, i32) {
 fn new_value(basic: Basic) -> &'static str {
     match basic {
         Basic::Bool => "new_flag",
-        Basic::Dint => "new_number",
+        Basic::Dint | Basic::Sint | Basic::Usint | Basic::Int | Basic::Uint => "new_number",
         Basic::Lreal => "new_value",
     }
 }

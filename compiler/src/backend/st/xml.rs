@@ -96,7 +96,7 @@ fn pou(unit: &Unit, dialect: Dialect) -> Pou {
     interface += &section("outputVars", unit.outputs.iter().map(of).collect());
     let instances = unit.instances.iter();
     let instances =
-        instances.map(|i| typed(&i.name, &format!("<derived name=\"{}\"/>", i.block), "", "", 12));
+        instances.map(|i| typed(&named(&i.name), &format!("<derived name=\"{}\"/>", i.block), "", "", 12));
     interface += &section("localVars", unit.variables.iter().map(of).chain(instances).collect());
     if dialect == Dialect::Portable {
         interface += &section("externalVars", unit.externals.iter().map(of).collect());
@@ -128,7 +128,7 @@ fn function(function: &Function) -> Pou {
             ("END_FUNCTION", _) => {}
             (line, Some((_, variables))) => {
                 if let Some((name, ty)) = line.trim().trim_end_matches(';').split_once(" : ") {
-                    variables.push(typed(name, &format!("<{ty}/>"), "", "", 12));
+                    variables.push(typed(&named(name), &format!("<{ty}/>"), "", "", 12));
                 }
             }
             (line, None) => {
@@ -169,11 +169,16 @@ fn variable(variable: &Variable, dialect: Dialect, derived: Option<&str>, indent
             )
         }
     };
-    typed(&variable.name, &ty, &initial.unwrap_or_default(), &about, indent)
+    let address = variable.address.as_ref().map(|at| format!(" address=\"{at}\"")).unwrap_or_default();
+    typed(&(named(&variable.name) + &address), &ty, &initial.unwrap_or_default(), &about, indent)
 }
 
-fn typed(name: &str, ty: &str, initial: &str, about: &str, indent: usize) -> String {
-    format!("{}<variable name=\"{name}\"><type>{ty}</type>{initial}{about}</variable>\n", " ".repeat(indent))
+fn named(name: &str) -> String {
+    format!("name=\"{name}\"")
+}
+
+fn typed(attributes: &str, ty: &str, initial: &str, about: &str, indent: usize) -> String {
+    format!("{}<variable {attributes}><type>{ty}</type>{initial}{about}</variable>\n", " ".repeat(indent))
 }
 
 fn escaped(text: &str) -> String {

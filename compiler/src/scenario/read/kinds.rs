@@ -5,9 +5,9 @@ use crate::layout::decode::{Decoder, find, instead, listing};
 use crate::layout::json::Json;
 use crate::scenario::Kind;
 use crate::source::Spanned;
+use runtime_sim::geometry::MOST_KINDS;
 use std::ops::RangeInclusive;
 
-const MOST_KINDS: usize = 16;
 /// Of height, length and width of a part, m.
 const LENGTHS: RangeInclusive<f64> = 0.001..=1.0;
 /// Of a kind that does not say how long and wide its parts are, m: they fit side by side on a tray.

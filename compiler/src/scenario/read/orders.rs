@@ -21,7 +21,7 @@ impl Decoder {
         let parts = self.required(members, "parts", json.span, "orders");
         let parts = parts.and_then(|j| self.parts(j, kinds));
         let stations = find(members, "stations").and_then(|j| self.stations(j));
-        let order = Order { station: None, parts: parts? };
+        let order = Order { stations: None, parts: parts? };
         Some(Orders { span: json.span, list: vec![order; count? as usize], stations })
     }
 
@@ -41,10 +41,36 @@ impl Decoder {
     fn order(&mut self, json: &Json, kinds: &[&str]) -> Option<Order> {
         let members = self.object(json, "an order")?;
         self.unknown_keys(members, &["station", "parts"], "an order");
-        let station = find(members, "station").map(|j| self.text(j, "station"));
+        let stations = find(members, "station").map(|j| self.one_or_several(j));
         let parts = self.required(members, "parts", json.span, "an order");
         let parts = parts.and_then(|j| self.parts(j, kinds))?;
-        Some(Order { station: station.flatten(), parts })
+        Some(Order { stations: stations.flatten(), parts })
+    }
+
+    /// The name of a station, or a list of names.
+    fn one_or_several(&mut self, json: &Json) -> Option<Vec<Spanned<String>>> {
+        let Value::List(items) = &json.value else {
+            return self.text(json, "station").map(|name| vec![name]);
+        };
+        if items.is_empty() {
+            self.report(
+                Diagnostic::new("E0113", json.span, "station names no station")
+                    .help("name one or several; without the key \"station\" the order goes to all in turn"),
+            );
+            return None;
+        }
+        let names = self.texts(json, "station")?;
+        for (i, name) in names.iter().enumerate() {
+            if let Some(first) = names[..i].iter().find(|n| n.value == name.value) {
+                self.report(
+                    Diagnostic::new("E0113", name.span, format!("\"{}\" stands here twice", name.value))
+                        .other(first.span, "here first")
+                        .note("an order opens once at each of its stations")
+                        .help("remove one"),
+                );
+            }
+        }
+        Some(names)
     }
 
     fn parts(&mut self, json: &Json, kinds: &[&str]) -> Option<Vec<u32>> {

@@ -1,6 +1,6 @@
 //! What the belts bring.
 
-use super::{EVERY_S, SEED, SURPLUS};
+use super::{EVERY_S, LONGEST_S, SEED, SURPLUS};
 use crate::diagnostic::Diagnostic;
 use crate::layout::decode::{Decoder, find};
 use crate::layout::json::{Json, Value};
@@ -9,13 +9,15 @@ use crate::scenario::{Items, Supply};
 impl Decoder {
     pub(super) fn supply(&mut self, json: &Json, kinds: &[&str]) -> Option<Supply> {
         let members = self.object(json, "supply")?;
-        self.unknown_keys(members, &["surplus", "seed", "every_s", "items"], "supply");
+        self.unknown_keys(members, &["surplus", "seed", "first_s", "every_s", "items"], "supply");
         let every_s = self.seconds_or(members, "every_s", EVERY_S);
+        let first_s = find(members, "first_s").and_then(|j| self.number_in(j, "first_s", 0.0..=LONGEST_S));
+        let first_s = first_s.unwrap_or(every_s);
         let Some(items) = find(members, "items") else {
             let surplus = find(members, "surplus").and_then(|j| self.fraction(j)).unwrap_or(SURPLUS);
             let seed = find(members, "seed").and_then(|j| self.whole(j, "seed", 0..=u32::MAX));
             let items = Items::Shuffled { surplus, seed: seed.unwrap_or(SEED) };
-            return Some(Supply { span: json.span, every_s, items });
+            return Some(Supply { span: json.span, first_s, every_s, items });
         };
         for key in members.iter().map(|m| &m.key).filter(|k| k.value == "surplus" || k.value == "seed") {
             self.report(
@@ -37,7 +39,7 @@ impl Decoder {
             }
             _ => Items::OnlyBelt(self.items(items, kinds)?),
         };
-        Some(Supply { span: json.span, every_s, items })
+        Some(Supply { span: json.span, first_s, every_s, items })
     }
 
     fn items(&mut self, json: &Json, kinds: &[&str]) -> Option<Vec<usize>> {

@@ -213,7 +213,9 @@ impl Parser {
             );
             return None;
         };
+        let start = self.span().start + 1;
         self.next();
+        let text = self.shown_text(&text, start as usize);
         Some(ast::Require { span: span.to(self.last_span()), condition, text })
     }
 

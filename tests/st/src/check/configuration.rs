@@ -20,12 +20,14 @@ impl Checker<'_> {
     }
 
     fn configuration(&mut self, configuration: &Configuration) {
+        self.addresses(&configuration.globals);
         for variable in &configuration.globals {
             let Some(ty) = self.type_of_name(&variable.ty) else { continue };
             if let Type::Block(_) = ty {
                 self.report("block-section", variable.span, "an instance of a function block stands in VAR");
             }
             self.initial(variable, &ty);
+            self.located(variable, &ty);
         }
         let programs: usize = configuration.resources.iter().map(|r| r.programs.len()).sum();
         if programs == 0 {

@@ -13,7 +13,7 @@ impl<'t> Checker<'t> {
         let mut variables = HashMap::new();
         if let Some(result) = &unit.result
             && let Some(ty) = self.type_of_name(result)
-            && !matches!(ty, Type::Scalar(_))
+            && !matches!(ty, Type::Scalar(scalar) if !matches!(scalar, Scalar::Narrow(_)))
         {
             self.report("function-result", result.span, format!("a function gives no {ty}"));
         }
@@ -34,6 +34,11 @@ impl<'t> Checker<'t> {
             {
                 let text = "an array of a type without a name is an input or output";
                 self.untried.push(Finding::new("array-passed", variable.span, text));
+            }
+            if let Type::Scalar(Scalar::Narrow(_)) = ty
+                && variable.section != Section::External
+            {
+                self.report("narrow", variable.ty.span, format!("{ty} is for the process image only"));
             }
             if variable.section == Section::External {
                 self.external(variable, &ty);
@@ -66,9 +71,19 @@ impl<'t> Checker<'t> {
         };
         if let Some(found) = self.literal_type(initial)
             && found != *scalar
+            && !self.narrow_initial(initial, *scalar)
         {
             self.report("type", initial.span, format!("{found} for the {scalar} `{}`", variable.name.text));
         }
+    }
+
+    /// Whether a whole number is one of a type of the process image.
+    fn narrow_initial(&self, initial: &Expression, scalar: Scalar) -> bool {
+        let (Scalar::Narrow(narrow), ExpressionKind::Int(text)) = (scalar, &initial.kind) else {
+            return false;
+        };
+        let (low, high) = narrow.bounds();
+        crate::literal::int(text).is_ok_and(|value| (low..=high).contains(&value))
     }
 
     fn literal_type(&mut self, expression: &Expression) -> Option<Scalar> {

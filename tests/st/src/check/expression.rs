@@ -129,7 +129,7 @@ impl Checker<'_> {
         let found = self.scalar(scope, operand)?;
         let is_fine = match operator {
             Unary::Not => found == Scalar::Bool,
-            Unary::Minus => found != Scalar::Bool,
+            Unary::Minus => found.is_number(),
         };
         if !is_fine {
             self.report("type", operand.span, format!("{operator:?} of {found}"));
@@ -155,12 +155,14 @@ impl Checker<'_> {
         }
         let (is_fine, result) = match operator {
             Binary::And | Binary::Or | Binary::Xor => (left_type == Scalar::Bool, Scalar::Bool),
-            Binary::Equal | Binary::Unequal => (true, Scalar::Bool),
+            Binary::Equal | Binary::Unequal => {
+                (left_type.is_number() || left_type == Scalar::Bool, Scalar::Bool)
+            }
             Binary::Less | Binary::Greater | Binary::LessOrEqual | Binary::GreaterOrEqual => {
-                (left_type != Scalar::Bool, Scalar::Bool)
+                (left_type.is_number(), Scalar::Bool)
             }
             Binary::Add | Binary::Subtract | Binary::Multiply | Binary::Divide => {
-                (left_type != Scalar::Bool, left_type)
+                (left_type.is_number(), left_type)
             }
             Binary::Modulo => (left_type == Scalar::Dint, Scalar::Dint),
         };

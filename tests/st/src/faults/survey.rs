@@ -102,7 +102,7 @@ impl<'a> Survey<'a> {
     pub(super) fn values(&self, unit: &Unit, ty: Scalar) -> Vec<String> {
         let other = match ty {
             Scalar::Bool => "FALSE",
-            Scalar::Dint => "-2",
+            Scalar::Dint | Scalar::Narrow(_) => "-2",
             Scalar::Lreal => "0.0",
         };
         let variables = unit.variables.iter().filter(|v| self.scalar_type(v) == Some(ty)).take(2);
@@ -201,7 +201,7 @@ impl<'a> Survey<'a> {
 pub(super) fn literal(ty: Scalar) -> &'static str {
     match ty {
         Scalar::Bool => "TRUE",
-        Scalar::Dint => "1",
+        Scalar::Dint | Scalar::Narrow(_) => "1",
         Scalar::Lreal => "1.5",
     }
 }
@@ -210,7 +210,7 @@ pub(super) fn literal(ty: Scalar) -> &'static str {
 pub(super) fn others(ty: Scalar) -> [Scalar; 2] {
     match ty {
         Scalar::Bool => [Scalar::Dint, Scalar::Lreal],
-        Scalar::Dint => [Scalar::Lreal, Scalar::Bool],
+        Scalar::Dint | Scalar::Narrow(_) => [Scalar::Lreal, Scalar::Bool],
         Scalar::Lreal => [Scalar::Bool, Scalar::Dint],
     }
 }

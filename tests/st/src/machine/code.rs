@@ -117,6 +117,8 @@ pub(super) enum Whole {
     Select(Box<(Truth, Whole, Whole)>),
     Trunc(Box<Real>, usize),
     OfTruth(Box<Truth>),
+    /// A value that has to be within bounds.
+    Within(Box<Whole>, (i32, i32), usize),
     Call(FunctionCall),
 }
 

@@ -12,6 +12,8 @@ use std::collections::HashMap;
 pub(super) struct Layouts {
     globals: Vec<(String, String, Type, usize)>,
     units: HashMap<String, Frame>,
+    /// Names of globals by address.
+    addresses: HashMap<String, String>,
     /// Where the frame of a program or a function begins.
     bases: HashMap<String, usize>,
     programs: Vec<String>,
@@ -46,6 +48,9 @@ impl Layouts {
             let ty = type_of(variable);
             let (key, offset) = (variable.name.key(), layouts.size);
             layouts.size += layouts.words(&ty);
+            if let Some(address) = &variable.address {
+                layouts.addresses.insert(address.text.clone(), key.clone());
+            }
             layouts.globals.push((key, variable.name.text.clone(), ty, offset));
         }
         for unit in &checked.text.units {
@@ -135,6 +140,10 @@ impl Layouts {
             }
         }
         names
+    }
+
+    pub(super) fn located(&self, address: &str) -> Option<Place> {
+        self.place(self.addresses.get(address)?)
     }
 
     pub(super) fn place(&self, path: &str) -> Option<Place> {

@@ -72,6 +72,7 @@ impl Reader<'_> {
         {
             self.outside(address, "AT outside of VAR_GLOBAL");
         }
+        let address = line.child_by_field_name("address").map(|at| self.name(at));
         let Some(ty) = line.child_by_field_name("type") else { return };
         let ty = self.type_name(ty);
         let initial = match fields(line, "initial_value").as_slice() {
@@ -84,8 +85,8 @@ impl Reader<'_> {
         };
         for name in fields(line, "names").into_iter().filter(|n| n.kind() == "identifier") {
             let name = self.name(name);
-            let (ty, initial) = (ty.clone(), initial.clone());
-            variables.push(Variable { section, name, ty, initial, span: span(line) });
+            let (address, ty, initial) = (address.clone(), ty.clone(), initial.clone());
+            variables.push(Variable { section, name, address, ty, initial, span: span(line) });
         }
     }
 

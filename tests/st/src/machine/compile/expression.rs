@@ -3,7 +3,7 @@
 use super::super::code::{Any, Cell, Function, FunctionCall, Real, Slot, Truth, Whole};
 use super::{Compiler, Scope};
 use crate::literal;
-use crate::standard;
+use crate::standard::{self, Narrowing};
 use crate::types::{Scalar, Type};
 use crate::view::{Binary, Call, Expression, ExpressionKind, Unary};
 
@@ -22,7 +22,7 @@ impl Compiler<'_> {
     pub(super) fn any(&mut self, scope: &Scope, expression: &Expression) -> Any {
         match self.type_of(expression) {
             Type::Scalar(Scalar::Bool) => Any::Truth(self.truth(scope, expression)),
-            Type::Scalar(Scalar::Dint) => Any::Whole(self.whole(scope, expression)),
+            Type::Scalar(Scalar::Dint | Scalar::Narrow(_)) => Any::Whole(self.whole(scope, expression)),
             Type::Scalar(Scalar::Lreal) => Any::Real(self.real(scope, expression)),
             Type::Array(_, upper) => {
                 let words = upper + 1;
@@ -106,7 +106,7 @@ impl Compiler<'_> {
         right: &Expression,
     ) -> Truth {
         match self.scalar_of(left) {
-            Scalar::Dint => {
+            Scalar::Dint | Scalar::Narrow(_) => {
                 Truth::Wholes(operator, Box::new((self.whole(scope, left), self.whole(scope, right))))
             }
             Scalar::Lreal => {
@@ -150,7 +150,11 @@ impl Compiler<'_> {
                     }
                     "TRUNC" => Whole::Trunc(Box::new(self.real(scope, values[0])), at),
                     "BOOL_TO_DINT" => Whole::OfTruth(Box::new(self.truth(scope, values[0]))),
-                    name => unreachable!("`{name}` gives no DINT"),
+                    name => match standard::narrow(name) {
+                        Some(Narrowing::From(_)) => whole(0),
+                        Some(Narrowing::To(narrow)) => Whole::Within(Box::new(whole(0)), narrow.bounds(), at),
+                        None => unreachable!("`{name}` gives no DINT"),
+                    },
                 }
             }
             ExpressionKind::Call(call) => Whole::Call(self.function(scope, call)),

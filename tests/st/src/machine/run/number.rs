@@ -92,6 +92,13 @@ impl Runner<'_> {
                 }
                 value as i32
             }
+            Whole::Within(operand, (low, high), at) => {
+                let value = self.whole(operand, base)?;
+                if !(*low..=*high).contains(&value) {
+                    return Err(overflow(at));
+                }
+                value
+            }
             Whole::OfTruth(operand) => i32::from(self.truth(operand, base)?),
             Whole::Call(call) => self.call_function(call, base)? as u32 as i32,
         })

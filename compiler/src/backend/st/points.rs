@@ -1,0 +1,129 @@
+//! Every scalar of I/O, in the order of `io.csv`: what a person can give an address.
+
+use super::block::NO_SUCH_STATE;
+use super::code::{Ex, name};
+use super::declaration::{Basic, constants};
+use super::globals::{first_value, stop_value};
+use super::names::Names;
+use super::print::Dialect;
+use crate::io_map::{Kind, Point};
+use crate::ir::{Scalar, System};
+use runtime_sim::device::{Direction, Extent, Port, PortType, Stop};
+
+/// A point and its variable.
+pub struct Terminal {
+    pub point: Point,
+    /// The global; of an array all elements.
+    pub variable: String,
+    pub element: Option<usize>,
+    /// What an output is at power-up.
+    pub first: Option<Ex>,
+    /// Whether only the device or only the last statements of the program write the variable, so that it may
+    /// stand in the process image itself.
+    pub is_own: bool,
+}
+
+impl Terminal {
+    pub fn place(&self) -> Ex {
+        match self.element {
+            None => name(&self.variable),
+            Some(i) => Ex::Element(self.variable.clone(), Box::new(Ex::Int(i as i32))),
+        }
+    }
+
+    pub fn basic(&self) -> Basic {
+        match self.point.kind {
+            Kind::Bool => Basic::Bool,
+            Kind::Int { .. } => Basic::Dint,
+            Kind::Real => Basic::Lreal,
+        }
+    }
+}
+
+pub fn terminals(system: &System, names: &Names) -> Vec<Terminal> {
+    let mut terminals = line(system);
+    for (robot, (instance, own)) in system.instances.iter().zip(&names.robots).enumerate() {
+        for (port, held) in system.automaton_of(robot).device.ports.iter().zip(&own.ports) {
+            for element in 0..port.extent.elements(system.kinds()) {
+                for (part, variable) in held.iter().enumerate() {
+                    let element = (port.extent != Extent::One).then_some(element);
+                    terminals.push(terminal(&instance.name, port, part, variable, element));
+                }
+            }
+        }
+    }
+    terminals
+}
+
+/// Inputs and outputs of the whole line.
+fn line(system: &System) -> Vec<Terminal> {
+    let (input, output) = (Direction::Input, Direction::Output);
+    let codes = Kind::Int { lo: 0, hi: NO_SUCH_STATE.max(system.model.faults.len() as i32) };
+    let robots = Kind::Int { lo: -1, hi: system.instances.len() as i32 - 1 };
+    let truth = || Some(Ex::Bool(false));
+    [
+        (
+            "run_permit",
+            input,
+            Kind::Bool,
+            None,
+            "false when the emergency stop has acted or the fieldbus is lost",
+        ),
+        ("start", input, Kind::Bool, None, "its rising edge starts the line"),
+        ("reset", input, Kind::Bool, None, "its rising edge clears a fault"),
+        ("running", output, Kind::Bool, truth(), "the robots step"),
+        ("fault", output, Kind::Bool, truth(), "a fault is latched"),
+        ("fault_code", output, codes, Some(Ex::Int(0)), "see alarms.csv; 0 without a fault"),
+        ("fault_robot", output, robots, Some(Ex::Int(-1)), "number of the robot; -1 without a fault"),
+    ]
+    .into_iter()
+    .map(|(variable, direction, kind, first, meaning)| Terminal {
+        point: Point {
+            robot: String::new(),
+            name: variable.into(),
+            direction,
+            kind,
+            unit: "",
+            stop: String::new(),
+            meaning,
+        },
+        variable: variable.into(),
+        element: None,
+        first,
+        is_own: direction == Direction::Input,
+    })
+    .collect()
+}
+
+fn terminal(robot: &str, port: &Port, part: usize, variable: &str, element: Option<usize>) -> Terminal {
+    let first = || constants(stop_value(port).unwrap_or(first_value(port.ty))).swap_remove(part);
+    let kind = match port.ty {
+        PortType::Bool => Kind::Bool,
+        PortType::Int { lo, hi } => Kind::Int { lo, hi },
+        PortType::Real | PortType::Point => Kind::Real,
+    };
+    debug_assert_eq!(Basic::of(Scalar::from(port.ty)).name(), kind.name());
+    Terminal {
+        point: Point {
+            robot: robot.into(),
+            name: element.map_or(variable.into(), |i| format!("{variable}[{i}]")),
+            direction: port.direction,
+            kind,
+            unit: port.unit,
+            stop: stop_text(port, part),
+            meaning: port.meaning,
+        },
+        variable: variable.into(),
+        element,
+        first: (port.direction == Direction::Output).then(first),
+        is_own: true,
+    }
+}
+
+fn stop_text(port: &Port, part: usize) -> String {
+    match (port.direction, port.stop, stop_value(port)) {
+        (Direction::Output, Stop::Hold, _) => "hold".into(),
+        (Direction::Output, _, Some(value)) => Dialect::Portable.expression(&constants(value)[part]),
+        _ => String::new(),
+    }
+}

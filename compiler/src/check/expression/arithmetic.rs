@@ -1,0 +1,276 @@
+//! Operators: their types, and the bounds of what they compute.
+
+use super::{binary, constant, to_real, unit_help};
+use crate::check::automaton::Context;
+use crate::check::facts::Interval;
+use crate::diagnostic::Diagnostic;
+use crate::ir::{self, Expr, ExprKind, Scalar, Value};
+use crate::source::Span;
+use crate::spec::ast::{self, Operator};
+
+impl Context<'_, '_> {
+    pub(super) fn negate(&mut self, tree: &ast::Expr, expected: Option<Scalar>, span: Span) -> Option<Expr> {
+        let inner = self.expr(tree, expected)?;
+        match (&inner.kind, inner.ty) {
+            (ExprKind::Constant(Value::Int(v)), Scalar::Int { .. }) => {
+                Some(constant(Scalar::Int { lo: -v, hi: -v }, Value::Int(-v)))
+            }
+            (ExprKind::Constant(Value::Real(v)), _) => Some(constant(Scalar::Real, Value::Real(-v))),
+            (_, Scalar::Int { lo, hi }) => {
+                let ty = self.fitting(-i64::from(hi), -i64::from(lo), span)?;
+                Some(Expr { ty, kind: ExprKind::Negate(Box::new(inner)) })
+            }
+            (_, Scalar::Real) => Some(Expr { ty: Scalar::Real, kind: ExprKind::Negate(Box::new(inner)) }),
+            (_, other) => {
+                let name = self.checker.type_name(other);
+                self.report(
+                    Diagnostic::new("E0315", span, format!("a value of type {name} has no sign"))
+                        .help("negate numbers only"),
+                );
+                None
+            }
+        }
+    }
+
+    /// The type of whole numbers in an interval, which must fit into 32 bits.
+    pub(super) fn fitting(&mut self, lo: i64, hi: i64, span: Span) -> Option<Scalar> {
+        match (i32::try_from(lo), i32::try_from(hi)) {
+            (Ok(lo), Ok(hi)) => Some(Scalar::Int { lo, hi }),
+            _ => {
+                self.report(
+                    Diagnostic::new("E0316", span, "this whole number is not proved to fit into 32 bits")
+                        .label(format!("it is in {lo}..{hi} for all that is known"))
+                        .help("declare the variables with narrower bounds"),
+                );
+                None
+            }
+        }
+    }
+
+    pub(super) fn binary(
+        &mut self,
+        operator: Operator,
+        left: &ast::Expr,
+        right: &ast::Expr,
+        expected: Option<Scalar>,
+        span: Span,
+    ) -> Option<Expr> {
+        match operator {
+            Operator::And | Operator::Or => self.logical(operator, left, right),
+            Operator::Equal
+            | Operator::NotEqual
+            | Operator::Less
+            | Operator::LessEqual
+            | Operator::Greater
+            | Operator::GreaterEqual => self.comparison(operator, left, right, span),
+            _ => self.arithmetic(operator, left, right, expected, span),
+        }
+    }
+
+    fn logical(&mut self, operator: Operator, left: &ast::Expr, right: &ast::Expr) -> Option<Expr> {
+        let left = self.typed(left, Scalar::Bool);
+        let before = self.facts.clone();
+        if let Some(left) = &left {
+            self.facts.learn(left, operator == Operator::And);
+        }
+        let right = self.typed(right, Scalar::Bool);
+        self.facts = before;
+        Some(binary(lowered(operator), Scalar::Bool, left?, right?))
+    }
+
+    /// Both operands in one type: whole numbers become reals, members of enumerations are found by the other side.
+    pub(super) fn pair(
+        &mut self,
+        left: &ast::Expr,
+        right: &ast::Expr,
+        expected: Option<Scalar>,
+    ) -> Option<(Expr, Expr)> {
+        let is_bare = |tree: &ast::Expr| matches!(tree.kind, ast::ExprKind::Name(_));
+        let (a, b) = if is_bare(left) && !is_bare(right) {
+            let b = self.expr(right, expected)?;
+            (self.expr(left, Some(b.ty))?, b)
+        } else {
+            let a = self.expr(left, expected)?;
+            let b = self.expr(right, Some(a.ty))?;
+            (a, b)
+        };
+        Some(match (a.ty, b.ty) {
+            (Scalar::Int { .. }, Scalar::Real) => (to_real(a), b),
+            (Scalar::Real, Scalar::Int { .. }) => (a, to_real(b)),
+            _ => (a, b),
+        })
+    }
+
+    fn comparison(
+        &mut self,
+        operator: Operator,
+        left: &ast::Expr,
+        right: &ast::Expr,
+        span: Span,
+    ) -> Option<Expr> {
+        let (a, b) = self.pair(left, right, None)?;
+        let is_equality = matches!(operator, Operator::Equal | Operator::NotEqual);
+        let fits = match (a.ty, b.ty) {
+            (Scalar::Int { .. }, Scalar::Int { .. })
+            | (Scalar::Real, Scalar::Real)
+            | (Scalar::Time, Scalar::Time) => true,
+            (Scalar::Bool, Scalar::Bool) => is_equality,
+            (Scalar::Enum(x), Scalar::Enum(y)) => is_equality && x == y,
+            (Scalar::Ref(x), Scalar::Ref(y)) => is_equality && x == y,
+            (Scalar::Point, Scalar::Point) => {
+                self.report(
+                    Diagnostic::new("E0317", span, "points cannot be compared")
+                        .help("whether a machine is in position its device answers: use `done`"),
+                );
+                return None;
+            }
+            _ => false,
+        };
+        if !fits {
+            let help = match (a.ty, b.ty) {
+                (Scalar::Time, Scalar::Int { .. } | Scalar::Real) => unit_help(right),
+                (Scalar::Int { .. } | Scalar::Real, Scalar::Time) => unit_help(left),
+                _ => "numbers and times have an order; other values are equal or not".into(),
+            };
+            let (left, right) = (self.checker.type_name(a.ty), self.checker.type_name(b.ty));
+            self.report(
+                Diagnostic::new("E0315", span, format!("{left} and {right} cannot be compared in this way"))
+                    .help(help),
+            );
+            return None;
+        }
+        Some(binary(lowered(operator), Scalar::Bool, a, b))
+    }
+
+    fn arithmetic(
+        &mut self,
+        operator: Operator,
+        left: &ast::Expr,
+        right: &ast::Expr,
+        expected: Option<Scalar>,
+        span: Span,
+    ) -> Option<Expr> {
+        let hint = if expected == Some(Scalar::Real) { expected } else { None };
+        let (a, b) = self.pair(left, right, hint)?;
+        let lowered = lowered(operator);
+        match (a.ty, b.ty, operator) {
+            (Scalar::Int { .. }, Scalar::Int { .. }, _) => {
+                self.whole_arithmetic(operator, a, b, right.span, span)
+            }
+            (Scalar::Real, Scalar::Real, Operator::Add | Operator::Subtract | Operator::Multiply) => {
+                Some(binary(lowered, Scalar::Real, a, b))
+            }
+            (Scalar::Real, Scalar::Real, Operator::Divide) => {
+                self.prove_divisor(&b, right.span)?;
+                Some(binary(lowered, Scalar::Real, a, b))
+            }
+            (Scalar::Point, Scalar::Point, Operator::Add | Operator::Subtract) => {
+                Some(binary(lowered, Scalar::Point, a, b))
+            }
+            (Scalar::Time, Scalar::Int { lo, .. }, Operator::Multiply) => self.time_product(a, b, lo, span),
+            (Scalar::Int { lo, .. }, Scalar::Time, Operator::Multiply) => self.time_product(b, a, lo, span),
+            (Scalar::Time, Scalar::Time, Operator::Add) => self.time_sum(a, b, span),
+            (a, b, _) => {
+                let help = match (a, b, operator) {
+                    (Scalar::Time, Scalar::Int { .. } | Scalar::Real, Operator::Add) => unit_help(right),
+                    (Scalar::Int { .. } | Scalar::Real, Scalar::Time, Operator::Add) => unit_help(left),
+                    _ => "`+ - * /` join numbers; `+ -` points; a time can be added to a time or multiplied by a whole number".into(),
+                };
+                let (left, right) = (self.checker.type_name(a), self.checker.type_name(b));
+                self.report(
+                    Diagnostic::new(
+                        "E0315",
+                        span,
+                        format!("{left} and {right} cannot be joined in this way"),
+                    )
+                    .help(help),
+                );
+                None
+            }
+        }
+    }
+
+    fn time_sum(&mut self, a: Expr, b: Expr, span: Span) -> Option<Expr> {
+        let (x, y) = (self.facts.of(&a), self.facts.of(&b));
+        self.fitting(0, (x.hi + y.hi) as i64, span)?;
+        Some(binary(ir::Operator::Add, Scalar::Time, a, b))
+    }
+
+    fn time_product(&mut self, time: Expr, factor: Expr, lo: i32, span: Span) -> Option<Expr> {
+        if lo < 0 {
+            self.report(
+                Diagnostic::new("E0316", span, "this duration could be negative")
+                    .help("multiply by a number that is 0 or more"),
+            );
+            return None;
+        }
+        let (x, y) = (self.facts.of(&time), self.facts.of(&factor));
+        self.fitting(0, (x.hi * y.hi) as i64, span)?;
+        Some(binary(ir::Operator::Multiply, Scalar::Time, time, factor))
+    }
+
+    fn prove_divisor(&mut self, divisor: &Expr, span: Span) -> Option<()> {
+        if self.facts.of(divisor).holds(0.0) {
+            self.report(Diagnostic::new("E0318", span, "this divisor is not proved to differ from 0").help(
+                "compare it in the guard of this transition, such as `x > 0`, or declare bounds without 0",
+            ));
+            return None;
+        }
+        Some(())
+    }
+
+    fn whole_arithmetic(
+        &mut self,
+        operator: Operator,
+        a: Expr,
+        b: Expr,
+        divisor: Span,
+        span: Span,
+    ) -> Option<Expr> {
+        let (x, y) = (self.facts.of(&a), self.facts.of(&b));
+        if matches!(operator, Operator::Divide | Operator::Modulo) {
+            self.prove_divisor(&b, divisor)?;
+        }
+        let corners = |f: fn(f64, f64) -> f64| {
+            let all = [f(x.lo, y.lo), f(x.lo, y.hi), f(x.hi, y.lo), f(x.hi, y.hi)];
+            all.iter().fold(Interval::new(f64::INFINITY, f64::NEG_INFINITY), |i, v| {
+                Interval::new(i.lo.min(*v), i.hi.max(*v))
+            })
+        };
+        let result = match operator {
+            Operator::Add => corners(|a, b| a + b),
+            Operator::Subtract => corners(|a, b| a - b),
+            Operator::Multiply => corners(|a, b| a * b),
+            Operator::Divide => {
+                let largest = x.lo.abs().max(x.hi.abs());
+                Interval::new(if x.lo < 0.0 || y.lo < 0.0 { -largest } else { 0.0 }, largest)
+            }
+            _ => {
+                // The quotient must fit too: not every machine divides the least number by -1.
+                self.fitting((-x.lo) as i64, 0, span)?;
+                let largest = y.lo.abs().max(y.hi.abs()) - 1.0;
+                Interval::new(if x.lo < 0.0 { -largest } else { 0.0 }, largest)
+            }
+        };
+        let ty = self.fitting(result.lo as i64, result.hi as i64, span)?;
+        Some(binary(lowered(operator), ty, a, b))
+    }
+}
+
+fn lowered(operator: Operator) -> ir::Operator {
+    match operator {
+        Operator::Or => ir::Operator::Or,
+        Operator::And => ir::Operator::And,
+        Operator::Equal => ir::Operator::Equal,
+        Operator::NotEqual => ir::Operator::NotEqual,
+        Operator::Less => ir::Operator::Less,
+        Operator::LessEqual => ir::Operator::LessEqual,
+        Operator::Greater => ir::Operator::Greater,
+        Operator::GreaterEqual => ir::Operator::GreaterEqual,
+        Operator::Add => ir::Operator::Add,
+        Operator::Subtract => ir::Operator::Subtract,
+        Operator::Multiply => ir::Operator::Multiply,
+        Operator::Divide => ir::Operator::Divide,
+        Operator::Modulo => ir::Operator::Modulo,
+    }
+}

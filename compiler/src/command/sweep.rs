@@ -1,0 +1,115 @@
+//! `autogen sweep`: every layout with every combination of values.
+//!
+//! Layouts and values are data. Each layout is read and its types are checked once, the controllers are
+//! compiled once, and a linked program on each processor runs one point after another.
+
+mod axis;
+mod grid;
+mod in_order;
+mod plan;
+mod point;
+mod progress;
+mod row;
+mod runner;
+mod table;
+
+use super::options::{Format, SweepOptions, TableFormat};
+use super::print;
+use super::program::Notice;
+use crate::Status;
+use autogen::diagnostic::Diagnostic;
+use plan::{Plan, Refusal};
+use progress::Progress;
+use runner::Runner;
+use serde_json::{Value, json};
+use std::collections::BTreeSet;
+use std::num::NonZeroUsize;
+use std::thread;
+use table::Table;
+
+pub fn run(options: &SweepOptions) -> Status {
+    let plan = match Plan::new(options) {
+        Ok(plan) => plan,
+        Err(Refusal::Failure(failure)) => return print::failure_in(format(options), &failure),
+        Err(Refusal::Said(text)) => {
+            match format(options) {
+                Format::Json => {
+                    say!("{}", json!({ "rows": [], "finished": false, "reason": text, "diagnostics": [] }));
+                }
+                Format::Text => eprintln!("autogen: {text}"),
+            }
+            return Status::WrongCommand;
+        }
+    };
+    if plan.lines.iter().all(|line| !line.draft.diagnostics().is_empty()) {
+        return refuse(options, &plan);
+    }
+    let jobs = options.jobs.or_else(|| thread::available_parallelism().ok()).map_or(1, NonZeroUsize::get);
+    let is_text = options.format == TableFormat::Text;
+    let notice = if is_text && !options.quiet { Notice::Compiling } else { Notice::None };
+    let mut table = Table::new(&plan, options);
+    let mut progress = Progress::new(plan.len(), options.quiet);
+    let mut status = Status::Done;
+    table.begin();
+    in_order::each(
+        plan.len(),
+        jobs,
+        Runner::default,
+        |runner, index| point::row(&plan, index, runner, notice),
+        |row| {
+            status = worse(status, row.status);
+            progress.clear();
+            table.row(&row);
+            progress.count();
+        },
+    );
+    progress.clear();
+    table.end();
+    status
+}
+
+/// What a sweep says that has no table.
+fn format(options: &SweepOptions) -> Format {
+    match options.format {
+        TableFormat::Json => Format::Json,
+        TableFormat::Text | TableFormat::Csv | TableFormat::Jsonl => Format::Text,
+    }
+}
+
+/// No layout can be run, whatever the values are: what is wrong is said once.
+fn refuse(options: &SweepOptions, plan: &Plan) -> Status {
+    let mut said = BTreeSet::new();
+    let mut all: Vec<Value> = Vec::new();
+    for line in &plan.lines {
+        let mut found: Vec<Diagnostic> = Vec::new();
+        for diagnostic in line.draft.diagnostics() {
+            let json = print::diagnostics_json(&line.sources, std::slice::from_ref(diagnostic));
+            if said.insert(json.to_string()) {
+                found.push(diagnostic.clone());
+                all.extend(json.as_array().cloned().unwrap_or_default());
+            }
+        }
+        if format(options) == Format::Text && !found.is_empty() {
+            print::diagnostics(&line.sources, &found);
+        }
+    }
+    if format(options) == Format::Json {
+        say!(
+            "{}",
+            json!({ "rows": [], "finished": false, "reason": "the input has errors", "diagnostics": all })
+        );
+    }
+    Status::WrongInput
+}
+
+/// Of what two points came to, that which the sweep came to.
+fn worse(a: Status, b: Status) -> Status {
+    let rank = |status| match status {
+        Status::Done => 0,
+        Status::WrongInput | Status::NotReached => 1,
+        Status::WrongCommand => 2,
+        Status::Bug => 3,
+    };
+    let worst = if rank(a) >= rank(b) { a } else { b };
+    if worst == Status::WrongInput { Status::NotReached } else { worst }
+}

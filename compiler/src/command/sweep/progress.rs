@@ -1,0 +1,41 @@
+//! How far a sweep has come, on a terminal.
+
+use std::io::{self, IsTerminal};
+use std::time::{Duration, Instant};
+
+/// A line on standard error that is written over.
+pub struct Progress {
+    done: usize,
+    all: usize,
+    is_wanted: bool,
+    is_shown: bool,
+    last: Instant,
+}
+
+/// Between two numbers that somebody could read.
+const PAUSE: Duration = Duration::from_millis(100);
+
+impl Progress {
+    /// Shows nothing if it is not wanted, or if nobody sees it.
+    pub fn new(all: usize, quiet: bool) -> Self {
+        let is_wanted = !quiet && io::stderr().is_terminal();
+        Self { done: 0, all, is_wanted, is_shown: false, last: Instant::now() }
+    }
+
+    pub fn count(&mut self) {
+        self.done += 1;
+        // Rows on the same terminal would push it on, a line for each.
+        if self.is_wanted && (self.last.elapsed() >= PAUSE || self.done == 1) {
+            eprint!("{} of {}", self.done, self.all);
+            self.last = Instant::now();
+            self.is_shown = true;
+        }
+    }
+
+    /// Takes the line away.
+    pub fn clear(&mut self) {
+        if std::mem::take(&mut self.is_shown) {
+            eprint!("\r\x1b[K");
+        }
+    }
+}

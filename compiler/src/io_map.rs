@@ -1,0 +1,118 @@
+//! Addresses of the process image for points of I/O: a table that a person fills in a spreadsheet.
+//!
+//! The table is `plc/io.csv` as `build` writes it, with the last five columns filled. A row without an address
+//! leaves its point as it is. The value of an input is `raw * scale + offset`; the raw value of an output is
+//! `(value - offset) / scale`, to the nearest whole number.
+
+mod address;
+mod columns;
+mod csv;
+mod overlap;
+mod raw;
+mod row;
+
+pub use address::{Address, Area, Size};
+pub use overlap::Counting;
+pub use raw::Raw;
+
+use crate::diagnostic::{self, Diagnostic};
+use crate::source::{FileId, Sources};
+use columns::Columns;
+use runtime_sim::device::Direction;
+use std::collections::BTreeMap;
+
+/// A scalar that a sensor or a drive supplies or takes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Point {
+    /// Empty for those of the whole line.
+    pub robot: String,
+    /// The variable, with the index of an element.
+    pub name: String,
+    pub direction: Direction,
+    pub kind: Kind,
+    pub unit: &'static str,
+    /// What is published while the line does not run; empty for inputs.
+    pub stop: String,
+    pub meaning: &'static str,
+}
+
+/// What a point carries.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Kind {
+    Bool,
+    Int { lo: i32, hi: i32 },
+    Real,
+}
+
+/// Where a point stands in the process image, and as what.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wire {
+    pub address: Address,
+    pub raw: Raw,
+    pub conversion: Conversion,
+}
+
+/// How a raw value becomes the value of a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Conversion {
+    None,
+    /// Of a boolean.
+    Inverted,
+    /// An integer is the raw value and so much.
+    Shifted(i32),
+    /// Of a real: `raw * scale + offset`. The scale is finite and not 0.
+    Scaled {
+        scale: f64,
+        offset: f64,
+    },
+}
+
+/// The wires of a line by the number of their point. Only [`read`] makes one that is not empty, so every wire
+/// fits its point and no two addresses overlap.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct IoMap {
+    wires: BTreeMap<usize, Wire>,
+}
+
+impl IoMap {
+    pub fn wire(&self, point: usize) -> Option<&Wire> {
+        self.wires.get(&point)
+    }
+}
+
+impl Kind {
+    /// The type in Structured Text.
+    pub fn name(self) -> &'static str {
+        match self {
+            Kind::Bool => "BOOL",
+            Kind::Int { .. } => "DINT",
+            Kind::Real => "LREAL",
+        }
+    }
+}
+
+/// The table of a person against the points of a line. All that is wrong with it is reported at once.
+pub fn read(
+    sources: &Sources,
+    file: FileId,
+    points: &[Point],
+    counting: Counting,
+) -> Result<IoMap, Vec<Diagnostic>> {
+    let mut found = Vec::new();
+    let table = csv::parse(file, &sources.file(file).text, &mut found);
+    let mut wires: BTreeMap<usize, (Wire, csv::Field)> = BTreeMap::new();
+    if let Some(columns) = Columns::find(file, &table, &mut found) {
+        let mut rows = row::Rows::new(points, table.separator);
+        for record in table.records.iter().skip(1) {
+            if let Some((point, wire, address)) = rows.read(&columns, record, &mut found) {
+                wires.insert(point, (wire, address));
+            }
+        }
+        overlap::check(&wires, points, counting, &mut found);
+    }
+    diagnostic::sort(&mut found);
+    match found.is_empty() {
+        true => Ok(IoMap { wires: wires.into_iter().map(|(point, (wire, _))| (point, wire)).collect() }),
+        false => Err(found),
+    }
+}

@@ -1,0 +1,373 @@
+//! One row: which point it is about, and what it says about it.
+
+use super::address::{Address, Area};
+use super::columns::{Columns, Record};
+use super::csv::Field;
+use super::{Conversion, Kind, Point, Raw, Wire, raw};
+use crate::diagnostic::{Diagnostic, suggestion};
+use crate::source::Span;
+use runtime_sim::device::Direction;
+use std::collections::HashMap;
+
+/// The rows of a table, read one after the other.
+pub struct Rows<'p> {
+    points: &'p [Point],
+    separator: u8,
+    /// By robot and name, in lower case.
+    known: HashMap<(String, String), usize>,
+    seen: HashMap<usize, Span>,
+}
+
+/// The numbers of a conversion as far as they could be read, with their places.
+struct Numbers {
+    scale: f64,
+    offset: f64,
+}
+
+impl<'p> Rows<'p> {
+    pub fn new(points: &'p [Point], separator: u8) -> Self {
+        let key = |p: &Point| (p.robot.to_ascii_lowercase(), p.name.to_ascii_lowercase());
+        let known = points.iter().enumerate().map(|(i, p)| (key(p), i)).collect();
+        Self { points, separator, known, seen: HashMap::new() }
+    }
+
+    /// The point and its wire, if the row gives it an address and all is right.
+    pub fn read(
+        &mut self,
+        columns: &Columns,
+        fields: &[Field],
+        found: &mut Vec<Diagnostic>,
+    ) -> Option<(usize, Wire, Field)> {
+        let record = columns.row(fields, found)?;
+        let whole = fields.first()?.span.to(fields.last()?.span);
+        let number = self.point(&record, whole, found)?;
+        let point = &self.points[number];
+        let name = record.place("name").unwrap_or(whole);
+        if let Some(first) = self.seen.insert(number, name) {
+            found.push(
+                Diagnostic::new("E0604", name, format!("{} has two rows", point.name))
+                    .other(first, "the first one")
+                    .help("keep one of them"),
+            );
+            return None;
+        }
+        let count = found.len();
+        stale(&record, point, found);
+        let Some(address_field) = record.get("address") else {
+            without_address(&record, point, found);
+            return None;
+        };
+        let address = self.address(address_field, point, found);
+        let raw = self.raw(&record, point, address, address_field, found);
+        let conversion = self.conversion(&record, point, found);
+        let (address, raw, conversion) = (address?, raw?, conversion?);
+        if found.len() > count {
+            return None;
+        }
+        let wire = Wire { address, raw, conversion };
+        holds(&wire, point, &record, address_field, found);
+        (found.len() == count).then(|| (number, wire, address_field.clone()))
+    }
+
+    fn point(&self, record: &Record, whole: Span, found: &mut Vec<Diagnostic>) -> Option<usize> {
+        let (robot, name) = (record.text("robot"), record.text("name"));
+        let key = (robot.to_ascii_lowercase(), name.to_ascii_lowercase());
+        if let Some(number) = self.known.get(&key) {
+            return Some(*number);
+        }
+        let is_robot = |p: &&Point| p.robot.eq_ignore_ascii_case(robot);
+        let place = |column: &str| record.place(column).unwrap_or(whole);
+        found.push(if !self.points.iter().any(|p| is_robot(&p)) {
+            let robots = self.points.iter().map(|p| p.robot.as_str());
+            let help = match suggestion(robot, robots) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => "the layout names the robots; remove the rows of those that are gone".into(),
+            };
+            Diagnostic::new("E0603", place("robot"), format!("there is no robot `{robot}`")).help(help)
+        } else {
+            let own = self.points.iter().filter(is_robot).map(|p| p.name.as_str());
+            let elsewhere = self.points.iter().find(|p| p.name.eq_ignore_ascii_case(name));
+            let owner = if robot.is_empty() { "the line".to_string() } else { format!("`{robot}`") };
+            let help = match (suggestion(name, own), elsewhere) {
+                (_, Some(point)) if point.robot.is_empty() => "leave the column `robot` empty".into(),
+                (_, Some(point)) => format!("it is one of `{}`", point.robot),
+                (Some(near), None) => format!("did you mean `{near}`?"),
+                (None, None) => "plc/io.csv, as `build` writes it without `--io`, has all points".into(),
+            };
+            Diagnostic::new("E0603", place("name"), format!("{owner} has no point `{name}`")).help(help)
+        });
+        None
+    }
+
+    fn address(&self, field: &Field, point: &Point, found: &mut Vec<Diagnostic>) -> Option<Address> {
+        let address = match Address::parse(&field.text) {
+            Ok(address) => address,
+            Err(wrong) => {
+                found.push(
+                    Diagnostic::new("E0605", field.span, format!("`{}` is no address: {wrong}", field.text))
+                        .help("write %IX0.3 for a bit, %IB4, %IW4 or %ID4 for 8, 16 or 32 bits; I for inputs, Q for outputs, M for memory"),
+                );
+                return None;
+            }
+        };
+        let (word, wanted) = match point.direction {
+            Direction::Input => ("input", Area::Input),
+            Direction::Output => ("output", Area::Output),
+        };
+        if address.area != wanted && address.area != Area::Memory {
+            let mended = Address { area: wanted, ..address };
+            found.push(
+                Diagnostic::new(
+                    "E0607",
+                    field.span,
+                    format!("{} is an {word}: {address} does not go with it", point.name),
+                )
+                .help(format!("give it an address such as {mended}")),
+            );
+            return None;
+        }
+        Some(address)
+    }
+
+    fn raw(
+        &self,
+        record: &Record,
+        point: &Point,
+        address: Option<Address>,
+        address_field: &Field,
+        found: &mut Vec<Diagnostic>,
+    ) -> Option<Raw> {
+        let field = record.get("raw type");
+        let goes = |raw: &Raw| (*raw == Raw::Bool) == (point.kind == Kind::Bool);
+        let fits = |raw: &Raw| goes(raw) && address.is_none_or(|a| a.size == raw.size());
+        let listed = |raws: Vec<Raw>| raws.iter().map(|r| r.name()).collect::<Vec<_>>().join(" or ");
+        let choice = listed(raw::ALL.into_iter().filter(fits).collect());
+        let help = match choice.is_empty() {
+            true => format!(
+                "give it an address of another size; it takes {}",
+                listed(raw::ALL.into_iter().filter(goes).collect())
+            ),
+            false => format!("write {choice}"),
+        };
+        let mut wrong = |place: Span, message: String| {
+            found.push(Diagnostic::new("E0608", place, message).help(help.clone()));
+            None
+        };
+        let Some(field) = field else {
+            // A bit can be nothing else.
+            return match (point.kind, address.map(|a| a.size)) {
+                (Kind::Bool, Some(super::Size::Bit)) => Some(Raw::Bool),
+                _ => wrong(address_field.span, format!("{} has an address and no raw type", point.name)),
+            };
+        };
+        let Some(raw) = Raw::named(&field.text) else {
+            return wrong(field.span, format!("`{}` is no raw type", field.text));
+        };
+        if !goes(&raw) {
+            return wrong(
+                field.span,
+                format!("{} is {}: {} does not go with it", point.name, point.kind.name(), raw.name()),
+            );
+        }
+        match address {
+            Some(address) if address.size != raw.size() => wrong(
+                field.span,
+                format!(
+                    "{} has {} bits, {address} has {}",
+                    raw.name(),
+                    raw.size().bits(),
+                    address.size.bits()
+                ),
+            ),
+            _ => Some(raw),
+        }
+    }
+
+    fn conversion(&self, record: &Record, point: &Point, found: &mut Vec<Diagnostic>) -> Option<Conversion> {
+        let refused = |column: &str, why: &str| {
+            record.get(column).map(|field| {
+                Diagnostic::new(
+                    "E0609",
+                    field.span,
+                    format!("{} is {}: {why}", point.name, point.kind.name()),
+                )
+                .help(format!("leave the column `{column}` empty"))
+            })
+        };
+        let count = found.len();
+        if point.kind == Kind::Bool {
+            let why = "a boolean has no scale and no offset";
+            found.extend(refused("scale", why).into_iter().chain(refused("offset", why)));
+            let is_inverted = record.get("inversion").map(|field| self.truth(field, found));
+            return (found.len() == count).then(|| match is_inverted {
+                Some(Some(true)) => Conversion::Inverted,
+                _ => Conversion::None,
+            });
+        }
+        found.extend(refused("inversion", "only a boolean is inverted"));
+        let scale = record.get("scale").map_or(Some(1.0), |field| self.number(field, found));
+        let offset = record.get("offset").map_or(Some(0.0), |field| self.number(field, found));
+        let numbers = Numbers { scale: scale?, offset: offset? };
+        if found.len() > count {
+            return None;
+        }
+        match point.kind {
+            Kind::Int { .. } => whole(&numbers, record, point, found),
+            _ => scaled(&numbers, record, point, found),
+        }
+    }
+
+    fn truth(&self, field: &Field, found: &mut Vec<Diagnostic>) -> Option<bool> {
+        match field.text.to_ascii_lowercase().as_str() {
+            "true" | "yes" | "1" => Some(true),
+            "false" | "no" | "0" => Some(false),
+            _ => {
+                found.push(
+                    Diagnostic::new("E0610", field.span, format!("`{}` does not say whether", field.text))
+                        .help("write TRUE or FALSE; an empty field is FALSE"),
+                );
+                None
+            }
+        }
+    }
+
+    /// Where commas do not separate fields, a comma may stand for the point.
+    fn number(&self, field: &Field, found: &mut Vec<Diagnostic>) -> Option<f64> {
+        let text = match self.separator {
+            b',' => field.text.clone(),
+            _ => field.text.replacen(',', ".", 1),
+        };
+        let is_plain = text.bytes().all(|b| b.is_ascii_digit() || b"+-.eE".contains(&b));
+        match text.parse::<f64>() {
+            Ok(number) if is_plain && number.is_finite() => Some(number),
+            Ok(_) if is_plain => {
+                found.push(
+                    Diagnostic::new("E0610", field.span, format!("{} is too large", field.text))
+                        .help("write a number that 64 bits hold"),
+                );
+                None
+            }
+            _ => {
+                found.push(
+                    Diagnostic::new("E0610", field.span, format!("`{}` is no number", field.text))
+                        .help("write it like 0.001, -5 or 2.5E-3"),
+                );
+                None
+            }
+        }
+    }
+}
+
+/// Direction and type of a table that was made for another line.
+fn stale(record: &Record, point: &Point, found: &mut Vec<Diagnostic>) {
+    let direction = if point.direction == Direction::Input { "input" } else { "output" };
+    for (column, own) in [("direction", direction), ("type", point.kind.name())] {
+        if let Some(field) = record.get(column).filter(|f| !f.text.eq_ignore_ascii_case(own)) {
+            found.push(
+                Diagnostic::new("E0612", field.span, format!("{} is {own}, not {}", point.name, field.text))
+                    .help("the table was made for another line, or the field was changed; compare the row with a new plc/io.csv"),
+            );
+        }
+    }
+}
+
+fn without_address(record: &Record, point: &Point, found: &mut Vec<Diagnostic>) {
+    let filled =
+        ["raw type", "scale", "offset", "inversion"].into_iter().find_map(|column| record.get(column));
+    if let Some(field) = filled {
+        found.push(
+            Diagnostic::new("E0613", field.span, format!("{} has a conversion and no address", point.name))
+                .help("fill the column `address`, or empty the columns behind it"),
+        );
+    }
+}
+
+/// Integers count and name; a factor would lose some of them.
+fn whole(
+    numbers: &Numbers,
+    record: &Record,
+    point: &Point,
+    found: &mut Vec<Diagnostic>,
+) -> Option<Conversion> {
+    let count = found.len();
+    if let Some(field) = record.get("scale").filter(|_| numbers.scale != 1.0) {
+        found.push(
+            Diagnostic::new("E0609", field.span, format!("{} is DINT: an integer is not scaled", point.name))
+                .help("leave the column `scale` empty; scale reals only"),
+        );
+    }
+    let offset = numbers.offset as i32;
+    if let Some(field) = record.get("offset").filter(|_| f64::from(offset) != numbers.offset) {
+        found.push(
+            Diagnostic::new(
+                "E0609",
+                field.span,
+                format!("{} is DINT: its offset is a whole number of 32 bits", point.name),
+            )
+            .help("write a whole number"),
+        );
+    }
+    (found.len() == count).then_some(if offset == 0 { Conversion::None } else { Conversion::Shifted(offset) })
+}
+
+fn scaled(
+    numbers: &Numbers,
+    record: &Record,
+    point: &Point,
+    found: &mut Vec<Diagnostic>,
+) -> Option<Conversion> {
+    let Numbers { scale, offset } = *numbers;
+    if scale == 0.0 {
+        let place = record.place("scale")?;
+        found.push(
+            Diagnostic::new(
+                "E0610",
+                place,
+                format!("the scale of {} is 0: all raw values would be one", point.name),
+            )
+            .help("write how much one raw step is worth, or leave it empty for 1"),
+        );
+        return None;
+    }
+    Some(Conversion::Scaled { scale, offset })
+}
+
+/// Whether the raw type holds all values of the point, or gives finite ones.
+fn holds(wire: &Wire, point: &Point, record: &Record, address: &Field, found: &mut Vec<Diagnostic>) {
+    let (low, high) = wire.raw.bounds();
+    let place = record.place("raw type").unwrap_or(address.span);
+    match (point.kind, wire.conversion) {
+        (Kind::Int { lo, hi }, conversion) => {
+            let offset = if let Conversion::Shifted(offset) = conversion { i64::from(offset) } else { 0 };
+            let (least, greatest) = (i64::from(low) + offset, i64::from(high) + offset);
+            if least > i64::from(lo) || greatest < i64::from(hi) {
+                let message = format!(
+                    "{} holds {least} to {greatest} here, {} needs {lo} to {hi}",
+                    wire.raw.name(),
+                    point.name
+                );
+                found.push(
+                    Diagnostic::new("E0611", place, message)
+                        .help("take a raw type that holds them all, or another offset"),
+                );
+            }
+        }
+        (Kind::Real, Conversion::Scaled { scale, offset }) => {
+            let ends = [low, high].map(|end| f64::from(end) * scale + offset);
+            let step = 1.0 / scale;
+            if ends.iter().any(|end| !end.is_finite()) || !step.is_finite() {
+                let message = format!(
+                    "{} cannot be computed from {}: the numbers leave 64 bits",
+                    point.name,
+                    wire.raw.name()
+                );
+                let place = record.place("scale").unwrap_or(place);
+                found.push(
+                    Diagnostic::new("E0611", place, message)
+                        .help("write a scale and an offset of usual size"),
+                );
+            }
+        }
+        _ => {}
+    }
+}

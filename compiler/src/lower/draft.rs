@@ -1,0 +1,188 @@
+//! A line without its values, so that it is read and checked once for many of them.
+
+use super::setting::{self, Setting};
+use super::{Project, Verdict, bind, plant, role};
+use crate::check::{self, Checked};
+use crate::diagnostic::{self, Diagnostic};
+use crate::ir::Model;
+use crate::layout::Layout;
+use crate::scenario::Scenario;
+use crate::source::{FileId, Sources};
+use crate::spec::{ast, parser};
+use crate::{connect, layout, scenario};
+use runtime_sim::random::Random;
+use std::collections::BTreeSet;
+
+/// The texts of a line, by their numbers in [`Sources`].
+#[derive(Clone, Copy, Debug)]
+pub struct Texts<'a> {
+    pub layout: FileId,
+    /// A type of a later one replaces one of the same name of an earlier one.
+    pub specs: &'a [FileId],
+    pub scenario: FileId,
+}
+
+/// A line as far as it depends neither on values of parameters nor on the order of the steps.
+#[derive(Clone, Debug)]
+pub struct Draft {
+    /// What is wrong whatever the values are.
+    diagnostics: Vec<Diagnostic>,
+    name: Option<String>,
+    orders: Option<usize>,
+    parts: Option<Parts>,
+}
+
+/// There if texts and types are right, machines have types, and the types that are used go together.
+#[derive(Clone, Debug)]
+struct Parts {
+    layout: Layout,
+    scenario: Scenario,
+    /// Of just the types that the layout uses.
+    model: Model,
+}
+
+/// A draft with its values: `project` is there exactly when `diagnostics` is empty.
+#[derive(Clone, Debug)]
+pub struct Line {
+    pub diagnostics: Vec<Diagnostic>,
+    /// There as soon as the check of connectivity could be made.
+    pub verdict: Option<Verdict>,
+    pub project: Option<Project>,
+}
+
+impl Draft {
+    /// `settings` are all that will ever be made: each has to concern somebody and something.
+    pub fn new(sources: &Sources, texts: Texts, settings: &[Setting]) -> Self {
+        let mut diagnostics = Vec::new();
+        let (layout, found) = layout::parse(sources, texts.layout);
+        diagnostics.extend(found);
+        let mut files = Vec::new();
+        let mut syntax_is_right = true;
+        for &file in texts.specs {
+            let (tree, found) = parser::parse(file, &sources.file(file).text);
+            syntax_is_right &= found.is_empty();
+            diagnostics.extend(found);
+            files.push((file, tree));
+        }
+        let (scenario, found) = scenario::parse(sources, texts.scenario);
+        diagnostics.extend(found);
+        let kinds = scenario.as_ref().map_or_else(|| vec!["part".into()], kinds);
+        let checked = match check::check(sources, &files, &kinds) {
+            Ok(checked) => Some(checked),
+            // What could not be read is missed by what was read: those messages would only confuse.
+            Err(found) => {
+                if syntax_is_right {
+                    diagnostics.extend(found);
+                }
+                None
+            }
+        };
+        let orders = scenario.as_ref().map(|s| s.orders.list.len());
+        let name = layout.as_ref().map(|l| l.name.clone());
+        let mut draft = Self { diagnostics, name, orders, parts: None };
+        if let (Some(layout), Some(checked), Some(scenario)) = (layout, checked, scenario)
+            && syntax_is_right
+        {
+            let model = draft.bind(sources, &layout, &files, &checked, &kinds, settings);
+            draft.parts = model.map(|model| Parts { layout, scenario, model });
+        }
+        diagnostic::sort(&mut draft.diagnostics);
+        draft
+    }
+
+    /// The model of just the types that the layout uses; `None` has been reported.
+    fn bind(
+        &mut self,
+        sources: &Sources,
+        layout: &Layout,
+        files: &[(FileId, ast::File)],
+        checked: &Checked,
+        kinds: &[String],
+        settings: &[Setting],
+    ) -> Option<Model> {
+        let is_right = self.diagnostics.is_empty();
+        let bound = bind::bind(layout, checked.model(), &mut self.diagnostics);
+        setting::check(settings, &bound, checked.model(), &mut self.diagnostics);
+        if !is_right || bound.robots.len() + bound.obstacles.len() != layout.objects.len() {
+            return None;
+        }
+        let names: BTreeSet<String> = bound.robots.iter().map(|r| r.automaton.clone()).collect();
+        match check::check(sources, &check::used(files, &names), kinds) {
+            Ok(checked) => Some(checked.into_model()),
+            Err(found) => {
+                self.diagnostics.extend(found);
+                None
+            }
+        }
+    }
+
+    /// What is wrong whatever the values are.
+    pub fn diagnostics(&self) -> &[Diagnostic] {
+        &self.diagnostics
+    }
+
+    /// The layout's name, if that can be read.
+    pub fn name(&self) -> Option<&str> {
+        self.name.as_deref()
+    }
+
+    /// Number of orders of the scenario, if that can be read.
+    pub fn orders(&self) -> Option<usize> {
+        self.orders
+    }
+
+    /// The line with these values, and with its instances in layout order or in one drawn from `order`.
+    pub fn line(&self, settings: &[Setting], order: Option<u64>) -> Line {
+        let mut line = Line { diagnostics: self.diagnostics.clone(), verdict: None, project: None };
+        if let Some(parts) = &self.parts {
+            parts.line(&mut line, settings, order);
+            diagnostic::sort(&mut line.diagnostics);
+        }
+        if !line.diagnostics.is_empty() {
+            line.project = None;
+        }
+        line
+    }
+}
+
+impl Parts {
+    fn line(&self, found: &mut Line, settings: &[Setting], order: Option<u64>) {
+        let mut layout = self.layout.clone();
+        if let Some(seed) = order {
+            Random::new(seed).shuffle(&mut layout.objects);
+        }
+        let bound = bind::bind(&layout, &self.model, &mut found.diagnostics);
+        let mut line = role::Line::new(&layout, bound.robots, self.model.clone(), &self.scenario);
+        line.parameters(settings);
+        let report = line.connect();
+        found.verdict = Some(line.verdict(&report));
+        found.diagnostics.append(&mut line.diagnostics);
+        found.diagnostics.extend(report.diagnostics.iter().cloned());
+        let resolved = match plant::resolve(&self.scenario, &line) {
+            Ok(resolved) => resolved,
+            Err(wrong) => {
+                found.diagnostics.extend(wrong);
+                return;
+            }
+        };
+        if !found.diagnostics.is_empty() {
+            return;
+        }
+        let robot = |node: usize| line.robot_of(node);
+        let edges = report
+            .edges
+            .iter()
+            .map(|e| connect::Edge { from: robot(e.from), to: robot(e.to), ..*e })
+            .collect();
+        let Some(system) = line.system(report, layout.scan_ms) else {
+            found.diagnostics.append(&mut line.diagnostics);
+            return;
+        };
+        let plant = plant::line(&system, &line, bound.obstacles, resolved, layout.scan_ms);
+        found.project = Some(Project { name: layout.name, system, plant, edges });
+    }
+}
+
+fn kinds(scenario: &Scenario) -> Vec<String> {
+    scenario.kinds.iter().map(|k| k.name.value.clone()).collect()
+}

@@ -1,0 +1,92 @@
+//! The I/O trace is enough to drive the emitted text and to compare it: nothing else is known here of a line
+//! than its files.
+
+use autogen::backend::st;
+use autogen::executor::Executor;
+use autogen_st_judge::machine::{Machine, Place};
+use autogen_tests::{Texts, examples, on_all_processors};
+use runtime_sim::run::{Seen, run};
+
+/// A text that follows a trace row by row.
+struct Driven {
+    machine: Machine,
+    names: Vec<String>,
+    places: Vec<Place>,
+    is_input: Vec<bool>,
+    /// Globals without a column, with what they were after the first scan.
+    silent: Vec<(String, u64)>,
+    scans: u64,
+    values: u64,
+    difference: Option<String>,
+}
+
+impl Driven {
+    /// With the text of `portable/main.st`, of `io.csv`, and the header of the trace.
+    fn new(text: &str, io: &str, header: &str) -> Self {
+        let machine = Machine::new(text).expect("a clean text");
+        let names: Vec<String> = header.trim_end().split(',').map(String::from).collect();
+        let points: Vec<Vec<&str>> =
+            io.lines().skip(1).map(|line| line.split(',').take(3).collect()).collect();
+        for point in &points {
+            assert!(names.iter().any(|name| name == point[1]), "{} has no column", point[1]);
+        }
+        let is_input = (names.iter())
+            .map(|name| points.iter().any(|point| point[1] == name && point[2] == "input"))
+            .collect();
+        let place = |name: &String| machine.place(name).unwrap_or_else(|| panic!("no `{name}` in the text"));
+        let places = names.iter().map(place).collect();
+        Self { machine, names, places, is_input, silent: Vec::new(), scans: 0, values: 0, difference: None }
+    }
+
+    fn follow(&mut self, row: &str) {
+        let values: Vec<f64> = row.trim_end().split(',').map(|v| v.parse().expect("a number")).collect();
+        assert_eq!(values.len(), self.names.len());
+        for (i, value) in values.iter().enumerate().filter(|(i, _)| self.is_input[*i]) {
+            self.machine.write(self.places[i], *value);
+        }
+        self.machine.scan().unwrap_or_else(|error| panic!("scan {}: {error}", self.scans));
+        for (i, value) in values.iter().enumerate().filter(|(i, _)| !self.is_input[*i]) {
+            let found = self.machine.read(self.places[i]);
+            self.values += 1;
+            if found.to_bits() != value.to_bits() && self.difference.is_none() {
+                let (scan, name) = (self.scans, &self.names[i]);
+                self.difference = Some(format!("scan {scan}: {name} is {value:?}, in the text {found:?}"));
+            }
+        }
+        if self.scans == 0 {
+            let globals = self.machine.globals().into_iter().filter(|name| !self.names.contains(name));
+            self.silent = globals.map(|name| (name.clone(), self.machine.get(&name).to_bits())).collect();
+        }
+        self.scans += 1;
+    }
+}
+
+fn driven((name, texts): &(String, Texts)) -> Driven {
+    let outcome = texts.compile();
+    let project = outcome.project.unwrap_or_else(|| panic!("{name}: a line that is right"));
+    let files = st::files(&project.system, &outcome.sources);
+    let columns = st::columns(&project.system, &outcome.sources);
+    let mut driven = Driven::new(&files["portable/main.st"], &files["io.csv"], &columns.header());
+    let mut row = String::new();
+    let mut observe = |seen: &Seen| {
+        row.clear();
+        columns.row(seen, &mut row);
+        driven.follow(&row);
+    };
+    run(&project.plant, &mut Executor::new(&project.system), &mut observe).expect("a line that can be run");
+    driven
+}
+
+#[test]
+fn the_text_follows_the_trace_of_every_example() {
+    let examples = examples();
+    for ((name, _), driven) in examples.iter().zip(on_all_processors(&examples, driven)) {
+        println!("{name}: {} scans, {} values compared", driven.scans, driven.values);
+        assert_eq!(driven.difference, None, "{name}");
+        assert!(driven.scans > 10_000, "{name}");
+        for (global, first) in &driven.silent {
+            let now = driven.machine.get(global).to_bits();
+            assert_eq!(now, *first, "{name}: `{global}` changes and has no column");
+        }
+    }
+}
