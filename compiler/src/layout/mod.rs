@@ -36,6 +36,14 @@ pub struct MayTouch {
     pub reason: String,
 }
 
+impl MayTouch {
+    /// Whether it is about these two, in either order.
+    pub fn is_of(&self, [a, b]: [&str; 2]) -> bool {
+        let [c, d] = self.pair.each_ref().map(|name| name.value.as_str());
+        (a, b) == (c, d) || (b, a) == (c, d)
+    }
+}
+
 /// A number of a layout, by its path in its object, such as `rail_range[1]`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Number {

@@ -70,7 +70,9 @@ pub fn line() -> Line {
         ],
         obstacles: vec![],
         // The scripts go straight from place to place.
-        may_touch: ["agv", "as1"].map(|name| ["gantry".into(), name.into()]).to_vec(),
+        may_touch: [["gantry", "agv"], ["gantry", "as1"], ["kitting", "belt"]]
+            .map(|pair| pair.map(Into::into))
+            .to_vec(),
         scenario: Scenario {
             orders: vec![Order { stations: vec![STATION], parts: vec![1, 1] }],
             supply: vec![Supply { belt: BELT, items: vec![BATTERY, PUMP] }],
