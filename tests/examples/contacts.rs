@@ -1,5 +1,5 @@
 //! Prints all contacts of the examples, as if the layouts allowed every pair:
-//! `contacts [--slow] [LAYOUT [CAPACITY]]`.
+//! `contacts [LAYOUT [CAPACITY]]`. `!`: the layout does not allow the pair.
 
 use autogen::executor::Executor;
 use autogen_tests::{LAYOUTS, Texts, ariac, on_all_processors, own_line};
@@ -24,6 +24,7 @@ fn main() {
     }
     let reports = on_all_processors(&inputs, |(name, capacity)| {
         let mut project = texts(name).set(&format!("agv.capacity={capacity}")).project();
+        let allowed = project.plant.may_touch.clone();
         let machines = project.plant.machines.iter().map(|m| m.name.clone());
         let names: Vec<String> =
             machines.chain(project.plant.obstacles.iter().map(|o| o.name.clone())).collect();
@@ -33,16 +34,19 @@ fn main() {
             }
         }
         let mut executor = Executor::new(&project.system);
-        run(&project.plant, &mut executor, &mut |_| {}).expect("a line that can be run")
+        let report = run(&project.plant, &mut executor, &mut |_| {}).expect("a line that can be run");
+        project.plant.may_touch = allowed;
+        (project.plant, report)
     });
-    for ((name, capacity), report) in inputs.iter().zip(reports) {
+    for ((name, capacity), (line, report)) in inputs.iter().zip(reports) {
         println!("{name}, capacity {capacity}: {}, {} s", report.reason, report.simulated_s);
         for contact in report.collisions {
-            let [a, b] = contact.pair;
+            let [a, b] = &contact.pair;
+            let mark = if line.allows([a, b]) { ' ' } else { '!' };
             let [of_a, of_b] = contact.parts;
             let place = contact.place;
             println!(
-                "  {:9.3} s  {a} ({of_a}) - {b} ({of_b}) at ({:.3}, {:.3}, {:.3}), {} times",
+                "{mark} {:9.3} s  {a} ({of_a}) - {b} ({of_b}) at ({:.3}, {:.3}, {:.3}), {} times",
                 contact.time_s, place.x, place.y, place.z, contact.count
             );
         }

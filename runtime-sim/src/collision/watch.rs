@@ -162,6 +162,14 @@ impl Watch {
         let (Some(index), Some(place)) = (to.machine(), plant.place(item)) else { return };
         let group = &mut self.groups[index];
         let tracked = &mut self.items[item];
+        // Gripped from a little above or below, a part is drawn up to the gripper's face.
+        let place = match to {
+            Carrier::Gripper { machine, .. } => {
+                let tool = plant.position(machine).unwrap_or(place);
+                Point { z: tool.z - tracked.size.z, ..place }
+            }
+            _ => place,
+        };
         let lies = Pose::turned(place, tracked.turn);
         let (anchor, frame) = match (to, &group.kind) {
             (Carrier::Gripper { .. }, Kind::Arm { chain, .. }) => {
