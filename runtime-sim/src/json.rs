@@ -48,6 +48,17 @@ impl Json {
         self.text.push(']');
     }
 
+    /// An array of texts.
+    pub fn put_texts(&mut self, key: &str, values: &[String]) {
+        self.key(key);
+        self.text.push('[');
+        for value in values {
+            self.comma();
+            self.quoted(value);
+        }
+        self.text.push(']');
+    }
+
     /// An array of numbers, each as [`Self::put_real`] writes it.
     pub fn put_reals(&mut self, key: &str, values: &[f64]) {
         self.key(key);

@@ -5,6 +5,7 @@
 //! SI units, world frame (z up), unless a name says otherwise.
 
 pub mod account;
+pub mod collision;
 pub mod device;
 pub mod event;
 pub mod geometry;

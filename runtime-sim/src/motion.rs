@@ -114,6 +114,11 @@ impl Motion {
         self.path.goal()
     }
 
+    /// How far each joint goes at most for each unit of the place on the way.
+    pub fn rates(&self) -> Joints {
+        self.path.rates()
+    }
+
     /// Place on the way, 0 to 1.
     pub fn place(&self, t: f64) -> f64 {
         match self.phase(t) {

@@ -18,6 +18,7 @@ pub(crate) use delay::Bus;
 use crate::device::{Device, Direction};
 use crate::geometry::Geometry;
 use crate::item::{Carrier, Items};
+use crate::kinematics::arm::Joints;
 use crate::line::Line;
 use crate::point::Point;
 use arm::Arm;
@@ -234,6 +235,14 @@ impl Plant {
             Machine::Arm(arm) => Some(arm.tool()),
             Machine::Station(station) => Some(station.pose()),
             Machine::Bin(pose) => Some(*pose),
+        }
+    }
+
+    /// The joints of an arm.
+    pub(crate) fn joints(&self, machine: usize) -> Option<Joints> {
+        match self.machines.get(machine)? {
+            Machine::Arm(arm) => Some(arm.joints()),
+            _ => None,
         }
     }
 

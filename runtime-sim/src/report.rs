@@ -1,6 +1,7 @@
 //! What came of a run.
 
 use crate::account::Account;
+use crate::collision::Contact;
 use crate::event::{Event, OrderChange};
 use crate::item::{self, Carrier};
 use crate::json::Json;
@@ -30,12 +31,9 @@ pub struct Report {
     pub items: Vec<ItemReport>,
     /// Over what all scans left in the controllers and in their published outputs.
     pub trace_hash: u64,
-    /// [`COLLISIONS`].
-    pub collisions: &'static str,
+    /// The first contact of each pair, in the order of their times.
+    pub collisions: Vec<Contact>,
 }
-
-/// Machines pass through one another here.
-pub const COLLISIONS: &str = "not watched";
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct OrderTimes {
@@ -79,6 +77,7 @@ pub(crate) struct Outcome {
     /// Number of the last state of each machine.
     pub states: Vec<usize>,
     pub trace_hash: u64,
+    pub collisions: Vec<Contact>,
 }
 
 fn names(line: &Line, machines: &[usize]) -> String {
@@ -148,7 +147,7 @@ impl Report {
                 .collect(),
             items: items.collect(),
             trace_hash: outcome.trace_hash,
-            collisions: COLLISIONS,
+            collisions: outcome.collisions,
         }
     }
 
@@ -190,7 +189,14 @@ impl Report {
                 json.put_text("carrier", &item.carrier);
             });
             json.put_text("trace_hash", &format!("{:016x}", self.trace_hash));
-            json.put_text("collisions", self.collisions);
+            json.put_list("collisions", &self.collisions, |json, contact| {
+                json.put_real("time_s", Some(contact.time_s));
+                json.put_reals("place", &[contact.place.x, contact.place.y, contact.place.z]);
+                json.put_texts("pair", &contact.pair);
+                json.put_texts("parts", &contact.parts);
+                json.put_truth("allowed", contact.allowed);
+                json.put_int("count", u64::from(contact.count));
+            });
         })
     }
 

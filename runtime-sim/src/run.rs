@@ -1,6 +1,7 @@
 //! A run: controllers against the plant, scan by scan, until it is over.
 
 use crate::account::{Account, Activity};
+use crate::collision::{Contact, Watch};
 use crate::event::{Event, OrderChange, conservation};
 use crate::geometry::Geometry;
 use crate::hash::Hash;
@@ -10,7 +11,7 @@ use crate::plant::image::{in_head, out};
 use crate::plant::{self, Bus, Plant};
 use crate::report::{Outcome, Report};
 use crate::scan::{Controllers, SystemInputs, SystemOutputs};
-use crate::shortage::shortage;
+use crate::shortage::{point_text, shortage};
 use crate::system::Operator;
 
 /// What an observer is shown of a scan, once its outputs are published.
@@ -57,6 +58,7 @@ fn simulate(
     mut recorder: Option<Recorder>,
 ) -> Result<(Report, Vec<Path>), String> {
     let mut plant = Plant::new(line)?;
+    let mut watch = Watch::new(line);
     let mut bus = Bus::new(line.io_delay.clone(), plant.images());
     let mut operator = Operator::new();
     let mut inputs = plant.images().to_vec();
@@ -111,6 +113,7 @@ fn simulate(
         if let Some(recorder) = &mut recorder {
             recorder.look(&plant);
         }
+        let collision = watch.look(&plant).map(collision_text);
         plant.proceed();
         scan += 1;
         changed |= plant.is_busy() || operator.is_busy(scan, &line.scenario);
@@ -121,6 +124,9 @@ fn simulate(
             fault = Some((answer.fault_code, machine));
             break (false, fault_text(line, answer.fault_code, machine));
         }
+        if let Some(reason) = collision {
+            break (false, reason);
+        }
         if let Some(end) = progress.end(line, &plant, scan) {
             break end;
         }
@@ -129,8 +135,16 @@ fn simulate(
         Ok(()) => (finished, reason),
         Err(violation) => (false, format!("bug: {violation}")),
     };
-    let outcome =
-        Outcome { finished, reason, fault, scans: scan, accounts, states, trace_hash: hash.value() };
+    let outcome = Outcome {
+        finished,
+        reason,
+        fault,
+        scans: scan,
+        accounts,
+        states,
+        trace_hash: hash.value(),
+        collisions: watch.into_contacts(),
+    };
     let paths = recorder.map_or_else(Vec::new, |recorder| recorder.finish(&plant));
     Ok((Report::new(line, &plant, outcome), paths))
 }
@@ -170,6 +184,13 @@ fn is_moving(line: &Line, machine: usize, inputs: &[f64], outputs: &[f64]) -> bo
         Geometry::Station { .. } | Geometry::Bin { .. } => false,
         _ => inputs[in_head::ACK] != outputs[out::CMD],
     }
+}
+
+fn collision_text(contact: &Contact) -> String {
+    let [a, b] = &contact.pair;
+    let [of_a, of_b] = &contact.parts;
+    let place = point_text(contact.place);
+    format!("collision of {a} ({of_a}) with {b} ({of_b}) at {:.3} s, {place}", contact.time_s)
 }
 
 fn fault_text(line: &Line, code: i32, machine: Option<usize>) -> String {

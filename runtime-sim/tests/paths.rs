@@ -75,7 +75,7 @@ fn agree(line: &Line, steps: Vec<Step>) -> (Report, Vec<Path>) {
 #[test]
 fn an_order_is_followed_from_the_belt_to_the_briefcase() {
     let (report, paths) = agree(&line(), whole_order());
-    assert!(report.finished);
+    assert!(report.finished, "{}", report.reason);
     for path in &paths {
         let carriers: Vec<&str> = path.segments.iter().map(|segment| carrier_name(segment.carrier)).collect();
         let mut way = carriers.clone();

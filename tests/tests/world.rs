@@ -54,6 +54,7 @@ fn workshop() -> Line {
         kinds: Vec::new(),
         machines: geometries.into_iter().enumerate().map(machine).collect(),
         obstacles: Vec::new(),
+        may_touch: Vec::new(),
         scenario: Scenario::default(),
         io_delay: IoDelay::Fixed(0),
     }

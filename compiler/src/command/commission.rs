@@ -1,6 +1,7 @@
 //! `autogen commission`: the generated controllers, linked with the simulator, run the scenario.
 
 use super::build::{self, Built};
+use super::contact;
 use super::fault;
 use super::io_trace::IoTrace;
 use super::options::{CommissionOptions, Format};
@@ -36,6 +37,7 @@ pub fn run(options: &CommissionOptions) -> Status {
     match commission(options, &built, delay, io_trace, &trajectories) {
         Ok(mut report) => {
             fault::name(&mut report, &built.project.system, &built.sources);
+            contact::name_reasons(&mut report, &built.project.may_touch);
             let status = match report["finished"].as_bool() {
                 Some(true) => Status::Done,
                 _ if report["reason"].as_str().is_some_and(|r| r.starts_with("bug: ")) => Status::Bug,
@@ -161,7 +163,7 @@ fn text(report: &Value, wall: f64, built: &Built) -> String {
     let per_order = report["seconds_per_order"].as_f64().map_or("-".into(), |s| format!("{s:.2}"));
     out += &format!("seconds per order  {per_order}\n");
     out += &format!("simulated          {:.2} s, in {wall:.2} s\n", number(&report["simulated_s"]));
-    out += &format!("collisions         {}\n\n", report["collisions"].as_str().unwrap_or(""));
+    out += &format!("collisions         {}\n\n", contact::text(report));
     let empty = serde_json::Map::new();
     let robots = report["robots"].as_object().unwrap_or(&empty);
     let width = robots.keys().map(String::len).max().unwrap_or(5).max(5);

@@ -13,6 +13,7 @@ macro_rules! say_part {
 pub mod build;
 pub mod check;
 pub mod commission;
+pub mod contact;
 pub mod explain;
 pub mod fault;
 pub mod graph;

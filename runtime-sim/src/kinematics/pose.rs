@@ -40,11 +40,29 @@ impl Pose {
         Point::new(self.rotation[0][i], self.rotation[1][i], self.rotation[2][i])
     }
 
+    /// A direction given in this frame, in the frame this one is given in.
+    pub fn direction(&self, inner: Point) -> Point {
+        let along = |row: &[f64; 3]| row[0] * inner.x + row[1] * inner.y + row[2] * inner.z;
+        let [x, y, z] = &self.rotation;
+        Point::new(along(x), along(y), along(z))
+    }
+
+    /// A point given in this frame, in the frame this one is given in.
+    pub fn point(&self, inner: Point) -> Point {
+        self.position + self.direction(inner)
+    }
+
+    /// The frame that this one is given in, seen from this one.
+    pub fn inverse(&self) -> Self {
+        let r = &self.rotation;
+        let rotation = std::array::from_fn(|i| std::array::from_fn(|j| r[j][i]));
+        let turned = Self { rotation, position: Point::default() };
+        Self { position: turned.direction(self.position).scaled(-1.0), ..turned }
+    }
+
     /// This frame as `other` sees it, if both are given in the same one.
     pub fn seen_from(&self, other: &Pose) -> Self {
-        let r = &other.rotation;
-        let back: [[f64; 3]; 3] = std::array::from_fn(|i| std::array::from_fn(|j| r[j][i]));
-        let turn = Self { rotation: back, position: Point::default() };
+        let turn = Pose { position: Point::default(), ..other.inverse() };
         turn.then(&Pose { position: self.position - other.position, ..*self })
     }
 
@@ -70,9 +88,7 @@ impl Pose {
                 *value = (0..3).map(|k| row[k] * inner.rotation[k][column]).sum();
             }
         }
-        let p = inner.position;
-        let along = |row: &[f64; 3]| row[0] * p.x + row[1] * p.y + row[2] * p.z;
-        Self { rotation, position: self.position + Point::new(along(&r[0]), along(&r[1]), along(&r[2])) }
+        Self { rotation, position: self.point(inner.position) }
     }
 }
 

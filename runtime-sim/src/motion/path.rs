@@ -111,6 +111,17 @@ impl Path {
             .collect()
     }
 
+    /// The greatest change of each joint with the place, on the whole way.
+    pub fn rates(&self) -> Joints {
+        match &self.corner {
+            None => difference(&self.to, &self.from).map(|_, way| way.abs()),
+            // Over the corner it goes from the one to the other.
+            Some(Corner { rates: [first, second], .. }) => {
+                first.map(|i, rate| rate.abs().max(second[i].abs()))
+            }
+        }
+    }
+
     pub fn goal(&self) -> Joints {
         self.to
     }

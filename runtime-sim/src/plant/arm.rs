@@ -6,6 +6,7 @@ use super::drive::{Drive, Moved, Target};
 use super::gripper::Gripper;
 use super::image::{in_arm, out, point, put_bit, put_point};
 use crate::device::error;
+use crate::kinematics::arm::Joints;
 use crate::point::Point;
 
 /// A `pick` waits so long at its goal for a part to be attached.
@@ -37,6 +38,10 @@ impl Arm {
 
     pub fn tool(&self) -> Point {
         self.drive.tool()
+    }
+
+    pub fn joints(&self) -> Joints {
+        self.drive.joints()
     }
 
     pub fn course(&self) -> Course {

@@ -55,6 +55,10 @@ impl Drive {
         self.tool
     }
 
+    pub fn joints(&self) -> Joints {
+        self.joints
+    }
+
     /// What moves the joints at present.
     pub fn under_way(&self) -> Option<&Motion> {
         match &self.course {
