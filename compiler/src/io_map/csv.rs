@@ -92,6 +92,7 @@ impl Reader<'_> {
     fn quoted(&mut self, start: usize, text: &mut String, found: &mut Vec<Diagnostic>) {
         loop {
             let Some(length) = self.text[self.at..].find('"') else {
+                *text += &self.text[self.at..];
                 self.at = self.text.len();
                 found.push(
                     Diagnostic::new("E0601", Span::new(self.file, start, start + 1), "a quote has no end")
