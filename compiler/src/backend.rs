@@ -5,6 +5,7 @@ mod footprint;
 pub mod paths;
 pub mod plan;
 pub mod rust;
+pub mod sdf;
 pub mod st;
 
 use std::collections::BTreeMap;

@@ -1,5 +1,8 @@
 //! The program as a user runs it.
 
+#[path = "command_line/sweep.rs"]
+mod sweep;
+
 use runtime_sim::geometry::Geometry;
 use runtime_sim::kinematics::arm::{Arm, Joints};
 use runtime_sim::point::{Axis, Point};
@@ -231,21 +234,33 @@ fn the_picture_of_the_readme_is_drawn_from_the_default_layout() {
     );
 }
 
-/// The command that makes `docs/paths.svg`.
-const PATHS: [&str; 4] = ["--trajectories", "paths.svg", "--items", "battery_3,battery_4"];
+/// `docs/NAME` is what `commission` draws of the default line with these options.
+fn is_drawn_by(name: &str, options: &[&str]) {
+    let folder = folder(name);
+    let layout = example("ariac2021/default.json");
+    let output =
+        autogen(&folder, &[&["commission", layout.as_str(), "--trajectories", name][..], options].concat());
+    assert_eq!(status(&output), 0, "{}", errors(&output));
+    let picture = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs").join(name));
+    assert!(
+        fs::read_to_string(folder.join(name)).expect("a drawing") == picture.expect("the picture"),
+        "draw it anew: autogen commission {layout} --trajectories docs/{name} {}",
+        options.join(" ")
+    );
+}
 
 #[test]
-fn the_picture_of_two_batteries_is_drawn_from_the_run_of_the_default_layout() {
-    let folder = folder("paths");
-    let layout = example("ariac2021/default.json");
-    let output = autogen(&folder, &[&["commission", &layout][..], &PATHS].concat());
-    assert_eq!(status(&output), 0, "{}", errors(&output));
-    let picture = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/paths.svg"));
-    assert!(
-        fs::read_to_string(folder.join("paths.svg")).expect("a drawing") == picture.expect("the picture"),
-        "draw it anew: autogen commission examples/ariac2021/default.json --trajectories docs/paths.svg {}",
-        PATHS[2..].join(" ")
-    );
+fn two_batteries_are_drawn_from_the_run_of_the_default_layout() {
+    is_drawn_by("paths.svg", &["--items", "battery_3,battery_4"]);
+}
+
+#[test]
+fn two_batteries_of_the_prototype_are_drawn_as_in_the_paper() {
+    let (specs, scenario) = (example("ariac2021/prototype"), example("ariac2021/table1_v0.scenario.json"));
+    let prototype = ["--specs", &specs, "--scenario", &scenario];
+    let values = ["--set", "agv.capacity=4", "--set", "gantry.version=V0"];
+    let items = ["--items", "battery_green_3,battery_blue_3"];
+    is_drawn_by("fig6.svg", &[&prototype[..], &values, &items].concat());
 }
 
 fn numbers(value: &Value) -> Vec<f64> {

@@ -45,7 +45,7 @@ pub enum Carrier {
     Floor {
         point: Point,
     },
-    /// It left a belt at its lower end.
+    /// It left a belt at its lower end, or lay in a briefcase whose order was made elsewhere.
     Collector,
     /// Taken away in the briefcase of an order.
     Shipped {

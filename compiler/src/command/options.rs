@@ -150,6 +150,10 @@ pub struct SweepOptions {
     /// How many scans late devices answer: numbers, `random` or `random:SEED` for 0 to 5
     #[arg(long, value_name = "N,...", value_delimiter = ',')]
     pub io_delay: Vec<String>,
+    /// Figures to stand beside the rows: a CSV file with the column seconds_per_order and columns of the
+    /// sweep's own CSV that name a point, such as layout and agv.capacity
+    #[arg(long, value_name = "FILE")]
+    pub beside: Option<PathBuf>,
     /// Points that are worked on at the same time; default: one for each processor
     #[arg(short, long, value_name = "N")]
     pub jobs: Option<NonZeroUsize>,
