@@ -2,7 +2,7 @@
 //! on the paper's layouts. `docs/table1.md` shows what comes of it.
 
 use autogen::executor::Executor;
-use autogen_tests::{Texts, ariac, on_all_processors, prototype, text};
+use autogen_tests::{Texts, ariac, on_all_processors, prototype, root, text};
 use runtime_sim::run::run;
 use std::fmt::Write;
 use std::process::Command;
@@ -244,12 +244,7 @@ fn an_independent_calculation_ends_in_the_same_scan() {
         let output = python(&[script.as_ref(), layout.as_ref(), scenario.as_ref(), capacity.as_ref()])
             .expect("python3");
         let theirs = String::from_utf8_lossy(&output.stdout).trim().parse::<u64>().ok();
-        let texts = Texts {
-            specs: prototype(),
-            scenario: Some(text("examples/ariac2021/table1.scenario.json")),
-            ..ariac(&measured.layout)
-        };
-        let project = texts.set(&format!("agv.capacity={capacity}")).compile().project;
+        let project = prototype(&measured.layout).set(&format!("agv.capacity={capacity}")).compile().project;
         let ours = project.map(|project| {
             let mut executor = Executor::new(&project.system);
             run(&project.plant, &mut executor, &mut |_| {}).expect("a line that can be run").scans
