@@ -101,11 +101,24 @@ pub fn own_line(folder: &str) -> Texts {
     Texts { layout: text(&format!("examples/{folder}/{folder}.json")), specs, scenario, ..Texts::default() }
 }
 
-/// Every line of the examples by name.
+/// A layout of the paper with the prototype's automata, and what they made for Table I.
+pub fn prototype(layout: &str) -> Texts {
+    let folder = root().join("examples/ariac2021/prototype");
+    let entries = std::fs::read_dir(folder).expect("the folder of the prototype");
+    let mut paths: Vec<PathBuf> = entries.map(|entry| entry.expect("an entry").path()).collect();
+    paths.sort();
+    let specs = paths.iter().map(|path| std::fs::read_to_string(path).expect("a text")).collect();
+    let scenario = Some(text("examples/ariac2021/table1.scenario.json"));
+    Texts { specs, scenario, ..ariac(layout) }
+}
+
+/// Every line of the examples by name; the prototype at full speed.
 pub fn examples() -> Vec<(String, Texts)> {
     let layouts = LAYOUTS.map(|layout| (layout.to_string(), ariac(layout)));
     let own = ["buffer", "shared_agv"].map(|line| (line.to_string(), own_line(line)));
-    layouts.into_iter().chain(own).collect()
+    let fast = ["agv.capacity=4", "kitting.speed=1", "gantry.speed=1"];
+    let prototype = fast.iter().fold(prototype("default"), |texts, setting| texts.set(setting));
+    layouts.into_iter().chain(own).chain([("prototype".into(), prototype)]).collect()
 }
 
 /// Runs `job` for each of the inputs on all processors; results in the order of the inputs.

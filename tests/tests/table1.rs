@@ -2,7 +2,7 @@
 //! on the paper's layouts. `docs/table1.md` shows what comes of it.
 
 use autogen::executor::Executor;
-use autogen_tests::{Texts, ariac, on_all_processors, root, text};
+use autogen_tests::{Texts, ariac, on_all_processors, prototype, root, text};
 use runtime_sim::run::run;
 use std::fmt::Write;
 use std::process::Command;
@@ -36,14 +36,6 @@ fn measured() -> Vec<Measured> {
     rows.collect()
 }
 
-fn prototype() -> Vec<String> {
-    let folder = root().join("examples/ariac2021/prototype");
-    let entries = std::fs::read_dir(folder).expect("the folder of the prototype");
-    let mut paths: Vec<_> = entries.map(|entry| entry.expect("an entry").path()).collect();
-    paths.sort();
-    paths.iter().map(|path| std::fs::read_to_string(path).expect("a text")).collect()
-}
-
 /// A run that ends otherwise than with all orders made is a panic.
 fn cell(texts: &Texts) -> Cell {
     let outcome = texts.compile();
@@ -58,14 +50,11 @@ fn cell(texts: &Texts) -> Cell {
 }
 
 /// All cells of one set of automata, in the order of the paper's table.
-fn cells(specs: &[String], scenario: &str, settings: &[&str]) -> Vec<Cell> {
+fn cells(automata: fn(&str) -> Texts, scenario: &str, settings: &[&str]) -> Vec<Cell> {
     on_all_processors(&measured(), |measured| {
-        let mut texts = Texts {
-            specs: specs.to_vec(),
-            scenario: Some(text(&format!("examples/ariac2021/{scenario}"))),
-            ..ariac(&measured.layout)
-        }
-        .set(&format!("agv.capacity={}", measured.capacity));
+        let scenario = Some(text(&format!("examples/ariac2021/{scenario}")));
+        let mut texts = Texts { scenario, ..automata(&measured.layout) }
+            .set(&format!("agv.capacity={}", measured.capacity));
         texts.settings.extend(settings.iter().map(|s| s.to_string()));
         cell(&texts)
     })
@@ -79,7 +68,7 @@ fn v1() -> &'static [Cell] {
 
 fn version(name: &str) -> Vec<Cell> {
     let scenario = if name == "V0" { "table1_v0.scenario.json" } else { "table1.scenario.json" };
-    cells(&prototype(), scenario, &[&format!("gantry.version={name}")])
+    cells(prototype, scenario, &[&format!("gantry.version={name}")])
 }
 
 /// Root mean square of the relative errors, over the cells that the paper has, in percent.
@@ -163,14 +152,13 @@ fn the_librarys_automata_are_as_shown() {
     let slow = ["kitting.speed=0.1", "gantry.speed=0.1"];
     let fast = ["kitting.speed=1", "gantry.speed=1"];
     let (one, near) = ("table1.scenario.json", "table1_spread.scenario.json");
-    let row = |specs: &[String], scenario, settings: &[&str]| cells(specs, scenario, settings);
     let rows = [
         ("prototype V1, a tenth", v1().to_vec(), "as1".to_string()),
-        ("prototype V1, full speed", row(&prototype(), one, &fast), "as1".into()),
-        ("library, a tenth", row(&[], one, &slow), "as1".into()),
-        ("library, full speed", row(&[], one, &fast), "as1".into()),
-        ("library, a tenth", row(&[], near, &slow), "as1, as3 in turn".into()),
-        ("library, full speed", row(&[], near, &fast), "as1, as3 in turn".into()),
+        ("prototype V1, full speed", cells(prototype, one, &fast), "as1".into()),
+        ("library, a tenth", cells(ariac, one, &slow), "as1".into()),
+        ("library, full speed", cells(ariac, one, &fast), "as1".into()),
+        ("library, a tenth", cells(ariac, near, &slow), "as1, as3 in turn".into()),
+        ("library, full speed", cells(ariac, near, &fast), "as1, as3 in turn".into()),
     ];
     assert_shown(&table("automata", "orders at", &rows));
 }
@@ -256,12 +244,7 @@ fn an_independent_calculation_ends_in_the_same_scan() {
         let output = python(&[script.as_ref(), layout.as_ref(), scenario.as_ref(), capacity.as_ref()])
             .expect("python3");
         let theirs = String::from_utf8_lossy(&output.stdout).trim().parse::<u64>().ok();
-        let texts = Texts {
-            specs: prototype(),
-            scenario: Some(text("examples/ariac2021/table1.scenario.json")),
-            ..ariac(&measured.layout)
-        };
-        let project = texts.set(&format!("agv.capacity={capacity}")).compile().project;
+        let project = prototype(&measured.layout).set(&format!("agv.capacity={capacity}")).compile().project;
         let ours = project.map(|project| {
             let mut executor = Executor::new(&project.system);
             run(&project.plant, &mut executor, &mut |_| {}).expect("a line that can be run").scans
