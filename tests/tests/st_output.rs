@@ -3,6 +3,9 @@
 
 use autogen::backend::Files;
 use autogen::backend::st;
+use autogen_st_judge::dead::dead;
+use autogen_st_judge::view::Section;
+use autogen_st_judge::{judge, listed};
 use autogen_tests::instances::instantiate;
 use autogen_tests::{LAYOUTS, ariac, root, text};
 use tree_sitter::{Node, Parser};
@@ -51,6 +54,23 @@ fn the_agv_reads_well_in_both_dialects() {
     let agv = main.split("\n(* FB_Agv").nth(1).and_then(|text| text.split("END_FUNCTION_BLOCK").next());
     insta::assert_snapshot!("agv_portable", agv.expect("the block of the AGV"));
     insta::assert_snapshot!("agv_codesys", files["codesys/FB_Agv.st"]);
+}
+
+#[test]
+fn names_that_could_not_stay_are_listed() {
+    let names = fixtures().into_iter().filter_map(|(name, text)| {
+        let table = of_fixture(&name, &text).remove("names.csv")?;
+        Some(format!("---- {name}\n{table}"))
+    });
+    insta::assert_snapshot!("names_csv", names.collect::<Vec<_>>().join("\n"));
+}
+
+#[test]
+fn a_line_without_ports_has_a_header() {
+    let (mut system, sources) = instantiate(&[fixtures().swap_remove(0)]);
+    system.instances.clear();
+    let main = &st::files(&system, &sources)["portable/main.st"];
+    assert!(main.contains("in layout order; each makes at most one transition.\n   Shared cells"), "{main}");
 }
 
 fn errors(node: Node, found: &mut Vec<String>) {
@@ -110,9 +130,23 @@ fn bodies_in_xml_are_the_same_text() {
 }
 
 #[test]
-fn transitions_are_short() {
+fn transitions_are_short_and_nothing_is_dead() {
     let files = of_layout("default");
-    let figures = files["bounds.txt"].lines().last().expect("a line");
+    let main = &files["portable/main.st"];
+    let checked = judge(main).unwrap_or_else(|found| panic!("{}", listed(&found, main)));
+    let own = checked.text.units.iter().flat_map(|unit| &unit.variables);
+    let own = own.filter(|variable| variable.section != Section::External).count();
+    let globals = checked.text.configurations.iter().map(|c| c.globals.len()).sum::<usize>();
+    let dead = dead(&checked);
+    let bounds = &files["bounds.txt"];
+    let all = bounds.lines().find_map(|line| line.strip_prefix("all ")).expect("the sum");
+    let figures = bounds.lines().last().expect("a line");
+    println!("lines       {}", main.lines().count());
+    println!("statements  {figures}");
+    println!("variables   {}: {globals} global, {own} of functions, blocks and the program", globals + own);
+    println!("dead        {}", dead.len());
+    println!("bound       {} statements in a scan", all.trim());
     let each = figures.rsplit(": ").next().and_then(|text| text.split(' ').next()).expect("a number");
     assert!(each.parse::<f64>().expect("a number") <= 15.0, "{figures}");
+    assert!(dead.is_empty(), "{}", listed(&dead, main));
 }

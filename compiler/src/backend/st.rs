@@ -13,6 +13,7 @@ mod bounds;
 mod code;
 mod columns;
 mod context;
+mod dead;
 mod declaration;
 mod expression;
 mod figures;

@@ -256,6 +256,71 @@ less_agv,\"{\"\"a\"\":3}\",false,E0503: this is no value for `capacity`,0,1,,,
 }
 
 #[test]
+fn measured_figures_stand_beside_their_rows() {
+    let folder = folder("sweep_beside");
+    put(&folder, "short.json", ONE_PART);
+    let layout = example("ariac2021/default.json");
+    // The point that is refused has a figure; one that runs has none, nor one that stands with an empty field.
+    let figures = "agv.capacity,seconds_per_order,layout\n1,20,default\n13,50.5,default\n\n3,,default\n9,1,default\n2,40,\"default\"\n";
+    put(&folder, "figures.csv", figures);
+    let sweep = |format: &str| {
+        let arguments = ["sweep", &layout, "--scenario", "short.json", "--set", "agv.capacity=1,13,2,3,4"];
+        let more = ["--beside", "figures.csv", "--format", format];
+        let output = autogen(&folder, &[&arguments[..], &more[..]].concat());
+        assert_eq!(status(&output), 3, "{}", errors(&output));
+        output
+    };
+    let output = sweep("json");
+    let all = rows(&output);
+    let measured: Vec<Option<f64>> = all.iter().map(|r| r["measured_seconds_per_order"].as_f64()).collect();
+    assert_eq!(measured, [Some(20.0), Some(50.5), Some(40.0), None, None]);
+    let here = all[0]["seconds_per_order"].as_f64().expect("an order was made");
+    let ratios: Vec<Option<f64>> = all.iter().map(|r| r["ratio"].as_f64()).collect();
+    assert_eq!(ratios, [Some(here / 20.0), None, Some(here / 40.0), None, None]);
+    let square = |ratio: f64| (ratio - 1.0) * (ratio - 1.0);
+    let rms = ((square(here / 20.0) + square(here / 40.0)) / 2.0).sqrt();
+    assert!((json(&output)["rms"].as_f64().expect("a figure") - rms).abs() < 1e-12);
+
+    let text = printed(&sweep("text"));
+    assert!(text.lines().next().is_some_and(|l| l.contains("s/order   measured   ratio")), "{text}");
+    let cells: Vec<&str> = text.lines().nth(1).expect("a row").split_whitespace().collect();
+    let ratio = format!("{:.3}", here / 20.0);
+    assert_eq!(cells[2..8], ["1", "of", "1", &format!("{here:.2}"), "20.00", &ratio]);
+    let last = format!("RMS of what the 2 ratios differ from 1: {:.1} %", rms * 100.0);
+    assert_eq!(text.lines().last(), Some(last.as_str()));
+    let csv = printed(&sweep("csv"));
+    assert!(csv.lines().next().is_some_and(|l| l.ends_with(",trace_hash,measured_seconds_per_order,ratio")));
+    assert!(csv.lines().nth(2).is_some_and(|l| l.ends_with(",50.5,")), "{csv}");
+}
+
+#[test]
+fn wrong_measured_figures_are_refused_with_the_place() {
+    let folder = folder("sweep_beside_wrong");
+    let layout = example("ariac2021/default.json");
+    let cases = [
+        ("", "the first line has no column `seconds_per_order`"),
+        ("layout,agv.capacity\n", "the first line has no column `seconds_per_order`"),
+        (
+            "layout,cap,seconds_per_order\n",
+            "the sweep has no column `cap`; its points are named by layout, agv.capacity",
+        ),
+        ("layout,layout,seconds_per_order\n", "the column `layout` stands twice"),
+        ("layout,seconds_per_order\ndefault\n", "line 2: 1 fields, 2 columns"),
+        ("layout,seconds_per_order\n\ndefault,long\n", "line 3: `long` is no number of seconds above 0"),
+        ("layout,seconds_per_order\ndefault,0\n", "line 2: `0` is no number"),
+        ("layout,seconds_per_order\ndefault,NaN\n", "line 2: `NaN` is no number"),
+        ("layout,seconds_per_order\ndefault,1\ndefault,2\n", "line 3: this point stands twice"),
+    ];
+    for (figures, message) in cases {
+        put(&folder, "figures.csv", figures);
+        let arguments = ["sweep", &layout, "--set", "agv.capacity=1,2", "--beside", "figures.csv"];
+        let output = autogen(&folder, &arguments);
+        assert_eq!(status(&output), 2, "{figures}: {}", errors(&output));
+        assert!(errors(&output).contains(&format!("figures.csv: {message}")), "{}", errors(&output));
+    }
+}
+
+#[test]
 fn what_is_wrong_with_all_points_is_said_once() {
     let folder = folder("sweep_wrong_input");
     fs::create_dir_all(folder.join("types")).expect("a folder");
@@ -303,6 +368,7 @@ fn wrong_command_lines_are_status_2() {
         &["sweep", &layout, "--order", "1,second"],
         &["sweep", &layout, "--jobs", "0"],
         &["sweep", &layout, "--format", "table"],
+        &["sweep", &layout, "--beside", "no_such_file.csv"],
     ];
     for case in cases {
         let output = autogen(&folder, case);

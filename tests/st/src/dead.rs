@@ -7,8 +7,11 @@ use crate::view::{
 };
 use std::collections::HashSet;
 
+/// Variables of units, and statements. A variable is read where its value is used for anything but its own next
+/// value; an output also by whoever calls the block.
 pub fn dead(checked: &Checked) -> Vec<Finding> {
     let mut findings = Vec::new();
+    let outside = members(checked);
     for unit in &checked.text.units {
         let read = read(unit);
         for variable in &unit.variables {
@@ -16,6 +19,13 @@ pub fn dead(checked: &Checked) -> Vec<Finding> {
             match variable.section {
                 Section::Local | Section::Input if !read.contains(&key) => {
                     findings.push(Finding::new("unread", variable.span, format!("nobody reads `{name}`")));
+                }
+                Section::Output if !read.contains(&key) && !outside.contains(&key) => {
+                    findings.push(Finding::new(
+                        "unread",
+                        variable.span,
+                        format!("nobody reads the output `{name}`"),
+                    ));
                 }
                 Section::External if !read.contains(&key) && !written(unit).contains(&key) => {
                     findings.push(Finding::new("unused", variable.span, format!("`{name}` is not used")));
@@ -28,6 +38,31 @@ pub fn dead(checked: &Checked) -> Vec<Finding> {
     findings
 }
 
+/// Global variables that no unit reads.
+pub fn unread_globals(checked: &Checked) -> Vec<String> {
+    let read: HashSet<String> = checked.text.units.iter().flat_map(read).collect();
+    let globals = checked.text.configurations.iter().flat_map(|c| &c.globals);
+    let unread = globals.filter(|global| !read.contains(&global.name.key()));
+    unread.map(|global| global.name.text.clone()).collect()
+}
+
+/// Names of all outputs that are read from an instance.
+fn members(checked: &Checked) -> HashSet<String> {
+    let mut members = HashSet::new();
+    for unit in &checked.text.units {
+        each_statement(&unit.body, &mut |statement| {
+            for expression in expressions(statement) {
+                each_part(expression, &mut |part| {
+                    if let ExpressionKind::Member { member, .. } = &part.kind {
+                        members.insert(member.key());
+                    }
+                });
+            }
+        });
+    }
+    members
+}
+
 /// Variables that are read, or called.
 fn read(unit: &Unit) -> HashSet<String> {
     let mut read = HashSet::new();
@@ -35,17 +70,19 @@ fn read(unit: &Unit) -> HashSet<String> {
         if let StatementKind::Call(call) = &statement.kind {
             read.insert(call.name.key());
         }
+        let (target, whole) = match &statement.kind {
+            StatementKind::Assign { target, .. } => match &target.kind {
+                ExpressionKind::Index { array, .. } => (Some(&**array), None),
+                ExpressionKind::Name(name) => (Some(target), Some(name.key())),
+                _ => (Some(target), None),
+            },
+            _ => (None, None),
+        };
         for expression in expressions(statement) {
-            let target = match &statement.kind {
-                StatementKind::Assign { target, .. } => match &target.kind {
-                    ExpressionKind::Index { array, .. } => Some(&**array),
-                    _ => Some(target),
-                },
-                _ => None,
-            };
             each_part(expression, &mut |part| {
                 if let ExpressionKind::Name(name) = &part.kind
                     && !target.is_some_and(|target| std::ptr::eq(target, part))
+                    && whole != Some(name.key())
                 {
                     read.insert(name.key());
                 }
@@ -87,7 +124,7 @@ mod tests {
     #[test]
     fn what_is_dead_is_found() {
         let source = "PROGRAM Run\nVAR_EXTERNAL g : DINT; h : DINT; END_VAR\nVAR a : DINT; b : DINT; END_VAR\n\
-            WHILE TRUE DO\na := b;\nEXIT;\ng := 1;\nEND_WHILE;\nEND_PROGRAM\nCONFIGURATION Conf\n\
+            WHILE TRUE DO\na := a + b;\nEXIT;\ng := 1;\nEND_WHILE;\nEND_PROGRAM\nCONFIGURATION Conf\n\
             VAR_GLOBAL g : DINT; h : DINT; END_VAR\nRESOURCE Res ON PLC\nTASK Cyclic(INTERVAL := T#10ms, PRIORITY := 0);\n\
             PROGRAM Inst WITH Cyclic : Run;\nEND_RESOURCE\nEND_CONFIGURATION\n";
         let found: Vec<_> = dead(&crate::judge(source).unwrap()).iter().map(|f| f.located(source)).collect();
@@ -99,5 +136,16 @@ mod tests {
                 "7:1: unreachable: nothing reaches this statement"
             ]
         );
+    }
+    #[test]
+    fn outputs_and_globals_are_read_elsewhere() {
+        let source = "FUNCTION_BLOCK Count\nVAR_OUTPUT n : DINT; m : DINT; END_VAR\nm := 1;\nn := 1;\nEND_FUNCTION_BLOCK\n\
+            PROGRAM Run\nVAR_EXTERNAL g : DINT; h : DINT; END_VAR\nVAR c : Count; END_VAR\nc();\ng := c.n + h;\nEND_PROGRAM\n\
+            CONFIGURATION Conf\nVAR_GLOBAL g : DINT; h : DINT; END_VAR\nRESOURCE Res ON PLC\n\
+            TASK Cyclic(INTERVAL := T#10ms, PRIORITY := 0);\nPROGRAM Inst WITH Cyclic : Run;\nEND_RESOURCE\nEND_CONFIGURATION\n";
+        let checked = crate::judge(source).unwrap();
+        let found: Vec<_> = dead(&checked).iter().map(|f| f.located(source)).collect();
+        assert_eq!(found, ["2:22: unread: nobody reads the output `m`"]);
+        assert_eq!(unread_globals(&checked), ["g"]);
     }
 }

@@ -18,7 +18,7 @@ use crate::finding::{Finding, Place as TextPlace, Span};
 use crate::types::Scalar;
 use code::{Code, Trap};
 use layout::Layouts;
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::BTreeMap;
 use std::fmt;
 
 /// A text in execution.
@@ -27,7 +27,8 @@ pub struct Machine {
     source: String,
     code: Code,
     layouts: Layouts,
-    constructs: HashMap<Span, BTreeSet<String>>,
+    /// By number.
+    units: Vec<(String, Span)>,
     /// Every value takes one word.
     memory: Vec<u64>,
     counters: Counters,
@@ -39,7 +40,12 @@ struct Counters {
     branches: Vec<u64>,
     /// For each statement, how often it was executed.
     statements: Vec<u64>,
+    /// For each condition of IF and ELSIF, how often it was tested.
+    conditions: Vec<u64>,
+    /// For each unit, the most statements that one call has executed.
+    most: Vec<u64>,
     executed: u64,
+    scans: u64,
 }
 
 /// Why a scan could not be ended.
@@ -81,14 +87,18 @@ impl Machine {
         let counters = Counters {
             branches: vec![0; code.branches.len()],
             statements: vec![0; code.statements.len()],
+            conditions: vec![0; code.conditions.len()],
+            most: vec![0; code.units.len()],
             executed: 0,
+            scans: 0,
         };
-        let constructs = construct::of_text(&checked);
-        Ok(Self { source: source.into(), code, layouts, constructs, memory, counters })
+        let units = checked.text.units.iter().map(|unit| (unit.name.text.clone(), unit.span)).collect();
+        Ok(Self { source: source.into(), code, layouts, units, memory, counters })
     }
 
     /// Runs every program once.
     pub fn scan(&mut self) -> Result<(), RunError> {
+        self.counters.scans += 1;
         run::scan(&self.code, &mut self.memory, &mut self.counters).map_err(|trap| self.located(trap))
     }
 
@@ -166,22 +176,32 @@ impl Machine {
             .collect()
     }
 
-    /// The constructs of the language that the text uses, with how often a statement with one was executed.
+    /// The constructs of the grammar that the text has, with how often each was executed.
     pub fn constructs(&self) -> BTreeMap<String, u64> {
-        let mut counts = BTreeMap::new();
-        for (span, count) in self.code.statements.iter().zip(&self.counters.statements) {
-            for name in self.constructs.get(span).into_iter().flatten() {
-                *counts.entry(name.clone()).or_default() += count;
-            }
+        let mut executed = construct::Executed::new();
+        for (_, span) in &self.units {
+            let inside = self.code.statements.iter().zip(&self.counters.statements);
+            let inside = inside.filter(|(s, _)| s.start >= span.start && s.end <= span.end);
+            executed.insert(*span, inside.map(|(_, count)| *count).max().unwrap_or(0));
         }
-        counts
+        let conditions = self.code.conditions.iter().zip(&self.counters.conditions);
+        let statements = self.code.statements.iter().zip(&self.counters.statements);
+        executed.extend(conditions.chain(statements).map(|(span, count)| (*span, *count)));
+        construct::counts(&self.source, &executed, self.counters.scans)
     }
 
     pub fn statements(&self) -> usize {
         self.code.statements.len()
     }
 
-    /// How many statements have been executed since power-up.
+    /// The most statements that one call of each block or program has executed, with those of functions and
+    /// without those of other blocks, counted as by [`Machine::executed`]; 0 for functions.
+    pub fn most_executed(&self) -> Vec<(&str, u64)> {
+        let names = self.units.iter().map(|(name, _)| name.as_str());
+        names.zip(self.counters.most.iter().copied()).collect()
+    }
+
+    /// How many statements have been executed since power-up; a round of a loop counts one more.
     pub fn executed(&self) -> u64 {
         self.counters.executed
     }

@@ -319,6 +319,54 @@ fn statements_are_counted() {
     assert_eq!(machine.never_executed(), [(7, "j := 2;".to_string())]);
 }
 
+#[test]
+fn a_round_of_a_loop_counts_one_more() {
+    // The loop, three rounds of a test and an assignment.
+    assert_eq!(ran("WHILE i < 3 DO i := i + 1; END_WHILE;").executed(), 1 + 3 * 2);
+}
+
+#[test]
+fn the_longest_call_of_a_unit_is_kept() {
+    let source = "FUNCTION Twice : DINT\nVAR_INPUT a : DINT; END_VAR\nTwice := a + a;\nEND_FUNCTION\n\
+        FUNCTION_BLOCK Count\nVAR_INPUT up : BOOL; END_VAR\nVAR n : DINT; END_VAR\n\
+        IF up THEN\nn := Twice(a := n);\nn := n + 1;\nEND_IF;\nEND_FUNCTION_BLOCK\n\
+        PROGRAM Run\nVAR_EXTERNAL going : BOOL; END_VAR\nVAR c : Count; END_VAR\n\
+        c(up := going);\nc(up := FALSE);\nEND_PROGRAM\n\
+        CONFIGURATION Conf\nVAR_GLOBAL going : BOOL; END_VAR\nRESOURCE Res ON PLC\n\
+        TASK Cyclic(INTERVAL := T#10ms, PRIORITY := 0);\nPROGRAM Inst WITH Cyclic : Run;\n\
+        END_RESOURCE\nEND_CONFIGURATION\n";
+    let mut machine = Machine::new(source).unwrap_or_else(|findings| panic!("{findings:?}"));
+    machine.scan().unwrap();
+    assert_eq!(machine.most_executed(), [("Twice", 0), ("Count", 1), ("Run", 2)]);
+    machine.set("going", 1.0);
+    machine.scan().unwrap();
+    machine.set("going", 0.0);
+    machine.scan().unwrap();
+    assert_eq!(machine.most_executed(), [("Twice", 0), ("Count", 4), ("Run", 2)]);
+    assert_eq!(machine.executed(), 4 + 7 + 4);
+}
+
+#[test]
+fn constructs_are_counted_by_the_part_that_is_executed() {
+    let body = "IF i = 0 THEN j := 1; ELSIF i <> 1 THEN j := ABS(i); ELSE j := j / 2; END_IF;\n\
+                WHILE j < 2 DO j := j * 2; END_WHILE;";
+    let mut machine = machine("", "", body);
+    machine.scan().unwrap();
+    let counted = machine.constructs();
+    let of = |name: &str| counted.get(name).copied();
+    // A loop is one statement, however often it goes round.
+    assert_eq!(
+        (of("`=`"), of("`<>`"), of("`<`"), of("`*`"), of("`/`")),
+        (Some(1), Some(0), Some(1), Some(1), Some(0))
+    );
+    assert_eq!((of("elsif_clause"), of("else_clause"), of("call of ABS")), (Some(0), Some(0), Some(0)));
+    assert_eq!((of("while_statement"), of("`MOD`")), (Some(1), None));
+    machine.set("i", 2.0);
+    machine.scan().unwrap();
+    let counted = machine.constructs();
+    assert_eq!((counted["`<>`"], counted["call of ABS"], counted["elsif_clause"]), (1, 1, 1));
+}
+
 /// Raw values of the process image.
 const IMAGE: &str = "s AT %IB0 : SINT; us AT %IB1 : USINT; n AT %IW4 : INT; u AT %QW4 : UINT := 7; \
     d AT %MD3 : DINT; bit AT %IX9.7 : BOOL; p : DINT; q : LREAL;";

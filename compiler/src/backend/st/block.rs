@@ -2,6 +2,7 @@
 
 use super::code::{self, Ex, Member, Stmt, advance, assign, binary, name, not, or, when};
 use super::context::{Lowering, Phase, Shared};
+use super::dead;
 use super::declaration::{Basic, Unit, Variable, constants};
 use super::expression::{guarded, limited};
 use super::globals::{Globals, about, array_names, first_value, meaning};
@@ -57,7 +58,8 @@ pub fn steps(shared: Shared, id: AutomatonId, globals: &Globals) -> Block {
     let otherwise = vec![assign("fault_code", Ex::Member(unknown)), assign("fault_robot", name("robot"))];
     let mut body = vec![when(stopped(), vec![Stmt::Return])];
     body.push(elapse());
-    let mut case = vec![Stmt::Case { selector: state, branches, otherwise }];
+    let case = vec![Stmt::Case { selector: state, branches, otherwise }];
+    let mut case = dead::without_unread(case, &made(&lowering));
     let answer = lowering.answer();
     let used = code::names(&case);
     body.extend(answer.into_iter().filter(|s| matches!(s, Stmt::Assign(Ex::Name(n), _) if used.contains(n))));
@@ -109,7 +111,8 @@ pub fn invariants(shared: Shared, id: AutomatonId, globals: &Globals) -> Option<
         return None;
     }
     let mut body = vec![when(stopped(), vec![Stmt::Return])];
-    body.extend(invariant_body(&mut lowering));
+    let tests = invariant_body(&mut lowering);
+    body.extend(dead::without_unread(tests, &made(&lowering)));
     let used = code::names(&body);
     let mut candidates = candidates(shared, id);
     candidates.push(Candidate {
@@ -287,6 +290,13 @@ fn ports(shared: Shared, automaton: &Automaton, id: AutomatonId) -> Vec<Candidat
         }
     }
     all
+}
+
+/// Names of variables that no specification declares.
+fn made(lowering: &Lowering) -> BTreeSet<String> {
+    let own = lowering.own();
+    let temporaries = lowering.temporaries.iter().map(|variable| variable.name.clone());
+    temporaries.chain(own.variables.iter().cloned()).chain(own.defines.iter().flatten().cloned()).collect()
 }
 
 /// Variables that a block computes anew in each step.

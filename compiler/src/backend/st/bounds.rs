@@ -35,8 +35,10 @@ fn one(statement: &Stmt) -> u64 {
             branches.max().unwrap_or(0).max(greatest(otherwise)).saturating_add(1)
         }
         Stmt::While { condition, body, most } => {
-            let round = greatest(body).saturating_add(called(condition)).saturating_add(1);
-            most.saturating_mul(round).saturating_add(1)
+            // The test that ends the loop computes the condition once more.
+            let tested = called(condition);
+            let round = greatest(body).saturating_add(tested).saturating_add(1);
+            most.saturating_mul(round).saturating_add(1 + tested)
         }
     }
 }

@@ -389,7 +389,7 @@ impl Lowering<'_> {
             let mut before = Vec::new();
             if !group.is_empty() && self.may_fault(condition) {
                 let inner = self.if_all(&conditions[i..], then);
-                return vec![when(and(group), inner)];
+                return guarded(and(group), inner);
             }
             let value = self.value(condition, &mut before);
             if before.is_empty() {
@@ -557,10 +557,12 @@ fn is_plain(expr: &Expr) -> bool {
     !is_loop && expr.parts().into_iter().all(is_plain)
 }
 
+/// Nothing if there is nothing to be done.
 pub fn guarded(condition: Ex, then: Vec<Stmt>) -> Vec<Stmt> {
     match condition {
         Ex::Bool(true) => then,
         Ex::Bool(false) => Vec::new(),
+        _ if then.is_empty() => then,
         condition => vec![when(condition, then)],
     }
 }

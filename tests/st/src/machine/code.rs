@@ -12,6 +12,8 @@ pub(super) struct Code {
     pub(super) programs: Vec<(usize, usize)>,
     pub(super) branches: Vec<BranchInfo>,
     pub(super) statements: Vec<Span>,
+    /// Of IF and ELSIF.
+    pub(super) conditions: Vec<Span>,
     pub(super) interval_ms: Option<u32>,
 }
 
@@ -34,11 +36,19 @@ pub(super) struct Numbered {
 pub(super) enum Step {
     Store(Cell, Any),
     Call(BlockCall),
-    If(Vec<(Truth, Body)>, Body),
+    If(Vec<Arm>, Body),
     Case(Box<Case>),
     While(Truth, Body, usize),
     Exit,
     Return,
+}
+
+#[derive(Clone, Debug)]
+pub(super) struct Arm {
+    /// Number of the condition.
+    pub(super) number: usize,
+    pub(super) condition: Truth,
+    pub(super) body: Body,
 }
 
 #[derive(Clone, Debug)]

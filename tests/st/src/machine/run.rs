@@ -2,16 +2,18 @@
 
 mod number;
 
-use super::code::{Any, BlockCall, Body, Case, Cell, Code, FunctionCall, Slot, Step, Trap, Truth, Whole};
+use super::code::{
+    Any, Arm, BlockCall, Body, Case, Cell, Code, FunctionCall, Slot, Step, Trap, Truth, Whole,
+};
 use super::{Counters, TrapKind};
 
 /// A loop that goes round more often will not end.
 const MOST_ROUNDS: usize = 1_000_000;
 
 pub(super) fn scan(code: &Code, memory: &mut [u64], counters: &mut Counters) -> Result<(), Trap> {
-    let mut runner = Runner { code, memory, counters, values: Vec::new() };
+    let mut runner = Runner { code, memory, counters, values: Vec::new(), inside: 0 };
     for &(unit, base) in &code.programs {
-        runner.body(&code.units[unit], base)?;
+        runner.unit(unit, base)?;
     }
     Ok(())
 }
@@ -22,6 +24,8 @@ struct Runner<'r> {
     counters: &'r mut Counters,
     /// Values of arguments before they are stored.
     values: Vec<u64>,
+    /// Statements executed in blocks that the present one has called.
+    inside: u64,
 }
 
 enum Flow {
@@ -31,6 +35,19 @@ enum Flow {
 }
 
 impl Runner<'_> {
+    /// A block or a program.
+    fn unit(&mut self, unit: usize, base: usize) -> Result<(), Trap> {
+        let before = self.counters.executed;
+        let inside = std::mem::take(&mut self.inside);
+        let code = self.code;
+        self.body(&code.units[unit], base)?;
+        let all = self.counters.executed - before;
+        let most = &mut self.counters.most[unit];
+        *most = (*most).max(all - self.inside);
+        self.inside = inside + all;
+        Ok(())
+    }
+
     fn body(&mut self, body: &Body, base: usize) -> Result<Flow, Trap> {
         for numbered in body {
             self.counters.statements[numbered.number] += 1;
@@ -52,7 +69,8 @@ impl Runner<'_> {
             }
             Step::Call(call) => self.call_block(call, base)?,
             Step::If(arms, otherwise) => {
-                for (condition, body) in arms {
+                for Arm { number, condition, body } in arms {
+                    self.counters.conditions[*number] += 1;
                     if self.truth(condition, base)? {
                         return self.body(body, base);
                     }
@@ -83,6 +101,7 @@ impl Runner<'_> {
             if !self.truth(condition, base)? {
                 return Ok(Flow::On);
             }
+            self.counters.executed += 1;
             match self.body(body, base)? {
                 Flow::On => {}
                 Flow::Exit => return Ok(Flow::On),
@@ -122,8 +141,7 @@ impl Runner<'_> {
     fn call_block(&mut self, call: &BlockCall, base: usize) -> Result<(), Trap> {
         let frame = address(call.instance, base);
         self.store_inputs(&call.inputs, base, frame)?;
-        let code = self.code;
-        self.body(&code.units[call.unit], frame)?;
+        self.unit(call.unit, frame)?;
         for (offset, slot, words) in &call.copied_back {
             let start = frame + offset;
             self.memory.copy_within(start..start + words, address(*slot, base));

@@ -1,10 +1,10 @@
 //! Statements.
 
-use super::super::code::{BlockCall, Body, BranchInfo, Case, Numbered, Step};
+use super::super::code::{Arm, BlockCall, Body, BranchInfo, Case, Numbered, Step};
 use super::{Compiler, Scope};
 use crate::literal;
 use crate::types::Type;
-use crate::view::{Call, Clause, Expression, ExpressionKind, Section, Statement, StatementKind};
+use crate::view::{Branch, Call, Clause, Expression, ExpressionKind, Section, Statement, StatementKind};
 
 impl Compiler<'_> {
     pub(super) fn body(&mut self, scope: &Scope, body: &[Statement]) -> Body {
@@ -20,9 +20,7 @@ impl Compiler<'_> {
             }
             StatementKind::Call(call) => Step::Call(self.block_call(scope, call)),
             StatementKind::If { branches, otherwise } => {
-                let arms =
-                    branches.iter().map(|b| (self.truth(scope, &b.condition), self.body(scope, &b.body)));
-                let arms = arms.collect();
+                let arms = branches.iter().map(|branch| self.arm(scope, branch)).collect();
                 Step::If(arms, self.body(scope, otherwise.as_deref().unwrap_or(&[])))
             }
             StatementKind::Case { subject, clauses, otherwise } => {
@@ -36,6 +34,13 @@ impl Compiler<'_> {
             StatementKind::Other => unreachable!("the check refuses it"),
         };
         Numbered { number, step }
+    }
+
+    fn arm(&mut self, scope: &Scope, branch: &Branch) -> Arm {
+        let number = self.code.conditions.len();
+        self.code.conditions.push(branch.condition.span);
+        let condition = self.truth(scope, &branch.condition);
+        Arm { number, condition, body: self.body(scope, &branch.body) }
     }
 
     fn case(

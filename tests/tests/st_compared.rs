@@ -1,0 +1,143 @@
+//! Every emitted text, judged and run beside the reference executor: examples, fixtures, hand-written traces
+//! and automata by lot.
+//!
+//! The long form, 1,000 automata: `AUTOGEN_CAMPAIGN=full cargo test -p autogen-tests --test st_compared`.
+
+use autogen_tests::coverage::{Coverage, Text};
+use autogen_tests::generate::generate;
+use autogen_tests::instances::instantiate;
+use autogen_tests::lots::Lots;
+use autogen_tests::st::Beside;
+use autogen_tests::{Texts, examples, is_full_campaign, on_all_processors, root, trace};
+use runtime_sim::scan::Controllers;
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// Automata of a family that is drawn by lot, with the anchor.
+const OF_A_FAMILY: usize = 50;
+
+enum Job {
+    Example(String, Box<Texts>),
+    Fixture(PathBuf),
+    Trace(PathBuf),
+    ByLot(u64),
+}
+
+/// The files of a folder of fixtures.
+fn fixtures(folder: &str) -> Vec<PathBuf> {
+    let folder = std::fs::read_dir(root().join("tests/fixtures").join(folder)).expect("a folder");
+    let mut paths: Vec<_> = folder.map(|entry| entry.expect("an entry").path()).collect();
+    paths.sort();
+    paths
+}
+
+fn name(path: &std::path::Path) -> String {
+    path.file_name().expect("a name").to_string_lossy().into_owned()
+}
+
+/// So many scans of inputs drawn by lot.
+fn drawn(beside: &mut Beside, text: &Text, mut lots: Lots, scans: usize) {
+    let mut outputs = vec![Vec::new(); text.system.instances.len()];
+    for _ in 0..scans {
+        let given = lots.next(text.system, &outputs);
+        beside.scan(given, &lots.images, &mut outputs);
+    }
+}
+
+fn coverage(job: &Job) -> Coverage {
+    let mut coverage = Coverage::default();
+    match job {
+        Job::Example(name, texts) => {
+            let outcome = texts.compile();
+            let project = outcome.project.expect("a layout that can be built");
+            let text = Text::new(name, "examples", &project.system, &outcome.sources);
+            coverage.take(&text, |beside| {
+                runtime_sim::run::run(&project.plant, beside, &mut |_| {}).expect("a line that can be run");
+            });
+            for seed in 1..=3 {
+                coverage.take(&text, |beside| drawn(beside, &text, Lots::new(text.system, seed), 3000));
+            }
+        }
+        Job::Fixture(path) => {
+            let file = (name(path), std::fs::read_to_string(path).expect("a text"));
+            let (system, sources) = instantiate(&[file]);
+            let name = name(path);
+            let text = Text::new(&name, &name, &system, &sources);
+            coverage.take(&text, |beside| drawn(beside, &text, Lots::new(text.system, 1), 3000));
+            coverage.enter_the_rest(&text, &sources, |beside, text| {
+                drawn(beside, text, Lots::lively(text.system, 2), 300);
+            });
+        }
+        Job::Trace(path) => {
+            let fixture = trace::load(&std::fs::read_to_string(path).expect("a text")).expect("a trace");
+            let name = name(path);
+            let text = Text::new(&name, &name, &fixture.system, &fixture.sources);
+            coverage.take(&text, |beside| {
+                let mut outputs = vec![Vec::new(); text.system.instances.len()];
+                for scan in &fixture.scans {
+                    beside.scan(scan.system, &scan.inputs, &mut outputs);
+                }
+            });
+            coverage.enter_the_rest(&text, &fixture.sources, |beside, text| {
+                drawn(beside, text, Lots::lively(text.system, 2), 300);
+            });
+        }
+        Job::ByLot(seed) => {
+            let made = generate(*seed, OF_A_FAMILY - 1);
+            let family = format!("automata {seed}");
+            for (number, system) in made.layouts.iter().enumerate() {
+                let name = format!("{family}, layout {number}");
+                let text = Text::new(&name, &family, system, &made.sources);
+                let lots = Lots::lively(system, seed * 1000 + number as u64);
+                coverage.take(&text, |beside| drawn(beside, &text, lots, 1500));
+                coverage.enter_the_rest(&text, &made.sources, |beside, text| {
+                    drawn(beside, text, Lots::lively(text.system, *seed), 300);
+                });
+            }
+        }
+    }
+    coverage
+}
+
+#[test]
+fn every_text_does_what_the_executor_does() {
+    let begin = Instant::now();
+    let families = if is_full_campaign() { 1000 / OF_A_FAMILY } else { 100 / OF_A_FAMILY };
+    let first: u64 = std::env::var("AUTOGEN_SEED").ok().and_then(|s| s.parse().ok()).unwrap_or(1);
+    let mut jobs: Vec<Job> =
+        examples().into_iter().map(|(name, texts)| Job::Example(name, Box::new(texts))).collect();
+    jobs.extend(fixtures("rust").into_iter().map(Job::Fixture));
+    jobs.extend(fixtures("trace").into_iter().map(Job::Trace));
+    jobs.extend((first..).take(families).map(Job::ByLot));
+    let mut all = Coverage::default();
+    on_all_processors(&jobs, coverage).into_iter().for_each(|found| all.merge(found));
+
+    let [(branches, never), (others, never_other)] = all.branches();
+    let (constructs, unexecuted) = all.constructs();
+    println!(
+        "{} texts run, {} scans and {} words compared, {} wrong, {:.1} s",
+        all.texts,
+        all.scans,
+        all.words,
+        all.wrong.len(),
+        begin.elapsed().as_secs_f64()
+    );
+    println!(
+        "{} of {branches} CASE branches of states entered, {} of them in variations that begin there; not: {}",
+        branches - never.len(),
+        all.only_begun_elsewhere,
+        never.join(", ")
+    );
+    println!(
+        "{others} ELSE branches, for numbers that no state has; not entered: {}",
+        never_other.join(", ")
+    );
+    println!("0 dead variables, beside {} that a specification writes and never reads", all.unread.len());
+    println!("{} constructs of the grammar: {}", constructs.len(), constructs.join(" "));
+    println!("never executed: {}", unexecuted.join(" "));
+    println!("a scan executes up to {} % of its bound", all.nearest);
+    assert!(all.wrong.is_empty(), "{}", all.wrong.join("\n"));
+    assert!(never.is_empty(), "{}", never.join("\n"));
+    assert!(unexecuted.is_empty(), "{unexecuted:?}");
+    assert!(!all.unread.iter().any(|name| name.starts_with("examples:")), "{:?}", all.unread);
+}
