@@ -3,6 +3,7 @@
 use super::json::{Json, Member, Value};
 use crate::diagnostic::{Diagnostic, suggestion};
 use crate::source::{Span, Spanned};
+use std::collections::BTreeMap;
 use std::fmt::Display;
 use std::ops::RangeInclusive;
 
@@ -218,12 +219,12 @@ impl Decoder {
 
     /// Names of one kind differ in more than upper and lower case, which Structured Text does not tell apart.
     pub fn distinct<'a>(&mut self, names: impl IntoIterator<Item = &'a Spanned<String>>, what: &str) {
-        let mut seen: Vec<&Spanned<String>> = Vec::new();
+        let mut seen: BTreeMap<String, &Spanned<String>> = BTreeMap::new();
         for name in names {
-            let Some(first) = seen.iter().find(|s| s.value.eq_ignore_ascii_case(&name.value)) else {
-                seen.push(name);
+            let first = *seen.entry(name.value.to_ascii_lowercase()).or_insert(name);
+            if std::ptr::eq(first, name) {
                 continue;
-            };
+            }
             let mut diagnostic = Diagnostic::new(
                 "E0121",
                 name.span,

@@ -2,7 +2,7 @@
 
 use super::role::Line;
 use crate::diagnostic::Diagnostic;
-use crate::ir::{Clause, Domain, Expr, ExprKind, InterfaceId, Place, Role, RoleKind, State, System};
+use crate::ir::{Clause, Domain, Expr, ExprKind, InterfaceId, Place, RoleKind, State, System};
 use crate::scenario::{self, ResolvedScenario, Scenario};
 use runtime_sim::line;
 use std::collections::BTreeSet;
@@ -34,6 +34,7 @@ pub fn line(
     scan_ms: u32,
 ) -> line::Line {
     let scans = |seconds: f64| (seconds * 1000.0 / f64::from(scan_ms)).round() as u64;
+    let arms = arms(system);
     line::Line {
         scan_ms,
         kinds: scenario
@@ -45,7 +46,7 @@ pub fn line(
             .map(|i| line::Machine {
                 name: system.instances[i].name.clone(),
                 geometry: line.robots[i].geometry.clone(),
-                states: system.automaton_of(i).states.iter().map(|s| state(system, i, s)).collect(),
+                states: system.automaton_of(i).states.iter().map(|s| state(system, &arms, i, s)).collect(),
             })
             .collect(),
         obstacles,
@@ -75,9 +76,25 @@ pub fn line(
     }
 }
 
+/// The arms that take from or hand to an instance, with the interface for which they come.
+type Arms = Vec<(InterfaceId, usize)>;
+
+fn arms(system: &System) -> Vec<Arms> {
+    let mut arms = vec![Arms::new(); system.instances.len()];
+    for (arm, instance) in system.instances.iter().enumerate() {
+        for (role, rows) in system.automaton_of(arm).roles.iter().zip(&instance.roles) {
+            if matches!(role.kind, RoleKind::Takes | RoleKind::Hands) {
+                let members = &system.members[role.interface.0];
+                rows.iter().for_each(|row| arms[members[*row]].push((role.interface, arm)));
+            }
+        }
+    }
+    arms
+}
+
 /// What is awaited in a state: own timer and ports, or the owners of the cells that its guards read.
-fn state(system: &System, instance: usize, state: &State) -> line::State {
-    let mut reads = Reads { system, instance, working: false, owners: BTreeSet::new() };
+fn state(system: &System, arms: &[Arms], instance: usize, state: &State) -> line::State {
+    let mut reads = Reads { system, arms, instance, working: false, owners: BTreeSet::new() };
     for transition in &state.transitions {
         for clause in &transition.clauses {
             match clause {
@@ -99,6 +116,7 @@ fn state(system: &System, instance: usize, state: &State) -> line::State {
 
 struct Reads<'a> {
     system: &'a System,
+    arms: &'a [Arms],
     instance: usize,
     working: bool,
     owners: BTreeSet<usize>,
@@ -152,18 +170,8 @@ impl Reads<'_> {
 
     /// A cell of its own is awaited from the arms that come here: they write it too.
     fn partners(&mut self, interface: InterfaceId) {
-        let system = self.system;
-        for (other, instance) in system.instances.iter().enumerate() {
-            let mut roles = system.automaton_of(other).roles.iter().zip(&instance.roles);
-            let comes = roles.any(|(role, rows): (&Role, &Vec<usize>)| {
-                role.interface == interface
-                    && matches!(role.kind, RoleKind::Takes | RoleKind::Hands)
-                    && rows.iter().any(|row| system.members[interface.0][*row] == self.instance)
-            });
-            if comes {
-                self.owners.insert(other);
-            }
-        }
+        let come_here = self.arms[self.instance].iter().filter(|(i, _)| *i == interface);
+        self.owners.extend(come_here.map(|(_, arm)| arm));
     }
 
     fn place(&mut self, place: &Place) {

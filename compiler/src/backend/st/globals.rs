@@ -8,7 +8,7 @@ use super::code::{Ex, Stmt, advance, binary, name};
 use super::context::Shared;
 use super::declaration::{Basic, Variable, constants};
 use super::image::Image;
-use super::role::{Members, is_alike};
+use super::role::Members;
 use crate::ir::{AutomatonId, Extent, InterfaceId, RoleId, Scalar, Type, Value};
 use runtime_sim::device::{Direction, Port, PortType, Stop};
 
@@ -312,11 +312,8 @@ fn own(shared: Shared, id: AutomatonId) -> Vec<Table> {
 /// The globals that hold an array of parameters of a robot.
 pub fn array_names<'a>(shared: Shared<'a>, robot: usize, parameter: usize) -> &'a [String] {
     let id = shared.system.instances[robot].automaton;
-    if is_alike(shared.system, id, parameter) {
-        &shared.names.automata[id.0].tables[parameter]
-    } else {
-        &shared.names.robots[robot].parameters[parameter]
-    }
+    let table = &shared.names.automata[id.0].tables[parameter];
+    if table.is_empty() { &shared.names.robots[robot].parameters[parameter] } else { table }
 }
 
 /// Statements that give all elements of tables their values: loops where they are alike.

@@ -4,8 +4,8 @@ use super::declaration::suffixes;
 use super::role::{self, Members};
 use super::walk;
 use crate::ir::{
-    Automaton, AutomatonId, Domain, Enum, Expr, ExprKind, Extent, Interface, Model, RoleId, Scalar, System,
-    Type,
+    Automaton, AutomatonId, Domain, Enum, Expr, ExprKind, Extent, Instance, Interface, Model, RoleId, Scalar,
+    System, Type,
 };
 use crate::naming::st::{Renamed, Scope};
 use crate::naming::{camel, snake};
@@ -132,8 +132,17 @@ pub fn names(system: &System) -> Names {
     let automata: Vec<_> = (blocks.into_iter().enumerate())
         .map(|(id, names)| automaton_names(system, AutomatonId(id), names, &inner, &mut global, &mut renamed))
         .collect();
-    let robots: Vec<_> =
-        (system.instances.iter()).map(|i| robot_names(system, &i.name, i.automaton, &mut global)).collect();
+    let members: Vec<Vec<Members>> = (system.model.automata.iter().enumerate())
+        .map(|(id, a)| {
+            (0..a.roles.len()).map(|r| role::members(system, AutomatonId(id), RoleId(r))).collect()
+        })
+        .collect();
+    let robots: Vec<_> = (system.instances.iter())
+        .map(|i| {
+            let (tables, members) = (&automata[i.automaton.0].tables, &members[i.automaton.0]);
+            robot_names(system, i, tables, members, &mut global)
+        })
+        .collect();
     let mut program = global.inner();
     PROGRAM.iter().for_each(|name| drop(program.take(name)));
     let robots = (robots.into_iter().zip(&system.instances))
@@ -271,19 +280,26 @@ fn own(expr: &Expr, owner: usize, owners: &mut [usize]) {
     expr.parts().into_iter().for_each(|part| own(part, owner, owners));
 }
 
-fn robot_names(system: &System, name: &str, id: AutomatonId, global: &mut Scope) -> RobotNames {
-    let automaton = system.model.automaton(id);
-    let own = |part: &str| format!("{}_{}", snake(name), snake(part));
+/// `tables` are the arrays that all robots of its type have alike, `members` those of its type's roles.
+fn robot_names(
+    system: &System,
+    robot: &Instance,
+    tables: &[Held],
+    members: &[Members],
+    global: &mut Scope,
+) -> RobotNames {
+    let automaton = system.model.automaton(robot.automaton);
+    let own = |part: &str| format!("{}_{}", snake(&robot.name), snake(part));
     let ports =
         automaton.device.ports.iter().map(|p| held(global, &own(p.name), Scalar::from(p.ty))).collect();
     let parameters = (automaton.parameters.iter().enumerate())
-        .map(|(i, p)| match p.ty.extent != Extent::One && !role::is_alike(system, id, i) {
+        .map(|(i, p)| match p.ty.extent != Extent::One && tables[i].is_empty() {
             true => held(global, &own(&p.name), p.ty.scalar),
             false => Held::new(),
         })
         .collect();
-    let roles = (automaton.roles.iter().enumerate())
-        .map(|(i, r)| match role::members(system, id, RoleId(i)) {
+    let roles = (automaton.roles.iter().zip(members))
+        .map(|(r, members)| match members {
             Members::Listed(_) => global.take(&own(&r.name)),
             Members::All(_) => String::new(),
         })

@@ -27,11 +27,10 @@ pub fn members(system: &System, id: AutomatonId, role: RoleId) -> Members {
 
 /// Whether a parameter is an array that several robots of a type have alike.
 pub fn is_alike(system: &System, id: AutomatonId, parameter: usize) -> bool {
-    let mut values = robots(system, id).map(|robot| &robot.parameters[parameter]);
+    let mut values = robots(system, id).map(|robot| &robot.parameters[parameter]).peekable();
     let is_array = system.model.automaton(id).parameters[parameter].ty.extent != Extent::One;
-    let Some(first) = values.next() else { return false };
-    let others: Vec<_> = values.collect();
-    is_array && !others.is_empty() && others.into_iter().all(|v| v == first)
+    let Some(first) = values.next().filter(|_| is_array) else { return false };
+    values.peek().is_some() && values.all(|v| v == first)
 }
 
 fn robots(system: &System, id: AutomatonId) -> impl Iterator<Item = &Instance> {

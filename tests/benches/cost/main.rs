@@ -1,0 +1,35 @@
+//! What runs, scans and builds cost: `cargo bench`.
+//!
+//! No harness that repeats a closure until its mean is firm: the figures are parts of one whole, differences
+//! within one run, and single builds of many seconds.
+
+mod build;
+mod lines;
+
+use autogen_tests::ariac;
+use autogen_tests::workspace::Workspace;
+use std::process::Command;
+
+fn main() {
+    println!("The default line, on the generated controllers\n");
+    run();
+    println!("\nBuild, from texts to files in memory\n");
+    build::measure();
+}
+
+/// A program beside the generated controllers does it: only there they are linked.
+fn run() {
+    let outcome = ariac("default").compile();
+    let project = outcome.project.expect("a line that is right");
+    let workspace = Workspace::write("cost", &project.system, &outcome.sources);
+    workspace.put("line.txt", &project.plant.to_text());
+    workspace.put("commissioning/examples/cost/main.rs", include_str!("linked.rs"));
+    workspace.put("commissioning/examples/cost/by_hand.rs", include_str!("by_hand.rs"));
+    workspace.cargo(&["build", "--quiet", "--release", "-p", "commissioning", "--example", "cost"]);
+    let status = Command::new(workspace.program("examples/cost"))
+        .args(["line.txt", "parameters.txt"])
+        .current_dir(&workspace.folder)
+        .status()
+        .expect("a program that can be started");
+    assert!(status.success());
+}
