@@ -72,7 +72,10 @@ impl Line<'_> {
         for (count, (kind, _)) in self.ordered.iter().zip(&self.kinds) {
             let value = i32::try_from(*count).unwrap_or(i32::MAX);
             if !(lo..=hi).contains(&value) {
-                let message = format!("the orders ask for {count} {kind}, and `{}` goes from {lo} to {hi}", parameter.name);
+                let message = format!(
+                    "the orders ask for {count} {kind}, and `{}` goes from {lo} to {hi}",
+                    parameter.name
+                );
                 self.diagnostics.push(
                     Diagnostic::new("E0503", parameter.place, message)
                         .other(self.orders_place, "the orders are here")
