@@ -1,8 +1,11 @@
 //! Back ends: pure functions from the intermediate representation to files. They cannot fail.
 
 pub mod dot;
+mod footprint;
+pub mod paths;
 pub mod plan;
 pub mod rust;
+pub mod sdf;
 pub mod st;
 
 use std::collections::BTreeMap;

@@ -100,19 +100,17 @@ pub fn read(
 ) -> Result<IoMap, Vec<Diagnostic>> {
     let mut found = Vec::new();
     let table = csv::parse(file, &sources.file(file).text, &mut found);
-    let mut wires: BTreeMap<usize, (Wire, csv::Field)> = BTreeMap::new();
+    let mut wires = BTreeMap::new();
     if let Some(columns) = Columns::find(file, &table, &mut found) {
         let mut rows = row::Rows::new(points, table.separator);
         for record in table.records.iter().skip(1) {
-            if let Some((point, wire, address)) = rows.read(&columns, record, &mut found) {
-                wires.insert(point, (wire, address));
-            }
+            wires.extend(rows.read(&columns, record, &mut found));
         }
-        overlap::check(&wires, points, counting, &mut found);
+        overlap::check(&rows.places, points, counting, &mut found);
     }
     diagnostic::sort(&mut found);
     match found.is_empty() {
-        true => Ok(IoMap { wires: wires.into_iter().map(|(point, (wire, _))| (point, wire)).collect() }),
+        true => Ok(IoMap { wires }),
         false => Err(found),
     }
 }

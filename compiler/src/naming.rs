@@ -14,6 +14,15 @@ const RUST: &[&str] = &[
     "From", "Copy", "Clone", "Iterator", "Box", "Vec", "String",
 ];
 
+/// What SDF itself or every written world calls something else.
+const SDF: &[&str] = &["world", "ground_plane", "sun"];
+
+/// The name of a thing of the layout in a world: its own wherever it can be.
+/// (No name of a layout ends in an underscore.)
+pub fn sdf(name: &str) -> String {
+    if SDF.contains(&name) { format!("{name}_") } else { name.into() }
+}
+
 /// Names that stand side by side, all different.
 #[derive(Clone, Debug, Default)]
 pub struct Scope {

@@ -53,7 +53,7 @@ fn the_example_is_the_built_in_scenario() {
 #[test]
 fn default_scenario() {
     let resolved = resolve(scenario::DEFAULT, &LINE).unwrap();
-    let kinds: Vec<&str> = resolved.kinds.iter().map(|(name, _)| name.as_str()).collect();
+    let kinds: Vec<&str> = resolved.kinds.iter().map(|kind| kind.name.value.as_str()).collect();
     assert_eq!(kinds, ["battery", "sensor", "regulator", "pump"]);
     let stations: Vec<&[usize]> = resolved.orders.iter().map(|(stations, _)| &stations[..]).collect();
     assert_eq!(stations, [[7], [8], [9], [10], [7], [8], [9], [10]]);

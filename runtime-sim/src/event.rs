@@ -93,11 +93,12 @@ mod tests {
         let machines = [belt, Geometry::Bin { pose }, Geometry::Bin { pose }].into_iter();
         Items::new(&Line {
             scan_ms: 10,
-            kinds: vec![Kind { name: "part".into(), height: 0.1 }],
+            kinds: vec![Kind { name: "part".into(), height: 0.1, size: [0.1, 0.1] }],
             machines: machines
                 .map(|geometry| Machine { name: "m".into(), geometry, states: vec![] })
                 .collect(),
             obstacles: vec![],
+            may_touch: vec![],
             scenario: Scenario { supply: vec![Supply { belt: 0, items: vec![0, 0] }], ..Scenario::default() },
             io_delay: IoDelay::Fixed(0),
         })

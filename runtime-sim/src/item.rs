@@ -45,7 +45,7 @@ pub enum Carrier {
     Floor {
         point: Point,
     },
-    /// It left a belt at its lower end.
+    /// It left a belt at its lower end, or lay in a briefcase whose order was made elsewhere.
     Collector,
     /// Taken away in the briefcase of an order.
     Shipped {
@@ -69,6 +69,19 @@ impl Carrier {
     pub fn is_final(&self) -> bool {
         matches!(self, Carrier::Collector | Carrier::Shipped { .. })
     }
+}
+
+/// Names of all items, in the order of the supply: the kind and the number among those of this kind, from 1,
+/// such as `battery_1`.
+pub fn names(line: &Line) -> Vec<String> {
+    let mut counts = vec![0; line.kinds.len()];
+    let kinds = line.scenario.supply.iter().flat_map(|supply| supply.items.iter());
+    kinds
+        .map(|&kind| {
+            counts[kind] += 1;
+            format!("{}_{}", line.kinds[kind].name, counts[kind])
+        })
+        .collect()
 }
 
 /// All items of a run, with the log of what became of them.

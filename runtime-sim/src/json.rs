@@ -48,6 +48,50 @@ impl Json {
         self.text.push(']');
     }
 
+    /// An array of texts.
+    pub fn put_texts(&mut self, key: &str, values: &[String]) {
+        self.key(key);
+        self.text.push('[');
+        for value in values {
+            self.comma();
+            self.quoted(value);
+        }
+        self.text.push(']');
+    }
+
+    /// An array of numbers, each as [`Self::put_real`] writes it.
+    pub fn put_reals(&mut self, key: &str, values: &[f64]) {
+        self.key(key);
+        self.reals(values);
+    }
+
+    /// An array of arrays of numbers.
+    pub fn put_rows(&mut self, key: &str, rows: &[Vec<f64>]) {
+        self.key(key);
+        self.text.push('[');
+        for row in rows {
+            self.comma();
+            self.reals(row);
+        }
+        self.text.push(']');
+    }
+
+    fn reals(&mut self, values: &[f64]) {
+        self.text.push('[');
+        for &value in values {
+            self.comma();
+            self.real(value);
+        }
+        self.text.push(']');
+    }
+
+    fn real(&mut self, value: f64) {
+        let _ = match value.is_finite() {
+            true => write!(self.text, "{value:?}"),
+            false => write!(self.text, "null"),
+        };
+    }
+
     pub fn put_text(&mut self, key: &str, value: &str) {
         self.key(key);
         self.quoted(value);
@@ -66,10 +110,7 @@ impl Json {
     /// The shortest text that reads back to the same bits; `null` for what JSON has no number for.
     pub fn put_real(&mut self, key: &str, value: Option<f64>) {
         self.key(key);
-        let _ = match value.filter(|value| value.is_finite()) {
-            Some(value) => write!(self.text, "{value:?}"),
-            None => write!(self.text, "null"),
-        };
+        self.real(value.unwrap_or(f64::NAN));
     }
 
     fn quoted(&mut self, text: &str) {
@@ -102,12 +143,14 @@ mod tests {
                 json.put_real("y", Some(f64::NAN));
                 json.put_object("none", |_| {});
             });
+            json.put_reals("r", &[1.0, f64::INFINITY]);
+            json.put_rows("rows", &[vec![], vec![0.5, -0.0]]);
             json.put_list("c", &[1, 2], |json, &n| json.put_int("n", n));
             json.put_truth("d", true);
         });
         assert_eq!(
             text,
-            r#"{"a\"":"tab\u0009 back\\ line\n","b":{"x":0.1,"y":null,"none":{}},"c":[{"n":1},{"n":2}],"d":true}"#
+            r#"{"a\"":"tab\u0009 back\\ line\n","b":{"x":0.1,"y":null,"none":{}},"r":[1.0,null],"rows":[[],[0.5,-0.0]],"c":[{"n":1},{"n":2}],"d":true}"#
         );
     }
 

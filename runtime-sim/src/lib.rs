@@ -5,6 +5,7 @@
 //! SI units, world frame (z up), unless a name says otherwise.
 
 pub mod account;
+pub mod collision;
 pub mod device;
 pub mod event;
 pub mod geometry;
@@ -15,6 +16,7 @@ mod json;
 pub mod kinematics;
 pub mod line;
 pub mod motion;
+pub mod path;
 pub mod plant;
 pub mod point;
 pub mod random;

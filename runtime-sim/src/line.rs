@@ -15,6 +15,8 @@ pub struct Line {
     pub machines: Vec<Machine>,
     /// What stands about without a controller, in the order of the layout.
     pub obstacles: Vec<Obstacle>,
+    /// Machines and obstacles, by their names, whose contact does not end a run.
+    pub may_touch: Vec<[String; 2]>,
     pub scenario: Scenario,
     pub io_delay: IoDelay,
 }
@@ -25,6 +27,8 @@ pub struct Kind {
     pub name: String,
     /// Of its top over what it lies on, where the tool grips it, in metres.
     pub height: f64,
+    /// Lengths along x and y as it appears on a belt, in metres.
+    pub size: [f64; 2],
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -143,6 +147,13 @@ impl Default for Scenario {
             refusals: Vec::new(),
             pauses: Vec::new(),
         }
+    }
+}
+
+impl Line {
+    /// Whether contact of these two, machines or obstacles, is no reason to end a run.
+    pub fn allows(&self, [a, b]: [&str; 2]) -> bool {
+        self.may_touch.iter().any(|[c, d]| (a, b) == (c, d) || (b, a) == (c, d))
     }
 }
 

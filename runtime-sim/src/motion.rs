@@ -6,9 +6,11 @@
 //! 1/top + top/gain if top^2 >= gain, otherwise 2/sqrt(gain).
 
 mod path;
+mod pieces;
 mod profile;
 
 pub use path::CORNER_NEAR;
+pub use pieces::Piece;
 
 use crate::kinematics::arm::{Joints, Limits};
 use path::Path;
@@ -110,6 +112,11 @@ impl Motion {
 
     pub fn goal(&self) -> Joints {
         self.path.goal()
+    }
+
+    /// How far each joint goes at most for each unit of the place on the way.
+    pub fn rates(&self) -> Joints {
+        self.path.rates()
     }
 
     /// Place on the way, 0 to 1.

@@ -4,6 +4,7 @@ mod arm;
 mod belt;
 mod bin;
 mod command;
+pub mod course;
 mod delay;
 mod drive;
 mod fall;
@@ -17,11 +18,13 @@ pub(crate) use delay::Bus;
 use crate::device::{Device, Direction};
 use crate::geometry::Geometry;
 use crate::item::{Carrier, Items};
+use crate::kinematics::arm::Joints;
 use crate::line::Line;
 use crate::point::Point;
 use arm::Arm;
 use belt::{Belt, Spawn};
 use command::Command;
+use course::Course;
 use drive::Drive;
 use gripper::{CONTACT, Gripper, Slip};
 use image::out;
@@ -80,8 +83,12 @@ impl Plant {
     /// From the start of a scan to that of the next; `outputs` are those that the scan published.
     /// Every image has to have the length that [`outputs`] gives it.
     pub fn advance(&mut self, outputs: &[Vec<f64>]) {
-        self.items.scan = self.scan + 1;
         self.obey(outputs);
+        self.proceed();
+    }
+
+    /// The second part of [`Self::advance`]: everything moves on to the start of the next scan.
+    pub(crate) fn proceed(&mut self) {
         let next_ms = (self.scan + 1) * self.scan_ms;
         for (index, machine) in self.machines.iter_mut().enumerate() {
             match machine {
@@ -109,8 +116,10 @@ impl Plant {
         self.write_images();
     }
 
-    /// Latches commands and levels, and lets go what is to be let go, before anything moves.
-    fn obey(&mut self, outputs: &[Vec<f64>]) {
+    /// The first part of [`Self::advance`]: latches commands and levels, and lets go what is to be let go,
+    /// before anything moves.
+    pub(crate) fn obey(&mut self, outputs: &[Vec<f64>]) {
+        self.items.scan = self.scan + 1;
         let now_ms = self.scan * self.scan_ms;
         for (index, outputs) in outputs.iter().enumerate().take(self.machines.len()) {
             match &mut self.machines[index] {
@@ -227,6 +236,29 @@ impl Plant {
             Machine::Station(station) => Some(station.pose()),
             Machine::Bin(pose) => Some(*pose),
         }
+    }
+
+    /// The joints of an arm.
+    pub(crate) fn joints(&self, machine: usize) -> Option<Joints> {
+        match self.machines.get(machine)? {
+            Machine::Arm(arm) => Some(arm.joints()),
+            _ => None,
+        }
+    }
+
+    /// How a machine moves from now on.
+    pub(crate) fn course(&self, machine: usize) -> Course {
+        match self.machines.get(machine) {
+            Some(Machine::Belt(belt)) => belt.course(),
+            Some(Machine::Vehicle(vehicle)) => vehicle.course(self.now_ms()),
+            Some(Machine::Arm(arm)) => arm.course(),
+            Some(Machine::Station(_) | Machine::Bin(_)) | None => Course::Rests,
+        }
+    }
+
+    /// Time from the start of the run.
+    pub fn now_ms(&self) -> u64 {
+        self.scan * self.scan_ms
     }
 
     /// The order that lies on the table of a station.

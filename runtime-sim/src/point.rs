@@ -20,10 +20,31 @@ impl Point {
         Self { z: self.z + height, ..self }
     }
 
+    /// This offset, so many times as long.
+    pub fn scaled(self, factor: f64) -> Self {
+        Self::new(self.x * factor, self.y * factor, self.z * factor)
+    }
+
+    pub fn dot(self, other: Self) -> f64 {
+        self.x * other.x + self.y * other.y + self.z * other.z
+    }
+
+    pub fn length(self) -> f64 {
+        self.dot(self).sqrt()
+    }
+
     pub fn coordinate(self, axis: Axis) -> f64 {
         match axis {
             Axis::X => self.x,
             Axis::Y => self.y,
+        }
+    }
+
+    /// The same place with another coordinate along one axis.
+    pub fn with_coordinate(self, axis: Axis, value: f64) -> Self {
+        match axis {
+            Axis::X => Self { x: value, ..self },
+            Axis::Y => Self { y: value, ..self },
         }
     }
 }

@@ -1,8 +1,9 @@
 //! What came of a run.
 
 use crate::account::Account;
+use crate::collision::Contact;
 use crate::event::{Event, OrderChange};
-use crate::item::Carrier;
+use crate::item::{self, Carrier};
 use crate::json::Json;
 use crate::line::Line;
 use crate::plant::Plant;
@@ -30,12 +31,9 @@ pub struct Report {
     pub items: Vec<ItemReport>,
     /// Over what all scans left in the controllers and in their published outputs.
     pub trace_hash: u64,
-    /// [`COLLISIONS`].
-    pub collisions: &'static str,
+    /// The first contact of each pair, in the order of their times.
+    pub collisions: Vec<Contact>,
 }
-
-/// Machines pass through one another here.
-pub const COLLISIONS: &str = "not watched";
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct OrderTimes {
@@ -59,6 +57,8 @@ pub struct MachineReport {
 #[derive(Clone, Debug, PartialEq)]
 pub struct ItemReport {
     pub id: usize,
+    /// As [`item::names`] gives it.
+    pub name: String,
     pub kind: String,
     /// Such as `tray of agv1`.
     pub carrier: String,
@@ -77,6 +77,7 @@ pub(crate) struct Outcome {
     /// Number of the last state of each machine.
     pub states: Vec<usize>,
     pub trace_hash: u64,
+    pub collisions: Vec<Contact>,
 }
 
 fn names(line: &Line, machines: &[usize]) -> String {
@@ -112,8 +113,10 @@ impl Report {
         }
         let orders_done = order_times.iter().filter(|times| times.made_s.is_some()).count();
         let simulated_s = seconds(outcome.scans);
-        let items = plant.items().all().iter().enumerate().map(|(id, item)| ItemReport {
+        let names = item::names(line);
+        let items = plant.items().all().iter().zip(names).enumerate().map(|(id, (item, name))| ItemReport {
             id,
+            name,
             kind: line.kinds[item.kind].name.clone(),
             carrier: carrier_text(line, item.carrier),
             place: plant.place(id).map_or_else(|| "-".into(), point_text),
@@ -144,7 +147,7 @@ impl Report {
                 .collect(),
             items: items.collect(),
             trace_hash: outcome.trace_hash,
-            collisions: COLLISIONS,
+            collisions: outcome.collisions,
         }
     }
 
@@ -180,12 +183,20 @@ impl Report {
             });
             json.put_list("items", &self.items, |json, item| {
                 json.put_int("id", item.id as u64);
+                json.put_text("name", &item.name);
                 json.put_text("kind", &item.kind);
                 json.put_text("place", &item.place);
                 json.put_text("carrier", &item.carrier);
             });
             json.put_text("trace_hash", &format!("{:016x}", self.trace_hash));
-            json.put_text("collisions", self.collisions);
+            json.put_list("collisions", &self.collisions, |json, contact| {
+                json.put_real("time_s", Some(contact.time_s));
+                json.put_reals("place", &[contact.place.x, contact.place.y, contact.place.z]);
+                json.put_texts("pair", &contact.pair);
+                json.put_texts("parts", &contact.parts);
+                json.put_truth("allowed", contact.allowed);
+                json.put_int("count", u64::from(contact.count));
+            });
         })
     }
 
@@ -209,7 +220,8 @@ pub(crate) fn seconds(scans: u64, scan_ms: u32) -> f64 {
     (scans * u64::from(scan_ms)) as f64 / 1000.0
 }
 
-fn carrier_text(line: &Line, carrier: Carrier) -> String {
+/// Such as `tray of agv1`.
+pub(crate) fn carrier_text(line: &Line, carrier: Carrier) -> String {
     let name = |machine: usize| &line.machines[machine].name;
     match carrier {
         Carrier::Supply => "supply".into(),

@@ -1,15 +1,17 @@
 //! A run: controllers against the plant, scan by scan, until it is over.
 
 use crate::account::{Account, Activity};
+use crate::collision::{Contact, Watch};
 use crate::event::{Event, OrderChange, conservation};
 use crate::geometry::Geometry;
 use crate::hash::Hash;
 use crate::line::Line;
+use crate::path::{Path, Recorder};
 use crate::plant::image::{in_head, out};
 use crate::plant::{self, Bus, Plant};
 use crate::report::{Outcome, Report};
 use crate::scan::{Controllers, SystemInputs, SystemOutputs};
-use crate::shortage::shortage;
+use crate::shortage::{point_text, shortage};
 use crate::system::Operator;
 
 /// What an observer is shown of a scan, once its outputs are published.
@@ -36,7 +38,27 @@ pub fn run(
     controllers: &mut dyn Controllers,
     observer: &mut dyn FnMut(&Seen),
 ) -> Result<Report, String> {
+    let (report, _) = simulate(line, controllers, observer, None)?;
+    Ok(report)
+}
+
+/// The same run, and the paths of all items, in the order of the line's supply.
+pub fn record(
+    line: &Line,
+    controllers: &mut dyn Controllers,
+    observer: &mut dyn FnMut(&Seen),
+) -> Result<(Report, Vec<Path>), String> {
+    simulate(line, controllers, observer, Some(Recorder::new(line)))
+}
+
+fn simulate(
+    line: &Line,
+    controllers: &mut dyn Controllers,
+    observer: &mut dyn FnMut(&Seen),
+    mut recorder: Option<Recorder>,
+) -> Result<(Report, Vec<Path>), String> {
     let mut plant = Plant::new(line)?;
+    let mut watch = Watch::new(line);
     let mut bus = Bus::new(line.io_delay.clone(), plant.images());
     let mut operator = Operator::new();
     let mut inputs = plant.images().to_vec();
@@ -87,7 +109,12 @@ pub fn run(
             account.book(line, machine, activity);
         }
 
-        plant.advance(&outputs);
+        plant.obey(&outputs);
+        if let Some(recorder) = &mut recorder {
+            recorder.look(&plant);
+        }
+        let collision = watch.look(&plant).map(collision_text);
+        plant.proceed();
         scan += 1;
         changed |= plant.is_busy() || operator.is_busy(scan, &line.scenario);
         progress.quiet_scans = if changed { 0 } else { progress.quiet_scans + 1 };
@@ -97,6 +124,9 @@ pub fn run(
             fault = Some((answer.fault_code, machine));
             break (false, fault_text(line, answer.fault_code, machine));
         }
+        if let Some(reason) = collision {
+            break (false, reason);
+        }
         if let Some(end) = progress.end(line, &plant, scan) {
             break end;
         }
@@ -105,9 +135,18 @@ pub fn run(
         Ok(()) => (finished, reason),
         Err(violation) => (false, format!("bug: {violation}")),
     };
-    let outcome =
-        Outcome { finished, reason, fault, scans: scan, accounts, states, trace_hash: hash.value() };
-    Ok(Report::new(line, &plant, outcome))
+    let outcome = Outcome {
+        finished,
+        reason,
+        fault,
+        scans: scan,
+        accounts,
+        states,
+        trace_hash: hash.value(),
+        collisions: watch.into_contacts(),
+    };
+    let paths = recorder.map_or_else(Vec::new, |recorder| recorder.finish(&plant));
+    Ok((Report::new(line, &plant, outcome), paths))
 }
 
 /// How far a run has come, and for how long nothing has happened.
@@ -145,6 +184,13 @@ fn is_moving(line: &Line, machine: usize, inputs: &[f64], outputs: &[f64]) -> bo
         Geometry::Station { .. } | Geometry::Bin { .. } => false,
         _ => inputs[in_head::ACK] != outputs[out::CMD],
     }
+}
+
+fn collision_text(contact: &Contact) -> String {
+    let [a, b] = &contact.pair;
+    let [of_a, of_b] = &contact.parts;
+    let place = point_text(contact.place);
+    format!("collision of {a} ({of_a}) with {b} ({of_b}) at {:.3} s, {place}", contact.time_s)
 }
 
 fn fault_text(line: &Line, code: i32, machine: Option<usize>) -> String {

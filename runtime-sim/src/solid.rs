@@ -37,6 +37,9 @@ pub enum Link {
     Joint(usize),
 }
 
+/// Name of the solid that takes hold of parts.
+pub const GRIPPER: &str = "gripper";
+
 /// A shape about its middle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shape {

@@ -746,23 +746,23 @@ fn what_lies_in_a_withdrawn_briefcase_is_collected() {
 #[test]
 fn an_order_that_is_made_before_its_turn_does_not_open() {
     let (mut line, other) = two_stations(1);
-    // At the first station its turn comes after another order.
+    // At the first station its turn comes between two other orders.
     line.scenario.orders.insert(0, Order { stations: vec![STATION], parts: vec![0, 1] });
+    line.scenario.orders.push(Order { stations: vec![STATION], parts: vec![0, 2] });
     let mut rig = Rig::new(&line);
     assert_eq!(rig.image(STATION), [1.0, 0.0, 1.0, 1.0]);
     assert_eq!(rig.image(other), [1.0, 1.0, 0.0, 2.0]);
-    assert_eq!(rig.plant.orders_to_open(STATION), 1);
+    assert_eq!(rig.plant.orders_to_open(STATION), 2);
     rig.outputs[other][output::COMPLETE] = 1.0;
     deliver_at(&mut rig, BATTERY, Point::new(-7.2, -2.9, 1.5));
     assert_eq!(rig.plant.items().all()[0].carrier, Carrier::Shipped { order: 1 });
-    assert_eq!(rig.plant.orders_to_open(STATION), 0);
+    assert_eq!(rig.plant.orders_to_open(STATION), 1);
     rig.outputs[STATION][output::COMPLETE] = 1.0;
     deliver(&mut rig, PUMP);
     assert_eq!(rig.plant.items().all()[1].carrier, Carrier::Shipped { order: 0 });
     rig.outputs[STATION][output::COMPLETE] = 0.0;
-    rig.step(5);
-    assert_eq!(rig.image(STATION), [0.0; 4]);
-    assert!(!rig.plant.is_busy() || rig.image(BELT)[input::MOVING] != 0.0);
+    rig.step(2);
+    assert_eq!(rig.image(STATION), [1.0, 0.0, 2.0, 3.0]);
 }
 
 #[test]

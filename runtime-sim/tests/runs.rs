@@ -237,8 +237,8 @@ fn the_report_as_json() {
         r#""orders_done":1,"orders":1,"seconds_per_order":"#,
         r#""robots":{"belt":{"moving_s":"#,
         r#""waiting_for":{"belt":"#,
-        r#""items":[{"id":0,"kind":"battery","place":"-","carrier":"order 1"}"#,
-        r#""collisions":"not watched"}"#,
+        r#""items":[{"id":0,"name":"battery_1","kind":"battery","place":"-","carrier":"order 1"}"#,
+        r#""collisions":["#,
     ] {
         assert!(json.contains(part), "{part} in {json}");
     }

@@ -1,14 +1,15 @@
-//! Runs a text beside the executor on the simulator: `compare_st LAYOUT.json MAIN.st`.
+//! Runs a text beside the executor on the simulator: `compare_st LAYOUT.json MAIN.st [NAMES.csv]`.
 
 use autogen_tests::Texts;
-use autogen_tests::st::Beside;
+use autogen_tests::st::{Beside, Emitted};
 
 fn main() {
     let paths: Vec<_> = std::env::args().skip(1).collect();
-    let [layout, text] = &paths[..] else { panic!("a layout and a text are wanted") };
+    let [layout, text, names @ ..] = &paths[..] else { panic!("a layout and a text are wanted") };
     let read = |path: &String| std::fs::read_to_string(path).unwrap_or_else(|e| panic!("{path}: {e}"));
     let project = Texts::of_layout(read(layout)).project();
-    let mut beside = match Beside::new(&project.system, &read(text)) {
+    let emitted = Emitted { main: read(text), names: names.first().map(read).unwrap_or_default() };
+    let mut beside = match Beside::new(&project.system, &emitted) {
         Ok(beside) => beside,
         Err(error) => panic!("{error}"),
     };

@@ -1,6 +1,6 @@
 //! What runs of emitted texts have compared and executed, summed over all of them.
 
-use crate::st::Beside;
+use crate::st::{Beside, Emitted};
 use autogen::backend::{Files, st};
 use autogen::ir::{Automaton, StateId, System};
 use autogen::naming::{camel, snake};
@@ -74,7 +74,7 @@ impl Coverage {
             Ok(checked) => self.find_dead(text, &checked),
             Err(found) => return self.wrong.push(format!("{}: {}", text.name, listed(&found, text.main()))),
         }
-        match Beside::new(text.system, text.main()) {
+        match Beside::new(text.system, &Emitted::of(&text.files)) {
             Ok(mut beside) => {
                 run(&mut beside);
                 self.add(text, &beside);

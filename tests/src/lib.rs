@@ -7,9 +7,12 @@ pub mod instances;
 pub mod lots;
 pub mod many;
 pub mod replay;
+pub mod sdf;
 pub mod st;
 pub mod trace;
+pub mod wired;
 pub mod workspace;
+pub mod xml;
 
 use autogen::diagnostic::{self, Diagnostic};
 use autogen::lower::{Input, Outcome, Project, Setting, compile};

@@ -1,10 +1,38 @@
 //! Emitted Structured Text as an engine, by the evaluator that knows only the text.
 
+use autogen::backend::Files;
 use autogen::ir::{Extent, Scalar, System};
+use autogen::naming::{camel, snake};
 use autogen_st_judge::listed;
 use autogen_st_judge::machine::{Machine, Place};
 use runtime_sim::device::{Direction, PortType};
 use runtime_sim::scan::{Controllers, SystemInputs, SystemOutputs};
+
+/// A program as it is written, and the table of names that could not stay as the specification has them.
+#[derive(Clone, Debug, Default)]
+pub struct Emitted {
+    pub main: String,
+    /// Empty if all names stayed.
+    pub names: String,
+}
+
+impl Emitted {
+    /// The portable flavour.
+    pub fn of(files: &Files) -> Self {
+        let text = |name: &str| files.get(name).cloned().unwrap_or_default();
+        Self { main: text("portable/main.st"), names: text("names.csv") }
+    }
+
+    /// The name that a unit has for a wanted one.
+    fn name<'n>(&'n self, unit: &str, wanted: &'n str) -> &'n str {
+        let rows = self.names.lines().skip(1).filter_map(|row| {
+            let mut fields = row.split(',');
+            Some((fields.next()?, fields.next()?, fields.next()?))
+        });
+        let mut found = rows.filter(|row| (row.0, row.1) == (unit, wanted));
+        found.next().map_or(wanted, |row| row.2)
+    }
+}
 
 /// A text that runs a system.
 pub struct StructuredText {
@@ -34,23 +62,25 @@ enum Word {
 /// Finds the words of a system in a text.
 struct Finder<'a> {
     machine: &'a Machine,
+    emitted: &'a Emitted,
     system: &'a System,
     missing: Vec<String>,
 }
 
 impl StructuredText {
     /// An error lists the findings of the judge, or the names that are not in the text.
-    pub fn new(system: &System, text: &str) -> Result<Self, String> {
+    pub fn new(system: &System, emitted: &Emitted) -> Result<Self, String> {
+        let text = &emitted.main;
         let machine = Machine::new(text).map_err(|findings| listed(&findings, text))?;
-        let mut finder = Finder { machine: &machine, system, missing: Vec::new() };
+        let mut finder = Finder { machine: &machine, emitted, system, missing: Vec::new() };
         let mut trace = Vec::new();
         let (mut inputs, mut outputs, mut states) = (Vec::new(), Vec::new(), Vec::new());
-        for (index, instance) in system.instances.iter().enumerate() {
-            let name = &instance.name;
+        for index in 0..system.instances.len() {
             let (own, answers) = finder.image(index);
             inputs.push(own);
             outputs.push(answers.into_iter().flatten().collect());
-            states.extend(finder.place(format!("{name}.state")));
+            let instance = finder.instance(index);
+            states.extend(finder.place(format!("{instance}.state")));
             finder.trace(index, &mut trace);
         }
         if !finder.missing.is_empty() {
@@ -82,18 +112,24 @@ impl Finder<'_> {
         place
     }
 
-    /// The paths of a variable: point by coordinate, element by element.
-    fn paths(&self, name: &str, is_point: bool, extent: Extent, first: usize) -> Vec<String> {
-        let count = self.system.model.elements(extent);
-        let mut paths = Vec::new();
-        for element in first..first + count {
+    /// The variables of a unit that hold a value: point by coordinate, element by element.
+    fn variables(&self, unit: &str, name: &str, is_point: bool, extent: Extent, first: usize) -> Vec<String> {
+        let parts: &[&str] = if is_point { &["_x", "_y", "_z"] } else { &[""] };
+        let mut variables = Vec::new();
+        for element in first..first + self.system.model.elements(extent) {
             let index = if extent == Extent::One { String::new() } else { format!("[{element}]") };
-            match is_point {
-                true => paths.extend(["x", "y", "z"].map(|c| format!("{name}_{c}{index}"))),
-                false => paths.push(format!("{name}{index}")),
+            for part in parts {
+                let wanted = format!("{}{part}", snake(name));
+                variables.push(format!("{}{index}", self.emitted.name(unit, &wanted)));
             }
         }
-        paths
+        variables
+    }
+
+    /// The instance of a robot's block in the program.
+    fn instance(&self, index: usize) -> String {
+        let wanted = snake(&self.system.instances[index].name);
+        self.emitted.name("MAIN", &wanted).to_string()
     }
 
     /// Inputs and outputs of a robot in the order of its image. Inputs that no automaton reads may be left out.
@@ -102,7 +138,7 @@ impl Finder<'_> {
         let (mut inputs, mut outputs) = (Vec::new(), Vec::new());
         for port in self.system.automaton_of(index).device.ports {
             let name = format!("{robot}_{}", port.name);
-            for path in self.paths(&name, port.ty == PortType::Point, port.extent.into(), 0) {
+            for path in self.variables("globals", &name, port.ty == PortType::Point, port.extent.into(), 0) {
                 match port.direction {
                     Direction::Input => inputs.push(self.machine.place(&path)),
                     Direction::Output => outputs.push(self.place(path)),
@@ -116,40 +152,33 @@ impl Finder<'_> {
     fn trace(&mut self, index: usize, trace: &mut Vec<(String, Option<Place>)>) {
         let instance = &self.system.instances[index];
         let automaton = self.system.automaton_of(index);
-        let robot = instance.name.clone();
+        let robot = self.instance(index);
+        let block = format!("FB_{}", camel(&automaton.name));
+        let own = |name: &str, is_point, extent| {
+            let variables = self.variables(&block, name, is_point, extent, 0);
+            variables.into_iter().map(|variable| format!("{robot}.{variable}")).collect::<Vec<_>>()
+        };
         let mut paths = vec![format!("{robot}.state"), format!("{robot}.elapsed")];
         for local in &automaton.locals {
-            let is_point = local.ty.scalar == Scalar::Point;
-            let named = |name: &str| self.paths(&format!("{robot}.{name}"), is_point, local.ty.extent, 0);
-            // What cannot be a name in the text, or is another one's there, has got an ending.
-            // A block's own names keep theirs: a local of that name stands under another one.
-            let own = ["state", "elapsed"].contains(&local.name.as_str());
-            let endings: &[&str] = if own { &["_v", "_2"] } else { &["", "_v", "_2"] };
-            let endings: Vec<_> =
-                endings.iter().map(|ending| named(&format!("{}{ending}", local.name))).collect();
-            let found = endings.iter().find(|paths| paths.iter().all(|p| self.machine.place(p).is_some()));
-            paths.extend_from_slice(found.unwrap_or(&endings[0]));
+            paths.extend(own(&local.name, local.ty.scalar == Scalar::Point, local.ty.extent));
         }
         for (implemented, row) in automaton.implements.iter().zip(&instance.rows) {
             let interface = self.system.model.interface(implemented.interface);
             for cell in &interface.cells {
-                let name = format!("{}_{}", interface.name.to_lowercase(), cell.name);
+                let name = format!("{}_{}", snake(&interface.name), snake(&cell.name));
                 let count = self.system.model.elements(cell.ty.extent);
                 // A row of scalars has as many elements as there are members.
                 let extent = if cell.ty.extent == Extent::One { Extent::Count(1) } else { cell.ty.extent };
-                paths.extend(self.paths(&name, cell.ty.scalar == Scalar::Point, extent, row * count));
+                let is_point = cell.ty.scalar == Scalar::Point;
+                paths.extend(self.variables("globals", &name, is_point, extent, row * count));
             }
+        }
+        for port in automaton.device.ports.iter().filter(|p| p.direction == Direction::Output) {
+            paths.extend(own(port.name, port.ty == PortType::Point, port.extent.into()));
         }
         for path in paths {
             let place = self.machine.place(&path);
             trace.push((path, place));
-        }
-        for port in automaton.device.ports.iter().filter(|p| p.direction == Direction::Output) {
-            let name = format!("{robot}.{}", port.name);
-            for path in self.paths(&name, port.ty == PortType::Point, port.extent.into(), 0) {
-                let place = self.machine.place(&path);
-                trace.push((path, place));
-            }
         }
     }
 }
@@ -209,6 +238,8 @@ impl Controllers for StructuredText {
 pub struct Beside<'a> {
     pub executor: autogen::executor::Executor<'a>,
     pub text: StructuredText,
+    /// What the globals of the text get instead of the inputs of the next scan.
+    pub instead: Option<(SystemInputs, Vec<Vec<f64>>)>,
     outputs: Vec<Vec<f64>>,
     pub scans: u64,
     /// Words compared.
@@ -217,10 +248,11 @@ pub struct Beside<'a> {
 }
 
 impl<'a> Beside<'a> {
-    pub fn new(system: &'a System, text: &str) -> Result<Self, String> {
+    pub fn new(system: &'a System, emitted: &Emitted) -> Result<Self, String> {
         Ok(Self {
             executor: autogen::executor::Executor::new(system),
-            text: StructuredText::new(system, text)?,
+            text: StructuredText::new(system, emitted)?,
+            instead: None,
             outputs: vec![Vec::new(); system.instances.len()],
             scans: 0,
             words: 0,
@@ -265,6 +297,8 @@ impl Controllers for Beside<'_> {
         let answer = self.executor.scan(system, inputs, outputs);
         if self.difference.is_none() {
             let mut own = std::mem::take(&mut self.outputs);
+            let instead = self.instead.take();
+            let (system, inputs) = instead.as_ref().map_or((system, inputs), |(s, i)| (*s, i.as_slice()));
             let other = self.text.scan(system, inputs, &mut own);
             self.outputs = own;
             self.difference =

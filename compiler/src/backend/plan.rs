@@ -1,5 +1,6 @@
 //! The layout from above, as SVG: x to the right, y upwards, with an arrow for each edge.
 
+use super::footprint::{self, Shape};
 use crate::connect::Edge;
 use runtime_sim::geometry::Geometry;
 use runtime_sim::line::Line;
@@ -69,51 +70,28 @@ struct Drawing {
 
 impl Drawing {
     fn machine(&mut self, name: &str, geometry: &Geometry) {
-        match geometry {
-            Geometry::Belt { pose, orient, orient_range } => {
-                let (middle, length) =
-                    ((orient_range[0] + orient_range[1]) / 2.0, orient_range[1] - orient_range[0]);
-                let (centre, size) = match orient {
-                    Axis::X => (Point::new(middle, pose.y, 0.0), (length, 0.65)),
-                    Axis::Y => (Point::new(pose.x, middle, 0.0), (0.65, length)),
-                };
-                self.rectangle(centre, size, "belt");
-                self.label(centre + Point::new(0.0, size.1 / 2.0 + 0.2, 0.0), name, "name");
-            }
-            Geometry::Vehicle { pose, destinations } => {
-                for stop in destinations {
-                    self.rectangle(*stop + Point::new(0.15, 0.0, 0.0), (0.7, 0.5), "stop");
-                    self.line(*pose, *stop, "path");
-                }
-                self.rectangle(*pose + Point::new(0.15, 0.0, 0.0), (0.7, 0.5), "vehicle");
-                self.label(*pose + Point::new(0.15, 0.37, 0.0), name, "name");
-            }
-            Geometry::RailArm { pose, rail_dim, rail_range } => {
-                let end = |along: f64| match rail_dim {
-                    Axis::X => Point::new(along, pose.y, 0.0),
-                    Axis::Y => Point::new(pose.x, along, 0.0),
-                };
-                self.line(end(rail_range[0]), end(rail_range[1]), "rail");
-                let middle = end((rail_range[0] + rail_range[1]) / 2.0);
-                self.circle(middle, 0.22, "arm");
-                let low = end(rail_range[0]);
-                self.label(low - Point::new(0.0, 0.35, 0.0), name, "name");
-            }
-            Geometry::Gantry { x_rail_range: x, y_rail_range: y, .. } => {
-                let centre = Point::new((x[0] + x[1]) / 2.0, (y[0] + y[1]) / 2.0, 0.0);
-                self.rectangle(centre, (x[1] - x[0], y[1] - y[0]), "range");
-                self.circle(geometry.pose(), 0.3, "arm");
-                self.label(geometry.pose() + Point::new(0.0, 0.5, 0.0), name, "name");
-            }
-            Geometry::Station { pose } => {
-                self.rectangle(*pose, (0.6, 0.6), "station");
-                self.label(*pose + Point::new(0.0, 0.42, 0.0), name, "name");
-            }
-            Geometry::Bin { pose } => {
-                self.rectangle(*pose, (0.6, 0.6), "station");
-                self.label(*pose + Point::new(0.0, 0.42, 0.0), name, "name");
+        for (shape, class) in footprint::shapes(geometry) {
+            match shape {
+                Shape::Rectangle { centre, size } => self.rectangle(centre, size, class),
+                Shape::Line { from, to } => self.line(from, to, class),
+                Shape::Circle { centre, radius } => self.circle(centre, radius, class),
             }
         }
+        let pose = geometry.pose();
+        let at = match geometry {
+            Geometry::Belt { orient, orient_range, .. } => match orient {
+                Axis::X => Point::new((orient_range[0] + orient_range[1]) / 2.0, pose.y + 0.325 + 0.2, 0.0),
+                Axis::Y => Point::new(pose.x, orient_range[1] + 0.2, 0.0),
+            },
+            Geometry::Vehicle { .. } => pose + Point::new(0.15, 0.37, 0.0),
+            Geometry::RailArm { rail_dim, rail_range, .. } => match rail_dim {
+                Axis::X => Point::new(rail_range[0], pose.y - 0.35, 0.0),
+                Axis::Y => Point::new(pose.x, rail_range[0] - 0.35, 0.0),
+            },
+            Geometry::Gantry { .. } => pose + Point::new(0.0, 0.5, 0.0),
+            Geometry::Station { .. } | Geometry::Bin { .. } => pose + Point::new(0.0, 0.42, 0.0),
+        };
+        self.label(at, name, "name");
     }
 
     fn take(&mut self, x: f64, y: f64) {

@@ -31,13 +31,14 @@ const LOCK: &str = include_str!("../../../templates/rust/Cargo.lock");
 const CONTROLLERS_MANIFEST: &str = include_str!("../../../templates/rust/controllers/Cargo.toml");
 const TYPES: &str = include_str!("../../../templates/rust/controllers/types.rs");
 const COMMISSIONING_MANIFEST: &str = include_str!("../../../templates/rust/commissioning/Cargo.toml");
-const COMMISSIONING: [(&str, &str); 7] = [
+const COMMISSIONING: [(&str, &str); 8] = [
     ("src/lib.rs", include_str!("../../../templates/rust/commissioning/lib.rs")),
     ("src/main.rs", include_str!("../../../templates/rust/commissioning/main.rs")),
     ("src/batch.rs", include_str!("../../../templates/rust/commissioning/batch.rs")),
     ("src/image.rs", include_str!("../../../templates/rust/commissioning/image.rs")),
     ("src/read.rs", include_str!("../../../templates/rust/commissioning/read.rs")),
     ("src/replay.rs", include_str!("../../../templates/rust/commissioning/replay.rs")),
+    ("src/trajectories.rs", include_str!("../../../templates/rust/commissioning/trajectories.rs")),
     ("src/deployed.rs", include_str!("../../../templates/rust/commissioning/deployed.rs")),
 ];
 

@@ -4,7 +4,7 @@ use super::options::{Addresses, BuildOptions, Format};
 use super::write::{self, Files, Refusal};
 use super::{load, print};
 use crate::Status;
-use autogen::backend::{dot, plan, rust, st};
+use autogen::backend::{dot, plan, rust, sdf, st};
 use autogen::diagnostic::Diagnostic;
 use autogen::io_map::{self, Counting, IoMap};
 use autogen::ir::System;
@@ -121,6 +121,9 @@ fn files(project: &Project, sources: &Sources, map: &IoMap) -> Files {
         files.insert(format!("graph/{name}"), text);
     }
     files.insert("graph/plan.svg".into(), plan::svg(&project.plant, &project.edges));
+    for (name, text) in sdf::files(&project.name, &project.plant) {
+        files.insert(format!("world/{name}"), text);
+    }
     files.insert("rust/commissioning/data/line.txt".into(), project.plant.to_text());
     files.insert("rust/commissioning/data/parameters.txt".into(), rust::parameters_text(&project.system));
     files.insert(

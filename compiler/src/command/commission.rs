@@ -1,10 +1,12 @@
 //! `autogen commission`: the generated controllers, linked with the simulator, run the scenario.
 
 use super::build::{self, Built};
+use super::contact;
 use super::fault;
 use super::io_trace::IoTrace;
 use super::options::{CommissionOptions, Format};
 use super::program::{self, Notice};
+use super::trajectories::Request;
 use crate::Status;
 use runtime_sim::line::IoDelay;
 use serde_json::{Value, json};
@@ -24,13 +26,18 @@ pub fn run(options: &CommissionOptions) -> Status {
         Ok(io_trace) => io_trace,
         Err(text) => return fail(options, text),
     };
+    let trajectories = match Request::new(options) {
+        Ok(request) => request,
+        Err(text) => return fail(options, text),
+    };
     let built = match build::build(&options.build) {
         Ok(built) => built,
         Err(status) => return status,
     };
-    match commission(options, &built, delay, io_trace) {
+    match commission(options, &built, delay, io_trace, &trajectories) {
         Ok(mut report) => {
             fault::name(&mut report, &built.project.system, &built.sources);
+            contact::name_reasons(&mut report, &built.project.may_touch);
             let status = match report["finished"].as_bool() {
                 Some(true) => Status::Done,
                 _ if report["reason"].as_str().is_some_and(|r| r.starts_with("bug: ")) => Status::Bug,
@@ -66,7 +73,9 @@ fn commission(
     built: &Built,
     delay: IoDelay,
     io_trace: Option<IoTrace>,
+    trajectories: &Request,
 ) -> Result<Value, String> {
+    trajectories.check(&built.project.plant)?;
     let input = &options.build.input;
     let notice = match input.format {
         Format::Text if !input.quiet => Notice::Compiling,
@@ -88,17 +97,27 @@ fn commission(
     if let Some(path) = &options.hashes {
         command.arg("--hashes").arg(path);
     }
+    trajectories.ask(&mut command, &folder);
     if is_chatty(options) {
         command.arg("--progress");
     }
-    let output = command.stderr(Stdio::inherit()).output();
+    let result = simulate(command).and_then(|report| {
+        trajectories.write(&built.project, &folder)?;
+        Ok(report)
+    });
     let _ = fs::remove_dir_all(&folder);
-    let output = output.map_err(|e| format!("{}: {e}", program.display()))?;
+    if let (Some(io_trace), Ok(_)) = (io_trace, &result) {
+        io_trace.keep()?;
+    }
+    result
+}
+
+/// What the linked simulation reports.
+fn simulate(mut command: Command) -> Result<Value, String> {
+    let output = command.stderr(Stdio::inherit()).output();
+    let output = output.map_err(|e| format!("{}: {e}", command.get_program().display()))?;
     if !output.status.success() {
         return Err(format!("the linked simulation did not run: {}", output.status));
-    }
-    if let Some(io_trace) = io_trace {
-        io_trace.keep()?;
     }
     serde_json::from_slice(&output.stdout).map_err(|e| format!("the linked simulation did not report: {e}"))
 }
@@ -123,7 +142,12 @@ fn show(options: &CommissionOptions, built: &Built, mut report: Value, begin: In
     let _ = fs::write(path, format!("{kept:#}\n"));
     match options.build.input.format {
         Format::Json => say!("{report}"),
-        Format::Text if !options.build.input.quiet => say_part!("{}", text(&report, wall, built)),
+        Format::Text if !options.build.input.quiet => {
+            say_part!("{}", text(&report, wall, built));
+            for path in &options.trajectories.files {
+                say!("trajectories       {}", path.display());
+            }
+        }
         Format::Text if report["finished"] != true => {
             eprintln!("autogen: {}", report["reason"].as_str().unwrap_or(""))
         }
@@ -139,7 +163,7 @@ fn text(report: &Value, wall: f64, built: &Built) -> String {
     let per_order = report["seconds_per_order"].as_f64().map_or("-".into(), |s| format!("{s:.2}"));
     out += &format!("seconds per order  {per_order}\n");
     out += &format!("simulated          {:.2} s, in {wall:.2} s\n", number(&report["simulated_s"]));
-    out += &format!("collisions         {}\n\n", report["collisions"].as_str().unwrap_or(""));
+    out += &format!("collisions         {}\n\n", contact::text(report));
     let empty = serde_json::Map::new();
     let robots = report["robots"].as_object().unwrap_or(&empty);
     let width = robots.keys().map(String::len).max().unwrap_or(5).max(5);

@@ -13,6 +13,7 @@ macro_rules! say_part {
 pub mod build;
 pub mod check;
 pub mod commission;
+pub mod contact;
 pub mod explain;
 pub mod fault;
 pub mod graph;
@@ -22,4 +23,5 @@ pub mod options;
 pub mod print;
 pub mod program;
 pub mod sweep;
+pub mod trajectories;
 pub mod write;

@@ -110,6 +110,23 @@ pub struct CommissionOptions {
     /// Write the hash of each scan's trace to this file, a line each
     #[arg(long, value_name = "FILE")]
     pub hashes: Option<PathBuf>,
+    #[command(flatten)]
+    pub trajectories: TrajectoryOptions,
+}
+
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Paths of the items")]
+pub struct TrajectoryOptions {
+    /// Write the path of each item: sampled (.csv), as exact segments (.json) or drawn from above (.svg);
+    /// may be given several times
+    #[arg(long = "trajectories", value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    /// Seconds between two samples of a .csv, in whole milliseconds
+    #[arg(long, value_name = "SECONDS", default_value = "0.1", requires = "files")]
+    pub every: String,
+    /// These items only, such as battery_1,pump_3; default: all that came onto the line
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', requires = "files")]
+    pub items: Vec<String>,
 }
 
 #[derive(Args, Debug)]
@@ -133,6 +150,10 @@ pub struct SweepOptions {
     /// How many scans late devices answer: numbers, `random` or `random:SEED` for 0 to 5
     #[arg(long, value_name = "N,...", value_delimiter = ',')]
     pub io_delay: Vec<String>,
+    /// Figures to stand beside the rows: a CSV file with the column seconds_per_order and columns of the
+    /// sweep's own CSV that name a point, such as layout and agv.capacity
+    #[arg(long, value_name = "FILE")]
+    pub beside: Option<PathBuf>,
     /// Points that are worked on at the same time; default: one for each processor
     #[arg(short, long, value_name = "N")]
     pub jobs: Option<NonZeroUsize>,

@@ -6,6 +6,7 @@
 mod axis;
 mod grid;
 mod in_order;
+mod measured;
 mod plan;
 mod point;
 mod progress;
@@ -30,16 +31,11 @@ use table::Table;
 pub fn run(options: &SweepOptions) -> Status {
     let plan = match Plan::new(options) {
         Ok(plan) => plan,
-        Err(Refusal::Failure(failure)) => return print::failure_in(format(options), &failure),
-        Err(Refusal::Said(text)) => {
-            match format(options) {
-                Format::Json => {
-                    say!("{}", json!({ "rows": [], "finished": false, "reason": text, "diagnostics": [] }));
-                }
-                Format::Text => eprintln!("autogen: {text}"),
-            }
-            return Status::WrongCommand;
-        }
+        Err(refusal) => return not_planned(options, &refusal),
+    };
+    let mut table = match Table::new(&plan, options) {
+        Ok(table) => table,
+        Err(refusal) => return not_planned(options, &refusal),
     };
     if plan.lines.iter().all(|line| !line.draft.diagnostics().is_empty()) {
         return refuse(options, &plan);
@@ -47,7 +43,6 @@ pub fn run(options: &SweepOptions) -> Status {
     let jobs = options.jobs.or_else(|| thread::available_parallelism().ok()).map_or(1, NonZeroUsize::get);
     let is_text = options.format == TableFormat::Text;
     let notice = if is_text && !options.quiet { Notice::Compiling } else { Notice::None };
-    let mut table = Table::new(&plan, options);
     let mut progress = Progress::new(plan.len(), options.quiet);
     let mut status = Status::Done;
     table.begin();
@@ -66,6 +61,21 @@ pub fn run(options: &SweepOptions) -> Status {
     progress.clear();
     table.end();
     status
+}
+
+fn not_planned(options: &SweepOptions, refusal: &Refusal) -> Status {
+    match refusal {
+        Refusal::Failure(failure) => print::failure_in(format(options), failure),
+        Refusal::Said(text) => {
+            match format(options) {
+                Format::Json => {
+                    say!("{}", json!({ "rows": [], "finished": false, "reason": text, "diagnostics": [] }));
+                }
+                Format::Text => eprintln!("autogen: {text}"),
+            }
+            Status::WrongCommand
+        }
+    }
 }
 
 /// What a sweep says that has no table.

@@ -6,16 +6,20 @@
 
 mod graph;
 mod mend;
+mod near;
 mod poses;
 mod verdict;
 
 #[cfg(test)]
 mod tests;
 
+pub use near::Ground;
+
 use crate::diagnostic::Diagnostic;
 use crate::layout::Number;
 use crate::source::Span;
 use runtime_sim::geometry::Geometry;
+use std::collections::BTreeMap;
 
 /// A machine that hands over or takes.
 #[derive(Clone, Debug)]
@@ -123,6 +127,7 @@ pub struct Failure {
     pub misses: Vec<Miss>,
     /// Number of poses that were tested.
     pub tested: usize,
+    /// Sought only in a layout that is not connected.
     pub mend: Option<Mend>,
 }
 
@@ -191,13 +196,15 @@ pub fn check(line: &Line) -> Report {
     let stands: Vec<bool> = tested.iter().map(|test| test.margin >= 0.0).collect();
     let edges = edges(line, &tested);
     let ways = graph::Ways::new(line, &stands);
+    // A pair that does not meet matters only where machines are cut off.
+    let is_whole = ways.connected() == line.nodes.len();
     let failures: Vec<Failure> = tested
         .into_iter()
         .enumerate()
         .filter(|(_, test)| test.margin < 0.0)
         .map(|(proposal, test)| Failure {
             proposal,
-            mend: mend::find(line, &stands, proposal),
+            mend: if is_whole { None } else { mend::find(line, &stands, proposal) },
             misses: test.misses,
             tested: test.tested,
         })
@@ -216,16 +223,12 @@ pub fn check(line: &Line) -> Report {
 }
 
 fn edges(line: &Line, tested: &[poses::Test]) -> Vec<Edge> {
-    let mut edges: Vec<Edge> = Vec::new();
+    let mut margins: BTreeMap<(usize, usize), f64> = BTreeMap::new();
     for (proposal, test) in line.proposals.iter().zip(tested).filter(|(_, test)| test.margin >= 0.0) {
-        let (from, to, margin) = (proposal.from, proposal.to, test.margin);
-        match edges.iter_mut().find(|edge| edge.from == from && edge.to == to) {
-            Some(edge) => edge.margin = edge.margin.max(margin),
-            None => edges.push(Edge { from, to, margin }),
-        }
+        let margin = margins.entry((proposal.from, proposal.to)).or_insert(test.margin);
+        *margin = margin.max(test.margin);
     }
-    edges.sort_by_key(|edge| (edge.from, edge.to));
-    edges
+    margins.into_iter().map(|((from, to), margin)| Edge { from, to, margin }).collect()
 }
 
 impl Proposal {

@@ -23,6 +23,9 @@ pub fn diagnostics(line: &Line, stands: &[bool], failures: &[Failure]) -> Vec<Di
     }
     let mut stands = stands.to_vec();
     let mut ways = Ways::new(line, &stands);
+    if found.is_empty() && ways.connected() == line.nodes.len() {
+        return found;
+    }
     while let Some((failure, after)) = most_helpful(line, &stands, failures, &ways) {
         found.push(apart(line, failure, failures, &stands, &ways, &after));
         join(&mut stands, failure);

@@ -1,10 +1,9 @@
 //! No two points share a bit of the process image.
 
+use super::Point;
 use super::address::{Address, Area};
-use super::csv::Field;
-use super::{Point, Wire};
 use crate::diagnostic::Diagnostic;
-use std::collections::BTreeMap;
+use crate::source::Span;
 
 /// How the controller counts addresses of different sizes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,6 +14,13 @@ pub enum Counting {
     Bytes,
     /// Bits, bytes, words and double words are memories of their own, as in OpenPLC.
     Apart,
+}
+
+/// An address and the field that gives it.
+pub struct Place {
+    pub point: usize,
+    pub address: Address,
+    pub span: Span,
 }
 
 /// A stretch of an area, in bits, end excluded.
@@ -47,29 +53,21 @@ impl Stretch {
     }
 }
 
-pub fn check(
-    wires: &BTreeMap<usize, (Wire, Field)>,
-    points: &[Point],
-    counting: Counting,
-    found: &mut Vec<Diagnostic>,
-) {
-    let mut rows: Vec<_> = wires.iter().collect();
-    rows.sort_by_key(|(_, (_, field))| field.span);
-    for (i, (point, (wire, field))) in rows.iter().enumerate() {
-        let own = stretch(wire.address, counting);
-        let before = rows[..i].iter().find(|(_, (other, _))| stretch(other.address, counting).overlaps(&own));
-        let Some((other_point, (other, other_field))) = before else { continue };
-        let name = &points[**other_point].name;
-        let message = match other.address == wire.address {
-            true => format!("{} is given to {} and to {name}", wire.address, points[**point].name),
-            false => {
-                format!("{} of {} overlaps {} of {name}", wire.address, points[**point].name, other.address)
-            }
+/// The places in the order of their rows.
+pub fn check(places: &[Place], points: &[Point], counting: Counting, found: &mut Vec<Diagnostic>) {
+    for (i, place) in places.iter().enumerate() {
+        let own = stretch(place.address, counting);
+        let before = places[..i].iter().find(|other| stretch(other.address, counting).overlaps(&own));
+        let Some(other) = before else { continue };
+        let (name, other_name) = (&points[place.point].name, &points[other.point].name);
+        let message = match other.address == place.address {
+            true => format!("{} is given to {name} and to {other_name}", place.address),
+            false => format!("{} of {name} overlaps {} of {other_name}", place.address, other.address),
         };
-        let mut diagnostic = Diagnostic::new("E0606", field.span, message)
-            .other(other_field.span, "the other one")
+        let mut diagnostic = Diagnostic::new("E0606", place.span, message)
+            .other(other.span, "the other one")
             .help("give each point an address of its own");
-        if other.address.size != wire.address.size && counting != Counting::Apart {
+        if other.address.size != place.address.size && counting != Counting::Apart {
             diagnostic = diagnostic.note(
                 "where bits, bytes and words are memories of their own, as in OpenPLC, say `--addresses apart`",
             );

@@ -3,6 +3,7 @@
 use super::address::{Address, Area};
 use super::columns::{Columns, Record};
 use super::csv::Field;
+use super::overlap::Place;
 use super::{Conversion, Kind, Point, Raw, Wire, raw};
 use crate::diagnostic::{Diagnostic, suggestion};
 use crate::source::Span;
@@ -16,9 +17,11 @@ pub struct Rows<'p> {
     /// By robot and name, in lower case.
     known: HashMap<(String, String), usize>,
     seen: HashMap<usize, Span>,
+    /// Every address that could be read, of rows with other errors too.
+    pub places: Vec<Place>,
 }
 
-/// The numbers of a conversion as far as they could be read, with their places.
+/// The numbers of a conversion, finite both.
 struct Numbers {
     scale: f64,
     offset: f64,
@@ -28,7 +31,7 @@ impl<'p> Rows<'p> {
     pub fn new(points: &'p [Point], separator: u8) -> Self {
         let key = |p: &Point| (p.robot.to_ascii_lowercase(), p.name.to_ascii_lowercase());
         let known = points.iter().enumerate().map(|(i, p)| (key(p), i)).collect();
-        Self { points, separator, known, seen: HashMap::new() }
+        Self { points, separator, known, seen: HashMap::new(), places: Vec::new() }
     }
 
     /// The point and its wire, if the row gives it an address and all is right.
@@ -37,7 +40,7 @@ impl<'p> Rows<'p> {
         columns: &Columns,
         fields: &[Field],
         found: &mut Vec<Diagnostic>,
-    ) -> Option<(usize, Wire, Field)> {
+    ) -> Option<(usize, Wire)> {
         let record = columns.row(fields, found)?;
         let whole = fields.first()?.span.to(fields.last()?.span);
         let number = self.point(&record, whole, found)?;
@@ -58,6 +61,8 @@ impl<'p> Rows<'p> {
             return None;
         };
         let address = self.address(address_field, point, found);
+        let span = address_field.span;
+        self.places.extend(address.map(|address| Place { point: number, address, span }));
         let raw = self.raw(&record, point, address, address_field, found);
         let conversion = self.conversion(&record, point, found);
         let (address, raw, conversion) = (address?, raw?, conversion?);
@@ -66,7 +71,7 @@ impl<'p> Rows<'p> {
         }
         let wire = Wire { address, raw, conversion };
         holds(&wire, point, &record, address_field, found);
-        (found.len() == count).then(|| (number, wire, address_field.clone()))
+        (found.len() == count).then_some((number, wire))
     }
 
     fn point(&self, record: &Record, whole: Span, found: &mut Vec<Diagnostic>) -> Option<usize> {
@@ -142,12 +147,12 @@ impl<'p> Rows<'p> {
         let fits = |raw: &Raw| goes(raw) && address.is_none_or(|a| a.size == raw.size());
         let listed = |raws: Vec<Raw>| raws.iter().map(|r| r.name()).collect::<Vec<_>>().join(" or ");
         let choice = listed(raw::ALL.into_iter().filter(fits).collect());
-        let help = match choice.is_empty() {
-            true => format!(
-                "give it an address of another size; it takes {}",
-                listed(raw::ALL.into_iter().filter(goes).collect())
-            ),
-            false => format!("write {choice}"),
+        let help = match (choice.is_empty(), point.kind) {
+            (false, _) => format!("write {choice}"),
+            (true, Kind::Bool) => "a boolean is BOOL at the address of a bit, such as %IX0.3".into(),
+            (true, _) => {
+                "a number is SINT or USINT at a byte, INT or UINT at a word, DINT at a double word".into()
+            }
         };
         let mut wrong = |place: Span, message: String| {
             found.push(Diagnostic::new("E0608", place, message).help(help.clone()));
@@ -173,10 +178,10 @@ impl<'p> Rows<'p> {
             Some(address) if address.size != raw.size() => wrong(
                 field.span,
                 format!(
-                    "{} has {} bits, {address} has {}",
+                    "{} stands at an address with {}, {address} has {}",
                     raw.name(),
-                    raw.size().bits(),
-                    address.size.bits()
+                    raw.size().letter(),
+                    address.size.letter()
                 ),
             ),
             _ => Some(raw),
@@ -199,7 +204,7 @@ impl<'p> Rows<'p> {
             let why = "a boolean has no scale and no offset";
             found.extend(refused("scale", why).into_iter().chain(refused("offset", why)));
             let is_inverted = record.get("inversion").map(|field| self.truth(field, found));
-            return (found.len() == count).then(|| match is_inverted {
+            return (found.len() == count).then_some(match is_inverted {
                 Some(Some(true)) => Conversion::Inverted,
                 _ => Conversion::None,
             });

@@ -3,6 +3,7 @@
 pub mod decode;
 mod geometry;
 pub mod json;
+mod may_touch;
 mod object;
 mod read;
 
@@ -24,6 +25,23 @@ pub struct Layout {
     /// None: the file beside the layout, else the built-in scenario.
     pub scenario: Option<Spanned<String>>,
     pub scan_ms: u32,
+    pub may_touch: Vec<MayTouch>,
+}
+
+/// Two objects whose contact is no reason to end a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MayTouch {
+    pub pair: [Spanned<String>; 2],
+    /// Why that is so, for people.
+    pub reason: String,
+}
+
+impl MayTouch {
+    /// Whether it is about these two, in either order.
+    pub fn is_of(&self, [a, b]: [&str; 2]) -> bool {
+        let [c, d] = self.pair.each_ref().map(|name| name.value.as_str());
+        (a, b) == (c, d) || (b, a) == (c, d)
+    }
 }
 
 /// A number of a layout, by its path in its object, such as `rail_range[1]`.

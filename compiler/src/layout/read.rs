@@ -6,7 +6,7 @@ use super::{Layout, Object, Part};
 use crate::diagnostic::{Diagnostic, sort};
 use crate::source::{FileId, Sources, Spanned};
 
-const KEYS: [&str; 6] = ["robots", "stationary", "name", "specs", "scenario", "scan_ms"];
+const KEYS: [&str; 7] = ["robots", "stationary", "name", "specs", "scenario", "scan_ms", "may_touch"];
 const SCAN_MS: u32 = 10;
 
 /// What could be read, to check it further; with any diagnostic there is no sense in building from it.
@@ -39,6 +39,7 @@ impl Decoder {
         });
         let scenario = find(members, "scenario").and_then(|j| self.text(j, "scenario"));
         let scan_ms = find(members, "scan_ms").and_then(|j| self.whole(j, "scan_ms", 1..=1000));
+        let may_touch = find(members, "may_touch").map(|j| self.may_touch(j, &names(members)));
         Some(Layout {
             name: name.map_or_else(|| make_identifier(stem(file_name), "layout"), |n| n.value),
             file: json.span.file,
@@ -46,6 +47,7 @@ impl Decoder {
             specs: specs.unwrap_or_default(),
             scenario,
             scan_ms: scan_ms.unwrap_or(SCAN_MS),
+            may_touch: may_touch.unwrap_or_default(),
         })
     }
 

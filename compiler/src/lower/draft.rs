@@ -179,7 +179,8 @@ impl Parts {
             return;
         };
         let plant = plant::line(&system, &line, bound.obstacles, resolved, layout.scan_ms);
-        found.project = Some(Project { name: layout.name, system, plant, edges });
+        found.project =
+            Some(Project { name: layout.name, system, plant, edges, may_touch: layout.may_touch });
     }
 }
 

@@ -12,6 +12,7 @@ pub use draft::{Draft, Line, Texts};
 pub use setting::Setting;
 
 use crate::diagnostic::Diagnostic;
+use crate::layout::MayTouch;
 use crate::source::{FileId, Sources};
 use crate::{connect, ir};
 
@@ -38,6 +39,8 @@ pub struct Project {
     pub plant: runtime_sim::line::Line,
     /// Between instances.
     pub edges: Vec<connect::Edge>,
+    /// The pairs of which the layout says that they may touch.
+    pub may_touch: Vec<MayTouch>,
 }
 
 /// What the connectivity check found, by names.

@@ -68,23 +68,22 @@ impl Line<'_> {
     /// The parts of each kind that all orders of the scenario ask for.
     fn ordered(&mut self, parameter: &Parameter) -> Vec<Value> {
         let Scalar::Int { lo, hi } = parameter.ty.scalar else { return Vec::new() };
-        let mut values = Vec::new();
-        for (count, (kind, _)) in self.ordered.iter().zip(&self.kinds) {
-            let value = i32::try_from(*count).unwrap_or(i32::MAX);
-            if !(lo..=hi).contains(&value) {
-                let message = format!(
-                    "the orders ask for {count} {kind}, and `{}` goes from {lo} to {hi}",
-                    parameter.name
-                );
-                self.diagnostics.push(
-                    Diagnostic::new("E0503", parameter.place, message)
-                        .other(self.orders_place, "the orders are here")
-                        .help("widen the bounds of the parameter, or set it"),
-                );
-            }
-            values.push(Value::Int(value.clamp(lo, hi)));
+        let counts: Vec<i32> = self.ordered.iter().map(|n| i32::try_from(*n).unwrap_or(i32::MAX)).collect();
+        let beyond: Vec<String> = (counts.iter().zip(&self.kinds))
+            .filter(|(count, _)| !(lo..=hi).contains(*count))
+            .map(|(count, (kind, _))| format!("{count} {kind}"))
+            .collect();
+        if !beyond.is_empty() {
+            let beyond = beyond.join(", ");
+            let message =
+                format!("the orders ask for {beyond}, and `{}` goes from {lo} to {hi}", parameter.name);
+            self.diagnostics.push(
+                Diagnostic::new("E0503", parameter.place, message)
+                    .other(self.orders_place, "the orders are here")
+                    .help("widen the bounds of the parameter, or set it"),
+            );
         }
-        values
+        counts.into_iter().map(|count| Value::Int(count.clamp(lo, hi))).collect()
     }
 
     fn constant(&self, robot: usize, parameter: &Parameter) -> Vec<Value> {

@@ -39,7 +39,7 @@ pub fn line(
         kinds: scenario
             .kinds
             .iter()
-            .map(|(name, height)| line::Kind { name: name.clone(), height: *height })
+            .map(|kind| line::Kind { name: kind.name.value.clone(), height: kind.height, size: kind.size })
             .collect(),
         machines: (0..system.instances.len())
             .map(|i| line::Machine {
@@ -49,6 +49,7 @@ pub fn line(
             })
             .collect(),
         obstacles,
+        may_touch: line.layout.may_touch.iter().map(|m| m.pair.each_ref().map(|n| n.value.clone())).collect(),
         scenario: line::Scenario {
             orders: scenario
                 .orders

@@ -2,7 +2,7 @@
 
 use super::bind::Robot;
 use super::{Apart, Verdict};
-use crate::connect::{self, Connected, Node, Proposal, Site};
+use crate::connect::{self, Connected, Ground, Node, Proposal, Site};
 use crate::diagnostic::Diagnostic;
 use crate::ir::{
     Automaton, AutomatonId, Expr, Handover, Instance, InterfaceId, Model, Role, RoleKind, Scalar, System,
@@ -13,12 +13,15 @@ use crate::scenario::Scenario;
 use crate::source::{Span, Spanned};
 use crate::{executor, ir};
 use runtime_sim::geometry::SLOTS;
+use std::collections::BTreeSet;
 
 /// The machines of a layout, bound to a model of just their types.
 pub struct Line<'a> {
     pub layout: &'a Layout,
     pub robots: Vec<Robot>,
     pub model: Model,
+    /// The automaton of each robot.
+    automata: Vec<AutomatonId>,
     pub kinds: Vec<(String, f64)>,
     pub heights: Vec<f64>,
     /// Parts of each kind that all orders of the scenario ask for, and where these stand.
@@ -43,10 +46,14 @@ impl<'a> Line<'a> {
         let heights = kinds.iter().map(|k| k.1).collect();
         let asked = |kind: usize| scenario.orders.list.iter().map(|o| u64::from(o.parts[kind])).sum();
         let ordered = (0..kinds.len()).map(asked).collect();
+        let automaton =
+            |robot: &Robot| model.automata.iter().position(|a| a.name == robot.automaton).unwrap_or(0);
+        let automata = robots.iter().map(|robot| AutomatonId(automaton(robot))).collect();
         let mut line = Self {
             layout,
             robots,
             model,
+            automata,
             kinds,
             heights,
             ordered,
@@ -69,8 +76,7 @@ impl<'a> Line<'a> {
     }
 
     pub fn automaton_id(&self, robot: usize) -> AutomatonId {
-        let name = &self.robots[robot].automaton;
-        AutomatonId(self.model.automata.iter().position(|a| a.name == *name).unwrap_or(0))
+        self.automata[robot]
     }
 
     pub fn automaton(&self, robot: usize) -> &Automaton {
@@ -99,7 +105,6 @@ impl<'a> Line<'a> {
     /// What the geometry says of the pairs that the types propose.
     pub fn connect(&mut self) -> connect::Report {
         let nodes_of: Vec<usize> = (0..self.robots.len()).filter(|r| self.takes_part(*r)).collect();
-        let node_of = |robot: usize| nodes_of.iter().position(|n| *n == robot);
         let nodes = nodes_of.iter().map(|&r| {
             let (offers, accepts) =
                 (self.handover(r, Way::Offers).count() > 0, self.handover(r, Way::Accepts).count() > 0);
@@ -114,12 +119,46 @@ impl<'a> Line<'a> {
             }
         });
         let nodes: Vec<Node> = nodes.collect();
-        let mut proposals = Vec::new();
-        let mut asked_by = Vec::new();
+        let ground: Vec<Ground> = self.robots.iter().map(|r| Ground::of(&r.geometry)).collect();
+        let near = |arm: usize, passive: usize| ground[arm].is_near(ground[passive]);
+        let span = Span::new(self.layout.file, 0, 0);
+        let mut line = connect::Line { span, nodes, proposals: Vec::new(), kinds: self.kinds.clone() };
+        (line.proposals, self.asked_by) = self.proposals(&nodes_of, |arm, passive, _| near(arm, passive));
+        let mut report = connect::check(&line);
+        if !report.is_feasible() {
+            // What machines that are cut off could have worked with, however far it is.
+            let cut_off = |nodes: &[usize]| nodes.iter().map(|n| nodes_of[*n]).collect::<BTreeSet<usize>>();
+            let (starved, stuck) = (cut_off(&report.unreachable), cut_off(&report.dead_ends));
+            (line.proposals, self.asked_by) = self.proposals(&nodes_of, |arm, passive, kind| {
+                let (from, to) = if kind == RoleKind::Takes { (passive, arm) } else { (arm, passive) };
+                near(arm, passive) || starved.contains(&to) || stuck.contains(&from)
+            });
+            report = connect::check(&line);
+        }
+        self.nodes = nodes_of;
+        self.line = Some(line);
+        report
+    }
+
+    /// The pairs that the types propose and that are wanted, by arm, passive machine and kind of role; and
+    /// the robot and the role that each is for. `nodes` are the robots that are nodes.
+    fn proposals(
+        &self,
+        nodes: &[usize],
+        is_wanted: impl Fn(usize, usize, RoleKind) -> bool,
+    ) -> (Vec<Proposal>, Vec<(usize, usize)>) {
+        let mut node_of = vec![None; self.robots.len()];
+        for (node, &robot) in nodes.iter().enumerate() {
+            node_of[robot] = Some(node);
+        }
+        let (mut proposals, mut asked_by) = (Vec::new(), Vec::new());
         for arm in 0..self.robots.len() {
             for (index, role) in self.automaton(arm).roles.iter().enumerate() {
                 for passive in self.candidates(arm, role) {
-                    let (Some(arm_node), Some(passive_node)) = (node_of(arm), node_of(passive)) else {
+                    if !is_wanted(arm, passive, role.kind) {
+                        continue;
+                    }
+                    let (Some(arm_node), Some(passive_node)) = (node_of[arm], node_of[passive]) else {
                         continue;
                     };
                     let Some(site) = self.site(passive, role) else { continue };
@@ -132,13 +171,7 @@ impl<'a> Line<'a> {
                 }
             }
         }
-        self.asked_by = asked_by;
-        self.nodes = nodes_of;
-        let span = Span::new(self.layout.file, 0, 0);
-        let line = connect::Line { span, nodes, proposals, kinds: self.kinds.clone() };
-        let report = connect::check(&line);
-        self.line = Some(line);
-        report
+        (proposals, asked_by)
     }
 
     /// Robots that a role of an arm could have, by their types and by the layout's `takes_from` and `hands_to`.
@@ -217,8 +250,8 @@ impl<'a> Line<'a> {
     /// The whole system; `None` has been reported.
     pub fn system(&mut self, report: connect::Report, scan_ms: u32) -> Option<System> {
         let line = self.line.take()?;
-        let stands: Vec<bool> =
-            (0..line.proposals.len()).map(|p| !report.failures.iter().any(|f| f.proposal == p)).collect();
+        let mut stands = vec![true; line.proposals.len()];
+        report.failures.iter().for_each(|failure| stands[failure.proposal] = false);
         let connected = match report.connected() {
             Ok(connected) => connected,
             Err(found) => {
@@ -229,8 +262,8 @@ impl<'a> Line<'a> {
         self.round_trips(&line, &connected);
         self.nobody_to_refer_to();
         let robot_of = self.nodes.clone();
-        let node_of: Vec<Option<usize>> =
-            (0..self.robots.len()).map(|r| robot_of.iter().position(|n| *n == r)).collect();
+        let mut node_of = vec![None; self.robots.len()];
+        robot_of.iter().enumerate().for_each(|(node, &robot)| node_of[robot] = Some(node));
         let reaches = |a: usize, b: usize| match (node_of[a], node_of[b]) {
             (Some(a), Some(b)) => connected.reaches(a, b),
             _ => false,

@@ -29,6 +29,8 @@ pub struct Kind {
     pub name: Spanned<String>,
     /// In metres.
     pub height: f64,
+    /// Lengths along x and y as it appears on a belt, in metres.
+    pub size: [f64; 2],
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -103,8 +105,7 @@ pub struct Pause {
 /// A scenario for one line: machines are indices, everything is decided.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ResolvedScenario {
-    /// Names and heights in metres.
-    pub kinds: Vec<(String, f64)>,
+    pub kinds: Vec<Kind>,
     /// Stations, and the number of parts of each kind.
     pub orders: Vec<(Vec<usize>, Vec<u32>)>,
     /// Belt, and the kinds it brings, in order.

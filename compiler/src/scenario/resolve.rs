@@ -37,7 +37,7 @@ pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec
     sort(&mut resolver.diagnostics);
     match (orders, supply) {
         (Some(orders), Some(supply)) if resolver.diagnostics.is_empty() => Ok(ResolvedScenario {
-            kinds: scenario.kinds.iter().map(|k| (k.name.value.clone(), k.height)).collect(),
+            kinds: scenario.kinds.clone(),
             orders,
             supply,
             spawn_first_s: scenario.supply.first_s,

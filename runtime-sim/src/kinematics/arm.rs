@@ -1,6 +1,7 @@
 //! Both robots alike: joints, reach, limits.
 
 use super::gantry::{self, Gantry};
+use super::nearest_turn;
 use super::pose::Pose;
 use super::rail_arm::{self, RailArm};
 use crate::geometry::Geometry;
@@ -134,11 +135,20 @@ impl Arm {
     }
 
     /// Joints for a place of the tool, near `from`; some exactly when [`Self::margin`] is not negative.
+    /// A part on the tool keeps its direction: the last joint turns back what the others turn.
     pub fn solve(&self, tool: Point, from: &Joints) -> Option<Joints> {
-        match self {
+        let joints = match self {
             Arm::Rail(arm) => arm.solve(tool, &from.array()).map(|joints| Joints::new(&joints)),
             Arm::Gantry(arm) => arm.solve(tool, &from.array()).map(|joints| Joints::new(&joints)),
-        }
+        }?;
+        let direction = |joints: &Joints| {
+            let along = self.tool_pose(joints).axis(0);
+            libm::atan2(along.y, along.x)
+        };
+        let last = joints.len() - 1;
+        // The last joint's axis points down.
+        let angle = joints[last] + direction(&joints) - direction(from);
+        Some(joints.map(|i, value| if i == last { nearest_turn(angle, from[last]) } else { value }))
     }
 
     /// Joints for a place of the tool, straight under the shoulder, with the torso at exactly this turn (rad);

@@ -2,6 +2,9 @@
 
 use crate::point::Point;
 
+/// Below this cosine of the pitch, roll and yaw are taken to turn about the same axis.
+const LEVEL: f64 = 1e-9;
+
 /// A frame: the columns of `rotation` are its axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose {
@@ -37,6 +40,45 @@ impl Pose {
         Point::new(self.rotation[0][i], self.rotation[1][i], self.rotation[2][i])
     }
 
+    /// A direction given in this frame, in the frame this one is given in.
+    pub fn direction(&self, inner: Point) -> Point {
+        let along = |row: &[f64; 3]| row[0] * inner.x + row[1] * inner.y + row[2] * inner.z;
+        let [x, y, z] = &self.rotation;
+        Point::new(along(x), along(y), along(z))
+    }
+
+    /// A point given in this frame, in the frame this one is given in.
+    pub fn point(&self, inner: Point) -> Point {
+        self.position + self.direction(inner)
+    }
+
+    /// The frame that this one is given in, seen from this one.
+    pub fn inverse(&self) -> Self {
+        let r = &self.rotation;
+        let rotation = std::array::from_fn(|i| std::array::from_fn(|j| r[j][i]));
+        let turned = Self { rotation, position: Point::default() };
+        Self { position: turned.direction(self.position).scaled(-1.0), ..turned }
+    }
+
+    /// This frame as `other` sees it, if both are given in the same one.
+    pub fn seen_from(&self, other: &Pose) -> Self {
+        let turn = Pose { position: Point::default(), ..other.inverse() };
+        turn.then(&Pose { position: self.position - other.position, ..*self })
+    }
+
+    /// Angles in rad by which the outer frame turns into this one: about its x, then about its y, then about its z.
+    /// Where x points up or down, the last is 0.
+    pub fn roll_pitch_yaw(&self) -> [f64; 3] {
+        let r = &self.rotation;
+        let level = (r[0][0] * r[0][0] + r[1][0] * r[1][0]).sqrt();
+        let pitch = libm::atan2(-r[2][0], level);
+        if level < LEVEL {
+            let side = if pitch > 0.0 { 1.0 } else { -1.0 };
+            return [libm::atan2(side * r[0][1], r[1][1]), pitch, 0.0];
+        }
+        [libm::atan2(r[2][1], r[2][2]), pitch, libm::atan2(r[1][0], r[0][0])]
+    }
+
     /// `inner`, given in this frame, in the frame this one is given in.
     pub fn then(&self, inner: &Pose) -> Self {
         let r = &self.rotation;
@@ -46,8 +88,51 @@ impl Pose {
                 *value = (0..3).map(|k| row[k] * inner.rotation[k][column]).sum();
             }
         }
-        let p = inner.position;
-        let along = |row: &[f64; 3]| row[0] * p.x + row[1] * p.y + row[2] * p.z;
-        Self { rotation, position: self.position + Point::new(along(&r[0]), along(&r[1]), along(&r[2])) }
+        Self { rotation, position: self.point(inner.position) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::random::Random;
+    use super::*;
+    use std::f64::consts::{FRAC_PI_2, PI};
+
+    fn about_x(angle: f64) -> Pose {
+        let (sin, cos) = libm::sincos(angle);
+        Pose::link(0.0, 0.0, 0.0, (sin, cos))
+    }
+
+    fn about_y(angle: f64) -> Pose {
+        let quarter = |side: f64| Pose::turned(Point::default(), side * FRAC_PI_2);
+        quarter(1.0).then(&about_x(angle)).then(&quarter(-1.0))
+    }
+
+    fn assert_same(got: &Pose, expected: &Pose) {
+        let d = got.position - expected.position;
+        assert!(d.x.abs() < 1e-12 && d.y.abs() < 1e-12 && d.z.abs() < 1e-12, "{got:?} {expected:?}");
+        for (a, b) in got.rotation.iter().flatten().zip(expected.rotation.iter().flatten()) {
+            assert!((a - b).abs() < 1e-9, "{got:?} {expected:?}");
+        }
+    }
+
+    #[test]
+    fn angles_and_frames_lead_back() {
+        let mut random = Random::new(5);
+        for i in 0..1000 {
+            let pitch = match i % 4 {
+                0 => FRAC_PI_2,
+                1 => -FRAC_PI_2,
+                _ => random.between(-PI, PI),
+            };
+            let mut angle = || random.between(-PI, PI);
+            let at = Point::new(angle(), angle(), angle());
+            let pose = Pose::turned(at, angle()).then(&about_y(pitch)).then(&about_x(angle()));
+            let [roll, pitch, yaw] = pose.roll_pitch_yaw();
+            let again = Pose::turned(at, yaw).then(&about_y(pitch)).then(&about_x(roll));
+            assert_same(&again, &pose);
+            let other = Pose::turned(Point::new(angle(), angle(), angle()), angle()).then(&about_x(angle()));
+            assert_same(&other.then(&pose.seen_from(&other)), &pose);
+        }
     }
 }

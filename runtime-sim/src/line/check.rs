@@ -24,6 +24,9 @@ impl Line {
             if !(kind.height > 0.0 && kind.height.is_finite()) {
                 return Err(format!("the height of {} is no positive number", kind.name));
             }
+            if !kind.size.iter().all(|length| *length > 0.0 && length.is_finite()) {
+                return Err(format!("a length of {} is no positive number", kind.name));
+            }
         }
         for machine in &self.machines {
             check_name("machine", &machine.name)?;
@@ -38,6 +41,12 @@ impl Line {
         for obstacle in &self.obstacles {
             check_name("obstacle", &obstacle.name)?;
             check_obstacle(obstacle)?;
+        }
+        for name in self.may_touch.iter().flatten() {
+            let machines = self.machines.iter().map(|machine| &machine.name);
+            if !machines.chain(self.obstacles.iter().map(|obstacle| &obstacle.name)).any(|n| n == name) {
+                return Err(format!("`{name}` may touch something and is not there"));
+            }
         }
         self.check_scenario()
     }

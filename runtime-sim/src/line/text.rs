@@ -23,7 +23,8 @@ impl Line {
         });
         put(format!("kinds {}", self.kinds.len()));
         for kind in &self.kinds {
-            put(format!("  {} {:?}", kind.name, kind.height));
+            let [x, y] = kind.size;
+            put(format!("  {} {:?} {x:?} {y:?}", kind.name, kind.height));
         }
         put(format!("machines {}", self.machines.len()));
         for machine in &self.machines {
@@ -38,6 +39,10 @@ impl Line {
         for obstacle in &self.obstacles {
             let size = obstacle.size.map_or("none".into(), |size| format!("box {}", point_text(size)));
             put(format!("  {} {} {size}", obstacle.name, point_text(obstacle.pose)));
+        }
+        put(format!("may_touch {}", self.may_touch.len()));
+        for [a, b] in &self.may_touch {
+            put(format!("  {a} {b}"));
         }
         let scenario = &self.scenario;
         put(format!("spawn_first_s {:?}", scenario.spawn_first_s));
@@ -94,14 +99,17 @@ impl Line {
             other => return Err(words.error(format_args!("`{other}` is no delay"))),
         };
         words.expect("kinds")?;
-        let kinds = words.list(|w| Ok(Kind { name: w.name()?.into(), height: w.real()? }))?;
+        let kinds = words
+            .list(|w| Ok(Kind { name: w.name()?.into(), height: w.real()?, size: [w.real()?, w.real()?] }))?;
         words.expect("machines")?;
         let machines = words.list(read_machine)?;
         words.expect("obstacles")?;
         let obstacles = words.list(read_obstacle)?;
+        words.expect("may_touch")?;
+        let may_touch = words.list(|w| Ok([w.name()?.into(), w.name()?.into()]))?;
         let scenario = read_scenario(words)?;
         words.expect("end")?;
-        Ok(Line { scan_ms, kinds, machines, obstacles, scenario, io_delay })
+        Ok(Line { scan_ms, kinds, machines, obstacles, may_touch, scenario, io_delay })
     }
 }
 

@@ -91,6 +91,37 @@ impl Path {
         self.from.map(|i, start| start + place * first[i] + turned * (second[i] - first[i]))
     }
 
+    /// Joints near a place as powers of the place: what to multiply its powers 0, 1 and 2 with.
+    pub fn powers(&self, place: f64) -> Vec<[f64; 3]> {
+        let joints = 0..self.from.len();
+        let straight = |i: usize| [self.from[i], self.to[i] - self.from[i], 0.0];
+        let Some(Corner { rates: [first, second], begin, end }) = &self.corner else {
+            return joints.map(straight).collect();
+        };
+        let bent = |i: usize| {
+            let turn = (second[i] - first[i]) / (2.0 * (end - begin));
+            [self.from[i] + turn * begin * begin, first[i] - 2.0 * turn * begin, turn]
+        };
+        joints
+            .map(|i| match place {
+                _ if place < *begin => [self.from[i], first[i], 0.0],
+                _ if place < *end => bent(i),
+                _ => [self.to[i] - second[i], second[i], 0.0],
+            })
+            .collect()
+    }
+
+    /// The greatest change of each joint with the place, on the whole way.
+    pub fn rates(&self) -> Joints {
+        match &self.corner {
+            None => difference(&self.to, &self.from).map(|_, way| way.abs()),
+            // Over the corner it goes from the one to the other.
+            Some(Corner { rates: [first, second], .. }) => {
+                first.map(|i, rate| rate.abs().max(second[i].abs()))
+            }
+        }
+    }
+
     pub fn goal(&self) -> Joints {
         self.to
     }

@@ -25,6 +25,11 @@ impl Phase {
         self.place + (self.speed + self.acceleration * t / 2.0) * t
     }
 
+    /// The place as powers of the time in this phase.
+    pub fn powers(&self) -> [f64; 3] {
+        [self.place, self.speed, self.acceleration / 2.0]
+    }
+
     pub fn speed_after(&self, t: f64) -> f64 {
         self.speed + self.acceleration * t
     }

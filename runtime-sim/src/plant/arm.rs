@@ -1,10 +1,12 @@
 //! An arm with a gripper, on a rail or under a gantry.
 
 use super::command::{Asked, Command, goal, is_held};
+use super::course::Course;
 use super::drive::{Drive, Moved, Target};
 use super::gripper::Gripper;
 use super::image::{in_arm, out, point, put_bit, put_point};
 use crate::device::error;
+use crate::kinematics::arm::Joints;
 use crate::point::Point;
 
 /// A `pick` waits so long at its goal for a part to be attached.
@@ -36,6 +38,14 @@ impl Arm {
 
     pub fn tool(&self) -> Point {
         self.drive.tool()
+    }
+
+    pub fn joints(&self) -> Joints {
+        self.drive.joints()
+    }
+
+    pub fn course(&self) -> Course {
+        self.drive.under_way().map_or(Course::Rests, |motion| Course::Swings(motion.clone()))
     }
 
     /// A command is under way and not held, or the part on the gripper is about to slip.

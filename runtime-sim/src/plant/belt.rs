@@ -1,6 +1,7 @@
 //! A conveyor belt with the camera over its pick zone.
 
 use super::command::{Asked, Command, is_held};
+use super::course::Course;
 use super::image::{in_belt, put_bit, put_point};
 use crate::device::error;
 use crate::geometry::{BELT_SURFACE, END_INSET, PICK_ZONE_HALF, SPAWN_INSET};
@@ -120,6 +121,17 @@ impl Belt {
 
     pub fn is_moving(&self) -> bool {
         self.drive == Drive::FullSpeed && !self.held
+    }
+
+    pub fn course(&self) -> Course {
+        if !self.is_moving() {
+            return Course::Rests;
+        }
+        let velocity = match self.orient {
+            Axis::X => Point::new(-SPEED, 0.0, 0.0),
+            Axis::Y => Point::new(0.0, -SPEED, 0.0),
+        };
+        Course::Drives { velocity, from_ms: 0.0, until_ms: f64::INFINITY }
     }
 
     /// Parts are still to appear on it.

@@ -55,6 +55,18 @@ impl Drive {
         self.tool
     }
 
+    pub fn joints(&self) -> Joints {
+        self.joints
+    }
+
+    /// What moves the joints at present.
+    pub fn under_way(&self) -> Option<&Motion> {
+        match &self.course {
+            Course::Rest => None,
+            Course::Going(motion) | Course::Braking(motion, _) => Some(motion),
+        }
+    }
+
     /// The limits of all motions that begin from now on: a part of full speed, and m/s2 or rad/s2.
     pub fn set_pace(&mut self, speed: f64, gain: f64) {
         self.limits = self.arm.limits().at_speed(speed).at_gain(gain);

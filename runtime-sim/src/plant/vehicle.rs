@@ -1,6 +1,7 @@
 //! A guided vehicle with a tray.
 
 use super::command::{Asked, Command, goal, is_held};
+use super::course::Course;
 use super::image::{in_vehicle, put_point};
 use crate::device::error;
 use crate::geometry::TRAY_SURFACE;
@@ -80,6 +81,15 @@ impl Vehicle {
         self.held = is_held(outputs);
     }
 
+    pub fn course(&self, now_ms: u64) -> Course {
+        let Some(trip) = self.trip.as_ref().filter(|trip| !self.held && trip.length > 0.0) else {
+            return Course::Rests;
+        };
+        let from_ms = (now_ms + LATENCY_MS) as f64 - trip.elapsed_ms as f64;
+        let until_ms = from_ms + 1000.0 * trip.length / SPEED;
+        Course::Drives { velocity: (trip.to - trip.from).scaled(SPEED / trip.length), from_ms, until_ms }
+    }
+
     pub fn advance(&mut self, dt_ms: u64) {
         self.motion = Motion::Standing;
         if self.held {
@@ -94,8 +104,7 @@ impl Vehicle {
             self.command.end(error::NONE);
         } else if travelled > 0.0 {
             let share = travelled / trip.length;
-            let way = trip.to - trip.from;
-            self.position = trip.from + Point::new(way.x * share, way.y * share, way.z * share);
+            self.position = trip.from + (trip.to - trip.from).scaled(share);
             self.motion = Motion::Moving;
         }
     }

@@ -3,7 +3,7 @@
 //! Capsules and boxes around the collision meshes of `ur_description/meshes/ur10` (ROS-Industrial
 //! `universal_robot`), fitted by least volume: every point of a mesh lies in one of the solids of its link.
 
-use super::{Link, Shape, Solid, cuboid};
+use super::{GRIPPER, Link, Shape, Solid, cuboid};
 use crate::kinematics::pose::Pose;
 use crate::point::Point;
 
@@ -55,18 +55,18 @@ const BASE: [Point; 2] = [Point::new(-0.075, -0.0751, 0.0), Point::new(0.075, 0.
 const WRIST_3: [Point; 2] = [Point::new(-0.045, -0.046, -0.0385), Point::new(0.045, 0.0441, -0.0078)];
 /// Half of the gripper's length across, and its height (`vacuum_gripper.urdf.xacro`: a disc of radius 0.05
 /// and thickness 0.01). The disc's middle is the tool there; here its face is, which lies on the part.
-const GRIPPER: (f64, f64) = (0.05, 0.01);
+const DISC: (f64, f64) = (0.05, 0.01);
 
 /// The base, at `mount` in the frame of `link`; then what the joints from number `first` on move.
 pub fn solids(link: Link, mount: &Pose, first: usize) -> Vec<Solid> {
     let mut base = cuboid("base", link, BASE[0], BASE[1]);
     base.pose = mount.then(&base.pose);
-    let (half, height) = GRIPPER;
+    let (half, height) = DISC;
     let last = Link::Joint(first + 5);
     let mut solids = vec![base];
     solids.extend(PIECES.iter().map(|piece| capsule(piece, first)));
     solids.push(cuboid("wrist_3", last, WRIST_3[0], WRIST_3[1]));
-    solids.push(cuboid("gripper", last, Point::new(-half, -half, -height), Point::new(half, half, 0.0)));
+    solids.push(cuboid(GRIPPER, last, Point::new(-half, -half, -height), Point::new(half, half, 0.0)));
     solids
 }
 

@@ -30,8 +30,8 @@ pub fn line() -> Line {
     Line {
         scan_ms: 10,
         kinds: vec![
-            Kind { name: "battery".into(), height: BATTERY_HEIGHT },
-            Kind { name: "pump".into(), height: PUMP_HEIGHT },
+            Kind { name: "battery".into(), height: BATTERY_HEIGHT, size: [0.135, 0.06] },
+            Kind { name: "pump".into(), height: PUMP_HEIGHT, size: [0.11, 0.11] },
         ],
         machines: vec![
             machine(
@@ -69,6 +69,10 @@ pub fn line() -> Line {
             machine("bin", Geometry::Bin { pose: Point::new(-1.899, 2.565, 0.0) }),
         ],
         obstacles: vec![],
+        // The scripts go straight from place to place.
+        may_touch: [["gantry", "agv"], ["gantry", "as1"], ["kitting", "belt"]]
+            .map(|pair| pair.map(Into::into))
+            .to_vec(),
         scenario: Scenario {
             orders: vec![Order { stations: vec![STATION], parts: vec![1, 1] }],
             supply: vec![Supply { belt: BELT, items: vec![BATTERY, PUMP] }],

@@ -6,3 +6,4 @@ pub mod deployed;
 pub mod image;
 pub mod read;
 pub mod replay;
+pub mod trajectories;

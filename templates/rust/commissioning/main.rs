@@ -2,6 +2,8 @@
 //!
 //! `commissioning LINE PARAMETERS [--hashes FILE] [--io-trace COLUMNS FILE] [--progress]`: LINE, PARAMETERS and
 //! COLUMNS are texts that autogen wrote. The I/O trace is written while the run goes on.
+//! `--segments FILE` writes the paths of the items as JSON, `--table FILE MS` as values sampled every MS
+//! milliseconds; `--items A,B` those of these items only.
 //! `commissioning --batch`: one run after another, asked for on the standard input (see [`batch`]).
 //! `commissioning --replay PARAMETERS`: no simulator. Each line of the standard input holds a scan:
 //! `run_permit start reset`, then the inputs of all robots, the number of each robot's words before them.
@@ -11,9 +13,10 @@
 use commissioning::batch::batch;
 use commissioning::deployed::Deployed;
 use commissioning::replay::replay;
+use commissioning::trajectories::Trajectories;
 use runtime_sim::io_trace::Columns;
 use runtime_sim::line::Line;
-use runtime_sim::run::{Seen, run};
+use runtime_sim::run::{Seen, record, run};
 use std::fmt::Write as _;
 use std::fs::File;
 use std::io::{self, BufWriter, Write as _};
@@ -34,6 +37,7 @@ fn start(arguments: &[String]) -> Result<(), String> {
     let mut files = Vec::new();
     let (mut hashes, mut io_trace) = (None, None);
     let (mut progress, mut replays, mut batches) = (false, false, false);
+    let mut trajectories = Trajectories::default();
     let mut rest = arguments.iter();
     while let Some(argument) = rest.next() {
         match argument.as_str() {
@@ -46,6 +50,7 @@ fn start(arguments: &[String]) -> Result<(), String> {
             "--progress" => progress = true,
             "--replay" => replays = true,
             "--batch" => batches = true,
+            option if trajectories.take(option, &mut rest)? => {}
             _ => files.push(argument),
         }
     }
@@ -57,9 +62,9 @@ fn start(arguments: &[String]) -> Result<(), String> {
         ([line, parameters], false) => {
             let line = Line::from_text(&text(line)?)?;
             let deployed = Deployed::read(&text(parameters)?)?.of(&line)?;
-            simulate(&line, deployed, hashes, io_trace, progress)
+            simulate(&line, deployed, hashes, io_trace, &trajectories, progress)
         }
-        _ => Err("wants LINE PARAMETERS [--hashes FILE] [--io-trace COLUMNS FILE] [--progress], --batch, or --replay PARAMETERS".into()),
+        _ => Err("wants LINE PARAMETERS [--hashes FILE] [--io-trace COLUMNS FILE] [--segments FILE] [--table FILE MS] [--items NAMES] [--progress], --batch, or --replay PARAMETERS".into()),
     }
 }
 
@@ -104,6 +109,7 @@ fn simulate(
     mut deployed: Deployed,
     hashes: Option<&String>,
     mut io_trace: Option<IoTrace>,
+    trajectories: &Trajectories,
     progress: bool,
 ) -> Result<(), String> {
     let mut kept = String::new();
@@ -121,7 +127,13 @@ fn simulate(
             eprint!("\r{seconds} s");
         }
     };
-    let report = run(line, &mut deployed, &mut observe)?;
+    let report = if trajectories.are_wanted() {
+        let (report, paths) = record(line, &mut deployed, &mut observe)?;
+        trajectories.write(line, &paths)?;
+        report
+    } else {
+        run(line, &mut deployed, &mut observe)?
+    };
     if progress {
         eprintln!();
     }

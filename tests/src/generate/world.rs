@@ -103,16 +103,16 @@ impl World {
     shared locks: bool[Kind] by lock;
     shared parts: int 0..9{high}[Kind] := 50 by counter;
     shared level: int -5..5 by counter;
-    shared whose: Turn := Ours by token {{ Mine: owner, Yours: others, Ours: owner }};
-    shared load: Kind with whose;
-    shared rows: int -9..9[4] with whose;
+    shared baton: Turn := Ours by token {{ Mine: owner, Yours: others, Ours: owner }};
+    shared load: Kind with baton;
+    shared rows: int -9..9[4] with baton;
     shared mass: real := 1.5 by owner;
     shared drop: point := point(1, 0.5, -2) by owner;
-    shared drops: point[Kind] with whose;
+    shared drops: point[Kind] with baton;
     shared marks: real[Colour] by owner;
     shared since: time := 20 ms;
-    shared waits: time[Colour] with whose;
-    shared friend: Shelf with whose;
+    shared waits: time[Colour] with baton;
+    shared friend: Shelf with baton;
     shared friends: Shelf[3] by owner;
     shared hue: Colour := Green;
 }}

@@ -112,12 +112,13 @@ pub struct RobotNames {
 pub fn names(system: &System) -> Names {
     let model = &system.model;
     let mut global = Scope::new(TAKEN);
-    let enums: Vec<_> = model.enums.iter().map(|e| enum_names(e, &mut global)).collect();
+    let mut renamed = Vec::new();
+    let enums: Vec<_> = model.enums.iter().map(|e| enum_names(e, &mut global, &mut renamed)).collect();
     let blocks: Vec<_> = (model.automata.iter())
         .map(|a| {
             let block = global.take(&format!("FB_{}", camel(&a.name)));
             let invariants = global.take(&format!("FB_{}_invariants", camel(&a.name)));
-            (block, invariants, states(a, &mut global))
+            (block, invariants, states(a, &mut global, &mut renamed))
         })
         .collect();
     let interfaces: Vec<_> = model.interfaces.iter().map(|i| interface_names(i, &mut global)).collect();
@@ -127,7 +128,6 @@ pub fn names(system: &System) -> Names {
             global.take(&format!("{}_reaches_{}", snake(&from.name), snake(&to.name)))
         })
         .collect();
-    let mut renamed = Vec::new();
     let inner = global.inner();
     let automata: Vec<_> = (blocks.into_iter().enumerate())
         .map(|(id, names)| automaton_names(system, AutomatonId(id), names, &inner, &mut global, &mut renamed))
@@ -151,20 +151,24 @@ pub fn names(system: &System) -> Names {
     Names { enums, interfaces, relations, automata, robots, program, renamed }
 }
 
-fn enum_names(source: &Enum, global: &mut Scope) -> EnumNames {
-    let mut members = Scope::default();
-    EnumNames {
-        ty: global.take(&format!("E_{}", camel(&source.name))),
-        members: source.members.iter().map(|m| members.take(m)).collect(),
-    }
+fn enum_names(source: &Enum, global: &mut Scope, renamed: &mut Vec<(String, Renamed)>) -> EnumNames {
+    members(global.take(&format!("E_{}", camel(&source.name))), source.members.iter().cloned(), renamed)
 }
 
-fn states(automaton: &Automaton, global: &mut Scope) -> EnumNames {
-    let mut members = Scope::default();
-    EnumNames {
-        ty: global.take(&format!("E_{}State", camel(&automaton.name))),
-        members: automaton.states.iter().map(|s| members.take(&s.name.replace('.', "_"))).collect(),
-    }
+fn members(
+    ty: String,
+    wanted: impl Iterator<Item = String>,
+    renamed: &mut Vec<(String, Renamed)>,
+) -> EnumNames {
+    let mut scope = Scope::default();
+    let members = wanted.map(|member| scope.take(&member)).collect();
+    renamed.extend(scope.renamed().iter().map(|r| (ty.clone(), r.clone())));
+    EnumNames { ty, members }
+}
+
+fn states(automaton: &Automaton, global: &mut Scope, renamed: &mut Vec<(String, Renamed)>) -> EnumNames {
+    let wanted = automaton.states.iter().map(|s| s.name.replace('.', "_"));
+    members(global.take(&format!("E_{}State", camel(&automaton.name))), wanted, renamed)
 }
 
 fn held(scope: &mut Scope, wanted: &str, scalar: Scalar) -> Held {

@@ -62,9 +62,14 @@ fn wire(wire: &Wire) -> [String; 5] {
         Conversion::None => (String::new(), String::new(), ""),
         Conversion::Inverted => (String::new(), String::new(), "TRUE"),
         Conversion::Shifted(offset) => (String::new(), offset.to_string(), ""),
-        Conversion::Scaled { scale, offset } => (format!("{scale:?}"), format!("{offset:?}"), ""),
+        Conversion::Scaled { scale, offset } => (unless(scale, 1.0), unless(offset, 0.0), ""),
     };
     [wire.address.to_string(), wire.raw.name().into(), scale, offset, inversion.into()]
+}
+
+/// A number, or nothing if it is the one that an empty field stands for.
+fn unless(number: f64, empty: f64) -> String {
+    if number == empty { String::new() } else { format!("{number:?}") }
 }
 
 /// The codes that are published with a fault.

@@ -11,7 +11,8 @@ use askama::Template;
 #[template(path = "plc/header.st")]
 struct Header {
     made_from: String,
-    example: String,
+    /// A port, if there is one.
+    example: Option<String>,
 }
 
 #[derive(Template)]
@@ -37,8 +38,7 @@ struct Configuration {
 pub fn portable(shared: Shared, line: &Line) -> String {
     let dialect = Dialect::Portable;
     let first = shared.names.robots.iter().flat_map(|r| r.ports.iter().flatten()).next().cloned();
-    let mut parts =
-        vec![render(&Header { made_from: made_from(shared), example: first.unwrap_or_default() })];
+    let mut parts = vec![render(&Header { made_from: made_from(shared), example: first })];
     parts.extend(line.functions.iter().map(|f| f.text.to_string()));
     parts.extend(line.units().map(|u| unit(shared, u, dialect)));
     let all: Vec<_> = line.globals.all().cloned().collect();

@@ -80,7 +80,7 @@ mod tests {
             let mut taken = Vec::new();
             let job = |_: &mut (), index: usize| {
                 // The first of each lot is the last to be done.
-                (0..if index % 50 == 0 { 2000 } else { 1 }).for_each(|_| thread::yield_now());
+                (0..if index.is_multiple_of(50) { 2000 } else { 1 }).for_each(|_| thread::yield_now());
                 made.fetch_add(1, Ordering::Relaxed);
                 index * 3
             };

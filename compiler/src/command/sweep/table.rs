@@ -2,7 +2,8 @@
 
 use super::super::options::{SweepOptions, TableFormat};
 use super::grid::Grid;
-use super::plan::Plan;
+use super::measured::{Beside, Measured};
+use super::plan::{Plan, Refusal};
 use super::row::Row;
 use serde_json::{Value, json};
 
@@ -13,6 +14,7 @@ pub struct Table<'a> {
     rows: usize,
     columns: Vec<Column<'a>>,
     grid: Option<Grid>,
+    measured: Option<Measured>,
 }
 
 /// What says which point a row is.
@@ -31,7 +33,7 @@ impl<'a> Column<'a> {
 }
 
 impl<'a> Table<'a> {
-    pub fn new(plan: &'a Plan, options: &SweepOptions) -> Self {
+    pub fn new(plan: &'a Plan, options: &SweepOptions) -> Result<Self, Refusal> {
         let titles = plan.lines.iter().map(|line| line.title.clone()).collect();
         let mut columns = vec![Column::new("layout", titles, |row| row.point.line)];
         for (number, axis) in plan.axes.iter().enumerate() {
@@ -46,7 +48,9 @@ impl<'a> Table<'a> {
         }
         let (format, quiet) = (options.format, options.quiet);
         let grid = if format == TableFormat::Text && !quiet { Grid::of(plan) } else { None };
-        Self { plan, format, quiet, rows: 0, columns, grid }
+        let names: Vec<&str> = columns.iter().map(|c| c.name).collect();
+        let measured = options.beside.as_ref().map(|path| Measured::read(path, &names)).transpose()?;
+        Ok(Self { plan, format, quiet, rows: 0, columns, grid, measured })
     }
 
     pub fn begin(&self) {
@@ -54,28 +58,36 @@ impl<'a> Table<'a> {
             TableFormat::Json => say_part!("{{\"rows\":["),
             TableFormat::Csv => {
                 let of_point = self.columns.iter().map(|c| c.name);
-                let names = of_point.chain(CSV_COLUMNS).map(quoted).collect::<Vec<_>>();
+                let of_measured = self.measured.iter().flat_map(|_| MEASURED_COLUMNS);
+                let names = of_point.chain(CSV_COLUMNS).chain(of_measured).map(quoted).collect::<Vec<_>>();
                 say!("{}", names.join(","));
             }
             TableFormat::Text if !self.quiet => {
                 let (orders, each, simulated) = ("orders", "s/order", "simulated");
                 let names = self.text(|c| c.name.into());
-                say!("{names}  {orders:>11}  {each:>9}  {simulated:>12}  reason");
+                let beside =
+                    self.measured.as_ref().map_or_else(String::new, |_| beside_text("measured", "ratio"));
+                say!("{names}  {orders:>11}  {each:>9}{beside}  {simulated:>12}  reason");
             }
             TableFormat::Text | TableFormat::Jsonl => {}
         }
     }
 
     pub fn row(&mut self, row: &Row) {
+        let beside = self.beside(row);
         match self.format {
             TableFormat::Json => {
                 let before = if self.rows == 0 { "\n" } else { ",\n" };
-                say_part!("{before}{}", row.to_json(self.plan));
+                say_part!("{before}{}", self.json(row, beside));
             }
-            TableFormat::Jsonl => say!("{}", row.to_json(self.plan)),
+            TableFormat::Jsonl => say!("{}", self.json(row, beside)),
             TableFormat::Csv => {
                 let of_point = self.columns.iter().map(|c| (c.cell)(row));
-                let cells: Vec<String> = of_point.chain(csv_cells(row)).map(|c| quoted(&c)).collect();
+                let cells: Vec<String> = of_point
+                    .chain(csv_cells(row))
+                    .chain(beside.into_iter().flat_map(beside_cells))
+                    .map(|c| quoted(&c))
+                    .collect();
                 say!("{}", cells.join(","));
             }
             TableFormat::Text if self.quiet && row.finished => {}
@@ -84,7 +96,11 @@ impl<'a> Table<'a> {
                 let orders = row.orders.map_or_else(|| "-".into(), |n| format!("{} of {n}", row.orders_done));
                 let seconds = |value: Option<f64>| value.map_or_else(|| "-".into(), |s| format!("{s:.2}"));
                 let (each, simulated) = (seconds(row.seconds_per_order), seconds(row.simulated_s));
-                say!("{point}  {orders:>11}  {each:>9}  {simulated:>12}  {}", row.reason);
+                let beside = beside.map_or_else(String::new, |beside| {
+                    let ratio = beside.ratio.map_or_else(|| "-".into(), |r| format!("{r:.3}"));
+                    beside_text(&seconds(beside.seconds_per_order), &ratio)
+                });
+                say!("{point}  {orders:>11}  {each:>9}{beside}  {simulated:>12}  {}", row.reason);
             }
         }
         if let Some(grid) = &mut self.grid {
@@ -94,12 +110,37 @@ impl<'a> Table<'a> {
     }
 
     pub fn end(&self) {
+        let rms = self.measured.as_ref().and_then(Measured::rms);
         if self.format == TableFormat::Json {
-            say!("\n]}}");
+            let rms = rms.map_or_else(String::new, |(rms, _)| format!(",\"rms\":{}", json!(rms)));
+            say!("\n]{rms}}}");
         }
         if let Some(grid) = &self.grid {
             say_part!("\n{}", grid.text(self.plan));
         }
+        if self.format == TableFormat::Text
+            && let Some((rms, ratios)) = rms
+        {
+            say!("\nRMS of what the {ratios} ratios differ from 1: {:.1} %", rms * 100.0);
+        }
+    }
+
+    /// What the measured figures say of a row's point; none without such figures.
+    fn beside(&mut self, row: &Row) -> Option<Beside> {
+        let columns = &self.columns;
+        let cell =
+            |name: &str| columns.iter().find(|c| c.name == name).map_or_else(String::new, |c| (c.cell)(row));
+        let seconds = row.seconds_per_order.filter(|_| row.finished);
+        self.measured.as_mut().map(|measured| measured.beside(seconds, cell))
+    }
+
+    fn json(&self, row: &Row, beside: Option<Beside>) -> Value {
+        let mut json = row.to_json(self.plan);
+        if let Some(beside) = beside {
+            json["measured_seconds_per_order"] = json!(beside.seconds_per_order);
+            json["ratio"] = json!(beside.ratio);
+        }
+        json
     }
 
     /// Cells of the columns of text, each as wide as its column.
@@ -113,6 +154,17 @@ impl<'a> Table<'a> {
 
 const CSV_COLUMNS: [&str; 7] =
     ["finished", "reason", "orders_done", "orders", "seconds_per_order", "simulated_s", "trace_hash"];
+
+/// Columns that stand there if there are measured figures.
+const MEASURED_COLUMNS: [&str; 2] = ["measured_seconds_per_order", "ratio"];
+
+fn beside_cells(beside: Beside) -> [String; 2] {
+    [beside.seconds_per_order, beside.ratio].map(|value| value.map_or_else(String::new, |v| v.to_string()))
+}
+
+fn beside_text(measured: &str, ratio: &str) -> String {
+    format!("  {measured:>9}  {ratio:>6}")
+}
 
 /// In the order of [`CSV_COLUMNS`]; empty where there is nothing.
 fn csv_cells(row: &Row) -> [String; 7] {

@@ -1,11 +1,17 @@
 //! The kinds of part.
 
 use crate::diagnostic::Diagnostic;
-use crate::layout::decode::{Decoder, instead, listing};
+use crate::layout::decode::{Decoder, find, instead, listing};
 use crate::layout::json::Json;
 use crate::scenario::Kind;
 use crate::source::Spanned;
 use runtime_sim::geometry::MOST_KINDS;
+use std::ops::RangeInclusive;
+
+/// Of height, length and width of a part, m.
+const LENGTHS: RangeInclusive<f64> = 0.001..=1.0;
+/// Of a kind that does not say how long and wide its parts are, m: they fit side by side on a tray.
+const SIZE: [f64; 2] = [0.1, 0.1];
 
 impl Decoder {
     pub(super) fn kinds(&mut self, json: &Json) -> Option<Vec<Kind>> {
@@ -28,15 +34,23 @@ impl Decoder {
     /// With any height if that cannot be read, so that its name is known.
     fn kind(&mut self, json: &Json) -> Option<Kind> {
         let members = self.object(json, "a kind")?;
-        self.unknown_keys(members, &["name", "height"], "a kind");
+        self.unknown_keys(members, &["name", "height", "size"], "a kind");
         let name = self.required(members, "name", json.span, "a kind");
         let name = name.and_then(|j| self.text(j, "name"));
         if let Some(name) = &name {
             self.identifier(name, "a kind");
         }
         let height = self.required(members, "height", json.span, "a kind");
-        let height = height.and_then(|j| self.number_in(j, "height", 0.001..=1.0));
-        Some(Kind { name: name?, height: height.unwrap_or_default() })
+        let height = height.and_then(|j| self.number_in(j, "height", LENGTHS));
+        let size = find(members, "size").and_then(|j| self.footprint(j));
+        Some(Kind { name: name?, height: height.unwrap_or_default(), size: size.unwrap_or(SIZE) })
+    }
+
+    fn footprint(&mut self, json: &Json) -> Option<[f64; 2]> {
+        let lengths = self.exactly(json, "size", &["x", "y"])?;
+        let x = self.number_in(&lengths[0], "size[0]", LENGTHS);
+        let y = self.number_in(&lengths[1], "size[1]", LENGTHS);
+        Some([x?, y?])
     }
 
     pub(super) fn kind_index(&mut self, name: &Spanned<String>, kinds: &[&str]) -> Option<usize> {

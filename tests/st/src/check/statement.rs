@@ -18,6 +18,11 @@ impl Checker<'_> {
         if body.is_empty() {
             self.report("empty-branch", around, "no statement stands in this");
         }
+        for pair in body.windows(2) {
+            if matches!(pair[0].kind, StatementKind::Exit | StatementKind::Return) {
+                self.report("unreachable", pair[1].span, "nothing comes here");
+            }
+        }
         body.iter().for_each(|statement| self.statement(scope, statement, within));
     }
 

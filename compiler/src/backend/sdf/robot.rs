@@ -1,0 +1,258 @@
+//! Robots: a fixed rail, and a link behind each joint of [`runtime_sim::kinematics`], all in the world's frame.
+
+use super::inertia::inertial;
+use super::model::{self, Joint, Link, Model};
+use super::number;
+use super::shape::shapes;
+use runtime_sim::geometry::Geometry;
+use runtime_sim::kinematics::arm::{Arm, Joints};
+use runtime_sim::kinematics::gantry::MOUNT;
+use runtime_sim::kinematics::pose::Pose;
+use runtime_sim::point::{Axis, Point};
+use runtime_sim::solid::{self, Solid};
+use std::f64::consts::TAU;
+
+const RAIL: &str = "0.3 0.3 0.35 1";
+const CARRIER: &str = "0.45 0.5 0.55 1";
+const ARM: &str = "0.7 0.7 0.75 1";
+const GRIPPER_COLOUR: &str = "0.8 0.1 0.1 1";
+
+/// The gripper's mass (`vacuum_gripper.urdf.xacro`), kg.
+const GRIPPER_MASS: f64 = 0.01;
+/// Rails and beams, kg/m: a profile of aluminium. The prototype's description has 1 kg for each, whatever its length.
+const BEAM: f64 = 20.0;
+/// Trolley and torso, kg: estimates, as the prototype's description has 1 kg for each.
+const TROLLEY: f64 = 50.0;
+const TORSO: f64 = 100.0;
+/// The UR10's base, which is part of what carries it (`ur10.urdf.macro.xacro`), kg.
+const BASE: f64 = 4.0;
+
+/// What one joint moves, and how it is driven.
+struct Drive {
+    /// Name of the joint, and of its link, without what SDF's names end in.
+    joint: &'static str,
+    link: &'static str,
+    /// kg
+    mass: f64,
+    motion: Motion,
+    /// N or N m.
+    effort: f64,
+    /// N s/m or N m s/rad, and N or N m.
+    damping: f64,
+    friction: f64,
+}
+
+enum Motion {
+    /// Along an axis of the world, within a range of coordinates.
+    Slide { axis: Axis, range: [f64; 2] },
+    /// About the vertical through the link's own origin.
+    Turn,
+    /// About the z axis of the frame at which the arm is mounted on the link before.
+    Pan { mount: Pose },
+    /// About the z axis of the link before.
+    Swing,
+}
+
+/// Masses, efforts, damping and friction from `ur10.urdf.macro.xacro`, ARIAC 2021.
+fn arm(mount: Pose) -> [Drive; 6] {
+    let drive = |joint, link, mass, motion, effort, damping, friction| Drive {
+        joint,
+        link,
+        mass,
+        motion,
+        effort,
+        damping,
+        friction,
+    };
+    [
+        drive("shoulder_pan", "shoulder", 7.778, Motion::Pan { mount }, 530.0, 20.0, 20.0),
+        drive("shoulder_lift", "upper_arm", 12.93, Motion::Swing, 330.0, 20.0, 0.0),
+        drive("elbow", "forearm", 3.87, Motion::Swing, 150.0, 20.0, 0.0),
+        drive("wrist_1", "wrist_1", 1.96, Motion::Swing, 54.0, 1.0, 0.0),
+        drive("wrist_2", "wrist_2", 1.96, Motion::Swing, 54.0, 1.0, 0.0),
+        drive("wrist_3", "wrist_3", 0.202, Motion::Swing, 54.0, 0.5, 0.0),
+    ]
+}
+
+/// What carries the arm: effort, damping and friction of the kitting robot's rail from
+/// `linear_arm_actuator.urdf.xacro`, effort of the gantry's drives from `gantry.urdf.xacro`.
+fn carriers(geometry: &Geometry) -> Vec<Drive> {
+    match *geometry {
+        Geometry::RailArm { rail_dim, rail_range, .. } => vec![Drive {
+            joint: "rail",
+            link: "carriage",
+            mass: BASE,
+            motion: Motion::Slide { axis: rail_dim, range: rail_range },
+            effort: 1000.0,
+            damping: 20.0,
+            friction: 500.0,
+        }],
+        Geometry::Gantry { x_rail_range, y_rail_range, .. } => {
+            let free = |joint, link, mass, motion| Drive {
+                joint,
+                link,
+                mass,
+                motion,
+                effort: 1e5,
+                damping: 0.0,
+                friction: 0.0,
+            };
+            let [low, high] = y_rail_range;
+            let along_x = Motion::Slide { axis: Axis::X, range: x_rail_range };
+            let along_y = Motion::Slide { axis: Axis::Y, range: y_rail_range };
+            vec![
+                free("bridge", "bridge", BEAM * (high - low), along_x),
+                free("trolley", "trolley", TROLLEY, along_y),
+                free("torso", "torso", TORSO + BASE, Motion::Turn),
+            ]
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// The model of a robot, its rails at the middle of their ranges and its arm stretched, all angles 0.
+pub fn model(name: String, geometry: &Geometry, kinematics: &Arm) -> Model {
+    let mut drives = carriers(geometry);
+    let carriers = drives.len();
+    drives.extend(arm(if carriers == 1 { Pose::IDENTITY } else { MOUNT }));
+    let zero: Vec<f64> = drives.iter().map(|drive| drive.middle()).collect();
+    let frames = kinematics.frames(&Joints::new(&zero));
+    let velocities = kinematics.limits().velocity;
+    let solids = solid::solids(geometry);
+    let of = |link: solid::Link| -> Vec<Solid> {
+        solids.iter().filter(|s| s.link == link && s.name != solid::GRIPPER).cloned().collect()
+    };
+
+    let mut model = Model { is_static: false, ..Model::of_links(name, Point::default(), Vec::new()) };
+    let rails = of(solid::Link::World);
+    let rail = link("rail".into(), &Pose::IDENTITY, rail_mass(&rails), &rails, RAIL);
+    model.joints.push(fixed("rail_mount_joint", "world", &rail.name));
+    model.links.push(rail);
+    let mut before = Pose::IDENTITY;
+    for (i, (drive, frame)) in drives.iter().zip(frames.iter()).enumerate() {
+        let parent = model.links[i].name.clone();
+        let colour = if i < carriers { CARRIER } else { ARM };
+        let link = Link {
+            relative_to: Some(parent.clone()),
+            is_weightless: i >= carriers,
+            ..link(
+                drive.link.into(),
+                &frame.seen_from(&before),
+                drive.mass,
+                &of(solid::Link::Joint(i)),
+                colour,
+            )
+        };
+        let joint_frame = drive.frame(&before, frame);
+        model.joints.push(Joint {
+            name: format!("{}_joint", drive.joint),
+            kind: drive.kind(),
+            child: link.name.clone(),
+            relative_to: parent.clone(),
+            parent,
+            pose: number::pose(&joint_frame.seen_from(&before)),
+            axis: Some(drive.axis(&joint_frame, velocities[i])),
+        });
+        model.links.push(link);
+        before = *frame;
+    }
+    gripper(&mut model, &solids);
+    model
+}
+
+/// The gripper is a link of its own, which simulators attach parts to.
+fn gripper(model: &mut Model, solids: &[Solid]) {
+    let Some(wrist) = model.links.last().map(|link| link.name.clone()) else { return };
+    let solids: Vec<Solid> = solids.iter().filter(|s| s.name == solid::GRIPPER).cloned().collect();
+    let gripper = Link {
+        relative_to: Some(wrist.clone()),
+        is_weightless: true,
+        ..link("vacuum_gripper".into(), &Pose::IDENTITY, GRIPPER_MASS, &solids, GRIPPER_COLOUR)
+    };
+    model.joints.push(fixed("vacuum_gripper_joint", &wrist, &gripper.name));
+    model.tool = Some(gripper.name.clone());
+    model.links.push(gripper);
+}
+
+fn link(name: String, pose: &Pose, mass: f64, solids: &[Solid], colour: &'static str) -> Link {
+    Link {
+        name: format!("{name}_link"),
+        relative_to: None,
+        pose: number::pose(pose),
+        is_weightless: false,
+        inertial: Some(inertial(mass, solids)),
+        shapes: solids.iter().flat_map(|s| shapes(s, None, colour)).collect(),
+        sensor: None,
+    }
+}
+
+/// At the origin of its child.
+fn fixed(name: &str, parent: &str, child: &str) -> Joint {
+    Joint {
+        name: name.into(),
+        kind: "fixed",
+        parent: parent.into(),
+        child: child.into(),
+        relative_to: child.into(),
+        pose: number::pose(&Pose::IDENTITY),
+        axis: None,
+    }
+}
+
+/// Of all fixed beams, by their greatest lengths.
+fn rail_mass(rails: &[Solid]) -> f64 {
+    let length = |solid: &Solid| match solid.shape {
+        solid::Shape::Box { size } => size.x.max(size.y).max(size.z),
+        solid::Shape::Capsule { length, .. } => length,
+    };
+    BEAM * rails.iter().map(length).sum::<f64>()
+}
+
+impl Drive {
+    fn kind(&self) -> &'static str {
+        match self.motion {
+            Motion::Slide { .. } => "prismatic",
+            _ => "revolute",
+        }
+    }
+
+    /// The kinematics' value of this joint where SDF's is 0.
+    fn middle(&self) -> f64 {
+        match self.motion {
+            Motion::Slide { range: [low, high], .. } => (low + high) / 2.0,
+            _ => 0.0,
+        }
+    }
+
+    /// Of the joint in the world, from the frames of the links before and behind it.
+    fn frame(&self, before: &Pose, behind: &Pose) -> Pose {
+        match &self.motion {
+            Motion::Slide { .. } | Motion::Turn => *behind,
+            Motion::Pan { mount } => before.then(mount),
+            Motion::Swing => *before,
+        }
+    }
+
+    fn axis(&self, frame: &Pose, velocity: f64) -> model::Axis {
+        let (xyz, [lower, upper]) = match self.motion {
+            Motion::Slide { axis, range } => {
+                let row = match axis {
+                    Axis::X => frame.rotation[0],
+                    Axis::Y => frame.rotation[1],
+                };
+                (row, range.map(|end| end - self.middle()))
+            }
+            // Limits of all turning joints in the robots' descriptions.
+            _ => ([0.0, 0.0, 1.0], [-TAU, TAU]),
+        };
+        model::Axis {
+            xyz: number::list(&xyz),
+            lower: number::length(lower),
+            upper: number::length(upper),
+            effort: number::length(self.effort),
+            velocity: number::length(velocity),
+            damping: number::length(self.damping),
+            friction: number::length(self.friction),
+        }
+    }
+}

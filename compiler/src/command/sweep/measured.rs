@@ -1,0 +1,111 @@
+//! Figures from elsewhere, to stand beside the rows of a sweep.
+
+use super::super::load::Failure;
+use super::plan::Refusal;
+use std::path::Path;
+
+const FIGURE: &str = "seconds_per_order";
+
+/// A table that names points as the sweep's own CSV does, by some of its columns, and gives seconds per order.
+pub struct Measured {
+    /// For each row what its point is called, in the order of [`Self::keys`], and its figure if it has one.
+    rows: Vec<(Vec<String>, Option<f64>)>,
+    keys: Vec<String>,
+    /// Squares of what the ratios of here and there differ from 1, their sum and number.
+    squares: f64,
+    ratios: u32,
+}
+
+/// What stands beside a row.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Beside {
+    pub seconds_per_order: Option<f64>,
+    /// Here by there.
+    pub ratio: Option<f64>,
+}
+
+impl Measured {
+    /// Every column but that of the figures has to be one of `columns`, by which a sweep names its points;
+    /// no two rows may name the same point.
+    pub fn read(path: &Path, columns: &[&str]) -> Result<Self, Refusal> {
+        let name = path.display();
+        let said = |text: String| Refusal::Said(format!("{name}: {text}"));
+        let text = std::fs::read_to_string(path)
+            .map_err(|e| Refusal::Failure(Failure::Unreadable(format!("{name}: {e}"))))?;
+        let mut lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
+        let head = lines.next().map_or_else(Vec::new, |(_, line)| fields(line));
+        let figure = head.iter().position(|column| column == FIGURE);
+        let figure = figure.ok_or_else(|| said(format!("the first line has no column `{FIGURE}`")))?;
+        let mut keys = head.clone();
+        keys.remove(figure);
+        for (i, key) in keys.iter().enumerate() {
+            if !columns.contains(&key.as_str()) {
+                let known = columns.join(", ");
+                return Err(said(format!(
+                    "the sweep has no column `{key}`; its points are named by {known}"
+                )));
+            }
+            if keys[..i].contains(key) {
+                return Err(said(format!("the column `{key}` stands twice")));
+            }
+        }
+        let mut rows: Vec<(Vec<String>, Option<f64>)> = Vec::new();
+        for (number, line) in lines {
+            let mut point = fields(line);
+            if point.len() != head.len() {
+                let (found, wanted) = (point.len(), head.len());
+                return Err(said(format!("line {}: {found} fields, {wanted} columns", number + 1)));
+            }
+            let written = point.remove(figure);
+            let value =
+                match written.trim() {
+                    "" => None,
+                    text => Some(text.parse::<f64>().ok().filter(|s| s.is_finite() && *s > 0.0).ok_or_else(
+                        || said(format!("line {}: `{text}` is no number of seconds above 0", number + 1)),
+                    )?),
+                };
+            if rows.iter().any(|(other, _)| *other == point) {
+                return Err(said(format!("line {}: this point stands twice", number + 1)));
+            }
+            rows.push((point, value));
+        }
+        Ok(Self { rows, keys, squares: 0.0, ratios: 0 })
+    }
+
+    /// What stands beside a point that came to `seconds_per_order`; `cell` gives what it is called in a column.
+    pub fn beside(&mut self, seconds_per_order: Option<f64>, cell: impl Fn(&str) -> String) -> Beside {
+        let point: Vec<String> = self.keys.iter().map(|key| cell(key)).collect();
+        let found = self.rows.iter().find(|(other, _)| *other == point).and_then(|(_, figure)| *figure);
+        let ratio = found.zip(seconds_per_order).map(|(there, here)| here / there);
+        if let Some(ratio) = ratio {
+            self.squares += (ratio - 1.0) * (ratio - 1.0);
+            self.ratios += 1;
+        }
+        Beside { seconds_per_order: found, ratio }
+    }
+
+    /// Root mean square of what the ratios so far differ from 1, and their number; none without a ratio.
+    pub fn rms(&self) -> Option<(f64, u32)> {
+        (self.ratios > 0).then(|| ((self.squares / f64::from(self.ratios)).sqrt(), self.ratios))
+    }
+}
+
+/// The fields of a line of CSV (RFC 4180; a field does not go over lines).
+fn fields(line: &str) -> Vec<String> {
+    let mut found = vec![String::new()];
+    let mut quoted = false;
+    let mut chars = line.trim_end().chars().peekable();
+    while let Some(c) = chars.next() {
+        match (c, found.last_mut()) {
+            ('"', Some(field)) if quoted && chars.peek() == Some(&'"') => {
+                chars.next();
+                field.push('"');
+            }
+            ('"', _) => quoted = !quoted,
+            (',', _) if !quoted => found.push(String::new()),
+            (c, Some(field)) => field.push(c),
+            (_, None) => {}
+        }
+    }
+    found
+}

@@ -1,0 +1,118 @@
+//! Solids that keep their places to one another, and where they are.
+
+use super::SKIN;
+use super::distance::{Block, Gap, block_block, segment_block, segment_segment};
+use crate::kinematics::pose::Pose;
+use crate::point::Point;
+use crate::solid::Shape;
+
+/// A solid, smaller by half of the skin: all points within `radius` of its core.
+#[derive(Clone, Debug)]
+pub struct Piece {
+    pub name: String,
+    core: Core,
+    radius: f64,
+    ball: Ball,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Core {
+    Segment([Point; 2]),
+    Block(Block),
+}
+
+/// Contains something.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ball {
+    pub middle: Point,
+    pub radius: f64,
+}
+
+impl Ball {
+    /// The distance of two balls, 0 if they meet.
+    pub fn gap(&self, other: &Ball) -> f64 {
+        ((other.middle - self.middle).length() - self.radius - other.radius).max(0.0)
+    }
+
+    pub fn shifted(&self, way: Point) -> Self {
+        Self { middle: self.middle + way, ..*self }
+    }
+
+    pub fn within(&self, frame: &Pose) -> Self {
+        Self { middle: frame.point(self.middle), radius: self.radius }
+    }
+
+    /// A ball around others.
+    pub fn around(balls: &[Ball]) -> Self {
+        let count = balls.len().max(1) as f64;
+        let sum = balls.iter().fold(Point::default(), |sum, ball| sum + ball.middle);
+        let middle = sum.scaled(1.0 / count);
+        let reach = |ball: &Ball| (ball.middle - middle).length() + ball.radius;
+        Self { middle, radius: balls.iter().map(reach).fold(0.0, f64::max) }
+    }
+}
+
+impl Piece {
+    /// In the frame that the pose is given in.
+    pub fn new(name: String, pose: &Pose, shape: Shape) -> Self {
+        let less = |length: f64| (length - SKIN / 2.0).max(0.0);
+        let middle = pose.position;
+        let axes = [0, 1, 2].map(|i| pose.axis(i));
+        let (core, radius, reach) = match shape {
+            Shape::Box { size } => {
+                let half = [size.x, size.y, size.z].map(|length| less(length / 2.0));
+                let reach = (half[0] * half[0] + half[1] * half[1] + half[2] * half[2]).sqrt();
+                (Core::Block(Block { middle, axes, half }), 0.0, reach)
+            }
+            Shape::Capsule { length, radius } => {
+                let way = axes[2].scaled(length / 2.0);
+                let radius = less(radius);
+                (Core::Segment([middle - way, middle + way]), radius, length / 2.0 + radius)
+            }
+        };
+        Self { name, core, radius, ball: Ball { middle, radius: reach } }
+    }
+
+    pub fn within(&self, frame: &Pose) -> Placed {
+        let core = match self.core {
+            Core::Segment(ends) => Core::Segment(ends.map(|end| frame.point(end))),
+            Core::Block(block) => Core::Block(Block {
+                middle: frame.point(block.middle),
+                axes: block.axes.map(|axis| frame.direction(axis)),
+                half: block.half,
+            }),
+        };
+        Placed { core, radius: self.radius, ball: self.ball.within(frame) }
+    }
+
+    pub fn ball(&self) -> Ball {
+        self.ball
+    }
+}
+
+/// A piece in the world.
+#[derive(Clone, Copy, Debug)]
+pub struct Placed {
+    core: Core,
+    radius: f64,
+    pub ball: Ball,
+}
+
+impl Placed {
+    /// Between the surfaces, 0 if they meet; with the points nearest to one another.
+    pub fn gap(&self, other: &Placed) -> Gap {
+        let gap = match (&self.core, &other.core) {
+            (Core::Segment(a), Core::Segment(b)) => segment_segment(*a, *b),
+            (Core::Segment(a), Core::Block(b)) => segment_block(*a, b),
+            (Core::Block(a), Core::Segment(b)) => segment_block(*b, a).turned(),
+            (Core::Block(a), Core::Block(b)) => block_block(a, b),
+        };
+        let [a, b] = gap.points;
+        let way = (b - a).scaled(1.0 / gap.distance.max(f64::MIN_POSITIVE));
+        let distance = gap.distance - self.radius - other.radius;
+        if distance < 0.0 {
+            return Gap { distance: 0.0, points: [a, b] };
+        }
+        Gap { distance, points: [a + way.scaled(self.radius), b - way.scaled(other.radius)] }
+    }
+}

@@ -1,0 +1,176 @@
+//! Distances between segments and boxes, exact to rounding.
+//!
+//! No iteration: a segment's square distance from a box is a convex function of the place on the segment,
+//! made of at most seven parabolas; two boxes are nearest on an edge of one of them. Every result is the
+//! distance of two points that were found, so it is never too short, and 0 for what meets. With a NaN among
+//! the coordinates the result is NaN.
+
+use crate::point::Point;
+
+/// A box in any direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Block {
+    pub middle: Point,
+    /// Unit vectors, square to one another.
+    pub axes: [Point; 3],
+    /// Half of its lengths along them, not negative.
+    pub half: [f64; 3],
+}
+
+/// How far two shapes are apart, and where they are nearest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gap {
+    pub distance: f64,
+    /// On the first shape and on the second.
+    pub points: [Point; 2],
+}
+
+impl Gap {
+    fn between(points: [Point; 2]) -> Self {
+        Self { distance: (points[1] - points[0]).length(), points }
+    }
+
+    /// The nearer one; one without a distance before all.
+    fn or(self, other: Self) -> Self {
+        if other.distance < self.distance || other.distance.is_nan() { other } else { self }
+    }
+
+    /// Seen from the second shape.
+    pub fn turned(self) -> Self {
+        let [a, b] = self.points;
+        Self { points: [b, a], ..self }
+    }
+}
+
+/// Between two segments, given by their ends. A segment may be a point.
+pub fn segment_segment(a: [Point; 2], b: [Point; 2]) -> Gap {
+    let (u, v, w) = (a[1] - a[0], b[1] - b[0], a[0] - b[0]);
+    let (uu, uv, vv, uw, vw) = (u.dot(u), u.dot(v), v.dot(v), u.dot(w), v.dot(w));
+    let gap = |s: f64, t: f64| Gap::between([a[0] + u.scaled(s), b[0] + v.scaled(t)]);
+    let on_a = |t: f64| part(t * uv - uw, uu);
+    let on_b = |s: f64| part(s * uv + vw, vv);
+    // Nearest where both lines are, if that is within both; otherwise at an end of one of them.
+    let s = part(uv * vw - vv * uw, uu * vv - uv * uv);
+    gap(s, on_b(s))
+        .or(gap(0.0, on_b(0.0)))
+        .or(gap(1.0, on_b(1.0)))
+        .or(gap(on_a(0.0), 0.0))
+        .or(gap(on_a(1.0), 1.0))
+}
+
+/// `value / of`, at least 0 and at most 1; 0 if there is nothing to divide by.
+fn part(value: f64, of: f64) -> f64 {
+    if of > 0.0 { (value / of).clamp(0.0, 1.0) } else { 0.0 }
+}
+
+impl Block {
+    /// A point in the box's own frame.
+    fn own(&self, point: Point) -> [f64; 3] {
+        let way = point - self.middle;
+        self.axes.map(|axis| way.dot(axis))
+    }
+
+    /// How far a point of the box's own frame is outside along each axis.
+    fn outside(&self, own: [f64; 3]) -> [f64; 3] {
+        [0, 1, 2].map(|i| own[i] - own[i].max(-self.half[i]).min(self.half[i]))
+    }
+
+    /// The point of the box that is nearest to a point.
+    fn nearest(&self, point: Point) -> Point {
+        let [x, y, z] = self.outside(self.own(point));
+        let [u, v, w] = self.axes;
+        point - u.scaled(x) - v.scaled(y) - w.scaled(z)
+    }
+
+    fn corner(&self, signs: [f64; 3]) -> Point {
+        let [x, y, z] = [0, 1, 2].map(|i| self.axes[i].scaled(self.half[i] * signs[i]));
+        self.middle + x + y + z
+    }
+
+    /// Ends of the twelve edges.
+    fn edges(&self) -> impl Iterator<Item = [Point; 2]> + '_ {
+        const SIDES: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0], [1.0, 1.0]];
+        (0..3).flat_map(move |along| {
+            SIDES.iter().map(move |[a, b]| {
+                [-1.0, 1.0].map(|end| {
+                    let mut signs = [end; 3];
+                    signs[(along + 1) % 3] = *a;
+                    signs[(along + 2) % 3] = *b;
+                    self.corner(signs)
+                })
+            })
+        })
+    }
+}
+
+/// Between a segment and a box, 0 if they meet.
+pub fn segment_block(segment: [Point; 2], block: &Block) -> Gap {
+    let (t, _) = nearest_on(segment, block);
+    let on_segment = segment[0] + (segment[1] - segment[0]).scaled(t);
+    Gap::between([on_segment, block.nearest(on_segment)])
+}
+
+/// Where on the segment, 0 to 1, it is nearest to the box, and how near.
+fn nearest_on(segment: [Point; 2], block: &Block) -> (f64, f64) {
+    let [start, end] = segment.map(|point| block.own(point));
+    let way = [0, 1, 2].map(|i| end[i] - start[i]);
+    let at = |t: f64| [0, 1, 2].map(|i| start[i] + t * way[i]);
+    // Half of the slope of the square distance: it grows with t, and is straight between the faces' planes.
+    let slope = |t: f64| {
+        let [x, y, z] = block.outside(at(t));
+        x * way[0] + y * way[1] + z * way[2]
+    };
+    let found = |t: f64| {
+        let [x, y, z] = block.outside(at(t));
+        (t, (x * x + y * y + z * z).sqrt())
+    };
+    let (mut low, mut high) = (0.0, 1.0);
+    let (mut falls, mut rises) = (slope(low), slope(high));
+    if falls >= 0.0 {
+        return found(low);
+    }
+    if rises <= 0.0 {
+        return found(high);
+    }
+    for i in 0..3 {
+        for face in [-block.half[i], block.half[i]] {
+            let t = (face - start[i]) / way[i];
+            if t > low && t < high {
+                let there = slope(t);
+                if there < 0.0 {
+                    (low, falls) = (t, there);
+                } else {
+                    (high, rises) = (t, there);
+                }
+            }
+        }
+    }
+    found(low + (high - low) * (falls / (falls - rises)).clamp(0.0, 1.0))
+}
+
+/// Between two boxes, 0 if they meet.
+pub fn block_block(a: &Block, b: &Block) -> Gap {
+    // Boxes are nearest on an edge of one of them, and where they meet an edge of one meets the other.
+    let of_a = nearest_edge(a, b);
+    if of_a.distance <= 0.0 {
+        return of_a;
+    }
+    of_a.or(nearest_edge(b, a).turned())
+}
+
+/// From the edges of one box to another box.
+fn nearest_edge(of: &Block, to: &Block) -> Gap {
+    let mut nearest: Option<([Point; 2], f64)> = None;
+    for edge in of.edges() {
+        let (_, distance) = nearest_on(edge, to);
+        let is_nearer = nearest.is_none_or(|(_, least)| distance < least || distance.is_nan());
+        if is_nearer {
+            nearest = Some((edge, distance));
+        }
+        if distance <= 0.0 {
+            break;
+        }
+    }
+    let (edge, _) = nearest.unwrap_or(([of.middle; 2], 0.0));
+    segment_block(edge, to)
+}

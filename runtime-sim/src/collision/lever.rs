@@ -1,0 +1,117 @@
+//! How far the joints of an arm can carry what is fixed to its links.
+
+use super::body::Ball;
+use crate::geometry::Geometry;
+use crate::kinematics::arm::{Arm, Frames, Joints, MOST_JOINTS};
+use crate::point::Point;
+use std::f64::consts::PI;
+
+/// For each joint a bound on how far it moves any point of a body, for each metre or radian of its own way.
+pub type Levers = [f64; MOST_JOINTS];
+
+/// The room that something can ever take, by two opposite corners.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Room {
+    low: Point,
+    high: Point,
+}
+
+impl Room {
+    pub fn around(ball: &Ball) -> Self {
+        let corner = Point::new(ball.radius, ball.radius, ball.radius);
+        Self { low: ball.middle - corner, high: ball.middle + corner }
+    }
+
+    pub fn with(&self, other: &Room) -> Self {
+        Self {
+            low: by_coordinate(self.low, other.low, f64::min),
+            high: by_coordinate(self.high, other.high, f64::max),
+        }
+    }
+
+    pub fn is_apart(&self, other: &Room) -> bool {
+        let beyond = |low: Point, high: Point| low.x > high.x || low.y > high.y || low.z > high.z;
+        beyond(self.low, other.high) || beyond(other.low, self.high)
+    }
+}
+
+fn by_coordinate(a: Point, b: Point, rule: fn(f64, f64) -> f64) -> Point {
+    Point::new(rule(a.x, b.x), rule(a.y, b.y), rule(a.z, b.z))
+}
+
+/// The chain of an arm's joints: distances that no motion changes.
+#[derive(Clone, Debug)]
+pub struct Chain {
+    frames: Frames,
+    /// For each joint that turns, a point on its axis, seen when all joints are at their start.
+    pivots: Vec<Option<Point>>,
+    /// The frames with the rails at their ends, such that these are corners of all places.
+    ends: Vec<Frames>,
+}
+
+impl Chain {
+    pub fn new(arm: &Arm, geometry: &Geometry) -> Self {
+        let start = arm.start();
+        let frames = arm.frames(&start);
+        let at =
+            |joint: usize, value: f64| arm.frames(&start.map(|i, q| if i == joint { q + value } else { q }));
+        let pivots = (0..frames.len()).map(|joint| {
+            let turned = at(joint, PI);
+            let (here, there) = (frames[joint].position, turned[joint].position);
+            let turns = frames[joint].rotation != turned[joint].rotation;
+            // The origin behind a joint lies on its axis, or the origin before it does.
+            let on_axis = (there - here).length() < 1e-9;
+            turns.then(|| if on_axis { here } else { frames[joint - 1].position })
+        });
+        Self { pivots: pivots.collect(), frames, ends: ends(arm, geometry, &start) }
+    }
+
+    /// The link that bears the tool.
+    pub fn last(&self) -> usize {
+        self.frames.len() - 1
+    }
+
+    /// For a body within `ball`, given in the frame of link `link`.
+    pub fn levers(&self, link: usize, ball: &Ball) -> Levers {
+        let mut levers = [0.0; MOST_JOINTS];
+        let place = self.frames[link].point(ball.middle);
+        let mut arm: Option<(Point, f64)> = None;
+        for joint in (0..=link).rev() {
+            levers[joint] = match self.pivots[joint] {
+                None => 1.0,
+                Some(pivot) => {
+                    let (from, beyond) = arm.unwrap_or((place, ball.radius));
+                    let length = (pivot - from).length() + beyond;
+                    arm = Some((pivot, length));
+                    length
+                }
+            };
+        }
+        levers
+    }
+
+    /// Where a body within `ball`, given in the frame of link `link`, can ever be.
+    pub fn room(&self, link: usize, ball: &Ball) -> Room {
+        let levers = self.levers(link, ball);
+        let first = (0..=link).find_map(|joint| Some((joint, self.pivots[joint]?)));
+        let rooms = self.ends.iter().map(|frames| match first {
+            Some((joint, pivot)) => {
+                let shift = frames[joint].position - self.frames[joint].position;
+                Room::around(&Ball { middle: pivot + shift, radius: levers[joint] })
+            }
+            None => Room::around(&ball.within(&frames[link])),
+        });
+        rooms.reduce(|a, b| a.with(&b)).unwrap_or(Room::around(ball))
+    }
+}
+
+fn ends(arm: &Arm, geometry: &Geometry, start: &Joints) -> Vec<Frames> {
+    let at = |places: &[f64]| arm.frames(&start.map(|i, value| places.get(i).copied().unwrap_or(value)));
+    match *geometry {
+        Geometry::RailArm { rail_range: [low, high], .. } => vec![at(&[low]), at(&[high])],
+        Geometry::Gantry { x_rail_range: [x0, x1], y_rail_range: [y0, y1], .. } => {
+            vec![at(&[x0, y0]), at(&[x1, y1])]
+        }
+        _ => vec![arm.frames(start)],
+    }
+}

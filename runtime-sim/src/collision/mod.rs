@@ -1,0 +1,22 @@
+//! Contact of what moves with what is in its way.
+//!
+//! Everything is made of simple solids ([`crate::solid`]): what the watch does not report is free of contact as
+//! far as these go. It is no safety function.
+//!
+//! Surfaces touch where parts are handed over, so a contact is more than touching: solids that go more than
+//! [`SKIN`] into one another. All are therefore taken for that much smaller, half of it on each side of a pair.
+
+pub mod distance;
+
+mod body;
+mod group;
+mod lever;
+mod pair;
+mod watch;
+
+pub use watch::{Contact, Watch};
+
+/// Solids may go so far into one another, m.
+pub const SKIN: f64 = 0.001;
+/// Shrunk solids that are no farther apart than this are in contact, m.
+pub const TOLERANCE: f64 = 5e-5;

@@ -1,0 +1,240 @@
+//! What is known of two groups, and the search for the time at which they meet.
+
+use super::body::Placed;
+use super::distance::Gap;
+use super::group::{Anchor, Body, Group};
+use super::{SKIN, TOLERANCE};
+use crate::plant::Plant;
+use crate::point::Point;
+
+/// Two groups; or one and itself, for an arm that could touch itself.
+#[derive(Clone, Debug)]
+pub struct Pair {
+    pub groups: [usize; 2],
+    /// The layout allows them to touch.
+    pub allowed: bool,
+    /// Number of the contact that was reported.
+    pub contact: Option<usize>,
+    /// As long as the paths of both groups together are no longer than this, nothing has come into contact.
+    pub clear: f64,
+    /// The same for each body of the first group and each of the second; negative infinity if nothing is known.
+    bodies: Vec<Vec<f64>>,
+    /// Bodies that are in contact.
+    touching: Vec<[usize; 2]>,
+}
+
+/// That two bodies have come into contact.
+#[derive(Clone, Debug)]
+pub struct Touch {
+    /// Seconds from the start of the scan.
+    pub time: f64,
+    pub place: Point,
+    pub parts: [String; 2],
+}
+
+/// The scan that begins.
+pub struct Scan<'a> {
+    pub groups: &'a mut [Group],
+    pub plant: &'a Plant,
+    pub seconds: f64,
+}
+
+/// Two bodies by the numbers of their groups and by their own.
+type Two = [(usize, usize); 2];
+
+/// How far two bodies are apart, at least.
+enum Apart {
+    /// Nobody looked closer.
+    AtLeast(f64),
+    /// And the numbers of the nearest pieces.
+    Exactly(Gap, [usize; 2]),
+}
+
+/// What the search in a scan comes to.
+enum Search {
+    /// They could go so much further.
+    Clear(f64),
+    Meet(Touch),
+}
+
+/// Bodies whose balls are so much farther apart than they can go in a scan are not looked at more closely, m.
+const FAR: f64 = 0.1;
+/// No search takes shorter steps, s: whatever moves goes less than a thousandth of the tolerance.
+const SHORTEST_STEP: f64 = 1e-9;
+
+impl Pair {
+    pub fn new(groups: [usize; 2], allowed: bool) -> Self {
+        Self {
+            groups,
+            allowed,
+            contact: None,
+            clear: f64::NEG_INFINITY,
+            bodies: Vec::new(),
+            touching: Vec::new(),
+        }
+    }
+
+    /// Another body stands at this number of a group.
+    pub fn expect(&mut self, group: usize, body: usize) {
+        self.clear = f64::NEG_INFINITY;
+        let [a, b] = self.groups;
+        if group == a
+            && let Some(row) = self.bodies.get_mut(body)
+        {
+            row.fill(f64::NEG_INFINITY);
+        }
+        if group == b {
+            self.bodies.iter_mut().filter_map(|row| row.get_mut(body)).for_each(|c| *c = f64::NEG_INFINITY);
+        }
+        self.touching.retain(|[i, j]| !(group == a && *i == body || group == b && *j == body));
+    }
+
+    /// Looks at all bodies that may have come into contact in this scan; the first contact of the pair, if
+    /// none of its bodies was in contact before.
+    pub fn look(&mut self, scan: &mut Scan) -> Option<Touch> {
+        let [a, b] = self.groups;
+        let counts = [a, b].map(|group| scan.groups[group].bodies.len());
+        self.bodies.resize(counts[0], Vec::new());
+        self.bodies.iter_mut().for_each(|row| row.resize(counts[1], f64::NEG_INFINITY));
+        let touched = !self.touching.is_empty();
+        self.touching.retain(|[i, j]| scan.still_touch([(a, *i), (b, *j)]));
+        let mut first: Option<Touch> = None;
+        let mut slack = f64::INFINITY;
+        for i in 0..counts[0] {
+            let from = if a == b { i + 1 } else { 0 };
+            for j in from..counts[1] {
+                let two = [(a, i), (b, j)];
+                let Some(paths) = scan.paths(two) else { continue };
+                let clear = &mut self.bodies[i][j];
+                if *clear == f64::NEG_INFINITY && !scan.can_meet(two) {
+                    *clear = f64::INFINITY;
+                }
+                if paths > *clear && !self.touching.contains(&[i, j]) {
+                    match scan.search(two) {
+                        Search::Clear(further) => *clear = paths + further,
+                        Search::Meet(touch) => {
+                            self.touching.push([i, j]);
+                            if first.as_ref().is_none_or(|first| touch.time < first.time) {
+                                first = Some(touch);
+                            }
+                        }
+                    }
+                }
+                slack = slack.min(*clear - paths);
+            }
+        }
+        self.clear = match self.touching.is_empty() {
+            true => scan.groups[a].path + scan.groups[b].path + slack,
+            false => f64::NEG_INFINITY,
+        };
+        first.filter(|_| !touched)
+    }
+}
+
+impl Scan<'_> {
+    fn body(&self, (group, body): (usize, usize)) -> Option<&Body> {
+        self.groups[group].bodies[body].as_ref()
+    }
+
+    /// Of both bodies by the end of the scan.
+    fn paths(&self, two: Two) -> Option<f64> {
+        let [a, b] = two.map(|one| self.body(one));
+        Some(a?.path + b?.path)
+    }
+
+    /// Whether two bodies can ever come into contact.
+    fn can_meet(&self, two: Two) -> bool {
+        let [Some(a), Some(b)] = two.map(|one| self.body(one)) else { return false };
+        let stand = a.anchor == Anchor::World && b.anchor == Anchor::World;
+        let own = two[0].0 == two[1].0 && !self.groups[two[0].0].is_free_of(a, b);
+        !stand && !own && !a.room.is_apart(&b.room)
+    }
+
+    /// Metres that both bodies together go at most between two times.
+    fn ways(&self, two: Two, from: f64, to: f64) -> f64 {
+        let way = |one: (usize, usize)| {
+            self.body(one).map_or(0.0, |body| self.groups[one.0].path_between(body, from, to))
+        };
+        way(two[0]) + way(two[1])
+    }
+
+    /// Advances by as much as the distance allows, until the scan is over or there is none.
+    fn search(&mut self, two: Two) -> Search {
+        let mut time = 0.0;
+        loop {
+            let left = self.ways(two, time, self.seconds);
+            let apart = self.apart(two, time, left + FAR);
+            let distance = match apart {
+                Apart::AtLeast(distance) => distance,
+                Apart::Exactly(gap, _) => gap.distance,
+            };
+            // What is no number is a contact.
+            if let Apart::Exactly(gap, pieces) = apart
+                && !(distance > TOLERANCE)
+            {
+                return Search::Meet(self.touch(two, time, &gap, pieces));
+            }
+            if distance >= left {
+                return Search::Clear(distance - left);
+            }
+            let mut step = self.seconds - time;
+            let mut way = left;
+            while way > distance && step > SHORTEST_STEP {
+                step = (step * 0.99 * distance / way).max(SHORTEST_STEP);
+                way = self.ways(two, time, time + step);
+            }
+            time += step;
+        }
+    }
+
+    fn touch(&self, two: Two, time: f64, gap: &Gap, pieces: [usize; 2]) -> Touch {
+        let part = |i: usize| {
+            let piece = self.body(two[i]).and_then(|body| body.pieces.get(pieces[i]));
+            piece.map_or_else(String::new, |piece| piece.name.clone())
+        };
+        let [a, b] = gap.points;
+        Touch { time, place: a + (b - a).scaled(0.5), parts: [part(0), part(1)] }
+    }
+
+    fn still_touch(&mut self, two: Two) -> bool {
+        // Not before they are apart again by all that they could go into one another.
+        match self.apart(two, 0.0, FAR) {
+            Apart::AtLeast(_) => false,
+            Apart::Exactly(gap, _) => !(gap.distance > SKIN),
+        }
+    }
+
+    /// At a time of the scan; looked at closely only if it may be less than `far`.
+    fn apart(&mut self, two: Two, time: f64, far: f64) -> Apart {
+        let frames = two.map(|(group, body)| {
+            let anchor = self.groups[group].bodies[body].as_ref().map_or(Anchor::World, |b| b.anchor);
+            self.groups[group].frame(anchor, self.plant, time)
+        });
+        let [Some(a), Some(b)] = two.map(|one| self.body(one)) else { return Apart::AtLeast(f64::INFINITY) };
+        let least = a.ball.within(&frames[0]).gap(&b.ball.within(&frames[1]));
+        if least >= far {
+            return Apart::AtLeast(least);
+        }
+        let second: Vec<Placed> = b.pieces.iter().map(|piece| piece.within(&frames[1])).collect();
+        let mut nearest: Option<(Gap, [usize; 2])> = None;
+        let mut farther = f64::INFINITY;
+        for (i, piece) in a.pieces.iter().enumerate() {
+            let placed = piece.within(&frames[0]);
+            for (j, other) in second.iter().enumerate() {
+                let least = placed.ball.gap(&other.ball);
+                if least >= nearest.map_or(far, |(gap, _)| gap.distance) {
+                    farther = farther.min(least);
+                    continue;
+                }
+                let gap = placed.gap(other);
+                if nearest.is_none_or(|(nearest, _)| !(gap.distance >= nearest.distance)) {
+                    nearest = Some((gap, [i, j]));
+                }
+            }
+        }
+        match nearest {
+            Some((gap, pieces)) if !(gap.distance > farther) => Apart::Exactly(gap, pieces),
+            _ => Apart::AtLeast(farther),
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! Recording the paths of all items while a line runs.
+
+use super::{Hanging, Law, Path, Segment};
+use crate::event::Event;
+use crate::item::Carrier;
+use crate::kinematics::arm::Arm;
+use crate::line::Line;
+use crate::plant::Plant;
+use crate::plant::course::Course;
+use crate::point::Point;
+
+/// What is known of the paths so far. What goes on ends never, until something changes it.
+#[derive(Clone, Debug)]
+pub struct Recorder {
+    /// The arm of each machine that is one.
+    arms: Vec<Option<Arm>>,
+    /// How each machine moved when it was looked at last.
+    courses: Vec<Course>,
+    /// Events that were looked at.
+    read: usize,
+    paths: Vec<Path>,
+}
+
+impl Recorder {
+    pub fn new(line: &Line) -> Self {
+        let items: usize = line.scenario.supply.iter().map(|supply| supply.items.len()).sum();
+        Self {
+            arms: line.machines.iter().map(|machine| Arm::from_geometry(&machine.geometry)).collect(),
+            courses: vec![Course::Rests; line.machines.len()],
+            read: 0,
+            paths: vec![Path::default(); items],
+        }
+    }
+
+    /// Takes note of what has changed, when the plant has obeyed the outputs of a scan and nothing has moved yet.
+    pub(crate) fn look(&mut self, plant: &Plant) {
+        let now_ms = plant.now_ms() as f64;
+        let mut changed = self.take_events(plant);
+        for (machine, last) in self.courses.iter_mut().enumerate() {
+            let course = plant.course(machine).since(now_ms);
+            if std::mem::replace(last, course.clone()).since(now_ms) != course {
+                changed.extend(plant.items().borne_by(machine));
+            }
+        }
+        for item in changed {
+            self.follow(plant, item);
+        }
+    }
+
+    /// The paths of all items, in the order of the line's supply, once the plant has come to its end.
+    pub(crate) fn finish(mut self, plant: &Plant) -> Vec<Path> {
+        self.take_events(plant);
+        for path in &mut self.paths {
+            path.cut(plant.now_ms() as f64);
+        }
+        self.paths
+    }
+
+    /// The items that were handed over since the last time, each with a segment without duration for it.
+    fn take_events(&mut self, plant: &Plant) -> Vec<usize> {
+        let now_ms = plant.now_ms() as f64;
+        let log = plant.items().log();
+        let mut passed = Vec::new();
+        for event in &log[self.read..] {
+            let Event::Item { item, to, point, .. } = *event else { continue };
+            let path = &mut self.paths[item];
+            path.cut(now_ms);
+            path.segments.push(Segment {
+                begin_ms: now_ms,
+                end_ms: now_ms,
+                carrier: to,
+                law: Law::Rests(point),
+            });
+            passed.push(item);
+        }
+        self.read = log.len();
+        passed
+    }
+
+    /// What an item does from now on, if nothing changes any more.
+    fn follow(&mut self, plant: &Plant, item: usize) {
+        let now_ms = plant.now_ms() as f64;
+        let carrier = plant.items().all()[item].carrier;
+        let Some(place) = plant.place(item) else { return };
+        let machine = carrier.machine();
+        let course = machine.map_or(Course::Rests, |machine| self.courses[machine].clone());
+        let arm = machine.and_then(|machine| self.arms[machine]);
+        let path = &mut self.paths[item];
+        path.cut(now_ms);
+        if path.segments.last().is_some_and(|last| last.begin_ms == now_ms && last.carrier == carrier) {
+            path.segments.pop();
+        }
+        for (begin_ms, end_ms, law) in laws(now_ms, place, carrier, course, arm) {
+            if begin_ms < end_ms {
+                path.push(Segment { begin_ms, end_ms, carrier, law });
+            }
+        }
+    }
+}
+
+/// Begin, end and law of all that an item does that is here now.
+fn laws(
+    now_ms: f64,
+    place: Point,
+    carrier: Carrier,
+    course: Course,
+    arm: Option<Arm>,
+) -> Vec<(f64, f64, Law)> {
+    match (course, arm, carrier) {
+        (Course::Drives { velocity, from_ms, until_ms }, ..) => {
+            let begin_ms = from_ms.max(now_ms);
+            let way = || velocity.scaled((until_ms - begin_ms) / 1000.0);
+            let mut laws = vec![
+                (now_ms, begin_ms, Law::Rests(place)),
+                (begin_ms, until_ms, Law::Slides { from: place, velocity }),
+            ];
+            if until_ms.is_finite() {
+                laws.push((until_ms, f64::INFINITY, Law::Rests(place + way())));
+            }
+            laws
+        }
+        (Course::Swings(motion), Some(arm), Carrier::Gripper { hang, .. }) => {
+            let rests_s = motion.rests_at();
+            let hanging = Hanging { arm, motion, hang };
+            let rest = Law::Rests(hanging.place(rests_s));
+            let rests_ms = rests_s * 1000.0;
+            vec![(now_ms, rests_ms, Law::Hangs(Box::new(hanging))), (rests_ms, f64::INFINITY, rest)]
+        }
+        _ => vec![(now_ms, f64::INFINITY, Law::Rests(place))],
+    }
+}
