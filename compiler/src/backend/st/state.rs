@@ -21,7 +21,16 @@ impl Lowering<'_> {
             body.push(Stmt::Comment(text.into()));
             body.push(assign("state", Ex::Member(self.state(self.id, number))));
         }
-        body
+        self.enclosed(body)
+    }
+
+    /// STruC++ declares a variable for each assignment to an element of a global array, and C++ takes no such
+    /// declaration directly in a branch. `running` is true wherever a block steps.
+    fn enclosed(&self, body: Vec<Stmt>) -> Vec<Stmt> {
+        let cells = || self.shared.names.interfaces.iter().flat_map(|i| &i.cells).flatten();
+        let is_cell =
+            |s: &Stmt| matches!(s, Stmt::Assign(Ex::Element(array, _), _) if cells().any(|c| c == array));
+        if body.iter().any(is_cell) { vec![when(name("running"), body)] } else { body }
     }
 
     /// The first transition whose guard holds; the others stand in its ELSE.
