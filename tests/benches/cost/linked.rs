@@ -149,7 +149,7 @@ fn main() {
     row("trace: gathering what controllers remember", trace);
     row("trace: hash of it and of the outputs", hashed);
     row("report as JSON", written);
-    row("rest: bus, accounts, end of the run", rest);
+    row("rest: watch for collisions, bus, accounts", rest);
 
     vehicle(&record, &parameters);
 }
