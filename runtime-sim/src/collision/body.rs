@@ -99,6 +99,31 @@ pub struct Placed {
 }
 
 impl Placed {
+    /// A distance that theirs is not below: that of their balls, and unless it is `enough`, also those along the
+    /// directions of the faces.
+    pub fn apart_at_least(&self, other: &Placed, enough: f64) -> f64 {
+        let balls = self.ball.gap(&other.ball);
+        if balls >= enough {
+            return balls;
+        }
+        let way = other.ball.middle - self.ball.middle;
+        let axes = [self, other].into_iter().filter_map(|placed| match &placed.core {
+            Core::Block(block) => Some(block.axes),
+            Core::Segment(_) => None,
+        });
+        let along = |axis| way.dot(axis).abs() - self.extent(axis) - other.extent(axis);
+        axes.flatten().map(along).fold(balls, f64::max)
+    }
+
+    /// Half of its length along a direction.
+    fn extent(&self, direction: Point) -> f64 {
+        let core = match &self.core {
+            Core::Segment([a, b]) => (*b - *a).dot(direction).abs() / 2.0,
+            Core::Block(block) => (0..3).map(|i| block.half[i] * block.axes[i].dot(direction).abs()).sum(),
+        };
+        core + self.radius
+    }
+
     /// Between the surfaces, 0 if they meet; with the points nearest to one another.
     pub fn gap(&self, other: &Placed) -> Gap {
         let gap = match (&self.core, &other.core) {

@@ -57,6 +57,7 @@ pub struct Group {
 }
 
 #[derive(Clone, Debug)]
+#[expect(clippy::large_enum_variant)] // a dozen of them in all
 pub enum Kind {
     Obstacle,
     Machine { index: usize, geometry: Geometry },
@@ -65,6 +66,7 @@ pub enum Kind {
 
 /// Within one scan; times are seconds from its start.
 #[derive(Clone, Debug)]
+#[expect(clippy::large_enum_variant)] // a dozen of them in all
 enum Movement {
     Still,
     Slides {
@@ -106,7 +108,7 @@ impl Group {
             };
             let pieces =
                 solids.iter().map(|solid| Piece::new(solid.name.into(), &solid.pose, solid.shape)).collect();
-            group.bodies.push(Some(group.body(anchor, pieces, |ball| Room::around(ball))));
+            group.bodies.push(Some(group.body(anchor, pieces, Room::around)));
         }
         group
     }
@@ -157,9 +159,15 @@ impl Group {
 
     /// Whether two of its own bodies are to be watched.
     pub fn is_free_of(&self, a: &Body, b: &Body) -> bool {
-        let (Anchor::Link(a_link), Anchor::Link(b_link)) = (a.anchor, b.anchor) else { return true };
-        // Neighbours and their neighbours always touch; an item hangs from the last.
-        a_link.abs_diff(b_link) > 2
+        // What stands comes before the first link; an item hangs from the last.
+        let number = |body: &Body| match body.anchor {
+            Anchor::World => Some(0),
+            Anchor::Link(link) => Some(link + 1),
+            Anchor::Vehicle | Anchor::Lying { .. } => None,
+        };
+        let (Some(a), Some(b)) = (number(a), number(b)) else { return true };
+        // Neighbours and their neighbours always touch.
+        a.abs_diff(b) > 2
     }
 
     /// The frame of a link at the start of the scan.

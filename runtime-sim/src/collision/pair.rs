@@ -19,8 +19,15 @@ pub struct Pair {
     pub clear: f64,
     /// The same for each body of the first group and each of the second; negative infinity if nothing is known.
     bodies: Vec<Vec<f64>>,
-    /// Bodies that are in contact.
-    touching: Vec<[usize; 2]>,
+    touching: Vec<Touching>,
+}
+
+/// Bodies that are in contact.
+#[derive(Clone, Debug)]
+struct Touching {
+    bodies: [usize; 2],
+    /// They are in contact as long as their paths together are no longer than this.
+    until: f64,
 }
 
 /// That two bodies have come into contact.
@@ -86,7 +93,9 @@ impl Pair {
         if group == b {
             self.bodies.iter_mut().filter_map(|row| row.get_mut(body)).for_each(|c| *c = f64::NEG_INFINITY);
         }
-        self.touching.retain(|[i, j]| !(group == a && *i == body || group == b && *j == body));
+        self.touching.retain(|Touching { bodies: [i, j], .. }| {
+            !(group == a && *i == body || group == b && *j == body)
+        });
     }
 
     /// Looks at all bodies that may have come into contact in this scan; the first contact of the pair, if
@@ -97,7 +106,7 @@ impl Pair {
         self.bodies.resize(counts[0], Vec::new());
         self.bodies.iter_mut().for_each(|row| row.resize(counts[1], f64::NEG_INFINITY));
         let touched = !self.touching.is_empty();
-        self.touching.retain(|[i, j]| scan.still_touch([(a, *i), (b, *j)]));
+        self.touching.retain_mut(|touching| scan.still_touch([a, b], touching));
         let mut first: Option<Touch> = None;
         let mut slack = f64::INFINITY;
         for i in 0..counts[0] {
@@ -105,28 +114,32 @@ impl Pair {
             for j in from..counts[1] {
                 let two = [(a, i), (b, j)];
                 let Some(paths) = scan.paths(two) else { continue };
+                if let Some(touching) = self.touching.iter().find(|touching| touching.bodies == [i, j]) {
+                    slack = slack.min(touching.until - paths);
+                    continue;
+                }
                 let clear = &mut self.bodies[i][j];
                 if *clear == f64::NEG_INFINITY && !scan.can_meet(two) {
                     *clear = f64::INFINITY;
                 }
-                if paths > *clear && !self.touching.contains(&[i, j]) {
+                if paths > *clear {
                     match scan.search(two) {
                         Search::Clear(further) => *clear = paths + further,
                         Search::Meet(touch) => {
-                            self.touching.push([i, j]);
+                            let until = paths + SKIN;
+                            self.touching.push(Touching { bodies: [i, j], until });
                             if first.as_ref().is_none_or(|first| touch.time < first.time) {
                                 first = Some(touch);
                             }
+                            slack = slack.min(SKIN);
+                            continue;
                         }
                     }
                 }
                 slack = slack.min(*clear - paths);
             }
         }
-        self.clear = match self.touching.is_empty() {
-            true => scan.groups[a].path + scan.groups[b].path + slack,
-            false => f64::NEG_INFINITY,
-        };
+        self.clear = scan.groups[a].path + scan.groups[b].path + slack;
         first.filter(|_| !touched)
     }
 }
@@ -168,9 +181,8 @@ impl Scan<'_> {
                 Apart::AtLeast(distance) => distance,
                 Apart::Exactly(gap, _) => gap.distance,
             };
-            // What is no number is a contact.
             if let Apart::Exactly(gap, pieces) = apart
-                && !(distance > TOLERANCE)
+                && is_within(distance, TOLERANCE)
             {
                 return Search::Meet(self.touch(two, time, &gap, pieces));
             }
@@ -196,11 +208,19 @@ impl Scan<'_> {
         Touch { time, place: a + (b - a).scaled(0.5), parts: [part(0), part(1)] }
     }
 
-    fn still_touch(&mut self, two: Two) -> bool {
-        // Not before they are apart again by all that they could go into one another.
+    /// They are not apart before they have gone as far as they could be in one another.
+    fn still_touch(&mut self, groups: [usize; 2], touching: &mut Touching) -> bool {
+        let two = [0, 1].map(|i| (groups[i], touching.bodies[i]));
+        let Some(paths) = self.paths(two) else { return false };
+        if paths <= touching.until {
+            return true;
+        }
         match self.apart(two, 0.0, FAR) {
             Apart::AtLeast(_) => false,
-            Apart::Exactly(gap, _) => !(gap.distance > SKIN),
+            Apart::Exactly(gap, _) => {
+                touching.until = paths + SKIN - gap.distance;
+                is_within(gap.distance, SKIN)
+            }
         }
     }
 
@@ -221,20 +241,27 @@ impl Scan<'_> {
         for (i, piece) in a.pieces.iter().enumerate() {
             let placed = piece.within(&frames[0]);
             for (j, other) in second.iter().enumerate() {
-                let least = placed.ball.gap(&other.ball);
-                if least >= nearest.map_or(far, |(gap, _)| gap.distance) {
+                let relevant = nearest.map_or(far, |(gap, _)| gap.distance);
+                let least = placed.apart_at_least(other, relevant);
+                if least >= relevant {
                     farther = farther.min(least);
                     continue;
                 }
                 let gap = placed.gap(other);
-                if nearest.is_none_or(|(nearest, _)| !(gap.distance >= nearest.distance)) {
+                if nearest.is_none_or(|(nearest, _)| gap.distance < nearest.distance || gap.distance.is_nan())
+                {
                     nearest = Some((gap, [i, j]));
                 }
             }
         }
         match nearest {
-            Some((gap, pieces)) if !(gap.distance > farther) => Apart::Exactly(gap, pieces),
+            Some((gap, pieces)) if is_within(gap.distance, farther) => Apart::Exactly(gap, pieces),
             _ => Apart::AtLeast(farther),
         }
     }
+}
+
+/// What is no number counts as a contact.
+fn is_within(distance: f64, limit: f64) -> bool {
+    distance <= limit || distance.is_nan()
 }

@@ -1,13 +1,11 @@
-//! What a text need not hold: variables that nobody reads, statements that nothing reaches.
+//! What a text need not hold: variables that nobody reads.
 
 use crate::check::Checked;
 use crate::finding::Finding;
-use crate::view::{
-    ExpressionKind, Section, Statement, StatementKind, Unit, bodies, each_part, each_statement, expressions,
-};
+use crate::view::{ExpressionKind, Section, StatementKind, Unit, each_part, each_statement, expressions};
 use std::collections::HashSet;
 
-/// Variables of units, and statements. A variable is read where its value is used for anything but its own next
+/// A variable is read where its value is used for anything but its own next
 /// value; an output also by whoever calls the block.
 pub fn dead(checked: &Checked) -> Vec<Finding> {
     let mut findings = Vec::new();
@@ -33,7 +31,6 @@ pub fn dead(checked: &Checked) -> Vec<Finding> {
                 _ => {}
             }
         }
-        unreachable(&unit.body, &mut findings);
     }
     findings
 }
@@ -106,17 +103,6 @@ fn written(unit: &Unit) -> HashSet<String> {
     written
 }
 
-fn unreachable(body: &[Statement], findings: &mut Vec<Finding>) {
-    for pair in body.windows(2) {
-        if matches!(pair[0].kind, StatementKind::Exit | StatementKind::Return) {
-            findings.push(Finding::new("unreachable", pair[1].span, "nothing reaches this statement"));
-        }
-    }
-    for statement in body {
-        bodies(statement).into_iter().for_each(|inner| unreachable(inner, findings));
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -124,19 +110,13 @@ mod tests {
     #[test]
     fn what_is_dead_is_found() {
         let source = "PROGRAM Run\nVAR_EXTERNAL g : DINT; h : DINT; END_VAR\nVAR a : DINT; b : DINT; END_VAR\n\
-            WHILE TRUE DO\na := a + b;\nEXIT;\ng := 1;\nEND_WHILE;\nEND_PROGRAM\nCONFIGURATION Conf\n\
+            WHILE TRUE DO\na := a + b;\nEXIT;\nEND_WHILE;\ng := 1;\nEND_PROGRAM\nCONFIGURATION Conf\n\
             VAR_GLOBAL g : DINT; h : DINT; END_VAR\nRESOURCE Res ON PLC\nTASK Cyclic(INTERVAL := T#10ms, PRIORITY := 0);\n\
             PROGRAM Inst WITH Cyclic : Run;\nEND_RESOURCE\nEND_CONFIGURATION\n";
         let found: Vec<_> = dead(&crate::judge(source).unwrap()).iter().map(|f| f.located(source)).collect();
-        assert_eq!(
-            found,
-            [
-                "2:24: unused: `h` is not used",
-                "3:5: unread: nobody reads `a`",
-                "7:1: unreachable: nothing reaches this statement"
-            ]
-        );
+        assert_eq!(found, ["2:24: unused: `h` is not used", "3:5: unread: nobody reads `a`",]);
     }
+
     #[test]
     fn outputs_and_globals_are_read_elsewhere() {
         let source = "FUNCTION_BLOCK Count\nVAR_OUTPUT n : DINT; m : DINT; END_VAR\nm := 1;\nn := 1;\nEND_FUNCTION_BLOCK\n\
