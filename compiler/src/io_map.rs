@@ -78,6 +78,47 @@ impl IoMap {
     pub fn wire(&self, point: usize) -> Option<&Wire> {
         self.wires.get(&point)
     }
+
+    /// How many points have an address.
+    pub fn len(&self) -> usize {
+        self.wires.len()
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.wires.is_empty()
+    }
+
+    /// Points without an address that a cabinet needs as soon as others of their robot have one: its outputs, and
+    /// the answers to its commands; the inputs of the line as soon as any point has one. By robot, empty for the line.
+    pub fn gaps<'p>(&self, points: &'p [Point]) -> Vec<(&'p str, Vec<&'p str>)> {
+        let mut robots: Vec<&str> = Vec::new();
+        for point in points {
+            if !robots.contains(&point.robot.as_str()) {
+                robots.push(&point.robot);
+            }
+        }
+        let of = |robot: &str| {
+            let numbered = points.iter().enumerate();
+            numbered.filter(|(_, point)| point.robot == robot).collect::<Vec<_>>()
+        };
+        let is_needed = |point: &Point| match point.direction {
+            Direction::Output => !point.robot.is_empty(),
+            Direction::Input => {
+                let port = point.name.strip_prefix(&point.robot).unwrap_or(&point.name);
+                point.robot.is_empty() || ["_got", "_ack", "_error"].contains(&port)
+            }
+        };
+        let gaps = robots.into_iter().map(|robot| {
+            let own = of(robot);
+            let is_used = match robot {
+                "" => !self.is_empty(),
+                _ => own.iter().any(|(i, _)| self.wires.contains_key(i)),
+            };
+            let missing = own.iter().filter(|(i, p)| is_used && is_needed(p) && !self.wires.contains_key(i));
+            (robot, missing.map(|(_, point)| point.name.as_str()).collect::<Vec<_>>())
+        });
+        gaps.filter(|(_, missing)| !missing.is_empty()).collect()
+    }
 }
 
 impl Kind {

@@ -48,7 +48,11 @@ fn examples_are_right() {
             "json stationary" => {
                 (frame.replacen(STATIONARY, &format!("{STATIONARY}\n{},", text.trim_end()), 1), None)
             }
-            "json may_touch" => (frame.replacen('{', &format!("{{\"may_touch\": [{text}],"), 1), None),
+            "json may_touch" => {
+                let (before, _) =
+                    frame.split_once(",\n  \"may_touch\"").expect("pairs at the end of the layout");
+                (format!("{before},\n  \"may_touch\": [{text}]\n}}"), None)
+            }
             "aut" => continue,
             _ => panic!("line {line}: what is a block `{kind}`?"),
         };

@@ -6,7 +6,7 @@ use super::{load, print};
 use crate::Status;
 use autogen::backend::{dot, plan, rust, sdf, st};
 use autogen::diagnostic::Diagnostic;
-use autogen::io_map::{self, Counting, IoMap};
+use autogen::io_map::{self, Conversion, Counting, IoMap, Point};
 use autogen::ir::System;
 use autogen::library;
 use autogen::lower::{Outcome, Project, compile};
@@ -69,6 +69,9 @@ pub fn build(options: &BuildOptions) -> Result<Built, Status> {
     };
     let Some(project) = project else { return Err(wrong(&diagnostics)) };
     let map = io_map(options, &project, &sources, table).map_err(|found| wrong(&found))?;
+    if table.is_some() && options.input.format == Format::Text && !options.input.quiet {
+        report_gaps(&map, &st::points(&project.system));
+    }
     // The same input gives the same bytes, from whatever folder it is compiled.
     let sources = sources.renamed(|name| title(&options.input.layout, name));
     let files = files(&project, &sources, &map);
@@ -105,6 +108,19 @@ pub fn title(layout: &Path, name: &str) -> String {
     match within {
         Some(rest) => rest.display().to_string().replace('\\', "/"),
         None => path.file_name().map_or(name.to_string(), |own| own.to_string_lossy().into_owned()),
+    }
+}
+
+/// Says which addresses a table leaves out.
+fn report_gaps(map: &IoMap, points: &[Point]) {
+    say!("{} of {} points have an address", map.len(), points.len());
+    let permit = points.iter().position(|p| p.robot.is_empty() && p.name == "run_permit");
+    if permit.and_then(|p| map.wire(p)).is_some_and(|wire| wire.conversion == Conversion::Inverted) {
+        say!("note: run_permit is inverted: a broken wire or a lost fieldbus would permit the line to run");
+    }
+    for (robot, missing) in map.gaps(points) {
+        let whose = if robot.is_empty() { "the line" } else { robot };
+        say!("note: {whose} has points without one: {}", missing.join(", "));
     }
 }
 

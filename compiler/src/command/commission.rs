@@ -3,14 +3,16 @@
 use super::build::{self, Built};
 use super::contact;
 use super::fault;
-use super::io_trace::IoTrace;
 use super::options::{CommissionOptions, Format};
+use super::pending::{Content, Pending};
 use super::program::{self, Notice};
 use super::trajectories::Request;
+use super::write;
 use crate::Status;
 use runtime_sim::line::IoDelay;
 use serde_json::{Value, json};
 use std::io::IsTerminal;
+use std::path::{self, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::Instant;
 use std::{env, fs, io};
@@ -22,8 +24,18 @@ pub fn run(options: &CommissionOptions) -> Status {
         None => return fail(options, "--io-delay takes a number of scans, `random` or `random:SEED`".into()),
     };
     let overwrite = options.build.overwrite();
-    let io_trace = match options.io_trace.as_ref().map(|path| IoTrace::new(path, overwrite)).transpose() {
+    let pending = |path: &Option<PathBuf>, content: Content| {
+        path.as_ref().map(|path| Pending::new(path, content, overwrite)).transpose()
+    };
+    if let Err(text) = are_different(options) {
+        return fail(options, text);
+    }
+    let io_trace = match pending(&options.io_trace, Content::IoTrace) {
         Ok(io_trace) => io_trace,
+        Err(text) => return fail(options, text),
+    };
+    let hashes = match pending(&options.hashes, Content::Hashes) {
+        Ok(hashes) => hashes,
         Err(text) => return fail(options, text),
     };
     let trajectories = match Request::new(options) {
@@ -34,7 +46,13 @@ pub fn run(options: &CommissionOptions) -> Status {
         Ok(built) => built,
         Err(status) => return status,
     };
-    match commission(options, &built, delay, io_trace, &trajectories) {
+    let results = match are_free(options, &built)
+        .and_then(|()| Pending::new(&built.folder.join(build::RESULTS), Content::Results, overwrite))
+    {
+        Ok(results) => results,
+        Err(text) => return fail(options, text),
+    };
+    match commission(options, &built, delay, [io_trace, hashes], &trajectories) {
         Ok(mut report) => {
             fault::name(&mut report, &built.project.system, &built.sources);
             contact::name_reasons(&mut report, &built.project.may_touch);
@@ -43,8 +61,10 @@ pub fn run(options: &CommissionOptions) -> Status {
                 _ if report["reason"].as_str().is_some_and(|r| r.starts_with("bug: ")) => Status::Bug,
                 _ => Status::NotReached,
             };
-            show(options, &built, report, begin);
-            status
+            match show(options, &built, results, report, begin) {
+                Ok(()) => status,
+                Err(text) => fail(options, text),
+            }
         }
         Err(text) => fail(options, text),
     }
@@ -72,7 +92,7 @@ fn commission(
     options: &CommissionOptions,
     built: &Built,
     delay: IoDelay,
-    io_trace: Option<IoTrace>,
+    [io_trace, hashes]: [Option<Pending>; 2],
     trajectories: &Request,
 ) -> Result<Value, String> {
     trajectories.check(&built.project.plant)?;
@@ -94,8 +114,8 @@ fn commission(
     if let Some(io_trace) = &io_trace {
         command.arg("--io-trace").arg(data.join("columns.txt")).arg(io_trace.partial());
     }
-    if let Some(path) = &options.hashes {
-        command.arg("--hashes").arg(path);
+    if let Some(hashes) = &hashes {
+        command.arg("--hashes").arg(hashes.partial());
     }
     trajectories.ask(&mut command, &folder);
     if is_chatty(options) {
@@ -106,8 +126,8 @@ fn commission(
         Ok(report)
     });
     let _ = fs::remove_dir_all(&folder);
-    if let (Some(io_trace), Ok(_)) = (io_trace, &result) {
-        io_trace.keep()?;
+    if result.is_ok() {
+        io_trace.into_iter().chain(hashes).try_for_each(Pending::keep)?;
     }
     result
 }
@@ -127,19 +147,26 @@ fn is_chatty(options: &CommissionOptions) -> bool {
     !input.quiet && input.format == Format::Text && io::stderr().is_terminal()
 }
 
-fn show(options: &CommissionOptions, built: &Built, mut report: Value, begin: Instant) {
+fn show(
+    options: &CommissionOptions,
+    built: &Built,
+    results: Pending,
+    mut report: Value,
+    begin: Instant,
+) -> Result<(), String> {
     let wall = begin.elapsed().as_secs_f64();
     report["wall_s"] = json!((wall * 1000.0).round() / 1000.0);
     report["layout"] = json!(built.project.name);
     report["settings"] = json!(options.build.input.settings);
     report["order_seed"] = json!(options.build.input.order);
     report["io_delay"] = json!(options.io_delay);
-    let path = built.folder.join(build::RESULTS);
     let mut kept = report.clone();
     if let Some(object) = kept.as_object_mut() {
         object.remove("wall_s");
     }
-    let _ = fs::write(path, format!("{kept:#}\n"));
+    let failed = |e: io::Error| format!("{}: {e}", results.path().display());
+    fs::write(results.partial(), format!("{kept:#}\n")).map_err(failed)?;
+    results.keep()?;
     match options.build.input.format {
         Format::Json => say!("{report}"),
         Format::Text if !options.build.input.quiet => {
@@ -152,6 +179,34 @@ fn show(options: &CommissionOptions, built: &Built, mut report: Value, begin: In
             eprintln!("autogen: {}", report["reason"].as_str().unwrap_or(""))
         }
         Format::Text => {}
+    }
+    Ok(())
+}
+
+/// The files that the options name, where they are.
+fn named(options: &CommissionOptions) -> Vec<PathBuf> {
+    let single = options.io_trace.iter().chain(&options.hashes);
+    let all = single.chain(&options.trajectories.files);
+    all.map(|path| path::absolute(path).unwrap_or_else(|_| path.clone())).collect()
+}
+
+/// No file is named for two things.
+fn are_different(options: &CommissionOptions) -> Result<(), String> {
+    let named = named(options);
+    match (1..named.len()).find(|i| named[..*i].contains(&named[*i])) {
+        Some(i) => Err(format!("{}: this file is named twice; choose another name", named[i].display())),
+        None => Ok(()),
+    }
+}
+
+/// No file is named that the build has written.
+fn are_free(options: &CommissionOptions, built: &Built) -> Result<(), String> {
+    let own = built.files.keys().map(String::as_str).chain([write::MANIFEST, build::RESULTS]);
+    let folder = path::absolute(&built.folder).unwrap_or_else(|_| built.folder.clone());
+    let own: Vec<PathBuf> = own.map(|name| folder.join(name)).collect();
+    match named(options).into_iter().find(|path| own.contains(path)) {
+        Some(path) => Err(format!("{}: this is a file of the output; choose another name", path.display())),
+        None => Ok(()),
     }
 }
 

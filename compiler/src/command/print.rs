@@ -20,13 +20,20 @@ pub fn out(text: std::fmt::Arguments) {
     }
 }
 
+/// Nobody reads more of them; all are in the JSON form.
+const MOST_DIAGNOSTICS: usize = 1000;
+
 /// Diagnostics on standard error.
 pub fn diagnostics(sources: &Sources, found: &[Diagnostic]) {
+    let shown = &found[..found.len().min(MOST_DIAGNOSTICS)];
     let text = match std::io::stderr().is_terminal() {
-        true => diagnostic::render_styled(sources, found),
-        false => diagnostic::render_plain(sources, found),
+        true => diagnostic::render_styled(sources, shown),
+        false => diagnostic::render_plain(sources, shown),
     };
     eprint!("{text}");
+    if shown.len() < found.len() {
+        eprintln!("and {} more, with `--format json`", found.len() - shown.len());
+    }
     match found.len() {
         0 => {}
         1 => eprintln!("1 error"),

@@ -62,6 +62,13 @@ impl Request {
                 let form = Form::of(path).ok_or_else(|| {
                     format!("--trajectories {}: the name has to end in .csv, .json or .svg", path.display())
                 })?;
+                if path.metadata().is_ok_and(|there| !there.is_file()) {
+                    return Err(format!("--trajectories {}: this is no file", path.display()));
+                }
+                let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+                if let Some(folder) = folder.filter(|folder| !folder.is_dir()) {
+                    return Err(format!("--trajectories {}: there is no folder {}", path.display(), folder.display()));
+                }
                 let is_foreign = |text: Vec<u8>| {
                     !text.is_empty() && !String::from_utf8(text).is_ok_and(|text| form.is_own(&text))
                 };

@@ -84,22 +84,22 @@ pub fn alarms(shared: Shared) -> String {
         }
         let mend = match site.kind {
             FaultKind::OutOfBounds => {
-                "The number was limited to its bounds. Look at the state of the robot and at what it counts; then reset and start."
+                "The number was limited to its bounds. Look at the state of the robot and at what it counts. After reset and start the step is made again from its beginning: what it counted before the fault is counted twice."
             }
             FaultKind::NotFinite => {
-                "The old value was kept. Look at the inputs and parameters from which it is computed; then reset and start."
+                "The old value was kept. Look at the inputs and parameters from which it is computed; after reset and start the step is made again from its beginning."
             }
             FaultKind::InvariantFails => {
                 "Look at the values that it names; set them right before reset, or the fault returns."
             }
             FaultKind::TooLong => {
-                "Look for what the state waits for: the answer of the device, or another robot; then reset and start."
+                "Look for what the state waits for: the answer of the device, or another robot. reset keeps the time in the state: after start the fault comes back in the same scan unless the state can be left in it."
             }
         };
         let about = format!("{} ({})", site.text, shared.line(site.place));
         let automaton = &shared.system.model.automaton(site.automaton).name;
         text += &row(&[&(i + 1).to_string(), automaton, &robots.join(" "), &about, mend]);
     }
-    let mend = "The memory of the controller is damaged: switch the power off and on.";
+    let mend = "The memory of the controller is damaged: only a cold start helps. Secure the parts on the grippers first: without power they are let go. Empty trays and briefcases: the controller forgets what lies there.";
     text + &row(&[&NO_SUCH_STATE.to_string(), "", "", "the state has a number that does not exist", mend])
 }

@@ -5,6 +5,7 @@ use super::context::Shared;
 use super::declaration::{Unit, globals};
 use super::print::{Dialect, harmless};
 use crate::backend::Files;
+use crate::source::SourceFile;
 use askama::Template;
 
 #[derive(Template)]
@@ -114,10 +115,16 @@ pub fn unit(shared: Shared, unit: &Unit, dialect: Dialect) -> String {
     })
 }
 
-/// The names of the files that were read.
+/// The names of the files that were read, and what was set beside them. Fit for comments, in XML too.
 pub fn made_from(shared: Shared) -> String {
-    let short = |name: &str| name.rsplit(['/', '\\']).next().unwrap_or(name).to_string();
-    shared.sources.files().iter().map(|f| short(&f.name)).collect::<Vec<_>>().join(", ")
+    let name = |file: &SourceFile| match file.name.as_str() {
+        "--set" => format!("{} (set)", file.text),
+        name => name.rsplit(['/', '\\']).next().unwrap_or(name).to_string(),
+    };
+    let names: Vec<String> = shared.sources.files().iter().map(name).collect();
+    let text = harmless(&names.join(", ").replace('\n', " "));
+    // A comment in XML has no two hyphens side by side.
+    text.replace("--", "- -").replace("--", "- -")
 }
 
 /// The text of a template, with one line break at its end. Writing to memory does not fail.

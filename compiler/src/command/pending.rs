@@ -1,0 +1,125 @@
+//! Files that a run writes beside the output folder's own: first beside their place, and never over a file that
+//! is something else.
+
+use super::write::Overwrite;
+use std::fs::{self, File};
+use std::io::{ErrorKind, Read};
+use std::path::{Path, PathBuf};
+
+/// What a file holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Content {
+    IoTrace,
+    Hashes,
+    Results,
+}
+
+impl Content {
+    fn name(self) -> &'static str {
+        match self {
+            Content::IoTrace => "I/O trace",
+            Content::Hashes => "list of hashes",
+            Content::Results => "file of results",
+        }
+    }
+
+    /// Whether a file that begins so is one.
+    fn is_begun_by(self, bytes: &[u8]) -> bool {
+        match self {
+            Content::IoTrace => bytes.starts_with(b"run_permit,start,reset,"),
+            Content::Hashes => {
+                bytes.len() > 16 && bytes[..16].iter().all(u8::is_ascii_hexdigit) && bytes[16] == b'\n'
+            }
+            Content::Results => bytes.starts_with(b"{\n  \"finished\""),
+        }
+    }
+}
+
+/// A file to come.
+#[derive(Debug)]
+pub struct Pending {
+    path: PathBuf,
+    partial: PathBuf,
+}
+
+impl Pending {
+    /// An error says what is in the way.
+    pub fn new(path: &Path, content: Content, overwrite: Overwrite) -> Result<Self, String> {
+        let name = path.file_name().ok_or_else(|| format!("{}: this is no file", path.display()))?;
+        let partial = format!(".{}.{}.partial", name.to_string_lossy(), std::process::id());
+        let own = Self { path: path.into(), partial: path.with_file_name(partial) };
+        if path.metadata().is_ok_and(|there| !there.is_file()) {
+            return Err(format!("{}: this is no file", path.display()));
+        }
+        if overwrite == Overwrite::Own && !is_free(path, content)? {
+            return Err(format!(
+                "{}: this file is no {}; choose another one, or overwrite it with --force",
+                path.display(),
+                content.name()
+            ));
+        }
+        File::create(&own.partial).map_err(|e| format!("{}: {e}", path.display()))?;
+        Ok(own)
+    }
+
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Where to write while the run goes on; removed when this is dropped.
+    pub fn partial(&self) -> &Path {
+        &self.partial
+    }
+
+    /// What was written is whole.
+    pub fn keep(self) -> Result<(), String> {
+        fs::rename(&self.partial, &self.path).map_err(|e| format!("{}: {e}", self.path.display()))
+    }
+}
+
+impl Drop for Pending {
+    fn drop(&mut self) {
+        let _ = fs::remove_file(&self.partial);
+    }
+}
+
+/// Whether there is nothing yet, an empty file, or one with this content.
+fn is_free(path: &Path, content: Content) -> Result<bool, String> {
+    let mut beginning = Vec::new();
+    match File::open(path).and_then(|file| file.take(64).read_to_end(&mut beginning)) {
+        Ok(_) => Ok(beginning.is_empty() || content.is_begun_by(&beginning)),
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(true),
+        Err(error) => Err(format!("{}: {error}", path.display())),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_a_file_of_the_same_content_is_overwritten() {
+        let folder = std::env::temp_dir().join(format!("autogen-pending-{}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        let path = folder.join("layout.json");
+        let texts = [
+            (Content::IoTrace, "run_permit,start,reset,running\n"),
+            (Content::Hashes, "0123456789abcdef\n"),
+            (Content::Results, "{\n  \"finished\": true\n}\n"),
+        ];
+        for (content, text) in texts {
+            fs::write(&path, "{}").unwrap();
+            let refused = Pending::new(&path, content, Overwrite::Own).unwrap_err();
+            assert!(refused.contains(content.name()), "{refused}");
+            assert!(Pending::new(&folder, content, Overwrite::Everything).unwrap_err().contains("no file"));
+            assert!(Pending::new(&folder.join("none/file"), content, Overwrite::Own).is_err());
+            let pending = Pending::new(&path, content, Overwrite::Everything).unwrap();
+            fs::write(pending.partial(), text).unwrap();
+            pending.keep().unwrap();
+            assert_eq!(fs::read_to_string(&path).unwrap(), text);
+            drop(Pending::new(&path, content, Overwrite::Own).unwrap());
+            assert_eq!(fs::read_dir(&folder).unwrap().count(), 1, "what was begun is removed");
+        }
+        fs::remove_dir_all(&folder).unwrap();
+    }
+}
