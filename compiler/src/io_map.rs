@@ -6,7 +6,6 @@
 
 mod address;
 mod columns;
-mod csv;
 mod overlap;
 mod raw;
 mod row;
@@ -15,6 +14,7 @@ pub use address::{Address, Area, Size};
 pub use overlap::Counting;
 pub use raw::Raw;
 
+use crate::csv;
 use crate::diagnostic::{self, Diagnostic};
 use crate::source::{FileId, Sources};
 use columns::Columns;
@@ -26,6 +26,8 @@ use std::collections::BTreeMap;
 pub struct Point {
     /// Empty for those of the whole line.
     pub robot: String,
+    /// In the table of devices, or among the inputs and outputs of the line.
+    pub port: &'static str,
     /// The variable, with the index of an element.
     pub name: String,
     pub direction: Direction,
@@ -103,10 +105,7 @@ impl IoMap {
         };
         let is_needed = |point: &Point| match point.direction {
             Direction::Output => !point.robot.is_empty(),
-            Direction::Input => {
-                let port = point.name.strip_prefix(&point.robot).unwrap_or(&point.name);
-                point.robot.is_empty() || ["_got", "_ack", "_error"].contains(&port)
-            }
+            Direction::Input => point.robot.is_empty() || ["got", "ack", "error"].contains(&point.port),
         };
         let gaps = robots.into_iter().map(|robot| {
             let own = of(robot);

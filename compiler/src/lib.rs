@@ -3,6 +3,7 @@
 pub mod backend;
 pub mod check;
 pub mod connect;
+pub mod csv;
 pub mod diagnostic;
 pub mod executor;
 pub mod io_map;

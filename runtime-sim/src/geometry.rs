@@ -42,8 +42,20 @@ pub const SLOTS: usize = 12;
 /// Where the middle of the briefcase's floor lies, from the station's pose
 /// (briefcase at (0.08, 0.095839, 1.20), lowest part pose 0.15 over it).
 pub const BRIEFCASE: Point = Point::new(0.08, 0.095839, 1.35);
+/// The case of the briefcase around the middle of its floor: bounds of `briefcase.stl` (ARIAC 2021) below the
+/// places of the parts, 1.1 times as large as drawn. The lid stands beyond it.
+pub const BRIEFCASE_X: [f64; 2] = [-0.250, 0.355];
+pub const BRIEFCASE_Y: [f64; 2] = [-0.312, 0.312];
 /// Height of a bin's inner floor over its pose.
 pub const BIN_FLOOR: f64 = 0.725;
+/// Side of a bin's square floor.
+pub const BIN_SIDE: f64 = 0.6;
+/// Lengths of a vehicle's tray along the world's x and y (kit tray 0.5 x 0.7, turned), and where its middle is
+/// from the vehicle's position.
+pub const TRAY: [f64; 2] = [0.70, 0.50];
+pub const TRAY_MIDDLE: Point = Point::new(0.15, 0.0, 0.0);
+/// Width of a belt's moving surface (collision box of the belt model).
+pub const BELT_WIDTH: f64 = 0.42;
 
 /// Slot `i` of a tray, from the vehicle's pose: rows 0.20 m apart in x, columns 0.12 m in y
 /// (the prototype's twelve-slot tray).
@@ -59,14 +71,31 @@ pub fn bin_offset(i: usize) -> Point {
 /// Most kinds of part that a line has; a briefcase has a place for each.
 pub const MOST_KINDS: usize = 16;
 
-/// Where kind number `kind` lies in a briefcase, from the station's pose: the first four in two columns 0.2 m
-/// apart, the others around them, 0.14 m and 0.12 m apart (no part is longer than 0.135 m in x or 0.113 m in y).
+/// Where the parts lie in a briefcase, from the middle of its floor. The first four are two columns 0.2 m apart;
+/// the others leave 0.14 m and 0.12 m between them (no part is longer than 0.135 m in x or 0.113 m in y).
+const BRIEFCASE_PLACES: [[f64; 2]; MOST_KINDS] = [
+    [-0.1, -0.12],
+    [0.1, -0.12],
+    [-0.1, 0.12],
+    [0.1, 0.12],
+    [0.24, -0.12],
+    [0.24, 0.12],
+    [-0.18, 0.0],
+    [-0.04, 0.0],
+    [0.1, 0.0],
+    [0.24, 0.0],
+    [-0.18, -0.24],
+    [-0.04, -0.24],
+    [0.1, -0.24],
+    [-0.18, 0.24],
+    [-0.04, 0.24],
+    [0.1, 0.24],
+];
+
+/// Where kind number `kind` lies in a briefcase, from the station's pose.
 pub fn briefcase_offset(kind: usize) -> Point {
-    let place = |sign: usize, outer: usize, distances: [f64; 2]| {
-        let distance = distances[(kind >> outer) & 1];
-        if (kind >> sign) & 1 == 0 { -distance } else { distance }
-    };
-    BRIEFCASE + Point::new(place(0, 2, [0.1, 0.24]), place(1, 3, [0.12, 0.24]), 0.0)
+    let [x, y] = BRIEFCASE_PLACES[kind % MOST_KINDS];
+    BRIEFCASE + Point::new(x, y, 0.0)
 }
 
 impl Geometry {
@@ -301,11 +330,13 @@ mod tests {
     #[test]
     fn parts_of_all_kinds_lie_side_by_side_in_a_briefcase() {
         const LONGEST: [f64; 2] = [0.135, 0.113];
-        const INSIDE: [f64; 2] = [0.621 / 2.0, 0.761 / 2.0];
         for kind in 0..MOST_KINDS {
             let here = briefcase_offset(kind) - BRIEFCASE;
-            assert!(here.x.abs() + LONGEST[0] / 2.0 <= INSIDE[0], "{kind}");
-            assert!(here.y.abs() + LONGEST[1] / 2.0 <= INSIDE[1], "{kind}");
+            let is_within = |middle: f64, length: f64, [low, high]: [f64; 2]| {
+                middle - length / 2.0 >= low && middle + length / 2.0 <= high
+            };
+            assert!(is_within(here.x, LONGEST[0], BRIEFCASE_X), "{kind}");
+            assert!(is_within(here.y, LONGEST[1], BRIEFCASE_Y), "{kind}");
             for other in 0..kind {
                 let gap = briefcase_offset(kind) - briefcase_offset(other);
                 assert!(gap.x.abs() >= LONGEST[0] || gap.y.abs() >= LONGEST[1], "{kind} on {other}");

@@ -283,39 +283,3 @@ fn conservation_catches_a_doctored_log() {
         }
     }
 }
-
-#[test]
-#[ignore = "a measurement, for release builds"]
-fn sixty_thousand_scans_of_eleven_machines() {
-    let mut line = line();
-    for i in 0..5 {
-        let machine = line.machines[[AGV, AGV, KITTING, STATION, STATION][i]].clone();
-        line.machines.push(runtime_sim::line::Machine { name: format!("m{i}"), ..machine });
-    }
-    line.scenario.supply[0].items = vec![BATTERY; 1000];
-    line.scenario.time_limit_s = 600.0;
-    let mut steps = vec![Step::Command(BELT, DRIVE, None)];
-    for i in 0..2000 {
-        let y = if i % 2 == 0 { 3.0 } else { -3.0 };
-        for machine in [KITTING, GANTRY] {
-            let goal = runtime_sim::point::Point::new(if machine == KITTING { -0.8 } else { -5.0 }, y, 1.2);
-            steps.push(Step::Write(machine, output::GRIP, 1.0));
-            steps.push(Step::Command(machine, MOVE, Some(goal)));
-        }
-        steps.extend([Step::Done(KITTING), Step::Done(GANTRY)]);
-    }
-    struct Wide(Script);
-    impl Controllers for Wide {
-        fn scan(&mut self, s: SystemInputs, i: &[Vec<f64>], o: &mut [Vec<f64>]) -> SystemOutputs {
-            self.0.scan(s, i, o)
-        }
-        fn state(&self, machine: usize) -> usize {
-            self.0.state(machine)
-        }
-        fn trace(&self, out: &mut Vec<f64>) {
-            out.resize(200, 1.5);
-        }
-    }
-    let report = run(&line, &mut Wide(Script::new(steps)), &mut |_| {}).unwrap();
-    assert_eq!(report.scans, 60_000);
-}

@@ -2,7 +2,7 @@
 
 use autogen::backend::{Files, st};
 use autogen::diagnostic::render_plain;
-use autogen::io_map::{self, Counting};
+use autogen::io_map::{self, Counting, IoMap};
 use autogen::ir::System;
 use autogen::lower::Project;
 use autogen::source::Sources;
@@ -23,7 +23,7 @@ fn with_table(system: &System, sources: &Sources, name: &str) -> Result<Files, S
     let mut tables = Sources::default();
     let file = tables.add(name, text(&format!("tests/fixtures/io/{name}")));
     match io_map::read(&tables, file, &st::points(system), Counting::Words) {
-        Ok(map) => Ok(st::mapped(system, sources, &map)),
+        Ok(map) => Ok(st::mapped(system, sources, &map).0),
         Err(found) => Err(render_plain(&tables, &found)),
     }
 }
@@ -84,13 +84,15 @@ fn the_table_that_is_written_gives_the_same_text() {
         let mut tables = Sources::default();
         let file = tables.add("io.csv", files["io.csv"].as_str());
         let map = io_map::read(&tables, file, &points, Counting::Apart).expect("a table without errors");
-        st::mapped(&project.system, &sources, &map)
+        st::mapped(&project.system, &sources, &map).0
     };
-    let plain = st::files(&project.system, &sources);
+    let (plain, plain_columns) = st::mapped(&project.system, &sources, &IoMap::default());
     assert_eq!(again(&plain), plain);
     for seed in 1..=3 {
         let map = wired::map(&points, &wired::drawn(&points, seed));
-        let files = st::mapped(&project.system, &sources, &map);
+        let (files, columns) = st::mapped(&project.system, &sources, &map);
+        // An I/O trace is of the values, not of what stands at the addresses.
+        assert_eq!(columns.to_text(), plain_columns.to_text());
         assert_ne!(files["portable/main.st"], plain["portable/main.st"]);
         assert_eq!(again(&files), files);
     }
@@ -119,7 +121,8 @@ fn tables_of_spreadsheets_are_read_alike() {
             &project.system,
             &sources,
             &read(String::from("name,robot,address,raw type,scale,offset,inversion,cabinet\n"))
-        ),
+        )
+        .0,
         st::files(&project.system, &sources)
     );
 }
@@ -128,7 +131,7 @@ fn tables_of_spreadsheets_are_read_alike() {
 fn beside<'s>(system: &'s System, sources: &Sources, seed: u64) -> Wired<'s> {
     let points = st::points(system);
     let rows = wired::drawn(&points, seed);
-    let files = st::mapped(system, sources, &wired::map(&points, &rows));
+    let (files, _) = st::mapped(system, sources, &wired::map(&points, &rows));
     Wired::new(system, &Emitted::of(&files), &points, &rows)
         .unwrap_or_else(|error| panic!("table {seed}: {error}"))
 }

@@ -3,6 +3,7 @@
 
 use autogen::backend::st;
 use autogen::executor::Executor;
+use autogen::io_map::IoMap;
 use autogen_st_judge::machine::{Machine, Place};
 use autogen_tests::{Texts, examples, on_all_processors};
 use runtime_sim::run::{Seen, run};
@@ -65,7 +66,7 @@ fn driven((name, texts): &(String, Texts)) -> Driven {
     let outcome = texts.compile();
     let project = outcome.project.unwrap_or_else(|| panic!("{name}: a line that is right"));
     let files = st::files(&project.system, &outcome.sources);
-    let columns = st::columns(&project.system, &outcome.sources);
+    let (_, columns) = st::mapped(&project.system, &outcome.sources, &IoMap::default());
     let mut driven = Driven::new(&files["portable/main.st"], &files["io.csv"], &columns.header());
     let mut row = String::new();
     let mut observe = |seen: &Seen| {

@@ -31,7 +31,7 @@ fn examples() -> Vec<(String, Files)> {
     let project = outcome.project.expect("a layout that can be built");
     let points = st::points(&project.system);
     let map = wired::map(&points, &wired::drawn(&points, 1));
-    all.push(("default with addresses".into(), st::mapped(&project.system, &outcome.sources, &map)));
+    all.push(("default with addresses".into(), st::mapped(&project.system, &outcome.sources, &map).0));
     all
 }
 

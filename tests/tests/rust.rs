@@ -3,6 +3,7 @@
 
 use autogen::backend::{rust, st};
 use autogen::executor::Executor;
+use autogen::io_map::IoMap;
 use autogen::ir::System;
 use autogen::source::Sources;
 use autogen_tests::instances::instantiate;
@@ -108,7 +109,7 @@ fn the_line_runs_as_on_the_executor() {
     workspace.put("line.txt", &project.plant.to_text());
     workspace.cargo(&["clippy", "--quiet", "--all-targets", "--", "-D", "warnings"]);
     workspace.cargo(&["build", "--quiet", "--release", "-p", "commissioning", "--bins"]);
-    let columns = st::columns(&project.system, &outcome.sources);
+    let (_, columns) = st::mapped(&project.system, &outcome.sources, &IoMap::default());
     workspace.put("columns.txt", &columns.to_text());
     let hashes = ["--hashes", "hashes.txt"];
     let arguments =

@@ -1,6 +1,6 @@
 //! Machines from above.
 
-use runtime_sim::geometry::Geometry;
+use runtime_sim::geometry::{Geometry, TRAY, TRAY_MIDDLE};
 use runtime_sim::point::{Axis, Point};
 
 /// A part of a machine as it is drawn, in the world's x and y.
@@ -23,9 +23,6 @@ pub enum Shape {
 
 /// Width of a conveyor (competition specification).
 const BELT_WIDTH: f64 = 0.65;
-/// A vehicle's tray in world axes, and its middle from the vehicle's pose.
-const TRAY: (f64, f64) = (0.7, 0.5);
-const TRAY_MIDDLE: Point = Point::new(0.15, 0.0, 0.0);
 /// Stations and bins.
 const TABLE: (f64, f64) = (0.6, 0.6);
 
@@ -42,7 +39,8 @@ pub fn shapes(geometry: &Geometry) -> Vec<(Shape, &'static str)> {
             vec![(Shape::Rectangle { centre, size }, "belt")]
         }
         Geometry::Vehicle { pose, destinations } => {
-            let tray = |stop: Point| Shape::Rectangle { centre: stop + TRAY_MIDDLE, size: TRAY };
+            let tray =
+                |stop: Point| Shape::Rectangle { centre: stop + TRAY_MIDDLE, size: (TRAY[0], TRAY[1]) };
             let way = |to: Point| Shape::Line { from: *pose, to };
             let mut shapes: Vec<_> =
                 destinations.iter().flat_map(|&stop| [(tray(stop), "stop"), (way(stop), "path")]).collect();

@@ -50,11 +50,12 @@ pub fn points(system: &System) -> Vec<Point> {
 
 /// The files of the folder `plc/`, without addresses.
 pub fn files(system: &System, sources: &Sources) -> Files {
-    mapped(system, sources, &IoMap::default())
+    mapped(system, sources, &IoMap::default()).0
 }
 
-/// The files of the folder `plc/`, with the addresses of a map for [`points`] of the same system.
-pub fn mapped(system: &System, sources: &Sources, map: &IoMap) -> Files {
+/// The files of the folder `plc/`, with the addresses of a map for [`points`] of the same system. And the columns
+/// of an I/O trace, named as the globals of `portable/main.st`; the state of a robot as `robot.state`.
+pub fn mapped(system: &System, sources: &Sources, map: &IoMap) -> (Files, Columns) {
     let names = names::names(system);
     let mut program = names.program.inner();
     let image = image::image(system, &names, map, &mut program);
@@ -75,15 +76,7 @@ pub fn mapped(system: &System, sources: &Sources, map: &IoMap) -> Files {
     if !renamed.is_empty() {
         files.insert("names.csv".into(), table::renamed(&renamed));
     }
-    files
-}
-
-/// The columns of an I/O trace, named as the globals of `portable/main.st`; the state of a robot as `robot.state`.
-pub fn columns(system: &System, sources: &Sources) -> Columns {
-    let names = names::names(system);
-    let image = image::image(system, &names, &IoMap::default(), &mut names.program.inner());
-    let shared = Shared { system, sources, names: &names };
-    columns::columns(shared, &line(shared, &image).globals)
+    (files, columns::columns(shared, &line.globals))
 }
 
 /// The units of a line, in the order in which they must be declared.

@@ -114,7 +114,7 @@ pub fn title(layout: &Path, name: &str) -> String {
 /// Says which addresses a table leaves out.
 fn report_gaps(map: &IoMap, points: &[Point]) {
     say!("{} of {} points have an address", map.len(), points.len());
-    let permit = points.iter().position(|p| p.robot.is_empty() && p.name == "run_permit");
+    let permit = points.iter().position(|p| p.robot.is_empty() && p.port == "run_permit");
     if permit.and_then(|p| map.wire(p)).is_some_and(|wire| wire.conversion == Conversion::Inverted) {
         say!("note: run_permit is inverted: a broken wire or a lost fieldbus would permit the line to run");
     }
@@ -130,7 +130,8 @@ fn files(project: &Project, sources: &Sources, map: &IoMap) -> Files {
     for (name, text) in files_of_rust(&project.system, sources) {
         files.insert(format!("rust/{name}"), text);
     }
-    for (name, text) in st::mapped(&project.system, sources, map) {
+    let (texts, columns) = st::mapped(&project.system, sources, map);
+    for (name, text) in texts {
         files.insert(format!("plc/{name}"), text);
     }
     for (name, text) in dot::files(&project.system, &project.edges) {
@@ -142,10 +143,7 @@ fn files(project: &Project, sources: &Sources, map: &IoMap) -> Files {
     }
     files.insert("rust/commissioning/data/line.txt".into(), project.plant.to_text());
     files.insert("rust/commissioning/data/parameters.txt".into(), rust::parameters_text(&project.system));
-    files.insert(
-        "rust/commissioning/data/columns.txt".into(),
-        st::columns(&project.system, sources).to_text(),
-    );
+    files.insert("rust/commissioning/data/columns.txt".into(), columns.to_text());
     files
 }
 

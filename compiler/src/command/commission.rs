@@ -52,7 +52,7 @@ pub fn run(options: &CommissionOptions) -> Status {
         Ok(results) => results,
         Err(text) => return fail(options, text),
     };
-    match commission(options, &built, delay, [io_trace, hashes], &trajectories) {
+    match commission(options, &built, delay, [io_trace, hashes], trajectories) {
         Ok(mut report) => {
             fault::name(&mut report, &built.project.system, &built.sources);
             contact::name_reasons(&mut report, &built.project.may_touch);
@@ -93,7 +93,7 @@ fn commission(
     built: &Built,
     delay: IoDelay,
     [io_trace, hashes]: [Option<Pending>; 2],
-    trajectories: &Request,
+    trajectories: Request,
 ) -> Result<Value, String> {
     trajectories.check(&built.project.plant)?;
     let input = &options.build.input;

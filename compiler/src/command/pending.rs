@@ -2,6 +2,8 @@
 //! is something else.
 
 use super::write::Overwrite;
+use autogen::backend::paths::MARK;
+use runtime_sim::path::{FORMAT, HEAD};
 use std::fs::{self, File};
 use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
@@ -12,6 +14,9 @@ pub enum Content {
     IoTrace,
     Hashes,
     Results,
+    PathTable,
+    PathSegments,
+    PathDrawing,
 }
 
 impl Content {
@@ -20,6 +25,9 @@ impl Content {
             Content::IoTrace => "I/O trace",
             Content::Hashes => "list of hashes",
             Content::Results => "file of results",
+            Content::PathTable => "table of paths",
+            Content::PathSegments => "list of segments",
+            Content::PathDrawing => "drawing of paths",
         }
     }
 
@@ -31,9 +39,15 @@ impl Content {
                 bytes.len() > 16 && bytes[..16].iter().all(u8::is_ascii_hexdigit) && bytes[16] == b'\n'
             }
             Content::Results => bytes.starts_with(b"{\n  \"finished\""),
+            Content::PathTable => bytes.starts_with(HEAD.as_bytes()),
+            Content::PathSegments => bytes.starts_with(format!("{{\"format\":\"{FORMAT}\"").as_bytes()),
+            Content::PathDrawing => String::from_utf8_lossy(bytes).contains(MARK),
         }
     }
 }
+
+/// Bytes by which contents are told from one another.
+const BEGINNING: u64 = 256;
 
 /// A file to come.
 #[derive(Debug)]
@@ -86,7 +100,7 @@ impl Drop for Pending {
 /// Whether there is nothing yet, an empty file, or one with this content.
 fn is_free(path: &Path, content: Content) -> Result<bool, String> {
     let mut beginning = Vec::new();
-    match File::open(path).and_then(|file| file.take(64).read_to_end(&mut beginning)) {
+    match File::open(path).and_then(|file| file.take(BEGINNING).read_to_end(&mut beginning)) {
         Ok(_) => Ok(beginning.is_empty() || content.is_begun_by(&beginning)),
         Err(error) if error.kind() == ErrorKind::NotFound => Ok(true),
         Err(error) => Err(format!("{}: {error}", path.display())),
@@ -106,6 +120,9 @@ mod tests {
             (Content::IoTrace, "run_permit,start,reset,running\n"),
             (Content::Hashes, "0123456789abcdef\n"),
             (Content::Results, "{\n  \"finished\": true\n}\n"),
+            (Content::PathTable, HEAD),
+            (Content::PathSegments, &format!("{{\"format\":\"{FORMAT}\"}}")),
+            (Content::PathDrawing, &format!("<svg>\n{MARK}: -->\n</svg>")),
         ];
         for (content, text) in texts {
             fs::write(&path, "{}").unwrap();

@@ -1,13 +1,13 @@
 //! The option `--trajectories`: what is asked for, and writing it.
 
 use super::options::{CommissionOptions, TrajectoryOptions};
+use super::pending::{Content, Pending};
 use autogen::backend::paths;
 use autogen::lower::Project;
 use runtime_sim::item;
 use runtime_sim::line::Line;
-use runtime_sim::path::{FORMAT, HEAD};
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 
 /// A drawing is made from samples so far apart.
@@ -20,35 +20,18 @@ const DRAWN: &str = "drawn.csv";
 /// Which paths are to be written, where and how.
 #[derive(Debug)]
 pub struct Request {
-    files: Vec<(PathBuf, Form)>,
+    files: Vec<(Pending, Content)>,
     every_ms: u64,
     items: Vec<String>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Form {
-    Table,
-    Segments,
-    Drawing,
-}
-
-impl Form {
-    fn of(path: &Path) -> Option<Self> {
-        match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
-            "csv" => Some(Form::Table),
-            "json" => Some(Form::Segments),
-            "svg" => Some(Form::Drawing),
-            _ => None,
-        }
-    }
-
-    /// Whether autogen wrote this text.
-    fn is_own(self, text: &str) -> bool {
-        match self {
-            Form::Table => text.starts_with(HEAD),
-            Form::Segments => text.starts_with(&format!("{{\"format\":\"{FORMAT}\"")),
-            Form::Drawing => text.contains(paths::MARK),
-        }
+/// What a name asks for by its end.
+fn content(path: &Path) -> Option<Content> {
+    match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
+        "csv" => Some(Content::PathTable),
+        "json" => Some(Content::PathSegments),
+        "svg" => Some(Content::PathDrawing),
+        _ => None,
     }
 }
 
@@ -59,26 +42,10 @@ impl Request {
         let files = files
             .iter()
             .map(|path| {
-                let form = Form::of(path).ok_or_else(|| {
+                let content = content(path).ok_or_else(|| {
                     format!("--trajectories {}: the name has to end in .csv, .json or .svg", path.display())
                 })?;
-                if path.metadata().is_ok_and(|there| !there.is_file()) {
-                    return Err(format!("--trajectories {}: this is no file", path.display()));
-                }
-                let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-                if let Some(folder) = folder.filter(|folder| !folder.is_dir()) {
-                    return Err(format!("--trajectories {}: there is no folder {}", path.display(), folder.display()));
-                }
-                let is_foreign = |text: Vec<u8>| {
-                    !text.is_empty() && !String::from_utf8(text).is_ok_and(|text| form.is_own(&text))
-                };
-                if !options.build.force && fs::read(path).is_ok_and(is_foreign) {
-                    return Err(format!(
-                        "not written: {} is there and autogen did not write it; choose another name, or overwrite it with --force",
-                        path.display()
-                    ));
-                }
-                Ok((path.clone(), form))
+                Ok((Pending::new(path, content, options.build.overwrite())?, content))
             })
             .collect::<Result<_, String>>()?;
         let every_ms = milliseconds(every).ok_or_else(|| {
@@ -104,14 +71,14 @@ impl Request {
 
     /// The options for the linked simulation that have it write into a temporary folder.
     pub fn ask(&self, command: &mut Command, folder: &Path) {
-        let has = |form: Form| self.files.iter().any(|(_, own)| *own == form);
-        if has(Form::Segments) {
+        let has = |content: Content| self.files.iter().any(|(_, own)| *own == content);
+        if has(Content::PathSegments) {
             command.arg("--segments").arg(folder.join(SEGMENTS));
         }
-        if has(Form::Table) {
+        if has(Content::PathTable) {
             command.arg("--table").arg(folder.join(TABLE)).arg(self.every_ms.to_string());
         }
-        if has(Form::Drawing) {
+        if has(Content::PathDrawing) {
             command.arg("--table").arg(folder.join(DRAWN)).arg(DRAWN_EVERY_MS.to_string());
         }
         if !self.items.is_empty() {
@@ -119,21 +86,21 @@ impl Request {
         }
     }
 
-    /// Writes what the simulation has left in the temporary folder.
-    pub fn write(&self, project: &Project, folder: &Path) -> Result<(), String> {
+    /// Writes what the simulation has left in the temporary folder: all files, or none.
+    pub fn write(self, project: &Project, folder: &Path) -> Result<(), String> {
         let read = |name: &str| {
             let path = folder.join(name);
             fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))
         };
-        for (path, form) in &self.files {
-            let text = match form {
-                Form::Table => read(TABLE)?,
-                Form::Segments => read(SEGMENTS)? + "\n",
-                Form::Drawing => paths::svg(project, &read(DRAWN)?),
+        for (file, content) in &self.files {
+            let text = match content {
+                Content::PathSegments => read(SEGMENTS)? + "\n",
+                Content::PathDrawing => paths::svg(project, &read(DRAWN)?),
+                _ => read(TABLE)?,
             };
-            fs::write(path, text).map_err(|e| format!("{}: {e}", path.display()))?;
+            fs::write(file.partial(), text).map_err(|e| format!("{}: {e}", file.path().display()))?;
         }
-        Ok(())
+        self.files.into_iter().try_for_each(|(file, _)| file.keep())
     }
 }
 

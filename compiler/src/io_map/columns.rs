@@ -1,6 +1,6 @@
 //! The columns of a table, found by the names in its first line.
 
-use super::csv::{Field, Table};
+use crate::csv::{Field, Table};
 use crate::diagnostic::{Diagnostic, suggestion};
 use crate::source::{FileId, Span};
 

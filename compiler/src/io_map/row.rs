@@ -2,9 +2,9 @@
 
 use super::address::{Address, Area};
 use super::columns::{Columns, Record};
-use super::csv::Field;
 use super::overlap::Place;
 use super::{Conversion, Kind, Point, Raw, Wire, raw};
+use crate::csv::Field;
 use crate::diagnostic::{Diagnostic, suggestion};
 use crate::source::Span;
 use runtime_sim::device::Direction;

@@ -4,15 +4,13 @@ use super::command::{Asked, Command, is_held};
 use super::course::Course;
 use super::image::{in_belt, put_bit, put_point};
 use crate::device::error;
-use crate::geometry::{BELT_SURFACE, END_INSET, PICK_ZONE_HALF, SPAWN_INSET};
+use crate::geometry::{BELT_SURFACE, BELT_WIDTH, END_INSET, PICK_ZONE_HALF, SPAWN_INSET};
 use crate::item::{Carrier, Items};
 use crate::point::{Axis, Point};
 
 /// Full speed in m/s (competition specification of the conveyor). Its changes are steps, as the
 /// simulator of the competition sets the joint's velocity directly.
 pub const SPEED: f64 = 0.2;
-/// Width of the moving surface (collision box of the belt model).
-const WIDTH: f64 = 0.42;
 /// Half of the longest part's length (battery: 0.135 m, and some slack).
 const PART_HALF: f64 = 0.07;
 
@@ -155,7 +153,7 @@ impl Belt {
             Axis::X => (point.x, point.y - self.pose.y),
             Axis::Y => (point.y, point.x - self.pose.x),
         };
-        let meets = (self.range[0]..=self.range[1]).contains(&along) && across.abs() <= WIDTH / 2.0;
+        let meets = (self.range[0]..=self.range[1]).contains(&along) && across.abs() <= BELT_WIDTH / 2.0;
         let carrier = Carrier::Belt { machine, at: along + self.travel(), across };
         meets.then_some((self.pose.z + BELT_SURFACE, carrier))
     }

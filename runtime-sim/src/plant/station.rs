@@ -2,13 +2,10 @@
 
 use super::image::{in_station, out_station, put_bit};
 use crate::event::OrderChange;
-use crate::geometry::BRIEFCASE;
+use crate::geometry::{BRIEFCASE, BRIEFCASE_X, BRIEFCASE_Y};
 use crate::item::{Carrier, Items};
 use crate::line::Order;
 use crate::point::Point;
-
-/// The briefcase seen from above (mesh of the competition's briefcase).
-const SIZE: [f64; 2] = [0.621, 0.761];
 
 /// The orders, and which of them have been made: known at all stations.
 #[derive(Clone, Debug)]
@@ -141,7 +138,8 @@ impl Station {
     pub fn below(&self, machine: usize, point: Point) -> Option<(f64, Carrier)> {
         self.open_order()?;
         let from_middle = point - (self.pose + BRIEFCASE);
-        let meets = from_middle.x.abs() <= SIZE[0] / 2.0 && from_middle.y.abs() <= SIZE[1] / 2.0;
+        let is_within = |at: f64, [low, high]: [f64; 2]| (low..=high).contains(&at);
+        let meets = is_within(from_middle.x, BRIEFCASE_X) && is_within(from_middle.y, BRIEFCASE_Y);
         let offset = Point { z: BRIEFCASE.z, ..point - self.pose };
         meets.then_some((self.pose.z + BRIEFCASE.z, Carrier::Briefcase { machine, offset }))
     }

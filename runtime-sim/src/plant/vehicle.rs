@@ -4,7 +4,7 @@ use super::command::{Asked, Command, goal, is_held};
 use super::course::Course;
 use super::image::{in_vehicle, put_point};
 use crate::device::error;
-use crate::geometry::TRAY_SURFACE;
+use crate::geometry::{TRAY, TRAY_MIDDLE, TRAY_SURFACE};
 use crate::item::Carrier;
 use crate::point::Point;
 
@@ -15,9 +15,6 @@ const LATENCY_MS: u64 = 750;
 const SPEED: f64 = 3.334 / 3.0;
 /// A goal that is no farther from a stop means that stop.
 const STOP_TOLERANCE: f64 = 0.001;
-/// The tray in world axes, and its middle from the vehicle's position (kit tray 0.5 x 0.7, turned).
-const TRAY: [f64; 2] = [0.70, 0.50];
-const TRAY_MIDDLE: Point = Point::new(0.15, 0.0, 0.0);
 
 #[derive(Clone, Debug)]
 pub struct Vehicle {

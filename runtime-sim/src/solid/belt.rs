@@ -1,11 +1,10 @@
 //! A belt on its bed, between two guards.
 
 use super::{Link, Solid, cuboid, laid};
-use crate::geometry::BELT_SURFACE;
+use crate::geometry::{BELT_SURFACE, BELT_WIDTH};
 use crate::point::{Axis, Point};
 
-/// Half of the moving surface's width (`conveyor_belt/model.sdf`, ARIAC 2021: 0.42 m).
-const HALF_WIDTH: f64 = 0.21;
+const HALF_WIDTH: f64 = BELT_WIDTH / 2.0;
 /// Outer faces of the guards across a belt along y, and their upper edge over the pose
 /// (bounds of `conveyor.dae`: x -0.341 to 0.454, z up to 0.920).
 const OUTER: [f64; 2] = [-0.341, 0.454];

@@ -3,13 +3,11 @@
 //! Sizes from `workcell_bin/model.sdf` (ARIAC 2021).
 
 use super::{Link, Solid, cuboid};
-use crate::geometry::BIN_FLOOR;
+use crate::geometry::{BIN_FLOOR, BIN_SIDE};
 use crate::point::Point;
 
 /// Half of its foot's length, and the foot's height.
 const FOOT: (f64, f64) = (0.33418, 0.20049);
-/// Half of the block's length.
-const BLOCK: f64 = 0.3;
 /// Outer and inner face of the walls, and their upper edge.
 const OUTER: f64 = 0.3205;
 const INNER: f64 = 0.31749;
@@ -27,7 +25,7 @@ pub fn solids(pose: Point) -> Vec<Solid> {
     let (left, right) = ([-OUTER, -HALF_GAP], [HALF_GAP, OUTER]);
     vec![
         body("foot", around(FOOT.0), around(FOOT.0), FOOT.1),
-        body("block", around(BLOCK), around(BLOCK), BIN_FLOOR),
+        body("block", around(BIN_SIDE / 2.0), around(BIN_SIDE / 2.0), BIN_FLOOR),
         body("lower_x_wall", lower, around(OUTER), WALL_TOP),
         body("upper_x_wall", upper, around(OUTER), WALL_TOP),
         body("lower_y_left_wall", left, lower, WALL_TOP),

@@ -4,7 +4,7 @@
 //! lies along the world's -x. Round columns are taken for square.
 
 use super::{Link, Shape, Solid, at, cuboid};
-use crate::geometry::TRAY_SURFACE;
+use crate::geometry::{TRAY, TRAY_MIDDLE, TRAY_SURFACE};
 use crate::point::Point;
 
 const BASE: Point = Point::new(1.0228, 0.55508, 0.40874);
@@ -13,9 +13,8 @@ const BUMPER: Point = Point::new(1.17126, 0.67266, 0.12441);
 const COLUMN_X: f64 = -0.27539;
 const COLUMN: (f64, f64) = (0.08652, 0.87476);
 const MAST: (f64, f64) = (0.04261, 1.40848);
-/// Tray: lengths, middle of its plate, and its lips: upper edge over the plate's middle, thickness.
-const TRAY: Point = Point::new(0.7, 0.5, 0.01);
-const TRAY_X: f64 = 0.15;
+/// Thickness of the tray's plate; its lips: upper edge over the plate's middle, thickness.
+const PLATE: f64 = 0.01;
 const LIP_HEIGHT: f64 = 0.0254;
 const LIP_THICKNESS: f64 = 0.001;
 
@@ -29,10 +28,11 @@ pub fn solids() -> Vec<Solid> {
     let column = |name, (radius, height): (f64, f64)| {
         standing(name, COLUMN_X, Point::new(2.0 * radius, 2.0 * radius, height))
     };
-    let plate = TRAY_SURFACE - TRAY.z / 2.0;
-    let (half_x, half_y, half_lip) = (TRAY.x / 2.0, TRAY.y / 2.0, LIP_THICKNESS / 2.0);
+    let plate = TRAY_SURFACE - PLATE / 2.0;
+    let (half_x, half_y, half_lip) = (TRAY[0] / 2.0, TRAY[1] / 2.0, LIP_THICKNESS / 2.0);
     let on_tray = |name, (x0, x1): (f64, f64), (y0, y1): (f64, f64), z0: f64, z1: f64| {
-        cuboid(name, Link::Vehicle, Point::new(TRAY_X + x0, y0, z0), Point::new(TRAY_X + x1, y1, z1))
+        let corner = |x, y, z| TRAY_MIDDLE + Point::new(x, y, z);
+        cuboid(name, Link::Vehicle, corner(x0, y0, z0), corner(x1, y1, z1))
     };
     let lip = |name, x, y| on_tray(name, x, y, plate, plate + LIP_HEIGHT);
     let (x_all, y_all) = ((-half_x, half_x), (-half_y, half_y));
@@ -42,7 +42,7 @@ pub fn solids() -> Vec<Solid> {
         standing("bumper", 0.0, BUMPER),
         column("column", COLUMN),
         column("mast", MAST),
-        on_tray("tray", x_all, y_all, TRAY_SURFACE - TRAY.z, TRAY_SURFACE),
+        on_tray("tray", x_all, y_all, TRAY_SURFACE - PLATE, TRAY_SURFACE),
         lip("lower_x_lip", edge(-half_x), y_all),
         lip("upper_x_lip", edge(half_x), y_all),
         lip("lower_y_lip", x_all, edge(-half_y)),

@@ -80,6 +80,7 @@ fn line(system: &System) -> Vec<Terminal> {
     .map(|(variable, direction, kind, first, meaning)| Terminal {
         point: Point {
             robot: String::new(),
+            port: variable,
             name: variable.into(),
             direction,
             kind,
@@ -95,7 +96,13 @@ fn line(system: &System) -> Vec<Terminal> {
     .collect()
 }
 
-fn terminal(robot: &str, port: &Port, part: usize, variable: &str, element: Option<usize>) -> Terminal {
+fn terminal(
+    robot: &str,
+    port: &'static Port,
+    part: usize,
+    variable: &str,
+    element: Option<usize>,
+) -> Terminal {
     let first = || constants(stop_value(port).unwrap_or(first_value(port.ty))).swap_remove(part);
     let kind = match port.ty {
         PortType::Bool => Kind::Bool,
@@ -106,6 +113,7 @@ fn terminal(robot: &str, port: &Port, part: usize, variable: &str, element: Opti
     Terminal {
         point: Point {
             robot: robot.into(),
+            port: port.name,
             name: element.map_or(variable.into(), |i| format!("{variable}[{i}]")),
             direction: port.direction,
             kind,

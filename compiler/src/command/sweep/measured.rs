@@ -2,6 +2,8 @@
 
 use super::super::load::Failure;
 use super::plan::Refusal;
+use autogen::csv::{self, Field};
+use autogen::source::Sources;
 use std::path::Path;
 
 const FIGURE: &str = "seconds_per_order";
@@ -32,8 +34,16 @@ impl Measured {
         let said = |text: String| Refusal::Said(format!("{name}: {text}"));
         let text = std::fs::read_to_string(path)
             .map_err(|e| Refusal::Failure(Failure::Unreadable(format!("{name}: {e}"))))?;
-        let mut lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
-        let head = lines.next().map_or_else(Vec::new, |(_, line)| fields(line));
+        let mut sources = Sources::default();
+        let file = sources.add(name.to_string(), text);
+        let mut found = Vec::new();
+        let table = csv::parse(file, &sources.file(file).text, &mut found);
+        if let Some(wrong) = found.first() {
+            return Err(said(format!("line {}: {}", sources.position(wrong.place).0, wrong.message)));
+        }
+        let texts = |record: &[Field]| record.iter().map(|field| field.text.clone()).collect::<Vec<_>>();
+        let mut records = table.records.iter();
+        let head = records.next().map_or_else(Vec::new, |record| texts(record));
         let figure = head.iter().position(|column| column == FIGURE);
         let figure = figure.ok_or_else(|| said(format!("the first line has no column `{FIGURE}`")))?;
         let mut keys = head.clone();
@@ -50,22 +60,23 @@ impl Measured {
             }
         }
         let mut rows: Vec<(Vec<String>, Option<f64>)> = Vec::new();
-        for (number, line) in lines {
-            let mut point = fields(line);
+        for record in records {
+            let number = sources.position(record[0].span).0;
+            let mut point = texts(record);
             if point.len() != head.len() {
                 let (found, wanted) = (point.len(), head.len());
-                return Err(said(format!("line {}: {found} fields, {wanted} columns", number + 1)));
+                return Err(said(format!("line {}: {found} fields, {wanted} columns", number)));
             }
             let written = point.remove(figure);
             let value =
-                match written.trim() {
+                match written.as_str() {
                     "" => None,
                     text => Some(text.parse::<f64>().ok().filter(|s| s.is_finite() && *s > 0.0).ok_or_else(
-                        || said(format!("line {}: `{text}` is no number of seconds above 0", number + 1)),
+                        || said(format!("line {}: `{text}` is no number of seconds above 0", number)),
                     )?),
                 };
             if rows.iter().any(|(other, _)| *other == point) {
-                return Err(said(format!("line {}: this point stands twice", number + 1)));
+                return Err(said(format!("line {}: this point stands twice", number)));
             }
             rows.push((point, value));
         }
@@ -88,24 +99,4 @@ impl Measured {
     pub fn rms(&self) -> Option<(f64, u32)> {
         (self.ratios > 0).then(|| ((self.squares / f64::from(self.ratios)).sqrt(), self.ratios))
     }
-}
-
-/// The fields of a line of CSV (RFC 4180; a field does not go over lines).
-fn fields(line: &str) -> Vec<String> {
-    let mut found = vec![String::new()];
-    let mut quoted = false;
-    let mut chars = line.trim_end().chars().peekable();
-    while let Some(c) = chars.next() {
-        match (c, found.last_mut()) {
-            ('"', Some(field)) if quoted && chars.peek() == Some(&'"') => {
-                chars.next();
-                field.push('"');
-            }
-            ('"', _) => quoted = !quoted,
-            (',', _) if !quoted => found.push(String::new()),
-            (c, Some(field)) => field.push(c),
-            (_, None) => {}
-        }
-    }
-    found
 }
