@@ -171,22 +171,36 @@ impl Coverage {
     }
 
     /// Runs variations of a text whose automata begin in the states that no run has entered so far: the transition
-    /// of the beginning leads there, and does nothing else.
+    /// of the beginning leads there, and does nothing else. Where a fault of another automaton comes first each
+    /// time, the others do not begin at all.
     pub fn enter_the_rest(&mut self, text: &Text, sources: &Sources, run: impl Fn(&mut Beside, &Text)) {
         let mut rest = self.not_entered(text);
         self.only_begun_elsewhere += rest.iter().map(Vec::len).sum::<usize>();
+        let vary = |coverage: &mut Self, system: &System| {
+            let name = format!("{}, begun elsewhere", text.name);
+            let variation = Text::new(&name, text.family, system, sources);
+            coverage.take(&variation, |beside| run(beside, &variation));
+        };
         while rest.iter().any(|states| !states.is_empty()) {
             let mut system = text.system.clone();
             for (automaton, states) in system.model.automata.iter_mut().zip(&mut rest) {
-                let Some(state) = states.pop() else { continue };
-                for begin in &mut automaton.states[0].transitions {
-                    begin.target = Some(StateId(state));
-                    begin.updates.clear();
+                if let Some(state) = states.pop() {
+                    begin_in(automaton, state);
                 }
             }
-            let name = format!("{}, begun elsewhere", text.name);
-            let variation = Text::new(&name, text.family, &system, sources);
-            self.take(&variation, |beside| run(beside, &variation));
+            vary(self, &system);
+        }
+        for (alone, states) in self.not_entered(text).into_iter().enumerate() {
+            for state in states {
+                let mut system = text.system.clone();
+                for (number, automaton) in system.model.automata.iter_mut().enumerate() {
+                    match number == alone {
+                        true => begin_in(automaton, state),
+                        false => automaton.states[0].transitions.clear(),
+                    }
+                }
+                vary(self, &system);
+            }
         }
     }
 
@@ -194,6 +208,13 @@ impl Coverage {
     pub fn constructs(&self) -> (Vec<&str>, Vec<&str>) {
         let never = self.constructs.iter().filter(|(_, count)| **count == 0);
         (self.constructs.keys().map(String::as_str).collect(), never.map(|(name, _)| name.as_str()).collect())
+    }
+}
+
+fn begin_in(automaton: &mut Automaton, state: usize) {
+    for begin in &mut automaton.states[0].transitions {
+        begin.target = Some(StateId(state));
+        begin.updates.clear();
     }
 }
 

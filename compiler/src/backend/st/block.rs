@@ -60,9 +60,9 @@ pub fn steps(shared: Shared, id: AutomatonId, globals: &Globals) -> Block {
     body.push(elapse());
     let case = vec![Stmt::Case { selector: state, branches, otherwise }];
     let mut case = dead::without_unread(case, &made(&lowering));
-    let answer = lowering.answer();
     let used = code::names(&case);
-    body.extend(answer.into_iter().filter(|s| matches!(s, Stmt::Assign(Ex::Name(n), _) if used.contains(n))));
+    let is_asked = |s: &Stmt| matches!(s, Stmt::Assign(Ex::Name(n), _) if used.contains(n));
+    body.extend(lowering.answer().into_iter().filter(is_asked));
     body.append(&mut case);
     let candidates = candidates(shared, id);
     let used = code::names(&body);

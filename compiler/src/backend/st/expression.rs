@@ -166,16 +166,8 @@ impl Lowering<'_> {
     }
 
     /// Statements that set `done` and `failed`.
-    pub fn answer(&mut self) -> Vec<Stmt> {
-        let (done, failed) = super::walk::answers(self.automaton());
-        let mut statements = Vec::new();
-        if done {
-            statements.push(assign("done", self.answered("=")));
-        }
-        if failed {
-            statements.push(assign("failed", self.answered("<>")));
-        }
-        statements
+    pub fn answer(&mut self) -> [Stmt; 2] {
+        [assign("done", self.answered("=")), assign("failed", self.answered("<>"))]
     }
 
     /// A define has its own variable, which is computed once for all that reads it.

@@ -16,7 +16,7 @@ impl Lowering<'_> {
         self.known.clear();
         let mut body = self.chain(number, &state.transitions);
         body.extend(self.within(state));
-        if !body.iter().any(|s| !matches!(s, Stmt::Comment(_))) {
+        if body.is_empty() {
             let text = if state.is_final { "the end" } else { "nothing leads on" };
             body.push(Stmt::Comment(text.into()));
             body.push(assign("state", Ex::Member(self.state(self.id, number))));
@@ -40,8 +40,11 @@ impl Lowering<'_> {
         let known_before = self.known.clone();
         let (mut out, condition) = self.guard(transition);
         let known = self.known.clone();
-        let body = self.firing(transition);
+        let mut body = self.firing(transition);
         self.known = known;
+        if body.is_empty() {
+            body.push(assign("state", Ex::Member(self.state(self.id, number))));
+        }
         match condition {
             Ex::Bool(true) => {
                 out.insert(0, Stmt::Comment(title));
@@ -61,11 +64,6 @@ impl Lowering<'_> {
         } else {
             out.insert(0, Stmt::Comment(title));
         }
-        let body = if body.is_empty() {
-            vec![assign("state", Ex::Member(self.state(self.id, number)))]
-        } else {
-            body
-        };
         let mut arms = vec![Arm { comments, condition, body }];
         let mut otherwise = self.chain(number, others);
         if let [Stmt::If(more, rest)] = otherwise.as_mut_slice() {

@@ -1,8 +1,7 @@
 //! What expressions need: defines that they read, and whether they may be computed where no guard protects them.
 
 use crate::ir::{
-    Automaton, Clause, Domain, Expr, ExprKind, Model, Operator, Place, Scalar, Type, UpdateKind, Value,
-    VariableId,
+    Automaton, Domain, Expr, ExprKind, Model, Operator, Place, Scalar, Type, UpdateKind, Value, VariableId,
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -39,30 +38,6 @@ pub fn update_parts(update: &UpdateKind) -> Vec<&Expr> {
         }
         UpdateKind::Command { arguments, .. } => arguments.iter().map(|a| &a.value).collect(),
     }
-}
-
-/// Whether guards of an automaton ask for the answer to its last command: well, in error.
-pub fn answers(automaton: &Automaton) -> (bool, bool) {
-    let mut found = (false, false);
-    for clause in automaton.states.iter().flat_map(|s| &s.transitions).flat_map(|t| &t.clauses) {
-        match clause {
-            Clause::Condition(condition) => answer(condition, &mut found),
-            Clause::Bind(binder) => {
-                if let Domain::Range(low, high) = &binder.domain {
-                    answer(low, &mut found);
-                    answer(high, &mut found);
-                }
-                binder.condition.iter().chain(&binder.key).for_each(|e| answer(e, &mut found));
-            }
-        }
-    }
-    found
-}
-
-fn answer(expr: &Expr, found: &mut (bool, bool)) {
-    found.0 |= matches!(expr.kind, ExprKind::Done);
-    found.1 |= matches!(expr.kind, ExprKind::Failed);
-    expr.parts().into_iter().for_each(|part| answer(part, found));
 }
 
 /// Whether an expression could index beyond an array, divide by zero or leave 32 bits if what stands before it
