@@ -5,7 +5,8 @@ use crate::diagnostic::suggestion;
 use crate::spec::ast;
 use crate::spec::lexer::Token;
 
-const MEMBERS: &[&str] = &[
+/// The words with which the parts of an automaton begin.
+pub(super) const MEMBERS: &[&str] = &[
     "parameter",
     "shared",
     "local",

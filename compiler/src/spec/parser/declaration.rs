@@ -1,6 +1,7 @@
 //! `enum`, `interface`, and the declarations that interfaces and automata share.
 
 use super::Parser;
+use super::automaton::MEMBERS;
 use crate::spec::ast;
 use crate::spec::lexer::Token;
 
@@ -116,26 +117,10 @@ impl Parser {
 
     /// To the next declaration or state on this level, or past a `;`.
     fn recover_declaration(&mut self) {
-        const STARTS: &[&str] = &[
-            "parameter",
-            "shared",
-            "local",
-            "define",
-            "takes",
-            "hands",
-            "serves",
-            "knows",
-            "require",
-            "invariant",
-            "initial",
-            "any",
-            "state",
-            "final",
-        ];
         loop {
             match self.peek() {
                 Token::End | Token::Sign("}") | Token::Doc(_) => return,
-                Token::Word(w) if STARTS.contains(&w.as_str()) => return,
+                Token::Word(w) if MEMBERS.contains(&w.as_str()) => return,
                 Token::Sign(";") => {
                     self.next();
                     return;
