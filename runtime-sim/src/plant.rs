@@ -190,10 +190,9 @@ impl Plant {
     }
 
     fn write_images(&mut self) {
-        let kinds = self.heights.len();
         for (index, (machine, image)) in self.machines.iter().zip(&mut self.images).enumerate() {
             match machine {
-                Machine::Belt(belt) => belt.write(image, kinds, index, &self.items),
+                Machine::Belt(belt) => belt.write(image, index, &self.items),
                 Machine::Vehicle(vehicle) => vehicle.write(image),
                 Machine::Arm(arm) => arm.write(image),
                 Machine::Station(station) => station.write(image, &self.desk),
@@ -314,7 +313,7 @@ impl Machine {
                     first_ms: milliseconds(scenario.spawn_first_s),
                     every_ms: milliseconds(scenario.spawn_every_s),
                 };
-                Machine::Belt(Belt::new(command(), *pose, *orient, *orient_range, spawn, supply))
+                Machine::Belt(Belt::new(command(), *pose, *orient, *orient_range, spawn, &line.kinds, supply))
             }
             Geometry::Vehicle { pose, .. } => {
                 Machine::Vehicle(Vehicle::new(command(), machine.geometry.stops(), *pose))

@@ -173,6 +173,19 @@ fn the_camera_sees_a_part_wholly_in_the_zone_and_the_foremost_of_a_kind() {
 }
 
 #[test]
+fn a_long_part_is_seen_later() {
+    let mut line = line();
+    line.kinds[BATTERY].size = [0.06, 0.3];
+    let mut rig = Rig::new(&line);
+    rig.command(BELT, DRIVE, None);
+    // From 4.3 to 0.56 - 0.15 at 0.2 m/s, after the 2 s until it appears: 21.45 s.
+    rig.step(2144);
+    assert_eq!(rig.image(BELT)[input::SEES], 0.0);
+    rig.step(2);
+    assert_eq!(rig.image(BELT)[input::SEES], 1.0);
+}
+
+#[test]
 fn what_nobody_takes_ends_in_the_collector() {
     let mut rig = Rig::new(&line());
     rig.command(BELT, DRIVE, None);

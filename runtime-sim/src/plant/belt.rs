@@ -6,12 +6,14 @@ use super::image::{in_belt, put_bit, put_point};
 use crate::device::error;
 use crate::geometry::{BELT_SURFACE, BELT_WIDTH, END_INSET, PICK_ZONE_HALF, SPAWN_INSET};
 use crate::item::{Carrier, Items};
+use crate::line::Kind;
 use crate::point::{Axis, Point};
 
 /// Full speed in m/s (competition specification of the conveyor). Its changes are steps, as the
 /// simulator of the competition sets the joint's velocity directly.
 pub const SPEED: f64 = 0.2;
-/// Half of the longest part's length (battery: 0.135 m, and some slack).
+/// Half of the longest part's length in the competition (battery: 0.135 m, and some slack): parts lie as they
+/// were let go. A longer part is let in later.
 const PART_HALF: f64 = 0.07;
 
 #[derive(Clone, Debug)]
@@ -22,6 +24,8 @@ pub struct Belt {
     range: [f64; 2],
     drive: Drive,
     held: bool,
+    /// By kind: how far the middle of a part that lies wholly in the pick zone is from the zone's at most.
+    zone: Vec<f64>,
     /// Milliseconds at full speed since the start of the run.
     travel_ms: u64,
     spawn: Spawn,
@@ -56,8 +60,10 @@ impl Belt {
         orient: Axis,
         range: [f64; 2],
         spawn: Spawn,
+        kinds: &[Kind],
         mut supply: Vec<usize>,
     ) -> Self {
+        let half = |kind: &Kind| (kind.size[0].max(kind.size[1]) / 2.0).max(PART_HALF);
         supply.reverse();
         Self {
             command,
@@ -66,6 +72,7 @@ impl Belt {
             range,
             drive: Drive::Rest,
             held: false,
+            zone: kinds.iter().map(|kind| PICK_ZONE_HALF - half(kind)).collect(),
             travel_ms: 0,
             spawn,
             supply,
@@ -158,7 +165,7 @@ impl Belt {
         meets.then_some((self.pose.z + BELT_SURFACE, carrier))
     }
 
-    pub fn write(&self, image: &mut [f64], kinds: usize, machine: usize, items: &Items) {
+    pub fn write(&self, image: &mut [f64], machine: usize, items: &Items) {
         self.command.write(image);
         put_bit(image, in_belt::MOVING, self.is_moving());
         image[in_belt::SEES..].fill(0.0);
@@ -167,11 +174,11 @@ impl Belt {
             let item = &items.all()[item];
             let Carrier::Belt { at, across, .. } = item.carrier else { continue };
             let along = at - self.travel();
-            if (along - middle).abs() > PICK_ZONE_HALF - PART_HALF {
+            if (along - middle).abs() > self.zone[item.kind] {
                 continue;
             }
             let place = self.place(at, across);
-            let seen_at = in_belt::SEES + kinds + 3 * item.kind;
+            let seen_at = in_belt::SEES + self.zone.len() + 3 * item.kind;
             let sees = in_belt::SEES + item.kind;
             let other = match self.orient {
                 Axis::X => image[seen_at],
