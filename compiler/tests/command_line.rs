@@ -1,5 +1,8 @@
 //! The program as a user runs it.
 
+#[cfg(unix)]
+#[path = "command_line/interrupt.rs"]
+mod interrupt;
 #[path = "command_line/sweep.rs"]
 mod sweep;
 
