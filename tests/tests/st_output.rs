@@ -91,6 +91,15 @@ fn a_robot_has_one_number_in_all_texts() {
 }
 
 #[test]
+fn every_file_but_a_table_says_that_it_is_no_safety_function() {
+    for (name, files) in all_files() {
+        for (path, text) in files.iter().filter(|(path, _)| !path.ends_with(".csv")) {
+            assert!(text.to_lowercase().contains("not a safety function"), "{name}: {path}");
+        }
+    }
+}
+
+#[test]
 fn a_line_without_ports_has_a_header() {
     let (mut system, sources) = instantiate(&[fixtures().swap_remove(0)]);
     system.instances.clear();
