@@ -39,12 +39,12 @@ fn sequence(sequence: &Sequence, name: Span, counts: &dyn Fn(Span) -> bool, name
         updates(&otherwise.updates, names);
     }
     // All of its steps were made when the last wait of it has ended.
-    let waits = sequence.steps.iter().filter_map(|step| match step {
+    let mut waits = sequence.steps.iter().filter_map(|step| match step {
         Step::Act(Update { kind: UpdateKind::Assign { .. }, .. }) => None,
         Step::Act(update) => Some(update.span),
         Step::Until { span, .. } | Step::Wait { span, .. } => Some(*span),
     });
-    if !counts(waits.last().unwrap_or(name)) {
+    if !counts(waits.next_back().unwrap_or(name)) {
         return;
     }
     names.add("sequence");
