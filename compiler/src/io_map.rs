@@ -146,6 +146,7 @@ pub fn read(
         for record in table.records.iter().skip(1) {
             wires.extend(rows.read(&columns, record, &mut found));
         }
+        rows.strangers(&mut found);
         overlap::check(&rows.places, points, counting, &mut found);
     }
     diagnostic::sort(&mut found);

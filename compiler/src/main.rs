@@ -26,6 +26,7 @@ fn main() -> ExitCode {
         eprintln!("Please report it with the layout and the specifications that show it.");
     }));
     let cli = Cli::parse();
+    command::interrupt::install();
     let status = std::panic::catch_unwind(|| match &cli.command {
         Command::Check(options) => command::check::run(options),
         Command::Build(options) => command::build::run(options),

@@ -1,5 +1,8 @@
 //! The program as a user runs it.
 
+#[cfg(unix)]
+#[path = "command_line/interrupt.rs"]
+mod interrupt;
 #[path = "command_line/sweep.rs"]
 mod sweep;
 
@@ -121,6 +124,45 @@ fn wrong_command_lines_are_status_2() {
         assert!(!output.stderr.is_empty(), "{case:?}");
     }
     assert_eq!(status(&autogen(&folder, &["check", &layout])), 0, "the layout is still there");
+}
+
+#[test]
+fn a_code_is_found_however_it_is_typed() {
+    let folder = folder("explain");
+    let text = |code: &str| autogen(&folder, &["explain", code]).stdout;
+    assert!(!text("E0401").is_empty());
+    for typed in ["e0401", "e401", "E401", "401", " E0401 "] {
+        assert_eq!(text(typed), text("E0401"), "{typed}");
+    }
+}
+
+#[test]
+fn a_file_in_utf_16_is_called_so() {
+    let folder = folder("utf_16");
+    let layout = example("ariac2021/default.json");
+    let utf_8 = fs::read_to_string(&layout).expect("the example");
+    let bytes = |order: fn(u16) -> [u8; 2], mark: &str| -> Vec<u8> {
+        format!("{mark}{utf_8}").encode_utf16().flat_map(order).collect()
+    };
+    let texts =
+        [u16::to_le_bytes, u16::to_be_bytes].map(|order| [bytes(order, ""), bytes(order, "\u{feff}")]);
+    for text in texts.as_flattened() {
+        fs::write(folder.join("utf_16"), text).expect("a file");
+        let asked: [&[&str]; 4] = [
+            &["check", "utf_16"],
+            &["check", &layout, "--scenario", "utf_16"],
+            &["build", &layout, "--io", "utf_16"],
+            &["sweep", &layout, "--beside", "utf_16"],
+        ];
+        for arguments in asked {
+            let output = autogen(&folder, arguments);
+            assert_eq!(status(&output), 2, "{arguments:?}");
+            let said = errors(&output);
+            assert!(said.contains("utf_16: this file is UTF-16") && said.contains("UTF-8"), "{said}");
+        }
+    }
+    fs::write(folder.join("utf_8.json"), format!("\u{feff}{utf_8}")).expect("a file");
+    assert_eq!(status(&autogen(&folder, &["check", "utf_8.json"])), 0);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 //! the same text.
 
 use autogen::backend::Files;
-use autogen::backend::st;
+use autogen::backend::{rust, st};
 use autogen_st_judge::dead::dead;
 use autogen_st_judge::view::Section;
 use autogen_st_judge::{judge, listed};
@@ -63,6 +63,40 @@ fn names_that_could_not_stay_are_listed() {
         Some(format!("---- {name}\n{table}"))
     });
     insta::assert_snapshot!("names_csv", names.collect::<Vec<_>>().join("\n"));
+}
+
+#[test]
+fn alarms_say_who_raises_them_and_where() {
+    let alarms: Vec<String> = (fixtures().iter())
+        .map(|(name, text)| format!("---- {name}\n{}", of_fixture(name, text)["alarms.csv"]))
+        .collect();
+    insta::assert_snapshot!("alarms_csv", alarms.join("\n"));
+}
+
+#[test]
+fn a_robot_has_one_number_in_all_texts() {
+    let outcome = ariac("default").compile();
+    let system = outcome.project.expect("a layout that can be built").system;
+    let alarms = &st::files(&system, &outcome.sources)["alarms.csv"];
+    let rust = rust::files(&system, &outcome.sources);
+    for (number, instance) in system.instances.iter().enumerate() {
+        let name = &instance.name;
+        assert!(alarms.contains(&format!("{number} {name}")), "{alarms}");
+        let text = &rust[&format!("controllers/src/robots/{name}.rs")];
+        assert!(
+            text.starts_with(&format!("//! `{name}`: number {number} in the order of the steps")),
+            "{text}"
+        );
+    }
+}
+
+#[test]
+fn every_file_but_a_table_says_that_it_is_no_safety_function() {
+    for (name, files) in all_files() {
+        for (path, text) in files.iter().filter(|(path, _)| !path.ends_with(".csv")) {
+            assert!(text.to_lowercase().contains("not a safety function"), "{name}: {path}");
+        }
+    }
 }
 
 #[test]

@@ -179,7 +179,7 @@ impl Drawing {
 }
 
 const STYLE: &str = "text{font-family:sans-serif;text-anchor:middle}.name{font-size:16px;font-weight:bold;paint-order:stroke;stroke:#fff;stroke-width:3px}\
-.small{font-size:10px;fill:#777}.obstacle{fill:#eee;stroke:#bbb}.belt{fill:#cfd8dc;stroke:#607d8b}\
+.small{font-size:10px;fill:#444;paint-order:stroke;stroke:#fff;stroke-width:3px}.obstacle{fill:#eee;stroke:#bbb}.belt{fill:#cfd8dc;stroke:#607d8b}\
 .vehicle{fill:#ffe0b2;stroke:#e65100;stroke-width:2}.stop{fill:none;stroke:#e65100;stroke-dasharray:4 4}\
 .path{stroke:#e65100;stroke-dasharray:2 6}.rail{stroke:#1565c0;stroke-width:6;opacity:.5}\
 .arm{fill:#bbdefb;stroke:#1565c0;stroke-width:2}.range{fill:none;stroke:#1565c0;stroke-dasharray:12 6;opacity:.6}\

@@ -8,6 +8,7 @@
 //! parameters. Where the generated Rust leaves a step by `?`, the block returns: what was written stays, and
 //! the blocks behind it find `fault_code` set and do nothing.
 
+mod alarms;
 mod block;
 mod bounds;
 mod code;
@@ -69,7 +70,7 @@ pub fn mapped(system: &System, sources: &Sources, map: &IoMap) -> (Files, Column
     }
     files.insert("codesys/project.xml".into(), xml::codesys(shared, &line));
     files.insert("io.csv".into(), table::io(shared, map));
-    files.insert("alarms.csv".into(), table::alarms(shared));
+    files.insert("alarms.csv".into(), alarms::table(shared));
     files.insert("bounds.txt".into(), figures::report(shared, &line));
     let raw = program.renamed().iter().map(|renamed| ("globals".to_string(), renamed.clone()));
     let renamed: Vec<_> = names.renamed.iter().cloned().chain(raw).collect();

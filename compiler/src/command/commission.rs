@@ -3,16 +3,17 @@
 use super::build::{self, Built};
 use super::contact;
 use super::fault;
+use super::interrupt::{self, Temporary};
 use super::options::{CommissionOptions, Format};
 use super::pending::{Content, Pending};
 use super::program::{self, Notice};
 use super::trajectories::Request;
 use super::write;
 use crate::Status;
-use runtime_sim::line::IoDelay;
+use runtime_sim::line::{IoDelay, Line};
 use serde_json::{Value, json};
 use std::io::IsTerminal;
-use std::path::{self, PathBuf};
+use std::path::{self, Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::Instant;
 use std::{env, fs, io};
@@ -104,10 +105,9 @@ fn commission(
     let program = program::linked(&built.project.system, &built.sources, notice)?;
     let mut line = built.project.plant.clone();
     line.io_delay = delay;
-    let folder = env::temp_dir().join(format!("autogen-{}", std::process::id()));
-    let io = |e: io::Error| format!("{}: {e}", folder.display());
-    fs::create_dir_all(&folder).map_err(io)?;
-    fs::write(folder.join("line.txt"), line.to_text()).map_err(io)?;
+    let temporary = Temporary::new(env::temp_dir().join(format!("autogen-{}", std::process::id())));
+    let folder = temporary.path();
+    put_line(folder, &line).map_err(|e| format!("{}: {e}", folder.display()))?;
     let mut command = Command::new(&program);
     let data = built.folder.join("rust/commissioning/data");
     command.arg(folder.join("line.txt")).arg(data.join("parameters.txt"));
@@ -117,24 +117,30 @@ fn commission(
     if let Some(hashes) = &hashes {
         command.arg("--hashes").arg(hashes.partial());
     }
-    trajectories.ask(&mut command, &folder);
+    trajectories.ask(&mut command, folder);
     if is_chatty(options) {
         command.arg("--progress");
     }
     let result = simulate(command).and_then(|report| {
-        trajectories.write(&built.project, &folder)?;
+        trajectories.write(&built.project, folder)?;
         Ok(report)
     });
-    let _ = fs::remove_dir_all(&folder);
     if result.is_ok() {
         io_trace.into_iter().chain(hashes).try_for_each(Pending::keep)?;
     }
     result
 }
 
+fn put_line(folder: &Path, line: &Line) -> io::Result<()> {
+    let _writing = interrupt::writing();
+    fs::create_dir_all(folder)?;
+    fs::write(folder.join("line.txt"), line.to_text())
+}
+
 /// What the linked simulation reports.
 fn simulate(mut command: Command) -> Result<Value, String> {
-    let output = command.stderr(Stdio::inherit()).output();
+    command.arg("--attended").stdin(Stdio::piped()).stdout(Stdio::piped());
+    let output = interrupt::output(&mut command);
     let output = output.map_err(|e| format!("{}: {e}", command.get_program().display()))?;
     if !output.status.success() {
         return Err(format!("the linked simulation did not run: {}", output.status));

@@ -4,7 +4,8 @@ use super::options::ExplainOptions;
 use crate::Status;
 
 pub fn run(options: &ExplainOptions) -> Status {
-    match autogen::diagnostic::explain(&options.code.to_uppercase()) {
+    let text = code(&options.code).and_then(|code| autogen::diagnostic::explain(&code));
+    match text {
         Some(text) => {
             say!("{text}");
             Status::Done
@@ -14,4 +15,10 @@ pub fn run(options: &ExplainOptions) -> Status {
             Status::WrongCommand
         }
     }
+}
+
+/// A code with its four digits, however it is typed: `e401` and `401` are E0401.
+fn code(typed: &str) -> Option<String> {
+    let digits = typed.trim().trim_start_matches(['E', 'e']);
+    Some(format!("E{:04}", digits.parse::<u16>().ok()?))
 }

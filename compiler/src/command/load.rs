@@ -98,11 +98,31 @@ fn automata(path: &Path) -> Result<Vec<PathBuf>, Failure> {
     Ok(files)
 }
 
-/// Without a byte order mark; what is no UTF-8 is replaced.
 pub fn add(sources: &mut Sources, path: &Path) -> Result<FileId, Failure> {
+    Ok(sources.add(path.display().to_string(), text(path)?))
+}
+
+/// Without a byte order mark; what is no UTF-8 is replaced. UTF-16 is refused: nothing in it could be read.
+pub fn text(path: &Path) -> Result<String, Failure> {
     let bytes = std::fs::read(path).map_err(|e| unreadable(path, &e))?;
+    if is_utf_16(&bytes) {
+        return Err(Failure::Unreadable(format!(
+            "{}: this file is UTF-16, and only UTF-8 is read. Save it again as UTF-8: a spreadsheet calls it \
+             `CSV UTF-8`, Notepad `Encoding: UTF-8`, PowerShell `Out-File -Encoding utf8`",
+            path.display()
+        )));
+    }
     let text = String::from_utf8_lossy(&bytes);
-    Ok(sources.add(path.display().to_string(), text.strip_prefix('\u{feff}').unwrap_or(&text)))
+    Ok(text.strip_prefix('\u{feff}').unwrap_or(&text).into())
+}
+
+/// By its byte order mark, or since each second byte of what begins it is 0.
+fn is_utf_16(bytes: &[u8]) -> bool {
+    match *bytes {
+        [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..] => true,
+        [a, b, c, d, ..] => (a == 0) != (b == 0) && (a == 0) == (c == 0) && (b == 0) == (d == 0),
+        _ => false,
+    }
 }
 
 fn unreadable(path: &Path, error: &std::io::Error) -> Failure {

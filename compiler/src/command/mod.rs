@@ -17,6 +17,7 @@ pub mod contact;
 pub mod explain;
 pub mod fault;
 pub mod graph;
+pub mod interrupt;
 pub mod load;
 pub mod options;
 pub mod pending;

@@ -1,6 +1,7 @@
 //! Files that a run writes beside the output folder's own: first beside their place, and never over a file that
 //! is something else.
 
+use super::interrupt::{self, Temporary};
 use super::write::Overwrite;
 use autogen::backend::paths::MARK;
 use runtime_sim::path::{FORMAT, HEAD};
@@ -53,7 +54,7 @@ const BEGINNING: u64 = 256;
 #[derive(Debug)]
 pub struct Pending {
     path: PathBuf,
-    partial: PathBuf,
+    partial: Temporary,
 }
 
 impl Pending {
@@ -61,7 +62,6 @@ impl Pending {
     pub fn new(path: &Path, content: Content, overwrite: Overwrite) -> Result<Self, String> {
         let name = path.file_name().ok_or_else(|| format!("{}: this is no file", path.display()))?;
         let partial = format!(".{}.{}.partial", name.to_string_lossy(), std::process::id());
-        let own = Self { path: path.into(), partial: path.with_file_name(partial) };
         if path.metadata().is_ok_and(|there| !there.is_file()) {
             return Err(format!("{}: this is no file", path.display()));
         }
@@ -72,8 +72,10 @@ impl Pending {
                 content.name()
             ));
         }
-        File::create(&own.partial).map_err(|e| format!("{}: {e}", path.display()))?;
-        Ok(own)
+        let _writing = interrupt::writing();
+        let partial = Temporary::new(path.with_file_name(partial));
+        File::create(partial.path()).map_err(|e| format!("{}: {e}", path.display()))?;
+        Ok(Self { path: path.into(), partial })
     }
 
     pub fn path(&self) -> &Path {
@@ -82,18 +84,12 @@ impl Pending {
 
     /// Where to write while the run goes on; removed when this is dropped.
     pub fn partial(&self) -> &Path {
-        &self.partial
+        self.partial.path()
     }
 
     /// What was written is whole.
     pub fn keep(self) -> Result<(), String> {
-        fs::rename(&self.partial, &self.path).map_err(|e| format!("{}: {e}", self.path.display()))
-    }
-}
-
-impl Drop for Pending {
-    fn drop(&mut self) {
-        let _ = fs::remove_file(&self.partial);
+        fs::rename(self.partial.path(), &self.path).map_err(|e| format!("{}: {e}", self.path.display()))
     }
 }
 

@@ -1,5 +1,6 @@
 //! Diagnostics and verdicts, for people and for scripts.
 
+use super::interrupt;
 use super::load::Failure;
 use super::options::{Format, InputOptions};
 use crate::Status;
@@ -13,8 +14,10 @@ use std::io::{self, IsTerminal, Write};
 pub fn out(text: std::fmt::Arguments) {
     if let Err(error) = io::stdout().write_fmt(text).and_then(|()| io::stdout().flush()) {
         if error.kind() == io::ErrorKind::BrokenPipe {
+            interrupt::abandon();
             std::process::exit(Status::Done as i32);
         }
+        interrupt::abandon();
         eprintln!("autogen: standard output: {error}");
         std::process::exit(Status::WrongCommand as i32);
     }

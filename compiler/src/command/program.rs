@@ -1,10 +1,11 @@
 //! The program in which controllers and simulator are linked.
 
 use super::build::files_of_rust;
-use super::write;
+use super::interrupt::{self, Temporary};
+use super::write::{self, Files};
 use autogen::ir::System;
 use autogen::source::Sources;
-use std::io::Read;
+use std::io;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::{env, fs};
@@ -31,34 +32,39 @@ pub fn linked(system: &System, sources: &Sources, notice: Notice) -> Result<Path
         eprintln!("compiling the controllers and the simulator (once for these types) ...");
     }
     // Of this process alone: another one may be compiling the same.
-    let workspace = folder.join(format!("workspace-{}", std::process::id()));
-    let made = write::put(&workspace, &files)
-        .map_err(|e| format!("{}: {e}", workspace.display()))
-        .and_then(|()| compile(&workspace))
-        .and_then(|made| fs::rename(&made, &program).map_err(|e| format!("{}: {e}", made.display())));
-    let _ = fs::remove_dir_all(&workspace);
-    made.map(|()| program)
+    let workspace = Temporary::new(folder.join(format!("workspace-{}", std::process::id())));
+    put(workspace.path(), &files).map_err(|e| format!("{}: {e}", workspace.path().display()))?;
+    let made = compile(workspace.path())?;
+    fs::rename(&made, &program).map_err(|e| format!("{}: {e}", made.display()))?;
+    Ok(program)
+}
+
+/// Writes files into a folder of the program's own, over whatever is there.
+fn put(folder: &Path, files: &Files) -> io::Result<()> {
+    let _writing = interrupt::writing();
+    for (name, text) in files {
+        let path = folder.join(name);
+        fs::create_dir_all(path.parent().unwrap_or(folder))?;
+        fs::write(path, text)?;
+    }
+    Ok(())
 }
 
 fn compile(workspace: &Path) -> Result<PathBuf, String> {
     let target = workspace.join("target");
-    let result = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
+    let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    cargo
         .args(["build", "--release", "--quiet", "-p", "commissioning", "--manifest-path"])
         .arg(workspace.join("Cargo.toml"))
         .arg("--target-dir")
         .arg(&target)
         .stdin(Stdio::null())
         .stdout(Stdio::null())
-        .stderr(Stdio::piped())
-        .spawn();
-    let mut child = result
+        .stderr(Stdio::piped());
+    let output = interrupt::output(interrupt::in_group(&mut cargo))
         .map_err(|e| format!("cargo cannot be started, and the controllers need it to be compiled: {e}"))?;
-    let mut errors = String::new();
-    if let Some(mut stderr) = child.stderr.take() {
-        let _ = stderr.read_to_string(&mut errors);
-    }
-    let status = child.wait().map_err(|e| e.to_string())?;
-    if !status.success() {
+    if !output.status.success() {
+        let errors = String::from_utf8_lossy(&output.stderr);
         return Err(format!("the controllers could not be compiled:\n{errors}"));
     }
     Ok(target.join("release").join("commissioning").with_extension(env::consts::EXE_EXTENSION))

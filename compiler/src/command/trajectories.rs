@@ -1,5 +1,6 @@
 //! The option `--trajectories`: what is asked for, and writing it.
 
+use super::interrupt;
 use super::options::{CommissionOptions, TrajectoryOptions};
 use super::pending::{Content, Pending};
 use autogen::backend::paths;
@@ -92,6 +93,7 @@ impl Request {
             let path = folder.join(name);
             fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))
         };
+        let _writing = interrupt::writing();
         for (file, content) in &self.files {
             let text = match content {
                 Content::PathSegments => read(SEGMENTS)? + "\n",

@@ -1,5 +1,6 @@
 //! Writing the output: whole or not at all, and never over a file that is somebody else's.
 
+use super::interrupt::{self, Temporary};
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
@@ -89,21 +90,19 @@ pub fn write(folder: &Path, files: &Files, about: Value, overwrite: Overwrite) -
         .into();
     let manifest = format!("{manifest:#}\n");
 
-    let staged = staging(folder);
-    let result = stage(&staged, files, &manifest).and_then(|()| {
-        let stale = before.keys().filter(|name| !files.contains_key(*name) && is_own(name));
-        for name in stale {
-            remove(folder, name)?;
-        }
-        for name in files.keys().map(String::as_str).chain([MANIFEST]) {
-            let (from, to) = (staged.join(name), folder.join(name));
-            create_parent(&to)?;
-            fs::rename(&from, &to).map_err(|e| Refusal::Io(to, e))?;
-        }
-        Ok(())
-    });
-    let _ = fs::remove_dir_all(&staged);
-    result
+    let _writing = interrupt::writing();
+    let staged = Temporary::new(staging(folder));
+    stage(staged.path(), files, &manifest)?;
+    let stale = before.keys().filter(|name| !files.contains_key(*name) && is_own(name));
+    for name in stale {
+        remove(folder, name)?;
+    }
+    for name in files.keys().map(String::as_str).chain([MANIFEST]) {
+        let (from, to) = (staged.path().join(name), folder.join(name));
+        create_parent(&to)?;
+        fs::rename(&from, &to).map_err(|e| Refusal::Io(to, e))?;
+    }
+    Ok(())
 }
 
 /// Where the files wait until all of them are written: on the same disk as the folder.
@@ -117,16 +116,6 @@ fn stage(staged: &Path, files: &Files, manifest: &str) -> Result<(), Refusal> {
         let path = staged.join(name);
         create_parent(&path)?;
         fs::write(&path, text).map_err(|e| Refusal::Io(path, e))?;
-    }
-    Ok(())
-}
-
-/// Writes files into a folder of the program's own, over whatever is there.
-pub fn put(folder: &Path, files: &Files) -> io::Result<()> {
-    for (name, text) in files {
-        let path = folder.join(name);
-        fs::create_dir_all(path.parent().unwrap_or(folder))?;
-        fs::write(path, text)?;
     }
     Ok(())
 }

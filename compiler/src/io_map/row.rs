@@ -8,7 +8,7 @@ use crate::csv::Field;
 use crate::diagnostic::{Diagnostic, suggestion};
 use crate::source::Span;
 use runtime_sim::device::Direction;
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 /// The rows of a table, read one after the other.
 pub struct Rows<'p> {
@@ -17,8 +17,17 @@ pub struct Rows<'p> {
     /// By robot and name, in lower case.
     known: HashMap<(String, String), usize>,
     seen: HashMap<usize, Span>,
+    /// Robots that the line does not have, by their names in lower case.
+    strangers: BTreeMap<String, Stranger>,
     /// Every address that could be read, of rows with other errors too.
     pub places: Vec<Place>,
+}
+
+/// A robot of the table that the line does not have.
+struct Stranger {
+    name: String,
+    first: Span,
+    rows: usize,
 }
 
 /// The numbers of a conversion, finite both.
@@ -31,7 +40,14 @@ impl<'p> Rows<'p> {
     pub fn new(points: &'p [Point], separator: u8) -> Self {
         let key = |p: &Point| (p.robot.to_ascii_lowercase(), p.name.to_ascii_lowercase());
         let known = points.iter().enumerate().map(|(i, p)| (key(p), i)).collect();
-        Self { points, separator, known, seen: HashMap::new(), places: Vec::new() }
+        Self {
+            points,
+            separator,
+            known,
+            seen: HashMap::new(),
+            strangers: BTreeMap::new(),
+            places: Vec::new(),
+        }
     }
 
     /// The point and its wire, if the row gives it an address and all is right.
@@ -74,7 +90,7 @@ impl<'p> Rows<'p> {
         (found.len() == count).then_some((number, wire))
     }
 
-    fn point(&self, record: &Record, whole: Span, found: &mut Vec<Diagnostic>) -> Option<usize> {
+    fn point(&mut self, record: &Record, whole: Span, found: &mut Vec<Diagnostic>) -> Option<usize> {
         let (robot, name) = (record.text("robot"), record.text("name"));
         let key = (robot.to_ascii_lowercase(), name.to_ascii_lowercase());
         if let Some(number) = self.known.get(&key) {
@@ -82,26 +98,41 @@ impl<'p> Rows<'p> {
         }
         let is_robot = |p: &&Point| p.robot.eq_ignore_ascii_case(robot);
         let place = |column: &str| record.place(column).unwrap_or(whole);
-        found.push(if !self.points.iter().any(|p| is_robot(&p)) {
-            let robots = self.points.iter().map(|p| p.robot.as_str());
-            let help = match suggestion(robot, robots) {
-                Some(near) => format!("did you mean `{near}`?"),
-                None => "the layout names the robots; remove the rows of those that are gone".into(),
-            };
-            Diagnostic::new("E0603", place("robot"), format!("there is no robot `{robot}`")).help(help)
-        } else {
-            let own = self.points.iter().filter(is_robot).map(|p| p.name.as_str());
-            let elsewhere = self.points.iter().find(|p| p.name.eq_ignore_ascii_case(name));
-            let owner = if robot.is_empty() { "the line".to_string() } else { format!("`{robot}`") };
-            let help = match (suggestion(name, own), elsewhere) {
-                (_, Some(point)) if point.robot.is_empty() => "leave the column `robot` empty".into(),
-                (_, Some(point)) => format!("it is one of `{}`", point.robot),
-                (Some(near), None) => format!("did you mean `{near}`?"),
-                (None, None) => "plc/io.csv, as `build` writes it without `--io`, has all points".into(),
-            };
-            Diagnostic::new("E0603", place("name"), format!("{owner} has no point `{name}`")).help(help)
-        });
+        if !self.points.iter().any(|p| is_robot(&p)) {
+            let stranger = || Stranger { name: robot.into(), first: place("robot"), rows: 0 };
+            self.strangers.entry(key.0).or_insert_with(stranger).rows += 1;
+            return None;
+        }
+        let own = self.points.iter().filter(is_robot).map(|p| p.name.as_str());
+        let elsewhere = self.points.iter().find(|p| p.name.eq_ignore_ascii_case(name));
+        let owner = if robot.is_empty() { "the line".to_string() } else { format!("`{robot}`") };
+        let help = match (suggestion(name, own), elsewhere) {
+            (_, Some(point)) if point.robot.is_empty() => "leave the column `robot` empty".into(),
+            (_, Some(point)) => format!("it is one of `{}`", point.robot),
+            (Some(near), None) => format!("did you mean `{near}`?"),
+            (None, None) => "plc/io.csv, as `build` writes it without `--io`, has all points".into(),
+        };
+        let message = match name {
+            "" => "the row names no point".into(),
+            _ => format!("{owner} has no point `{name}`"),
+        };
+        found.push(Diagnostic::new("E0603", place("name"), message).help(help));
         None
+    }
+
+    /// The robots that the line does not have, each once however many rows it has.
+    pub fn strangers(&self, found: &mut Vec<Diagnostic>) {
+        for Stranger { name, first, rows } in self.strangers.values() {
+            let robots = self.points.iter().map(|p| p.robot.as_str()).filter(|robot| !robot.is_empty());
+            let whose = if *rows == 1 { "its row".into() } else { format!("its {rows} rows") };
+            let help = match suggestion(name, robots) {
+                Some(near) => {
+                    format!("did you mean `{near}`? If the layout has lost `{name}`, remove {whose}")
+                }
+                None => format!("the layout names the robots; if it has lost `{name}`, remove {whose}"),
+            };
+            found.push(Diagnostic::new("E0603", *first, format!("there is no robot `{name}`")).help(help));
+        }
     }
 
     fn address(&self, field: &Field, point: &Point, found: &mut Vec<Diagnostic>) -> Option<Address> {
@@ -159,9 +190,9 @@ impl<'p> Rows<'p> {
             None
         };
         let Some(field) = field else {
-            // A bit can be nothing else.
-            return match (point.kind, address.map(|a| a.size)) {
-                (Kind::Bool, Some(super::Size::Bit)) => Some(Raw::Bool),
+            // A bit can be nothing else. What is wrong with an address has been said: it decides what goes here.
+            return match (point.kind, address?.size) {
+                (Kind::Bool, super::Size::Bit) => Some(Raw::Bool),
                 _ => wrong(address_field.span, format!("{} has an address and no raw type", point.name)),
             };
         };

@@ -491,3 +491,22 @@ mod processes {
             .is_some_and(|state| state != "Z")
     }
 }
+
+#[test]
+fn what_a_sweep_is_given_twice_is_named() {
+    let folder = folder("sweep_twice");
+    let layout = example("ariac2021/default.json");
+    let folder_of_it = Path::new(&layout).parent().expect("a folder");
+    let same = folder_of_it.join("../ariac2021/default.json").display().to_string();
+    let cases: [(&[&str], &str); 4] = [
+        (&["--set", "agv.capacity=2,4,2"], "--set agv.capacity: 2 stands twice"),
+        (&["--order", "3,1,3"], "--order: 3 stands twice"),
+        (&["--io-delay", "0,random,0"], "--io-delay: 0 stands twice"),
+        (&[&same], "default.json: this layout is named twice"),
+    ];
+    for (more, text) in cases {
+        let output = autogen(&folder, &[&["sweep", &layout][..], more].concat());
+        assert_eq!(status(&output), 2, "{more:?}");
+        assert!(errors(&output).contains(text), "{}", errors(&output));
+    }
+}

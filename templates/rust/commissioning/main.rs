@@ -4,6 +4,7 @@
 //! COLUMNS are texts that autogen wrote. The I/O trace is written while the run goes on.
 //! `--segments FILE` writes the paths of the items as JSON, `--table FILE MS` as values sampled every MS
 //! milliseconds; `--items A,B` those of these items only.
+//! `--attended`: the run ends when the standard input does; who asked for it is gone.
 //! `commissioning --batch`: one run after another, asked for on the standard input (see [`batch`]).
 //! `commissioning --replay PARAMETERS`: no simulator. Each line of the standard input holds a scan:
 //! `run_permit start reset`, then the inputs of all robots, the number of each robot's words before them.
@@ -21,7 +22,7 @@ use std::fmt::Write as _;
 use std::fs::File;
 use std::io::{self, BufWriter, Write as _};
 use std::process::ExitCode;
-use std::{env, fs};
+use std::{env, fs, process, thread};
 
 fn main() -> ExitCode {
     match start(&env::args().skip(1).collect::<Vec<_>>()) {
@@ -47,6 +48,7 @@ fn start(arguments: &[String]) -> Result<(), String> {
                 let path = rest.next().ok_or("`--io-trace` wants two files")?;
                 io_trace = Some(IoTrace::new(&text(columns)?, path)?);
             }
+            "--attended" => end_with_input(),
             "--progress" => progress = true,
             "--replay" => replays = true,
             "--batch" => batches = true,
@@ -64,8 +66,15 @@ fn start(arguments: &[String]) -> Result<(), String> {
             let deployed = Deployed::read(&text(parameters)?)?.of(&line)?;
             simulate(&line, deployed, hashes, io_trace, &trajectories, progress)
         }
-        _ => Err("wants LINE PARAMETERS [--hashes FILE] [--io-trace COLUMNS FILE] [--segments FILE] [--table FILE MS] [--items NAMES] [--progress], --batch, or --replay PARAMETERS".into()),
+        _ => Err("wants LINE PARAMETERS [--hashes FILE] [--io-trace COLUMNS FILE] [--segments FILE] [--table FILE MS] [--items NAMES] [--progress] [--attended], --batch, or --replay PARAMETERS".into()),
     }
+}
+
+fn end_with_input() {
+    thread::spawn(|| {
+        let _ = io::copy(&mut io::stdin().lock(), &mut io::sink());
+        process::exit(1)
+    });
 }
 
 fn text(path: &str) -> Result<String, String> {

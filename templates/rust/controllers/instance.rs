@@ -1,4 +1,4 @@
-//! `{{ name }}`: number {{ number }} of {{ count }} in the order of the steps, of type [`{{ ty }}`](crate::{{ module }}::{{ ty }}).
+//! `{{ name }}`: number {{ number }} in the order of the steps, as in `fault_robot`; of type [`{{ ty }}`](crate::{{ module }}::{{ ty }}).
 {%- for role in roles %}
 //!
 //! {{ role }}

@@ -19,8 +19,8 @@ pub fn robots(shared: Shared) -> String {
 #[template(path = "rust/controllers/instance.rs")]
 struct Robot<'a> {
     name: &'a str,
+    /// As it is published with a fault.
     number: usize,
-    count: usize,
     ty: &'a str,
     module: &'a str,
     /// What each role holds, by names.
@@ -54,15 +54,7 @@ pub fn robot(shared: Shared, number: usize) -> String {
     for ((implements, name), row) in automaton.implements.iter().zip(&names.rows).zip(&instance.rows) {
         fields.push((name.clone(), reference(shared, implements.interface, *row)));
     }
-    let view = Robot {
-        name: &instance.name,
-        number: number + 1,
-        count: system.instances.len(),
-        ty: &names.ty,
-        module: &names.module,
-        roles,
-        fields,
-    };
+    let view = Robot { name: &instance.name, number, ty: &names.ty, module: &names.module, roles, fields };
     format::module(&render(&view), &shared.importable("crate"))
 }
 

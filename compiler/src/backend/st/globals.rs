@@ -102,7 +102,7 @@ fn system(shared: Shared) -> Vec<Variable> {
         variable(
             "fault_robot",
             Ex::Int(-1),
-            "output: number of the robot in the order of the calls; -1 without a fault",
+            "output: number of the robot in the order of the calls, the first is 0; -1 without a fault",
         ),
         variable("init_done", Ex::Bool(false), "false in the first scan"),
         variable("dt_ms", Ex::Int(shared.system.scan_ms), "length of a scan, ms: the INTERVAL of the task"),

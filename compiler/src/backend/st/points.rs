@@ -74,7 +74,13 @@ fn line(system: &System) -> Vec<Terminal> {
         ("running", output, Kind::Bool, truth(), "the robots step"),
         ("fault", output, Kind::Bool, truth(), "a fault is latched"),
         ("fault_code", output, codes, Some(Ex::Int(0)), "see alarms.csv; 0 without a fault"),
-        ("fault_robot", output, robots, Some(Ex::Int(-1)), "number of the robot; -1 without a fault"),
+        (
+            "fault_robot",
+            output,
+            robots,
+            Some(Ex::Int(-1)),
+            "number of the robot in the order of the steps, the first is 0; -1 without a fault",
+        ),
     ]
     .into_iter()
     .map(|(variable, direction, kind, first, meaning)| Terminal {

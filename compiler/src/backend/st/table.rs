@@ -1,10 +1,8 @@
 //! Tables as comma-separated values.
 
-use super::block::NO_SUCH_STATE;
 use super::context::Shared;
 use super::points::{Terminal, terminals};
 use crate::io_map::{Conversion, IoMap, Wire};
-use crate::ir::FaultKind;
 use crate::naming::st::Renamed;
 use runtime_sim::device::Direction;
 
@@ -70,36 +68,4 @@ fn wire(wire: &Wire) -> [String; 5] {
 /// A number, or nothing if it is the one that an empty field stands for.
 fn unless(number: f64, empty: f64) -> String {
     if number == empty { String::new() } else { format!("{number:?}") }
-}
-
-/// The codes that are published with a fault.
-pub fn alarms(shared: Shared) -> String {
-    let mut text = row(&["code", "type", "robots", "text", "mend"]);
-    for (i, site) in shared.system.model.faults.iter().enumerate() {
-        let robots: Vec<String> = (shared.instances(site.automaton).iter())
-            .map(|r| format!("{r} {}", shared.system.instances[*r].name))
-            .collect();
-        if robots.is_empty() {
-            continue;
-        }
-        let mend = match site.kind {
-            FaultKind::OutOfBounds => {
-                "The number was limited to its bounds. Look at the state of the robot and at what it counts. After reset and start the step is made again from its beginning: what it counted before the fault is counted twice."
-            }
-            FaultKind::NotFinite => {
-                "The old value was kept. Look at the inputs and parameters from which it is computed; after reset and start the step is made again from its beginning."
-            }
-            FaultKind::InvariantFails => {
-                "Look at the values that it names; set them right before reset, or the fault returns."
-            }
-            FaultKind::TooLong => {
-                "Look for what the state waits for: the answer of the device, or another robot. reset keeps the time in the state: after start the fault comes back in the same scan unless the state can be left in it."
-            }
-        };
-        let about = format!("{} ({})", site.text, shared.line(site.place));
-        let automaton = &shared.system.model.automaton(site.automaton).name;
-        text += &row(&[&(i + 1).to_string(), automaton, &robots.join(" "), &about, mend]);
-    }
-    let mend = "The memory of the controller is damaged: only a cold start helps. Secure the parts on the grippers first: without power they are let go. Empty trays and briefcases: the controller forgets what lies there.";
-    text + &row(&[&NO_SUCH_STATE.to_string(), "", "", "the state has a number that does not exist", mend])
 }

@@ -78,7 +78,8 @@ pub fn codesys(shared: Shared, line: &Line) -> Files {
         files.insert(format!("{name}.st"), render(&text));
     }
     for function in &line.functions {
-        files.insert(format!("{}.st", function.name), function.text.into());
+        let text = format!("(* {}. This is not a safety function. *)\n{}", function.name, function.text);
+        files.insert(format!("{}.st", function.name), text);
     }
     for part in line.units() {
         files.insert(format!("{}.st", part.name), unit(shared, part, Dialect::Codesys));

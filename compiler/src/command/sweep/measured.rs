@@ -1,6 +1,6 @@
 //! Figures from elsewhere, to stand beside the rows of a sweep.
 
-use super::super::load::Failure;
+use super::super::load;
 use super::plan::Refusal;
 use autogen::csv::{self, Field};
 use autogen::source::Sources;
@@ -32,8 +32,7 @@ impl Measured {
     pub fn read(path: &Path, columns: &[&str]) -> Result<Self, Refusal> {
         let name = path.display();
         let said = |text: String| Refusal::Said(format!("{name}: {text}"));
-        let text = std::fs::read_to_string(path)
-            .map_err(|e| Refusal::Failure(Failure::Unreadable(format!("{name}: {e}"))))?;
+        let text = load::text(path).map_err(Refusal::Failure)?;
         let mut sources = Sources::default();
         let file = sources.add(name.to_string(), text);
         let mut found = Vec::new();

@@ -10,6 +10,7 @@ use autogen::ir::System;
 use autogen::lower::{Draft, Setting, Texts};
 use autogen::source::Sources;
 use runtime_sim::line::IoDelay;
+use std::fmt::Display;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
@@ -63,6 +64,18 @@ impl Plan {
                 )));
             }
         }
+        for axis in &axes {
+            is_given_once(&format!("--set {}", axis.name), &axis.values)?;
+        }
+        is_given_once("--order", &options.order)?;
+        is_given_once("--io-delay", &options.io_delay)?;
+        let files: Vec<PathBuf> = (options.layouts.iter())
+            .map(|path| path.canonicalize().unwrap_or_else(|_| path.clone()))
+            .collect();
+        if let Some(path) = twice(&files) {
+            let path = options.layouts[path].display();
+            return Err(Refusal::Said(format!("{path}: this layout is named twice; name it once")));
+        }
         let mut lines = Vec::new();
         for path in &options.layouts {
             lines.push(Line::new(path, options, &axes).map_err(Refusal::Failure)?);
@@ -110,6 +123,18 @@ impl Plan {
         let mut values: Vec<usize> = self.axes.iter().rev().map(|axis| digit(axis.values.len())).collect();
         values.reverse();
         Point { line: digit(self.lines.len()), values, order, delay }
+    }
+}
+
+/// Where the first stands that has stood before.
+fn twice<T: PartialEq>(list: &[T]) -> Option<usize> {
+    (1..list.len()).find(|i| list[..*i].contains(&list[*i]))
+}
+
+fn is_given_once<T: PartialEq + Display>(option: &str, values: &[T]) -> Result<(), Refusal> {
+    match twice(values) {
+        Some(i) => Err(Refusal::Said(format!("{option}: {} stands twice; give it once", values[i]))),
+        None => Ok(()),
     }
 }
 

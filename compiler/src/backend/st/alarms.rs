@@ -1,0 +1,79 @@
+//! What the code of a fault means to who stands before the line.
+
+use super::block::NO_SUCH_STATE;
+use super::context::Shared;
+use super::table::row;
+use crate::ir::{Automaton, FaultId, FaultKind, Transition, UpdateKind};
+
+/// `alarms.csv`: the codes that are published with a fault. Robots have the numbers that `fault_robot` gives.
+pub fn table(shared: Shared) -> String {
+    let mut text = row(&["code", "type", "robots", "state", "transition", "text", "mend"]);
+    for (i, site) in shared.system.model.faults.iter().enumerate() {
+        let robots: Vec<String> = (shared.instances(site.automaton).iter())
+            .map(|r| format!("{r} {}", shared.system.instances[*r].name))
+            .collect();
+        if robots.is_empty() {
+            continue;
+        }
+        let mend = match site.kind {
+            FaultKind::OutOfBounds => {
+                "The number was limited to its bounds. Look at the state of the robot and at what it counts. After reset and start the step is made again from its beginning: what it counted before the fault is counted twice."
+            }
+            FaultKind::NotFinite => {
+                "The old value was kept. Look at the inputs and parameters from which it is computed; after reset and start the step is made again from its beginning."
+            }
+            FaultKind::InvariantFails => {
+                "Look at the values that it names; set them right before reset, or the fault returns."
+            }
+            FaultKind::TooLong => {
+                "Look for what the state waits for: the answer of the device, or another robot. reset keeps the time in the state: after start the fault comes back in the same scan unless the state can be left in it."
+            }
+        };
+        let about = format!("{} ({})", site.text, shared.line(site.place));
+        let automaton = shared.system.model.automaton(site.automaton);
+        let [state, transition] = situation(automaton, FaultId(i));
+        text += &row(&[
+            &(i + 1).to_string(),
+            &automaton.name,
+            &robots.join(" "),
+            &state,
+            &transition,
+            &about,
+            mend,
+        ]);
+    }
+    let mend = "The memory of the controller is damaged: only a cold start helps. Secure the parts on the grippers first: without power they are let go. Empty trays and briefcases: the controller forgets what lies there.";
+    text + &row(&[
+        &NO_SUCH_STATE.to_string(),
+        "",
+        "",
+        "",
+        "",
+        "the state has a number that does not exist",
+        mend,
+    ])
+}
+
+/// State and transition in which an automaton raises a fault. Without a transition: by staying in the state;
+/// without either: in any state.
+fn situation(automaton: &Automaton, fault: FaultId) -> [String; 2] {
+    for state in &automaton.states {
+        if state.within.as_ref().is_some_and(|(_, own)| *own == fault) {
+            return [state.name.clone(), String::new()];
+        }
+        if let Some(transition) = state.transitions.iter().find(|t| raises(t, fault)) {
+            let target = transition.target.map(|target| format!(" -> {}", automaton.states[target.0].name));
+            return [state.name.clone(), transition.text.clone() + &target.unwrap_or_default()];
+        }
+    }
+    Default::default()
+}
+
+fn raises(transition: &Transition, fault: FaultId) -> bool {
+    transition.updates.iter().any(|update| match &update.kind {
+        UpdateKind::Assign { check, .. }
+        | UpdateKind::Fill { check, .. }
+        | UpdateKind::Copy { check, .. } => *check == Some(fault),
+        UpdateKind::Command { arguments, .. } => arguments.iter().any(|a| a.check == Some(fault)),
+    })
+}
