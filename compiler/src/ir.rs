@@ -237,12 +237,22 @@ pub struct State {
 #[derive(Clone, Debug)]
 pub struct Transition {
     pub place: Span,
-    /// The guard as written, on one line.
+    /// The guard as written, on one line; `at once` if it always holds. In a sequence: which step is waited for.
     pub text: String,
     pub clauses: Vec<Clause>,
     /// `None` stays in the state and lets `after` run on.
     pub target: Option<StateId>,
     pub updates: Vec<Update>,
+}
+
+impl Transition {
+    /// `when all_loaded`, `at once`
+    pub fn title(&self) -> String {
+        let always = |clause: &Clause| {
+            matches!(clause, Clause::Condition(Expr { kind: ExprKind::Constant(Value::Bool(true)), .. }))
+        };
+        if self.clauses.iter().all(always) { self.text.clone() } else { format!("when {}", self.text) }
+    }
 }
 
 #[derive(Clone, Debug)]

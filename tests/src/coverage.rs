@@ -3,7 +3,7 @@
 use crate::st::{Beside, Emitted};
 use autogen::backend::{Files, st};
 use autogen::ir::{Automaton, StateId, System};
-use autogen::naming::{camel, snake};
+use autogen::naming::camel;
 use autogen::source::Sources;
 use autogen_st_judge::check::Checked;
 use autogen_st_judge::dead::{dead, unread_globals};
@@ -222,6 +222,6 @@ fn begin_in(automaton: &mut Automaton, state: usize) {
 /// that could not keep its name.
 fn is_local(automaton: &Automaton, variable: &str) -> bool {
     let endings = ["", "_x", "_y", "_z", "_v", "_2"];
-    let locals = automaton.locals.iter().map(|local| snake(&local.name));
+    let locals = automaton.locals.iter().map(|local| &local.name);
     locals.flat_map(|name| endings.map(|ending| format!("{name}{ending}"))).any(|name| name == variable)
 }

@@ -119,7 +119,7 @@ impl Finder<'_> {
         for element in first..first + self.system.model.elements(extent) {
             let index = if extent == Extent::One { String::new() } else { format!("[{element}]") };
             for part in parts {
-                let wanted = format!("{}{part}", snake(name));
+                let wanted = format!("{name}{part}");
                 variables.push(format!("{}{index}", self.emitted.name(unit, &wanted)));
             }
         }
@@ -128,8 +128,7 @@ impl Finder<'_> {
 
     /// The instance of a robot's block in the program.
     fn instance(&self, index: usize) -> String {
-        let wanted = snake(&self.system.instances[index].name);
-        self.emitted.name("MAIN", &wanted).to_string()
+        self.emitted.name("MAIN", &self.system.instances[index].name).to_string()
     }
 
     /// Inputs and outputs of a robot in the order of its image. Inputs that no automaton reads may be left out.
@@ -165,7 +164,7 @@ impl Finder<'_> {
         for (implemented, row) in automaton.implements.iter().zip(&instance.rows) {
             let interface = self.system.model.interface(implemented.interface);
             for cell in &interface.cells {
-                let name = format!("{}_{}", snake(&interface.name), snake(&cell.name));
+                let name = format!("{}_{}", snake(&interface.name), cell.name);
                 let count = self.system.model.elements(cell.ty.extent);
                 // A row of scalars has as many elements as there are members.
                 let extent = if cell.ty.extent == Extent::One { Extent::Count(1) } else { cell.ty.extent };

@@ -70,8 +70,7 @@ fn disturbed() -> Vec<Job> {
             _ => orders(own_line(line), 2),
         };
         for seed in 1..=if is_full_campaign() { 40 } else { 2 } {
-            // A belt that does not start is not asked again.
-            for (device, one_in) in [("belt", 8), ("vehicle", 3), ("rail_arm", 4), ("gantry", 3)] {
+            for (device, one_in) in [("belt", 3), ("vehicle", 3), ("rail_arm", 4), ("gantry", 3)] {
                 let name = format!("{line}, refused commands of each {device}, {seed}");
                 jobs.push(job(name, texts(), |line| refuse(line, device, one_in, seed)));
             }
@@ -97,10 +96,11 @@ fn refuse(line: &mut Line, device: &str, one_in: u32, seed: u64) {
     }
 }
 
-/// Every second part is lost, at any moment; some of the commands after it are refused.
+/// Every second part is lost, at any moment; some of the commands after it and some of the belt's are refused.
 fn slip(line: &mut Line, device: &str, one_in: u32, seed: u64) {
     let mut random = Random::new(seed);
     refuse(line, device, one_in, seed);
+    refuse(line, "belt", 4, seed);
     for machine in all(line, device) {
         for pick in 1..60 {
             let after_s = f64::from(random.up_to(1000)) / 100.0;

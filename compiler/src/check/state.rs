@@ -223,8 +223,22 @@ fn transition(
     }
     context.variables.truncate(depth);
     context.facts = context.required.clone();
-    let text = context.checker.sources.text(tree.guard_span).split_whitespace().collect::<Vec<_>>().join(" ");
+    let text = guard_text(context, tree);
     whole.then_some(ir::Transition { place: tree.span, text, clauses, target, updates })
+}
+
+/// The guard as written. What a step of a sequence waits for has the place of the step instead.
+fn guard_text(context: &Context, tree: &ast::Transition) -> String {
+    let text = context.checker.sources.text(tree.guard_span).split_whitespace().collect::<Vec<_>>().join(" ");
+    let [ast::Clause::Condition(only)] = tree.clauses.as_slice() else { return text };
+    match &only.kind {
+        ast::ExprKind::Bool(true) => "at once".into(),
+        ast::ExprKind::Name(answer) if text.trim_matches(['(', ')', ' ']) == answer => text,
+        ast::ExprKind::Name(answer) if answer == "done" => format!("{text} is done"),
+        ast::ExprKind::Name(answer) if answer == "failed" => format!("{text} has failed"),
+        ast::ExprKind::After(time) if time.span == tree.guard_span => format!("after {text}"),
+        _ => text,
+    }
 }
 
 impl Context<'_, '_> {

@@ -3,7 +3,7 @@
 use super::context::Context;
 use super::format::comment;
 use super::walk::Uses;
-use crate::ir::{Clause, ExprKind, State, Transition, UpdateKind, Value};
+use crate::ir::{Clause, State, Transition, UpdateKind};
 
 /// Methods of one state.
 pub struct Methods {
@@ -93,7 +93,7 @@ impl Context<'_> {
         let transition = &automaton.states[state].transitions[transition];
         let target =
             transition.target.map(|t| format!(" -> {}", automaton.states[t.0].name)).unwrap_or_default();
-        format!("{}: {}{target}", self.line(transition.place), guard(transition))
+        format!("{}: {}{target}", self.line(transition.place), transition.title())
     }
 
     fn state_uses(&self, state: &State) -> Uses {
@@ -108,20 +108,6 @@ impl Context<'_> {
             uses.expr(self.automaton(), longest);
         }
         uses
-    }
-}
-
-/// The guard as written. In a sequence what is written is the step whose end is waited for.
-fn guard(transition: &Transition) -> String {
-    let text = &transition.text;
-    match transition.clauses.as_slice() {
-        [Clause::Condition(only)] => match only.kind {
-            ExprKind::Constant(Value::Bool(true)) => "at once".into(),
-            ExprKind::Done if text != "done" => format!("when {text} is done"),
-            ExprKind::Failed if text != "failed" => format!("when {text} has failed"),
-            _ => format!("when {text}"),
-        },
-        _ => format!("when {text}"),
     }
 }
 

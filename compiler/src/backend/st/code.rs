@@ -83,10 +83,13 @@ pub fn when(condition: Ex, body: Vec<Stmt>) -> Stmt {
     Stmt::If(vec![Arm { comments: Vec::new(), condition, body }], Vec::new())
 }
 
+/// STruC++ takes no `NOT` of an `AND` or `OR` of comparisons, so these are negated one by one.
 pub fn not(a: Ex) -> Ex {
     match a {
         Ex::Bool(b) => Ex::Bool(!b),
         Ex::Not(inner) => *inner,
+        Ex::Chain("AND", operands) => or(operands.into_iter().map(not).collect()),
+        Ex::Chain("OR", operands) => and(operands.into_iter().map(not).collect()),
         Ex::Binary("=", a, b) => Ex::Binary("<>", a, b),
         Ex::Binary("<>", a, b) => Ex::Binary("=", a, b),
         other => Ex::Not(Box::new(other)),

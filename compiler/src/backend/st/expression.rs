@@ -4,7 +4,7 @@ use super::code::{Ex, Stmt, advance, and, assign, binary, name, not, or, sum, ti
 use super::context::{Lowering, Phase};
 use super::declaration::Basic;
 use super::role::Members;
-use super::walk::may_fault;
+use super::walk;
 use crate::ir::{Domain, Expr, ExprKind, InterfaceId, Operator, Place, RoleId, Scalar, Value, VariableId};
 use runtime_sim::device::PortType;
 
@@ -48,7 +48,7 @@ pub fn conjuncts(expr: &Expr) -> Vec<&Expr> {
 
 impl Lowering<'_> {
     pub fn may_fault(&self, expr: &Expr) -> bool {
-        may_fault(&self.system.model, self.automaton(), expr)
+        walk::may_fault(&self.system.model, self.automaton(), expr)
     }
 
     /// The value of an expression that is no point; `before` gets what must be computed first.
@@ -65,7 +65,7 @@ impl Lowering<'_> {
             }
             ExprKind::Read(place) => self.spot(place, before).value(0),
             ExprKind::Variable(id) => name(&self.own().variables[id.0]),
-            ExprKind::Define(define) => self.define(*define, before),
+            ExprKind::Define(define) => self.define(*define),
             ExprKind::Own(interface) => self.own_row(*interface),
             ExprKind::After(time) => {
                 let time = self.value(time, before);
@@ -171,11 +171,8 @@ impl Lowering<'_> {
     }
 
     /// A define has its own variable, which is computed once for all that reads it.
-    fn define(&mut self, number: usize, before: &mut Vec<Stmt>) -> Ex {
+    fn define(&mut self, number: usize) -> Ex {
         let define = &self.automaton().defines[number];
-        if self.may_fault(&define.value) {
-            return self.value(&define.value, before);
-        }
         let variable = self.own().defines[number][0].clone();
         if !self.known.contains_key(&number) {
             let mut statements = Vec::new();
@@ -418,7 +415,15 @@ impl Lowering<'_> {
                 let first = self.value(low, out);
                 let condition = self.in_range(&counter, high, out);
                 out.push(assign(&counter, first));
-                self.count_to(&counter, condition, most.max(0) as u64, out, body);
+                let is_open = walk::may_be_greatest(&self.system.model, self.automaton(), high);
+                self.count_to(&counter, condition, most.max(0) as u64, out, |lowering| {
+                    let mut body = body(lowering);
+                    if is_open && body.last() != Some(&Stmt::Exit) {
+                        let is_greatest = binary("=", name(&counter), Ex::Int(i32::MAX));
+                        body.push(when(is_greatest, vec![Stmt::Exit]));
+                    }
+                    body
+                });
             }
             Domain::Role(role) => match self.members(self.id, *role) {
                 Members::All(n) => {

@@ -4,7 +4,7 @@ use super::declaration::suffixes;
 use super::role::{self, Members};
 use super::walk;
 use crate::ir::{
-    Automaton, AutomatonId, Domain, Enum, Expr, ExprKind, Extent, Instance, Interface, Model, RoleId, Scalar,
+    Automaton, AutomatonId, Domain, Enum, Expr, ExprKind, Extent, Instance, Interface, RoleId, Scalar,
     System, Type,
 };
 use crate::naming::st::{Renamed, Scope};
@@ -128,27 +128,28 @@ pub fn names(system: &System) -> Names {
             global.take(&format!("{}_reaches_{}", snake(&from.name), snake(&to.name)))
         })
         .collect();
-    let inner = global.inner();
-    let automata: Vec<_> = (blocks.into_iter().enumerate())
-        .map(|(id, names)| automaton_names(system, AutomatonId(id), names, &inner, &mut global, &mut renamed))
-        .collect();
+    let tables: Vec<_> =
+        (0..blocks.len()).map(|id| table_names(system, AutomatonId(id), &mut global)).collect();
     let members: Vec<Vec<Members>> = (system.model.automata.iter().enumerate())
         .map(|(id, a)| {
             (0..a.roles.len()).map(|r| role::members(system, AutomatonId(id), RoleId(r))).collect()
         })
         .collect();
     let robots: Vec<_> = (system.instances.iter())
-        .map(|i| {
-            let (tables, members) = (&automata[i.automaton.0].tables, &members[i.automaton.0]);
-            robot_names(system, i, tables, members, &mut global)
+        .map(|i| robot_names(system, i, &tables[i.automaton.0], &members[i.automaton.0], &mut global))
+        .collect();
+    // A block declares the globals that it uses beside its own variables.
+    let automata: Vec<_> = (blocks.into_iter().zip(tables).enumerate())
+        .map(|(id, (names, tables))| {
+            automaton_names(system, AutomatonId(id), names, tables, &global, &mut renamed)
         })
         .collect();
     let mut program = global.inner();
     PROGRAM.iter().for_each(|name| drop(program.take(name)));
     let robots = (robots.into_iter().zip(&system.instances))
         .map(|(robot, i)| RobotNames {
-            instance: program.take(&snake(&i.name)),
-            invariants: program.take(&format!("{}_invariants", snake(&i.name))),
+            instance: program.take(&i.name),
+            invariants: program.take(&format!("{}_invariants", i.name)),
             ..robot
         })
         .collect();
@@ -185,48 +186,51 @@ fn held(scope: &mut Scope, wanted: &str, scalar: Scalar) -> Held {
 }
 
 fn interface_names(source: &Interface, global: &mut Scope) -> InterfaceNames {
-    let mut take =
-        |name: &str, ty: Type| held(global, &format!("{}_{}", snake(&source.name), snake(name)), ty.scalar);
+    let mut take = |name: &str, ty: Type| held(global, &format!("{}_{name}", snake(&source.name)), ty.scalar);
     InterfaceNames {
         cells: source.cells.iter().map(|c| take(&c.name, c.ty)).collect(),
         parameters: source.parameters.iter().map(|p| take(&p.name, p.ty)).collect(),
     }
 }
 
+/// Arrays of parameters that all robots of a type have alike.
+fn table_names(system: &System, id: AutomatonId, global: &mut Scope) -> Vec<Held> {
+    let source = system.model.automaton(id);
+    let prefix = snake(&source.name);
+    (source.parameters.iter().enumerate())
+        .map(|(i, p)| match role::is_alike(system, id, i) {
+            true => held(global, &format!("{prefix}_{}", p.name), p.ty.scalar),
+            false => Held::new(),
+        })
+        .collect()
+}
+
 fn automaton_names(
     system: &System,
     id: AutomatonId,
     (block, invariants, states): (String, String, EnumNames),
-    inner: &Scope,
-    global: &mut Scope,
+    tables: Vec<Held>,
+    global: &Scope,
     renamed: &mut Vec<(String, Renamed)>,
 ) -> AutomatonNames {
     let source = system.model.automaton(id);
-    let mut scope = inner.inner();
+    let mut scope = global.inner();
     LOCAL.iter().for_each(|name| drop(scope.take(name)));
-    let parameters =
-        source.parameters.iter().map(|p| held(&mut scope, &snake(&p.name), p.ty.scalar)).collect();
-    let table = |name: &str| format!("{}_{}", snake(&source.name), snake(name));
-    let tables = (source.parameters.iter().enumerate())
-        .map(|(i, p)| match role::is_alike(system, id, i) {
-            true => held(global, &table(&p.name), p.ty.scalar),
-            false => Held::new(),
-        })
-        .collect();
-    let port = |p: &Port, scope: &mut Scope| held(scope, &snake(p.name), Scalar::from(p.ty));
+    let parameters = source.parameters.iter().map(|p| held(&mut scope, &p.name, p.ty.scalar)).collect();
+    let port = |p: &Port, scope: &mut Scope| held(scope, p.name, Scalar::from(p.ty));
     let ports = source.device.ports.iter().map(|p| port(p, &mut scope)).collect();
-    let locals = source.locals.iter().map(|l| held(&mut scope, &snake(&l.name), l.ty.scalar)).collect();
+    let locals = source.locals.iter().map(|l| held(&mut scope, &l.name, l.ty.scalar)).collect();
     let roles = (source.roles.iter())
         .map(|r| {
-            let names = scope.take_all(&snake(&r.name), &["", "_count"]);
+            let names = scope.take_all(&r.name, &["", "_count"]);
             RoleNames { members: names[0].clone(), count: names[1].clone() }
         })
         .collect();
     let rows = (source.implements.iter())
         .map(|i| scope.take(&format!("own_{}", snake(&system.model.interface(i.interface).name))))
         .collect();
-    let defines = source.defines.iter().map(|d| held(&mut scope, &snake(&d.name), d.ty)).collect();
-    let variables = variables(&system.model, source, &mut scope);
+    let defines = source.defines.iter().map(|d| held(&mut scope, &d.name, d.ty)).collect();
+    let variables = variables(source, &mut scope);
     renamed.extend(scope.renamed().iter().map(|r| (block.clone(), r.clone())));
     AutomatonNames {
         block,
@@ -246,10 +250,10 @@ fn automaton_names(
 
 /// Variables of one name never meet within a transition, so they share the identifier. Those of a `define` too,
 /// if it is computed before the loops of guards only; others are computed while a transition's are in use.
-fn variables(model: &Model, source: &Automaton, scope: &mut Scope) -> Vec<String> {
+fn variables(source: &Automaton, scope: &mut Scope) -> Vec<String> {
     let mut owners = vec![0; source.variables.len()];
     for (i, define) in source.defines.iter().enumerate() {
-        if !walk::is_for_guards_only(model, source, i) {
+        if !walk::is_for_guards_only(source, i) {
             own(&define.value, i + 1, &mut owners);
         }
     }
@@ -258,7 +262,7 @@ fn variables(model: &Model, source: &Automaton, scope: &mut Scope) -> Vec<String
     order.sort_by_key(|i| owners[*i]);
     for i in order {
         let wanted = &source.variables[i].name;
-        known.entry((owners[i], wanted)).or_insert_with(|| scope.take(&snake(wanted)));
+        known.entry((owners[i], wanted)).or_insert_with(|| scope.take(wanted));
     }
     (source.variables.iter().zip(&owners))
         .map(|(v, owner)| known[&(*owner, v.name.as_str())].clone())
@@ -289,7 +293,7 @@ fn robot_names(
     global: &mut Scope,
 ) -> RobotNames {
     let automaton = system.model.automaton(robot.automaton);
-    let own = |part: &str| format!("{}_{}", snake(&robot.name), snake(part));
+    let own = |part: &str| format!("{}_{part}", robot.name);
     let ports =
         automaton.device.ports.iter().map(|p| held(global, &own(p.name), Scalar::from(p.ty))).collect();
     let parameters = (automaton.parameters.iter().enumerate())

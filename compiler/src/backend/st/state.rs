@@ -2,7 +2,7 @@
 
 use super::code::{Arm, Ex, Member, Stmt, and, assign, binary, name, when};
 use super::context::{Lowering, Phase};
-use crate::ir::{Clause, Expr, ExprKind, State, Transition, Value};
+use crate::ir::{ExprKind, State, Transition, Value};
 
 impl Lowering<'_> {
     pub fn branches(&mut self) -> Vec<(Member, Vec<Stmt>)> {
@@ -36,7 +36,7 @@ impl Lowering<'_> {
     /// The first transition whose guard holds; the others stand in its ELSE.
     fn chain(&mut self, number: usize, transitions: &[Transition]) -> Vec<Stmt> {
         let Some((transition, others)) = transitions.split_first() else { return Vec::new() };
-        let title = self.title(number, transition);
+        let title = self.title(transition);
         let known_before = self.known.clone();
         let (mut out, condition) = self.guard(transition);
         let known = self.known.clone();
@@ -84,23 +84,10 @@ impl Lowering<'_> {
     }
 
     /// `when done -> Dropping   agv.aut:24`
-    fn title(&self, number: usize, transition: &Transition) -> String {
+    fn title(&self, transition: &Transition) -> String {
         let states = &self.automaton().states;
         let target = transition.target.map(|t| format!(" -> {}", states[t.0].name)).unwrap_or_default();
-        let text = &transition.text;
-        // A transition of a sequence has the text of its step.
-        let guard = match transition.clauses.as_slice() {
-            _ if number == 0 => text.clone(),
-            [] => "at once".into(),
-            [Clause::Condition(Expr { kind: ExprKind::Done, .. })] if text != "done" => {
-                format!("when done: {text}")
-            }
-            [Clause::Condition(Expr { kind: ExprKind::Failed, .. })] if text != "failed" => {
-                format!("when failed: {text}")
-            }
-            _ => format!("when {text}"),
-        };
-        format!("{guard}{target}   {}", self.line(transition.place))
+        format!("{}{target}   {}", transition.title(), self.line(transition.place))
     }
 
     /// The longest stay. A state that was entered in this step has `elapsed` 0.

@@ -79,7 +79,9 @@ impl Lowering<'_> {
     fn copy(&mut self, target: &Target, source: &Place, check: Option<FaultId>, out: &mut Vec<Stmt>) {
         let scalar = target.ty.scalar;
         let ty = target.ty;
-        let from = self.spot(&at_element(source), out);
+        let mut from = self.spot(&at_element(source), out);
+        let written = self.spot(&at_element(&target.place), &mut Vec::new()).names;
+        self.keep_row(&mut from, &written, out);
         self.elements(target, out, |lowering, spot, out| {
             let from = lowering.at(from, ty);
             let values = (0..from.names.len()).map(|part| from.value(part)).collect();
@@ -96,7 +98,9 @@ impl Lowering<'_> {
         body: impl FnOnce(&mut Self, Spot, &mut Vec<Stmt>),
     ) {
         let n = self.system.model.elements(target.ty.extent);
-        let spot = self.spot(&at_element(&target.place), out);
+        let mut spot = self.spot(&at_element(&target.place), out);
+        let written = spot.names.clone();
+        self.keep_row(&mut spot, &written, out);
         let spot = self.at(spot, target.ty);
         out.push(assign(ELEMENT, Ex::Int(0)));
         let mut inner = Vec::new();
@@ -107,6 +111,17 @@ impl Lowering<'_> {
             body: inner,
             most: n as u64,
         });
+    }
+
+    /// Looks up the row of an array before the loop over its elements, if the loop writes what leads to the row.
+    fn keep_row(&mut self, spot: &mut Spot, written: &[String], out: &mut Vec<Stmt>) {
+        let Some(row) = &spot.index else { return };
+        let mut read = BTreeSet::new();
+        row.names(&mut read);
+        if written.iter().any(|name| read.contains(name)) {
+            let row = row.clone();
+            spot.index = Some(self.kept(row, "row", Basic::Dint, out));
+        }
     }
 
     /// The element `e` of a place that was looked up without index.

@@ -5,8 +5,8 @@ use crate::ir::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Whether a `define` is read in guards only, and can be computed before them.
-pub fn is_for_guards_only(model: &Model, automaton: &Automaton, define: usize) -> bool {
+/// Whether a `define` is read in guards only: then it is computed before them.
+pub fn is_for_guards_only(automaton: &Automaton, define: usize) -> bool {
     let mut elsewhere = BTreeSet::new();
     for state in &automaton.states {
         state.within.iter().for_each(|(longest, _)| defines(automaton, longest, &mut elsewhere));
@@ -14,7 +14,7 @@ pub fn is_for_guards_only(model: &Model, automaton: &Automaton, define: usize) -
             update_parts(&update.kind).into_iter().for_each(|e| defines(automaton, e, &mut elsewhere));
         }
     }
-    !elsewhere.contains(&define) && !may_fault(model, automaton, &automaton.defines[define].value)
+    !elsewhere.contains(&define)
 }
 
 /// The defines that an expression reads, and those that these read.
@@ -48,6 +48,12 @@ pub fn may_fault(model: &Model, automaton: &Automaton, expr: &Expr) -> bool {
     ranges.may_fault(expr, &BTreeMap::new())
 }
 
+/// Whether a whole number could be the greatest of 32 bits, after which there is none.
+pub fn may_be_greatest(model: &Model, automaton: &Automaton, expr: &Expr) -> bool {
+    let range = Ranges { model, automaton }.range(expr, &BTreeMap::new());
+    range.is_none_or(|(_, hi)| hi >= i64::from(i32::MAX))
+}
+
 /// Bounds of the variables of quantifiers around an expression.
 type Bound = BTreeMap<VariableId, (i64, i64)>;
 
@@ -68,7 +74,8 @@ impl Ranges<'_> {
             ExprKind::Binary(Operator::Add | Operator::Subtract | Operator::Multiply, ..) => {
                 self.range(expr, bound).is_some_and(|range| !is_in_32_bits(range))
             }
-            ExprKind::Define(define) => self.may_fault(&self.automaton.defines[*define].value, &Bound::new()),
+            // It was checked by itself: what it needs to hold it tests.
+            ExprKind::Define(_) => false,
             ExprKind::Exists { variable, domain, body }
             | ExprKind::Forall { variable, domain, body }
             | ExprKind::Count { variable, domain, body }
