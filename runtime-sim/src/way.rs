@@ -37,7 +37,7 @@ pub enum Leg {
 const MARGIN: f64 = 0.015;
 const MARGIN_AT_PLACE: f64 = 0.003;
 /// What is farther than this is not looked at, m.
-const ENOUGH: f64 = 0.3;
+const ENOUGH: f64 = 0.12;
 /// The tool may be so far beyond the shoulder at a place, m; the best first.
 const BEYOND: [f64; 5] = [0.45, 0.6, 0.3, 0.15, 0.0];
 /// Ways to so many stances are tried.
@@ -83,13 +83,8 @@ impl Ways {
             [low, low.max(self.scene.over_all)]
         };
         let tops = heights(from);
-        let r = (stances.iter().take(TRIES)).find_map(|to| {
-            tops.iter().find_map(|top| self.legs_to([from, to], load, *top, limits))
-        });
-        if std::env::var("WAY").is_ok() && r.is_none() {
-            eprintln!("no way from {from:?} to {via:?}, {goal:?}: {} stances", stances.len());
-        }
-        r
+        (stances.iter().take(TRIES))
+            .find_map(|to| tops.iter().find_map(|top| self.legs_to([from, to], load, *top, limits)))
     }
 
     /// Joints at `via` of all stances that are free of what stands, there and at `goal`, the quickest first.

@@ -16,8 +16,18 @@ fn execute(project: &Project) -> Report {
 
 /// What kept a line from making all its orders; nothing if it made them.
 fn failure(name: &str, report: &Report) -> Option<String> {
+    if let Some(contact) = report.collisions.iter().find(|contact| !is_inherent(&contact.pair)) {
+        return Some(format!("{name}: {contact:?}"));
+    }
     let made = report.finished && report.orders_done == report.orders;
     (!made).then(|| format!("{name}: {} of {} orders, {}", report.orders_done, report.orders, report.reason))
+}
+
+/// What the library's automata touch whatever they do, see `examples/shared_agv/shared_agv.json`. What other layouts
+/// allow is for the prototype.
+fn is_inherent([a, b]: &[String; 2]) -> bool {
+    let pair = [a.as_str(), b.as_str()];
+    ["kitting_a", "kitting_b"].iter().any(|kitting| pair == [kitting, "agv"] || pair == ["agv", kitting])
 }
 
 fn assert_all_made<T: Sync>(

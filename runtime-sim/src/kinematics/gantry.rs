@@ -1,10 +1,10 @@
 //! A UR10 that hangs sideways from a torso which travels on two rails and turns.
 
-use super::planar::{self, Links};
 pub use super::planar::Wrist;
+use super::planar::{self, Links};
 use super::pose::Pose;
 use super::ur10::{self, D1, D4};
-use super::{is_finite, nearest_turn, root};
+use super::{is_finite, nearest_turn, root, wrapped};
 use crate::point::Point;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -120,13 +120,16 @@ impl Gantry {
         planar::reaches(0.0, dz, wrist).then(|| arm_joints([x, y, turn], planar::links(0.0, dz, wrist), from))
     }
 
-    /// Joints for a tool at this stance, with room to spare; none if rails, torso or reach forbid it.
+    /// Joints for a tool at this stance, with room to spare; none if rails, torso or reach forbid it. The angles of
+    /// the arm are within half a turn, so that motions from there are short of the joints' limits.
     pub fn solve_stance(&self, tool: Point, stance: &Stance, from: &Joints) -> Option<Joints> {
         let Stance { turn, beyond, wrist } = *stance;
         let dz = planar::wrist_height(tool, self.shoulder);
         let (x, y) = self.torso_at(tool, SHOULDER + beyond, turn)?;
         planar::comfortable(beyond, dz, [wrist; 2])?;
-        Some(arm_joints([x, y, nearest_turn(turn, from[2])], planar::links(beyond, dz, wrist), from))
+        let turn = nearest_turn(turn, from[2]);
+        let joints = arm_joints([x, y, turn], planar::links(beyond, dz, wrist), from);
+        Some(std::array::from_fn(|i| if (3..8).contains(&i) { wrapped(joints[i]) } else { joints[i] }))
     }
 
     /// Joints for a tool with rails, torso and the direction of the wrist as they are.

@@ -59,9 +59,8 @@ pub fn shortest([start, goal]: [Point; 2], blocks: &[Block], room: &Rectangle) -
         })
         .collect();
     let is_free = |way: [Point; 2]| near.iter().all(|block| block.rectangle.distance(way) >= block.radius);
-    let is_in_room = |p: &Point| {
-        (room.low.x..=room.high.x).contains(&p.x) && (room.low.y..=room.high.y).contains(&p.y)
-    };
+    let is_in_room =
+        |p: &Point| (room.low.x..=room.high.x).contains(&p.x) && (room.low.y..=room.high.y).contains(&p.y);
     if is_free([start, goal]) {
         return Some(Vec::new());
     }
@@ -72,7 +71,8 @@ pub fn shortest([start, goal]: [Point; 2], blocks: &[Block], room: &Rectangle) -
             Point::new(x, y, 0.0).scaled(block.radius * WIDER)
         });
         let around: Vec<Point> = around.collect();
-        let places_near = block.rectangle.corners().into_iter().flat_map(|c| around.iter().map(move |a| c + *a));
+        let places_near =
+            block.rectangle.corners().into_iter().flat_map(|c| around.iter().map(move |a| c + *a));
         places.extend(places_near.filter(|p| is_in_room(p) && is_free([*p; 2])));
     }
     let mut lengths = vec![f64::INFINITY; places.len()];
@@ -81,7 +81,8 @@ pub fn shortest([start, goal]: [Point; 2], blocks: &[Block], room: &Rectangle) -
     lengths[0] = 0.0;
     loop {
         let still = |i: usize| lengths[i] + (places[1] - places[i]).length();
-        let (at, &present) = open.iter().enumerate().min_by(|(_, a), (_, b)| still(**a).total_cmp(&still(**b)))?;
+        let (at, &present) =
+            open.iter().enumerate().min_by(|(_, a), (_, b)| still(**a).total_cmp(&still(**b)))?;
         if lengths[present].is_infinite() {
             return None;
         }
