@@ -40,6 +40,8 @@ const MARGIN_AT_PLACE: f64 = 0.003;
 const ENOUGH: f64 = 0.12;
 /// The tool may be so far beyond the shoulder at a place, m; the best first.
 const BEYOND: [f64; 5] = [0.45, 0.6, 0.3, 0.15, 0.0];
+/// How far the robot draws back at the beginning, and from how far back it comes at the end, m; the best first.
+const BACK: [[f64; 2]; 4] = [[0.0, 0.0], [0.4, 0.0], [0.0, 0.4], [0.4, 0.4]];
 /// Ways to so many stances are tried.
 const TRIES: usize = 12;
 /// No point of the robot and its load goes farther for a metre of a rail or a radian of a joint, m: from the axis to
@@ -83,8 +85,11 @@ impl Ways {
             [low, low.max(self.scene.over_all)]
         };
         let tops = heights(from);
-        (stances.iter().take(TRIES))
-            .find_map(|to| tops.iter().find_map(|top| self.legs_to([from, to], load, *top, limits)))
+        stances.iter().take(TRIES).find_map(|to| {
+            BACK.iter().find_map(|back| {
+                tops.iter().find_map(|top| self.legs_to([from, to], load, *top, *back, limits))
+            })
+        })
     }
 
     /// Joints at `via` of all stances that are free of what stands, there and at `goal`, the quickest first.
@@ -110,19 +115,32 @@ impl Ways {
             && self.scene.gap_at_place(joints, MARGIN_AT_PLACE) >= MARGIN_AT_PLACE
     }
 
-    fn legs_to(&self, [from, to]: [&Joints; 2], load: Load, top: f64, limits: &Limits) -> Option<Vec<Leg>> {
-        let [up, down] = [from, to].map(|joints| self.at_height(joints, top));
-        let (up, down) = (up?, down?);
-        let ends = [&up, &down].map(|joints| Point::new(joints[0], joints[1], 0.0));
-        let between = shortest(ends, &self.scene.blocks, &self.room)?;
+    fn legs_to(
+        &self,
+        [from, to]: [&Joints; 2],
+        load: Load,
+        top: f64,
+        [back, forth]: [f64; 2],
+        limits: &Limits,
+    ) -> Option<Vec<Leg>> {
+        let (up, down) = (self.at_height(from, top)?, self.at_height(to, top)?);
+        let (start, end) = (self.drawn_back(&up, back)?, self.drawn_back(&down, forth)?);
+        let between = shortest([&start, &end].map(axis), &self.scene.blocks, &self.room)?;
         [Turning::Evenly, Turning::First, Turning::Last].into_iter().find_map(|turning| {
-            let passed = passed(&up, &down, &between, turning);
-            let all = moved(from, [&[up], passed.as_slice(), &[down, *to]].concat());
+            let passed = passed(&start, &end, &between, turning);
+            let all = moved(from, [&[up, start], passed.as_slice(), &[end, down, *to]].concat());
             // Round its corners if there is room for that.
             [rounded(&all), all.into_iter().map(Leg::To).collect()]
                 .into_iter()
                 .find(|legs| self.are_free(from, load, legs, limits))
         })
+    }
+
+    /// The torso this much farther from what the arm points to, m; none if the rails end before.
+    fn drawn_back(&self, joints: &Joints, way: f64) -> Option<Joints> {
+        let (s, c) = libm::sincos(joints[2]);
+        let there = axis(joints) + Point::new(s, -c, 0.0).scaled(way);
+        self.room.contains(there).then(|| at(joints, there, joints[2]))
     }
 
     /// The same stance with the tool at this height, or as it is if it is there.
@@ -165,9 +183,19 @@ impl Leg {
     }
 }
 
+/// Where the torso's axis is.
+fn axis(joints: &Joints) -> Point {
+    Point::new(joints[0], joints[1], 0.0)
+}
+
+/// The same arm with the torso elsewhere, rad.
+fn at(joints: &Joints, place: Point, turn: f64) -> Joints {
+    joints.map(|i, value| [place.x, place.y, turn].get(i).copied().unwrap_or(value))
+}
+
 /// Joints at the places that the torso passes: the arm as at the beginning.
 fn passed(from: &Joints, to: &Joints, places: &[Point], turning: Turning) -> Vec<Joints> {
-    let ends = [from, to].map(|joints| Point::new(joints[0], joints[1], 0.0));
+    let ends = [from, to].map(axis);
     let all: Vec<Point> = [&ends[..1], places, &ends[1..]].concat();
     let lengths: Vec<f64> = all.windows(2).map(|pair| (pair[1] - pair[0]).length()).collect();
     let whole: f64 = lengths.iter().sum();
@@ -181,7 +209,7 @@ fn passed(from: &Joints, to: &Joints, places: &[Point], turning: Turning) -> Vec
             Turning::Last => 0.0,
         };
         let turn = from[2] + part * (to[2] - from[2]);
-        joints.push(from.map(|i, value| [place.x, place.y, turn].get(i).copied().unwrap_or(value)));
+        joints.push(at(from, *place, turn));
     }
     joints
 }

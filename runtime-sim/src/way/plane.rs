@@ -35,6 +35,10 @@ impl Rectangle {
         }
     }
 
+    pub fn contains(&self, point: Point) -> bool {
+        (self.low.x..=self.high.x).contains(&point.x) && (self.low.y..=self.high.y).contains(&point.y)
+    }
+
     fn distance(&self, way: [Point; 2]) -> f64 {
         let half = (self.high - self.low).scaled(0.5);
         let axes = [Point::new(1.0, 0.0, 0.0), Point::new(0.0, 1.0, 0.0), Point::new(0.0, 0.0, 1.0)];
@@ -59,8 +63,6 @@ pub fn shortest([start, goal]: [Point; 2], blocks: &[Block], room: &Rectangle) -
         })
         .collect();
     let is_free = |way: [Point; 2]| near.iter().all(|block| block.rectangle.distance(way) >= block.radius);
-    let is_in_room =
-        |p: &Point| (room.low.x..=room.high.x).contains(&p.x) && (room.low.y..=room.high.y).contains(&p.y);
     if is_free([start, goal]) {
         return Some(Vec::new());
     }
@@ -73,7 +75,7 @@ pub fn shortest([start, goal]: [Point; 2], blocks: &[Block], room: &Rectangle) -
         let around: Vec<Point> = around.collect();
         let places_near =
             block.rectangle.corners().into_iter().flat_map(|c| around.iter().map(move |a| c + *a));
-        places.extend(places_near.filter(|p| is_in_room(p) && is_free([*p; 2])));
+        places.extend(places_near.filter(|p| room.contains(*p) && is_free([*p; 2])));
     }
     let mut lengths = vec![f64::INFINITY; places.len()];
     let mut before = vec![0; places.len()];
