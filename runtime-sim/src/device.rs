@@ -301,7 +301,6 @@ const THROUGH: Verb = Verb {
     arguments: &["via", "goal"],
     meaning: "tool to `goal` past `via` without a stop: where the joints turn off, none is further than 0.05 m or rad from its value at `via`",
 };
-/// The name says nothing of `goal`: the tool is not lowered.
 const TRAVEL: Verb = Verb {
     name: "travel",
     number: 6,

@@ -41,9 +41,9 @@ const ENOUGH: f64 = 0.12;
 /// The tool may be so far beyond the shoulder at a place, m; the best first.
 const BEYOND: [f64; 5] = [0.45, 0.6, 0.3, 0.15, 0.0];
 /// How far the robot draws back at the beginning, and from how far back it comes at the end, m; the best first.
-const BACK: [[f64; 2]; 4] = [[0.0, 0.0], [0.4, 0.0], [0.0, 0.4], [0.4, 0.4]];
+const BACK: [[f64; 2]; 6] = [[0.0, 0.0], [0.4, 0.0], [0.0, 0.4], [0.4, 0.4], [0.8, 0.4], [0.4, 0.8]];
 /// Ways to so many stances are tried.
-const TRIES: usize = 12;
+const TRIES: usize = 8;
 /// No point of the robot and its load goes farther for a metre of a rail or a radian of a joint, m: from the axis to
 /// the end of the stretched arm, from the shoulder, from the elbow, from the wrists.
 const LEVERS: [f64; 9] = [1.0, 1.0, 2.2, 1.6, 1.6, 1.0, 0.5, 0.4, 0.3];
