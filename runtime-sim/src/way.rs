@@ -12,7 +12,7 @@ use crate::kinematics::gantry::{Stance, Wrist};
 use crate::kinematics::nearest_turn;
 use crate::motion::Motion;
 use crate::point::Point;
-use plane::{Rectangle, shortest};
+use plane::{Rectangle, keeps_off, shortest};
 pub use scene::Load;
 use scene::Scene;
 use std::f64::consts::FRAC_PI_4;
@@ -50,6 +50,13 @@ const LEVERS: [f64; 9] = [1.0, 1.0, 2.2, 1.6, 1.6, 1.0, 0.5, 0.4, 0.3];
 /// A way is looked at again at the latest when some point may have gone so far, m: less than [`MARGIN`].
 const SHORTEST_STEP: f64 = 0.01;
 const WRISTS: [Wrist; 2] = [Wrist::Inside, Wrist::Outside];
+
+/// Around the torso where it stands.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Room {
+    Wide,
+    Narrow,
+}
 
 /// When the torso turns on its way.
 #[derive(Clone, Copy)]
@@ -92,22 +99,27 @@ impl Ways {
         })
     }
 
-    /// Joints at `via` of all stances that are free of what stands, there and at `goal`, the quickest first.
+    /// Joints at `via` of stances that are free of what stands, there and at `goal`: those first in which the torso
+    /// stands as far off as it keeps on its way and so gets out again, then the quickest.
     fn stances(&self, from: &Joints, via: Point, goal: Point, limits: &Limits) -> Vec<Joints> {
-        let mut found: Vec<(f64, Joints)> = Vec::new();
+        let mut found: Vec<(Room, f64, Joints)> = Vec::new();
         for turn in (0..8).map(|i| nearest_turn(f64::from(i) * FRAC_PI_4, from[2])) {
             for (wrist, beyond) in WRISTS.into_iter().flat_map(|w| BEYOND.map(|b| (w, b))) {
                 let stance = Stance { turn, beyond, wrist };
                 let joints = |tool| self.arm.solve_stance(tool, &stance, from);
                 let (Some(over), Some(at)) = (joints(via), joints(goal)) else { continue };
                 if self.is_free_at_place(&at) && self.scene.gap(&over, Load::None, MARGIN) >= MARGIN {
-                    found.push((Motion::undisturbed(*from, over, limits), over));
-                    break;
+                    let room =
+                        if keeps_off(axis(&over), &self.scene.blocks) { Room::Wide } else { Room::Narrow };
+                    found.push((room, Motion::undisturbed(*from, over, limits), over));
+                    if room == Room::Wide {
+                        break;
+                    }
                 }
             }
         }
-        found.sort_by(|(a, _), (b, _)| a.total_cmp(b));
-        found.into_iter().map(|(_, joints)| joints).collect()
+        found.sort_by(|(a, t, _), (b, u, _)| a.cmp(b).then(t.total_cmp(u)));
+        found.into_iter().map(|(.., joints)| joints).collect()
     }
 
     fn is_free_at_place(&self, joints: &Joints) -> bool {

@@ -52,6 +52,11 @@ impl Rectangle {
     }
 }
 
+/// Whether a disc with its middle here keeps off all blocks.
+pub fn keeps_off(place: Point, blocks: &[Block]) -> bool {
+    blocks.iter().all(|block| block.rectangle.distance([place; 2]) >= block.radius)
+}
+
 /// Places to pass between start and goal so that a disc keeps off all blocks, and its middle within `room`; where
 /// start or goal are nearer to a block, no nearer than they. None if there is no way.
 pub fn shortest([start, goal]: [Point; 2], blocks: &[Block], room: &Rectangle) -> Option<Vec<Point>> {
