@@ -301,6 +301,12 @@ const THROUGH: Verb = Verb {
     arguments: &["via", "goal"],
     meaning: "tool to `goal` past `via` without a stop: where the joints turn off, none is further than 0.05 m or rad from its value at `via`",
 };
+const TRAVEL: Verb = Verb {
+    name: "travel",
+    number: 6,
+    arguments: &["via", "goal"],
+    meaning: "tool to `via`, round what stands in the layout, and with the torso so that a `move` or `pick` from there to `goal` lowers the tool while the torso stands; straight as `move` where there is no such way",
+};
 
 pub const DEVICES: &[Device] = &[
     Device {
@@ -416,7 +422,7 @@ pub const DEVICES: &[Device] = &[
         ports: &[
             READY, GOT, ACK, ERROR, ATTACHED, TOOL, CMD, VERB, HOLD, GOAL, GRIP, TOP_SPEED, GAIN, VIA, TURN,
         ],
-        verbs: &[MOVE, PICK, PACE, TURN_TO, THROUGH],
+        verbs: &[MOVE, PICK, PACE, TURN_TO, THROUGH, TRAVEL],
         constants: &[REST, HEIGHTS],
         handovers: &[],
     },

@@ -26,4 +26,5 @@ pub mod scan;
 mod shortage;
 pub mod solid;
 mod system;
+mod way;
 pub mod words;

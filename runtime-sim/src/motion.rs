@@ -110,6 +110,11 @@ impl Motion {
         self.path.at(self.place(t))
     }
 
+    /// Joints at a place on the way, 0 to 1.
+    pub fn along(&self, place: f64) -> Joints {
+        self.path.at(place)
+    }
+
     pub fn goal(&self) -> Joints {
         self.path.goal()
     }

@@ -21,6 +21,7 @@ use crate::item::{Carrier, Items};
 use crate::kinematics::arm::Joints;
 use crate::line::Line;
 use crate::point::Point;
+use crate::way::Ways;
 use arm::Arm;
 use belt::{Belt, Spawn};
 use command::Command;
@@ -323,7 +324,7 @@ impl Machine {
                 let slips = slips
                     .map(|slip| Slip { pick: slip.pick, after_ms: milliseconds(slip.after_s) })
                     .collect();
-                let drive = Drive::new(&machine.geometry)
+                let drive = Drive::new(&machine.geometry, Ways::of(line, index))
                     .ok_or_else(|| format!("{} cannot reach its own rest position", machine.name))?;
                 Machine::Arm(Arm::new(command(), Gripper::new(slips), drive))
             }

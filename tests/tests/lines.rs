@@ -60,6 +60,21 @@ fn every_layout_works_with_every_capacity() {
     );
 }
 
+/// What their layouts allow is for the prototype, and for ways that `travel` does not find.
+#[test]
+fn the_default_line_and_that_with_fewer_vehicles_touch_nothing() {
+    let mut inputs = Vec::new();
+    for layout in ["default", "less_agv"] {
+        inputs.extend((1..=12).map(|capacity| (layout, capacity)));
+    }
+    let contacts = on_all_processors(&inputs, |(layout, capacity)| {
+        execute(&ariac(layout).set(&format!("agv.capacity={capacity}")).project()).collisions
+    });
+    for (input, contacts) in inputs.iter().zip(contacts) {
+        assert!(contacts.is_empty(), "{input:?}: {contacts:?}");
+    }
+}
+
 #[test]
 fn lines_of_the_users_own_make_their_orders() {
     let mut inputs = Vec::new();

@@ -8,7 +8,7 @@
 
 pub mod distance;
 
-mod body;
+pub(crate) mod body;
 mod group;
 mod lever;
 mod pair;

@@ -1,6 +1,6 @@
 //! Both robots alike: joints, reach, limits.
 
-use super::gantry::{self, Gantry};
+use super::gantry::{self, Gantry, Stance};
 use super::nearest_turn;
 use super::pose::Pose;
 use super::rail_arm::{self, RailArm};
@@ -141,6 +141,11 @@ impl Arm {
             Arm::Rail(arm) => arm.solve(tool, &from.array()).map(|joints| Joints::new(&joints)),
             Arm::Gantry(arm) => arm.solve(tool, &from.array()).map(|joints| Joints::new(&joints)),
         }?;
+        Some(self.with_direction_of(from, joints))
+    }
+
+    /// The same place of the tool, and a part on it with the direction that it has at `from`.
+    fn with_direction_of(&self, from: &Joints, joints: Joints) -> Joints {
         let direction = |joints: &Joints| {
             let along = self.tool_pose(joints).axis(0);
             libm::atan2(along.y, along.x)
@@ -148,7 +153,28 @@ impl Arm {
         let last = joints.len() - 1;
         // The last joint's axis points down.
         let angle = joints[last] + direction(&joints) - direction(from);
-        Some(joints.map(|i, value| if i == last { nearest_turn(angle, from[last]) } else { value }))
+        joints.map(|i, value| if i == last { nearest_turn(angle, from[last]) } else { value })
+    }
+
+    /// Joints for a place of the tool at this stance, near `from`; a part keeps its direction. None where the limits
+    /// forbid it, and for a robot without a torso.
+    pub fn solve_stance(&self, tool: Point, stance: &Stance, from: &Joints) -> Option<Joints> {
+        match self {
+            Arm::Rail(_) => None,
+            Arm::Gantry(arm) => {
+                let joints = Joints::new(&arm.solve_stance(tool, stance, &from.array())?);
+                Some(self.with_direction_of(from, joints))
+            }
+        }
+    }
+
+    /// Joints for a place of the tool with rails, torso and the direction of the wrist as they are; none where the
+    /// reach forbids it, and for a robot without a torso.
+    pub fn solve_standing(&self, tool: Point, from: &Joints) -> Option<Joints> {
+        match self {
+            Arm::Rail(_) => None,
+            Arm::Gantry(arm) => arm.solve_standing(tool, &from.array()).map(|joints| Joints::new(&joints)),
+        }
     }
 
     /// Joints for a place of the tool, straight under the shoulder, with the torso at exactly this turn (rad);

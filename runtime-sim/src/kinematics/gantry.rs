@@ -1,9 +1,10 @@
 //! A UR10 that hangs sideways from a torso which travels on two rails and turns.
 
-use super::planar::{self, Links, Wrist};
+pub use super::planar::Wrist;
+use super::planar::{self, Links};
 use super::pose::Pose;
 use super::ur10::{self, D1, D4};
-use super::{is_finite, nearest_turn, root};
+use super::{is_finite, nearest_turn, root, wrapped};
 use crate::point::Point;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -22,6 +23,8 @@ pub const MOUNT: Pose = Pose {
 const SHOULDER: f64 = OUTREACH + D1;
 /// The wrist outside comes first, as in the prototype.
 const WRISTS: [Wrist; 2] = [Wrist::Outside, Wrist::Inside];
+/// A tool is in the plane of the arm that stands if it is not farther from it than this, m.
+const STANDS: f64 = 1e-6;
 /// Turns tried on either side of the present one when the torso must turn: steps of 15 degrees.
 const TURN_STEPS: i32 = 12;
 
@@ -30,6 +33,16 @@ pub struct Gantry {
     x: [f64; 2],
     y: [f64; 2],
     shoulder: f64,
+}
+
+/// How the robot stands while its tool is somewhere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stance {
+    /// Of the torso, rad.
+    pub turn: f64,
+    /// How far the tool is beyond the shoulder, m.
+    pub beyond: f64,
+    pub wrist: Wrist,
 }
 
 /// A tool's place as seen from all places of the torso.
@@ -72,10 +85,14 @@ impl Gantry {
     }
 
     /// Joints that bring the tool, pointing down, to a place; some exactly when [`Self::margin`] is not negative.
-    /// The tool is under the shoulder where it can be; the torso keeps its turn where it can.
+    /// The torso stands still if that does. Else the tool is under the shoulder where it can be, and the torso
+    /// keeps its turn where it can.
     pub fn solve(&self, tool: Point, from: &Joints) -> Option<Joints> {
         if self.margin(tool) < 0.0 {
             return None;
+        }
+        if let Some(joints) = self.solve_standing(tool, from) {
+            return Some(joints);
         }
         let view = self.view(tool);
         if let Some(wrist) = planar::comfortable(0.0, view.dz, WRISTS)
@@ -101,6 +118,38 @@ impl Gantry {
         let wrist = Wrist::Outside;
         let (x, y) = self.torso_at(tool, SHOULDER, turn)?;
         planar::reaches(0.0, dz, wrist).then(|| arm_joints([x, y, turn], planar::links(0.0, dz, wrist), from))
+    }
+
+    /// Joints for a tool at this stance, with room to spare; none if rails, torso or reach forbid it. The angles of
+    /// the arm are within half a turn, so that motions from there are short of the joints' limits.
+    pub fn solve_stance(&self, tool: Point, stance: &Stance, from: &Joints) -> Option<Joints> {
+        let Stance { turn, beyond, wrist } = *stance;
+        let dz = planar::wrist_height(tool, self.shoulder);
+        let (x, y) = self.torso_at(tool, SHOULDER + beyond, turn)?;
+        planar::comfortable(beyond, dz, [wrist; 2])?;
+        let turn = nearest_turn(turn, from[2]);
+        let joints = arm_joints([x, y, turn], planar::links(beyond, dz, wrist), from);
+        Some(std::array::from_fn(|i| if (3..8).contains(&i) { wrapped(joints[i]) } else { joints[i] }))
+    }
+
+    /// Joints for a tool with rails, torso and the direction of the wrist as they are.
+    pub fn solve_standing(&self, tool: Point, from: &Joints) -> Option<Joints> {
+        let [x, y, turn, ..] = *from;
+        let (dx, dy) = (tool.x - x, tool.y - y);
+        let (s, c) = libm::sincos(turn);
+        let (ahead, aside) = (dy * c - dx * s, -dx * c - dy * s);
+        let wrist = Wrist::of_angle(from[7]);
+        let dz = planar::wrist_height(tool, self.shoulder);
+        let beyond = ahead - SHOULDER;
+        if (aside - D4).abs() > STANDS || planar::comfortable(beyond, dz, [wrist; 2]).is_none() {
+            return None;
+        }
+        Some(arm_joints([x, y, turn], planar::links(beyond, dz, wrist), from))
+    }
+
+    /// Where the torso's axis may be: the lower and the upper end of x and of y.
+    pub fn rails(&self) -> [[f64; 2]; 2] {
+        [self.x, self.y]
     }
 
     /// The place of the torso at this turn with the tool `ahead` of its axis, if the rails allow it.

@@ -24,7 +24,7 @@ pub fn wrapped(angle: f64) -> f64 {
 }
 
 /// Among the equivalents of `angle` within one joint's limits of two turns (-2 pi to 2 pi) the one nearest to `present`.
-fn nearest_turn(angle: f64, present: f64) -> f64 {
+pub fn nearest_turn(angle: f64, present: f64) -> f64 {
     let base = wrapped(angle);
     let distance = |candidate: f64| (candidate - present).abs();
     [base - TAU, base + TAU]

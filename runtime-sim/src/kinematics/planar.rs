@@ -50,6 +50,11 @@ impl Wrist {
         }
     }
 
+    /// The one with this fifth joint, rad.
+    pub fn of_angle(angle: f64) -> Self {
+        if libm::sin(angle) < 0.0 { Wrist::Inside } else { Wrist::Outside }
+    }
+
     fn angle(self) -> f64 {
         match self {
             Wrist::Inside => -FRAC_PI_2,

@@ -8,6 +8,7 @@ use super::image::{in_arm, out, point, put_bit, put_point};
 use crate::device::error;
 use crate::kinematics::arm::Joints;
 use crate::point::Point;
+use crate::way::Load;
 
 /// A `pick` waits so long at its goal for a part to be attached.
 const PICK_WAIT_MS: u64 = 500;
@@ -77,6 +78,11 @@ impl Arm {
                 self.start(Task::Move, Target::Turned(goal(outputs), outputs[out::TURN]), now);
             }
             5 => self.start(Task::Move, Target::Past(point(outputs, out::VIA), goal(outputs)), now),
+            6 if self.drive.has_torso() => {
+                let load = if self.gripper.held().is_some() { Load::Largest } else { Load::None };
+                let target = Target::Round(point(outputs, out::VIA), goal(outputs), load);
+                self.start(Task::Move, target, now);
+            }
             _ => self.fail(error::REFUSED, now),
         }
     }

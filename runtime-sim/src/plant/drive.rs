@@ -4,10 +4,14 @@ use crate::geometry::Geometry;
 use crate::kinematics::arm::{Arm, Joints, Limits};
 use crate::motion::Motion;
 use crate::point::Point;
+use crate::way::{Leg, Load, Ways};
+use std::sync::Arc;
 
 #[derive(Clone, Debug)]
 pub struct Drive {
     arm: Arm,
+    /// What a gantry knows of its surroundings.
+    ways: Option<Arc<Ways>>,
     limits: Limits,
     joints: Joints,
     tool: Point,
@@ -22,12 +26,16 @@ pub enum Target {
     Turned(Point, f64),
     /// The second place, past the first one without a stop.
     Past(Point, Point),
+    /// The first place, round what stands and with this on the tool, so that the tool can be lowered to the second
+    /// from there.
+    Round(Point, Point, Load),
 }
 
 #[derive(Clone, Debug)]
 enum Course {
     Rest,
-    Going(Motion),
+    /// The motion, and the legs behind it, the last one first.
+    Going(Motion, Vec<Leg>),
     /// The motion is void and brakes; then the next target, if there is one.
     Braking(Motion, Option<Target>),
 }
@@ -43,12 +51,12 @@ pub enum Moved {
 impl Drive {
     /// At rest, the rail at its middle; `None` for a machine without joints, or one that has no
     /// such place.
-    pub fn new(geometry: &Geometry) -> Option<Self> {
+    pub fn new(geometry: &Geometry, ways: Option<Ways>) -> Option<Self> {
         let arm = Arm::from_geometry(geometry)?;
         let start = arm.start();
         let joints = arm.solve(geometry.rest(), &start)?;
         let (limits, tool) = (arm.limits(), arm.tool(&joints));
-        Some(Self { arm, limits, joints, tool, course: Course::Rest })
+        Some(Self { arm, ways: ways.map(Arc::new), limits, joints, tool, course: Course::Rest })
     }
 
     pub fn tool(&self) -> Point {
@@ -63,7 +71,7 @@ impl Drive {
     pub fn under_way(&self) -> Option<&Motion> {
         match &self.course {
             Course::Rest => None,
-            Course::Going(motion) | Course::Braking(motion, _) => Some(motion),
+            Course::Going(motion, _) | Course::Braking(motion, _) => Some(motion),
         }
     }
 
@@ -83,10 +91,10 @@ impl Drive {
     /// Sets out for a target at `t`, in seconds; what moves still brakes first. `None` if no joints bring the
     /// tool there.
     pub fn start(&mut self, target: Target, t: f64) -> Option<()> {
-        let motion = self.motion(target, t)?;
+        let course = self.course_to(target, t)?;
         self.course = match std::mem::replace(&mut self.course, Course::Rest) {
-            Course::Rest => Course::Going(motion),
-            Course::Going(mut motion) | Course::Braking(mut motion, _) => {
+            Course::Rest => course,
+            Course::Going(mut motion, _) | Course::Braking(mut motion, _) => {
                 motion.hold(t);
                 Course::Braking(motion, Some(target))
             }
@@ -94,26 +102,34 @@ impl Drive {
         Some(())
     }
 
-    /// The motion from the present joints, which stand.
-    fn motion(&self, target: Target, t: f64) -> Option<Motion> {
+    /// From the present joints, which stand.
+    fn course_to(&self, target: Target, t: f64) -> Option<Course> {
         let (from, limits) = (self.joints, &self.limits);
-        Some(match target {
-            Target::Place(goal) => Motion::between(from, self.arm.solve(goal, &from)?, limits, t),
-            Target::Turned(goal, turn) => {
-                Motion::between(from, self.arm.solve_turned(goal, turn, &from)?, limits, t)
-            }
+        let straight = |goal| Some(Leg::To(self.arm.solve(goal, &from)?));
+        let mut legs = match target {
+            Target::Place(goal) => vec![straight(goal)?],
+            Target::Turned(goal, turn) => vec![Leg::To(self.arm.solve_turned(goal, turn, &from)?)],
             Target::Past(via, goal) => {
                 let via = self.arm.solve(via, &from)?;
-                Motion::through(from, via, self.arm.solve(goal, &via)?, limits, t)
+                vec![Leg::Past(via, self.arm.solve(goal, &via)?)]
             }
-        })
+            Target::Round(via, goal, load) => {
+                match self.ways.as_ref().and_then(|ways| ways.legs(&from, load, [via, goal], limits)) {
+                    Some(legs) => legs,
+                    None => vec![straight(via)?],
+                }
+            }
+        };
+        legs.reverse();
+        let first = legs.pop().unwrap_or(Leg::To(from));
+        Some(Course::Going(first.motion(from, limits, t), legs))
     }
 
     /// Brakes and forgets the target.
     pub fn stop(&mut self, t: f64) {
         self.course = match std::mem::replace(&mut self.course, Course::Rest) {
             Course::Rest => Course::Rest,
-            Course::Going(mut motion) | Course::Braking(mut motion, _) => {
+            Course::Going(mut motion, _) | Course::Braking(mut motion, _) => {
                 motion.hold(t);
                 Course::Braking(motion, None)
             }
@@ -122,13 +138,13 @@ impl Drive {
 
     /// Brakes on the path and keeps the target.
     pub fn hold(&mut self, t: f64) {
-        if let Course::Going(motion) = &mut self.course {
+        if let Course::Going(motion, _) = &mut self.course {
             motion.hold(t);
         }
     }
 
     pub fn resume(&mut self, t: f64) {
-        if let Course::Going(motion) = &mut self.course {
+        if let Course::Going(motion, _) = &mut self.course {
             motion.resume(t);
         }
     }
@@ -137,12 +153,14 @@ impl Drive {
     pub fn advance(&mut self, t: f64) -> Moved {
         let (course, moved) = match std::mem::replace(&mut self.course, Course::Rest) {
             Course::Rest => (Course::Rest, Moved::Arrived),
-            Course::Going(motion) => {
+            Course::Going(motion, mut legs) => {
                 self.place(motion.at(t));
-                if motion.has_ended(t) {
-                    (Course::Rest, Moved::Arrived)
+                if !motion.has_ended(t) {
+                    (Course::Going(motion, legs), Moved::OnTheWay)
+                } else if let Some(leg) = legs.pop() {
+                    (Course::Going(leg.motion(self.joints, &self.limits, t), legs), Moved::OnTheWay)
                 } else {
-                    (Course::Going(motion), Moved::OnTheWay)
+                    (Course::Rest, Moved::Arrived)
                 }
             }
             Course::Braking(motion, next) => {
@@ -150,10 +168,10 @@ impl Drive {
                 if t < motion.rests_at() {
                     (Course::Braking(motion, next), Moved::OnTheWay)
                 } else {
-                    match next.map(|target| self.motion(target, t)) {
+                    match next.map(|target| self.course_to(target, t)) {
                         None => (Course::Rest, Moved::Arrived),
                         Some(None) => (Course::Rest, Moved::Lost),
-                        Some(Some(motion)) => (Course::Going(motion), Moved::OnTheWay),
+                        Some(Some(course)) => (course, Moved::OnTheWay),
                     }
                 }
             }

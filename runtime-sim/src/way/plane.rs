@@ -1,0 +1,168 @@
+//! The shortest way of a disc among rectangles.
+
+use crate::collision::distance::{self, segment_block};
+use crate::point::Point;
+use std::f64::consts::TAU;
+
+/// On the plane: lower and upper corner; z has no meaning.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rectangle {
+    pub low: Point,
+    pub high: Point,
+}
+
+/// What a disc keeps off, its middle by this distance, m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Block {
+    pub rectangle: Rectangle,
+    pub radius: f64,
+}
+
+/// Directions from a corner in which the middle of a disc may pass it.
+const AROUND: u32 = 16;
+/// It passes a corner at so many radii: between two of these directions it is still farther away than one.
+const WIDER: f64 = 1.02;
+/// Rectangles that are farther than this from start and goal are not looked at, m.
+const DETOUR: f64 = 4.0;
+
+impl Rectangle {
+    /// The least that contains both.
+    pub fn with(&self, other: &Self) -> Self {
+        let [a, b] = [self, other];
+        Self {
+            low: Point::new(a.low.x.min(b.low.x), a.low.y.min(b.low.y), 0.0),
+            high: Point::new(a.high.x.max(b.high.x), a.high.y.max(b.high.y), 0.0),
+        }
+    }
+
+    pub fn contains(&self, point: Point) -> bool {
+        (self.low.x..=self.high.x).contains(&point.x) && (self.low.y..=self.high.y).contains(&point.y)
+    }
+
+    fn distance(&self, way: [Point; 2]) -> f64 {
+        let half = (self.high - self.low).scaled(0.5);
+        let axes = [Point::new(1.0, 0.0, 0.0), Point::new(0.0, 1.0, 0.0), Point::new(0.0, 0.0, 1.0)];
+        let block = distance::Block { middle: self.low + half, axes, half: [half.x, half.y, 0.0] };
+        segment_block(way, &block).distance
+    }
+
+    fn corners(&self) -> [Point; 4] {
+        let [x, y] = [[self.low.x, self.high.x], [self.low.y, self.high.y]];
+        [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(i, j)| Point::new(x[i], y[j], 0.0))
+    }
+}
+
+/// Whether a disc with its middle here keeps off all blocks.
+pub fn keeps_off(place: Point, blocks: &[Block]) -> bool {
+    blocks.iter().all(|block| block.rectangle.distance([place; 2]) >= block.radius)
+}
+
+/// Places to pass between start and goal so that a disc keeps off all blocks, and its middle within `room`; where
+/// start or goal are nearer to a block, no nearer than they. None if there is no way.
+pub fn shortest([start, goal]: [Point; 2], blocks: &[Block], room: &Rectangle) -> Option<Vec<Point>> {
+    let near: Vec<Block> = (blocks.iter())
+        .filter(|block| block.rectangle.distance([start, goal]) <= DETOUR)
+        .map(|block| {
+            let [at_start, at_goal] = [start, goal].map(|end| block.rectangle.distance([end; 2]));
+            Block { radius: block.radius.min(at_start).min(at_goal) - 1e-9, ..*block }
+        })
+        .collect();
+    let is_free = |way: [Point; 2]| near.iter().all(|block| block.rectangle.distance(way) >= block.radius);
+    if is_free([start, goal]) {
+        return Some(Vec::new());
+    }
+    let mut places = vec![start, goal];
+    for block in &near {
+        let around = (0..AROUND).map(|i| {
+            let (y, x) = libm::sincos(TAU * f64::from(i) / f64::from(AROUND));
+            Point::new(x, y, 0.0).scaled(block.radius * WIDER)
+        });
+        let around: Vec<Point> = around.collect();
+        let places_near =
+            block.rectangle.corners().into_iter().flat_map(|c| around.iter().map(move |a| c + *a));
+        places.extend(places_near.filter(|p| room.contains(*p) && is_free([*p; 2])));
+    }
+    let mut lengths = vec![f64::INFINITY; places.len()];
+    let mut before = vec![0; places.len()];
+    let mut open: Vec<usize> = (0..places.len()).collect();
+    lengths[0] = 0.0;
+    loop {
+        let still = |i: usize| lengths[i] + (places[1] - places[i]).length();
+        let (at, &present) =
+            open.iter().enumerate().min_by(|(_, a), (_, b)| still(**a).total_cmp(&still(**b)))?;
+        if lengths[present].is_infinite() {
+            return None;
+        }
+        if present == 1 {
+            break;
+        }
+        open.swap_remove(at);
+        for &next in &open {
+            let length = lengths[present] + (places[next] - places[present]).length();
+            if length < lengths[next] && is_free([places[present], places[next]]) {
+                (lengths[next], before[next]) = (length, present);
+            }
+        }
+    }
+    let mut way = Vec::new();
+    let mut at = before[1];
+    while at != 0 {
+        way.push(places[at]);
+        at = before[at];
+    }
+    way.reverse();
+    Some(way)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn point(x: f64, y: f64) -> Point {
+        Point::new(x, y, 0.0)
+    }
+
+    fn rectangle(x: [f64; 2], y: [f64; 2]) -> Rectangle {
+        Rectangle { low: point(x[0], y[0]), high: point(x[1], y[1]) }
+    }
+
+    fn block(rectangle: Rectangle) -> Block {
+        Block { rectangle, radius: 0.6 }
+    }
+
+    fn room() -> Rectangle {
+        rectangle([-10.0, 10.0], [-5.0, 5.0])
+    }
+
+    #[test]
+    fn nothing_in_the_way_is_straight_on() {
+        let aside = rectangle([-1.0, 1.0], [0.7, 2.0]);
+        assert_eq!(shortest([point(-3.0, 0.0), point(3.0, 0.0)], &[block(aside)], &room()), Some(vec![]));
+    }
+
+    #[test]
+    fn it_goes_round_on_the_shorter_side_and_keeps_off() {
+        let wall = rectangle([-0.1, 0.1], [-1.0, 3.0]);
+        let ends = [point(-3.0, 0.0), point(3.0, 0.0)];
+        let way = shortest(ends, &[block(wall)], &room()).unwrap();
+        assert!(!way.is_empty() && way.iter().all(|p| p.y < -1.5), "{way:?}");
+        let all: Vec<Point> = [ends[0]].into_iter().chain(way).chain([ends[1]]).collect();
+        for pair in all.windows(2) {
+            assert!(wall.distance([pair[0], pair[1]]) >= 0.6, "{all:?}");
+        }
+        // The shorter side is closed: it takes the other.
+        let closed = rectangle([-10.0, 10.0], [-1.5, 5.0]);
+        let way = shortest(ends, &[block(wall)], &closed).unwrap();
+        assert!(way.iter().all(|p| p.y > 3.5), "{way:?}");
+        let shut = rectangle([-10.0, 10.0], [-1.5, 3.5]);
+        assert_eq!(shortest(ends, &[block(wall)], &shut), None);
+    }
+
+    #[test]
+    fn who_begins_too_near_comes_no_nearer() {
+        let wall = rectangle([-0.1, 0.1], [-1.0, 1.0]);
+        let way = shortest([point(-0.3, 0.0), point(3.0, 0.0)], &[block(wall)], &room()).unwrap();
+        let first = [point(-0.3, 0.0), way[0]];
+        assert!(wall.distance(first) >= 0.2 - 1e-6, "{way:?}");
+    }
+}

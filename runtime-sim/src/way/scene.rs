@@ -1,0 +1,316 @@
+//! What stands about a gantry, as its planner takes it.
+
+use super::plane::{Block, Rectangle};
+use crate::collision::body::{Ball, Piece, Placed};
+use crate::geometry::{Geometry, SLOTS, bin_offset, briefcase_offset, slot_offset};
+use crate::kinematics::arm::{Arm, Joints};
+use crate::kinematics::pose::Pose;
+use crate::line::{Kind, Line};
+use crate::point::{Axis, Point};
+use crate::solid::{self, Link, Shape, Solid};
+
+/// A link of the robot with all that is fixed to it.
+#[derive(Clone, Debug)]
+struct Member {
+    link: usize,
+    pieces: Vec<Piece>,
+    ball: Ball,
+}
+
+/// The robot itself, what stands around it, and what may lie beside a place.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    arm: Arm,
+    members: Vec<Member>,
+    /// The largest part, under the gripper.
+    load: Member,
+    standing: Vec<Standing>,
+    /// What stands higher than the torso hangs down, seen from above, and how far its axis keeps off.
+    pub blocks: Vec<Block>,
+    places: Vec<Places>,
+    /// Over all that stands the arm carries its load from this height of the tool on, m.
+    pub over_all: f64,
+}
+
+/// A solid that stands, with the axes of the world, and its corners.
+#[derive(Clone, Debug)]
+struct Standing {
+    placed: Placed,
+    low: Point,
+    high: Point,
+}
+
+/// The places of one machine at which parts may lie, with the largest part of each.
+#[derive(Clone, Debug)]
+struct Places {
+    all: Vec<(Point, Placed)>,
+    order: Order,
+}
+
+/// In which order the places of a machine are used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Order {
+    Any,
+    /// While parts are taken: those before are empty.
+    FirstToLast,
+}
+
+/// A part of the robot that turns about its axis: its lower and upper end from the height of the shoulder, and how far
+/// the axis keeps off what stands between, m.
+#[derive(Clone, Copy)]
+struct AroundAxis {
+    heights: [f64; 2],
+    radius: f64,
+}
+
+/// Of [`crate::solid`]: the torso with its tray, no point of it farther from the axis than 0.598 m; and the shoulder
+/// of the arm, none farther than 0.782 m.
+const AROUND_AXIS: [AroundAxis; 2] = [
+    AroundAxis { heights: [-0.765, 0.85], radius: 0.63 },
+    AroundAxis { heights: [-0.103, 0.103], radius: 0.8 },
+];
+/// Half of the room across its rail that an arm on a rail needs for itself, and its height over the shoulder, m.
+const RAIL_ARM: (f64, f64) = (0.35, 0.7);
+/// Links with so many joints between them or more may meet.
+const FREE: usize = 3;
+/// A tool is over a place if it is no farther from it than this, m.
+const AT_PLACE: f64 = 0.02;
+/// Room over what stands when the arm passes over it, m.
+const OVER: f64 = 0.05;
+
+impl Scene {
+    /// What the machine of this number has around it; none if it is no gantry.
+    pub fn of(line: &Line, index: usize) -> Option<Self> {
+        let own = &line.machines.get(index)?.geometry;
+        let Geometry::Gantry { pose, .. } = *own else { return None };
+        let arm = Arm::from_geometry(own)?;
+        let others = || line.machines.iter().map(|m| &m.geometry).filter(|geometry| *geometry != own);
+        let obstacles = line.obstacles.iter().filter_map(|o| o.solid()).map(|solid| vec![solid]);
+        let boxes: Vec<Vec<Solid>> = others().flat_map(standing).chain(obstacles).collect();
+        let passing: Vec<Vec<Solid>> = others().flat_map(passing).collect();
+        let all = boxes.iter().chain(&passing);
+        let blocks = all.flat_map(|solids| AROUND_AXIS.map(|part| part.keeps_off(pose.z, solids)));
+        let blocks: Vec<Block> = blocks.flatten().collect();
+        let standing = boxes.iter().flatten();
+        let largest = |value: fn(&Kind) -> f64| line.kinds.iter().map(value).fold(0.0, f64::max);
+        let size = Point::new(largest(|k| k.size[0]), largest(|k| k.size[1]), largest(|k| k.height));
+        let tallest = standing.clone().map(top).filter(|top| *top < pose.z).fold(0.0, f64::max);
+        let standing: Vec<Standing> = standing.map(Standing::new).collect();
+        let load = Pose { position: Point::new(0.0, 0.0, size.z / 2.0 + 0.001), ..Pose::IDENTITY };
+        let members = members(own);
+        let hand = members.last()?.link;
+        let load = Piece::new(String::new(), &load, Shape::Box { size });
+        Some(Self {
+            arm,
+            members,
+            load: Member { link: hand, ball: load.ball(), pieces: vec![load] },
+            standing,
+            blocks,
+            places: places(line),
+            over_all: tallest + size.z + OVER,
+        })
+    }
+
+    /// How far the robot is from all that stands and from its own links, with or without a load, m; `enough` if it is
+    /// that far or farther, 0 if they touch.
+    pub fn gap(&self, joints: &Joints, load: Load, enough: f64) -> f64 {
+        let frames = self.arm.frames(joints);
+        let members: Vec<&Member> =
+            self.members.iter().chain((load == Load::Largest).then_some(&self.load)).collect();
+        let mut least = enough;
+        for (i, member) in members.iter().enumerate() {
+            let frame = &frames[member.link];
+            let ball = member.ball.within(frame);
+            for other in &self.standing {
+                if other.is_within(&ball, least) {
+                    least = member.gap(frame, &other.placed, least);
+                }
+            }
+            for other in members[i..].iter().filter(|other| other.link >= member.link + FREE) {
+                let (there, around) = (&frames[other.link], other.ball.within(&frames[other.link]));
+                if ball.gap(&around) < least {
+                    let pieces = other.pieces.iter().map(|piece| piece.within(there));
+                    least = pieces.fold(least, |least, piece| member.gap(frame, &piece, least));
+                }
+            }
+        }
+        least
+    }
+
+    /// The same from parts that may lie beside the place under the tool.
+    pub fn gap_at_place(&self, joints: &Joints, enough: f64) -> f64 {
+        let frames = self.arm.frames(joints);
+        let tool = self.arm.tool(joints);
+        let is_here = |place: &Point| {
+            let way = *place - tool;
+            way.x * way.x + way.y * way.y <= AT_PLACE * AT_PLACE
+        };
+        let mut least = enough;
+        for Places { all, order } in &self.places {
+            let Some(here) = all.iter().position(|(place, _)| is_here(place)) else { continue };
+            for (i, (_, part)) in all.iter().enumerate() {
+                if i > here || i < here && *order == Order::Any {
+                    for member in &self.members {
+                        least = member.gap(&frames[member.link], part, least);
+                    }
+                }
+            }
+        }
+        least
+    }
+}
+
+impl Standing {
+    fn new(solid: &Solid) -> Self {
+        let (middle, half) = (solid.pose.position, half(solid));
+        let placed = Piece::new(String::new(), &solid.pose, solid.shape).within(&Pose::IDENTITY);
+        Self { placed, low: middle - half, high: middle + half }
+    }
+
+    /// Whether it is nearer to a ball than this, m.
+    fn is_within(&self, ball: &Ball, distance: f64) -> bool {
+        let outside = |at: f64, low: f64, high: f64| (low - at).max(at - high).max(0.0);
+        let Ball { middle, radius } = *ball;
+        let x = outside(middle.x, self.low.x, self.high.x);
+        let y = outside(middle.y, self.low.y, self.high.y);
+        let z = outside(middle.z, self.low.z, self.high.z);
+        let reach = radius + distance;
+        x * x + y * y + z * z < reach * reach
+    }
+}
+
+impl AroundAxis {
+    /// What of these solids is in its way, seen from above.
+    fn keeps_off(&self, shoulder: f64, solids: &[Solid]) -> Option<Block> {
+        let heights = self.heights.map(|z| shoulder + z);
+        let all = solids.iter().filter_map(|solid| footprint(solid, heights));
+        let rectangle = all.reduce(|a, b| a.with(&b))?;
+        Some(Block { rectangle, radius: self.radius })
+    }
+}
+
+/// What hangs on the gripper.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Load {
+    None,
+    Largest,
+}
+
+impl Member {
+    /// The lesser of `least` and the distance.
+    fn gap(&self, frame: &Pose, other: &Placed, least: f64) -> f64 {
+        self.pieces.iter().fold(least, |least, piece| {
+            let placed = piece.within(frame);
+            if placed.apart_at_least(other, least) >= least {
+                return least;
+            }
+            least.min(placed.gap(other).distance)
+        })
+    }
+}
+
+fn members(geometry: &Geometry) -> Vec<Member> {
+    let mut solids = solid::solids(geometry);
+    solids.sort_by_key(|solid| solid.link);
+    let links = solids.chunk_by(|a, b| a.link == b.link).filter_map(|solids| {
+        let Link::Joint(link) = solids[0].link else { return None };
+        let pieces: Vec<Piece> =
+            solids.iter().map(|s| Piece::new(s.name.to_string(), &s.pose, s.shape)).collect();
+        let balls: Vec<Ball> = pieces.iter().map(Piece::ball).collect();
+        Some(Member { link, pieces, ball: Ball::around(&balls) })
+    });
+    links.collect()
+}
+
+fn shifted(solids: &[Solid], by: Point) -> Vec<Solid> {
+    let moved = |s: &Solid| Solid { pose: Pose { position: s.pose.position + by, ..s.pose }, ..s.clone() };
+    solids.iter().map(moved).collect()
+}
+
+/// The room that a vehicle takes on its way from its first stop to the second, in groups that stand together.
+fn passing(geometry: &Geometry) -> Vec<Vec<Solid>> {
+    let Geometry::Vehicle { pose, destinations: [near, _] } = *geometry else { return Vec::new() };
+    let way = near - pose;
+    let steps = (way.length() / STEP).ceil().max(1.0);
+    let solids = solid::solids(geometry);
+    let on_the_way = (0..=steps as u32).map(|i| shifted(&solids, pose + way.scaled(f64::from(i) / steps)));
+    // Along an axis of the world all of it is one rectangle from above.
+    if way.x == 0.0 || way.y == 0.0 { vec![on_the_way.flatten().collect()] } else { on_the_way.collect() }
+}
+
+/// The room that a machine may take while the gantry works, in groups that stand together: a vehicle at each of its
+/// stops, an arm along its rail.
+fn standing(geometry: &Geometry) -> Vec<Vec<Solid>> {
+    let solids = solid::solids(geometry);
+    match *geometry {
+        Geometry::Vehicle { .. } => geometry.stops().iter().map(|stop| shifted(&solids, *stop)).collect(),
+        Geometry::RailArm { pose, rail_dim, rail_range: [low, high] } => {
+            let (half, height) = RAIL_ARM;
+            let long = high - low + 2.0 * half;
+            let middle = (high + low) / 2.0;
+            let tall = pose.z + height;
+            let (position, size) = match rail_dim {
+                Axis::X => (Point::new(middle, pose.y, tall / 2.0), Point::new(long, 2.0 * half, tall)),
+                Axis::Y => (Point::new(pose.x, middle, tall / 2.0), Point::new(2.0 * half, long, tall)),
+            };
+            let pose = Pose { position, ..Pose::IDENTITY };
+            vec![vec![Solid { name: "rail_arm", link: Link::World, pose, shape: Shape::Box { size } }]]
+        }
+        Geometry::Gantry { .. } => Vec::new(),
+        Geometry::Belt { .. } | Geometry::Station { .. } | Geometry::Bin { .. } => vec![solids],
+    }
+}
+
+/// A vehicle on its way is taken at places so far apart: less than what passes between them is thick, m.
+const STEP: f64 = 0.5;
+
+fn half(solid: &Solid) -> Point {
+    match solid.shape {
+        Shape::Box { size } => size.scaled(0.5),
+        Shape::Capsule { length, radius } => {
+            let reach = length / 2.0 + radius;
+            Point::new(reach, reach, reach)
+        }
+    }
+}
+
+fn top(solid: &Solid) -> f64 {
+    solid.pose.position.z + half(solid).z
+}
+
+/// From above, if it stands at these heights. What stands has the world's axes.
+fn footprint(solid: &Solid, [low, high]: [f64; 2]) -> Option<Rectangle> {
+    let (middle, half) = (solid.pose.position, half(solid));
+    let is_between = top(solid) > low && middle.z - half.z < high;
+    let flat = |point: Point| Point { z: 0.0, ..point };
+    is_between.then(|| Rectangle { low: flat(middle - half), high: flat(middle + half) })
+}
+
+/// Where parts may lie: on trays and in bins the highest kind anywhere, in a briefcase each kind at its place.
+fn places(line: &Line) -> Vec<Places> {
+    let part = |kind: &Kind, place: Point| {
+        let size = Point::new(kind.size[0], kind.size[1], kind.height);
+        let pose = Pose { position: place.up(size.z / 2.0), ..Pose::IDENTITY };
+        (place, Piece::new(String::new(), &pose, Shape::Box { size }).within(&Pose::IDENTITY))
+    };
+    let Some(highest) = line.kinds.iter().max_by(|a, b| a.height.total_cmp(&b.height)) else {
+        return Vec::new();
+    };
+    let slots = |at: Point, offset: fn(usize) -> Point| Places {
+        all: (0..SLOTS).map(|i| part(highest, at + offset(i))).collect(),
+        order: Order::FirstToLast,
+    };
+    let of = |geometry: &Geometry| match geometry {
+        Geometry::Vehicle { .. } => {
+            geometry.stops().into_iter().map(|stop| slots(stop, slot_offset)).collect()
+        }
+        Geometry::Bin { pose } => vec![slots(*pose, bin_offset)],
+        Geometry::Station { pose } => {
+            let kinds = line.kinds.iter().enumerate();
+            let all = kinds.map(|(i, kind)| part(kind, *pose + briefcase_offset(i))).collect();
+            vec![Places { all, order: Order::Any }]
+        }
+        Geometry::Belt { .. } | Geometry::RailArm { .. } | Geometry::Gantry { .. } => Vec::new(),
+    };
+    line.machines.iter().flat_map(|machine| of(&machine.geometry)).collect()
+}
