@@ -77,8 +77,8 @@ impl Ways {
         Some(Self { arm, scene, room })
     }
 
-    /// Legs that bring the tool to `via`, from where it can be lowered to `goal` while the torso stands; none if no
-    /// way keeps off all that stands.
+    /// Legs that bring the tool to `via`, from where it can be lowered to `goal` while the torso stands; straight over
+    /// if no way keeps off all that stands, none if no stance does.
     pub fn legs(
         &self,
         from: &Joints,
@@ -92,11 +92,18 @@ impl Ways {
             [low, low.max(self.scene.over_all)]
         };
         let tops = heights(from);
-        stances.iter().take(TRIES).find_map(|to| {
+        let free = stances.iter().take(TRIES).find_map(|to| {
             BACK.iter().find_map(|back| {
                 tops.iter().find_map(|top| self.legs_to([from, to], load, *top, *back, limits))
             })
-        })
+        });
+        free.or_else(|| self.straight(from, stances.first()?, tops[0]))
+    }
+
+    /// Up, straight over, and down, whatever stands there.
+    fn straight(&self, from: &Joints, to: &Joints, top: f64) -> Option<Vec<Leg>> {
+        let all = vec![self.at_height(from, top)?, self.at_height(to, top)?, *to];
+        Some(moved(from, all).into_iter().map(Leg::To).collect())
     }
 
     /// Joints at `via` of stances that are free of what stands, there and at `goal`: those first in which the torso
