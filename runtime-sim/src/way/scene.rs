@@ -8,6 +8,7 @@ use crate::kinematics::pose::Pose;
 use crate::line::{Kind, Line};
 use crate::point::{Axis, Point};
 use crate::solid::{self, Link, Shape, Solid};
+use std::cell::OnceCell;
 
 /// A link of the robot with all that is fixed to it.
 #[derive(Clone, Debug)]
@@ -115,22 +116,18 @@ impl Scene {
     /// that far or farther, 0 if they touch.
     pub fn gap(&self, joints: &Joints, load: Load, enough: f64) -> f64 {
         let frames = self.arm.frames(joints);
-        let members: Vec<&Member> =
-            self.members.iter().chain((load == Load::Largest).then_some(&self.load)).collect();
+        let members = self.members.iter().chain((load == Load::Largest).then_some(&self.load));
+        let members: Vec<Located> = members.map(|member| Located::new(member, &frames)).collect();
         let mut least = enough;
         for (i, member) in members.iter().enumerate() {
-            let frame = &frames[member.link];
-            let ball = member.ball.within(frame);
             for other in &self.standing {
-                if other.is_within(&ball, least) {
-                    least = member.gap(frame, &other.placed, least);
+                if other.is_within(&member.ball, least) {
+                    least = member.gap(&other.placed, least);
                 }
             }
             for other in members[i..].iter().filter(|other| other.link >= member.link + FREE) {
-                let (there, around) = (&frames[other.link], other.ball.within(&frames[other.link]));
-                if ball.gap(&around) < least {
-                    let pieces = other.pieces.iter().map(|piece| piece.within(there));
-                    least = pieces.fold(least, |least, piece| member.gap(frame, &piece, least));
+                if member.ball.gap(&other.ball) < least {
+                    least = other.pieces().iter().fold(least, |least, piece| member.gap(piece, least));
                 }
             }
         }
@@ -145,14 +142,13 @@ impl Scene {
             let way = *place - tool;
             way.x * way.x + way.y * way.y <= AT_PLACE * AT_PLACE
         };
+        let members: Vec<Located> = self.members.iter().map(|m| Located::new(m, &frames)).collect();
         let mut least = enough;
         for Places { all, order } in &self.places {
             let Some(here) = all.iter().position(|(place, _)| is_here(place)) else { continue };
             for (i, (_, part)) in all.iter().enumerate() {
                 if i > here || i < here && *order == Order::Any {
-                    for member in &self.members {
-                        least = member.gap(&frames[member.link], part, least);
-                    }
+                    least = members.iter().fold(least, |least, member| member.gap(part, least));
                 }
             }
         }
@@ -196,15 +192,34 @@ pub enum Load {
     Largest,
 }
 
-impl Member {
+/// A link where it is.
+struct Located<'a> {
+    member: &'a Member,
+    frame: &'a Pose,
+    link: usize,
+    ball: Ball,
+    /// Known when something is near.
+    pieces: OnceCell<Vec<Placed>>,
+}
+
+impl<'a> Located<'a> {
+    fn new(member: &'a Member, frames: &'a [Pose]) -> Self {
+        let frame = &frames[member.link];
+        let ball = member.ball.within(frame);
+        Self { member, frame, link: member.link, ball, pieces: OnceCell::new() }
+    }
+
+    fn pieces(&self) -> &[Placed] {
+        self.pieces.get_or_init(|| self.member.pieces.iter().map(|p| p.within(self.frame)).collect())
+    }
+
     /// The lesser of `least` and the distance.
-    fn gap(&self, frame: &Pose, other: &Placed, least: f64) -> f64 {
-        self.pieces.iter().fold(least, |least, piece| {
-            let placed = piece.within(frame);
-            if placed.apart_at_least(other, least) >= least {
+    fn gap(&self, other: &Placed, least: f64) -> f64 {
+        self.pieces().iter().fold(least, |least, piece| {
+            if piece.apart_at_least(other, least) >= least {
                 return least;
             }
-            least.min(placed.gap(other).distance)
+            least.min(piece.gap(other).distance)
         })
     }
 }
