@@ -37,7 +37,7 @@ fn names(parent: &Element, found: &mut Vec<String>) {
 }
 
 fn check_model(model: &Element, found: &mut Vec<String>) {
-    let is_static = model.child("static").is_some_and(|s| s.text == "at once");
+    let is_static = model.child("static").is_some_and(|s| s.text == "true");
     let is_link = |name: &str| model.named("link", name).is_some();
     let is_frame = |wanted: &str| model.children.iter().any(|c| c.attribute("name") == Some(wanted));
     for link in model.all("link") {
