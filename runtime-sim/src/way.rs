@@ -42,7 +42,19 @@ const ENOUGH: f64 = 0.12;
 const BEYOND: [f64; 5] = [0.45, 0.6, 0.3, 0.15, 0.0];
 /// How far the robot draws back at the beginning, and from how far back it comes at the end, m; the best first.
 const BACK: [[f64; 2]; 6] = [[0.0, 0.0], [0.4, 0.0], [0.0, 0.4], [0.4, 0.4], [0.8, 0.4], [0.4, 0.8]];
-/// Ways to so many stances are tried.
+/// The same where none of these leads to a way.
+const FARTHER_BACK: [[f64; 2]; 9] = [
+    [0.2, 0.2],
+    [0.2, 0.0],
+    [0.0, 0.2],
+    [0.8, 0.0],
+    [0.0, 0.8],
+    [0.8, 0.8],
+    [1.2, 0.4],
+    [0.4, 1.2],
+    [1.2, 1.2],
+];
+/// Ways to so many stances are tried at first.
 const TRIES: usize = 8;
 /// No point of the robot and its load goes farther for a metre of a rail or a radian of a joint, m: from the axis to
 /// the end of the stretched arm, from the shoulder, from the elbow, from the wrists.
@@ -92,12 +104,16 @@ impl Ways {
             [low, low.max(self.scene.over_all)]
         };
         let tops = heights(from);
-        let free = stances.iter().take(TRIES).find_map(|to| {
-            BACK.iter().find_map(|back| {
-                tops.iter().find_map(|top| self.legs_to([from, to], load, *top, *back, limits))
+        let search = |stances: &[Joints], backs: &[[f64; 2]]| {
+            stances.iter().find_map(|to| {
+                backs.iter().find_map(|back| {
+                    tops.iter().find_map(|top| self.legs_to([from, to], load, *top, *back, limits))
+                })
             })
-        });
-        free.or_else(|| self.straight(from, stances.first()?, tops[0]))
+        };
+        search(&stances[..stances.len().min(TRIES)], &BACK)
+            .or_else(|| search(&stances, &FARTHER_BACK))
+            .or_else(|| self.straight(from, stances.first()?, tops[0]))
     }
 
     /// Up, straight over, and down, whatever stands there.
