@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 /// A run of half a minute at least.
 const LONG: &str = r#"{
     "kinds": [{"name": "battery", "height": 0.053}],
-    "orders": {"count": 1000, "parts": {"battery": 4}},
+    "orders": {"count": 1000, "parts": {"battery": 1}},
     "time_limit_s": 1000000
 }"#;
 
