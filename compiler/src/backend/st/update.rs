@@ -27,7 +27,12 @@ impl Lowering<'_> {
                     let ty = self.automaton().device.ports[argument.port].ty;
                     let ty = Type { scalar: Scalar::from(ty), extent: Extent::One };
                     let target = Target { place: Place::Port { port: argument.port, index: None }, ty };
-                    self.assignment(&target, &argument.value, argument.check, &mut body);
+                    let mut stored = Vec::new();
+                    self.assignment(&target, &argument.value, argument.check, &mut stored);
+                    // The next argument may read it, also through a definition.
+                    self.forget(&stored);
+                    body.append(&mut self.hoisted);
+                    body.append(&mut stored);
                 }
                 body.extend(self.command(*verb));
             }
