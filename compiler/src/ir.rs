@@ -248,10 +248,14 @@ pub struct Transition {
 impl Transition {
     /// `when all_loaded`, `at once`
     pub fn title(&self) -> String {
-        let always = |clause: &Clause| {
+        if self.is_unconditional() { self.text.clone() } else { format!("when {}", self.text) }
+    }
+
+    /// No transition behind it in its state can fire.
+    pub fn is_unconditional(&self) -> bool {
+        self.clauses.iter().all(|clause| {
             matches!(clause, Clause::Condition(Expr { kind: ExprKind::Constant(Value::Bool(true)), .. }))
-        };
-        if self.clauses.iter().all(always) { self.text.clone() } else { format!("when {}", self.text) }
+        })
     }
 }
 

@@ -223,7 +223,7 @@ fn axis(joints: &Joints) -> Point {
     Point::new(joints[0], joints[1], 0.0)
 }
 
-/// The same arm with the torso elsewhere, rad.
+/// The same arm with the torso elsewhere, at this turn, rad.
 fn at(joints: &Joints, place: Point, turn: f64) -> Joints {
     joints.map(|i, value| [place.x, place.y, turn].get(i).copied().unwrap_or(value))
 }

@@ -132,7 +132,7 @@ pub fn silent(system: &System, executor: &Executor) -> Vec<String> {
         for (state, fired) in automaton.states.iter().zip(fired) {
             // What stands behind `when true` cannot fire.
             let end =
-                state.transitions.iter().position(|t| t.text == "at once").map_or(fired.len(), |i| i + 1);
+                state.transitions.iter().position(|t| t.is_unconditional()).map_or(fired.len(), |i| i + 1);
             for (transition, _) in state.transitions.iter().zip(&fired[..end]).filter(|(_, n)| **n == 0) {
                 silent.push(format!("{}.{}: {}", automaton.name, state.name, transition.text));
             }

@@ -8,7 +8,7 @@ use super::automaton::Context;
 use crate::diagnostic::Diagnostic;
 use crate::source::Span;
 use crate::spec::ast::{
-    self, Body, Clause, Expr, ExprKind, Outcome, State, Step, Transition, Update, UpdateKind,
+    self, Body, Clause, Expr, ExprKind, Guard, Outcome, State, Step, Transition, Update, UpdateKind,
 };
 
 /// What one of the states waits for.
@@ -110,37 +110,36 @@ fn transitions(
     otherwise: Option<&Outcome>,
     name: Span,
 ) -> (String, Vec<Transition>) {
-    let fails = |condition: Expr| otherwise.map(|o| when(o.span, condition, o.clone()));
+    let fails = |guard, condition| otherwise.map(|o| when(o.span, guard, condition, o.clone()));
+    let answer = |span, word: &str| Expr { span, kind: ExprKind::Name(word.into()) };
+    let after = |time: &Expr| Expr { span: time.span, kind: ExprKind::After(Box::new(time.clone())) };
     match wait {
         Wait::Nothing => {
             let always = Expr { span: name, kind: ExprKind::Bool(true) };
-            ("Begins.".into(), vec![when(name, always, next)])
+            ("Begins.".into(), vec![when(name, Guard::AtOnce, always, next)])
         }
         Wait::Done(span) => {
-            let word = |w: &str| Expr { span: *span, kind: ExprKind::Name(w.into()) };
-            let mut all: Vec<Transition> = fails(word("failed")).into_iter().collect();
-            all.push(when(*span, word("done"), next));
-            ("Waits for the end of the command.".into(), all)
+            let failed = fails(Guard::Failed(*span), answer(*span, "failed"));
+            let done = when(*span, Guard::Done(*span), answer(*span, "done"), next);
+            ("Waits for the end of the command.".into(), failed.into_iter().chain([done]).collect())
         }
         Wait::Condition { span, condition, at_most } => {
-            let mut all = vec![when(*span, condition.clone(), next)];
+            let mut all = vec![when(*span, Guard::Written(condition.span), condition.clone(), next)];
             if let Some(time) = at_most {
-                let late = Expr { span: time.span, kind: ExprKind::After(Box::new(time.clone())) };
-                all.extend(fails(late));
+                all.extend(fails(Guard::After(time.span), after(time)));
             }
             ("Waits for the condition.".into(), all)
         }
         Wait::Time { span, time } => {
-            let over = Expr { span: time.span, kind: ExprKind::After(Box::new(time.clone())) };
-            ("Waits for the time.".into(), vec![when(*span, over, next)])
+            ("Waits for the time.".into(), vec![when(*span, Guard::After(time.span), after(time), next)])
         }
     }
 }
 
-fn when(span: Span, condition: Expr, outcome: Outcome) -> Transition {
+fn when(span: Span, guard: Guard, condition: Expr, outcome: Outcome) -> Transition {
     Transition {
         span,
-        guard_span: condition.span,
+        guard,
         clauses: vec![Clause::Condition(condition)],
         target: Some(outcome.target),
         updates: outcome.updates,

@@ -81,20 +81,19 @@ pub(super) fn check(context: &mut Context, tree: &ast::Automaton) {
         let first = ast::Transition {
             span: initial.span,
             clauses: vec![ast::Clause::Condition(always)],
-            guard_span: initial.span,
+            guard: ast::Guard::FirstStep,
             target: Some(initial.target.clone()),
             updates: initial.updates.clone(),
         };
         transition(context, tree, &first, &number)
     });
-    let text = "the first step".to_string();
     context.automaton.states.push(ir::State {
         name: BEGINNING.into(),
         doc: vec!["Nothing has been done yet.".into()],
         place: tree.initial.as_ref().map_or(tree.name.span, |i| i.span),
         is_final: false,
         within: None,
-        transitions: beginning.map(|t| ir::Transition { text, ..t }).into_iter().collect(),
+        transitions: beginning.into_iter().collect(),
     });
     for state in &states {
         let ast::Body::Transitions(trees) = &state.body else { continue };
@@ -223,21 +222,25 @@ fn transition(
     }
     context.variables.truncate(depth);
     context.facts = context.required.clone();
-    let text = guard_text(context, tree);
+    let text = guard_text(context, tree.guard);
     whole.then_some(ir::Transition { place: tree.span, text, clauses, target, updates })
 }
 
-/// The guard as written. What a step of a sequence waits for has the place of the step instead.
-fn guard_text(context: &Context, tree: &ast::Transition) -> String {
-    let text = context.checker.sources.text(tree.guard_span).split_whitespace().collect::<Vec<_>>().join(" ");
-    let [ast::Clause::Condition(only)] = tree.clauses.as_slice() else { return text };
-    match &only.kind {
-        ast::ExprKind::Bool(true) => "at once".into(),
-        ast::ExprKind::Name(answer) if text.trim_matches(['(', ')', ' ']) == answer => text,
-        ast::ExprKind::Name(answer) if answer == "done" => format!("{text} is done"),
-        ast::ExprKind::Name(answer) if answer == "failed" => format!("{text} has failed"),
-        ast::ExprKind::After(time) if time.span == tree.guard_span => format!("after {text}"),
-        _ => text,
+fn guard_text(context: &Context, guard: ast::Guard) -> String {
+    let written = |span| {
+        let words: Vec<_> = context.checker.sources.text(span).split_whitespace().collect();
+        words.join(" ")
+    };
+    match guard {
+        ast::Guard::Written(span) => match written(span).as_str() {
+            "true" => "at once".into(),
+            text => text.into(),
+        },
+        ast::Guard::FirstStep => "the first step".into(),
+        ast::Guard::AtOnce => "at once".into(),
+        ast::Guard::Done(span) => format!("{} is done", written(span)),
+        ast::Guard::Failed(span) => format!("{} has failed", written(span)),
+        ast::Guard::After(span) => format!("after {}", written(span)),
     }
 }
 

@@ -233,10 +233,22 @@ pub enum Step {
 pub struct Transition {
     pub span: Span,
     pub clauses: Vec<Clause>,
-    /// The guard as written.
-    pub guard_span: Span,
+    pub guard: Guard,
     pub target: Option<Name>,
     pub updates: Vec<Update>,
+}
+
+/// What reports and comments say of a guard. A sequence waits for the end of steps, which have no guard in the text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Guard {
+    Written(Span),
+    /// Of the beginning.
+    FirstStep,
+    AtOnce,
+    Done(Span),
+    Failed(Span),
+    /// The time is written here.
+    After(Span),
 }
 
 #[derive(Clone, Debug)]

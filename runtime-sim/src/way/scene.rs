@@ -85,7 +85,10 @@ impl Scene {
         let own = &line.machines.get(index)?.geometry;
         let Geometry::Gantry { pose, .. } = *own else { return None };
         let arm = Arm::from_geometry(own)?;
-        let others = || line.machines.iter().map(|m| &m.geometry).filter(|geometry| *geometry != own);
+        let others = || {
+            let machines = line.machines.iter().enumerate().filter(|(other, _)| *other != index);
+            machines.map(|(_, machine)| &machine.geometry)
+        };
         let obstacles = line.obstacles.iter().filter_map(|o| o.solid()).map(|solid| vec![solid]);
         let boxes: Vec<Vec<Solid>> = others().flat_map(standing).chain(obstacles).collect();
         let passing: Vec<Vec<Solid>> = others().flat_map(passing).collect();

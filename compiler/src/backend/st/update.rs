@@ -76,8 +76,11 @@ impl Lowering<'_> {
         };
         let basic = Basic::of(scalar);
         let values = values.into_iter().map(|v| self.kept(v, new_value(basic), basic, out)).collect();
-        self.elements(target, out, |lowering, spot, out| {
-            lowering.store(spot, scalar, values, range(value), check, out);
+        let mut to = self.spot(&at_element(&target.place), out);
+        let written = to.names.clone();
+        self.keep_row(&mut to, &written, out);
+        self.elements(to, target.ty, out, |lowering, to, out| {
+            lowering.store(to, scalar, values, range(value), check, out);
         });
     }
 
@@ -85,28 +88,28 @@ impl Lowering<'_> {
         let scalar = target.ty.scalar;
         let ty = target.ty;
         let mut from = self.spot(&at_element(source), out);
-        let written = self.spot(&at_element(&target.place), &mut Vec::new()).names;
+        let mut to = self.spot(&at_element(&target.place), out);
+        let written = to.names.clone();
         self.keep_row(&mut from, &written, out);
-        self.elements(target, out, |lowering, spot, out| {
+        self.keep_row(&mut to, &written, out);
+        self.elements(to, ty, out, |lowering, to, out| {
             let from = lowering.at(from, ty);
             let values = (0..from.names.len()).map(|part| from.value(part)).collect();
             let range = from.limit.unwrap_or((i32::MIN, i32::MAX));
-            lowering.store(spot, scalar, values, range, check, out);
+            lowering.store(to, scalar, values, range, check, out);
         });
     }
 
-    /// A loop over the elements of an array.
+    /// A loop over the elements of an array that was looked up without index.
     fn elements(
         &mut self,
-        target: &Target,
+        array: Spot,
+        ty: Type,
         out: &mut Vec<Stmt>,
         body: impl FnOnce(&mut Self, Spot, &mut Vec<Stmt>),
     ) {
-        let n = self.system.model.elements(target.ty.extent);
-        let mut spot = self.spot(&at_element(&target.place), out);
-        let written = spot.names.clone();
-        self.keep_row(&mut spot, &written, out);
-        let spot = self.at(spot, target.ty);
+        let n = self.system.model.elements(ty.extent);
+        let spot = self.at(array, ty);
         out.push(assign(ELEMENT, Ex::Int(0)));
         let mut inner = Vec::new();
         body(self, spot, &mut inner);

@@ -114,7 +114,7 @@ impl Parser {
             }
             clauses.extend(self.clause());
         }
-        let guard_span = guard_start.to(self.last_span());
+        let guard = ast::Guard::Written(guard_start.to(self.last_span()));
         if self.errors > errors {
             self.skip_to(&["->"]);
         }
@@ -131,7 +131,7 @@ impl Parser {
             if goes_to || self.maybe_sign("->") { Some(self.expect_name("the next state")?) } else { None };
         let updates =
             if target.is_some() && self.maybe_sign(";") { Vec::new() } else { self.parse_updates() };
-        Some(ast::Transition { span: start.to(self.last_span()), clauses, guard_span, target, updates })
+        Some(ast::Transition { span: start.to(self.last_span()), clauses, guard, target, updates })
     }
 
     fn clause(&mut self) -> Option<ast::Clause> {
