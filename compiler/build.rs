@@ -1,4 +1,5 @@
-//! Lists the sources of the simulator, which the binary carries and writes beside the controllers.
+//! Lists the sources of the simulator, which the binary carries and writes beside the controllers, and names the
+//! target for which it is compiled.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -18,6 +19,7 @@ fn main() {
         writeln!(table, "    ({name:?}, include_str!({path:?})),").expect("a text grows");
     }
     table.push(']');
+    println!("cargo:rustc-env=AUTOGEN_TARGET={}", env::var("TARGET").expect("set by cargo"));
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("set by cargo"));
     fs::write(out.join("runtime_sim.rs"), table).expect("the build folder can be written");
 }

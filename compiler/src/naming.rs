@@ -26,20 +26,25 @@ pub fn sdf(name: &str) -> String {
 /// Names that stand side by side, all different.
 #[derive(Clone, Debug, Default)]
 pub struct Scope {
-    reserved: &'static [&'static str],
+    reserved: Vec<&'static str>,
     taken: BTreeSet<String>,
 }
 
 impl Scope {
     /// A scope of Rust in which generated code has these names itself.
-    pub fn rust(reserved: &'static [&'static str]) -> Self {
-        Self { reserved, taken: BTreeSet::new() }
+    pub fn rust(reserved: &[&'static str]) -> Self {
+        Self::new(&[RUST, reserved].concat())
+    }
+
+    /// A scope in which these names have another meaning.
+    pub fn new(reserved: &[&'static str]) -> Self {
+        Self { reserved: reserved.to_vec(), taken: BTreeSet::new() }
     }
 
     /// The wanted identifier; with an underscore behind it if it has another meaning,
     /// with a number behind it if it was given away before.
     pub fn take(&mut self, wanted: String) -> String {
-        let is_used = |name: &str| RUST.contains(&name) || self.reserved.contains(&name);
+        let is_used = |name: &str| self.reserved.contains(&name);
         let first = if is_used(&wanted) { format!("{wanted}_") } else { wanted.clone() };
         let name = std::iter::once(first)
             .chain((2..).map(|n| format!("{wanted}{n}")))

@@ -67,7 +67,7 @@ impl Sources {
     }
 
     /// The same texts under other names.
-    pub fn renamed(&self, name: impl Fn(&str) -> String) -> Self {
+    pub fn renamed(&self, mut name: impl FnMut(&str) -> String) -> Self {
         let rename = |file: &SourceFile| SourceFile { name: name(&file.name), text: file.text.clone() };
         Self { files: self.files.iter().map(rename).collect() }
     }

@@ -1,8 +1,16 @@
 //! The program as a user runs it.
 
+#[cfg(target_os = "linux")]
+#[path = "command_line/hostile.rs"]
+mod hostile;
 #[cfg(unix)]
 #[path = "command_line/interrupt.rs"]
 mod interrupt;
+#[cfg(target_os = "linux")]
+#[path = "command_line/interrupted_write.rs"]
+mod interrupted_write;
+#[path = "command_line/side_by_side.rs"]
+mod side_by_side;
 #[path = "command_line/sweep.rs"]
 mod sweep;
 
@@ -27,10 +35,15 @@ fn example(path: &str) -> String {
 }
 
 fn autogen(folder: &Path, arguments: &[&str]) -> Output {
+    autogen_in(folder, &folder.with_file_name("cache"), arguments)
+}
+
+/// With a cache of its own.
+fn autogen_in(folder: &Path, cache: &Path, arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_autogen"))
         .args(arguments)
         .current_dir(folder)
-        .env("XDG_CACHE_HOME", folder.with_file_name("cache"))
+        .env("XDG_CACHE_HOME", cache)
         .output()
         .expect("autogen can be started")
 }
@@ -48,17 +61,17 @@ fn errors(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
-/// All files of a folder with their texts.
+/// All files of a folder with their texts, and its symbolic links with what they lead to.
 fn contents(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
     let mut found = Vec::new();
     let mut open = vec![folder.to_path_buf()];
     while let Some(folder) = open.pop() {
         for entry in fs::read_dir(folder).expect("a folder") {
             let path = entry.expect("an entry").path();
-            if path.is_dir() {
-                open.push(path)
-            } else {
-                found.push((path.clone(), fs::read(path).expect("a file")))
+            match fs::read_link(&path) {
+                Ok(target) => found.push((path, target.into_os_string().into_encoded_bytes())),
+                Err(_) if path.is_dir() => open.push(path),
+                Err(_) => found.push((path.clone(), fs::read(path).expect("a file"))),
             }
         }
     }

@@ -43,8 +43,17 @@ fn renamed(path: &str, text: String, number: usize) -> Option<String> {
             replaced("name = \"controllers\"", format!("name = \"controllers-{number}\""))
                 + "\n[lib]\nname = \"controllers\"\n"
         }
+        // Their C interfaces would have the same names in one program.
+        "adapters/src/lib.rs" => replaced("pub mod c_interface;\n", String::new()),
+        "adapters/Cargo.toml" => replaced("name = \"adapters\"", format!("name = \"adapters-{number}\""))
+            .replace("crate-type = [\"lib\", \"cdylib\"]", "name = \"adapters\"")
+            .replace(
+                "\"../controllers\"",
+                &format!("\"../controllers\", package = \"controllers-{number}\""),
+            ),
         "commissioning/Cargo.toml" => replaced("name = \"commissioning\"", format!("name = \"s{number}\""))
             .replace("\"../controllers\"", &format!("\"../controllers\", package = \"controllers-{number}\""))
+            .replace("\"../adapters\"", &format!("\"../adapters\", package = \"adapters-{number}\""))
             .replace("../runtime-sim", "../../runtime-sim"),
         "Cargo.toml" | "Cargo.lock" | "commissioning/src/main.rs" | "commissioning/examples/host.rs" => {
             return None;

@@ -19,7 +19,7 @@ fn generated(example: &str) -> Vec<(String, String)> {
         .into_iter()
         .filter(|(name, _)| {
             name.starts_with("controllers/src/") && !name.ends_with("types.rs")
-                || name.ends_with("adapters.rs")
+                || name == "adapters/src/layout.rs"
         })
         .collect();
     files.push(("parameters.txt".into(), rust::parameters_text(&project.system)));

@@ -3,15 +3,21 @@
 use super::Files;
 use crate::connect::Edge;
 use crate::ir::{Automaton, System};
-use crate::naming;
+use crate::naming::{self, Scope};
 use std::fmt::Write;
+
+/// Names of graphs that are not those of an automaton.
+pub const CONNECTIVITY: &str = "connectivity";
+pub const PLAN: &str = "plan";
 
 /// `connectivity.dot`, and a file for each automaton. Edges are between instances.
 pub fn files(system: &System, edges: &[Edge]) -> Files {
     let mut files = Files::new();
-    files.insert("connectivity.dot".into(), connectivity(system, edges));
+    files.insert(format!("{CONNECTIVITY}.dot"), connectivity(system, edges));
+    let mut names = Scope::new(&[CONNECTIVITY, PLAN]);
     for automaton in &system.model.automata {
-        files.insert(format!("{}.dot", naming::snake(&automaton.name)), states(automaton));
+        let name = names.take(naming::snake(&automaton.name));
+        files.insert(format!("{name}.dot"), states(automaton));
     }
     files
 }

@@ -26,31 +26,57 @@ use askama::Template;
 use context::{Context, Shared};
 
 const MANIFEST: &str = include_str!("../../../templates/rust/Cargo.toml");
+const LIBRARY_MANIFEST: &str = include_str!("../../../templates/rust/library.toml");
 /// Versions of what the simulator depends on, so that every build is the same.
 const LOCK: &str = include_str!("../../../templates/rust/Cargo.lock");
 const CONTROLLERS_MANIFEST: &str = include_str!("../../../templates/rust/controllers/Cargo.toml");
 const TYPES: &str = include_str!("../../../templates/rust/controllers/types.rs");
 const COMMISSIONING_MANIFEST: &str = include_str!("../../../templates/rust/commissioning/Cargo.toml");
-const COMMISSIONING: [(&str, &str); 8] = [
+const ADAPTERS_MANIFEST: &str = include_str!("../../../templates/rust/adapters/Cargo.toml");
+const ADAPTERS: [(&str, &str); 6] = [
+    ("src/lib.rs", include_str!("../../../templates/rust/adapters/lib.rs")),
+    ("src/c_interface.rs", include_str!("../../../templates/rust/adapters/c_interface.rs")),
+    ("src/image.rs", include_str!("../../../templates/rust/adapters/image.rs")),
+    ("src/kept.rs", include_str!("../../../templates/rust/adapters/kept.rs")),
+    ("src/read.rs", include_str!("../../../templates/rust/adapters/read.rs")),
+    ("src/words.rs", include_str!("../../../runtime-sim/src/words.rs")),
+];
+const COMMISSIONING: [(&str, &str); 5] = [
+    ("examples/host.rs", include_str!("../../../templates/rust/commissioning/host.rs")),
     ("src/lib.rs", include_str!("../../../templates/rust/commissioning/lib.rs")),
     ("src/main.rs", include_str!("../../../templates/rust/commissioning/main.rs")),
-    ("src/batch.rs", include_str!("../../../templates/rust/commissioning/batch.rs")),
-    ("src/image.rs", include_str!("../../../templates/rust/commissioning/image.rs")),
-    ("src/read.rs", include_str!("../../../templates/rust/commissioning/read.rs")),
     ("src/replay.rs", include_str!("../../../templates/rust/commissioning/replay.rs")),
-    ("src/trajectories.rs", include_str!("../../../templates/rust/commissioning/trajectories.rs")),
     ("src/deployed.rs", include_str!("../../../templates/rust/commissioning/deployed.rs")),
 ];
 
 /// The files of the workspace `rust/`, but for the simulator's.
 pub fn files(system: &System, sources: &Sources) -> Files {
+    let mut files = crates(system, sources);
+    let mut put = |path: &str, text: &str| files.insert(path.into(), text.into());
+    put("Cargo.toml", MANIFEST);
+    put("Cargo.lock", LOCK);
+    put("commissioning/Cargo.toml", COMMISSIONING_MANIFEST);
+    for (path, text) in COMMISSIONING {
+        put(&format!("commissioning/{path}"), text);
+    }
+    files
+}
+
+/// The files of a workspace of the controllers and their adapters alone. Its shared library is all that a
+/// simulator needs which was compiled apart.
+pub fn library_files(system: &System, sources: &Sources) -> Files {
+    let mut files = crates(system, sources);
+    files.insert("Cargo.toml".into(), LIBRARY_MANIFEST.into());
+    files
+}
+
+/// The crates of the controllers and of their adapters.
+fn crates(system: &System, sources: &Sources) -> Files {
     let system = &without_idle_updates(system);
     let names = names::names(system);
     let shared = Shared { system, sources, names: &names };
     let mut files = Files::new();
     let mut put = |path: String, text: String| files.insert(path, text);
-    put("Cargo.toml".into(), MANIFEST.into());
-    put("Cargo.lock".into(), LOCK.into());
     put("controllers/Cargo.toml".into(), CONTROLLERS_MANIFEST.into());
     put("controllers/src/types.rs".into(), TYPES.into());
     put("controllers/src/lib.rs".into(), shared::library(shared));
@@ -67,15 +93,11 @@ pub fn files(system: &System, sources: &Sources) -> Files {
     for (number, module) in names.robots.iter().enumerate() {
         put(format!("controllers/src/robots/{module}.rs"), line::robot(shared, number));
     }
-    put("commissioning/Cargo.toml".into(), COMMISSIONING_MANIFEST.into());
-    for (path, text) in COMMISSIONING {
-        put(format!("commissioning/{path}"), text.into());
+    put("adapters/Cargo.toml".into(), ADAPTERS_MANIFEST.into());
+    for (path, text) in ADAPTERS {
+        put(format!("adapters/{path}"), text.into());
     }
-    put("commissioning/src/adapters.rs".into(), adapters::adapters(shared));
-    put(
-        "commissioning/examples/host.rs".into(),
-        include_str!("../../../templates/rust/commissioning/host.rs").into(),
-    );
+    put("adapters/src/layout.rs".into(), adapters::adapters(shared));
     files
 }
 

@@ -1,10 +1,10 @@
 //! `autogen build`.
 
 use super::options::{Addresses, BuildOptions, Format};
-use super::write::{self, Files, Refusal};
+use super::output::{self, Output, Refusal};
 use super::{load, print};
 use crate::Status;
-use autogen::backend::{dot, plan, rust, sdf, st};
+use autogen::backend::{Files, dot, plan, rust, sdf, st};
 use autogen::diagnostic::Diagnostic;
 use autogen::io_map::{self, Conversion, Counting, IoMap, Point};
 use autogen::ir::System;
@@ -12,23 +12,30 @@ use autogen::library;
 use autogen::lower::{Outcome, Project, compile};
 use autogen::simulator;
 use autogen::source::{FileId, Sources};
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-/// Written by `commission` beside the files of the manifest.
-pub const RESULTS: &str = "results.json";
-
-/// A line that was compiled and written.
+/// A line that was compiled.
 pub struct Built {
     pub project: Project,
     /// Under the names that the output shows.
     pub sources: Sources,
     pub files: Files,
+    /// What the manifest says before the list of files.
+    pub about: Map<String, Value>,
     pub folder: PathBuf,
+    /// Where the inputs are, without symbolic links.
+    pub inputs: Vec<PathBuf>,
 }
 
 pub fn run(options: &BuildOptions) -> Status {
-    match build(options) {
+    let done = build(options).and_then(|built| {
+        let output = open(options, &built).map_err(|refusal| refused(options, &refusal))?;
+        write(options, &built, &output).map_err(|refusal| refused(options, &refusal))?;
+        Ok(built)
+    });
+    match done {
         Ok(built) => {
             if options.input.format == Format::Json {
                 let names: Vec<&String> = built.files.keys().collect();
@@ -48,7 +55,7 @@ pub fn run(options: &BuildOptions) -> Status {
     }
 }
 
-/// Compiles and writes; what is wrong has been printed.
+/// Compiles; what is wrong has been printed.
 pub fn build(options: &BuildOptions) -> Result<Built, Status> {
     let failed = |failure| print::failure(&options.input, &failure);
     let mut input = load::load(&options.input).map_err(failed)?;
@@ -72,13 +79,50 @@ pub fn build(options: &BuildOptions) -> Result<Built, Status> {
     if table.is_some() && options.input.format == Format::Text && !options.input.quiet {
         report_gaps(&map, &st::points(&project.system));
     }
+    let inputs =
+        sources.files().iter().filter_map(|file| Path::new(&file.name).canonicalize().ok()).collect();
     // The same input gives the same bytes, from whatever folder it is compiled.
-    let sources = sources.renamed(|name| title(&options.input.layout, name));
+    let sources = shown(&sources, &options.input.layout);
     let files = files(&project, &sources, &map);
+    let about = about(&project, &sources);
     let folder = options.output.clone().unwrap_or_else(|| Path::new("out").join(&project.name));
-    write::write(&folder, &files, about(&project, &sources), options.overwrite())
-        .map_err(|refusal| refused(options, &refusal))?;
-    Ok(Built { project, sources, files, folder })
+    Ok(Built { project, sources, files, about, folder, inputs })
+}
+
+/// The output folder, once no other process writes to it.
+pub fn open(options: &BuildOptions, built: &Built) -> Result<Output, Refusal> {
+    // A folder that nobody has named may have come with the layout, and lead anywhere.
+    let unnamed = match options.output {
+        Some(_) => None,
+        None => Some([Path::new("out"), &built.folder]),
+    };
+    let is_link = |path: &&Path| path.symlink_metadata().is_ok_and(|there| there.is_symlink());
+    let links: Vec<PathBuf> = unnamed.into_iter().flatten().filter(is_link).map(PathBuf::from).collect();
+    if !links.is_empty() {
+        return Err(Refusal::InTheWay(links));
+    }
+    let says = options.input.format == Format::Text && !options.input.quiet;
+    Output::open(&built.folder, || {
+        if says {
+            eprintln!("waiting for another autogen that writes to {} ...", built.folder.display());
+        }
+    })
+}
+
+/// Writes what was built.
+pub fn write(options: &BuildOptions, built: &Built, output: &Output) -> Result<(), Refusal> {
+    let names = built.files.keys().map(String::as_str).chain([output::MANIFEST, output::RESULTS]);
+    let paths = names.map(|name| output.folder().join(name));
+    let inputs: Vec<PathBuf> = paths.filter(|path| is_input(built, path)).collect();
+    if !inputs.is_empty() {
+        return Err(Refusal::Inputs(inputs));
+    }
+    output.write(&built.files, built.about.clone(), options.overwrite())
+}
+
+/// Whether this is a file that was read.
+pub fn is_input(built: &Built, path: &Path) -> bool {
+    path.canonicalize().is_ok_and(|path| built.inputs.contains(&path))
 }
 
 /// The addresses that the table gives, if there is one.
@@ -97,8 +141,24 @@ fn io_map(
     io_map::read(sources, table, &st::points(&project.system), counting)
 }
 
+/// The sources under the names that outputs show, all of them different.
+pub fn shown(sources: &Sources, layout: &Path) -> Sources {
+    let mut taken = BTreeSet::new();
+    sources.renamed(|name| {
+        let title = title(layout, name);
+        if name == "--set" {
+            return title;
+        }
+        let numbered = (2..).map(|number| format!("{title} ({number})"));
+        std::iter::once(title.clone())
+            .chain(numbered)
+            .find(|name| taken.insert(name.clone()))
+            .unwrap_or(title)
+    })
+}
+
 /// The name of an input as outputs show it: its path from the layout's folder, or its own name.
-pub fn title(layout: &Path, name: &str) -> String {
+fn title(layout: &Path, name: &str) -> String {
     if library::FILES.iter().any(|(built_in, _)| *built_in == name) {
         return name.to_string();
     }
@@ -158,38 +218,40 @@ pub fn files_of_rust(system: &System, sources: &Sources) -> Files {
 }
 
 /// What the manifest says before the list of files. No dates and no paths: the same input, the same bytes.
-fn about(project: &Project, sources: &Sources) -> Value {
-    let inputs: serde_json::Map<String, Value> = (sources.files().iter())
+fn about(project: &Project, sources: &Sources) -> Map<String, Value> {
+    let inputs: Map<String, Value> = (sources.files().iter())
         .map(|file| {
             let name = if file.name == "--set" { format!("--set {}", file.text) } else { file.name.clone() };
-            (name, json!(write::hash(&file.text)))
+            (name, json!(output::hash(file.text.as_bytes())))
         })
         .collect();
     let order: Vec<&String> = project.system.instances.iter().map(|i| &i.name).collect();
-    json!({
-        "tool": format!("autogen {}", env!("CARGO_PKG_VERSION")),
-        "layout": project.name,
-        "step_order": order,
-        "inputs": inputs,
-    })
+    let about = [
+        ("tool", json!(format!("autogen {}", env!("CARGO_PKG_VERSION")))),
+        ("layout", json!(project.name)),
+        ("step_order", json!(order)),
+        ("inputs", inputs.into()),
+    ];
+    about.into_iter().map(|(key, value)| (key.to_string(), value)).collect()
 }
 
-fn refused(options: &BuildOptions, refusal: &Refusal) -> Status {
+/// Says why nothing was written.
+pub fn refused(options: &BuildOptions, refusal: &Refusal) -> Status {
+    let list =
+        |paths: &[PathBuf]| paths.iter().map(|p| p.display().to_string()).collect::<Vec<_>>().join("\n  ");
     let text = match refusal {
-        Refusal::NotOurs(paths) => {
-            let names: Vec<String> = paths.iter().map(|p| p.display().to_string()).collect();
-            format!(
-                "not written: autogen did not write these files, or they were changed since:\n  {}\nMove them away, choose another folder with -o, or overwrite them with --force.",
-                names.join("\n  ")
-            )
-        }
-        Refusal::InTheWay(paths) => {
-            let names: Vec<String> = paths.iter().map(|p| p.display().to_string()).collect();
-            format!(
-                "not written: these are in the way, a file where a folder has to be or the other way round:\n  {}",
-                names.join("\n  ")
-            )
-        }
+        Refusal::NotOurs(paths) => format!(
+            "not written: autogen did not write these files, or they were changed since:\n  {}\nMove them away, choose another folder with -o, or overwrite them with --force.",
+            list(paths)
+        ),
+        Refusal::InTheWay(paths) => format!(
+            "not written: these are in the way, a file where a folder has to be, the other way round, or a symbolic link, none of which is followed:\n  {}\nMove them away, or choose another folder with -o.",
+            list(paths)
+        ),
+        Refusal::Inputs(paths) => format!(
+            "not written: these files were read, and would be written over:\n  {}\nChoose another folder with -o.",
+            list(paths)
+        ),
         Refusal::Io(path, error) => format!("{}: {error}", path.display()),
     };
     match options.input.format {

@@ -1,82 +1,98 @@
-//! `autogen commission`: the generated controllers, linked with the simulator, run the scenario.
+//! `autogen commission`: the generated controllers run the scenario in the simulator.
 
 use super::build::{self, Built};
 use super::contact;
+use super::controllers::{self, Notice};
 use super::fault;
-use super::interrupt::{self, Temporary};
+use super::io_trace::IoTrace;
 use super::options::{CommissionOptions, Format};
+use super::output::{self, Output};
 use super::pending::{Content, Pending};
-use super::program::{self, Notice};
+use super::progress::Progress;
 use super::trajectories::Request;
-use super::write;
 use crate::Status;
-use runtime_sim::line::{IoDelay, Line};
+use autogen::backend::rust::parameters_text;
+use runtime_sim::line::IoDelay;
+use runtime_sim::run::{Seen, record, run as simulate};
 use serde_json::{Value, json};
-use std::io::IsTerminal;
-use std::path::{self, Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::fmt::Write;
+use std::io::{self, IsTerminal};
+use std::path::{self, PathBuf};
 use std::time::Instant;
-use std::{env, fs, io};
 
 pub fn run(options: &CommissionOptions) -> Status {
+    match commission(options) {
+        Ok(status) => status,
+        Err(End::Said(status)) => status,
+        Err(End::Failed(text)) => {
+            match options.build.input.format {
+                Format::Json => say!("{}", json!({ "finished": false, "reason": text, "diagnostics": [] })),
+                Format::Text => eprintln!("autogen: {text}"),
+            }
+            Status::WrongCommand
+        }
+    }
+}
+
+/// Why there is no run.
+enum End {
+    /// It was printed.
+    Said(Status),
+    Failed(String),
+}
+
+impl From<String> for End {
+    fn from(text: String) -> Self {
+        End::Failed(text)
+    }
+}
+
+/// What a run writes beside the output folder.
+struct Files {
+    io_trace: Option<Pending>,
+    hashes: Option<Pending>,
+    trajectories: Request,
+}
+
+fn commission(options: &CommissionOptions) -> Result<Status, End> {
     let begin = Instant::now();
-    let delay = match io_delay(&options.io_delay) {
-        Some(delay) => delay,
-        None => return fail(options, "--io-delay takes a number of scans, `random` or `random:SEED`".into()),
-    };
+    let delay = io_delay(&options.io_delay)
+        .ok_or_else(|| "--io-delay takes a number of scans, `random` or `random:SEED`".to_string())?;
+    are_different(options)?;
     let overwrite = options.build.overwrite();
     let pending = |path: &Option<PathBuf>, content: Content| {
         path.as_ref().map(|path| Pending::new(path, content, overwrite)).transpose()
     };
-    if let Err(text) = are_different(options) {
-        return fail(options, text);
-    }
-    let io_trace = match pending(&options.io_trace, Content::IoTrace) {
-        Ok(io_trace) => io_trace,
-        Err(text) => return fail(options, text),
+    let files = Files {
+        io_trace: pending(&options.io_trace, Content::IoTrace)?,
+        hashes: pending(&options.hashes, Content::Hashes)?,
+        trajectories: Request::new(options)?,
     };
-    let hashes = match pending(&options.hashes, Content::Hashes) {
-        Ok(hashes) => hashes,
-        Err(text) => return fail(options, text),
-    };
-    let trajectories = match Request::new(options) {
-        Ok(request) => request,
-        Err(text) => return fail(options, text),
-    };
-    let built = match build::build(&options.build) {
-        Ok(built) => built,
-        Err(status) => return status,
-    };
-    let results = match are_free(options, &built)
-        .and_then(|()| Pending::new(&built.folder.join(build::RESULTS), Content::Results, overwrite))
-    {
-        Ok(results) => results,
-        Err(text) => return fail(options, text),
-    };
-    match commission(options, &built, delay, [io_trace, hashes], trajectories) {
-        Ok(mut report) => {
-            fault::name(&mut report, &built.project.system, &built.sources);
-            contact::name_reasons(&mut report, &built.project.may_touch);
-            let status = match report["finished"].as_bool() {
-                Some(true) => Status::Done,
-                _ if report["reason"].as_str().is_some_and(|r| r.starts_with("bug: ")) => Status::Bug,
-                _ => Status::NotReached,
-            };
-            match show(options, &built, results, report, begin) {
-                Ok(()) => status,
-                Err(text) => fail(options, text),
-            }
-        }
-        Err(text) => fail(options, text),
-    }
-}
+    let built = build::build(&options.build).map_err(End::Said)?;
+    are_free(options, &built)?;
+    files.trajectories.check(&built.project.plant)?;
+    let refused = |refusal| End::Said(build::refused(&options.build, &refusal));
+    // Until the results are written, so that they are those of what is in the folder.
+    let output = build::open(&options.build, &built).map_err(refused)?;
+    build::write(&options.build, &built, &output).map_err(refused)?;
+    output.may_write_results(overwrite).map_err(refused)?;
 
-fn fail(options: &CommissionOptions, text: String) -> Status {
-    match options.build.input.format {
-        Format::Json => say!("{}", json!({ "finished": false, "reason": text, "diagnostics": [] })),
-        Format::Text => eprintln!("autogen: {text}"),
-    }
-    Status::WrongCommand
+    let mut report = report(options, &built, delay, files)?;
+    fault::name(&mut report, &built.project.system, &built.sources);
+    contact::name_reasons(&mut report, &built.project.may_touch);
+    report["layout"] = json!(built.project.name);
+    report["settings"] = json!(options.build.input.settings);
+    report["order_seed"] = json!(options.build.input.order);
+    report["io_delay"] = json!(options.io_delay);
+    output.write_results(&format!("{report:#}\n"), overwrite).map_err(refused)?;
+    let wall = begin.elapsed().as_secs_f64();
+    report["wall_s"] = json!((wall * 1000.0).round() / 1000.0);
+    show(options, &output, &report, wall);
+    Ok(match report["finished"].as_bool() {
+        Some(true) => Status::Done,
+        _ if report["reason"].as_str().is_some_and(|r| r.starts_with("bug: ")) => Status::Bug,
+        _ => Status::NotReached,
+    })
 }
 
 /// How late devices answer, as `--io-delay` says it.
@@ -89,94 +105,53 @@ pub fn io_delay(text: &str) -> Option<IoDelay> {
     }
 }
 
-fn commission(
-    options: &CommissionOptions,
-    built: &Built,
-    delay: IoDelay,
-    [io_trace, hashes]: [Option<Pending>; 2],
-    trajectories: Request,
-) -> Result<Value, String> {
-    trajectories.check(&built.project.plant)?;
+/// Runs the scenario and writes what was asked for of it.
+fn report(options: &CommissionOptions, built: &Built, delay: IoDelay, files: Files) -> Result<Value, String> {
     let input = &options.build.input;
-    let notice = match input.format {
-        Format::Text if !input.quiet => Notice::Compiling,
-        _ => Notice::None,
-    };
-    let program = program::linked(&built.project.system, &built.sources, notice)?;
+    let is_quiet = input.quiet || input.format != Format::Text;
+    let notice = if is_quiet { Notice::None } else { Notice::Compiling };
+    let system = &built.project.system;
+    let library = controllers::compiled(system, &built.sources, notice)?;
     let mut line = built.project.plant.clone();
     line.io_delay = delay;
-    let temporary = Temporary::new(env::temp_dir().join(format!("autogen-{}", std::process::id())));
-    let folder = temporary.path();
-    put_line(folder, &line).map_err(|e| format!("{}: {e}", folder.display()))?;
-    let mut command = Command::new(&program);
-    let data = built.folder.join("rust/commissioning/data");
-    command.arg(folder.join("line.txt")).arg(data.join("parameters.txt"));
-    if let Some(io_trace) = &io_trace {
-        command.arg("--io-trace").arg(data.join("columns.txt")).arg(io_trace.partial());
+    let mut controllers = library.controllers(&line, &parameters_text(system))?;
+
+    let Files { io_trace, hashes, trajectories } = files;
+    let columns = &built.files["rust/commissioning/data/columns.txt"];
+    let mut io_trace = io_trace.map(|file| IoTrace::new(columns, file)).transpose()?;
+    let mut hash_list = String::new();
+    let mut progress = Progress::new(!is_quiet && io::stderr().is_terminal());
+    let mut observe = |seen: &Seen| {
+        if let Some(io_trace) = &mut io_trace {
+            io_trace.take(seen);
+        }
+        if hashes.is_some() {
+            let _ = writeln!(hash_list, "{:016x}", seen.hash);
+        }
+        progress.show(seen.scan * u64::from(line.scan_ms) / 1000);
+    };
+    let report = match trajectories.is_empty() {
+        true => simulate(&line, &mut controllers, &mut observe)?,
+        false => {
+            let (report, paths) = record(&line, &mut controllers, &mut observe)?;
+            trajectories.write(&built.project, &line, &paths)?;
+            report
+        }
+    };
+    progress.end();
+    io_trace.map_or(Ok(()), IoTrace::end)?;
+    if let Some(hashes) = hashes {
+        hashes.write(&hash_list)?;
+        hashes.keep()?;
     }
-    if let Some(hashes) = &hashes {
-        command.arg("--hashes").arg(hashes.partial());
-    }
-    trajectories.ask(&mut command, folder);
-    if is_chatty(options) {
-        command.arg("--progress");
-    }
-    let result = simulate(command).and_then(|report| {
-        trajectories.write(&built.project, folder)?;
-        Ok(report)
-    });
-    if result.is_ok() {
-        io_trace.into_iter().chain(hashes).try_for_each(Pending::keep)?;
-    }
-    result
+    serde_json::from_str(&report.to_json()).map_err(|e| format!("the report is no JSON: {e}"))
 }
 
-fn put_line(folder: &Path, line: &Line) -> io::Result<()> {
-    let _writing = interrupt::writing();
-    fs::create_dir_all(folder)?;
-    fs::write(folder.join("line.txt"), line.to_text())
-}
-
-/// What the linked simulation reports.
-fn simulate(mut command: Command) -> Result<Value, String> {
-    command.arg("--attended").stdin(Stdio::piped()).stdout(Stdio::piped());
-    let output = interrupt::output(&mut command);
-    let output = output.map_err(|e| format!("{}: {e}", command.get_program().display()))?;
-    if !output.status.success() {
-        return Err(format!("the linked simulation did not run: {}", output.status));
-    }
-    serde_json::from_slice(&output.stdout).map_err(|e| format!("the linked simulation did not report: {e}"))
-}
-
-fn is_chatty(options: &CommissionOptions) -> bool {
-    let input = &options.build.input;
-    !input.quiet && input.format == Format::Text && io::stderr().is_terminal()
-}
-
-fn show(
-    options: &CommissionOptions,
-    built: &Built,
-    results: Pending,
-    mut report: Value,
-    begin: Instant,
-) -> Result<(), String> {
-    let wall = begin.elapsed().as_secs_f64();
-    report["wall_s"] = json!((wall * 1000.0).round() / 1000.0);
-    report["layout"] = json!(built.project.name);
-    report["settings"] = json!(options.build.input.settings);
-    report["order_seed"] = json!(options.build.input.order);
-    report["io_delay"] = json!(options.io_delay);
-    let mut kept = report.clone();
-    if let Some(object) = kept.as_object_mut() {
-        object.remove("wall_s");
-    }
-    let failed = |e: io::Error| format!("{}: {e}", results.path().display());
-    fs::write(results.partial(), format!("{kept:#}\n")).map_err(failed)?;
-    results.keep()?;
+fn show(options: &CommissionOptions, output: &Output, report: &Value, wall: f64) {
     match options.build.input.format {
         Format::Json => say!("{report}"),
         Format::Text if !options.build.input.quiet => {
-            say_part!("{}", text(&report, wall, built));
+            say_part!("{}", text(report, wall, output));
             for path in &options.trajectories.files {
                 say!("trajectories       {}", path.display());
             }
@@ -186,7 +161,6 @@ fn show(
         }
         Format::Text => {}
     }
-    Ok(())
 }
 
 /// The files that the options name, where they are.
@@ -205,19 +179,24 @@ fn are_different(options: &CommissionOptions) -> Result<(), String> {
     }
 }
 
-/// No file is named that the build has written.
+/// No file is named that was read or that the build writes.
 fn are_free(options: &CommissionOptions, built: &Built) -> Result<(), String> {
-    let own = built.files.keys().map(String::as_str).chain([write::MANIFEST, build::RESULTS]);
+    let own = built.files.keys().map(String::as_str).chain([output::MANIFEST, output::RESULTS]);
     let folder = path::absolute(&built.folder).unwrap_or_else(|_| built.folder.clone());
     let own: Vec<PathBuf> = own.map(|name| folder.join(name)).collect();
-    match named(options).into_iter().find(|path| own.contains(path)) {
-        Some(path) => Err(format!("{}: this is a file of the output; choose another name", path.display())),
-        None => Ok(()),
+    for path in named(options) {
+        if own.contains(&path) {
+            return Err(format!("{}: this is a file of the output; choose another name", path.display()));
+        }
+        if build::is_input(built, &path) {
+            return Err(format!("{}: this is a file of the input; choose another name", path.display()));
+        }
     }
+    Ok(())
 }
 
 /// The report for people.
-fn text(report: &Value, wall: f64, built: &Built) -> String {
+fn text(report: &Value, wall: f64, output: &Output) -> String {
     let number = |v: &Value| v.as_f64().unwrap_or(0.0);
     let mut out = format!("{}\n\n", report["reason"].as_str().unwrap_or("").replace("; ", "\n  "));
     out += &format!("orders made        {} of {}\n", report["orders_done"], report["orders"]);
@@ -258,6 +237,6 @@ fn text(report: &Value, wall: f64, built: &Built) -> String {
     }
     let places: Vec<String> = places.iter().map(|(place, n)| format!("{n} {place}")).collect();
     out += &format!("\nitems              {} ({})\n", items.len(), places.join(", "));
-    out += &format!("written to         {}\n", built.folder.display());
+    out += &format!("written to         {}\n", output.folder().display());
     out
 }

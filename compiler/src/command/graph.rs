@@ -17,19 +17,27 @@ pub fn run(options: &GraphOptions) -> Status {
         print::diagnostics(&outcome.sources, &outcome.diagnostics);
         return Status::WrongInput;
     };
-    if options.of == "plan" {
+    if options.of == dot::PLAN {
         say_part!("{}", plan::svg(&project.plant, &project.edges));
         return Status::Done;
     }
     let files = dot::files(&project.system, &project.edges);
-    match files.get(&format!("{}.dot", naming::snake(&options.of))) {
+    let graph = [options.of.clone(), naming::snake(&options.of)]
+        .iter()
+        .find_map(|name| files.get(&format!("{name}.dot")));
+    match graph {
         Some(text) => {
             say_part!("{text}");
             Status::Done
         }
         None => {
             let known: Vec<&str> = files.keys().map(|name| name.trim_end_matches(".dot")).collect();
-            eprintln!("autogen: there is no graph of `{}`; there are plan, {}", options.of, known.join(", "));
+            eprintln!(
+                "autogen: there is no graph of `{}`; there are {}, {}",
+                options.of,
+                dot::PLAN,
+                known.join(", ")
+            );
             Status::WrongCommand
         }
     }

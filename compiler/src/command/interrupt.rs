@@ -40,6 +40,12 @@ impl Temporary {
     pub fn path(&self) -> &Path {
         &self.0
     }
+
+    /// It stays where it is.
+    pub fn leave(self) {
+        begun().paths.retain(|path| *path != self.0);
+        std::mem::forget(self);
+    }
 }
 
 impl Drop for Temporary {
@@ -70,11 +76,28 @@ pub fn output(command: &mut Command) -> io::Result<Output> {
     output
 }
 
-/// Gives a process and those that it starts a group of their own, so that they end together.
+/// Gives a process and those that it starts a group of their own, so that they end together. On Linux the process
+/// is killed too when this one is.
 pub fn in_group(command: &mut Command) -> &mut Command {
     #[cfg(unix)]
     std::os::unix::process::CommandExt::process_group(command, 0);
+    #[cfg(target_os = "linux")]
+    end_with_this_process(command);
     command
+}
+
+#[cfg(target_os = "linux")]
+#[allow(unsafe_code)] // What runs between fork and exec has no checked rules.
+fn end_with_this_process(command: &mut Command) {
+    use rustix::process::{Signal, getppid, set_parent_process_death_signal};
+    let parent = rustix::process::getpid();
+    let ask = move || {
+        set_parent_process_death_signal(Some(Signal::KILL))?;
+        // It may have died before it was asked.
+        if getppid() == Some(parent) { Ok(()) } else { Err(io::ErrorKind::Interrupted.into()) }
+    };
+    // SAFETY: two system calls, which take no lock and no memory.
+    unsafe { std::os::unix::process::CommandExt::pre_exec(command, ask) };
 }
 
 /// Ends all processes and removes all paths that were begun. Nothing can be begun any more: the program has to end.

@@ -1,6 +1,6 @@
 //! The options of the command line.
 
-use super::write::Overwrite;
+use super::output::Overwrite;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;

@@ -2,11 +2,12 @@
 //! is something else.
 
 use super::interrupt::{self, Temporary};
-use super::write::Overwrite;
+use super::lock;
+use super::output::Overwrite;
 use autogen::backend::paths::MARK;
 use runtime_sim::path::{FORMAT, HEAD};
 use std::fs::{self, File};
-use std::io::{ErrorKind, Read};
+use std::io::{self, ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 
 /// What a file holds.
@@ -14,7 +15,6 @@ use std::path::{Path, PathBuf};
 pub enum Content {
     IoTrace,
     Hashes,
-    Results,
     PathTable,
     PathSegments,
     PathDrawing,
@@ -25,7 +25,6 @@ impl Content {
         match self {
             Content::IoTrace => "I/O trace",
             Content::Hashes => "list of hashes",
-            Content::Results => "file of results",
             Content::PathTable => "table of paths",
             Content::PathSegments => "list of segments",
             Content::PathDrawing => "drawing of paths",
@@ -39,13 +38,16 @@ impl Content {
             Content::Hashes => {
                 bytes.len() > 16 && bytes[..16].iter().all(u8::is_ascii_hexdigit) && bytes[16] == b'\n'
             }
-            Content::Results => bytes.starts_with(b"{\n  \"finished\""),
             Content::PathTable => bytes.starts_with(HEAD.as_bytes()),
             Content::PathSegments => bytes.starts_with(format!("{{\"format\":\"{FORMAT}\"").as_bytes()),
             Content::PathDrawing => String::from_utf8_lossy(bytes).contains(MARK),
         }
     }
 }
+
+/// How the name of a file ends that is not whole, and the characters before that by which it cannot be foreseen.
+const END: &str = ".partial";
+const RANDOM: usize = 6;
 
 /// Bytes by which contents are told from one another.
 const BEGINNING: u64 = 256;
@@ -55,13 +57,14 @@ const BEGINNING: u64 = 256;
 pub struct Pending {
     path: PathBuf,
     partial: Temporary,
+    file: File,
 }
 
 impl Pending {
     /// An error says what is in the way.
     pub fn new(path: &Path, content: Content, overwrite: Overwrite) -> Result<Self, String> {
+        let failed = |e: io::Error| format!("{}: {e}", path.display());
         let name = path.file_name().ok_or_else(|| format!("{}: this is no file", path.display()))?;
-        let partial = format!(".{}.{}.partial", name.to_string_lossy(), std::process::id());
         if path.metadata().is_ok_and(|there| !there.is_file()) {
             return Err(format!("{}: this is no file", path.display()));
         }
@@ -72,10 +75,11 @@ impl Pending {
                 content.name()
             ));
         }
-        let _writing = interrupt::writing();
-        let partial = Temporary::new(path.with_file_name(partial));
-        File::create(partial.path()).map_err(|e| format!("{}: {e}", path.display()))?;
-        Ok(Self { path: path.into(), partial })
+        let folder = path.parent().filter(|f| !f.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let begin = format!(".{}.", name.to_string_lossy());
+        remove_abandoned(folder, &begin).map_err(failed)?;
+        let (partial, file) = create(folder, &begin).map_err(failed)?;
+        Ok(Self { path: path.into(), partial, file })
     }
 
     pub fn path(&self) -> &Path {
@@ -83,14 +87,52 @@ impl Pending {
     }
 
     /// Where to write while the run goes on; removed when this is dropped.
-    pub fn partial(&self) -> &Path {
-        self.partial.path()
+    pub fn file(&self) -> &File {
+        &self.file
+    }
+
+    pub fn write(&self, text: &str) -> Result<(), String> {
+        (&self.file).write_all(text.as_bytes()).map_err(|e| format!("{}: {e}", self.path.display()))
     }
 
     /// What was written is whole.
     pub fn keep(self) -> Result<(), String> {
-        fs::rename(self.partial.path(), &self.path).map_err(|e| format!("{}: {e}", self.path.display()))
+        let kept = self.file.sync_all().and_then(|()| fs::rename(self.partial.path(), &self.path));
+        kept.map_err(|e| format!("{}: {e}", self.path.display()))
     }
+}
+
+/// A new file that nobody could have put there before, locked as long as this process writes it.
+fn create(folder: &Path, begin: &str) -> io::Result<(Temporary, File)> {
+    let _writing = interrupt::writing();
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(begin).suffix(END);
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    loop {
+        let (file, path) = builder.tempfile_in(folder)?.keep()?;
+        let partial = Temporary::new(path);
+        // Another process may have taken it for an abandoned one before it was locked.
+        if lock::claim(&file) && partial.path().exists() {
+            return Ok((partial, file));
+        }
+    }
+}
+
+/// Removes what processes have left that were killed.
+fn remove_abandoned(folder: &Path, begin: &str) -> io::Result<()> {
+    for entry in fs::read_dir(folder)? {
+        let entry = entry?;
+        let name = entry.file_name().to_string_lossy().into_owned();
+        let is_partial = name.starts_with(begin) && name.len() == begin.len() + RANDOM + END.len();
+        if is_partial && name.ends_with(END) && entry.file_type()?.is_file() {
+            let is_abandoned = File::open(entry.path()).is_ok_and(|file| lock::claim(&file));
+            if is_abandoned {
+                drop(Temporary::new(entry.path()));
+            }
+        }
+    }
+    Ok(())
 }
 
 /// Whether there is nothing yet, an empty file, or one with this content.
@@ -115,7 +157,6 @@ mod tests {
         let texts = [
             (Content::IoTrace, "run_permit,start,reset,running\n"),
             (Content::Hashes, "0123456789abcdef\n"),
-            (Content::Results, "{\n  \"finished\": true\n}\n"),
             (Content::PathTable, HEAD),
             (Content::PathSegments, &format!("{{\"format\":\"{FORMAT}\"}}")),
             (Content::PathDrawing, &format!("<svg>\n{MARK}: -->\n</svg>")),
@@ -127,7 +168,7 @@ mod tests {
             assert!(Pending::new(&folder, content, Overwrite::Everything).unwrap_err().contains("no file"));
             assert!(Pending::new(&folder.join("none/file"), content, Overwrite::Own).is_err());
             let pending = Pending::new(&path, content, Overwrite::Everything).unwrap();
-            fs::write(pending.partial(), text).unwrap();
+            pending.write(text).unwrap();
             pending.keep().unwrap();
             assert_eq!(fs::read_to_string(&path).unwrap(), text);
             drop(Pending::new(&path, content, Overwrite::Own).unwrap());

@@ -1,7 +1,7 @@
 //! `autogen sweep`: every layout with every combination of values.
 //!
-//! Layouts and values are data. Each layout is read and its types are checked once, the controllers are
-//! compiled once, and a linked program on each processor runs one point after another.
+//! Layouts and values are data. Each layout is read and its types are checked once, the controllers are compiled
+//! once, and each processor runs one point after another.
 
 mod axis;
 mod grid;
@@ -11,17 +11,15 @@ mod plan;
 mod point;
 mod progress;
 mod row;
-mod runner;
 mod table;
 
+use super::controllers::Notice;
 use super::options::{Format, SweepOptions, TableFormat};
 use super::print;
-use super::program::Notice;
 use crate::Status;
 use autogen::diagnostic::Diagnostic;
 use plan::{Plan, Refusal};
 use progress::Progress;
-use runner::Runner;
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use std::num::NonZeroUsize;
@@ -49,8 +47,7 @@ pub fn run(options: &SweepOptions) -> Status {
     in_order::each(
         plan.len(),
         jobs,
-        Runner::default,
-        |runner, index| point::row(&plan, index, runner, notice),
+        |index| point::row(&plan, index, notice),
         |row| {
             status = worse(status, row.status);
             progress.clear();

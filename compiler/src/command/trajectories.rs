@@ -7,16 +7,11 @@ use autogen::backend::paths;
 use autogen::lower::Project;
 use runtime_sim::item;
 use runtime_sim::line::Line;
-use std::fs;
+use runtime_sim::path::{self, segments_json, table_csv};
 use std::path::Path;
-use std::process::Command;
 
 /// A drawing is made from samples so far apart.
 const DRAWN_EVERY_MS: u64 = 20;
-/// Names in the temporary folder.
-const SEGMENTS: &str = "segments.json";
-const TABLE: &str = "table.csv";
-const DRAWN: &str = "drawn.csv";
 
 /// Which paths are to be written, where and how.
 #[derive(Debug)]
@@ -70,38 +65,27 @@ impl Request {
         Err(format!("there is no item `{wrong}`; there are {}", kinds.collect::<Vec<_>>().join(", ")))
     }
 
-    /// The options for the linked simulation that have it write into a temporary folder.
-    pub fn ask(&self, command: &mut Command, folder: &Path) {
-        let has = |content: Content| self.files.iter().any(|(_, own)| *own == content);
-        if has(Content::PathSegments) {
-            command.arg("--segments").arg(folder.join(SEGMENTS));
-        }
-        if has(Content::PathTable) {
-            command.arg("--table").arg(folder.join(TABLE)).arg(self.every_ms.to_string());
-        }
-        if has(Content::PathDrawing) {
-            command.arg("--table").arg(folder.join(DRAWN)).arg(DRAWN_EVERY_MS.to_string());
-        }
-        if !self.items.is_empty() {
-            command.arg("--items").arg(self.items.join(","));
-        }
+    /// No path is asked for.
+    pub fn is_empty(&self) -> bool {
+        self.files.is_empty()
     }
 
-    /// Writes what the simulation has left in the temporary folder: all files, or none.
-    pub fn write(self, project: &Project, folder: &Path) -> Result<(), String> {
-        let read = |name: &str| {
-            let path = folder.join(name);
-            fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))
+    /// Writes the paths of all items of the line's supply: all files, or none.
+    pub fn write(self, project: &Project, line: &Line, paths: &[path::Path]) -> Result<(), String> {
+        let names = item::names(line);
+        let chosen: Vec<usize> = match self.items.is_empty() {
+            true => (0..names.len()).collect(),
+            false => self.items.iter().filter_map(|own| names.iter().position(|name| name == own)).collect(),
         };
-        let _writing = interrupt::writing();
         for (file, content) in &self.files {
             let text = match content {
-                Content::PathSegments => read(SEGMENTS)? + "\n",
-                Content::PathDrawing => paths::svg(project, &read(DRAWN)?),
-                _ => read(TABLE)?,
+                Content::PathSegments => segments_json(line, paths, &chosen) + "\n",
+                Content::PathDrawing => paths::svg(project, &table_csv(line, paths, &chosen, DRAWN_EVERY_MS)),
+                _ => table_csv(line, paths, &chosen, self.every_ms),
             };
-            fs::write(file.partial(), text).map_err(|e| format!("{}: {e}", file.path().display()))?;
+            file.write(&text)?;
         }
+        let _writing = interrupt::writing();
         self.files.into_iter().try_for_each(|(file, _)| file.keep())
     }
 }

@@ -15,17 +15,14 @@ const LONG: &str = r#"{
     "time_limit_s": 1000000
 }"#;
 
-/// With temporary folders within the folder `temporary`.
 fn begin(folder: &Path, cache: &Path, arguments: &[&str]) -> Child {
-    for name in ["temporary", "made"] {
-        fs::create_dir_all(folder.join(name)).expect("a folder");
-    }
+    fs::create_dir_all(folder.join("made")).expect("a folder");
     fs::write(folder.join("long.json"), LONG).expect("a file");
+    fs::write(folder.join("short.json"), LONG.replace("1000,", "1,")).expect("a file");
     Command::new(env!("CARGO_BIN_EXE_autogen"))
         .args(arguments)
         .args(["--scenario", "long.json"])
         .current_dir(folder)
-        .env("TMPDIR", folder.join("temporary"))
         .env("XDG_CACHE_HOME", cache)
         .stdout(Stdio::null())
         .stderr(Stdio::piped())
@@ -64,9 +61,10 @@ fn has(folder: &Path, text: &str) -> bool {
         .any(|entry| entry.path().display().to_string().contains(text) || has(&entry.path(), text))
 }
 
+/// Runs, and has written nothing of it yet.
 fn is_in_progress(folder: &Path) -> impl Fn() -> bool {
-    let temporary = folder.join("temporary");
-    move || has(&temporary, "line.txt")
+    let made = folder.join("made");
+    move || made.join("manifest.json").exists() && !made.join("autogen-unfinished").exists()
 }
 
 #[test]
@@ -82,19 +80,40 @@ fn nothing_is_left_of_a_run_that_a_signal_ends() {
         sleep(Duration::from_millis(300));
         assert!(has(&folder, ".partial"));
         assert_eq!(end(child, signal), number);
-        assert!(!has(&folder, ".partial") && contents(&folder.join("temporary")).is_empty());
+        assert!(!has(&folder, ".partial") && !has(&folder, "unfinished"));
         assert!(!folder.join("made/results.json").exists() && folder.join("made/manifest.json").exists());
     }
 }
 
+/// Whether a process has its working folder there.
+#[cfg(target_os = "linux")]
+fn is_worked_in(folder: &Path) -> bool {
+    let processes = fs::read_dir("/proc").expect("a list of processes").flatten();
+    processes
+        .filter_map(|entry| fs::read_link(entry.path().join("cwd")).ok())
+        .any(|cwd| cwd.starts_with(folder))
+}
+
 #[test]
-fn the_linked_program_ends_with_autogen_however_that_ends() {
+#[cfg(target_os = "linux")]
+fn what_a_killed_process_has_begun_goes_with_it_or_with_the_next_one() {
     let folder = folder("interrupt_kill");
-    let (layout, cache) = (example("ariac2021/default.json"), folder.with_file_name("cache"));
-    let mut child = begin(&folder, &cache, &["commission", &layout, "-o", "made"]);
-    wait_until(&mut child, is_in_progress(&folder));
-    sleep(Duration::from_millis(300));
+    let (layout, cache) = (example("ariac2021/default.json"), folder.join("cache"));
+    let commission = ["commission", &layout, "-o", "made", "--io-trace", "trace.csv"];
+    let mut child = begin(&folder, &cache, &commission);
+    wait_until(&mut child, || has(&cache, "release/deps"));
     assert_eq!(end(child, "KILL"), 9);
+    let begin = Instant::now();
+    while is_worked_in(&cache) {
+        assert!(begin.elapsed() < Duration::from_secs(20), "a compiler went on");
+        sleep(Duration::from_millis(20));
+    }
+    assert!(has(&cache, "workspace") && has(&folder, ".partial"));
+    let output =
+        super::autogen_in(&folder, &cache, &[&commission[..], &["--scenario", "short.json"]].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(!has(&cache, "workspace") && !has(&folder, ".partial"));
+    assert!(folder.join("trace.csv").exists() && folder.join("made/results.json").exists());
 }
 
 #[test]
@@ -118,9 +137,9 @@ fn nothing_is_left_of_a_sweep_that_a_signal_ends() {
     let (layout, cache) = (example("ariac2021/default.json"), folder.with_file_name("cache"));
     for signal in ["INT", "TERM"] {
         let mut child = begin(&folder, &cache, &["sweep", &layout, "--set", "agv.capacity=2,4"]);
-        wait_until(&mut child, || has(&cache, "commissioning") && !has(&cache, "workspace-"));
+        wait_until(&mut child, || has(&cache, "library.sha256") && !has(&cache, "workspace"));
         sleep(Duration::from_secs(2));
         end(child, signal);
-        assert!(contents(&folder.join("temporary")).is_empty() && contents(&folder.join("made")).is_empty());
+        assert!(contents(&folder.join("made")).is_empty());
     }
 }

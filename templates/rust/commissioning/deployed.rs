@@ -1,10 +1,10 @@
 //! The controllers as the simulator meets them.
 
-use crate::adapters::{Layout, latch, publish};
+use adapters::layout::{Layout, latch, publish};
+use adapters::read::Reader;
 use controllers::system::{self, System};
 use runtime_sim::line::Line;
 use runtime_sim::scan::{Controllers, SystemInputs, SystemOutputs};
-use runtime_sim::words::Words;
 
 /// The controllers of a layout, and their system.
 pub struct Deployed {
@@ -20,7 +20,7 @@ impl Deployed {
 
     /// With a layout from text.
     pub fn read(text: &str) -> Result<Self, String> {
-        Ok(Self { layout: Layout::read(&mut Words::new(text))?, system: System::new() })
+        Ok(Self { layout: Layout::read(&mut Reader::new(text))?, system: System::new() })
     }
 
     /// If there is a robot for each machine of the line.

@@ -3,7 +3,7 @@
 //! all robots, in layout order, each with its number of words before it; a line of output holds `running`,
 //! `fault_code` and the output images.
 
-use commissioning::adapters::{Layout, latch, publish};
+use adapters::layout::{Layout, latch, publish};
 use controllers::system::{System, SystemInputs};
 use std::io::{BufRead, stdin};
 

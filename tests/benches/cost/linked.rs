@@ -7,7 +7,8 @@
 mod by_hand;
 
 use by_hand::Vehicle;
-use commissioning::adapters::{Layout, latch};
+use adapters::layout::{Layout, latch};
+use adapters::read::Reader;
 use commissioning::deployed::Deployed;
 use controllers::agv::{Agv, State};
 use controllers::cells::{DemandCells, SourceCells, TrayCells};
@@ -19,7 +20,6 @@ use runtime_sim::plant::Plant;
 use runtime_sim::point::Point;
 use runtime_sim::run::run;
 use runtime_sim::scan::{Controllers, SystemInputs};
-use runtime_sim::words::Words;
 use std::fs;
 use std::hint::black_box;
 use std::time::Instant;
@@ -247,7 +247,7 @@ struct Found {
 
 /// One vehicle's steps by the generated controller and by one written by hand, on what it found in the run.
 fn vehicle(record: &Record, parameters: &str) {
-    let mut layout = Layout::read(&mut Words::new(parameters)).expect("parameters");
+    let mut layout = Layout::read(&mut Reader::new(parameters)).expect("parameters");
     let busiest = "agv2";
     let number = layout.robots.iter().position(|r| r.name() == busiest).expect("the vehicle that goes most");
     let demands: Vec<_> = layout

@@ -7,7 +7,7 @@ use askama::Template;
 use runtime_sim::device::Direction;
 
 #[derive(Template)]
-#[template(path = "rust/commissioning/adapters.rs")]
+#[template(path = "rust/adapters/layout.rs")]
 struct Adapters {
     enums: Vec<String>,
     interfaces: Vec<InterfaceView>,
@@ -75,7 +75,8 @@ pub fn adapters(shared: Shared) -> String {
     };
     let mut importable = shared.importable("controllers");
     importable.push(("crate::image".into(), ["Image", "Latch", "Put"].map(String::from).into()));
-    importable.push(("crate::read".into(), ["Read", "leak", "relation", "rows"].map(String::from).into()));
+    importable.push(("crate::kept".into(), ["Kept"].map(String::from).into()));
+    importable.push(("crate::read".into(), ["Read", "Reader", "kept", "rows"].map(String::from).into()));
     format::module(&render(&view), &importable)
 }
 

@@ -15,24 +15,17 @@ struct Progress<R> {
     waiting: BTreeMap<usize, R>,
 }
 
-/// Does the job for each index below `count`, on `threads` threads with a tool each; `take` sees the
+/// Does the job for each index below `count`, on `threads` threads; `take` sees the
 /// results in the order of the indices, as soon as they can be had. The job must not panic.
-pub fn each<T, R: Send>(
-    count: usize,
-    threads: usize,
-    tool: impl Fn() -> T + Sync,
-    job: impl Fn(&mut T, usize) -> R + Sync,
-    mut take: impl FnMut(R),
-) {
+pub fn each<R: Send>(count: usize, threads: usize, job: impl Fn(usize) -> R + Sync, mut take: impl FnMut(R)) {
     let progress = Mutex::new(Progress { next: 0, taken: 0, waiting: BTreeMap::new() });
     let changed = Condvar::new();
     let ahead = threads * AHEAD;
     thread::scope(|scope| {
         for _ in 0..threads.min(count) {
             scope.spawn(|| {
-                let mut tool = tool();
                 while let Some(index) = next(&progress, &changed, count, ahead) {
-                    let result = job(&mut tool, index);
+                    let result = job(index);
                     lock(&progress).waiting.insert(index, result);
                     changed.notify_all();
                 }
@@ -78,28 +71,22 @@ mod tests {
         for threads in [1, 3, 8] {
             let made = AtomicUsize::new(0);
             let mut taken = Vec::new();
-            let job = |_: &mut (), index: usize| {
+            let job = |index: usize| {
                 // The first of each lot is the last to be done.
                 (0..if index.is_multiple_of(50) { 2000 } else { 1 }).for_each(|_| thread::yield_now());
                 made.fetch_add(1, Ordering::Relaxed);
                 index * 3
             };
-            each(
-                500,
-                threads,
-                || (),
-                job,
-                |result| {
-                    assert!(made.load(Ordering::Relaxed) <= taken.len() + threads * (AHEAD + 1));
-                    taken.push(result);
-                },
-            );
+            each(500, threads, job, |result| {
+                assert!(made.load(Ordering::Relaxed) <= taken.len() + threads * (AHEAD + 1));
+                taken.push(result);
+            });
             assert!(taken.iter().copied().eq((0..500).map(|i| i * 3)));
         }
     }
 
     #[test]
     fn nothing_to_do() {
-        each(0, 4, || (), |_, index| index, |_| panic!("there is no result"));
+        each(0, 4, |index| index, |_| panic!("there is no result"));
     }
 }

@@ -1,10 +1,10 @@
 //! All points of a sweep, none of them written out.
 
-use super::super::build::title;
+use super::super::build;
 use super::super::commission::io_delay;
+use super::super::controllers::{self, Notice, SharedLibrary};
 use super::super::load::{self, Failure};
 use super::super::options::SweepOptions;
-use super::super::program::{self, Notice};
 use super::axis::Axis;
 use autogen::ir::System;
 use autogen::lower::{Draft, Setting, Texts};
@@ -34,7 +34,7 @@ pub struct Line {
     pub settings: Vec<Vec<Setting>>,
     /// The sources under the names that outputs show.
     pub shown: Sources,
-    program: Mutex<Option<Result<PathBuf, String>>>,
+    library: Mutex<Option<Result<SharedLibrary, String>>>,
 }
 
 /// Which value a point has of everything that varies.
@@ -163,20 +163,20 @@ impl Line {
         let texts = Texts { layout: texts.layout, specs: &texts.specs, scenario: texts.scenario };
         let draft = Draft::new(&sources, texts, &concerned);
         let stem = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
-        let shown = sources.renamed(|name| title(path, name));
+        let shown = build::shown(&sources, path);
         Ok(Self {
             title: draft.name().map_or(stem, String::from),
             sources,
             draft,
             settings,
             shown,
-            program: Mutex::new(None),
+            library: Mutex::new(None),
         })
     }
 
-    /// The program of this layout's types, compiled by the first who wants it.
-    pub fn program(&self, system: &System, notice: Notice) -> Result<PathBuf, String> {
-        let mut program = self.program.lock().unwrap_or_else(PoisonError::into_inner);
-        program.get_or_insert_with(|| program::linked(system, &self.shown, notice)).clone()
+    /// The controllers of this layout's types, compiled by the first who wants them.
+    pub fn library(&self, system: &System, notice: Notice) -> Result<SharedLibrary, String> {
+        let mut library = self.library.lock().unwrap_or_else(PoisonError::into_inner);
+        library.get_or_insert_with(|| controllers::compiled(system, &self.shown, notice)).clone()
     }
 }

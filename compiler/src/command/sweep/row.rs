@@ -40,7 +40,7 @@ impl Row {
         }
     }
 
-    /// Takes over what the linked simulation reports.
+    /// Takes over what the simulation reports.
     pub fn reported(&mut self, report: &Value) {
         self.finished = report["finished"] == true;
         self.reason = report["reason"].as_str().unwrap_or("").into();

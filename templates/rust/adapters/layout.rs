@@ -4,7 +4,6 @@ use controllers::system::{System, SystemInputs, SystemOutputs};
 {%- for robot in robots %}
 use controllers::{{ robot.module }}::{self, {{ robot.ty }}};
 {%- endfor %}
-use runtime_sim::words::Words;
 
 {%- for item in enums %}
 
@@ -15,9 +14,9 @@ impl Put for {{ item }} {
 }
 
 impl Read for {{ item }} {
-    fn read(words: &mut Words) -> Result<Self, String> {
-        let ordinal: usize = words.int()?;
-        Self::ALL.get(ordinal).copied().ok_or_else(|| words.error("no such member of {{ item }}"))
+    fn read(reader: &mut Reader) -> Result<Self, String> {
+        let ordinal: usize = reader.int()?;
+        Self::ALL.get(ordinal).copied().ok_or_else(|| reader.error("no such member of {{ item }}"))
     }
 }
 {%- endfor %}
@@ -30,17 +29,17 @@ impl Put for {{ interface.reference }} {
 }
 
 impl Read for {{ interface.reference }} {
-    fn read(words: &mut Words) -> Result<Self, String> {
-        Ok(Self(words.int()?))
+    fn read(reader: &mut Reader) -> Result<Self, String> {
+        Ok(Self(reader.int()?))
     }
 }
 {%- if !interface.parameters.is_empty() %}
 
 impl Read for {{ interface.parameters_type }} {
-    fn read(words: &mut Words) -> Result<Self, String> {
+    fn read(reader: &mut Reader) -> Result<Self, String> {
         Ok(Self {
             {%- for name in interface.parameters %}
-            {{ name }}: Read::read(words)?,
+            {{ name }}: Read::read(reader)?,
             {%- endfor %}
         })
     }
@@ -68,11 +67,11 @@ impl Put for {{ robot.module }}::Outputs {
 }
 
 impl Read for {{ robot.module }}::Parameters<'static> {
-    fn read(words: &mut Words) -> Result<Self, String> {
+    fn read(reader: &mut Reader) -> Result<Self, String> {
         Ok(Self {
-            name: Read::read(words)?,
+            name: Read::read(reader)?,
             {%- for name in robot.parameters %}
-            {{ name }}: Read::read(words)?,
+            {{ name }}: Read::read(reader)?,
             {%- endfor %}
         })
     }
@@ -100,12 +99,12 @@ pub fn publish(robot: &Robot, running: bool, image: &mut Vec<f64>) {
 }
 
 impl Read for Robot<'static> {
-    fn read(words: &mut Words) -> Result<Self, String> {
-        Ok(match words.name()? {
+    fn read(reader: &mut Reader) -> Result<Self, String> {
+        Ok(match reader.name()? {
             {%- for robot in robots %}
-            "{{ robot.keyword }}" => Self::{{ robot.ty }}({{ robot.ty }}::new(leak(Read::read(words)?))),
+            "{{ robot.keyword }}" => Self::{{ robot.ty }}({{ robot.ty }}::new(kept(reader)?)),
             {%- endfor %}
-            other => return Err(words.error(format_args!("`{other}` is no type of robot"))),
+            other => return Err(reader.error(format_args!("`{other}` is no type of robot"))),
         })
     }
 }
@@ -117,34 +116,38 @@ pub struct Layout {
     {%- if has_cells %}
     pub cells: Cells<'static>,
     {%- endif %}
+    /// What the others refer to.
+    pub kept: Kept,
 }
 
 impl Layout {
     /// The layout for which the controllers were made.
     pub fn compiled() -> Self {
+        let {% if has_cells %}mut {% endif %}kept = Kept::default();
         Self {
             wiring: controllers::line::WIRING,
             robots: controllers::line::robots().into(),
             {%- if has_cells %}
-            cells: leak(controllers::line::Memory::NEW).cells(),
+            cells: kept.keep(controllers::line::Memory::NEW).cells(),
             {%- endif %}
+            kept,
         }
     }
 
     /// Any layout of the same types and kinds, from text.
-    pub fn read(words: &mut Words) -> Result<Self, String> {
-        words.expect("parameters")?;
-        words.expect("1")?;
-        words.expect("scan_ms")?;
-        let scan_ms = words.int()?;
+    pub fn read(reader: &mut Reader) -> Result<Self, String> {
+        reader.expect("parameters")?;
+        reader.expect("1")?;
+        reader.expect("scan_ms")?;
+        let scan_ms = reader.int()?;
         {%- for interface in interfaces %}
-        words.expect("{{ interface.keyword }}")?;
+        reader.expect("{{ interface.keyword }}")?;
         {%- if interface.parameters.is_empty() && interface.has_cells %}
-        let {{ interface.field }}: usize = words.int()?;
+        let {{ interface.field }}: usize = reader.int()?;
         {%- else if interface.parameters.is_empty() %}
-        words.int::<usize>()?;
+        reader.int::<usize>()?;
         {%- else %}
-        let {{ interface.field }}: Vec<{{ interface.parameters_type }}> = words.list(Read::read)?;
+        let {{ interface.field }}: Vec<{{ interface.parameters_type }}> = reader.list(Read::read)?;
         {%- endif %}
         {%- endfor %}
         {%- if has_cells %}
@@ -152,7 +155,7 @@ impl Layout {
             {%- for interface in interfaces %}
             {%- if interface.has_cells %}
             {{ interface.field }}: Table::new(
-                leak(rows({{ interface.field }}{% if !interface.parameters.is_empty() %}.len(){% endif %}, {{ interface.cells_type }}::NEW)),
+                reader.kept.keep(rows({{ interface.field }}{% if !interface.parameters.is_empty() %}.len(){% endif %}, {{ interface.cells_type }}::NEW)),
                 {{ interface.cells_type }}::NEW,
             ),
             {%- endif %}
@@ -163,17 +166,18 @@ impl Layout {
             scan_ms,
             {%- for interface in interfaces %}
             {%- if !interface.parameters.is_empty() %}
-            {{ interface.field }}: Rows::new(leak({{ interface.field }}), {{ interface.parameters_type }}::NONE),
+            {{ interface.field }}: Rows::new(reader.kept.keep({{ interface.field }}), {{ interface.parameters_type }}::NONE),
             {%- endif %}
             {%- endfor %}
             {%- for relation in relations %}
-            {{ relation.name }}: relation(words, "{{ relation.keyword }}")?,
+            {{ relation.name }}: reader.relation("{{ relation.keyword }}")?,
             {%- endfor %}
         };
-        words.expect("robots")?;
-        let robots = words.list(Read::read)?;
-        words.expect("end")?;
-        Ok(Self { wiring, robots{% if has_cells %}, cells{% endif %} })
+        reader.expect("robots")?;
+        let robots = reader.list(Read::read)?;
+        reader.expect("end")?;
+        let kept = std::mem::take(&mut reader.kept);
+        Ok(Self { wiring, robots{% if has_cells %}, cells{% endif %}, kept })
     }
 
     pub fn scan(&mut self, system: &mut System, inputs: SystemInputs) -> SystemOutputs {

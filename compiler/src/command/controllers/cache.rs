@@ -1,0 +1,115 @@
+//! Where compiled controllers are kept: the user's cache, a folder for each set of types.
+
+use super::super::interrupt::{self, Temporary};
+use super::super::lock::Lock;
+use super::super::output::hash;
+use super::Notice;
+use std::env;
+use std::fs::{self, DirBuilder};
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Changes with what is in the folders.
+const FORMAT: &str = "controllers-1";
+const LIBRARY: &str = "library";
+/// Hash of the library, as a check that it is what was made.
+const HASH: &str = "library.sha256";
+
+/// The folder of a set of types. No other process works in it.
+pub struct Entry {
+    folder: PathBuf,
+    _lock: Lock,
+}
+
+impl Entry {
+    /// What processes that were killed have left there is removed.
+    pub fn open(key: &str, notice: Notice) -> Result<Self, String> {
+        let folder = own(&cache()?)?.join(FORMAT).join(key);
+        let failed = |e: io::Error| format!("{}: {e}", folder.display());
+        fs::create_dir_all(&folder).map_err(failed)?;
+        let waits = || notice.say("waiting for another autogen that compiles the same controllers ...");
+        let lock = Lock::folder(&folder, waits).map_err(failed)?;
+        for entry in fs::read_dir(&folder).map_err(failed)? {
+            let entry = entry.map_err(failed)?;
+            if entry.file_name() != LIBRARY && entry.file_name() != HASH {
+                drop(Temporary::new(entry.path()));
+            }
+        }
+        Ok(Self { folder, _lock: lock })
+    }
+
+    /// The compiled library, if it is what was made.
+    pub fn library(&self, notice: Notice) -> Option<PathBuf> {
+        let path = self.folder.join(LIBRARY);
+        let bytes = fs::read(&path).ok()?;
+        let made = fs::read_to_string(self.folder.join(HASH)).ok();
+        if made.is_some_and(|made| made == hash(&bytes)) {
+            return Some(path);
+        }
+        notice.say("the compiled controllers in the cache are not what was compiled, and are not used");
+        None
+    }
+
+    /// Keeps what `make` has made in a folder of its own, which is removed.
+    pub fn fill(&self, make: impl FnOnce(&Path) -> Result<PathBuf, String>) -> Result<PathBuf, String> {
+        let failed = |e: io::Error| format!("{}: {e}", self.folder.display());
+        let workspace = Temporary::new(self.folder.join("workspace"));
+        fs::create_dir(workspace.path()).map_err(failed)?;
+        let made = make(workspace.path())?;
+        let bytes = fs::read(&made).map_err(failed)?;
+        let library = self.folder.join(LIBRARY);
+        let _writing = interrupt::writing();
+        fs::write(self.folder.join(HASH), hash(&bytes)).map_err(failed)?;
+        fs::rename(&made, &library).map_err(failed)?;
+        Ok(library)
+    }
+}
+
+/// The folder of caches. Relative paths are ignored, as the XDG specification demands: what is in the working
+/// directory may be somebody else's.
+fn cache() -> Result<PathBuf, String> {
+    let set = |name: &str| env::var_os(name).map(PathBuf::from).filter(|path| path.is_absolute());
+    set("XDG_CACHE_HOME").or_else(|| Some(set("HOME")?.join(".cache"))).ok_or_else(|| {
+        "compiled controllers have to be kept somewhere: set HOME or XDG_CACHE_HOME to an absolute path"
+            .into()
+    })
+}
+
+/// The tool's folder in it, which nobody else can write: what is in it is run.
+fn own(cache: &Path) -> Result<PathBuf, String> {
+    let folder = cache.join("autogen");
+    let failed = |e: io::Error| format!("{}: {e}", folder.display());
+    fs::create_dir_all(cache).map_err(failed)?;
+    let mut builder = DirBuilder::new();
+    #[cfg(unix)]
+    std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
+    match builder.create(&folder) {
+        Err(error) if error.kind() != io::ErrorKind::AlreadyExists => return Err(failed(error)),
+        _ => {}
+    }
+    close_to_others(&folder)?;
+    Ok(folder)
+}
+
+#[cfg(unix)]
+fn close_to_others(folder: &Path) -> Result<(), String> {
+    use std::os::unix::fs::{MetadataExt, PermissionsExt};
+    let failed = |e: io::Error| format!("{}: {e}", folder.display());
+    let metadata = folder.symlink_metadata().map_err(failed)?;
+    if !metadata.is_dir() || metadata.uid() != rustix::process::geteuid().as_raw() {
+        return Err(format!(
+            "{}: compiled controllers are kept here and run from here, so it has to be a folder of your own; \
+             set XDG_CACHE_HOME to another place",
+            folder.display()
+        ));
+    }
+    if metadata.mode() & 0o077 != 0 {
+        fs::set_permissions(folder, fs::Permissions::from_mode(0o700)).map_err(failed)?;
+    }
+    Ok(())
+}
+
+#[cfg(not(unix))]
+fn close_to_others(_: &Path) -> Result<(), String> {
+    Ok(())
+}

@@ -1,0 +1,178 @@
+//! The output folder: written whole or not at all, by one process at a time, and never over a file that is
+//! somebody else's.
+
+mod manifest;
+mod present;
+mod transaction;
+
+pub use manifest::{MANIFEST, hash};
+
+use super::lock::Lock;
+use autogen::backend::Files;
+use manifest::Manifest;
+use present::{Present, obstacles, present};
+use serde_json::{Map, Value};
+use std::collections::BTreeMap;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use transaction::Change;
+
+/// Written by `commission` beside the files of a build.
+pub const RESULTS: &str = "results.json";
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Overwrite {
+    /// Only files that autogen wrote and nobody changed since.
+    Own,
+    Everything,
+}
+
+#[derive(Debug)]
+pub enum Refusal {
+    /// These would be overwritten.
+    NotOurs(Vec<PathBuf>),
+    /// Symbolic links, files where folders have to be, or folders where files have to be.
+    InTheWay(Vec<PathBuf>),
+    /// Files that were read would be overwritten.
+    Inputs(Vec<PathBuf>),
+    Io(PathBuf, io::Error),
+}
+
+/// A folder that no other process writes to.
+#[derive(Debug)]
+pub struct Output {
+    folder: PathBuf,
+    is_new: bool,
+    _lock: Lock,
+}
+
+impl Output {
+    /// Makes the folder if there is none. What an interrupted process has left half written is undone first.
+    /// `waits` is called once if another process has the folder.
+    pub fn open(folder: &Path, waits: impl Fn()) -> Result<Self, Refusal> {
+        if folder.symlink_metadata().is_ok() && !folder.is_dir() {
+            return Err(Refusal::InTheWay(vec![folder.into()]));
+        }
+        let failed = |e: io::Error| Refusal::Io(folder.into(), e);
+        let is_new = !folder.is_dir();
+        let lock = loop {
+            fs::create_dir_all(folder).map_err(failed)?;
+            let lock = Lock::folder(folder, &waits).map_err(failed)?;
+            if lock.is_on(folder) {
+                break lock;
+            }
+        };
+        let output = Self { folder: folder.into(), is_new, _lock: lock };
+        transaction::recover(folder)?;
+        Ok(output)
+    }
+
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// Writes the files and a manifest of them, with `about` first in it, and removes those of the last time that
+    /// are no more. Results stay only where nothing else changes: they are those of other controllers.
+    pub fn write(
+        &self,
+        files: &Files,
+        about: Map<String, Value>,
+        overwrite: Overwrite,
+    ) -> Result<(), Refusal> {
+        let before = Manifest::read(&self.folder);
+        let mut hashes: BTreeMap<String, String> =
+            files.iter().map(|(name, text)| (name.clone(), hash(text.as_bytes()))).collect();
+        let same = |name: &String, hash: &String| before.files.get(name) == Some(hash);
+        if about == before.about
+            && hashes.iter().all(|(name, hash)| same(name, hash))
+            && let Some(results) = before.files.get(RESULTS)
+        {
+            hashes.insert(RESULTS.into(), results.clone());
+        }
+        self.replace(files, &before, Manifest::new(about, hashes), overwrite)
+    }
+
+    /// Writes the results of the controllers that are in the folder.
+    pub fn write_results(&self, text: &str, overwrite: Overwrite) -> Result<(), Refusal> {
+        let before = Manifest::read(&self.folder);
+        let mut hashes = before.files.clone();
+        hashes.insert(RESULTS.into(), hash(text.as_bytes()));
+        let files = Files::from([(RESULTS.to_string(), text.to_string())]);
+        self.replace(&files, &before, Manifest::new(before.about.clone(), hashes), overwrite)
+    }
+
+    /// Whether results may be written: a run may be long, and it is better to know before it.
+    pub fn may_write_results(&self, overwrite: Overwrite) -> Result<(), Refusal> {
+        let before = Manifest::read(&self.folder);
+        let names = [RESULTS.to_string()];
+        let found = obstacles(&self.folder, names.iter());
+        if !found.is_empty() {
+            return Err(Refusal::InTheWay(found));
+        }
+        match present(&self.folder, RESULTS)? {
+            Present::File(hash)
+                if overwrite == Overwrite::Own && before.files.get(RESULTS) != Some(&hash) =>
+            {
+                Err(Refusal::NotOurs(vec![self.folder.join(RESULTS)]))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Writes those of `files` that are not there yet and the new manifest, and removes what it no longer has.
+    fn replace(
+        &self,
+        files: &Files,
+        before: &Manifest,
+        after: Manifest,
+        overwrite: Overwrite,
+    ) -> Result<(), Refusal> {
+        let manifest = after.to_text();
+        let texts = files.iter().map(|(name, text)| (name, text.as_str()));
+        let manifest_name = MANIFEST.to_string();
+        let texts: Vec<(&String, &str)> = texts.chain([(&manifest_name, manifest.as_str())]).collect();
+        let found = obstacles(&self.folder, texts.iter().map(|(name, _)| *name).chain(before.files.keys()));
+        if !found.is_empty() {
+            return Err(Refusal::InTheWay(found));
+        }
+        let mut foreign = Vec::new();
+        let mut changes = Vec::new();
+        for name in before.files.keys().filter(|name| !after.files.contains_key(*name)) {
+            if present(&self.folder, name)?.is(before.files.get(name)) {
+                changes.push(Change { name: name.clone(), existed: true, text: None });
+            }
+        }
+        for (name, text) in texts {
+            let there = present(&self.folder, name)?;
+            if there.is(Some(&hash(text.as_bytes()))) {
+                continue;
+            }
+            let is_own = match name == MANIFEST {
+                true => before.is_whole,
+                false => there.is(before.files.get(name)),
+            };
+            if there != Present::Nothing && !is_own {
+                foreign.push(self.folder.join(name));
+            }
+            let existed = there != Present::Nothing;
+            changes.push(Change { name: name.clone(), existed, text: Some(text.into()) });
+        }
+        if overwrite == Overwrite::Own && !foreign.is_empty() {
+            return Err(Refusal::NotOurs(foreign));
+        }
+        transaction::apply(&self.folder, &changes)
+    }
+}
+
+impl Drop for Output {
+    fn drop(&mut self) {
+        if self.is_new {
+            // It goes only if it is empty.
+            let _ = fs::remove_dir(&self.folder);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,55 @@
+//! What is in the output folder. No symbolic link within it is followed.
+
+use super::Refusal;
+use super::manifest::hash;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Present {
+    Nothing,
+    /// With its hash.
+    File(String),
+}
+
+impl Present {
+    /// Whether this is a file with that hash.
+    pub fn is(&self, hash: Option<&String>) -> bool {
+        matches!((self, hash), (Present::File(own), Some(hash)) if own == hash)
+    }
+}
+
+pub fn present(folder: &Path, name: &str) -> Result<Present, Refusal> {
+    let path = folder.join(name);
+    match fs::read(&path) {
+        Ok(bytes) => Ok(Present::File(hash(&bytes))),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Present::Nothing),
+        Err(error) => Err(Refusal::Io(path, error)),
+    }
+}
+
+/// The text of a file that is no link and nothing else than a file.
+pub fn text(path: &Path) -> io::Result<String> {
+    match path.symlink_metadata()?.is_file() {
+        true => fs::read_to_string(path),
+        false => Err(io::Error::other("this is no file")),
+    }
+}
+
+/// What is no folder where one has to be, and what is no file where one has to be, in order.
+pub fn obstacles<'a>(folder: &Path, names: impl Iterator<Item = &'a String>) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    for name in names {
+        let file = folder.join(name);
+        if file.symlink_metadata().is_ok_and(|there| !there.is_file()) {
+            found.push(file);
+        }
+        let above = Path::new(name).ancestors().skip(1).filter(|part| part.file_name().is_some());
+        let above = above.map(|part| folder.join(part));
+        found.extend(above.filter(|part| part.symlink_metadata().is_ok_and(|there| !there.is_dir())));
+    }
+    found.sort();
+    found.dedup();
+    found
+}

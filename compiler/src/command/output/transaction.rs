@@ -1,0 +1,188 @@
+//! Several files changed at once.
+//!
+//! The new files wait in a folder within the output folder until all of them are on the disk. A journal says what
+//! will be done. Then each old file goes into that folder and the new one takes its place. When the journal is
+//! removed, the new output holds; as long as it is there, the old one does, and whoever opens the folder next
+//! restores it. An error restores it at once.
+
+use super::Refusal;
+use super::manifest::{hash, is_within};
+use super::present::{self, Present, obstacles, present};
+use crate::command::interrupt::{self, Temporary};
+use serde_json::{Value, json};
+use std::fs::{self, File};
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// The folder of what is not finished. Whoever sees it knows that the rest may be half.
+const UNFINISHED: &str = "autogen-unfinished";
+const JOURNAL: &str = "journal.json";
+
+/// What happens to a file.
+#[derive(Clone, Debug)]
+pub struct Change {
+    pub name: String,
+    pub existed: bool,
+    /// `None` removes it.
+    pub text: Option<String>,
+}
+
+/// Makes all changes, or none.
+pub fn apply(folder: &Path, changes: &[Change]) -> Result<(), Refusal> {
+    if changes.is_empty() {
+        return Ok(());
+    }
+    let staged = Temporary::new(folder.join(UNFINISHED));
+    let done = stage(folder, staged.path(), changes).and_then(|()| {
+        let _writing = interrupt::writing();
+        exchange(folder, staged.path(), changes)
+    });
+    if done.is_err() && staged.path().join(JOURNAL).exists() {
+        let _writing = interrupt::writing();
+        if let Err(error) = undo(folder, staged.path()) {
+            // The next process tries again.
+            staged.leave();
+            return Err(error);
+        }
+    }
+    if done.is_err() {
+        remove_empty(folder, changes.iter().filter(|c| !c.existed).map(|c| c.name.as_str()));
+    }
+    done
+}
+
+/// Undoes what a process has begun that is no more.
+pub fn recover(folder: &Path) -> Result<(), Refusal> {
+    let unfinished = folder.join(UNFINISHED);
+    match unfinished.symlink_metadata() {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
+        Err(error) => return Err(Refusal::Io(unfinished, error)),
+        Ok(there) if !there.is_dir() => return Err(Refusal::InTheWay(vec![unfinished])),
+        Ok(_) => {}
+    }
+    let _writing = interrupt::writing();
+    if unfinished.join(JOURNAL).symlink_metadata().is_ok() {
+        undo(folder, &unfinished)?;
+    }
+    fs::remove_dir_all(&unfinished).map_err(|e| Refusal::Io(unfinished, e))
+}
+
+/// Puts the new files and the journal on the disk.
+fn stage(folder: &Path, staged: &Path, changes: &[Change]) -> Result<(), Refusal> {
+    create(staged)?;
+    let mut journal = Vec::new();
+    for Change { name, existed, text } in changes {
+        journal.push(
+            json!({ "name": name, "existed": existed, "hash": text.as_ref().map(|t| hash(t.as_bytes())) }),
+        );
+        if *existed {
+            create_parent(&staged.join("old").join(name))?;
+        }
+        if let Some(text) = text {
+            let path = staged.join("new").join(name);
+            create_parent(&path)?;
+            create_parent(&folder.join(name))?;
+            fs::write(&path, text).map_err(|e| Refusal::Io(path, e))?;
+        }
+    }
+    for name in changes.iter().filter(|c| c.text.is_some()).map(|c| &c.name) {
+        sync(&staged.join("new").join(name))?;
+    }
+    let journal = format!("{:#}\n", Value::from(journal));
+    let path = staged.join("journal");
+    fs::write(&path, journal).map_err(|e| Refusal::Io(path.clone(), e))?;
+    sync(&path)?;
+    rename(&path, &staged.join(JOURNAL))?;
+    sync(staged)
+}
+
+/// Lets old and new files change places. The last step makes it so.
+fn exchange(folder: &Path, staged: &Path, changes: &[Change]) -> Result<(), Refusal> {
+    for Change { name, existed, text } in changes {
+        let place = folder.join(name);
+        if *existed {
+            rename(&place, &staged.join("old").join(name))?;
+        }
+        if text.is_some() {
+            rename(&staged.join("new").join(name), &place)?;
+        }
+    }
+    for name in changes.iter().map(|c| &c.name) {
+        if let Some(above) = folder.join(name).parent() {
+            sync(above)?;
+        }
+    }
+    let journal = staged.join(JOURNAL);
+    fs::remove_file(&journal).map_err(|e| Refusal::Io(journal, e))?;
+    remove_empty(folder, changes.iter().filter(|c| c.text.is_none()).map(|c| c.name.as_str()));
+    Ok(())
+}
+
+/// Restores the files that were there before, as the journal says. It may be done again from anywhere in it.
+fn undo(folder: &Path, staged: &Path) -> Result<(), Refusal> {
+    let journal = staged.join(JOURNAL);
+    let failed = |e: io::Error| Refusal::Io(journal.clone(), e);
+    let text = present::text(&journal).map_err(failed)?;
+    let all: Vec<Value> = serde_json::from_str(&text).map_err(|e| failed(e.into()))?;
+    let named = |entry: &Value| Some(entry["name"].as_str()?.to_string());
+    let names: Vec<String> = all.iter().filter_map(named).collect();
+    if names.len() < all.len() || !names.iter().all(|name| is_within(name)) {
+        return Err(failed(io::Error::other(
+            "this is no journal of autogen; remove the folder that it is in",
+        )));
+    }
+    let olds: Vec<String> = names.iter().map(|name| format!("old/{name}")).collect();
+    let found = [obstacles(folder, names.iter()), obstacles(staged, olds.iter())].concat();
+    if !found.is_empty() {
+        return Err(Refusal::InTheWay(found));
+    }
+    for (name, entry) in names.iter().zip(&all) {
+        let (old, place) = (staged.join("old").join(name), folder.join(name));
+        let new = entry["hash"].as_str().map(String::from);
+        let there = present(folder, name)?;
+        if there != Present::Nothing && !there.is(new.as_ref()) {
+            // The old file, or somebody has changed it since.
+            continue;
+        }
+        if old.symlink_metadata().is_ok_and(|old| old.is_file()) {
+            create_parent(&place)?;
+            rename(&old, &place)?;
+        } else if entry["existed"] == false && there != Present::Nothing {
+            fs::remove_file(&place).map_err(|e| Refusal::Io(place, e))?;
+        }
+    }
+    remove_empty(folder, names.iter().map(String::as_str));
+    fs::remove_file(&journal).map_err(failed)
+}
+
+/// Removes the folders of these files that are empty.
+fn remove_empty<'a>(folder: &Path, names: impl Iterator<Item = &'a str>) {
+    let above = |name: &'a str| Path::new(name).ancestors().skip(1).filter(|part| part.file_name().is_some());
+    let mut folders: Vec<PathBuf> = names.flat_map(above).map(PathBuf::from).collect();
+    folders.sort();
+    folders.dedup();
+    for part in folders.iter().rev() {
+        let _ = fs::remove_dir(folder.join(part));
+    }
+}
+
+fn rename(from: &Path, to: &Path) -> Result<(), Refusal> {
+    fs::rename(from, to).map_err(|e| Refusal::Io(to.into(), e))
+}
+
+fn create(folder: &Path) -> Result<(), Refusal> {
+    fs::create_dir_all(folder).map_err(|e| Refusal::Io(folder.into(), e))
+}
+
+fn create_parent(path: &Path) -> Result<(), Refusal> {
+    path.parent().map_or(Ok(()), create)
+}
+
+/// What is written there is on the disk. Elsewhere than on Unix, folders cannot be asked to be.
+fn sync(path: &Path) -> Result<(), Refusal> {
+    if cfg!(not(unix)) && path.is_dir() {
+        return Ok(());
+    }
+    let synced = File::open(path).and_then(|file| file.sync_all());
+    synced.map_err(|e| Refusal::Io(path.into(), e))
+}

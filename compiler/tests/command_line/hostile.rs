@@ -1,0 +1,314 @@
+//! Folders that somebody else has made: nothing in them is run, and nothing outside them is changed.
+
+use super::{autogen, autogen_in, contents, errors, example, folder, status};
+use std::fs;
+use std::os::unix::fs::{PermissionsExt, symlink};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+const SHORT: &str = r#"{
+    "kinds": [{"name": "battery", "height": 0.053}],
+    "orders": [{"station": "as1", "parts": {"battery": 1}}],
+    "supply": {"items": ["battery"]}
+}"#;
+
+/// A folder with the default layout and a short scenario.
+fn line(name: &str) -> PathBuf {
+    let folder = folder(name);
+    fs::copy(example("ariac2021/default.json"), folder.join("default.json")).expect("the example");
+    fs::write(folder.join("scenario.json"), SHORT).expect("a file");
+    folder
+}
+
+/// A program that leaves a mark.
+fn trap(folder: &Path, name: &str) -> PathBuf {
+    let path = folder.join(name);
+    fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
+    fs::write(&path, format!("#!/bin/sh\ntouch {}\nexec \"$@\"\n", folder.join("sprung").display()))
+        .expect("a script");
+    fs::set_permissions(&path, fs::Permissions::from_mode(0o755)).expect("a program");
+    path
+}
+
+fn assert_unsprung(folder: &Path) {
+    assert!(!folder.join("sprung").exists(), "a program of the folder was run");
+}
+
+#[test]
+fn nothing_in_the_working_folder_is_run() {
+    let folder = line("hostile_cargo");
+    let trap = trap(&folder, "evil.sh").display().to_string();
+    fs::create_dir_all(folder.join(".cargo")).expect("a folder");
+    let configuration = format!(
+        "[build]\nrustc = \"{trap}\"\nrustc-wrapper = \"{trap}\"\ntarget-dir = \"stolen\"\n\
+         [target.'cfg(all())']\nlinker = \"{trap}\"\n"
+    );
+    fs::write(folder.join(".cargo/config.toml"), configuration).expect("a file");
+    let toolchain = format!("[toolchain]\npath = \"{}\"\n", folder.display());
+    fs::write(folder.join("rust-toolchain.toml"), toolchain).expect("a file");
+    self::trap(&folder, "bin/cargo");
+    self::trap(&folder, "bin/rustc");
+    self::trap(&folder, "cargo");
+    // Not the cargo that runs this test, which is set apart from rustup.
+    let output = Command::new(env!("CARGO_BIN_EXE_autogen"))
+        .args(["commission", "default.json"])
+        .current_dir(&folder)
+        .env("XDG_CACHE_HOME", folder.with_file_name("hostile_cache"))
+        .env_remove("CARGO")
+        .env_remove("RUSTUP_TOOLCHAIN")
+        .output()
+        .expect("autogen can be started");
+    assert_eq!(status(&output), 0, "{}", errors(&output));
+    assert_unsprung(&folder);
+    assert!(!folder.join("stolen").exists());
+}
+
+#[test]
+fn the_cache_is_nowhere_near_the_working_folder() {
+    let folder = line("hostile_cache_path");
+    let commission = |variables: &[(&str, &str)]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_autogen"));
+        command.args(["commission", "default.json"]).current_dir(&folder);
+        command.env_remove("XDG_CACHE_HOME").env_remove("HOME").envs(variables.iter().copied());
+        command.output().expect("autogen can be started")
+    };
+    for variables in [&[][..], &[("XDG_CACHE_HOME", "cache")], &[("HOME", ".")]] {
+        let output = commission(variables);
+        assert_eq!(status(&output), 2, "{variables:?}");
+        assert!(errors(&output).contains("set HOME or XDG_CACHE_HOME"), "{}", errors(&output));
+        assert!(!folder.join("cache").exists() && !folder.join(".cache").exists());
+    }
+}
+
+#[test]
+fn compiled_controllers_that_were_replaced_or_cut_are_made_anew() {
+    let folder = line("hostile_library");
+    let cache = folder.join("cache");
+    let commission = || {
+        let output = autogen_in(&folder, &cache, &["commission", "default.json"]);
+        assert_eq!(status(&output), 0, "{}", errors(&output));
+        errors(&output)
+    };
+    assert!(commission().contains("compiling"));
+    assert_eq!(commission(), "");
+    let files = contents(&cache);
+    let [(library, bytes), (hash, _)] = &files[..] else { panic!("a library and its hash: {files:?}") };
+    let bad = |said: &str| said.contains("are not what was compiled") && said.contains("compiling");
+    fs::write(library, &bytes[..bytes.len() / 2]).expect("a file");
+    assert!(bad(&commission()), "a library that was cut");
+    fs::write(library, "something else").expect("a file");
+    assert!(bad(&commission()), "a library that was replaced");
+    fs::remove_file(hash).expect("a file");
+    assert!(bad(&commission()), "a library without its hash");
+    assert_eq!(commission(), "");
+    assert_eq!(contents(&cache).len(), 2);
+}
+
+/// Everything outside the output folder, which has to stay.
+fn outside(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
+    contents(folder).into_iter().filter(|(path, _)| !path.starts_with(folder.join("out"))).collect()
+}
+
+#[test]
+fn a_manifest_of_somebody_else_removes_nothing() {
+    let folder = line("hostile_manifest");
+    let precious = folder.join("precious.txt");
+    fs::write(&precious, "precious").expect("a file");
+    // `sha256sum` of the text.
+    let hash = "e7cf4f4b5a1c2c6e4d";
+    let names = [
+        precious.display().to_string(),
+        "../../precious.txt".into(),
+        "rust/../../../precious.txt".into(),
+        "/etc/hostname".into(),
+        "..".into(),
+        String::new(),
+    ];
+    let hash = sha256(&precious).unwrap_or_else(|| hash.into());
+    let files: Vec<String> = names.iter().map(|name| format!("{name:?}: \"{hash}\"")).collect();
+    fs::create_dir_all(folder.join("out/default")).expect("a folder");
+    fs::write(
+        folder.join("out/default/manifest.json"),
+        format!("{{ \"files\": {{ {} }} }}", files.join(", ")),
+    )
+    .expect("a file");
+    let before = outside(&folder);
+    let output = autogen(&folder, &["build", "default.json", "--force"]);
+    assert_eq!(status(&output), 0, "{}", errors(&output));
+    assert!(outside(&folder) == before);
+}
+
+/// As the tool of that name says it.
+fn sha256(path: &Path) -> Option<String> {
+    let output = Command::new("sha256sum").arg(path).output().ok()?;
+    String::from_utf8_lossy(&output.stdout).split_whitespace().next().map(String::from)
+}
+
+#[test]
+fn a_journal_of_somebody_else_moves_nothing() {
+    let folder = line("hostile_journal");
+    fs::write(folder.join("precious.txt"), "precious").expect("a file");
+    let hash = sha256(&folder.join("precious.txt")).unwrap_or_default();
+    let unfinished = folder.join("out/default/autogen-unfinished");
+    let journals = [
+        (format!(r#"[{{"name": "../../precious.txt", "existed": false, "hash": "{hash}"}}]"#), None),
+        (r#"[{"name": "precious.txt", "existed": true, "hash": null}]"#.to_string(), Some("old")),
+        ("[1, 2".to_string(), None),
+    ];
+    for (journal, link) in journals {
+        let _ = fs::remove_dir_all(folder.join("out"));
+        fs::create_dir_all(&unfinished).expect("a folder");
+        fs::write(unfinished.join("journal.json"), journal).expect("a file");
+        if let Some(link) = link {
+            symlink(&folder, unfinished.join(link)).expect("a link");
+        }
+        let before = outside(&folder);
+        let output = autogen(&folder, &["build", "default.json", "--force"]);
+        assert!(outside(&folder) == before, "{}", errors(&output));
+        assert_eq!(status(&output), 2, "{}", errors(&output));
+    }
+}
+
+#[test]
+fn links_within_the_output_lead_nowhere() {
+    for (link, to) in [
+        ("out", "elsewhere"),
+        ("out/default", "elsewhere"),
+        ("out/default/plc", "elsewhere"),
+        ("out/default/rust/controllers/src", "elsewhere"),
+        ("out/default/manifest.json", "elsewhere/manifest.json"),
+        ("out/default/graph/plan.svg", "elsewhere/plan.svg"),
+        ("out/default/results.json", "elsewhere/results.json"),
+        ("out/default/autogen-unfinished", "elsewhere"),
+    ] {
+        let folder = line("hostile_links");
+        fs::create_dir_all(folder.join("elsewhere")).expect("a folder");
+        fs::write(folder.join("elsewhere/plan.svg"), "somebody else's").expect("a file");
+        let from = folder.join(link);
+        fs::create_dir_all(from.parent().expect("a folder")).expect("a folder");
+        symlink(folder.join(to), &from).expect("a link");
+        let before = outside(&folder);
+        let output = autogen(&folder, &["commission", "default.json", "--force"]);
+        assert_eq!(status(&output), 2, "{link}: {}", errors(&output));
+        assert!(errors(&output).contains(link) && errors(&output).contains("link"), "{}", errors(&output));
+        assert!(outside(&folder) == before, "{link}");
+    }
+    // What the user names may be a link.
+    let folder = line("hostile_links");
+    fs::create_dir_all(folder.join("elsewhere")).expect("a folder");
+    symlink(folder.join("elsewhere"), folder.join("named")).expect("a link");
+    assert_eq!(status(&autogen(&folder, &["build", "default.json", "-o", "named"])), 0);
+    assert!(folder.join("elsewhere/manifest.json").exists());
+}
+
+#[test]
+fn a_file_that_is_gone_is_written_again() {
+    let folder = line("missing_files");
+    let build = |more: &[&str]| autogen(&folder, &[&["build", "default.json"], more].concat());
+    assert_eq!(status(&build(&[])), 0);
+    let first = contents(&folder.join("out"));
+    fs::remove_file(folder.join("out/default/rust/controllers/src/robots/agv4.rs")).expect("a file");
+    fs::remove_dir_all(folder.join("out/default/plc")).expect("a folder");
+    assert_eq!(status(&build(&[])), 0);
+    assert!(contents(&folder.join("out")) == first);
+    // One that would be removed.
+    fs::copy(example("ariac2021/less_agv.json"), folder.join("less.json")).expect("the example");
+    fs::remove_file(folder.join("out/default/rust/controllers/src/robots/agv4.rs")).expect("a file");
+    let output = autogen(&folder, &["build", "less.json", "-o", "out/default"]);
+    assert_eq!(status(&output), 0, "{}", errors(&output));
+}
+
+#[test]
+fn what_a_person_has_changed_stays() {
+    let folder = line("changed_by_hand");
+    let commission = |more: &[&str]| autogen(&folder, &[&["commission", "default.json"], more].concat());
+    assert_eq!(status(&commission(&[])), 0);
+    for name in ["manifest.json", "results.json"] {
+        let path = folder.join("out/default").join(name);
+        let text = fs::read_to_string(&path).expect("a file");
+        let changed = text.replacen('{', "{\n  \"note\": \"mine\",", 1);
+        fs::write(&path, &changed).expect("a file");
+        let more: &[&str] = if name == "manifest.json" { &["--set", "agv.capacity=3"] } else { &[] };
+        let output = commission(more);
+        assert_eq!(status(&output), 2, "{name}");
+        assert!(errors(&output).contains(name), "{}", errors(&output));
+        assert_eq!(fs::read_to_string(&path).expect("a file"), changed);
+        let output = commission(&["--force"]);
+        assert_eq!(status(&output), 0, "{}", errors(&output));
+        assert_eq!(fs::read_to_string(&path).expect("a file"), text);
+    }
+}
+
+#[test]
+fn results_of_other_controllers_do_not_stay() {
+    let folder = line("other_results");
+    let results = folder.join("out/default/results.json");
+    assert_eq!(status(&autogen(&folder, &["commission", "default.json"])), 0);
+    assert_eq!(status(&autogen(&folder, &["build", "default.json"])), 0);
+    assert!(results.exists(), "nothing has changed");
+    assert_eq!(status(&autogen(&folder, &["build", "default.json", "--set", "agv.capacity=3"])), 0);
+    assert!(!results.exists());
+}
+
+#[test]
+fn no_input_is_written_over() {
+    let folder = line("over_the_input");
+    let before = outside(&folder);
+    for option in ["--hashes", "--io-trace"] {
+        let output = autogen(&folder, &["commission", "default.json", option, "default.json", "--force"]);
+        assert_eq!(status(&output), 2);
+        assert!(errors(&output).contains("a file of the input"), "{}", errors(&output));
+    }
+    fs::rename(folder.join("default.json"), folder.join("manifest.json")).expect("a file");
+    let output = autogen(&folder, &["build", "manifest.json", "-o", ".", "--force"]);
+    assert_eq!(status(&output), 2, "{}", errors(&output));
+    assert!(errors(&output).contains("were read"), "{}", errors(&output));
+    fs::rename(folder.join("manifest.json"), folder.join("default.json")).expect("a file");
+    assert!(outside(&folder) == before);
+}
+
+#[test]
+fn a_planted_link_does_not_become_a_temporary_file() {
+    let folder = line("planted_link");
+    fs::write(folder.join("precious.txt"), "precious").expect("a file");
+    // Names that were foreseen once.
+    for number in 1..3000 {
+        let _ = symlink("precious.txt", folder.join(format!(".trace.csv.{number}.partial")));
+    }
+    let _ = symlink("precious.txt", folder.join(".trace.csv.abcdef.partial"));
+    let output = autogen(&folder, &["commission", "default.json", "--io-trace", "trace.csv"]);
+    assert_eq!(status(&output), 0, "{}", errors(&output));
+    assert_eq!(fs::read_to_string(folder.join("precious.txt")).expect("a file"), "precious");
+    assert!(folder.join(".trace.csv.abcdef.partial").symlink_metadata().is_ok());
+}
+
+#[test]
+fn files_of_the_same_name_stay_apart() {
+    let folder = line("same_names");
+    for (number, types) in ["a", "b"].iter().enumerate() {
+        fs::create_dir_all(folder.join(types)).expect("a folder");
+        // One of them is named as a graph is that is no automaton's.
+        let name = if number == 0 { "Connectivity" } else { "Plan" };
+        let text = format!(
+            "automaton {name} on bin {{\n    initial -> Idle {{}}\n    state Idle {{ when after 1 s -> Idle {{}} }}\n}}\n"
+        );
+        fs::write(folder.join(types).join("own.aut"), text).expect("a file");
+    }
+    fs::create_dir_all(folder.join("deep")).expect("a folder");
+    let layout = fs::read_to_string(folder.join("default.json")).expect("a file");
+    let layout = layout
+        .replace("\"name\": \"bin1\", \"type\": \"bin\"", "\"name\": \"bin1\", \"type\": \"connectivity\"");
+    fs::write(folder.join("deep/default.json"), layout).expect("a file");
+    let arguments = ["deep/default.json", "--specs", "a", "--specs", "b"];
+    let output = autogen(&folder, &[&["build", "-o", "made"], &arguments[..]].concat());
+    assert_eq!(status(&output), 0, "{}", errors(&output));
+    let text = |name: &str| fs::read_to_string(folder.join("made").join(name)).expect("a file");
+    let manifest: serde_json::Value = serde_json::from_str(&text("manifest.json")).expect("JSON");
+    let inputs = manifest["inputs"].as_object().expect("inputs");
+    assert!(inputs.contains_key("own.aut") && inputs.contains_key("own.aut (2)"), "{inputs:?}");
+    assert!(text("graph/connectivity.dot").contains("conveyor_belt"));
+    assert!(text("graph/connectivity_.dot").contains("Idle"));
+    let graph = |of: &str| autogen(&folder, &[&["graph", "--of", of], &arguments[..]].concat()).stdout;
+    assert_eq!(graph("connectivity_"), text("graph/connectivity_.dot").into_bytes());
+    assert_eq!(graph("connectivity"), text("graph/connectivity.dot").into_bytes());
+}

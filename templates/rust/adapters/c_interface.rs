@@ -1,0 +1,182 @@
+//! The controllers as a shared library.
+//!
+//! A session is the controllers of one layout. A caller opens it with the text of the parameters, scans, and
+//! closes it; sessions share nothing, and each is used by one thread at a time.
+#![allow(unsafe_code)] // Pointers are all that a C interface has.
+
+use crate::layout::{Layout, latch, publish};
+use crate::read::Reader;
+use controllers::system::{System, SystemInputs};
+
+/// Changes with the functions below.
+pub const VERSION: u32 = 1;
+
+pub struct Session {
+    layout: Layout,
+    system: System,
+    image: Vec<f64>,
+    trace: Vec<f64>,
+}
+
+/// Words of a process image, which are the caller's.
+#[repr(C)]
+pub struct Image {
+    pub words: *mut f64,
+    pub count: usize,
+}
+
+/// Inputs of the system as a whole: 1 is true.
+#[repr(C)]
+pub struct Inputs {
+    pub run_permit: u8,
+    pub start: u8,
+    pub reset: u8,
+}
+
+/// Outputs of the system as a whole: 1 is true.
+#[repr(C)]
+#[derive(Default)]
+pub struct Outputs {
+    pub running: u8,
+    pub fault: u8,
+    pub fault_code: i32,
+    pub fault_robot: i32,
+}
+
+#[unsafe(no_mangle)]
+pub extern "C" fn autogen_version() -> u32 {
+    VERSION
+}
+
+/// A session, or null: then `message` holds why, cut to `capacity` bytes, and `length` its length.
+///
+/// # Safety
+/// `text` points to `text_length` bytes, `message` to `capacity` bytes, `length` to a number.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn autogen_open(
+    text: *const u8,
+    text_length: usize,
+    message: *mut u8,
+    capacity: usize,
+    length: *mut usize,
+) -> *mut Session {
+    // SAFETY: as the caller promises.
+    let bytes = unsafe { std::slice::from_raw_parts(text, text_length) };
+    let read = || Layout::read(&mut Reader::new(str::from_utf8(bytes).map_err(|e| e.to_string())?));
+    match read() {
+        Ok(layout) => {
+            let session = Session { layout, system: System::new(), image: Vec::new(), trace: Vec::new() };
+            Box::into_raw(Box::new(session))
+        }
+        Err(reason) => {
+            let count = reason.len().min(capacity);
+            // SAFETY: no more than `capacity` bytes are written, and the two do not overlap.
+            unsafe {
+                message.copy_from_nonoverlapping(reason.as_ptr(), count);
+                length.write(count);
+            }
+            std::ptr::null_mut()
+        }
+    }
+}
+
+/// Frees a session.
+///
+/// # Safety
+/// `session` is one that was opened, and is not used any more.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn autogen_close(session: *mut Session) {
+    // SAFETY: `autogen_open` has made the box.
+    let session = unsafe { Box::from_raw(session) };
+    let Layout { kept, .. } = session.layout;
+    // SAFETY: nothing of the layout has left the session, and dropping the rest of it reads none of it.
+    unsafe { kept.free() }
+}
+
+/// Number of robots.
+///
+/// # Safety
+/// `session` is open.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn autogen_robots(session: *const Session) -> usize {
+    // SAFETY: as the caller promises.
+    unsafe { &*session }.layout.robots.len()
+}
+
+/// One scan: latches `inputs`, steps all robots, publishes into `outputs`. Both have an image for each robot,
+/// in layout order. 0, or the number of the first robot from 1 whose output image has another size.
+///
+/// # Safety
+/// `session` is open; `inputs` and `outputs` point to `robots` images, `answer` to the outputs of the system,
+/// and none of them overlap.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn autogen_scan(
+    session: *mut Session,
+    system: Inputs,
+    inputs: *const Image,
+    outputs: *const Image,
+    robots: usize,
+    answer: *mut Outputs,
+) -> usize {
+    // SAFETY: as the caller promises.
+    let (session, inputs, outputs, answer) = unsafe {
+        (
+            &mut *session,
+            std::slice::from_raw_parts(inputs, robots),
+            std::slice::from_raw_parts(outputs, robots),
+            &mut *answer,
+        )
+    };
+    for (robot, image) in session.layout.robots.iter_mut().zip(inputs) {
+        // SAFETY: an image is `count` words.
+        latch(robot, unsafe { std::slice::from_raw_parts(image.words, image.count) });
+    }
+    let system = SystemInputs {
+        run_permit: system.run_permit != 0,
+        start: system.start != 0,
+        reset: system.reset != 0,
+    };
+    let found = session.layout.scan(&mut session.system, system);
+    *answer = Outputs {
+        running: found.running.into(),
+        fault: found.fault.into(),
+        fault_code: found.fault_code,
+        fault_robot: found.fault_robot,
+    };
+    for (number, (robot, image)) in session.layout.robots.iter().zip(outputs).enumerate() {
+        publish(robot, found.running, &mut session.image);
+        if session.image.len() != image.count {
+            return number + 1;
+        }
+        // SAFETY: an image is `count` words, and is not the session's own.
+        unsafe { image.words.copy_from_nonoverlapping(session.image.as_ptr(), image.count) };
+    }
+    0
+}
+
+/// Number of the state of a robot; the greatest number if there is no such robot.
+///
+/// # Safety
+/// `session` is open.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn autogen_state(session: *const Session, robot: usize) -> usize {
+    // SAFETY: as the caller promises.
+    unsafe { &*session }.layout.robots.get(robot).map_or(usize::MAX, |robot| robot.state())
+}
+
+/// Number of words of all that the controllers remember; they are written if they fit into `capacity`.
+///
+/// # Safety
+/// `session` is open, and `words` points to `capacity` words.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn autogen_trace(session: *mut Session, words: *mut f64, capacity: usize) -> usize {
+    // SAFETY: as the caller promises.
+    let session = unsafe { &mut *session };
+    session.trace.clear();
+    session.layout.trace(&mut session.trace);
+    if session.trace.len() <= capacity {
+        // SAFETY: they fit, and are not the session's own.
+        unsafe { words.copy_from_nonoverlapping(session.trace.as_ptr(), session.trace.len()) };
+    }
+    session.trace.len()
+}
