@@ -1,8 +1,8 @@
 //! The program as a user runs it.
 
 #[cfg(target_os = "linux")]
-#[path = "command_line/hostile.rs"]
-mod hostile;
+#[path = "command_line/hostile_folder.rs"]
+mod hostile_folder;
 #[cfg(unix)]
 #[path = "command_line/interrupt.rs"]
 mod interrupt;
