@@ -1,6 +1,9 @@
 //! The program as a user runs it.
 
 #[cfg(unix)]
+#[path = "command_line/hostile.rs"]
+mod hostile;
+#[cfg(unix)]
 #[path = "command_line/interrupt.rs"]
 mod interrupt;
 #[path = "command_line/sweep.rs"]

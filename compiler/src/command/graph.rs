@@ -29,7 +29,7 @@ pub fn run(options: &GraphOptions) -> Status {
         }
         None => {
             let known: Vec<&str> = files.keys().map(|name| name.trim_end_matches(".dot")).collect();
-            eprintln!("autogen: there is no graph of `{}`; there are plan, {}", options.of, known.join(", "));
+            complain!("autogen: there is no graph of `{}`; there are plan, {}", options.of, known.join(", "));
             Status::WrongCommand
         }
     }

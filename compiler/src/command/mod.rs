@@ -10,6 +10,11 @@ macro_rules! say_part {
     ($($text:tt)*) => { $crate::command::print::out(format_args!($($text)*)) };
 }
 
+/// A line on standard error.
+macro_rules! complain {
+    ($($text:tt)*) => { $crate::command::print::err(&format!("{}\n", format_args!($($text)*))) };
+}
+
 pub mod build;
 pub mod check;
 pub mod commission;

@@ -18,9 +18,14 @@ pub fn out(text: std::fmt::Arguments) {
             std::process::exit(Status::Done as i32);
         }
         interrupt::abandon();
-        eprintln!("autogen: standard output: {error}");
+        complain!("autogen: standard output: {error}");
         std::process::exit(Status::WrongCommand as i32);
     }
+}
+
+/// Writes to standard error. Nobody is left to be told if that fails.
+pub fn err(text: &str) {
+    let _ = io::stderr().write_all(text.as_bytes());
 }
 
 /// Nobody reads more of them; all are in the JSON form.
@@ -33,14 +38,14 @@ pub fn diagnostics(sources: &Sources, found: &[Diagnostic]) {
         true => diagnostic::render_styled(sources, shown),
         false => diagnostic::render_plain(sources, shown),
     };
-    eprint!("{text}");
+    err(&text);
     if shown.len() < found.len() {
-        eprintln!("and {} more, with `--format json`", found.len() - shown.len());
+        complain!("and {} more, with `--format json`", found.len() - shown.len());
     }
     match found.len() {
         0 => {}
-        1 => eprintln!("1 error"),
-        n => eprintln!("{n} errors"),
+        1 => complain!("1 error"),
+        n => complain!("{n} errors"),
     }
 }
 
@@ -65,7 +70,7 @@ pub fn failure(options: &InputOptions, failure: &Failure) -> Status {
 /// What stopped a command before anything was compiled.
 pub fn failure_in(format: Format, failure: &Failure) -> Status {
     match (failure, format) {
-        (Failure::Unreadable(text), Format::Text) => eprintln!("autogen: {text}"),
+        (Failure::Unreadable(text), Format::Text) => complain!("autogen: {text}"),
         (Failure::Unreadable(text), Format::Json) => {
             say!("{}", json!({ "feasible": false, "finished": false, "reason": text, "diagnostics": [] }));
         }
