@@ -194,7 +194,7 @@ fn refused(options: &BuildOptions, refusal: &Refusal) -> Status {
     };
     match options.input.format {
         Format::Json => say!("{}", json!({ "finished": false, "reason": text, "diagnostics": [] })),
-        Format::Text => eprintln!("autogen: {text}"),
+        Format::Text => complain!("autogen: {text}"),
     }
     Status::WrongCommand
 }

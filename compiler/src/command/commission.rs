@@ -74,7 +74,7 @@ pub fn run(options: &CommissionOptions) -> Status {
 fn fail(options: &CommissionOptions, text: String) -> Status {
     match options.build.input.format {
         Format::Json => say!("{}", json!({ "finished": false, "reason": text, "diagnostics": [] })),
-        Format::Text => eprintln!("autogen: {text}"),
+        Format::Text => complain!("autogen: {text}"),
     }
     Status::WrongCommand
 }
@@ -182,7 +182,7 @@ fn show(
             }
         }
         Format::Text if report["finished"] != true => {
-            eprintln!("autogen: {}", report["reason"].as_str().unwrap_or(""))
+            complain!("autogen: {}", report["reason"].as_str().unwrap_or(""))
         }
         Format::Text => {}
     }

@@ -29,7 +29,7 @@ pub fn linked(system: &System, sources: &Sources, notice: Notice) -> Result<Path
         return Ok(program);
     }
     if notice == Notice::Compiling {
-        eprintln!("compiling the controllers and the simulator (once for these types) ...");
+        complain!("compiling the controllers and the simulator (once for these types) ...");
     }
     // Of this process alone: another one may be compiling the same.
     let workspace = Temporary::new(folder.join(format!("workspace-{}", std::process::id())));
