@@ -74,15 +74,20 @@ pub fn failure_in(format: Format, failure: &Failure) -> Status {
         (Failure::Unreadable(text), Format::Json) => {
             say!("{}", json!({ "feasible": false, "finished": false, "reason": text, "diagnostics": [] }));
         }
-        (Failure::Wrong(sources, found), Format::Text) => diagnostics(sources, found),
-        (Failure::Wrong(sources, found), Format::Json) => {
+        (Failure::Wrong(sources, found) | Failure::Refused(sources, found), Format::Text) => {
+            diagnostics(sources, found)
+        }
+        (Failure::Wrong(sources, found) | Failure::Refused(sources, found), Format::Json) => {
             say!(
                 "{}",
                 json!({ "feasible": false, "finished": false, "diagnostics": diagnostics_json(sources, found) })
             );
         }
     }
-    Status::WrongCommand
+    match failure {
+        Failure::Refused(..) => Status::WrongInput,
+        Failure::Unreadable(_) | Failure::Wrong(..) => Status::WrongCommand,
+    }
 }
 
 pub fn verdict_json(verdict: Option<&Verdict>, sources: &Sources, found: &[Diagnostic]) -> Value {

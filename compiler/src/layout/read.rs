@@ -38,6 +38,8 @@ impl Decoder {
             _ => self.texts(j, "specs"),
         });
         let scenario = find(members, "scenario").and_then(|j| self.text(j, "scenario"));
+        specs.iter().flatten().for_each(|path| self.stays_within("specs", path));
+        scenario.iter().for_each(|path| self.stays_within("scenario", path));
         let scan_ms = find(members, "scan_ms").and_then(|j| self.whole(j, "scan_ms", 1..=1000));
         let may_touch = find(members, "may_touch").map(|j| self.may_touch(j, &names(members)));
         Some(Layout {

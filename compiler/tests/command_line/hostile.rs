@@ -1,9 +1,10 @@
 //! Input from outside that does harm, or a reader that has gone.
 
-use super::folder;
+use super::{autogen, errors, example, folder, status};
 use std::fs;
 use std::io::pipe;
-use std::path::Path;
+use std::os::unix::fs::symlink;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 /// A pipe that nobody reads.
@@ -40,5 +41,123 @@ fn a_reader_that_has_gone_changes_no_status() {
         (&["--help"][..], 0),
     ] {
         assert_eq!(status_unheard(&folder, arguments), Some(wanted), "{arguments:?}");
+    }
+}
+
+/// A folder with a layout that has these further keys, between the braces.
+fn layout_with(name: &str, keys: &str) -> PathBuf {
+    let folder = folder(name);
+    let text = fs::read_to_string(example("ariac2021/default.json")).expect("the example");
+    let text = text.replacen('{', &format!("{{{keys},"), 1);
+    fs::create_dir(folder.join("line")).expect("a folder");
+    fs::write(folder.join("line/line.json"), text).expect("a file");
+    folder
+}
+
+/// What `check` says of the layout in such a folder, and its status.
+fn checked(folder: &Path, further: &[&str]) -> (i32, String) {
+    let output = autogen(folder, &[&["check", "line/line.json"], further].concat());
+    (status(&output), errors(&output))
+}
+
+#[test]
+fn a_layout_names_nothing_outside_of_its_folder() {
+    let secret = "secret: of somebody else";
+    for path in ["../secret", "link", "a/../../secret", "/etc/passwd"] {
+        for key in ["scenario", "specs"] {
+            let folder = layout_with("outside", &format!("\"{key}\": \"{path}\""));
+            fs::write(folder.join("secret"), secret).expect("a file");
+            symlink("../secret", folder.join("line/link")).expect("a link");
+            let (status, said) = checked(&folder, &[]);
+            assert_eq!(status, 1, "{key} {path}: {said}");
+            let wanted = if (key, path) == ("specs", "link") { "E0141" } else { "E0140" };
+            assert!(said.contains(wanted) && said.contains("line.json:1:"), "{key} {path}: {said}");
+            assert!(!said.contains("secret:") && !said.contains("root:"), "{key} {path}: {said}");
+        }
+    }
+    let folder = layout_with("outside", "\"specs\": \"types\"");
+    fs::create_dir(folder.join("line/types")).expect("a folder");
+    fs::write(folder.join("secret"), secret).expect("a file");
+    symlink("../../secret", folder.join("line/types/a.aut")).expect("a link");
+    let (status, said) = checked(&folder, &[]);
+    assert!(status == 1 && said.contains("E0140") && !said.contains("secret:"), "{said}");
+}
+
+#[test]
+fn what_is_no_object_is_not_shown() {
+    let folder = layout_with("no_object", "\"scenario\": \"notes\"");
+    fs::write(folder.join("line/notes"), "secret: of somebody else").expect("a file");
+    let (status, said) = checked(&folder, &[]);
+    assert!(status == 1 && said.contains("E0141") && !said.contains("secret"), "{said}");
+    for arguments in [
+        &["check", "line/notes"][..],
+        &["check", "line/line.json", "--scenario", "line/notes"],
+        &["sweep", "line/notes"],
+    ] {
+        let output = autogen(&folder, arguments);
+        let said = errors(&output);
+        assert_eq!(super::status(&output), 1, "{said}");
+        assert!(said.contains("E0109") && said.contains("line/notes") && !said.contains("secret"), "{said}");
+    }
+}
+
+#[test]
+fn a_missing_file_is_reported_at_its_place_in_the_layout() {
+    let folder =
+        layout_with("missing", "\"specs\": [\"nowhere\", \"line.json\"], \"scenario\": \"none.json\"");
+    let (status, said) = checked(&folder, &[]);
+    assert_eq!(status, 1);
+    assert_eq!(said.matches("E0141").count(), 3, "{said}");
+    assert!(said.contains("No such file"), "{said}");
+    assert!(said.contains("this is neither a folder nor a *.aut file"), "{said}");
+}
+
+#[test]
+fn only_regular_files_of_bounded_size_are_read() {
+    let folder = layout_with("sizes", "\"scenario\": \"odd\"");
+    let odd = folder.join("line/odd");
+    let made = Command::new("mkfifo").arg(&odd).status().expect("mkfifo");
+    assert!(made.success());
+    let (status, said) = checked(&folder, &[]);
+    assert!(status == 1 && said.contains("this is no regular file"), "{said}");
+    for path in ["line/odd", "/dev/zero", "line"] {
+        for option in ["--scenario", "--specs"] {
+            let (status, said) = checked(&folder, &[option, path]);
+            assert_eq!(status, 2, "{option} {path}: {said}");
+        }
+    }
+    fs::remove_file(&odd).expect("a pipe");
+    fs::write(&odd, format!("{{{}", " ".repeat(10_000_000))).expect("a file");
+    let (status, said) = checked(&folder, &[]);
+    assert!(status == 1 && said.contains("larger than 10 MB"), "{said}");
+    fs::create_dir(folder.join("many")).expect("a folder");
+    for number in 0..1000 {
+        fs::write(folder.join(format!("many/t{number}.aut")), "").expect("a file");
+    }
+    let (status, said) = checked(&folder, &["--specs", "many"]);
+    assert!(status == 2 && said.contains("more than 1000 files"), "{said}");
+    fs::remove_dir_all(folder.join("many")).expect("a folder");
+    fs::create_dir(folder.join("many")).expect("a folder");
+    for number in 0..3 {
+        fs::write(folder.join(format!("many/t{number}.aut")), "/".repeat(9_000_000)).expect("a file");
+    }
+    let (status, said) = checked(&folder, &["--specs", "many"]);
+    assert!(status == 2 && said.contains("more than 20 MB"), "{said}");
+}
+
+#[test]
+fn a_single_file_of_automata_is_enough() {
+    let layout = fs::read_to_string(example("buffer/buffer.json")).expect("the example");
+    let types = fs::read_to_string(example("buffer/specs/buffer.aut")).expect("the example");
+    let folder = folder("single");
+    fs::write(folder.join("own.aut"), types).expect("a file");
+    let named = layout.replace("\"specs\": \"specs\"", "\"specs\": \"own.aut\"");
+    fs::write(folder.join("named.json"), named).expect("a file");
+    fs::write(folder.join("given.json"), layout.replace("\"specs\": \"specs\",", "")).expect("a file");
+    let scenario = example("buffer/scenario.json");
+    let further: &[&str] = if Path::new(&scenario).exists() { &["--scenario", &scenario] } else { &[] };
+    for arguments in [&["check", "named.json"][..], &["check", "given.json", "--specs", "own.aut"]] {
+        let output = autogen(&folder, &[arguments, further].concat());
+        assert_eq!(status(&output), 0, "{}", errors(&output));
     }
 }
