@@ -14,6 +14,7 @@ pub mod layout;
 pub mod library;
 pub mod lower;
 pub mod naming;
+pub mod plain;
 pub mod scenario;
 pub mod simulator;
 pub mod source;

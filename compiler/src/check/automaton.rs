@@ -4,6 +4,7 @@ use super::facts::Facts;
 use super::{Checker, state};
 use crate::diagnostic::{Diagnostic, suggestion};
 use crate::ir::{self, Extent, Scalar, Type, VariableId};
+use crate::plain;
 use crate::source::Span;
 use crate::spec::ast;
 use runtime_sim::device::{DEVICES, Device};
@@ -93,8 +94,8 @@ pub(super) fn check(checker: &mut Checker, tree: &ast::Automaton) {
     state::check(&mut context, tree);
     for invariant in &tree.invariants {
         if let Some(condition) = context.typed(&invariant.value, Scalar::Bool) {
-            let text =
-                context.checker.sources.text(invariant.span).split_whitespace().collect::<Vec<_>>().join(" ");
+            let words: Vec<_> = context.checker.sources.text(invariant.span).split_whitespace().collect();
+            let text = plain::line(&words.join(" "));
             let fault = context.fault(ir::FaultKind::InvariantFails, invariant.span, format!("not: {text}"));
             context.automaton.invariants.push(ir::Invariant {
                 place: invariant.span,

@@ -6,13 +6,17 @@ use super::options::{Format, InputOptions};
 use crate::Status;
 use autogen::diagnostic::{self, Diagnostic};
 use autogen::lower::{Apart, Verdict};
+use autogen::plain;
 use autogen::source::Sources;
 use serde_json::{Value, json};
 use std::io::{self, IsTerminal, Write};
 
-/// Writes to standard output. A reader that has enough ends the program quietly.
+/// Writes to standard output, as escapes what a terminal would obey. A reader that has enough ends the program
+/// quietly.
 pub fn out(text: std::fmt::Arguments) {
-    if let Err(error) = io::stdout().write_fmt(text).and_then(|()| io::stdout().flush()) {
+    let text = text.to_string();
+    let bytes = plain::escaped(&text);
+    if let Err(error) = io::stdout().write_all(bytes.as_bytes()).and_then(|()| io::stdout().flush()) {
         if error.kind() == io::ErrorKind::BrokenPipe {
             interrupt::abandon();
             std::process::exit(Status::Done as i32);
@@ -23,8 +27,13 @@ pub fn out(text: std::fmt::Arguments) {
     }
 }
 
-/// Writes to standard error. Nobody is left to be told if that fails.
+/// Writes to standard error, as escapes what a terminal would obey.
 pub fn err(text: &str) {
+    err_styled(&plain::escaped(text));
+}
+
+/// Writes to standard error what may hold escapes of its own. Nobody is left to be told if that fails.
+pub fn err_styled(text: &str) {
     let _ = io::stderr().write_all(text.as_bytes());
 }
 
@@ -38,7 +47,7 @@ pub fn diagnostics(sources: &Sources, found: &[Diagnostic]) {
         true => diagnostic::render_styled(sources, shown),
         false => diagnostic::render_plain(sources, shown),
     };
-    err(&text);
+    err_styled(&text);
     if shown.len() < found.len() {
         complain!("and {} more, with `--format json`", found.len() - shown.len());
     }

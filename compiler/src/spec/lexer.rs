@@ -3,6 +3,7 @@
 mod foreign;
 
 use crate::diagnostic::Diagnostic;
+use crate::plain;
 use crate::source::{FileId, Span};
 
 #[derive(Clone, Debug, PartialEq)]
@@ -12,7 +13,7 @@ pub enum Token {
     Int(i64),
     Real(f64),
     Text(String),
-    /// A line that begins with `///`.
+    /// A line that begins with `///`, as it may be shown.
     Doc(String),
     /// Punctuation and operators.
     Sign(&'static str),
@@ -39,7 +40,7 @@ pub fn tokens(file: FileId, text: &str) -> (Vec<(Token, Span)>, Vec<Diagnostic>)
             let line = rest.lines().next().unwrap_or("");
             at += line.len();
             if let Some(doc) = line.strip_prefix("///") {
-                found.push((Token::Doc(doc.trim().to_string()), Span::new(file, start, at)));
+                found.push((Token::Doc(plain::line(doc.trim())), Span::new(file, start, at)));
             }
         } else if let Some(end) =
             [("/*", "*/"), ("(*", "*)")].iter().find_map(|(a, b)| rest.starts_with(a).then_some(b))

@@ -161,3 +161,73 @@ fn a_single_file_of_automata_is_enough() {
         assert_eq!(status(&output), 0, "{}", errors(&output));
     }
 }
+
+/// What a terminal obeys, what no XML holds, and what turns the order of a text.
+const ODD: &str = "\u{1b}[31m\u{9b}1m\u{8}\r\u{202e}\u{2066}\u{200f}\u{61c}\u{2028}\u{fffe}\u{7f}";
+
+fn is_odd(c: char) -> bool {
+    c != '\n' && (c.is_control() || ODD.contains(c) && !c.is_ascii())
+}
+
+#[test]
+fn nothing_from_outside_reaches_the_terminal_as_a_command() {
+    let folder = folder("escapes");
+    let json = serde_json::to_string(&format!("a{ODD}b")).expect("a text");
+    let layout = format!("{{\"robots\": [], \"name\": {json}, \"k{ODD}\": 1, \"specs\": {json}}}");
+    let name = format!("line{ODD}.json");
+    fs::write(folder.join(&name), layout).expect("a file");
+    let odd_type = format!("automaton T on bin {{ // {ODD}\n /* {ODD} */ {ODD} }}");
+    fs::write(folder.join("odd.aut"), odd_type).expect("a file");
+    let default = example("ariac2021/default.json");
+    let set = format!("agv.capacity={ODD}");
+    for arguments in [
+        &["check", &name][..],
+        &["check", &default, "--specs", "odd.aut"],
+        &["check", &default, "--set", &set],
+        &["check", ODD],
+        &["check", &default, "--scenario", ODD],
+        &["check", &default, "--specs", ODD],
+        &["graph", &default, "--of", ODD],
+        &["explain", ODD],
+        &["sweep", &name],
+    ] {
+        for format in ["text", "json"] {
+            let output = match arguments[0] {
+                "graph" | "explain" => autogen(&folder, arguments),
+                _ => autogen(&folder, &[arguments, &["--format", format]].concat()),
+            };
+            assert_ne!(status(&output), 0);
+            for shown in [&output.stdout, &output.stderr] {
+                let shown = String::from_utf8(shown.clone()).expect("UTF-8");
+                assert!(!shown.contains(is_odd), "{arguments:?}: {shown:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn what_is_generated_reads_as_it_runs() {
+    let folder = folder("reads");
+    let types = fs::read_to_string(example("buffer/specs/buffer.aut")).expect("the example");
+    let marked: String = types
+        .lines()
+        .map(|line| match line.trim_start().starts_with("///") {
+            true => format!("{line} a{ODD} (* b *) ]]> -- end\n"),
+            false => format!("{line} // {ODD} *)\n"),
+        })
+        .collect();
+    let marked = marked.replace("automaton", &format!("/// =first{ODD}\nautomaton"));
+    let name = format!("own{ODD}.aut");
+    fs::write(folder.join(&name), marked).expect("a file");
+    let layout = fs::read_to_string(example("buffer/buffer.json")).expect("the example");
+    fs::write(folder.join("line.json"), layout.replace("\"specs\": \"specs\",", "")).expect("a file");
+    let output = autogen(&folder, &["build", "line.json", "--specs", &name, "-o", "out"]);
+    assert_eq!(status(&output), 0, "{}", errors(&output));
+    for (path, bytes) in super::contents(&folder.join("out")) {
+        let text = String::from_utf8(bytes).expect("UTF-8");
+        let path = path.display();
+        if let Some(at) = text.find(is_odd) {
+            panic!("{path}: {:?}", &text[at.saturating_sub(40)..(at + 40).min(text.len())]);
+        }
+    }
+}

@@ -27,7 +27,7 @@ impl Progress {
         self.done += 1;
         // Rows on the same terminal would push it on, a line for each.
         if self.is_wanted && (self.last.elapsed() >= PAUSE || self.done == 1) {
-            print::err(&format!("{} of {}", self.done, self.all));
+            print::err_styled(&format!("{} of {}", self.done, self.all));
             self.last = Instant::now();
             self.is_shown = true;
         }
@@ -36,7 +36,7 @@ impl Progress {
     /// Takes the line away.
     pub fn clear(&mut self) {
         if std::mem::take(&mut self.is_shown) {
-            print::err("\r\x1b[K");
+            print::err_styled("\r\x1b[K");
         }
     }
 }
