@@ -88,7 +88,7 @@ pub fn collect(found: &mut Vec<Diagnostic>, diagnostic: Diagnostic) {
 
 /// Letters of a name that somebody mistyped, and names that are compared with it.
 const LONGEST_SUGGESTED: usize = 100;
-const MOST_COMPARED: usize = 1000;
+const MOST_COMPARED: usize = 500;
 
 /// The name among `known` that is nearest to `name`, if it is near enough to be meant: first of all
 /// one that differs in small and capital letters only.

@@ -26,7 +26,7 @@ pub fn render(sources: &Sources, diagnostics: &[Diagnostic], renderer: &Renderer
 }
 
 /// Bytes of text out of which lines are shown; of longer stretches only their places are named.
-const LONGEST: usize = 1 << 15;
+const LONGEST: usize = 1 << 13;
 /// Other places that are shown.
 const MOST_OTHERS: usize = 20;
 

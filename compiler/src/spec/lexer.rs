@@ -2,7 +2,7 @@
 
 mod foreign;
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, MOST};
 use crate::plain;
 use crate::source::{FileId, Span};
 
@@ -26,14 +26,18 @@ const SIGNS: &[&str] = &[
     ",", ";", ":", ".", "+", "-", "*", "/", "=", "<", ">",
 ];
 
-/// All tokens of a text, the last one `End`; what is not a token is reported and left out.
-pub fn tokens(file: FileId, text: &str) -> (Vec<(Token, Span)>, Vec<Diagnostic>) {
+/// All tokens of a text, the last one `End`; what is not a token is reported and left out. After `most` tokens,
+/// or too many errors, the rest is not read.
+pub fn tokens(file: FileId, text: &str, most: usize) -> (Vec<(Token, Span)>, Vec<Diagnostic>) {
     let mut found = Vec::new();
     let mut diagnostics = Vec::new();
     let mut at = 0;
     while let Some(c) = text[at..].chars().next() {
         let rest = &text[at..];
         let start = at;
+        if found.len() >= most || diagnostics.len() >= MOST {
+            break;
+        }
         if c.is_whitespace() {
             at += c.len_utf8();
         } else if rest.starts_with("//") {
@@ -130,7 +134,7 @@ pub fn tokens(file: FileId, text: &str) -> (Vec<(Token, Span)>, Vec<Diagnostic>)
             );
         }
     }
-    let end = text.trim_end().len();
+    let end = if at < text.len() { at } else { text.trim_end().len() };
     found.push((Token::End, Span::new(file, end, end)));
     (found, diagnostics)
 }
