@@ -3,6 +3,20 @@
 use crate::diagnostic::Diagnostic;
 use crate::source::{FileId, Span};
 
+/// A field as it is written: in quotes if it needs them, and with an apostrophe before it if a spreadsheet would
+/// compute it. Numbers stay as they are. [`parse`] takes the apostrophe away.
+pub fn field(text: &str) -> String {
+    let text = if is_formula(text) { format!("'{text}") } else { text.to_string() };
+    match text.contains([',', ';', '"', '\n', '\r']) {
+        true => format!("\"{}\"", text.replace('"', "\"\"")),
+        false => text,
+    }
+}
+
+fn is_formula(text: &str) -> bool {
+    text.starts_with(['=', '+', '-', '@', '\t', '\r']) && text.parse::<f64>().is_err()
+}
+
 pub struct Table {
     /// The one of `,`, `;` and tab that stands most often in the first line.
     pub separator: u8,
@@ -85,7 +99,9 @@ impl Reader<'_> {
         }
         text += self.text[plain..self.at].trim_end();
         let end = start + self.text[start..self.at].trim_end().len();
-        Field { text: text.trim().into(), span: Span::new(self.file, start, end.max(start)) }
+        let text = text.trim();
+        let text = text.strip_prefix('\'').filter(|rest| is_formula(rest)).unwrap_or(text);
+        Field { text: text.into(), span: Span::new(self.file, start, end.max(start)) }
     }
 
     /// From behind the opening quote to behind the closing one.
@@ -134,6 +150,23 @@ mod tests {
             let (records, errors) = read(text);
             assert_eq!(records, wanted, "{text:?}");
             assert_eq!(errors, 0, "{text:?}");
+        }
+    }
+
+    #[test]
+    fn what_a_spreadsheet_would_compute_is_marked_and_read_back() {
+        for (text, written) in [
+            ("=1+1", "'=1+1"),
+            ("@SUM(1;2)", "\"'@SUM(1;2)\""),
+            ("+a", "'+a"),
+            ("-x < 3", "'-x < 3"),
+            ("-0.5", "-0.5"),
+            ("+1e-3", "+1e-3"),
+            ("a, b", "\"a, b\""),
+            ("'quoted'", "'quoted'"),
+        ] {
+            assert_eq!(field(text), written);
+            assert_eq!(read(&format!("{written},2\n")).0, [[text, "2"]], "{text}");
         }
     }
 

@@ -1,7 +1,11 @@
 //! Diagnostics are data; they are rendered once, at the edge.
 
-use crate::source::{Sources, Span};
-use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
+mod rendered;
+
+pub use rendered::{render, render_plain, render_styled};
+
+use crate::plain::shortened;
+use crate::source::Span;
 
 /// Something wrong with the input. All are errors: a line that may run is right, one that may not is not.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,7 +29,7 @@ impl Diagnostic {
     pub fn new(code: &'static str, place: Span, message: impl Into<String>) -> Self {
         Self {
             code,
-            message: message.into(),
+            message: shortened(message.into()),
             place,
             label: String::new(),
             others: Vec::new(),
@@ -35,22 +39,22 @@ impl Diagnostic {
     }
 
     pub fn label(mut self, text: impl Into<String>) -> Self {
-        self.label = text.into();
+        self.label = shortened(text.into());
         self
     }
 
     pub fn other(mut self, place: Span, text: impl Into<String>) -> Self {
-        self.others.push((place, text.into()));
+        self.others.push((place, shortened(text.into())));
         self
     }
 
     pub fn note(mut self, text: impl Into<String>) -> Self {
-        self.notes.push(text.into());
+        self.notes.push(shortened(text.into()));
         self
     }
 
     pub fn help(mut self, text: impl Into<String>) -> Self {
-        self.help = text.into();
+        self.help = shortened(text.into());
         self
     }
 }
@@ -70,11 +74,32 @@ pub fn sort(diagnostics: &mut Vec<Diagnostic>) {
     diagnostics.dedup();
 }
 
+/// Diagnostics of one kind of text; nobody reads more.
+pub const MOST: usize = 1000;
+
+/// Adds a diagnostic to those of one kind of text, unless there are [`MOST`]; the last one says so.
+pub fn collect(found: &mut Vec<Diagnostic>, diagnostic: Diagnostic) {
+    match found.len() + 1 {
+        next if next < MOST => found.push(diagnostic),
+        MOST => found.push(diagnostic.note(format!("after {MOST} errors no more are told"))),
+        _ => {}
+    }
+}
+
+/// Letters of a name that somebody mistyped, and names that are compared with it.
+const LONGEST_SUGGESTED: usize = 100;
+const MOST_COMPARED: usize = 500;
+
 /// The name among `known` that is nearest to `name`, if it is near enough to be meant: first of all
 /// one that differs in small and capital letters only.
 pub fn suggestion<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    if name.len() > LONGEST_SUGGESTED {
+        return None;
+    }
     known
         .into_iter()
+        .take(MOST_COMPARED)
+        .filter(|candidate| candidate.len() <= LONGEST_SUGGESTED)
         .map(|candidate| {
             let distance = edit_distance(&name.to_lowercase(), &candidate.to_lowercase());
             (distance, edit_distance(name, candidate), candidate)
@@ -97,59 +122,6 @@ fn edit_distance(a: &str, b: &str) -> usize {
         }
     }
     row[b.len()]
-}
-
-/// All diagnostics as text without colours.
-pub fn render_plain(sources: &Sources, diagnostics: &[Diagnostic]) -> String {
-    render(sources, diagnostics, &Renderer::plain())
-}
-
-/// All diagnostics as text with colours.
-pub fn render_styled(sources: &Sources, diagnostics: &[Diagnostic]) -> String {
-    render(sources, diagnostics, &Renderer::styled())
-}
-
-pub fn render(sources: &Sources, diagnostics: &[Diagnostic], renderer: &Renderer) -> String {
-    let mut out = String::new();
-    for diagnostic in diagnostics {
-        let mut group =
-            Group::with_title(Level::ERROR.primary_title(diagnostic.message.as_str()).id(diagnostic.code));
-        let mut files = vec![diagnostic.place.file];
-        for (span, _) in &diagnostic.others {
-            if !files.contains(&span.file) {
-                files.push(span.file);
-            }
-        }
-        for file in files {
-            let source = sources.file(file);
-            let mut snippet = Snippet::source(source.text.as_str()).path(source.name.as_str()).fold(true);
-            if file == diagnostic.place.file {
-                let span = range(diagnostic.place, source.text.len());
-                snippet =
-                    snippet.annotation(AnnotationKind::Primary.span(span).label(diagnostic.label.as_str()));
-            }
-            for (span, text) in diagnostic.others.iter().filter(|(s, _)| s.file == file) {
-                snippet = snippet.annotation(
-                    AnnotationKind::Context.span(range(*span, source.text.len())).label(text.as_str()),
-                );
-            }
-            group = group.element(snippet);
-        }
-        for note in &diagnostic.notes {
-            group = group.element(Level::NOTE.message(note.as_str()));
-        }
-        if !diagnostic.help.is_empty() {
-            group = group.element(Level::HELP.message(diagnostic.help.as_str()));
-        }
-        out.push_str(&renderer.render(&[group]));
-        out.push_str("\n\n");
-    }
-    out
-}
-
-fn range(span: Span, len: usize) -> std::ops::Range<usize> {
-    let start = (span.start as usize).min(len);
-    start..(span.end as usize).clamp(start, len)
 }
 
 #[cfg(test)]

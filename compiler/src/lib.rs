@@ -1,5 +1,7 @@
 //! The compiler: layout and automata in, controllers out. Pure: nothing here reads or writes files.
 
+#![deny(clippy::print_stderr, clippy::print_stdout)]
+
 pub mod backend;
 pub mod check;
 pub mod connect;
@@ -12,6 +14,7 @@ pub mod layout;
 pub mod library;
 pub mod lower;
 pub mod naming;
+pub mod plain;
 pub mod scenario;
 pub mod simulator;
 pub mod source;

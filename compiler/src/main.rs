@@ -1,5 +1,9 @@
 //! The command line; the only place that reads and writes files.
 
+// A reader that has gone must not end the program: `say!` and `complain!` write.
+#![deny(clippy::print_stderr, clippy::print_stdout)]
+
+#[macro_use]
 mod command;
 
 use clap::Parser;
@@ -22,8 +26,8 @@ pub enum Status {
 
 fn main() -> ExitCode {
     std::panic::set_hook(Box::new(|panic| {
-        eprintln!("autogen: this is a bug in autogen, not in your input: {panic}");
-        eprintln!("Please report it with the layout and the specifications that show it.");
+        complain!("autogen: this is a bug in autogen, not in your input: {panic}");
+        complain!("Please report it with the layout and the specifications that show it.");
     }));
     let cli = Cli::parse();
     command::interrupt::install();

@@ -1,5 +1,7 @@
 //! Source texts and places in them.
 
+use crate::plain;
+
 /// Number of a file in [`Sources`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct FileId(pub u32);
@@ -40,6 +42,38 @@ pub struct Spanned<T> {
 pub struct SourceFile {
     pub name: String,
     pub text: String,
+    marks: Vec<Mark>,
+}
+
+/// Line and column of a place, both from 0.
+#[derive(Clone, Copy, Debug, Default)]
+struct Mark {
+    line: u32,
+    column: u32,
+}
+
+/// From mark to mark, in bytes.
+const STRIDE: usize = 1024;
+
+impl Mark {
+    fn behind(self, text: &[u8]) -> Self {
+        // A character counts where it begins.
+        text.iter().fold(self, |Mark { line, column }, byte| match byte {
+            b'\n' => Mark { line: line + 1, column: 0 },
+            0x80..0xc0 => Mark { line, column },
+            _ => Mark { line, column: column + 1 },
+        })
+    }
+}
+
+impl SourceFile {
+    fn new(name: &str, text: String) -> Self {
+        let mut marks = vec![Mark::default()];
+        for stretch in text.as_bytes().chunks(STRIDE) {
+            marks.push(marks[marks.len() - 1].behind(stretch));
+        }
+        Self { name: plain::line(name), text, marks }
+    }
 }
 
 /// All texts of a run.
@@ -49,8 +83,9 @@ pub struct Sources {
 }
 
 impl Sources {
+    /// The name is kept as it may be shown.
     pub fn add(&mut self, name: impl Into<String>, text: impl Into<String>) -> FileId {
-        self.files.push(SourceFile { name: name.into(), text: text.into() });
+        self.files.push(SourceFile::new(&name.into(), text.into()));
         FileId(self.files.len() as u32 - 1)
     }
 
@@ -68,16 +103,16 @@ impl Sources {
 
     /// The same texts under other names.
     pub fn renamed(&self, mut name: impl FnMut(&str) -> String) -> Self {
-        let rename = |file: &SourceFile| SourceFile { name: name(&file.name), text: file.text.clone() };
+        let rename = |file: &SourceFile| SourceFile { name: plain::line(&name(&file.name)), ..file.clone() };
         Self { files: self.files.iter().map(rename).collect() }
     }
 
     /// Line and column of the beginning of a span, both from 1; columns count characters.
     pub fn position(&self, span: Span) -> (usize, usize) {
-        let text = &self.file(span.file).text;
-        let before = text.get(..span.start as usize).unwrap_or(text);
-        let line = before.matches('\n').count() + 1;
-        let column = before.rsplit('\n').next().unwrap_or("").chars().count() + 1;
-        (line, column)
+        let file = self.file(span.file);
+        let at = (span.start as usize).min(file.text.len());
+        let mark = at / STRIDE;
+        let place = file.marks[mark].behind(&file.text.as_bytes()[mark * STRIDE..at]);
+        (place.line as usize + 1, place.column as usize + 1)
     }
 }

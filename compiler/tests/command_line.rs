@@ -1,5 +1,8 @@
 //! The program as a user runs it.
 
+#[cfg(unix)]
+#[path = "command_line/hostile.rs"]
+mod hostile;
 #[cfg(target_os = "linux")]
 #[path = "command_line/hostile_folder.rs"]
 mod hostile_folder;

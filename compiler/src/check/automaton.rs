@@ -4,6 +4,7 @@ use super::facts::Facts;
 use super::{Checker, state};
 use crate::diagnostic::{Diagnostic, suggestion};
 use crate::ir::{self, Extent, Scalar, Type, VariableId};
+use crate::plain;
 use crate::source::Span;
 use crate::spec::ast;
 use runtime_sim::device::{DEVICES, Device};
@@ -93,8 +94,8 @@ pub(super) fn check(checker: &mut Checker, tree: &ast::Automaton) {
     state::check(&mut context, tree);
     for invariant in &tree.invariants {
         if let Some(condition) = context.typed(&invariant.value, Scalar::Bool) {
-            let text =
-                context.checker.sources.text(invariant.span).split_whitespace().collect::<Vec<_>>().join(" ");
+            let words: Vec<_> = context.checker.sources.text(invariant.span).split_whitespace().collect();
+            let text = plain::line(&words.join(" "));
             let fault = context.fault(ir::FaultKind::InvariantFails, invariant.span, format!("not: {text}"));
             context.automaton.invariants.push(ir::Invariant {
                 place: invariant.span,
@@ -123,15 +124,18 @@ fn device(checker: &mut Checker, name: &ast::Name) -> Option<&'static Device> {
     found
 }
 
-fn reads_changing(automaton: &ir::Automaton, expr: &ir::Expr) -> bool {
+/// `seen` are the definitions that were looked at already, as each may be used many times.
+fn reads_changing(automaton: &ir::Automaton, expr: &ir::Expr, seen: &mut BTreeSet<usize>) -> bool {
     use ir::ExprKind as Kind;
     let changes = match &expr.kind {
         Kind::Read(place) => !matches!(place, ir::Place::Parameter { .. } | ir::Place::Shown { .. }),
-        Kind::Define(define) => reads_changing(automaton, &automaton.defines[*define].value),
+        Kind::Define(define) => {
+            seen.insert(*define) && reads_changing(automaton, &automaton.defines[*define].value, seen)
+        }
         Kind::After(_) | Kind::Done | Kind::Failed => true,
         _ => false,
     };
-    changes || expr.parts().iter().any(|part| reads_changing(automaton, part))
+    changes || expr.parts().iter().any(|part| reads_changing(automaton, part, seen))
 }
 
 impl Context<'_, '_> {
@@ -158,7 +162,8 @@ impl Context<'_, '_> {
             ir::TextPart::Words(_) => None,
             ir::TextPart::Value(value) => Some(value),
         });
-        if values.chain([&condition]).any(|expr| reads_changing(&self.automaton, expr)) {
+        let mut seen = BTreeSet::new();
+        if values.chain([&condition]).any(|expr| reads_changing(&self.automaton, expr, &mut seen)) {
             self.report(
                 Diagnostic::new("E0325", tree.span, "a requirement is decided before the line runs")
                     .help("name parameters, device constants and roles only; what changes belongs into an `invariant`"),

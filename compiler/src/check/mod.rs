@@ -14,7 +14,7 @@ mod work;
 
 pub use used::used;
 
-use crate::diagnostic::{Diagnostic, suggestion};
+use crate::diagnostic::{Diagnostic, collect, suggestion};
 use crate::ir;
 use crate::source::{FileId, Sources, Span};
 use crate::spec::ast;
@@ -164,7 +164,7 @@ struct Checker<'a> {
 
 impl Checker<'_> {
     fn report(&mut self, diagnostic: Diagnostic) {
-        self.diagnostics.push(diagnostic);
+        collect(&mut self.diagnostics, diagnostic);
     }
 
     fn enums(&mut self) {

@@ -229,7 +229,7 @@ fn transition(
 fn guard_text(context: &Context, guard: ast::Guard) -> String {
     let written = |span| {
         let words: Vec<_> = context.checker.sources.text(span).split_whitespace().collect();
-        words.join(" ")
+        crate::plain::line(&words.join(" "))
     };
     match guard {
         ast::Guard::Written(span) => match written(span).as_str() {

@@ -104,7 +104,7 @@ pub fn open(options: &BuildOptions, built: &Built) -> Result<Output, Refusal> {
     let says = options.input.format == Format::Text && !options.input.quiet;
     Output::open(&built.folder, || {
         if says {
-            eprintln!("waiting for another autogen that writes to {} ...", built.folder.display());
+            complain!("waiting for another autogen that writes to {} ...", built.folder.display());
         }
     })
 }
@@ -256,7 +256,7 @@ pub fn refused(options: &BuildOptions, refusal: &Refusal) -> Status {
     };
     match options.input.format {
         Format::Json => say!("{}", json!({ "finished": false, "reason": text, "diagnostics": [] })),
-        Format::Text => eprintln!("autogen: {text}"),
+        Format::Text => complain!("autogen: {text}"),
     }
     Status::WrongCommand
 }

@@ -27,7 +27,7 @@ pub fn run(options: &CommissionOptions) -> Status {
         Err(End::Failed(text)) => {
             match options.build.input.format {
                 Format::Json => say!("{}", json!({ "finished": false, "reason": text, "diagnostics": [] })),
-                Format::Text => eprintln!("autogen: {text}"),
+                Format::Text => complain!("autogen: {text}"),
             }
             Status::WrongCommand
         }
@@ -157,7 +157,7 @@ fn show(options: &CommissionOptions, output: &Output, report: &Value, wall: f64)
             }
         }
         Format::Text if report["finished"] != true => {
-            eprintln!("autogen: {}", report["reason"].as_str().unwrap_or(""))
+            complain!("autogen: {}", report["reason"].as_str().unwrap_or(""))
         }
         Format::Text => {}
     }

@@ -11,7 +11,7 @@ pub fn run(options: &ExplainOptions) -> Status {
             Status::Done
         }
         None => {
-            eprintln!("autogen: there is no diagnostic {}; they go by codes such as E0401", options.code);
+            complain!("autogen: there is no diagnostic {}; they go by codes such as E0401", options.code);
             Status::WrongCommand
         }
     }

@@ -32,7 +32,7 @@ pub fn run(options: &GraphOptions) -> Status {
         }
         None => {
             let known: Vec<&str> = files.keys().map(|name| name.trim_end_matches(".dot")).collect();
-            eprintln!(
+            complain!(
                 "autogen: there is no graph of `{}`; there are {}, {}",
                 options.of,
                 dot::PLAN,

@@ -1,11 +1,14 @@
-//! Reading the files that a command names.
+//! Reading the files that a command and a layout name.
 
+use super::named::{Folder, Unusable, automata};
 use super::options::InputOptions;
-use autogen::diagnostic::Diagnostic;
-use autogen::layout::{self, Layout};
+use super::read;
+use autogen::diagnostic::{self, Diagnostic};
+use autogen::layout;
 use autogen::lower::{Input, Setting};
-use autogen::source::{FileId, Sources};
+use autogen::source::{FileId, Sources, Span, Spanned};
 use autogen::{library, scenario};
+use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 /// Why nothing could be compiled.
@@ -14,7 +17,16 @@ pub enum Failure {
     Unreadable(String),
     /// What the command line says is wrong.
     Wrong(Sources, Vec<Diagnostic>),
+    /// What the layout names cannot be read, or a file is not what it should be.
+    Refused(Sources, Vec<Diagnostic>),
 }
+
+/// Bytes that all files of a line may have together.
+const MOST_BYTES: usize = 20_000_000;
+/// Files of automata that a line may have.
+const MOST_SPECS: usize = 1000;
+/// Names of a layout that cannot be used; more of them say nothing new.
+const MOST_WRONG: usize = 100;
 
 /// All texts of a compilation.
 pub fn load(options: &InputOptions) -> Result<Input, Failure> {
@@ -42,34 +54,71 @@ pub struct Texts {
     pub scenario: FileId,
 }
 
-/// Reads a layout, the library, the folders of types and the scenario. What is named here stands above what
-/// the layout names.
+/// Reads a layout, the library, the files and folders of types and the scenario. What is named here stands
+/// above what the layout names. The layout names nothing outside of its own folder.
 pub fn texts(
     sources: &mut Sources,
     path: &Path,
-    folders: &[PathBuf],
+    given: &[PathBuf],
     scenario: Option<&Path>,
 ) -> Result<Texts, Failure> {
-    let layout = add(sources, path)?;
+    let layout = object(sources, path, "layout")?;
     let mut specs: Vec<FileId> =
         library::FILES.iter().map(|(name, text)| sources.add(*name, *text)).collect();
     // What is wrong with the layout the compiler reports; here only the files it names are of interest.
-    let named = layout::parse(sources, layout).0;
-    let beside = |name: &str| path.parent().unwrap_or(Path::new("")).join(name);
-    let folders = named_specs(&named).into_iter().map(|name| beside(&name)).chain(folders.iter().cloned());
-    for folder in folders {
-        for path in automata(&folder)? {
-            specs.push(add(sources, &path)?);
+    let (named, mut found) = layout::parse(sources, layout);
+    if found.iter().any(|d| d.code == layout::OUTSIDE) {
+        return Err(Failure::Refused(std::mem::take(sources), found));
+    }
+    let folder = Folder::of(path);
+    let mut wrong = Vec::new();
+    for name in named.iter().flat_map(|l| &l.specs) {
+        match folder.automata(&name.value) {
+            Ok(files) => {
+                for (name, text) in files {
+                    add_spec(sources, &mut specs, name, text)?;
+                }
+            }
+            Err(why) => wrong.push(unusable("specs", name, &why)),
+        }
+        if wrong.len() == MOST_WRONG {
+            break;
         }
     }
-    let scenario = match (scenario, named.and_then(|l| l.scenario)) {
-        (Some(path), _) => add(sources, path)?,
-        (None, Some(name)) => add(sources, &beside(&name.value))?,
-        (None, None) if beside("scenario.json").is_file() => add(sources, &beside("scenario.json"))?,
+    for path in given {
+        for path in automata(path).map_err(|why| unreadable(path, &why))? {
+            let text = read::text(&path).map_err(|why| unreadable(&path, &why))?;
+            add_spec(sources, &mut specs, path.display().to_string(), text)?;
+        }
+    }
+    let scenario = match (scenario, named.as_ref().and_then(|l| l.scenario.as_ref())) {
+        (Some(path), _) => object(sources, path, "scenario")?,
+        (None, Some(name)) => match folder.object(&name.value) {
+            Ok((name, text)) => add_text(sources, name, text)?,
+            Err(why) => {
+                wrong.push(unusable("scenario", name, &why));
+                layout
+            }
+        },
+        (None, None) if folder.has(SCENARIO) => {
+            let (name, text) = folder.object(SCENARIO).map_err(|why| {
+                let given = "give another one by --scenario";
+                Failure::Unreadable(format!("{}: {why}; {given}", folder.0.join(SCENARIO).display()))
+            })?;
+            add_text(sources, name, text)?
+        }
         (None, None) => sources.add("built-in scenario", scenario::DEFAULT),
     };
+    if !wrong.is_empty() {
+        found.extend(wrong);
+        diagnostic::sort(&mut found);
+        return Err(Failure::Refused(std::mem::take(sources), found));
+    }
     Ok(Texts { layout, specs, scenario })
 }
+
+/// The scenario of a layout that names none.
+const SCENARIO: &str = "scenario.json";
 
 /// A setting from the command line.
 pub fn setting(sources: &mut Sources, text: &str) -> Result<Setting, Vec<Diagnostic>> {
@@ -77,54 +126,75 @@ pub fn setting(sources: &mut Sources, text: &str) -> Result<Setting, Vec<Diagnos
     Setting::parse(sources, file)
 }
 
-fn named_specs(layout: &Option<Layout>) -> Vec<String> {
-    layout.iter().flat_map(|l| l.specs.iter().map(|s| s.value.clone())).collect()
-}
-
-/// The automata of a folder in the order of their names.
-fn automata(path: &Path) -> Result<Vec<PathBuf>, Failure> {
-    let entries = std::fs::read_dir(path).map_err(|e| unreadable(path, &e))?;
-    let mut files = Vec::new();
-    for entry in entries {
-        let path = entry.map_err(|e| unreadable(path, &e))?.path();
-        if path.extension().is_some_and(|e| e == "aut") {
-            files.push(path);
-        }
-    }
-    files.sort();
-    if files.is_empty() {
-        return Err(Failure::Unreadable(format!("{}: this folder holds no *.aut file", path.display())));
-    }
-    Ok(files)
-}
-
 pub fn add(sources: &mut Sources, path: &Path) -> Result<FileId, Failure> {
-    Ok(sources.add(path.display().to_string(), text(path)?))
+    let text = text(path)?;
+    add_text(sources, path.display().to_string(), text)
 }
 
-/// Without a byte order mark; what is no UTF-8 is replaced. UTF-16 is refused: nothing in it could be read.
 pub fn text(path: &Path) -> Result<String, Failure> {
-    let bytes = std::fs::read(path).map_err(|e| unreadable(path, &e))?;
-    if is_utf_16(&bytes) {
+    read::text(path).map_err(|why| unreadable(path, &why))
+}
+
+fn add_text(sources: &mut Sources, name: String, text: String) -> Result<FileId, Failure> {
+    let bytes: usize = sources.files().iter().map(|file| file.text.len()).sum();
+    if bytes + text.len() > MOST_BYTES {
+        let most = MOST_BYTES / 1_000_000;
         return Err(Failure::Unreadable(format!(
-            "{}: this file is UTF-16, and only UTF-8 is read. Save it again as UTF-8: a spreadsheet calls it \
-             `CSV UTF-8`, Notepad `Encoding: UTF-8`, PowerShell `Out-File -Encoding utf8`",
-            path.display()
+            "{name}: with this file the line has more than {most} MB of text, the most that is read"
         )));
     }
-    let text = String::from_utf8_lossy(&bytes);
-    Ok(text.strip_prefix('\u{feff}').unwrap_or(&text).into())
+    Ok(sources.add(name, text))
 }
 
-/// By its byte order mark, or since each second byte of what begins it is 0.
-fn is_utf_16(bytes: &[u8]) -> bool {
-    match *bytes {
-        [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..] => true,
-        [a, b, c, d, ..] => (a == 0) != (b == 0) && (a == 0) == (c == 0) && (b == 0) == (d == 0),
-        _ => false,
+fn add_spec(
+    sources: &mut Sources,
+    specs: &mut Vec<FileId>,
+    name: String,
+    text: String,
+) -> Result<(), Failure> {
+    if specs.len() == MOST_SPECS {
+        return Err(Failure::Unreadable(format!(
+            "{name}: with this file the line has more than {MOST_SPECS} files of automata, the most that are read"
+        )));
     }
+    specs.push(add_text(sources, name, text)?);
+    Ok(())
 }
 
-fn unreadable(path: &Path, error: &std::io::Error) -> Failure {
-    Failure::Unreadable(format!("{}: {error}", path.display()))
+/// A file of JSON that the command line names. Text of a file of another kind is not shown.
+fn object(sources: &mut Sources, path: &Path, what: &str) -> Result<FileId, Failure> {
+    let text = text(path)?;
+    let name = path.display().to_string();
+    if begins_as_object(&text) {
+        return add_text(sources, name, text);
+    }
+    let file = sources.add(name, "");
+    let diagnostic =
+        Diagnostic::new("E0109", Span::new(file, 0, 0), format!("this file does not hold a {what}"))
+            .note("it does not begin with `{`, so nothing of it is shown")
+            .help(format!("name the file of a {what}: one object of JSON in braces"));
+    Err(Failure::Refused(std::mem::take(sources), vec![diagnostic]))
+}
+
+/// Whether it begins as an object of JSON, or holds nothing.
+pub fn begins_as_object(text: &str) -> bool {
+    let text = text.trim_start_matches(|c: char| c.is_whitespace() || c == '\u{feff}');
+    text.is_empty() || text.starts_with('{')
+}
+
+/// What a layout names that cannot be used.
+fn unusable(key: &str, name: &Spanned<String>, why: &Unusable) -> Diagnostic {
+    let (code, help) = match why {
+        Unusable::LeadsOut => {
+            (layout::OUTSIDE, format!("put it into the folder of the layout, or give it by --{key}"))
+        }
+        _ => ("E0141", format!("correct \"{key}\", or leave it out and give --{key}")),
+    };
+    Diagnostic::new(code, name.span, format!("`{key}` names \"{}\", which cannot be used", name.value))
+        .label(why.to_string())
+        .help(help)
+}
+
+fn unreadable(path: &Path, why: &impl Display) -> Failure {
+    Failure::Unreadable(format!("{}: {why}", path.display()))
 }

@@ -10,6 +10,11 @@ macro_rules! say_part {
     ($($text:tt)*) => { $crate::command::print::out(format_args!($($text)*)) };
 }
 
+/// A line on standard error.
+macro_rules! complain {
+    ($($text:tt)*) => { $crate::command::print::err(&format!("{}\n", format_args!($($text)*))) };
+}
+
 pub mod build;
 pub mod check;
 pub mod commission;
@@ -22,10 +27,12 @@ pub mod interrupt;
 pub mod io_trace;
 pub mod load;
 pub mod lock;
+pub mod named;
 pub mod options;
 pub mod output;
 pub mod pending;
 pub mod print;
 pub mod progress;
+pub mod read;
 pub mod sweep;
 pub mod trajectories;

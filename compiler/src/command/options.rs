@@ -37,8 +37,8 @@ pub enum Command {
 pub struct InputOptions {
     /// The layout, a JSON file
     pub layout: PathBuf,
-    /// A folder of automata (*.aut) that adds to the library and replaces types of the same name
-    #[arg(long, value_name = "DIR")]
+    /// A folder of automata (*.aut), or one such file: adds to the library and replaces types of the same name
+    #[arg(long, value_name = "PATH")]
     pub specs: Vec<PathBuf>,
     /// What is to be made; default: `scenario.json` beside the layout, else the built-in one
     #[arg(long, value_name = "FILE")]
@@ -134,8 +134,8 @@ pub struct SweepOptions {
     /// The layouts, JSON files
     #[arg(required = true)]
     pub layouts: Vec<PathBuf>,
-    /// A folder of automata (*.aut) that adds to the library and replaces types of the same name
-    #[arg(long, value_name = "DIR")]
+    /// A folder of automata (*.aut), or one such file: adds to the library and replaces types of the same name
+    #[arg(long, value_name = "PATH")]
     pub specs: Vec<PathBuf>,
     /// What is to be made; default: `scenario.json` beside each layout, else the built-in one
     #[arg(long, value_name = "FILE")]

@@ -6,21 +6,35 @@ use super::options::{Format, InputOptions};
 use crate::Status;
 use autogen::diagnostic::{self, Diagnostic};
 use autogen::lower::{Apart, Verdict};
+use autogen::plain;
 use autogen::source::Sources;
 use serde_json::{Value, json};
 use std::io::{self, IsTerminal, Write};
 
-/// Writes to standard output. A reader that has enough ends the program quietly.
+/// Writes to standard output, as escapes what a terminal would obey. A reader that has enough ends the program
+/// quietly.
 pub fn out(text: std::fmt::Arguments) {
-    if let Err(error) = io::stdout().write_fmt(text).and_then(|()| io::stdout().flush()) {
+    let text = text.to_string();
+    let bytes = plain::escaped(&text);
+    if let Err(error) = io::stdout().write_all(bytes.as_bytes()).and_then(|()| io::stdout().flush()) {
         if error.kind() == io::ErrorKind::BrokenPipe {
             interrupt::abandon();
             std::process::exit(Status::Done as i32);
         }
         interrupt::abandon();
-        eprintln!("autogen: standard output: {error}");
+        complain!("autogen: standard output: {error}");
         std::process::exit(Status::WrongCommand as i32);
     }
+}
+
+/// Writes to standard error, as escapes what a terminal would obey.
+pub fn err(text: &str) {
+    err_styled(&plain::escaped(text));
+}
+
+/// Writes to standard error what may hold escapes of its own. Nobody is left to be told if that fails.
+pub fn err_styled(text: &str) {
+    let _ = io::stderr().write_all(text.as_bytes());
 }
 
 /// Nobody reads more of them; all are in the JSON form.
@@ -33,14 +47,14 @@ pub fn diagnostics(sources: &Sources, found: &[Diagnostic]) {
         true => diagnostic::render_styled(sources, shown),
         false => diagnostic::render_plain(sources, shown),
     };
-    eprint!("{text}");
+    err_styled(&text);
     if shown.len() < found.len() {
-        eprintln!("and {} more, with `--format json`", found.len() - shown.len());
+        complain!("and {} more, with `--format json`", found.len() - shown.len());
     }
     match found.len() {
         0 => {}
-        1 => eprintln!("1 error"),
-        n => eprintln!("{n} errors"),
+        1 => complain!("1 error"),
+        n => complain!("{n} errors"),
     }
 }
 
@@ -65,19 +79,24 @@ pub fn failure(options: &InputOptions, failure: &Failure) -> Status {
 /// What stopped a command before anything was compiled.
 pub fn failure_in(format: Format, failure: &Failure) -> Status {
     match (failure, format) {
-        (Failure::Unreadable(text), Format::Text) => eprintln!("autogen: {text}"),
+        (Failure::Unreadable(text), Format::Text) => complain!("autogen: {text}"),
         (Failure::Unreadable(text), Format::Json) => {
             say!("{}", json!({ "feasible": false, "finished": false, "reason": text, "diagnostics": [] }));
         }
-        (Failure::Wrong(sources, found), Format::Text) => diagnostics(sources, found),
-        (Failure::Wrong(sources, found), Format::Json) => {
+        (Failure::Wrong(sources, found) | Failure::Refused(sources, found), Format::Text) => {
+            diagnostics(sources, found)
+        }
+        (Failure::Wrong(sources, found) | Failure::Refused(sources, found), Format::Json) => {
             say!(
                 "{}",
                 json!({ "feasible": false, "finished": false, "diagnostics": diagnostics_json(sources, found) })
             );
         }
     }
-    Status::WrongCommand
+    match failure {
+        Failure::Refused(..) => Status::WrongInput,
+        Failure::Unreadable(_) | Failure::Wrong(..) => Status::WrongCommand,
+    }
 }
 
 pub fn verdict_json(verdict: Option<&Verdict>, sources: &Sources, found: &[Diagnostic]) -> Value {

@@ -1,5 +1,7 @@
 //! How far a run has come, on a terminal.
 
+use super::print;
+
 /// Seconds of the simulation between two numbers.
 const EVERY: u64 = 10;
 
@@ -17,13 +19,13 @@ impl Progress {
     pub fn show(&mut self, seconds: u64) {
         if self.is_wanted && seconds >= self.shown + EVERY {
             self.shown = seconds;
-            eprint!("\r{seconds} s");
+            print::err_styled(&format!("\r{seconds} s"));
         }
     }
 
     pub fn end(self) {
         if self.shown > 0 {
-            eprintln!();
+            complain!("");
         }
     }
 }

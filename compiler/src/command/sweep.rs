@@ -68,7 +68,7 @@ fn not_planned(options: &SweepOptions, refusal: &Refusal) -> Status {
                 Format::Json => {
                     say!("{}", json!({ "rows": [], "finished": false, "reason": text, "diagnostics": [] }));
                 }
-                Format::Text => eprintln!("autogen: {text}"),
+                Format::Text => complain!("autogen: {text}"),
             }
             Status::WrongCommand
         }

@@ -12,7 +12,16 @@ pub struct Reach {
 const BITS: usize = u64::BITS as usize;
 
 impl Reach {
-    fn new(next: &[Vec<usize>]) -> Self {
+    /// With those proposals as edges for which `stands` is true.
+    pub fn new(line: &Line, stands: &[bool]) -> Self {
+        let mut next = vec![Vec::new(); line.nodes.len()];
+        for (pair, _) in line.proposals.iter().zip(stands).filter(|(_, stands)| **stands) {
+            next[pair.from].push(pair.to);
+        }
+        Self::along(&next)
+    }
+
+    fn along(next: &[Vec<usize>]) -> Self {
         let row = |start: usize| {
             let mut row = vec![0; next.len().div_ceil(BITS)];
             walk(next, [start], |node| {
@@ -51,7 +60,6 @@ fn reached(next: &[Vec<usize>], starts: impl IntoIterator<Item = usize>) -> Vec<
 /// Which nodes items get to, and from which they leave the layout.
 #[derive(Clone, Debug)]
 pub struct Ways {
-    pub reach: Reach,
     /// For each node: some source gets to it.
     pub supplied: Vec<bool>,
     /// For each node: it gets to some destination.
@@ -70,8 +78,7 @@ impl Ways {
         let those = |wanted: fn(&Node) -> bool| (0..nodes.len()).filter(move |n| wanted(&nodes[*n]));
         let supplied = reached(&next, those(|node| node.is_source));
         let drained = reached(&before, those(|node| node.is_destination));
-        let reach = Reach::new(&next);
-        Self { reach, supplied, drained }
+        Self { supplied, drained }
     }
 
     pub fn unreachable(&self) -> Vec<usize> {

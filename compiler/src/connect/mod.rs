@@ -198,20 +198,23 @@ pub fn check(line: &Line) -> Report {
     let ways = graph::Ways::new(line, &stands);
     // A pair that does not meet matters only where machines are cut off.
     let is_whole = ways.connected() == line.nodes.len();
+    let mended = if is_whole { 0 } else { most_mended(line) };
     let failures: Vec<Failure> = tested
         .into_iter()
         .enumerate()
         .filter(|(_, test)| test.margin < 0.0)
-        .map(|(proposal, test)| Failure {
+        .enumerate()
+        .map(|(number, (proposal, test))| Failure {
             proposal,
-            mend: if is_whole { None } else { mend::find(line, &stands, proposal) },
+            mend: if number < mended { mend::find(line, &stands, proposal) } else { None },
             misses: test.misses,
             tested: test.tested,
         })
         .collect();
     let diagnostics = verdict::diagnostics(line, &stands, &failures);
-    let connected =
-        diagnostics.is_empty().then(|| Connected { edges: edges.clone(), reach: ways.reach.clone() });
+    let connected = diagnostics
+        .is_empty()
+        .then(|| Connected { edges: edges.clone(), reach: graph::Reach::new(line, &stands) });
     Report {
         edges,
         failures,
@@ -220,6 +223,13 @@ pub fn check(line: &Line) -> Report {
         diagnostics,
         connected,
     }
+}
+
+/// Pairs that do not meet for which a mend is sought, and which are compared with one another: fewer in a long
+/// line, where each costs more.
+fn most_mended(line: &Line) -> usize {
+    const WORK: usize = 20_000_000;
+    (WORK / (line.nodes.len() + line.proposals.len()).max(1)).isqrt().max(8)
 }
 
 fn edges(line: &Line, tested: &[poses::Test]) -> Vec<Edge> {

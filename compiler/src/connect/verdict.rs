@@ -1,8 +1,9 @@
 //! What is wrong, said once for each cause.
 
-use super::graph::Ways;
-use super::{Failure, Line, Miss, Stage};
-use crate::diagnostic::{Diagnostic, sort};
+use super::graph::{Reach, Ways};
+use super::{Failure, Line, Miss, Stage, most_mended};
+use crate::diagnostic::{Diagnostic, MOST, sort};
+use std::collections::HashSet;
 
 /// Places listed in a report; the data hold every pose.
 const LISTED: usize = 3;
@@ -26,6 +27,7 @@ pub fn diagnostics(line: &Line, stands: &[bool], failures: &[Failure]) -> Vec<Di
     if found.is_empty() && ways.connected() == line.nodes.len() {
         return found;
     }
+    let failures = &failures[..failures.len().min(most_mended(line))];
     while let Some((failure, after)) = most_helpful(line, &stands, failures, &ways) {
         found.push(apart(line, failure, failures, &stands, &ways, &after));
         join(&mut stands, failure);
@@ -168,12 +170,13 @@ fn left_alone(line: &Line, ways: &Ways) -> Vec<Diagnostic> {
     let has_source = nodes.iter().any(|node| node.is_source);
     let has_destination = nodes.iter().any(|node| node.is_destination);
     // Behind a machine that nothing supplies, machines out of its reach are cut off too.
-    let full = Ways::new(line, &vec![true; line.proposals.len()]).reach;
+    let full = Reach::new(line, &vec![true; line.proposals.len()]);
+    let is_given: HashSet<usize> = line.proposals.iter().map(|p| p.to).collect();
+    let gives: HashSet<usize> = line.proposals.iter().map(|p| p.from).collect();
     let mut found = Vec::new();
     let mut starved: Vec<usize> = if has_source { ways.unreachable() } else { Vec::new() };
     let mut stuck: Vec<usize> = if has_destination { ways.dead_ends() } else { Vec::new() };
-    let roots: Vec<usize> =
-        starved.iter().copied().filter(|n| line.proposals.iter().all(|p| p.to != *n)).collect();
+    let roots: Vec<usize> = starved.iter().copied().filter(|n| !is_given.contains(n)).take(MOST).collect();
     for root in roots {
         let behind: Vec<usize> =
             starved.iter().copied().filter(|n| *n != root && full.get(root, *n)).collect();
@@ -187,8 +190,7 @@ fn left_alone(line: &Line, ways: &Ways) -> Vec<Diagnostic> {
             d.help("add a machine that hands over to it, or remove it")
         }));
     }
-    let ends: Vec<usize> =
-        stuck.iter().copied().filter(|n| line.proposals.iter().all(|p| p.from != *n)).collect();
+    let ends: Vec<usize> = stuck.iter().copied().filter(|n| !gives.contains(n)).take(MOST).collect();
     for end in ends {
         let before: Vec<usize> = stuck.iter().copied().filter(|n| *n != end && full.get(*n, end)).collect();
         stuck.retain(|n| *n != end && !before.contains(n));

@@ -1,7 +1,7 @@
 //! From JSON to values, with a diagnostic for whatever is not as it should be.
 
 use super::json::{Json, Member, Value};
-use crate::diagnostic::{Diagnostic, suggestion};
+use crate::diagnostic::{Diagnostic, MOST, collect, suggestion};
 use crate::source::{Span, Spanned};
 use std::collections::BTreeMap;
 use std::fmt::Display;
@@ -31,11 +31,25 @@ pub fn find<'a>(members: &'a [Member], key: &str) -> Option<&'a Json> {
     members.iter().find(|m| m.key.value == key).map(|m| &m.value)
 }
 
+/// Names that one message lists.
+const MOST_LISTED: usize = 100;
+
+/// `a`, `b`, `c`
+pub fn some(names: &[&str]) -> String {
+    match names.get(MOST_LISTED..) {
+        Some(rest @ [_, ..]) => format!("{}, and {} more", names[..MOST_LISTED].join(", "), rest.len()),
+        _ => names.join(", "),
+    }
+}
+
 /// `a`, `b` and `c`
 pub fn listing(names: &[&str]) -> String {
     match names {
         [] => "none".into(),
         [only] => (*only).into(),
+        [front @ .., _] if front.len() >= MOST_LISTED => {
+            format!("{} and {} more", names[..MOST_LISTED].join(", "), names.len() - MOST_LISTED)
+        }
         [front @ .., last] => format!("{} and {last}", front.join(", ")),
     }
 }
@@ -53,13 +67,18 @@ pub fn instead(name: &str, known: &[&str]) -> String {
     match suggestion(name, known.iter().copied()) {
         Some(meant) => format!("did you mean \"{meant}\"?"),
         None if known.is_empty() => "remove it".into(),
-        None => format!("write one of: {}", known.join(", ")),
+        None => format!("write one of: {}", some(known)),
     }
 }
 
 impl Decoder {
+    /// Whether what is reported further is not told.
+    pub fn is_full(&self) -> bool {
+        self.diagnostics.len() >= MOST
+    }
+
     pub fn report(&mut self, diagnostic: Diagnostic) {
-        self.diagnostics.push(diagnostic);
+        collect(&mut self.diagnostics, diagnostic);
     }
 
     fn wrong_type(&mut self, json: &Json, what: &str, wanted: &str) {
@@ -195,6 +214,9 @@ impl Decoder {
 
     pub fn unknown_keys(&mut self, members: &[Member], known: &[&str], what: &str) {
         for key in members.iter().map(|m| &m.key).filter(|k| !known.contains(&k.value.as_str())) {
+            if self.is_full() {
+                return;
+            }
             self.report(
                 Diagnostic::new("E0111", key.span, format!("{what} has no key \"{}\"", key.value))
                     .label("unknown key")

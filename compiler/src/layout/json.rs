@@ -4,6 +4,7 @@ mod scalar;
 
 use crate::diagnostic::Diagnostic;
 use crate::source::{FileId, Span, Spanned};
+use std::collections::HashMap;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Json {
@@ -31,10 +32,13 @@ pub struct Member {
 const DEEPEST: usize = 64;
 /// After so many errors the text is no JSON, and more of them would not help.
 const MOST_ERRORS: usize = 20;
+/// Values of one text: a line of 10,000 robots has half of it.
+const MOST_VALUES: usize = 500_000;
 
 /// Reads on after an error where the rest can still be understood; there is no value if a part of it was lost.
 pub fn parse(text: &str, file: FileId) -> (Option<Json>, Vec<Diagnostic>) {
-    let mut reader = Reader { text, file, at: 0, depth: 0, complete: true, diagnostics: Vec::new() };
+    let mut reader =
+        Reader { text, file, at: 0, depth: 0, values: 0, complete: true, diagnostics: Vec::new() };
     reader.space();
     let value = reader.value("a value");
     reader.space();
@@ -54,6 +58,8 @@ struct Reader<'a> {
     file: FileId,
     at: usize,
     depth: usize,
+    /// Read so far.
+    values: usize,
     /// False when a value was lost.
     complete: bool,
     diagnostics: Vec<Diagnostic>,
@@ -123,6 +129,17 @@ impl Reader<'_> {
 
     fn value(&mut self, wanted: &str) -> Option<Json> {
         let start = self.at;
+        self.values += 1;
+        if self.values > MOST_VALUES {
+            let message = format!("a text has at most {MOST_VALUES} values");
+            self.report(
+                Diagnostic::new("E0142", self.span(start), message)
+                    .note("numbers, texts, lists and objects count, each of them")
+                    .help("make several lines of this one"),
+            );
+            self.give_up();
+            return None;
+        }
         let value = match self.peek() {
             Some('{') => self.nested(Self::object),
             Some('[') => self.nested(Self::list),
@@ -176,10 +193,11 @@ impl Reader<'_> {
 
     fn object(&mut self) -> Value {
         let mut members: Vec<Member> = Vec::new();
+        let mut places: HashMap<String, Span> = HashMap::new();
         self.elements('}', |reader| {
             let Some(member) = reader.member() else { return };
-            if let Some(first) = members.iter().find(|m| m.key.value == member.key.value) {
-                let (key, place) = (&member.key.value, first.key.span);
+            if let Some(&place) = places.get(&member.key.value) {
+                let key = &member.key.value;
                 reader.report(
                     Diagnostic::new(
                         "E0106",
@@ -192,6 +210,7 @@ impl Reader<'_> {
                     .help("remove one of them"),
                 );
             } else {
+                places.insert(member.key.value.clone(), member.key.span);
                 members.push(member);
             }
         });
@@ -261,7 +280,7 @@ impl Reader<'_> {
 
     /// The end of the text was met too early and is reported, or reading was given up.
     fn cut_off(&self) -> bool {
-        self.stopped() || self.diagnostics.iter().any(|d| matches!(d.code, "E0102" | "E0105"))
+        self.stopped() || self.diagnostics.iter().any(|d| matches!(d.code, "E0102" | "E0105" | "E0142"))
     }
 
     fn member(&mut self) -> Option<Member> {

@@ -4,13 +4,15 @@ use super::MayTouch;
 use super::decode::{Decoder, instead};
 use super::json::Json;
 use crate::diagnostic::Diagnostic;
-use crate::source::Spanned;
+use crate::source::{Span, Spanned};
+use std::collections::HashMap;
 
 impl Decoder {
     /// `known` are the names of all objects.
     pub(super) fn may_touch(&mut self, json: &Json, known: &[&str]) -> Vec<MayTouch> {
         let items = self.list(json, "may_touch").unwrap_or_default();
         let mut list: Vec<MayTouch> = Vec::new();
+        let mut pairs: HashMap<[String; 2], Span> = HashMap::new();
         for item in items {
             let Some(found) = self.pair_that_may_touch(item, known) else { continue };
             let names = |m: &MayTouch| {
@@ -18,18 +20,21 @@ impl Decoder {
                 names.sort();
                 names
             };
-            match list.iter().find(|other| names(other) == names(&found)) {
+            match pairs.get(&names(&found)).copied() {
                 Some(first) => {
                     let [a, b] = &found.pair;
                     let message = format!("\"{}\" and \"{}\" may touch twice", a.value, b.value);
                     self.report(
                         Diagnostic::new("E0128", a.span, message)
                             .label("second time")
-                            .other(first.pair[0].span, "first time")
+                            .other(first, "first time")
                             .help("leave one of them out; the order of the two makes no difference"),
                     );
                 }
-                None => list.push(found),
+                None => {
+                    pairs.insert(names(&found), found.pair[0].span);
+                    list.push(found);
+                }
             }
         }
         list

@@ -5,10 +5,12 @@ mod geometry;
 pub mod json;
 mod may_touch;
 mod object;
+mod paths;
 mod read;
 
 pub use geometry::{geometry, obstacle};
 pub use object::{Object, Part};
+pub use paths::OUTSIDE;
 pub use read::parse;
 
 use crate::source::{FileId, Span, Spanned};

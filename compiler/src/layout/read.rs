@@ -1,13 +1,16 @@
 //! From the text of a layout to its tree.
 
-use super::decode::{Decoder, find, instead, make_identifier};
+use super::decode::{Decoder, find, instead, make_identifier, some};
 use super::json::{self, Json, Member, Value};
 use super::{Layout, Object, Part};
 use crate::diagnostic::{Diagnostic, sort};
 use crate::source::{FileId, Sources, Spanned};
+use std::collections::HashSet;
 
 const KEYS: [&str; 7] = ["robots", "stationary", "name", "specs", "scenario", "scan_ms", "may_touch"];
 const SCAN_MS: u32 = 10;
+/// Twice the longest line that is measured.
+const MOST_OBJECTS: usize = 20_000;
 
 /// What could be read, to check it further; with any diagnostic there is no sense in building from it.
 pub fn parse(sources: &Sources, file: FileId) -> (Option<Layout>, Vec<Diagnostic>) {
@@ -26,6 +29,7 @@ impl Decoder {
         let robots = self.required(members, "robots", json.span, "the layout");
         let mut objects = self.layout_objects(robots, "robots", Part::Robot);
         objects.extend(self.layout_objects(find(members, "stationary"), "stationary", Part::Stationary));
+        self.bounded_objects(&objects);
         self.distinct(objects.iter().map(|o| &o.name), "an object");
         self.neighbours(&objects, &names(members));
 
@@ -38,6 +42,8 @@ impl Decoder {
             _ => self.texts(j, "specs"),
         });
         let scenario = find(members, "scenario").and_then(|j| self.text(j, "scenario"));
+        specs.iter().flatten().for_each(|path| self.stays_within("specs", path));
+        scenario.iter().for_each(|path| self.stays_within("scenario", path));
         let scan_ms = find(members, "scan_ms").and_then(|j| self.whole(j, "scan_ms", 1..=1000));
         let may_touch = find(members, "may_touch").map(|j| self.may_touch(j, &names(members)));
         Some(Layout {
@@ -51,35 +57,51 @@ impl Decoder {
         })
     }
 
+    fn bounded_objects(&mut self, objects: &[Object]) {
+        if let Some(first) = objects.get(MOST_OBJECTS) {
+            let message = format!("a layout has at most {MOST_OBJECTS} robots and stationary things");
+            self.report(
+                Diagnostic::new("E0143", first.name.span, message)
+                    .label("the first that is too many")
+                    .note(format!("there are {}", objects.len()))
+                    .help("make several lines of this one"),
+            );
+        }
+    }
+
     fn layout_objects(&mut self, json: Option<&Json>, key: &str, part: Part) -> Vec<Object> {
         let items = json.and_then(|j| self.list(j, key)).unwrap_or_default();
         items.iter().filter_map(|item| self.layout_object(item, part)).collect()
     }
 
     fn neighbours(&mut self, objects: &[Object], known: &[&str]) {
+        let all: HashSet<&str> = known.iter().copied().collect();
         for object in objects {
-            let lists = [("takes_from", &object.takes_from), ("hands_to", &object.hands_to)];
-            for (key, list) in lists {
-                let list = list.as_deref().unwrap_or_default();
-                self.neighbour_list(object, key, list, known);
+            let own = object.name.value.as_str();
+            for (key, list) in [("takes_from", &object.takes_from), ("hands_to", &object.hands_to)] {
+                for name in list.iter().flatten() {
+                    if self.is_full() {
+                        return;
+                    }
+                    if name.value == own || !all.contains(name.value.as_str()) {
+                        self.no_neighbour(own, key, name, known);
+                    }
+                }
             }
         }
     }
 
-    fn neighbour_list(&mut self, object: &Object, key: &str, list: &[Spanned<String>], known: &[&str]) {
-        let own = &object.name.value;
-        let others: Vec<&str> = known.iter().copied().filter(|name| name != own).collect();
-        for name in list.iter().filter(|n| !others.contains(&n.value.as_str())) {
-            let message = match name.value == *own {
-                true => format!("\"{own}\" stands in its own {key}"),
-                false => format!("{key} of \"{own}\" names \"{}\", which is not in the layout", name.value),
-            };
-            self.report(
-                Diagnostic::new("E0122", name.span, message)
-                    .note(format!("the layout has: {}", known.join(", ")))
-                    .help(instead(&name.value, &others)),
-            );
-        }
+    fn no_neighbour(&mut self, own: &str, key: &str, name: &Spanned<String>, known: &[&str]) {
+        let others: Vec<&str> = known.iter().copied().filter(|name| *name != own).collect();
+        let message = match name.value == *own {
+            true => format!("\"{own}\" stands in its own {key}"),
+            false => format!("{key} of \"{own}\" names \"{}\", which is not in the layout", name.value),
+        };
+        self.report(
+            Diagnostic::new("E0122", name.span, message)
+                .note(format!("the layout has: {}", some(known)))
+                .help(instead(&name.value, &others)),
+        );
     }
 }
 

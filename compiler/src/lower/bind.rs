@@ -1,10 +1,11 @@
 //! Types of the layout to automata of the same name.
 
-use crate::diagnostic::{Diagnostic, suggestion};
-use crate::ir::Model;
+use crate::diagnostic::{Diagnostic, MOST, collect, suggestion};
+use crate::ir::{Automaton, Model};
 use crate::layout::{self, Layout, Number, Object, Part};
 use runtime_sim::geometry::Geometry;
 use runtime_sim::line::Obstacle;
+use std::collections::HashMap;
 
 /// Machines with an automaton, and things without one, both in layout order.
 pub struct Bound {
@@ -21,19 +22,24 @@ pub struct Robot {
 
 pub fn bind(layout: &Layout, model: &Model, diagnostics: &mut Vec<Diagnostic>) -> Bound {
     let mut bound = Bound { robots: Vec::new(), obstacles: Vec::new() };
+    let automata: HashMap<&str, &Automaton> = model.automata.iter().map(|a| (a.name.as_str(), a)).collect();
     for object in &layout.objects {
         let name = automaton_name(&object.kind.value);
-        match model.automata.iter().find(|a| a.name == name) {
+        match automata.get(name.as_str()) {
             Some(automaton) => match layout::geometry(object, automaton.device.name) {
                 Ok((geometry, numbers)) => {
                     bound.robots.push(Robot { object: object.clone(), automaton: name, geometry, numbers });
                 }
-                Err(found) => diagnostics.extend(found),
+                Err(found) => found.into_iter().for_each(|d| collect(diagnostics, d)),
             },
-            None if object.part == Part::Robot => diagnostics.push(without_automaton(object, &name, model)),
+            None if object.part == Part::Robot => {
+                if diagnostics.len() < MOST {
+                    collect(diagnostics, without_automaton(object, &name, model));
+                }
+            }
             None => match layout::obstacle(object) {
                 Ok(obstacle) => bound.obstacles.push(obstacle),
-                Err(found) => diagnostics.extend(found),
+                Err(found) => found.into_iter().for_each(|d| collect(diagnostics, d)),
             },
         }
     }

@@ -58,8 +58,9 @@ impl Draft {
         diagnostics.extend(found);
         let mut files = Vec::new();
         let mut syntax_is_right = true;
+        let mut left = parser::MOST_TOKENS;
         for &file in texts.specs {
-            let (tree, found) = parser::parse(file, &sources.file(file).text);
+            let (tree, found) = parser::parse_within(file, &sources.file(file).text, &mut left);
             syntax_is_right &= found.is_empty();
             diagnostics.extend(found);
             files.push((file, tree));
@@ -67,22 +68,13 @@ impl Draft {
         let (scenario, found) = scenario::parse(sources, texts.scenario);
         diagnostics.extend(found);
         let kinds = scenario.as_ref().map_or_else(|| vec!["part".into()], kinds);
-        let checked = match check::check(sources, &files, &kinds) {
-            Ok(checked) => Some(checked),
-            // What could not be read is missed by what was read: those messages would only confuse.
-            Err(found) => {
-                if syntax_is_right {
-                    diagnostics.extend(found);
-                }
-                None
-            }
-        };
+        // What could not be read is missed by what was read: what follows from that would only confuse.
+        let checked = syntax_is_right.then(|| check::check(sources, &files, &kinds));
+        let checked = checked.and_then(|checked| checked.map_err(|found| diagnostics.extend(found)).ok());
         let orders = scenario.as_ref().map(|s| s.orders.list.len());
         let name = layout.as_ref().map(|l| l.name.clone());
         let mut draft = Self { diagnostics, name, orders, parts: None };
-        if let (Some(layout), Some(checked), Some(scenario)) = (layout, checked, scenario)
-            && syntax_is_right
-        {
+        if let (Some(layout), Some(checked), Some(scenario)) = (layout, checked, scenario) {
             let model = draft.bind(sources, &layout, &files, &checked, &kinds, settings);
             draft.parts = model.map(|model| Parts { layout, scenario, model });
         }
@@ -153,8 +145,15 @@ impl Parts {
         }
         let bound = bind::bind(&layout, &self.model, &mut found.diagnostics);
         let mut line = role::Line::new(&layout, bound.robots, self.model.clone(), &self.scenario);
+        if line.is_too_large() {
+            found.diagnostics.append(&mut line.diagnostics);
+            return;
+        }
         line.parameters(settings);
-        let report = line.connect();
+        let Some(report) = line.connect() else {
+            found.diagnostics.append(&mut line.diagnostics);
+            return;
+        };
         found.verdict = Some(line.verdict(&report));
         found.diagnostics.append(&mut line.diagnostics);
         found.diagnostics.extend(report.diagnostics.iter().cloned());

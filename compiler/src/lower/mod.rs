@@ -7,6 +7,7 @@ mod parameter;
 mod plant;
 mod role;
 mod setting;
+mod size;
 
 pub use draft::{Draft, Line, Texts};
 pub use setting::Setting;

@@ -2,9 +2,10 @@
 
 use super::role::Line;
 use super::setting::Setting;
-use crate::diagnostic::{Diagnostic, suggestion};
+use crate::diagnostic::{Diagnostic, MOST, collect, suggestion};
 use crate::ir::{Extent, Parameter, ParameterSource, Scalar, Type, Value};
 use crate::layout::json::{self, Json};
+use std::collections::HashSet;
 
 impl Line<'_> {
     /// Fixes all parameters of all robots; what is wrong is reported and stands as its type's first value.
@@ -18,12 +19,16 @@ impl Line<'_> {
     }
 
     fn unknown_parameters(&mut self, robot: usize) {
+        if self.robots[robot].object.parameters.is_empty() {
+            return;
+        }
         let known: Vec<String> = (self.automaton(robot).parameters.iter())
             .filter(|p| p.is_settable())
             .map(|p| p.name.clone())
             .collect();
+        let all: HashSet<&str> = known.iter().map(String::as_str).collect();
         for (name, _) in &self.robots[robot].object.parameters {
-            if !known.contains(&name.value) {
+            if !all.contains(name.value.as_str()) && self.diagnostics.len() < MOST {
                 let help = match suggestion(&name.value, known.iter().map(String::as_str)) {
                     Some(near) => format!("is \"{near}\" meant?"),
                     None if known.is_empty() => "its automaton has no parameters: remove it".into(),
@@ -31,7 +36,7 @@ impl Line<'_> {
                 };
                 let message =
                     format!("`{}` has no parameter \"{}\"", self.robots[robot].automaton, name.value);
-                self.diagnostics.push(Diagnostic::new("E0501", name.span, message).help(help));
+                collect(&mut self.diagnostics, Diagnostic::new("E0501", name.span, message).help(help));
             }
         }
     }
@@ -51,7 +56,8 @@ impl Line<'_> {
             (None, ParameterSource::Layout(Some(value))) => vec![*value; size],
             (None, ParameterSource::Layout(None)) => {
                 let object = &self.robots[robot].object;
-                self.diagnostics.push(
+                collect(
+                    &mut self.diagnostics,
                     Diagnostic::new(
                         "E0502",
                         object.name.span,
@@ -77,7 +83,8 @@ impl Line<'_> {
             let beyond = beyond.join(", ");
             let message =
                 format!("the orders ask for {beyond}, and `{}` goes from {lo} to {hi}", parameter.name);
-            self.diagnostics.push(
+            collect(
+                &mut self.diagnostics,
                 Diagnostic::new("E0503", parameter.place, message)
                     .other(self.orders_place, "the orders are here")
                     .help("widen the bounds of the parameter, or set it"),
@@ -110,7 +117,8 @@ impl Line<'_> {
                 for member in members {
                     match names.iter().position(|n| *n == member.key.value) {
                         Some(ordinal) => values[ordinal] = self.scalar(&member.value, ty.scalar, name),
-                        None => self.diagnostics.push(
+                        None => collect(
+                            &mut self.diagnostics,
                             Diagnostic::new(
                                 "E0503",
                                 member.key.span,
@@ -121,7 +129,8 @@ impl Line<'_> {
                     }
                 }
                 for name_of in names.iter().filter(|n| !members.iter().any(|m| m.key.value == **n)) {
-                    self.diagnostics.push(
+                    collect(
+                        &mut self.diagnostics,
                         Diagnostic::new(
                             "E0503",
                             json.span,
@@ -139,7 +148,8 @@ impl Line<'_> {
                     }
                     _ => format!("a list of {size} values"),
                 };
-                self.diagnostics.push(
+                collect(
+                    &mut self.diagnostics,
                     Diagnostic::new("E0503", json.span, format!("`{name}` is an array"))
                         .help(format!("write {shape}")),
                 );
@@ -187,7 +197,8 @@ impl Line<'_> {
                     format!("one of {}", members.collect::<Vec<_>>().join(", "))
                 }
             };
-            self.diagnostics.push(
+            collect(
+                &mut self.diagnostics,
                 Diagnostic::new("E0503", json.span, format!("this is no value for `{name}`"))
                     .help(format!("write {wanted}")),
             );

@@ -94,7 +94,8 @@ fn arms(system: &System) -> Vec<Arms> {
 
 /// What is awaited in a state: own timer and ports, or the owners of the cells that its guards read.
 fn state(system: &System, arms: &[Arms], instance: usize, state: &State) -> line::State {
-    let mut reads = Reads { system, arms, instance, working: false, owners: BTreeSet::new() };
+    let mut reads =
+        Reads { system, arms, instance, working: false, owners: BTreeSet::new(), seen: BTreeSet::new() };
     for transition in &state.transitions {
         for clause in &transition.clauses {
             match clause {
@@ -120,6 +121,8 @@ struct Reads<'a> {
     instance: usize,
     working: bool,
     owners: BTreeSet<usize>,
+    /// Definitions that were read already, as each may be used many times.
+    seen: BTreeSet<usize>,
 }
 
 impl Reads<'_> {
@@ -138,6 +141,7 @@ impl Reads<'_> {
             }
             ExprKind::Done | ExprKind::Failed => self.working = true,
             ExprKind::Read(place) => self.place(place),
+            ExprKind::Define(define) if !self.seen.insert(*define) => {}
             ExprKind::Define(define) => {
                 let system = self.system;
                 self.expr(&system.automaton_of(self.instance).defines[*define].value);

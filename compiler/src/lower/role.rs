@@ -3,7 +3,7 @@
 use super::bind::Robot;
 use super::{Apart, Verdict};
 use crate::connect::{self, Connected, Ground, Node, Proposal, Site};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, collect};
 use crate::ir::{
     Automaton, AutomatonId, Expr, Handover, Instance, InterfaceId, Model, Role, RoleKind, Scalar, System,
     TextPart, Value, Way,
@@ -13,7 +13,13 @@ use crate::scenario::Scenario;
 use crate::source::{Span, Spanned};
 use crate::{executor, ir};
 use runtime_sim::geometry::SLOTS;
-use std::collections::BTreeSet;
+use std::cell::Cell;
+use std::collections::{BTreeSet, HashMap, HashSet};
+
+/// Pairs of an arm and a place whose poses are tried.
+const MOST_PAIRS: usize = 100_000;
+/// Pairs that are tried since a machine is cut off, however far the two are apart.
+const MOST_FAR: usize = 2000;
 
 /// The machines of a layout, bound to a model of just their types.
 pub struct Line<'a> {
@@ -102,8 +108,8 @@ impl<'a> Line<'a> {
         self.nodes[node]
     }
 
-    /// What the geometry says of the pairs that the types propose.
-    pub fn connect(&mut self) -> connect::Report {
+    /// What the geometry says of the pairs that the types propose; `None` has been reported.
+    pub fn connect(&mut self) -> Option<connect::Report> {
         let nodes_of: Vec<usize> = (0..self.robots.len()).filter(|r| self.takes_part(*r)).collect();
         let nodes = nodes_of.iter().map(|&r| {
             let (offers, accepts) =
@@ -124,20 +130,46 @@ impl<'a> Line<'a> {
         let span = Span::new(self.layout.file, 0, 0);
         let mut line = connect::Line { span, nodes, proposals: Vec::new(), kinds: self.kinds.clone() };
         (line.proposals, self.asked_by) = self.proposals(&nodes_of, |arm, passive, _| near(arm, passive));
+        if line.proposals.len() > MOST_PAIRS {
+            self.too_many_pairs(&line);
+            return None;
+        }
         let mut report = connect::check(&line);
         if !report.is_feasible() {
             // What machines that are cut off could have worked with, however far it is.
             let cut_off = |nodes: &[usize]| nodes.iter().map(|n| nodes_of[*n]).collect::<BTreeSet<usize>>();
+            let far = Cell::new(0);
             let (starved, stuck) = (cut_off(&report.unreachable), cut_off(&report.dead_ends));
             (line.proposals, self.asked_by) = self.proposals(&nodes_of, |arm, passive, kind| {
                 let (from, to) = if kind == RoleKind::Takes { (passive, arm) } else { (arm, passive) };
-                near(arm, passive) || starved.contains(&to) || stuck.contains(&from)
+                let is_far = || {
+                    let is_wanted = far.get() < MOST_FAR && (starved.contains(&to) || stuck.contains(&from));
+                    far.set(far.get() + usize::from(is_wanted));
+                    is_wanted
+                };
+                near(arm, passive) || is_far()
             });
             report = connect::check(&line);
         }
         self.nodes = nodes_of;
         self.line = Some(line);
-        report
+        Some(report)
+    }
+
+    fn too_many_pairs(&mut self, line: &connect::Line) {
+        let mut counts = vec![0; line.nodes.len()];
+        line.proposals.iter().for_each(|pair| counts[pair.arm] += 1);
+        let Some((node, count)) = (0..counts.len()).map(|n| (n, counts[n])).max_by_key(|(_, count)| *count)
+        else {
+            return;
+        };
+        let arm = &line.nodes[node];
+        let message = format!("more than {MOST_PAIRS} pairs of an arm and a place stand near one another");
+        self.diagnostics.push(
+            Diagnostic::new("E0408", arm.span, message)
+                .note(format!("{} alone stands near {count} places", arm.name))
+                .help("narrow arms with \"takes_from\" and \"hands_to\", or make several lines of this one"),
+        );
     }
 
     /// The pairs that the types propose and that are wanted, by arm, passive machine and kind of role; and
@@ -166,6 +198,9 @@ impl<'a> Line<'a> {
                         RoleKind::Takes => (passive_node, arm_node),
                         _ => (arm_node, passive_node),
                     };
+                    if proposals.len() > MOST_PAIRS {
+                        return (proposals, asked_by);
+                    }
                     proposals.push(Proposal { from, to, arm: arm_node, site, rule: role.place });
                     asked_by.push((arm, index));
                 }
@@ -175,28 +210,27 @@ impl<'a> Line<'a> {
     }
 
     /// Robots that a role of an arm could have, by their types and by the layout's `takes_from` and `hands_to`.
-    fn candidates(&self, arm: usize, role: &Role) -> Vec<usize> {
+    fn candidates<'l>(&'l self, arm: usize, role: &Role) -> Vec<usize> {
         let object = &self.robots[arm].object;
         let (way, narrowed) = match role.kind {
             RoleKind::Takes => (Way::Offers, &object.takes_from),
             RoleKind::Hands => (Way::Accepts, &object.hands_to),
             RoleKind::Serves | RoleKind::Knows => return Vec::new(),
         };
+        let names = |names: &'l Vec<Spanned<String>>| names.iter().map(|n| n.value.as_str()).collect();
+        let narrowed: Option<HashSet<&str>> = narrowed.as_ref().map(names);
         let allowed = |r: usize| {
-            let name = &self.robots[r].object.name.value;
-            narrowed
-                .as_ref()
-                .is_none_or(|names: &Vec<Spanned<String>>| names.iter().any(|n| n.value == *name))
+            narrowed.as_ref().is_none_or(|names| names.contains(self.robots[r].object.name.value.as_str()))
         };
-        let fits = |r: usize| {
-            let automaton = self.automaton(r);
+        let fits = |automaton: &Automaton| {
             let place = automaton
                 .implementing(role.interface)
                 .and_then(|i| automaton.implements[i].handover.as_ref());
             place.is_some_and(|h| h.way == way)
                 && role.also.iter().all(|i| automaton.implementing(*i).is_some())
         };
-        (0..self.robots.len()).filter(|r| *r != arm && fits(*r) && allowed(*r)).collect()
+        let fits: Vec<bool> = self.model.automata.iter().map(fits).collect();
+        (0..self.robots.len()).filter(|r| *r != arm && fits[self.automata[*r].0] && allowed(*r)).collect()
     }
 
     fn site(&self, passive: usize, role: &Role) -> Option<Site> {
@@ -268,41 +302,46 @@ impl<'a> Line<'a> {
             (Some(a), Some(b)) => connected.reaches(a, b),
             _ => false,
         };
+        let mut meets: HashMap<(usize, usize), Vec<usize>> = HashMap::new();
+        for (number, asked_by) in self.asked_by.iter().enumerate().filter(|(number, _)| stands[*number]) {
+            meets.entry(*asked_by).or_default().push(robot_of[line.proposals[number].passive()]);
+        }
         let mut instances = Vec::new();
         for robot in 0..self.robots.len() {
-            let automaton = self.automaton(robot).clone();
             let mut roles = Vec::new();
-            for (index, role) in automaton.roles.iter().enumerate() {
+            for (index, role) in self.automaton(robot).roles.clone().iter().enumerate() {
                 let found: Vec<usize> = match role.kind {
-                    RoleKind::Takes | RoleKind::Hands => (line.proposals.iter().enumerate())
-                        .filter(|(p, _)| stands[*p] && self.asked_by[*p] == (robot, index))
-                        .map(|(_, p)| robot_of[p.passive()])
-                        .collect(),
-                    RoleKind::Serves => {
-                        (0..self.robots.len()).filter(|r| *r != robot && reaches(robot, *r)).collect()
+                    RoleKind::Takes | RoleKind::Hands => {
+                        meets.get(&(robot, index)).cloned().unwrap_or_default()
                     }
-                    RoleKind::Knows => (0..self.robots.len()).filter(|r| *r != robot).collect(),
+                    RoleKind::Serves => {
+                        let members = self.members[role.interface.0].iter().copied();
+                        members.filter(|r| *r != robot && reaches(robot, *r)).collect()
+                    }
+                    RoleKind::Knows => {
+                        self.members[role.interface.0].iter().copied().filter(|r| *r != robot).collect()
+                    }
                 };
                 let members = &self.members[role.interface.0];
-                let has_all = |r: &usize| role.also.iter().all(|i| self.members[i.0].contains(r));
+                let has_all =
+                    |r: &usize| role.also.iter().all(|i| self.members[i.0].binary_search(r).is_ok());
                 let rows: Vec<usize> = found
                     .iter()
                     .filter(|r| has_all(r))
-                    .filter_map(|r| members.iter().position(|m| m == r))
+                    .filter_map(|r| members.binary_search(r).ok())
                     .collect();
                 self.cardinality(robot, role, &rows);
                 roles.push(rows);
             }
-            let rows = automaton
-                .implements
-                .iter()
-                .filter_map(|i| self.members[i.interface.0].iter().position(|m| *m == robot));
+            let rows = (self.automaton(robot).implements.iter())
+                .filter_map(|i| self.members[i.interface.0].binary_search(&robot).ok());
+            let rows = rows.collect();
             instances.push(Instance {
                 name: self.robots[robot].object.name.value.clone(),
                 automaton: self.automaton_id(robot),
                 parameters: self.values[robot].clone(),
                 roles,
-                rows: rows.collect(),
+                rows,
             });
         }
         let table = |relation: &ir::Relation| {
@@ -327,13 +366,15 @@ impl<'a> Line<'a> {
 
     /// An arm that gives to and takes from the same place would move its parts in a circle.
     fn round_trips(&mut self, line: &connect::Line, connected: &Connected) {
+        let given: HashSet<(usize, usize)> =
+            line.proposals.iter().filter(|p| p.arm == p.from).map(|p| (p.from, p.to)).collect();
+        let edges: HashSet<(usize, usize)> = connected.edges().iter().map(|e| (e.from, e.to)).collect();
         for edge in connected.edges() {
-            let back =
-                line.proposals.iter().find(|p| p.from == edge.from && p.to == edge.to && p.arm == edge.from);
-            let is_both = back.is_some() && connected.targets(edge.to).any(|t| t == edge.from);
+            let is_both = given.contains(&(edge.from, edge.to)) && edges.contains(&(edge.to, edge.from));
             if is_both {
                 let (arm, place) = (&line.nodes[edge.from], &line.nodes[edge.to]);
-                self.diagnostics.push(
+                collect(
+                    &mut self.diagnostics,
                     Diagnostic::new(
                         "E0504",
                         arm.span,
@@ -361,7 +402,8 @@ impl<'a> Line<'a> {
                 .any(|(i, members)| !members.is_empty() && i.cells.iter().any(|c| is_ref(&c.ty)));
             if user.is_some() || in_cell {
                 let place = Span::new(self.layout.file, 0, 0);
-                self.diagnostics.push(
+                collect(
+                    &mut self.diagnostics,
                     Diagnostic::new(
                         "E0505",
                         place,
@@ -387,7 +429,8 @@ impl<'a> Line<'a> {
         let names: Vec<&str> =
             rows.iter().map(|row| self.robots[members[*row]].object.name.value.as_str()).collect();
         let found = if names.is_empty() { "none".to_string() } else { names.join(", ") };
-        self.diagnostics.push(
+        collect(
+            &mut self.diagnostics,
             Diagnostic::new(
                 "E0506",
                 object.name.span,
@@ -408,7 +451,8 @@ impl<'a> Line<'a> {
                     });
                     let text: String = text.collect();
                     let object = &self.robots[robot].object;
-                    self.diagnostics.push(
+                    collect(
+                        &mut self.diagnostics,
                         Diagnostic::new(
                             "E0507",
                             object.name.span,

@@ -1,9 +1,10 @@
 //! A scenario meets a line: names of machines become indices, and the supply is laid out.
 
 use super::{Faults, Items, Refusal, ResolvedScenario, Scenario, Slip, supply};
-use crate::diagnostic::{Diagnostic, sort};
+use crate::diagnostic::{Diagnostic, MOST, collect, sort};
 use crate::layout::decode::{instead, listing};
 use crate::source::{Span, Spanned};
+use std::collections::HashMap;
 
 /// Machines by name and index, in layout order.
 #[derive(Clone, Copy, Debug, Default)]
@@ -20,7 +21,7 @@ pub struct Line<'a> {
 const MOST_PARTS: u64 = 1_000_000;
 
 pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec<Diagnostic>> {
-    let mut resolver = Resolver { scenario, line, diagnostics: Vec::new() };
+    let mut resolver = Resolver { scenario, line, by_name: HashMap::new(), diagnostics: Vec::new() };
     let orders = resolver.orders();
     let supply = resolver.supply();
     let Faults { slips, refusals, pauses } = &scenario.faults;
@@ -54,25 +55,35 @@ pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec
 struct Resolver<'a> {
     scenario: &'a Scenario,
     line: &'a Line<'a>,
+    /// Machines of each kind, by what they are called.
+    by_name: HashMap<&'static str, HashMap<&'a str, usize>>,
     diagnostics: Vec<Diagnostic>,
 }
 
-impl Resolver<'_> {
-    fn named(&mut self, name: &Spanned<String>, known: &[(&str, usize)], what: &str) -> Option<usize> {
-        let found = known.iter().find(|(known, _)| *known == name.value);
-        if found.is_none() {
+impl<'a> Resolver<'a> {
+    fn named(
+        &mut self,
+        name: &Spanned<String>,
+        known: &[(&'a str, usize)],
+        what: &'static str,
+    ) -> Option<usize> {
+        let by_name = self.by_name.entry(what).or_insert_with(|| known.iter().copied().collect());
+        let found = by_name.get(name.value.as_str()).copied();
+        if found.is_none() && self.diagnostics.len() < MOST {
             let names: Vec<&str> = known.iter().map(|(name, _)| *name).collect();
-            self.diagnostics.push(
+            collect(
+                &mut self.diagnostics,
                 Diagnostic::new("E0134", name.span, format!("the layout has no {what} \"{}\"", name.value))
                     .note(format!("it has: {}", listing(&names)))
                     .help(instead(&name.value, &names)),
             );
         }
-        found.map(|(_, index)| *index)
+        found
     }
 
     fn missing(&mut self, place: Span, what: &str, why: &str) {
-        self.diagnostics.push(
+        collect(
+            &mut self.diagnostics,
             Diagnostic::new("E0135", place, format!("the layout has no {what}"))
                 .note(why)
                 .help(format!("add a {what} to the layout, or take a scenario that needs none")),
@@ -124,7 +135,8 @@ impl Resolver<'_> {
                 }
                 _ => {
                     let names: Vec<&str> = self.line.belts.iter().map(|(name, _)| *name).collect();
-                    self.diagnostics.push(
+                    collect(
+                        &mut self.diagnostics,
                         Diagnostic::new("E0136", span, "one list of parts for several belts")
                             .note(format!("belts of the layout: {}", listing(&names)))
                             .help(format!("give each belt its list: \"items\": {{\"{}\": [...]}}", names[0])),
@@ -155,7 +167,8 @@ impl Resolver<'_> {
         let needed: u64 = orders.iter().flat_map(|parts| parts.iter()).map(|n| u64::from(*n)).sum();
         let brought = needed + supply::surplus(needed, surplus);
         if brought > MOST_PARTS {
-            self.diagnostics.push(
+            collect(
+                &mut self.diagnostics,
                 Diagnostic::new("E0137", span, format!("the belts would have to bring {brought} parts"))
                     .note(format!("the orders need {needed}; a scenario brings at most {MOST_PARTS}"))
                     .help("ask for fewer orders, or for less surplus"),
@@ -183,7 +196,8 @@ impl Resolver<'_> {
             let brought = supply.iter().flat_map(|(_, items)| items).filter(|i| **i == k).count() as u64;
             if brought < needed {
                 let name = &kind.name.value;
-                self.diagnostics.push(
+                collect(
+                    &mut self.diagnostics,
                     Diagnostic::new(
                         "E0138",
                         self.scenario.supply.span,

@@ -2,7 +2,8 @@
 
 mod foreign;
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, MOST};
+use crate::plain;
 use crate::source::{FileId, Span};
 
 #[derive(Clone, Debug, PartialEq)]
@@ -12,7 +13,7 @@ pub enum Token {
     Int(i64),
     Real(f64),
     Text(String),
-    /// A line that begins with `///`.
+    /// A line that begins with `///`, as it may be shown.
     Doc(String),
     /// Punctuation and operators.
     Sign(&'static str),
@@ -25,21 +26,25 @@ const SIGNS: &[&str] = &[
     ",", ";", ":", ".", "+", "-", "*", "/", "=", "<", ">",
 ];
 
-/// All tokens of a text, the last one `End`; what is not a token is reported and left out.
-pub fn tokens(file: FileId, text: &str) -> (Vec<(Token, Span)>, Vec<Diagnostic>) {
+/// All tokens of a text, the last one `End`; what is not a token is reported and left out. After `most` tokens,
+/// or too many errors, the rest is not read.
+pub fn tokens(file: FileId, text: &str, most: usize) -> (Vec<(Token, Span)>, Vec<Diagnostic>) {
     let mut found = Vec::new();
     let mut diagnostics = Vec::new();
     let mut at = 0;
     while let Some(c) = text[at..].chars().next() {
         let rest = &text[at..];
         let start = at;
+        if found.len() >= most || diagnostics.len() >= MOST {
+            break;
+        }
         if c.is_whitespace() {
             at += c.len_utf8();
         } else if rest.starts_with("//") {
             let line = rest.lines().next().unwrap_or("");
             at += line.len();
             if let Some(doc) = line.strip_prefix("///") {
-                found.push((Token::Doc(doc.trim().to_string()), Span::new(file, start, at)));
+                found.push((Token::Doc(plain::line(doc.trim())), Span::new(file, start, at)));
             }
         } else if let Some(end) =
             [("/*", "*/"), ("(*", "*)")].iter().find_map(|(a, b)| rest.starts_with(a).then_some(b))
@@ -129,7 +134,7 @@ pub fn tokens(file: FileId, text: &str) -> (Vec<(Token, Span)>, Vec<Diagnostic>)
             );
         }
     }
-    let end = text.trim_end().len();
+    let end = if at < text.len() { at } else { text.trim_end().len() };
     found.push((Token::End, Span::new(file, end, end)));
     (found, diagnostics)
 }

@@ -5,9 +5,10 @@
 mod automaton;
 mod declaration;
 mod expression;
+mod limits;
 mod state;
 
-use crate::diagnostic::{Diagnostic, suggestion};
+use crate::diagnostic::{Diagnostic, collect, suggestion};
 use crate::source::{FileId, Span, Spanned};
 use crate::spec::ast;
 use crate::spec::lexer::{self, Token};
@@ -25,11 +26,35 @@ const DEEPEST: usize = 64;
 /// It bounds the depth of a tree, and with it the stack that the compiler needs.
 const LONGEST: usize = 256;
 
+/// Words, numbers, texts and signs that all files of automata of a line have together; the library has 3 % of it.
+pub const MOST_TOKENS: usize = 200_000;
+
+/// Pieces of a text that shows values.
+const MOST_SHOWN: usize = 200;
+
 /// Reads a whole file. What is wrong is in the list; the tree holds the rest.
 pub fn parse(file: FileId, text: &str) -> (ast::File, Vec<Diagnostic>) {
-    let (tokens, diagnostics) = lexer::tokens(file, text);
+    parse_within(file, text, &mut MOST_TOKENS.clone())
+}
+
+/// Reads one of several files, as [`parse`] does; `left` is what is left of [`MOST_TOKENS`].
+pub fn parse_within(file: FileId, text: &str, left: &mut usize) -> (ast::File, Vec<Diagnostic>) {
+    let (tokens, mut diagnostics) = lexer::tokens(file, text, *left + 1);
+    let count = tokens.len() - 1;
+    if count > *left {
+        let (_, place) = tokens[count - 1];
+        let message = format!("the files of automata have more than {MOST_TOKENS} words and signs");
+        diagnostics.push(
+            Diagnostic::new("E0215", place, message)
+                .label("the first that is too many")
+                .help("give --specs only the types that the line needs, or make several types of a long one"),
+        );
+        return (ast::File::default(), diagnostics);
+    }
+    *left -= count;
     let mut parser = Parser::new(tokens, diagnostics);
     let tree = parser.file();
+    parser.bounded(&tree);
     (tree, parser.diagnostics)
 }
 
@@ -83,12 +108,18 @@ impl Parser {
         let mut parts = Vec::new();
         let mut at = 0;
         while let Some(opens) = text[at..].find('{').map(|i| at + i) {
+            if parts.len() > MOST_SHOWN {
+                let message = format!("a text shows more than {} values", MOST_SHOWN / 2);
+                self.error("E0211", message, "make several requirements of this one");
+                return parts;
+            }
             if opens > at {
                 parts.push(ast::TextPart::Words(text[at..opens].into()));
             }
             let closes = text[opens..].find('}').map(|i| opens + i);
             let end = closes.unwrap_or(text.len());
-            let (mut tokens, mut diagnostics) = lexer::tokens(self.span().file, &text[opens + 1..end]);
+            let (mut tokens, mut diagnostics) =
+                lexer::tokens(self.span().file, &text[opens + 1..end], MOST_TOKENS);
             tokens.iter_mut().for_each(|(_, span)| *span = span.after(start + opens + 1));
             diagnostics.iter_mut().for_each(|d| d.place = d.place.after(start + opens + 1));
             let mut inner = Parser::new(tokens, diagnostics);
@@ -307,7 +338,7 @@ impl Parser {
     /// Of several errors at one token only the first is told.
     fn report(&mut self, diagnostic: Diagnostic) {
         if self.error_at != Some(self.position) {
-            self.diagnostics.push(diagnostic);
+            collect(&mut self.diagnostics, diagnostic);
         }
         self.error_at = Some(self.position);
         self.errors += 1;

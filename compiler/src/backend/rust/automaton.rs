@@ -73,7 +73,7 @@ pub fn module(context: &Context) -> String {
             automaton.name,
             context.line(automaton.place)
         ),
-        about: automaton.doc.iter().map(|line| format::clean(line)).collect(),
+        about: automaton.doc.iter().map(|line| crate::plain::line(line)).collect(),
         device: format!("`{}`: {}", device.name, device.purpose),
         ty: names.ty.clone(),
         parameters: parameters(context),

@@ -1,9 +1,9 @@
 //! What the printers of one automaton share.
 
-use super::format::clean;
 use super::names::{AutomatonNames, Names};
 use super::walk::{Access, Uses};
 use crate::ir::{Automaton, AutomatonId, Extent, Scalar, System, Type, Value};
+use crate::plain;
 use crate::source::{Sources, Span};
 
 #[derive(Clone, Copy)]
@@ -108,13 +108,13 @@ impl Shared<'_> {
 
     /// `agv.aut:12`
     pub fn line(&self, place: Span) -> String {
-        format!("{}:{}", clean(&self.sources.file(place.file).name), self.sources.position(place).0)
+        format!("{}:{}", self.sources.file(place.file).name, self.sources.position(place).0)
     }
 }
 
 /// Lines of documentation.
 pub fn doc(lines: &[String]) -> String {
-    let lines: Vec<String> = lines.iter().map(|line| clean(line)).collect();
+    let lines: Vec<String> = lines.iter().map(|line| plain::line(line)).collect();
     if lines.iter().all(|line| line.trim().is_empty()) {
         return String::new();
     }

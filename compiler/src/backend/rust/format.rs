@@ -1,5 +1,6 @@
 //! From text that parses to text that reads well.
 
+use crate::plain;
 use std::collections::BTreeSet;
 use syn::visit::{Visit, visit_path};
 
@@ -8,16 +9,7 @@ pub type Importable = [(String, Vec<String>)];
 
 /// A statement that becomes a comment.
 pub fn comment(text: &str) -> String {
-    format!("comment!({:?});\n", clean(text))
-}
-
-/// Text of the user as it may stand in a comment: on one line, and in the order in which it is read.
-pub fn clean(text: &str) -> String {
-    let is_shown = |c: &char| {
-        let turns = matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
-        !turns && !c.is_control()
-    };
-    text.chars().map(|c| if c.is_whitespace() { ' ' } else { c }).filter(is_shown).collect()
+    format!("comment!({:?});\n", plain::line(text))
 }
 
 /// Lays out a module, with the imports that its code needs.
@@ -152,10 +144,5 @@ mod tests {
     #[should_panic(expected = "what was printed is no Rust")]
     fn what_is_no_rust_is_not_written() {
         print("//! A module.\nfn {}\n");
-    }
-
-    #[test]
-    fn text_becomes_one_line_in_the_order_in_which_it_is_read() {
-        assert_eq!(clean("a\tb\r\u{1b}[m \u{202e}c\u{2069}\nd — ü"), "a b [m c d — ü");
     }
 }

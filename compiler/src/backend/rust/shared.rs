@@ -29,7 +29,7 @@ pub fn library(shared: Shared) -> String {
     let mut modules: Vec<String> =
         own.into_iter().chain(shared.names.automata.iter().map(|a| a.module.clone())).collect();
     modules.sort();
-    format::print(&render(&Library { files: format::clean(&files.join(", ")), modules }))
+    format::print(&render(&Library { files: crate::plain::line(&files.join(", ")), modules }))
 }
 
 #[derive(Template)]

@@ -1,6 +1,7 @@
 //! Text of statements and expressions, in one of two dialects.
 
 use super::code::{self, Arm, Ex, Member, Stmt};
+use crate::plain;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dialect {
@@ -18,9 +19,9 @@ pub fn comment(text: &str) -> String {
     format!("(* {} *)", harmless(text))
 }
 
-/// Text that neither begins nor ends a comment.
+/// Text on one line that neither begins nor ends a comment.
 pub fn harmless(text: &str) -> String {
-    text.replace("(*", "( *").replace("*)", "* )")
+    plain::line(text).replace("(*", "( *").replace("*)", "* )")
 }
 
 pub fn real(value: f64) -> String {

@@ -2,17 +2,14 @@
 
 use super::context::Shared;
 use super::points::{Terminal, terminals};
+use crate::csv;
 use crate::io_map::{Conversion, IoMap, Wire};
 use crate::naming::st::Renamed;
 use runtime_sim::device::Direction;
 
-/// A line of fields, in quotes where they need them.
+/// A line of fields.
 pub fn row(fields: &[&str]) -> String {
-    let field = |text: &&str| match text.contains([',', '"', '\n', ';']) {
-        true => format!("\"{}\"", text.replace('"', "\"\"")),
-        false => text.to_string(),
-    };
-    fields.iter().map(field).collect::<Vec<_>>().join(",") + "\n"
+    fields.iter().map(|text| csv::field(text)).collect::<Vec<_>>().join(",") + "\n"
 }
 
 /// The names that could not stay as the specification has them.

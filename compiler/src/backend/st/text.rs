@@ -123,7 +123,7 @@ pub fn made_from(shared: Shared) -> String {
         name => name.rsplit(['/', '\\']).next().unwrap_or(name).to_string(),
     };
     let names: Vec<String> = shared.sources.files().iter().map(name).collect();
-    let text = harmless(&names.join(", ").replace('\n', " "));
+    let text = harmless(&names.join(", "));
     // A comment in XML has no two hyphens side by side.
     text.replace("--", "- -").replace("--", "- -")
 }

@@ -6,6 +6,7 @@ use super::declaration::{Unit, Variable};
 use super::functions::Function;
 use super::print::Dialect;
 use super::text::{enumerations, made_from, render};
+use crate::plain;
 use askama::Template;
 use std::fmt::Write;
 
@@ -182,7 +183,7 @@ fn typed(attributes: &str, ty: &str, initial: &str, about: &str, indent: usize) 
 }
 
 fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+    plain::line(text).replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 /// Text that does not end a CDATA section.

@@ -25,7 +25,7 @@ pub enum Notice {
 impl Notice {
     fn say(self, text: &str) {
         match self {
-            Notice::Compiling => eprintln!("{text}"),
+            Notice::Compiling => complain!("{text}"),
             Notice::None => {}
         }
     }

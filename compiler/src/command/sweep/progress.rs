@@ -1,5 +1,6 @@
 //! How far a sweep has come, on a terminal.
 
+use super::super::print;
 use std::io::{self, IsTerminal};
 use std::time::{Duration, Instant};
 
@@ -26,7 +27,7 @@ impl Progress {
         self.done += 1;
         // Rows on the same terminal would push it on, a line for each.
         if self.is_wanted && (self.last.elapsed() >= PAUSE || self.done == 1) {
-            eprint!("{} of {}", self.done, self.all);
+            print::err_styled(&format!("{} of {}", self.done, self.all));
             self.last = Instant::now();
             self.is_shown = true;
         }
@@ -35,7 +36,7 @@ impl Progress {
     /// Takes the line away.
     pub fn clear(&mut self) {
         if std::mem::take(&mut self.is_shown) {
-            eprint!("\r\x1b[K");
+            print::err_styled("\r\x1b[K");
         }
     }
 }

@@ -5,6 +5,7 @@ use super::grid::Grid;
 use super::measured::{Beside, Measured};
 use super::plan::{Plan, Refusal};
 use super::row::Row;
+use autogen::csv;
 use serde_json::{Value, json};
 
 pub struct Table<'a> {
@@ -59,7 +60,8 @@ impl<'a> Table<'a> {
             TableFormat::Csv => {
                 let of_point = self.columns.iter().map(|c| c.name);
                 let of_measured = self.measured.iter().flat_map(|_| MEASURED_COLUMNS);
-                let names = of_point.chain(CSV_COLUMNS).chain(of_measured).map(quoted).collect::<Vec<_>>();
+                let names =
+                    of_point.chain(CSV_COLUMNS).chain(of_measured).map(csv::field).collect::<Vec<_>>();
                 say!("{}", names.join(","));
             }
             TableFormat::Text if !self.quiet => {
@@ -86,7 +88,7 @@ impl<'a> Table<'a> {
                 let cells: Vec<String> = of_point
                     .chain(csv_cells(row))
                     .chain(beside.into_iter().flat_map(beside_cells))
-                    .map(|c| quoted(&c))
+                    .map(|c| csv::field(&c))
                     .collect();
                 say!("{}", cells.join(","));
             }
@@ -178,14 +180,4 @@ fn csv_cells(row: &Row) -> [String; 7] {
         number(json!(row.simulated_s)),
         row.trace_hash.clone().unwrap_or_default(),
     ]
-}
-
-/// A field of CSV (RFC 4180).
-fn quoted(cell: impl AsRef<str>) -> String {
-    let cell = cell.as_ref();
-    if cell.contains(['"', ',', '\n', '\r']) {
-        format!("\"{}\"", cell.replace('"', "\"\""))
-    } else {
-        cell.into()
-    }
 }

@@ -4,7 +4,8 @@ use crate::diagnostic::Diagnostic;
 use crate::layout::decode::{Decoder, find};
 use crate::layout::json::{Json, Member, Value};
 use crate::scenario::{Order, Orders};
-use crate::source::Spanned;
+use crate::source::{Span, Spanned};
+use std::collections::HashMap;
 
 const MOST_ORDERS: u32 = 10_000;
 /// Highest value of the port `order_parts` of a station.
@@ -60,11 +61,13 @@ impl Decoder {
             return None;
         }
         let names = self.texts(json, "station")?;
-        for (i, name) in names.iter().enumerate() {
-            if let Some(first) = names[..i].iter().find(|n| n.value == name.value) {
+        let mut before: HashMap<&str, Span> = HashMap::new();
+        for name in &names {
+            let first = *before.entry(&name.value).or_insert(name.span);
+            if first != name.span {
                 self.report(
                     Diagnostic::new("E0113", name.span, format!("\"{}\" stands here twice", name.value))
-                        .other(first.span, "here first")
+                        .other(first, "here first")
                         .note("an order opens once at each of its stations")
                         .help("remove one"),
                 );

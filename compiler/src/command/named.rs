@@ -1,0 +1,100 @@
+//! Files that a layout names, which come from within its folder, and files of automata.
+
+use super::load;
+use super::read::{self, Unread};
+use std::fmt;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Files of automata that are taken from one folder, and one more.
+const MOST_LISTED: usize = 1001;
+
+/// Why what is named cannot be used.
+#[derive(Debug)]
+pub enum Unusable {
+    Unread(Unread),
+    /// It stands elsewhere than below the folder of the layout.
+    LeadsOut,
+    /// A folder without automata.
+    NoAutomata,
+    /// Neither a folder nor a file of automata.
+    NotAutomata,
+    /// No object of JSON.
+    NoObject,
+}
+
+impl fmt::Display for Unusable {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(match self {
+            Unusable::Unread(why) => return why.fmt(f),
+            Unusable::LeadsOut => "this leads out of the folder of the layout",
+            Unusable::NoAutomata => "this folder holds no *.aut file",
+            Unusable::NotAutomata => "this is neither a folder nor a *.aut file",
+            Unusable::NoObject => "this file does not begin with `{`, so it is no scenario",
+        })
+    }
+}
+
+impl From<io::Error> for Unusable {
+    fn from(error: io::Error) -> Self {
+        Unusable::Unread(Unread::Io(error))
+    }
+}
+
+/// The folder of a layout.
+pub struct Folder(pub PathBuf);
+
+impl Folder {
+    pub fn of(layout: &Path) -> Self {
+        Self(layout.parent().unwrap_or(Path::new("")).into())
+    }
+
+    pub fn has(&self, name: &str) -> bool {
+        self.0.join(name).symlink_metadata().is_ok()
+    }
+
+    /// The text of a file by its path as reports show it.
+    fn text(&self, path: &Path) -> Result<(String, String), Unusable> {
+        let own = if self.0.as_os_str().is_empty() { Path::new(".") } else { &self.0 };
+        let real = path.canonicalize()?;
+        if !real.starts_with(own.canonicalize()?) {
+            return Err(Unusable::LeadsOut);
+        }
+        let text = read::text(&real).map_err(Unusable::Unread)?;
+        Ok((path.display().to_string(), text))
+    }
+
+    /// A file that holds an object of JSON.
+    pub fn object(&self, name: &str) -> Result<(String, String), Unusable> {
+        let (path, text) = self.text(&self.0.join(name))?;
+        match load::begins_as_object(&text) {
+            true => Ok((path, text)),
+            false => Err(Unusable::NoObject),
+        }
+    }
+
+    /// The automata of a folder or a file.
+    pub fn automata(&self, name: &str) -> Result<Vec<(String, String)>, Unusable> {
+        automata(&self.0.join(name))?.iter().map(|path| self.text(path)).collect()
+    }
+}
+
+/// A file of automata, or those of a folder in the order of their names.
+pub fn automata(path: &Path) -> Result<Vec<PathBuf>, Unusable> {
+    let is_automata = |path: &Path| path.extension().is_some_and(|e| e == "aut");
+    if !path.metadata()?.is_dir() {
+        return if is_automata(path) { Ok(vec![path.into()]) } else { Err(Unusable::NotAutomata) };
+    }
+    let mut files = Vec::new();
+    for entry in path.read_dir()? {
+        let path = entry?.path();
+        if is_automata(&path) {
+            files.push(path);
+        }
+        if files.len() == MOST_LISTED {
+            break;
+        }
+    }
+    files.sort();
+    if files.is_empty() { Err(Unusable::NoAutomata) } else { Ok(files) }
+}

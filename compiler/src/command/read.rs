@@ -1,0 +1,82 @@
+//! The bytes of files that somebody else may have written or named.
+
+use std::fmt;
+use std::fs::{File, OpenOptions};
+use std::io::{self, Read};
+use std::path::Path;
+
+/// Bytes that a file may have; the largest real layout has 4 MB.
+pub const MOST_BYTES: u64 = 10_000_000;
+
+/// Why a file is not read. As text it says so without the file's name.
+#[derive(Debug)]
+pub enum Unread {
+    /// It cannot be opened or read.
+    Io(io::Error),
+    /// A folder, a device, a pipe or a socket.
+    NotRegular,
+    TooLarge,
+    Utf16,
+}
+
+impl fmt::Display for Unread {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Unread::Io(error) => error.fmt(f),
+            Unread::NotRegular => f.write_str("this is no regular file"),
+            Unread::TooLarge => {
+                write!(f, "this file is larger than {} MB, the most that is read", MOST_BYTES / 1_000_000)
+            }
+            Unread::Utf16 => f.write_str(
+                "this file is UTF-16, and only UTF-8 is read. Save it again as UTF-8: a spreadsheet calls it \
+                 `CSV UTF-8`, Notepad `Encoding: UTF-8`, PowerShell `Out-File -Encoding utf8`",
+            ),
+        }
+    }
+}
+
+/// The text of a file without a byte order mark; what is no UTF-8 is replaced. UTF-16 is refused: nothing in
+/// it could be read. Neither a pipe nor a device that never ends holds this up.
+pub fn text(path: &Path) -> Result<String, Unread> {
+    let bytes = bytes(open(path).map_err(Unread::Io)?)?;
+    if is_utf_16(&bytes) {
+        return Err(Unread::Utf16);
+    }
+    let text = String::from_utf8_lossy(&bytes);
+    Ok(text.strip_prefix('\u{feff}').unwrap_or(&text).into())
+}
+
+#[cfg(unix)]
+fn open(path: &Path) -> io::Result<File> {
+    use std::os::unix::fs::OpenOptionsExt;
+    let at_once = rustix::fs::OFlags::NONBLOCK | rustix::fs::OFlags::NOCTTY;
+    OpenOptions::new().read(true).custom_flags(at_once.bits() as i32).open(path)
+}
+
+#[cfg(not(unix))]
+fn open(path: &Path) -> io::Result<File> {
+    OpenOptions::new().read(true).open(path)
+}
+
+fn bytes(file: File) -> Result<Vec<u8>, Unread> {
+    let about = file.metadata().map_err(Unread::Io)?;
+    if !about.is_file() {
+        return Err(Unread::NotRegular);
+    }
+    // It may grow while it is read, and some regular files of the system have no length.
+    let mut bytes = Vec::new();
+    file.take(MOST_BYTES + 1).read_to_end(&mut bytes).map_err(Unread::Io)?;
+    match bytes.len() as u64 > MOST_BYTES {
+        true => Err(Unread::TooLarge),
+        false => Ok(bytes),
+    }
+}
+
+/// By its byte order mark, or since each second byte of what begins it is 0.
+fn is_utf_16(bytes: &[u8]) -> bool {
+    match *bytes {
+        [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..] => true,
+        [a, b, c, d, ..] => (a == 0) != (b == 0) && (a == 0) == (c == 0) && (b == 0) == (d == 0),
+        _ => false,
+    }
+}

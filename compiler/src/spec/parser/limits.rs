@@ -1,0 +1,73 @@
+//! How many declarations a type may have: what compares each of them with each other has to end.
+
+use super::Parser;
+use crate::diagnostic::{Diagnostic, collect};
+use crate::spec::ast;
+
+/// Of one kind in one place.
+const MOST: usize = 1000;
+
+impl Parser {
+    pub(super) fn bounded(&mut self, file: &ast::File) {
+        let names = file.enums.iter().map(|e| &e.name);
+        let names =
+            names.chain(file.interfaces.iter().map(|i| &i.name)).chain(file.automata.iter().map(|a| &a.name));
+        let names: Vec<&ast::Name> = names.collect();
+        if let Some(first) = names.get(MOST) {
+            self.too_many(first, "a file", "enumerations, interfaces and automata", names.len());
+        }
+        for tree in &file.enums {
+            self.bound(&tree.name, "members", tree.members.len());
+        }
+        for tree in &file.interfaces {
+            self.bound(&tree.name, "parameters", tree.parameters.len());
+            self.bound(&tree.name, "cells", tree.cells.len());
+        }
+        for tree in &file.automata {
+            self.bound_automaton(tree);
+        }
+    }
+
+    fn bound_automaton(&mut self, tree: &ast::Automaton) {
+        for (what, count) in [
+            ("interfaces", tree.implements.len()),
+            ("parameters", tree.parameters.len()),
+            ("cells", tree.cells.len()),
+            ("roles", tree.roles.len()),
+            ("local variables", tree.locals.len()),
+            ("definitions", tree.defines.len()),
+            ("requirements", tree.requires.len()),
+            ("invariants", tree.invariants.len()),
+            ("states", tree.states.len()),
+            ("transitions of any state", tree.any.iter().map(|any| any.transitions.len()).sum()),
+        ] {
+            self.bound(&tree.name, what, count);
+        }
+        for state in &tree.states {
+            let outcomes = match &state.body {
+                ast::Body::Transitions(transitions) => {
+                    self.bound(&state.name, "transitions", transitions.len());
+                    transitions.iter().map(|t| t.updates.len()).max().unwrap_or(0)
+                }
+                ast::Body::Sequence(sequence) => {
+                    self.bound(&state.name, "steps", sequence.steps.len());
+                    0
+                }
+            };
+            self.bound(&state.name, "updates in one transition", outcomes);
+        }
+    }
+
+    fn bound(&mut self, name: &ast::Name, what: &str, count: usize) {
+        if count > MOST {
+            self.too_many(name, &format!("`{}`", name.value), what, count);
+        }
+    }
+
+    fn too_many(&mut self, name: &ast::Name, who: &str, what: &str, count: usize) {
+        let diagnostic = Diagnostic::new("E0215", name.span, format!("{who} has more than {MOST} {what}"))
+            .note(format!("there are {count}"))
+            .help("make several of it, or compute in updates what is written out here");
+        collect(&mut self.diagnostics, diagnostic);
+    }
+}
