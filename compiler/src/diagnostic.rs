@@ -2,6 +2,7 @@
 
 use crate::source::{Sources, Span};
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
+use std::borrow::Cow;
 
 /// Something wrong with the input. All are errors: a line that may run is right, one that may not is not.
 #[derive(Clone, Debug, PartialEq)]
@@ -112,8 +113,8 @@ pub fn render_styled(sources: &Sources, diagnostics: &[Diagnostic]) -> String {
 pub fn render(sources: &Sources, diagnostics: &[Diagnostic], renderer: &Renderer) -> String {
     let mut out = String::new();
     for diagnostic in diagnostics {
-        let mut group =
-            Group::with_title(Level::ERROR.primary_title(diagnostic.message.as_str()).id(diagnostic.code));
+        let message = visible(&diagnostic.message).replace('\n', "\\n");
+        let mut group = Group::with_title(Level::ERROR.primary_title(message).id(diagnostic.code));
         let mut files = vec![diagnostic.place.file];
         for (span, _) in &diagnostic.others {
             if !files.contains(&span.file) {
@@ -136,15 +137,29 @@ pub fn render(sources: &Sources, diagnostics: &[Diagnostic], renderer: &Renderer
             group = group.element(snippet);
         }
         for note in &diagnostic.notes {
-            group = group.element(Level::NOTE.message(note.as_str()));
+            group = group.element(Level::NOTE.message(visible(note)));
         }
         if !diagnostic.help.is_empty() {
-            group = group.element(Level::HELP.message(diagnostic.help.as_str()));
+            group = group.element(Level::HELP.message(visible(&diagnostic.help)));
         }
         out.push_str(&renderer.render(&[group]));
         out.push_str("\n\n");
     }
     out
+}
+
+/// A text of a diagnostic may hold what an input holds; a terminal shall not obey that. In the pieces of files
+/// the renderer itself replaces it.
+fn visible(text: &str) -> Cow<'_, str> {
+    let is_obeyed = |c: char| {
+        (c.is_control() && c != '\n')
+            || matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+    };
+    if !text.contains(is_obeyed) {
+        return text.into();
+    }
+    let escaped = |c: char| if is_obeyed(c) { c.escape_default().to_string() } else { c.to_string() };
+    text.chars().map(escaped).collect()
 }
 
 fn range(span: Span, len: usize) -> std::ops::Range<usize> {
@@ -154,7 +169,12 @@ fn range(span: Span, len: usize) -> std::ops::Range<usize> {
 
 #[cfg(test)]
 mod tests {
-    use super::suggestion;
+    use super::{suggestion, visible};
+
+    #[test]
+    fn nothing_that_a_terminal_obeys_is_left() {
+        assert_eq!(visible("a `\u{1b}[31m\0\u{202e}` é\n"), "a `\\u{1b}[31m\\u{0}\\u{202e}` é\n");
+    }
 
     #[test]
     fn another_case_is_nearest() {
