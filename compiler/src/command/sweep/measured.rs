@@ -30,11 +30,15 @@ impl Measured {
     /// Every column but that of the figures has to be one of `columns`, by which a sweep names its points;
     /// no two rows may name the same point.
     pub fn read(path: &Path, columns: &[&str]) -> Result<Self, Refusal> {
-        let name = path.display();
-        let said = |text: String| Refusal::Said(format!("{name}: {text}"));
         let text = load::text(path).map_err(Refusal::Failure)?;
+        Self::parse(&path.display().to_string(), &text, columns).map_err(Refusal::Said)
+    }
+
+    /// The text of a table; an error says what is wrong with it, and begins with its name.
+    pub fn parse(name: &str, text: &str, columns: &[&str]) -> Result<Self, String> {
+        let said = |text: String| format!("{name}: {text}");
         let mut sources = Sources::default();
-        let file = sources.add(name.to_string(), text);
+        let file = sources.add(name, text);
         let mut found = Vec::new();
         let table = csv::parse(file, &sources.file(file).text, &mut found);
         if let Some(wrong) = found.first() {
