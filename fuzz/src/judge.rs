@@ -14,18 +14,18 @@ use autogen_tests::{Texts, plain};
 /// Compiles a line, and judges what is said of it and what is made of it.
 pub fn line(texts: &Texts, input: &[u8], effort: Effort) {
     let outcome = texts.compile();
-    diagnostics(&outcome.sources, &outcome.diagnostics, effort);
+    diagnostics(&outcome.sources, &outcome.diagnostics, input, effort);
     assert_eq!(outcome.project.is_some(), outcome.diagnostics.is_empty(), "right or wrong, not both");
     if let Some(verdict) = &outcome.verdict {
         assert!(verdict.feasible || outcome.project.is_none(), "what cannot work was compiled");
     }
     if let Some(project) = &outcome.project {
         outputs::cheap(project);
-        if effort.takes(input, 32) {
+        if effort.takes(input, 64) {
             outputs::dear(project, &outcome.sources);
         }
     }
-    if effort.takes(input, 64) {
+    if effort.takes(input, 128) {
         same(texts, &outcome);
     }
 }

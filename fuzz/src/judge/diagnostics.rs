@@ -10,16 +10,19 @@ use std::collections::BTreeSet;
 const MOST_RENDERED: usize = 4;
 
 /// Each has a code that is explained, a line that stands alone, places in the text, and can be shown.
-pub fn diagnostics(sources: &Sources, found: &[Diagnostic], effort: Effort) {
+pub fn diagnostics(sources: &Sources, found: &[Diagnostic], input: &[u8], effort: Effort) {
     for diagnostic in found {
         explained(diagnostic.code);
         assert!(!diagnostic.message.trim().is_empty(), "{diagnostic:?} says nothing");
         place(sources, diagnostic.place, diagnostic);
         diagnostic.others.iter().for_each(|(span, _)| place(sources, *span, diagnostic));
     }
+    if !effort.takes(input, 8) {
+        return;
+    }
     let shown = match effort {
         Effort::Whole => found,
-        Effort::Sampled => &found[..found.len().min(MOST_RENDERED)],
+        Effort::Sampled | Effort::Rare => &found[..found.len().min(MOST_RENDERED)],
     };
     let text = render_plain(sources, shown);
     for diagnostic in shown {

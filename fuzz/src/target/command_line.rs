@@ -52,28 +52,28 @@ fn of_sweep(options: &SweepOptions, input: &[u8], effort: Effort) {
     let axes: Vec<Axis> = options.settings.iter().map(|text| Axis::parse(text)).collect();
     for (axis, text) in axes.iter().zip(&options.settings) {
         assert_eq!(axis.setting(&axis.values.join(",")).trim_end_matches('='), text.trim_end_matches('='));
-        axis.values.iter().for_each(|value| drop(setting(&axis.setting(value), effort)));
+        axis.values.iter().for_each(|value| drop(setting(&axis.setting(value), input, effort)));
     }
     let first: Vec<String> = axes.iter().map(|axis| axis.setting(&axis.values[0])).collect();
     settings(&first, options.order.first().copied(), input, effort);
 }
 
 fn settings(settings: &[String], order: Option<u64>, input: &[u8], effort: Effort) {
-    let are_right = settings.iter().all(|text| setting(text, effort).is_some());
-    if are_right && effort.takes(input, 4) {
+    let are_right = settings.iter().all(|text| setting(text, text.as_bytes(), effort).is_some());
+    if are_right && effort.takes(input, 16) {
         let texts = Texts { settings: settings.to_vec(), order, ..Texts::of_layout(small("")) };
         judge::line(&texts, input, effort);
     }
 }
 
-fn setting(text: &str, effort: Effort) -> Option<Setting> {
+fn setting(text: &str, input: &[u8], effort: Effort) -> Option<Setting> {
     let mut sources = Sources::default();
     let file = sources.add("--set", text);
     match Setting::parse(&sources, file) {
         Ok(setting) => Some(setting),
         Err(found) => {
             assert!(!found.is_empty(), "refused without a word");
-            judge::diagnostics(&sources, &found, effort);
+            judge::diagnostics(&sources, &found, input, effort);
             None
         }
     }

@@ -12,9 +12,9 @@ pub fn answer(input: &[u8], effort: Effort) {
     let mut sources = Sources::default();
     let file = sources.add("layout.json", text.as_str());
     let (layout, found) = layout::parse(&sources, file);
-    judge::diagnostics(&sources, &found, effort);
+    judge::diagnostics(&sources, &found, input, effort);
     assert!(layout.is_some() || !found.is_empty(), "nothing was read, and nothing is wrong");
-    if found.is_empty() || effort.takes(input, 64) {
+    if effort.takes(input, if found.is_empty() { 1 } else { 64 }) {
         judge::line(&Texts::of_layout(text), input, effort);
     }
 }

@@ -20,18 +20,18 @@ pub fn answer(input: &[u8], effort: Effort) {
     let mut sources = Sources::default();
     let file = sources.add("own.aut", text.as_str());
     let (tree, found) = parser::parse(file, &text);
-    judge::diagnostics(&sources, &found, effort);
+    judge::diagnostics(&sources, &found, input, effort);
     let mut is_right = found.is_empty();
     let layout = small(&machines(&tree));
     if is_right && !is_of_library(&text) {
         let kinds = ["battery", "sensor", "regulator", "pump"].map(String::from);
         if let Err(found) = check::check(&sources, &[(file, tree)], &kinds) {
             assert!(!found.is_empty(), "refused without a word");
-            judge::diagnostics(&sources, &found, effort);
+            judge::diagnostics(&sources, &found, input, effort);
             is_right = false;
         }
     }
-    if is_right || effort.takes(input, 64) {
+    if effort.takes(input, if is_right { 1 } else { 64 }) {
         judge::line(&Texts { specs: vec![text], ..Texts::of_layout(layout) }, input, effort);
     }
 }
