@@ -1,12 +1,12 @@
 //! The driver of `cargo test`: seeds, corpus and findings, and inputs made from them by fixed lots.
 
 use arbitrary::Unstructured;
-use autogen_fuzz::{Effort, Target, files, memory, mutation};
+use autogen_fuzz::{Effort, Target, files, memory, mutation, target};
 use autogen_tests::generate::Lot;
 use autogen_tests::is_full_campaign;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// Answers an input; where that is a finding, the input stands in the panic.
+/// Answers an input; where that is a finding, the input is kept in a temporary file.
 fn answer(target: &Target, input: &[u8], effort: Effort) {
     let outcome = catch_unwind(AssertUnwindSafe(|| memory::peak(|| (target.answer)(input, effort))));
     match outcome {
@@ -21,21 +21,9 @@ fn answer(target: &Target, input: &[u8], effort: Effort) {
     }
 }
 
-fn target(name: &str) -> &'static Target {
-    Target::find(name).expect("a target")
-}
-
-/// Everything that stands in a file.
-fn known(name: &str) {
-    let target = target(name);
-    for path in files::corpus(name).into_iter().chain(files::findings(name)) {
-        answer(target, &files::bytes(&path), Effort::Whole);
-    }
-}
-
 /// Seeds, then so many mutated ones and so many trees.
 fn lots(name: &str, mutated: usize, trees: usize) {
-    let target = target(name);
+    let target = Target::find(name).expect("a target");
     let more = if is_full_campaign() { 50 } else { 1 };
     let seeds = target.seeds();
     let words = (target.words)();
@@ -57,28 +45,12 @@ fn lots(name: &str, mutated: usize, trees: usize) {
 }
 
 #[test]
-fn known_layouts() {
-    known("layout");
-}
-
-#[test]
-fn known_specifications() {
-    known("specification");
-}
-
-#[test]
-fn known_scenarios() {
-    known("scenario");
-}
-
-#[test]
-fn known_tables() {
-    known("table");
-}
-
-#[test]
-fn known_command_lines() {
-    known("command_line");
+fn findings() {
+    for target in &target::ALL {
+        for path in files::findings(target.name) {
+            answer(target, &files::bytes(&path), Effort::Whole);
+        }
+    }
 }
 
 #[test]
