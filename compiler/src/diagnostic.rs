@@ -123,15 +123,15 @@ pub fn render(sources: &Sources, diagnostics: &[Diagnostic], renderer: &Renderer
         }
         for file in files {
             let source = sources.file(file);
-            let mut snippet = Snippet::source(source.text.as_str()).path(source.name.as_str()).fold(true);
+            let mut snippet = Snippet::source(excerpt(&source.text)).path(source.name.as_str()).fold(true);
             if file == diagnostic.place.file {
                 let span = range(diagnostic.place, source.text.len());
                 snippet =
-                    snippet.annotation(AnnotationKind::Primary.span(span).label(diagnostic.label.as_str()));
+                    snippet.annotation(AnnotationKind::Primary.span(span).label(visible(&diagnostic.label)));
             }
             for (span, text) in diagnostic.others.iter().filter(|(s, _)| s.file == file) {
                 snippet = snippet.annotation(
-                    AnnotationKind::Context.span(range(*span, source.text.len())).label(text.as_str()),
+                    AnnotationKind::Context.span(range(*span, source.text.len())).label(visible(text)),
                 );
             }
             group = group.element(snippet);
@@ -148,8 +148,17 @@ pub fn render(sources: &Sources, diagnostics: &[Diagnostic], renderer: &Renderer
     out
 }
 
-/// A text of a diagnostic may hold what an input holds; a terminal shall not obey that. In the pieces of files
-/// the renderer itself replaces it.
+/// A piece of a file. The renderer replaces what a terminal obeys but for the controls beyond ASCII; what
+/// stands for these is as long as they are, so that places stay.
+fn excerpt(text: &str) -> Cow<'_, str> {
+    let is_obeyed = |c: char| matches!(c, '\u{80}'..='\u{9f}');
+    match text.contains(is_obeyed) {
+        true => text.replace(is_obeyed, "\u{bf}").into(),
+        false => text.into(),
+    }
+}
+
+/// A text of a diagnostic may hold what an input holds; a terminal shall not obey that.
 fn visible(text: &str) -> Cow<'_, str> {
     let is_obeyed = |c: char| {
         (c.is_control() && c != '\n')
