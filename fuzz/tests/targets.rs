@@ -55,22 +55,22 @@ fn findings() {
 
 #[test]
 fn layouts() {
-    lots("layout", 3000, 300);
+    lots("layout", 5000, 500);
 }
 
 #[test]
 fn specifications() {
-    lots("specification", 3000, 20);
+    lots("specification", 5000, 40);
 }
 
 #[test]
 fn scenarios() {
-    lots("scenario", 3000, 300);
+    lots("scenario", 5000, 500);
 }
 
 #[test]
 fn tables() {
-    lots("table", 3000, 500);
+    lots("table", 5000, 1000);
 }
 
 #[test]
