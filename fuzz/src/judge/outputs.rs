@@ -63,6 +63,11 @@ pub fn structured_text(files: &Files) {
                 let found = found.map(|found| autogen_st_judge::listed(&found, text));
                 assert_eq!(found, None, "{name}\n{text}");
             }
+            "st" => {
+                let found = autogen_st_judge::parse::parse(text).err();
+                let found = found.map(|found| autogen_st_judge::listed(&found, text));
+                assert_eq!(found, None, "{name}\n{text}");
+            }
             "xml" => {
                 Document::parse(text).unwrap_or_else(|e| panic!("{name}: {e}"));
             }
