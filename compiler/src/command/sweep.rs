@@ -3,10 +3,10 @@
 //! Layouts and values are data. Each layout is read and its types are checked once, the controllers are compiled
 //! once, and each processor runs one point after another.
 
-mod axis;
+pub mod axis;
 mod grid;
 mod in_order;
-mod measured;
+pub mod measured;
 mod plan;
 mod point;
 mod progress;

@@ -90,7 +90,8 @@ impl Request {
     }
 }
 
-fn milliseconds(seconds: &str) -> Option<u64> {
+/// What `--every` says, if it is whole and within bounds.
+pub fn milliseconds(seconds: &str) -> Option<u64> {
     let ms = seconds.parse::<f64>().ok()? * 1000.0;
     ((ms - ms.round()).abs() < 1e-6 && (1.0..=3_600_000.0).contains(&ms)).then_some(ms.round() as u64)
 }

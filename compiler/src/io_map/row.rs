@@ -8,7 +8,7 @@ use crate::csv::Field;
 use crate::diagnostic::{Diagnostic, suggestion};
 use crate::source::Span;
 use runtime_sim::device::Direction;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// The rows of a table, read one after the other.
 pub struct Rows<'p> {
@@ -19,6 +19,8 @@ pub struct Rows<'p> {
     seen: HashMap<usize, Span>,
     /// Robots that the line does not have, by their names in lower case.
     strangers: BTreeMap<String, Stranger>,
+    /// Each robot of the line once.
+    robots: BTreeSet<&'p str>,
     /// Every address that could be read, of rows with other errors too.
     pub places: Vec<Place>,
 }
@@ -46,6 +48,7 @@ impl<'p> Rows<'p> {
             known,
             seen: HashMap::new(),
             strangers: BTreeMap::new(),
+            robots: points.iter().map(|p| p.robot.as_str()).collect(),
             places: Vec::new(),
         }
     }
@@ -98,7 +101,7 @@ impl<'p> Rows<'p> {
         }
         let is_robot = |p: &&Point| p.robot.eq_ignore_ascii_case(robot);
         let place = |column: &str| record.place(column).unwrap_or(whole);
-        if !self.points.iter().any(|p| is_robot(&p)) {
+        if !self.robots.iter().any(|own| own.eq_ignore_ascii_case(robot)) {
             let stranger = || Stranger { name: robot.into(), first: place("robot"), rows: 0 };
             self.strangers.entry(key.0).or_insert_with(stranger).rows += 1;
             return None;
@@ -123,7 +126,7 @@ impl<'p> Rows<'p> {
     /// The robots that the line does not have, each once however many rows it has.
     pub fn strangers(&self, found: &mut Vec<Diagnostic>) {
         for Stranger { name, first, rows } in self.strangers.values() {
-            let robots = self.points.iter().map(|p| p.robot.as_str()).filter(|robot| !robot.is_empty());
+            let robots = self.robots.iter().copied().filter(|robot| !robot.is_empty());
             let whose = if *rows == 1 { "its row".into() } else { format!("its {rows} rows") };
             let help = match suggestion(name, robots) {
                 Some(near) => {

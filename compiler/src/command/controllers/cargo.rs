@@ -2,6 +2,7 @@
 
 use super::super::interrupt;
 use autogen::backend::Files;
+use autogen::simulator::TARGET;
 use serde_json::Value;
 use std::env::{self, consts::DLL_SUFFIX};
 use std::fs;
@@ -18,7 +19,7 @@ pub fn compile(folder: &Path, files: &Files) -> Result<PathBuf, String> {
         .current_dir(folder)
         // The controllers depend on nothing that would have to be fetched.
         .args(["build", "--release", "--offline", "--quiet", "-p", "adapters", "--lib"])
-        .args(["--message-format", "json-render-diagnostics", "--target", env!("AUTOGEN_TARGET")])
+        .args(["--message-format", "json-render-diagnostics", "--target", TARGET])
         .arg("--target-dir")
         .arg(folder.join("target"))
         .stdin(Stdio::null())

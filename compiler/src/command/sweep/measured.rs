@@ -4,14 +4,15 @@ use super::super::load;
 use super::plan::Refusal;
 use autogen::csv::{self, Field};
 use autogen::source::Sources;
+use std::collections::BTreeMap;
 use std::path::Path;
 
 const FIGURE: &str = "seconds_per_order";
 
 /// A table that names points as the sweep's own CSV does, by some of its columns, and gives seconds per order.
 pub struct Measured {
-    /// For each row what its point is called, in the order of [`Self::keys`], and its figure if it has one.
-    rows: Vec<(Vec<String>, Option<f64>)>,
+    /// By what a point is called, in the order of [`Self::keys`]: its figure, if it has one.
+    rows: BTreeMap<Vec<String>, Option<f64>>,
     keys: Vec<String>,
     /// Squares of what the ratios of here and there differ from 1, their sum and number.
     squares: f64,
@@ -30,11 +31,15 @@ impl Measured {
     /// Every column but that of the figures has to be one of `columns`, by which a sweep names its points;
     /// no two rows may name the same point.
     pub fn read(path: &Path, columns: &[&str]) -> Result<Self, Refusal> {
-        let name = path.display();
-        let said = |text: String| Refusal::Said(format!("{name}: {text}"));
         let text = load::text(path).map_err(Refusal::Failure)?;
+        Self::parse(&path.display().to_string(), &text, columns).map_err(Refusal::Said)
+    }
+
+    /// The text of a table; an error says what is wrong with it, and begins with its name.
+    pub fn parse(name: &str, text: &str, columns: &[&str]) -> Result<Self, String> {
+        let said = |text: String| format!("{name}: {text}");
         let mut sources = Sources::default();
-        let file = sources.add(name.to_string(), text);
+        let file = sources.add(name, text);
         let mut found = Vec::new();
         let table = csv::parse(file, &sources.file(file).text, &mut found);
         if let Some(wrong) = found.first() {
@@ -58,26 +63,25 @@ impl Measured {
                 return Err(said(format!("the column `{key}` stands twice")));
             }
         }
-        let mut rows: Vec<(Vec<String>, Option<f64>)> = Vec::new();
+        let mut rows = BTreeMap::new();
         for record in records {
-            let number = sources.position(record[0].span).0;
+            let number = || sources.position(record[0].span).0;
             let mut point = texts(record);
             if point.len() != head.len() {
                 let (found, wanted) = (point.len(), head.len());
-                return Err(said(format!("line {}: {found} fields, {wanted} columns", number)));
+                return Err(said(format!("line {}: {found} fields, {wanted} columns", number())));
             }
             let written = point.remove(figure);
             let value =
                 match written.as_str() {
                     "" => None,
                     text => Some(text.parse::<f64>().ok().filter(|s| s.is_finite() && *s > 0.0).ok_or_else(
-                        || said(format!("line {}: `{text}` is no number of seconds above 0", number)),
+                        || said(format!("line {}: `{text}` is no number of seconds above 0", number())),
                     )?),
                 };
-            if rows.iter().any(|(other, _)| *other == point) {
-                return Err(said(format!("line {}: this point stands twice", number)));
+            if rows.insert(point, value).is_some() {
+                return Err(said(format!("line {}: this point stands twice", number())));
             }
-            rows.push((point, value));
         }
         Ok(Self { rows, keys, squares: 0.0, ratios: 0 })
     }
@@ -85,7 +89,7 @@ impl Measured {
     /// What stands beside a point that came to `seconds_per_order`; `cell` gives what it is called in a column.
     pub fn beside(&mut self, seconds_per_order: Option<f64>, cell: impl Fn(&str) -> String) -> Beside {
         let point: Vec<String> = self.keys.iter().map(|key| cell(key)).collect();
-        let found = self.rows.iter().find(|(other, _)| *other == point).and_then(|(_, figure)| *figure);
+        let found = self.rows.get(&point).copied().flatten();
         let ratio = found.zip(seconds_per_order).map(|(there, here)| here / there);
         if let Some(ratio) = ratio {
             self.squares += (ratio - 1.0) * (ratio - 1.0);

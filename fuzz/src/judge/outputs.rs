@@ -1,0 +1,103 @@
+//! The files of a line, each judged by a reader that shares nothing with its writer.
+
+use super::{dot, drawing};
+use crate::files::hash;
+use autogen::backend::{Files, dot as dot_files, plan, rust, sdf as sdf_files, st};
+use autogen::lower::Project;
+use autogen::source::Sources;
+use autogen_tests::sdf;
+use roxmltree::Document;
+use runtime_sim::line::Line;
+use std::cell::RefCell;
+use std::collections::HashSet;
+
+/// Every file of the back ends.
+pub fn all(project: &Project, sources: &Sources) -> Vec<Files> {
+    let drawing = Files::from([("plan.svg".into(), plan::svg(&project.plant, &project.edges))]);
+    vec![
+        drawing,
+        dot_files::files(&project.system, &project.edges),
+        sdf_files::files(&project.name, &project.plant),
+        rust::files(&project.system, sources),
+        st::files(&project.system, sources),
+    ]
+}
+
+/// Graphs, drawing, world and the simulator's data.
+pub fn cheap(project: &Project) {
+    for (name, text) in dot_files::files(&project.system, &project.edges) {
+        let graph = dot::read(&text).unwrap_or_else(|e| panic!("{name}: {e}\n{text}"));
+        if name == "connectivity.dot" {
+            assert_eq!(graph.nodes, project.system.instances.len(), "{name}\n{text}");
+            assert_eq!(graph.edges, project.edges.len(), "{name}\n{text}");
+        }
+    }
+    drawing::svg(&plan::svg(&project.plant, &project.edges));
+    for (name, text) in sdf_files::files(&project.name, &project.plant) {
+        let found = sdf::findings(&text);
+        assert!(found.is_empty(), "{name}: {found:?}");
+        Document::parse(&text).unwrap_or_else(|e| panic!("{name}: {e}"));
+    }
+    let text = project.plant.to_text();
+    let line = Line::from_text(&text).unwrap_or_else(|e| panic!("line.txt: {e}\n{text}"));
+    assert_eq!(line.to_text(), text, "line.txt is read as another line");
+}
+
+/// Controllers in both languages.
+pub fn dear(project: &Project, sources: &Sources) {
+    for (name, text) in rust::files(&project.system, sources) {
+        if name.ends_with(".rs") {
+            once(&text, || drop(syn::parse_file(&text).unwrap_or_else(|e| panic!("{name}: {e}\n{text}"))));
+        }
+    }
+    assert!(!rust::parameters_text(&project.system).is_empty());
+    structured_text(&st::files(&project.system, sources));
+}
+
+/// The files of the folder `plc/`.
+pub fn structured_text(files: &Files) {
+    for (name, text) in files {
+        once(text, || match name.rsplit('.').next().unwrap_or_default() {
+            "st" if name.starts_with("portable/") => {
+                let found = autogen_st_judge::judge(text).err();
+                let found = found.map(|found| autogen_st_judge::listed(&found, text));
+                assert_eq!(found, None, "{name}\n{text}");
+            }
+            "st" => {
+                let found = autogen_st_judge::parse::parse(text).err();
+                let found = found.map(|found| autogen_st_judge::listed(&found, text));
+                assert_eq!(found, None, "{name}\n{text}");
+            }
+            "xml" => {
+                Document::parse(text).unwrap_or_else(|e| panic!("{name}: {e}"));
+            }
+            "csv" => table(name, text),
+            _ => {}
+        });
+    }
+}
+
+/// A head, and rows as long as it.
+fn table(name: &str, text: &str) {
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    for record in reader.records() {
+        record.unwrap_or_else(|e| panic!("{name}: {e}\n{text}"));
+    }
+}
+
+/// The judgement of a text is the same each time, so it is made once.
+fn once(text: &str, judge: impl FnOnce()) {
+    thread_local!(static JUDGED: RefCell<HashSet<u64>> = RefCell::new(HashSet::new()));
+    const MOST: usize = 100_000;
+    let hash = hash(text.as_bytes());
+    if JUDGED.with_borrow(|judged| judged.contains(&hash)) {
+        return;
+    }
+    judge();
+    JUDGED.with_borrow_mut(|judged| {
+        if judged.len() == MOST {
+            judged.clear();
+        }
+        judged.insert(hash);
+    });
+}
