@@ -53,7 +53,7 @@ fn two_that_commission_into_one_folder_come_one_after_the_other() {
         [commission("spaced", 1), commission("default", 4)],
     ];
     let made = folder.join("made");
-    let rounds = if env::var("AUTOGEN_CAMPAIGN").is_ok_and(|c| c == "full") { 67 } else { 2 };
+    let rounds = if env::var("AUTOGEN_CAMPAIGN").is_ok_and(|c| c == "full") { 67 } else { 1 };
     for (number, pair) in pairs.iter().enumerate() {
         let cache = folder.join(format!("cache{number}"));
         let alone: Vec<Expected> = (pair.iter())
