@@ -5,7 +5,9 @@
 //! SI units, world frame (z up), unless a name says otherwise.
 
 pub mod account;
+pub mod carrier;
 pub mod collision;
+pub mod conservation;
 pub mod device;
 pub mod event;
 pub mod geometry;

@@ -11,7 +11,7 @@ pub use json::{FORMAT, segments_json};
 pub use recorder::Recorder;
 pub use table::{HEAD, table_csv};
 
-use crate::item::Carrier;
+use crate::carrier::Carrier;
 use crate::kinematics::arm::Arm;
 use crate::motion::Motion;
 use crate::point::Point;

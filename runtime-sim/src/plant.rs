@@ -15,9 +15,10 @@ mod vehicle;
 
 pub(crate) use delay::Bus;
 
+use crate::carrier::Carrier;
 use crate::device::{Device, Direction};
 use crate::geometry::Geometry;
-use crate::item::{Carrier, Items};
+use crate::item::Items;
 use crate::kinematics::arm::Joints;
 use crate::line::Line;
 use crate::point::Point;

@@ -1,9 +1,10 @@
 //! What came of a run.
 
 use crate::account::Account;
+use crate::carrier::Carrier;
 use crate::collision::Contact;
 use crate::event::{Event, OrderChange};
-use crate::item::{self, Carrier};
+use crate::item;
 use crate::json::Json;
 use crate::line::Line;
 use crate::plant::Plant;

@@ -2,7 +2,8 @@
 
 use crate::account::{Account, Activity};
 use crate::collision::{Contact, Watch};
-use crate::event::{Event, OrderChange, conservation};
+use crate::conservation::conservation;
+use crate::event::{Event, OrderChange};
 use crate::geometry::Geometry;
 use crate::hash::Hash;
 use crate::line::Line;

@@ -1,6 +1,6 @@
 //! What the open orders lack, and where the parts are that they will not get.
 
-use crate::item::Carrier;
+use crate::carrier::Carrier;
 use crate::line::Line;
 use crate::plant::Plant;
 use crate::point::Point;

@@ -3,10 +3,11 @@
 mod common;
 
 use common::*;
+use runtime_sim::carrier::Carrier;
+use runtime_sim::conservation::conservation;
 use runtime_sim::device::error;
-use runtime_sim::event::{Event, OrderChange, conservation};
+use runtime_sim::event::{Event, OrderChange};
 use runtime_sim::geometry::{Geometry, TRAY_SURFACE, slot_offset};
-use runtime_sim::item::Carrier;
 use runtime_sim::line::{Line, Machine, Order, Refusal, Slip, Supply};
 use runtime_sim::point::Point;
 

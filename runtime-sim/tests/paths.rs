@@ -3,7 +3,8 @@
 mod common;
 
 use common::*;
-use runtime_sim::item::{self, Carrier};
+use runtime_sim::carrier::Carrier;
+use runtime_sim::item;
 use runtime_sim::kinematics::arm::Joints;
 use runtime_sim::line::{IoDelay, Line, Pause, Refusal, Slip, Supply};
 use runtime_sim::path::{Law, Path, table_csv};

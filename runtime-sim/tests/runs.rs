@@ -3,8 +3,10 @@
 mod common;
 
 use common::*;
-use runtime_sim::event::{Event, conservation};
-use runtime_sim::item::{Carrier, Items};
+use runtime_sim::carrier::Carrier;
+use runtime_sim::conservation::conservation;
+use runtime_sim::event::Event;
+use runtime_sim::item::Items;
 use runtime_sim::line::{IoDelay, Line, Pause, Slip};
 use runtime_sim::report::Report;
 use runtime_sim::run::{Seen, run};

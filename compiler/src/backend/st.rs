@@ -31,6 +31,7 @@ mod state;
 mod table;
 mod text;
 mod update;
+mod value;
 mod walk;
 mod xml;
 

@@ -1,50 +1,15 @@
 //! One automaton: its names, then its parts.
 
+use super::context::{Context, Symbol};
 use super::facts::Facts;
 use super::{Checker, state};
 use crate::diagnostic::{Diagnostic, suggestion};
-use crate::ir::{self, Extent, Scalar, Type, VariableId};
+use crate::ir::{self, Extent, Scalar, Type};
 use crate::plain;
 use crate::source::Span;
 use crate::spec::ast;
 use runtime_sim::device::{DEVICES, Device};
 use std::collections::{BTreeMap, BTreeSet};
-
-/// What a name means in an automaton.
-#[derive(Clone, Debug)]
-pub enum Symbol {
-    Local(usize),
-    Cell(ir::InterfaceId, usize),
-    Port(usize),
-    Parameter(usize),
-    /// Becomes a parameter when it is first read.
-    DeviceConstant(usize),
-    Define(usize),
-    Role(ir::RoleId),
-}
-
-/// An automaton under construction and what is known at the present place of its text.
-pub struct Context<'c, 'a> {
-    pub(super) checker: &'c mut Checker<'a>,
-    pub(super) automaton: ir::Automaton,
-    pub(super) id: ir::AutomatonId,
-    pub(super) symbols: BTreeMap<String, Symbol>,
-    /// Variables in scope, innermost last.
-    pub(super) variables: Vec<(String, VariableId, Scalar)>,
-    pub(super) facts: Facts,
-    /// What the requirements say, and thus holds everywhere.
-    pub(super) required: Facts,
-    /// `after` has a meaning.
-    pub(super) in_guard: bool,
-    /// Names whose declarations have errors: reading them is no further one.
-    pub(super) broken: BTreeSet<String>,
-    /// An interface is not known, and with it the names of its cells.
-    pub(super) lacks_names: bool,
-    /// States, as the text names them.
-    pub(super) states: Vec<String>,
-    /// Own interface, if the automaton shows something that no declared interface has.
-    own_interface: Option<ir::InterfaceId>,
-}
 
 pub(super) fn check(checker: &mut Checker, tree: &ast::Automaton) {
     let Some(device) = device(checker, &tree.device) else { return };

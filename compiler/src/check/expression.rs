@@ -4,7 +4,7 @@ mod arithmetic;
 mod call;
 mod domain;
 
-use super::automaton::Context;
+use super::context::Context;
 use super::path::Path;
 use crate::diagnostic::Diagnostic;
 use crate::ir::{self, Expr, ExprKind, Extent, Place, Scalar, Value};

@@ -1,6 +1,7 @@
 //! From trees to a [`Model`]: names, types, proofs of indices and bounds, rules of writing.
 
 mod automaton;
+mod context;
 mod expression;
 mod facts;
 mod path;

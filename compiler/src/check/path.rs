@@ -1,6 +1,6 @@
 //! Names and accesses: `slot[i]`, `tray.open`, `stops[0].x`.
 
-use super::automaton::{Context, Symbol};
+use super::context::{Context, Symbol};
 use super::facts;
 use crate::diagnostic::{Diagnostic, suggestion};
 use crate::ir::{self, Expr, ExprKind, Extent, Place, Scalar, Type, Value};

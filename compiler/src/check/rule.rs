@@ -1,7 +1,7 @@
 //! Rules of writing: what a write of a shared cell may do, as far as it can be decided.
 
 use super::Rule;
-use super::automaton::Context;
+use super::context::Context;
 use super::facts::Interval;
 use crate::diagnostic::Diagnostic;
 use crate::ir::{self, Expr, ExprKind, Place, Value};

@@ -4,7 +4,7 @@
 //! `State.2` and so on wait for the end of a command, for a condition or a time,
 //! and issue what comes next in the scan in which that has come.
 
-use super::automaton::Context;
+use super::context::Context;
 use crate::diagnostic::Diagnostic;
 use crate::source::Span;
 use crate::spec::ast::{

@@ -1,6 +1,6 @@
 //! States and transitions.
 
-use super::automaton::Context;
+use super::context::Context;
 use super::sequence;
 use crate::diagnostic::{Diagnostic, suggestion};
 use crate::ir::{self, Scalar, StateId};

@@ -1,6 +1,6 @@
 //! Updates: assignments and commands.
 
-use super::automaton::Context;
+use super::context::Context;
 use super::facts::{self, Interval};
 use super::path::Path;
 use crate::diagnostic::{Diagnostic, suggestion};

@@ -1,6 +1,6 @@
 //! How much a scan may have to do: nested loops and definitions multiply, and a scan has to end in time.
 
-use super::automaton::Context;
+use super::context::Context;
 use crate::diagnostic::Diagnostic;
 use crate::ir::{Automaton, Clause, Domain, Expr, ExprKind, Model, Scalar, VariableId};
 use crate::source::Span;

@@ -28,7 +28,8 @@ pub fn diagnostics(sources: &Sources, found: &[Diagnostic], input: &[u8], effort
     for diagnostic in shown {
         assert!(text.contains(&format!("error[{}]", diagnostic.code)), "{diagnostic:?} is not shown");
     }
-    let is_obeyed = |c: &char| (c.is_control() && !matches!(*c, '\n' | '\t')) || ('\u{202a}'..='\u{202e}').contains(c);
+    let is_obeyed =
+        |c: &char| (c.is_control() && !matches!(*c, '\n' | '\t')) || ('\u{202a}'..='\u{202e}').contains(c);
     let control = text.chars().find(is_obeyed);
     assert!(control.is_none(), "a report holds {control:?}: {found:?}");
     if effort == Effort::Whole {

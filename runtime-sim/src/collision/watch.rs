@@ -8,8 +8,9 @@
 use super::body::Piece;
 use super::group::{Anchor, Group, Kind};
 use super::pair::{Pair, Scan, Touch};
+use crate::carrier::Carrier;
 use crate::event::Event;
-use crate::item::{self, Carrier};
+use crate::item;
 use crate::kinematics::pose::Pose;
 use crate::line::Line;
 use crate::plant::Plant;

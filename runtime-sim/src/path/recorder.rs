@@ -1,8 +1,8 @@
 //! Recording the paths of all items while a line runs.
 
 use super::{Hanging, Law, Path, Segment};
+use crate::carrier::Carrier;
 use crate::event::Event;
-use crate::item::Carrier;
 use crate::kinematics::arm::Arm;
 use crate::line::Line;
 use crate::plant::Plant;

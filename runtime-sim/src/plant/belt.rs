@@ -3,9 +3,10 @@
 use super::command::{Asked, Command, is_held};
 use super::course::Course;
 use super::image::{in_belt, put_bit, put_point};
+use crate::carrier::Carrier;
 use crate::device::error;
 use crate::geometry::{BELT_SURFACE, BELT_WIDTH, END_INSET, PICK_ZONE_HALF, SPAWN_INSET};
-use crate::item::{Carrier, Items};
+use crate::item::Items;
 use crate::line::Kind;
 use crate::point::{Axis, Point};
 

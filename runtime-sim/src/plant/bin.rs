@@ -1,7 +1,7 @@
 //! A bin. It does nothing.
 
+use crate::carrier::Carrier;
 use crate::geometry::{BIN_FLOOR, BIN_SIDE};
-use crate::item::Carrier;
 use crate::point::Point;
 
 /// What becomes of an item that comes down at this place, if it meets the bin that stands at `pose`.

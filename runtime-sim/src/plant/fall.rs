@@ -1,7 +1,7 @@
 //! Where an item comes to rest that nothing holds any more.
 
 use super::Machine;
-use crate::item::Carrier;
+use crate::carrier::Carrier;
 use crate::point::Point;
 
 /// An item that is let go at most so far below a surface lies on it: the reach of a contact, twice.

@@ -1,9 +1,10 @@
 //! An assembly station: a briefcase, and the terminal of the order system.
 
 use super::image::{in_station, out_station, put_bit};
+use crate::carrier::Carrier;
 use crate::event::OrderChange;
 use crate::geometry::{BRIEFCASE, BRIEFCASE_X, BRIEFCASE_Y};
-use crate::item::{Carrier, Items};
+use crate::item::Items;
 use crate::line::Order;
 use crate::point::Point;
 

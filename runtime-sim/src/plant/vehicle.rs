@@ -3,9 +3,9 @@
 use super::command::{Asked, Command, goal, is_held};
 use super::course::Course;
 use super::image::{in_vehicle, put_point};
+use crate::carrier::Carrier;
 use crate::device::error;
 use crate::geometry::{TRAY, TRAY_MIDDLE, TRAY_SURFACE};
-use crate::item::Carrier;
 use crate::point::Point;
 
 /// From the command to the start (animation of the competition's vehicle).

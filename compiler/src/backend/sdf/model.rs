@@ -2,7 +2,6 @@
 
 use super::inertia::{Inertial, inertial};
 use super::number;
-use super::sensor::Camera;
 use super::shape::{Shape, shapes};
 use askama::Template;
 use runtime_sim::geometry::Geometry;
@@ -20,6 +19,19 @@ pub struct Model {
     pub joints: Vec<Joint>,
     /// The link whose frame is that of the tool.
     pub tool: Option<String>,
+}
+
+/// A sensor that knows what it sees.
+#[derive(Template)]
+#[template(path = "sdf/logical_camera.sdf")]
+pub struct Camera {
+    pub name: &'static str,
+    pub pose: String,
+    pub rate: u32,
+    pub near: f64,
+    pub far: f64,
+    pub aspect_ratio: f64,
+    pub horizontal_fov: f64,
 }
 
 pub struct Link {

@@ -1,25 +1,12 @@
 //! Logical cameras where the machines' own sensors are.
 
-use super::model::{Link, Model};
+use super::model::{Camera, Link, Model};
 use super::number;
 use super::shape::marker;
-use askama::Template;
 use runtime_sim::geometry::Geometry;
 use runtime_sim::kinematics::pose::Pose;
 use runtime_sim::point::{Axis, Point};
 use std::f64::consts::{FRAC_PI_2, PI};
-
-#[derive(Template)]
-#[template(path = "sdf/logical_camera.sdf")]
-pub struct Camera {
-    name: &'static str,
-    pose: String,
-    rate: u32,
-    near: f64,
-    far: f64,
-    aspect_ratio: f64,
-    horizontal_fov: f64,
-}
 
 /// Values of `logical_camera.sdf.template`, ARIAC 2021: Hz, m, and rad. Its noise is left out.
 const RATE: u32 = 10;

@@ -1,8 +1,8 @@
 //! What the code of a fault means to who stands before the line.
 
-use super::block::NO_SUCH_STATE;
 use super::context::Shared;
 use super::table::row;
+use super::value::NO_SUCH_STATE;
 use crate::ir::{Automaton, FaultId, FaultKind, Transition, UpdateKind};
 
 /// `alarms.csv`: the codes that are published with a fault. Robots have the numbers that `fault_robot` gives.

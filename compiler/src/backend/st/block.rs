@@ -5,15 +5,13 @@ use super::context::{Lowering, Phase, Shared};
 use super::dead;
 use super::declaration::{Basic, Unit, Variable, constants};
 use super::expression::{guarded, limited};
-use super::globals::{Globals, about, array_names, first_value, meaning};
+use super::globals::{Globals, about, array_names, meaning};
 use super::names::ELEMENT;
 use super::role::Members;
+use super::value::{NO_SUCH_STATE, first_value};
 use crate::ir::{Automaton, AutomatonId, Extent, RoleId, Scalar, Value};
 use runtime_sim::device::{Direction, PortType};
 use std::collections::BTreeSet;
-
-/// Published if the state has no meaning: the controller's memory is damaged.
-pub const NO_SUCH_STATE: i32 = 32767;
 
 /// Where a variable of a block comes from.
 #[derive(Clone, Debug)]

@@ -3,7 +3,8 @@
 use super::code::{Ex, Member, Stmt, written};
 use super::declaration::{Basic, Variable};
 use super::names::{AutomatonNames, Names};
-use crate::ir::{Automaton, AutomatonId, EnumId, System, Value};
+use super::role::{self, Members};
+use crate::ir::{Automaton, AutomatonId, EnumId, RoleId, System, Value};
 use crate::naming::st::Scope;
 use crate::source::{Sources, Span};
 use std::collections::{BTreeMap, BTreeSet};
@@ -103,6 +104,11 @@ impl<'a> Lowering<'a> {
 }
 
 impl Shared<'_> {
+    /// How the members of a role are known to the block of a type.
+    pub fn members(&self, id: AutomatonId, role: RoleId) -> Members {
+        role::members(self.system, id, role)
+    }
+
     /// `agv.aut:12`
     pub fn line(&self, place: Span) -> String {
         let file = &self.sources.file(place.file).name;

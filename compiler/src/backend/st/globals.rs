@@ -9,8 +9,9 @@ use super::context::Shared;
 use super::declaration::{Basic, Variable, constants};
 use super::image::Image;
 use super::role::Members;
-use crate::ir::{AutomatonId, Extent, InterfaceId, RoleId, Scalar, Type, Value};
-use runtime_sim::device::{Direction, Port, PortType, Stop};
+use super::value::{first_value, stop_value};
+use crate::ir::{AutomatonId, Extent, InterfaceId, RoleId, Scalar, Type};
+use runtime_sim::device::Direction;
 
 /// A global array and what its elements are at power-up.
 pub struct Table {
@@ -107,27 +108,6 @@ fn system(shared: Shared) -> Vec<Variable> {
         variable("init_done", Ex::Bool(false), "false in the first scan"),
         variable("dt_ms", Ex::Int(shared.system.scan_ms), "length of a scan, ms: the INTERVAL of the task"),
     ]
-}
-
-/// What a port holds before anything was latched or written.
-pub fn first_value(ty: PortType) -> Value {
-    match ty {
-        PortType::Bool => Value::Bool(false),
-        PortType::Int { lo, hi } => Value::Int(0.clamp(lo, hi)),
-        PortType::Real => Value::Real(0.0),
-        PortType::Point => Value::Point([0.0; 3]),
-    }
-}
-
-/// The value that is published while the system does not run, if it is not the last one.
-pub fn stop_value(port: &Port) -> Option<Value> {
-    let Stop::Value(value) = port.stop else { return None };
-    Some(match port.ty {
-        PortType::Bool => Value::Bool(value != 0.0),
-        PortType::Int { .. } => Value::Int(value as i32),
-        PortType::Real => Value::Real(value),
-        PortType::Point => Value::Point([value; 3]),
-    })
 }
 
 fn ports(shared: Shared, robot: usize) -> Vec<Variable> {

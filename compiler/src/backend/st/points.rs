@@ -1,11 +1,10 @@
 //! Every scalar of I/O, in the order of `io.csv`: what a person can give an address.
 
-use super::block::NO_SUCH_STATE;
 use super::code::{Ex, name};
 use super::declaration::{Basic, constants};
-use super::globals::{first_value, stop_value};
 use super::names::Names;
 use super::print::Dialect;
+use super::value::{NO_SUCH_STATE, first_value, stop_value};
 use crate::io_map::{Kind, Point};
 use crate::ir::{Scalar, System};
 use runtime_sim::device::{Direction, Extent, Port, PortType, Stop};

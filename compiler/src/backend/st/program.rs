@@ -4,9 +4,10 @@ use super::block::{Block, publishes};
 use super::code::{self, Arm, Ex, Stmt, and, assign, binary, name, not, or, when};
 use super::context::Shared;
 use super::declaration::{Basic, Instance, Unit, Variable, constants};
-use super::globals::{Globals, fill, stop_value};
+use super::globals::{Globals, fill};
 use super::image::Image;
 use super::names::ELEMENT;
+use super::value::{first_value, stop_value};
 use runtime_sim::device::Direction;
 
 pub const LAYOUT: &str = "FB_Layout";
@@ -128,7 +129,7 @@ fn publish(shared: Shared, robot: usize, block: &Block) -> Vec<Stmt> {
                 (None, None) => {}
                 (None, Some(Ex::Bool(true))) => always.push(assign(global, not(name("running")))),
                 (value, Some(stop)) => {
-                    let first = constants(super::globals::first_value(port.ty))[part].clone();
+                    let first = constants(first_value(port.ty))[part].clone();
                     running.push(assign(global, value.unwrap_or(first)));
                     stopped.push(assign(global, stop));
                 }

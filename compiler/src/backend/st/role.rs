@@ -1,6 +1,5 @@
 //! What the robots of a type have in common: members of roles, arrays of parameters.
 
-use super::context::Shared;
 use crate::ir::{AutomatonId, Extent, Instance, RoleId, System};
 
 /// How the members of a role are known to the block of a type.
@@ -10,12 +9,6 @@ pub enum Members {
     All(usize),
     /// Each robot has its list, of at most so many.
     Listed(usize),
-}
-
-impl Shared<'_> {
-    pub fn members(&self, id: AutomatonId, role: RoleId) -> Members {
-        members(self.system, id, role)
-    }
 }
 
 pub fn members(system: &System, id: AutomatonId, role: RoleId) -> Members {

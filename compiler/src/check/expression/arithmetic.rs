@@ -1,7 +1,7 @@
 //! Operators: their types, and the bounds of what they compute.
 
 use super::{binary, constant, to_real, unit_help};
-use crate::check::automaton::Context;
+use crate::check::context::Context;
 use crate::check::facts::Interval;
 use crate::diagnostic::Diagnostic;
 use crate::ir::{self, Expr, ExprKind, Scalar, Value};

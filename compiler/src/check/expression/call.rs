@@ -2,7 +2,7 @@
 
 use super::domain::MEMBERS;
 use super::{binary, constant};
-use crate::check::automaton::{Context, Symbol};
+use crate::check::context::{Context, Symbol};
 use crate::check::path::Path;
 use crate::diagnostic::Diagnostic;
 use crate::ir::{self, Domain, Expr, ExprKind, Extent, Place, Scalar, Value};

@@ -1,7 +1,7 @@
 //! Quantifiers, and what their variables go over.
 
 use crate::check::Checker;
-use crate::check::automaton::{Context, Symbol};
+use crate::check::context::{Context, Symbol};
 use crate::check::facts;
 use crate::diagnostic::Diagnostic;
 use crate::ir::{self, Domain, Expr, ExprKind, Extent, Scalar, VariableId};
