@@ -29,7 +29,14 @@ fn main() -> ExitCode {
         complain!("autogen: this is a bug in autogen, not in your input: {panic}");
         complain!("Please report it with the layout and the specifications that show it.");
     }));
-    let cli = Cli::parse();
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) if error.use_stderr() => {
+            command::print::err(&error.render().to_string());
+            return ExitCode::from(Status::WrongCommand as u8);
+        }
+        Err(help) => help.exit(),
+    };
     command::interrupt::install();
     let status = std::panic::catch_unwind(|| match &cli.command {
         Command::Check(options) => command::check::run(options),

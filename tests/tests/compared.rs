@@ -119,7 +119,11 @@ fn all(line: &Line, device: &str) -> Vec<usize> {
 /// What a program is compiled from: all but the values of the layout, which it reads.
 fn types(job: &Job) -> BTreeMap<String, String> {
     let mut files = autogen::backend::rust::files(&job.project.system, &job.sources);
-    files.retain(|name, _| !name.starts_with("controllers/src/robots") && name != "controllers/src/line.rs");
+    let is_of_layout = |name: &str| {
+        name.starts_with("controllers/src/robots/")
+            || matches!(name, "controllers/src/robots.rs" | "controllers/src/line.rs")
+    };
+    files.retain(|name, _| !is_of_layout(name));
     files
 }
 

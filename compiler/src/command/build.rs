@@ -2,7 +2,7 @@
 
 use super::options::{Addresses, BuildOptions, Format};
 use super::output::{self, Output, Refusal};
-use super::{load, print};
+use super::{load, print, read};
 use crate::Status;
 use autogen::backend::{Files, dot, plan, rust, sdf, st};
 use autogen::diagnostic::Diagnostic;
@@ -10,6 +10,7 @@ use autogen::io_map::{self, Conversion, Counting, IoMap, Point};
 use autogen::ir::System;
 use autogen::library;
 use autogen::lower::{Outcome, Project, compile};
+use autogen::plain;
 use autogen::simulator;
 use autogen::source::{FileId, Sources};
 use serde_json::{Map, Value, json};
@@ -25,8 +26,6 @@ pub struct Built {
     /// What the manifest says before the list of files.
     pub about: Map<String, Value>,
     pub folder: PathBuf,
-    /// Where the inputs are, without symbolic links.
-    pub inputs: Vec<PathBuf>,
 }
 
 pub fn run(options: &BuildOptions) -> Status {
@@ -79,14 +78,12 @@ pub fn build(options: &BuildOptions) -> Result<Built, Status> {
     if table.is_some() && options.input.format == Format::Text && !options.input.quiet {
         report_gaps(&map, &st::points(&project.system));
     }
-    let inputs =
-        sources.files().iter().filter_map(|file| Path::new(&file.name).canonicalize().ok()).collect();
     // The same input gives the same bytes, from whatever folder it is compiled.
     let sources = shown(&sources, &options.input.layout);
     let files = files(&project, &sources, &map);
     let about = about(&project, &sources);
     let folder = options.output.clone().unwrap_or_else(|| Path::new("out").join(&project.name));
-    Ok(Built { project, sources, files, about, folder, inputs })
+    Ok(Built { project, sources, files, about, folder })
 }
 
 /// The output folder, once no other process writes to it.
@@ -102,7 +99,7 @@ pub fn open(options: &BuildOptions, built: &Built) -> Result<Output, Refusal> {
         return Err(Refusal::InTheWay(links));
     }
     let says = options.input.format == Format::Text && !options.input.quiet;
-    Output::open(&built.folder, || {
+    Output::open(&built.folder, read::files(), || {
         if says {
             complain!("waiting for another autogen that writes to {} ...", built.folder.display());
         }
@@ -111,18 +108,7 @@ pub fn open(options: &BuildOptions, built: &Built) -> Result<Output, Refusal> {
 
 /// Writes what was built.
 pub fn write(options: &BuildOptions, built: &Built, output: &Output) -> Result<(), Refusal> {
-    let names = built.files.keys().map(String::as_str).chain([output::MANIFEST, output::RESULTS]);
-    let paths = names.map(|name| output.folder().join(name));
-    let inputs: Vec<PathBuf> = paths.filter(|path| is_input(built, path)).collect();
-    if !inputs.is_empty() {
-        return Err(Refusal::Inputs(inputs));
-    }
     output.write(&built.files, built.about.clone(), options.overwrite())
-}
-
-/// Whether this is a file that was read.
-pub fn is_input(built: &Built, path: &Path) -> bool {
-    path.canonicalize().is_ok_and(|path| built.inputs.contains(&path))
 }
 
 /// The addresses that the table gives, if there is one.
@@ -237,8 +223,9 @@ fn about(project: &Project, sources: &Sources) -> Map<String, Value> {
 
 /// Says why nothing was written.
 pub fn refused(options: &BuildOptions, refusal: &Refusal) -> Status {
-    let list =
-        |paths: &[PathBuf]| paths.iter().map(|p| p.display().to_string()).collect::<Vec<_>>().join("\n  ");
+    let list = |paths: &[PathBuf]| {
+        paths.iter().map(|p| plain::line(&p.display().to_string())).collect::<Vec<_>>().join("\n  ")
+    };
     let text = match refusal {
         Refusal::NotOurs(paths) => format!(
             "not written: autogen did not write these files, or they were changed since:\n  {}\nMove them away, choose another folder with -o, or overwrite them with --force.",

@@ -9,6 +9,7 @@ use super::options::{CommissionOptions, Format};
 use super::output::{self, Output};
 use super::pending::{Content, Pending};
 use super::progress::Progress;
+use super::read;
 use super::trajectories::Request;
 use crate::Status;
 use autogen::backend::rust::parameters_text;
@@ -17,7 +18,7 @@ use runtime_sim::run::{Seen, record, run as simulate};
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::io::{self, IsTerminal};
-use std::path::{self, PathBuf};
+use std::path::{self, Path, PathBuf};
 use std::time::Instant;
 
 pub fn run(options: &CommissionOptions) -> Status {
@@ -167,7 +168,17 @@ fn show(options: &CommissionOptions, output: &Output, report: &Value, wall: f64)
 fn named(options: &CommissionOptions) -> Vec<PathBuf> {
     let single = options.io_trace.iter().chain(&options.hashes);
     let all = single.chain(&options.trajectories.files);
-    all.map(|path| path::absolute(path).unwrap_or_else(|_| path.clone())).collect()
+    all.map(|path| place(path)).collect()
+}
+
+/// Where a file is or will be, without symbolic links but for the file itself.
+fn place(path: &Path) -> PathBuf {
+    let absolute = path::absolute(path).unwrap_or_else(|_| path.into());
+    let folder = absolute.parent().and_then(|folder| folder.canonicalize().ok());
+    match (folder, absolute.file_name()) {
+        (Some(folder), Some(name)) => folder.join(name),
+        _ => absolute,
+    }
 }
 
 /// No file is named for two things.
@@ -182,13 +193,13 @@ fn are_different(options: &CommissionOptions) -> Result<(), String> {
 /// No file is named that was read or that the build writes.
 fn are_free(options: &CommissionOptions, built: &Built) -> Result<(), String> {
     let own = built.files.keys().map(String::as_str).chain([output::MANIFEST, output::RESULTS]);
-    let folder = path::absolute(&built.folder).unwrap_or_else(|_| built.folder.clone());
-    let own: Vec<PathBuf> = own.map(|name| folder.join(name)).collect();
+    let own: Vec<PathBuf> = own.map(|name| place(&built.folder.join(name))).collect();
+    let inputs = read::files();
     for path in named(options) {
         if own.contains(&path) {
             return Err(format!("{}: this is a file of the output; choose another name", path.display()));
         }
-        if build::is_input(built, &path) {
+        if path.canonicalize().is_ok_and(|path| inputs.contains(&path)) {
             return Err(format!("{}: this is a file of the input; choose another name", path.display()));
         }
     }

@@ -130,11 +130,11 @@ fn kill(process: u32) {
 #[cfg(not(unix))]
 fn kill(_: u32) {}
 
-/// From now on SIGINT and SIGTERM abandon what was begun before they end the program.
+/// From now on SIGHUP, SIGINT and SIGTERM abandon what was begun before they end the program.
 #[cfg(unix)]
 pub fn install() {
-    use signal_hook::consts::{SIGINT, SIGTERM};
-    let Ok(mut signals) = signal_hook::iterator::Signals::new([SIGINT, SIGTERM]) else { return };
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    let Ok(mut signals) = signal_hook::iterator::Signals::new([SIGHUP, SIGINT, SIGTERM]) else { return };
     thread::spawn(move || {
         if let Some(signal) = signals.forever().next() {
             abandon();

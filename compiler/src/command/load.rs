@@ -185,7 +185,7 @@ pub fn begins_as_object(text: &str) -> bool {
 /// What a layout names that cannot be used.
 fn unusable(key: &str, name: &Spanned<String>, why: &Unusable) -> Diagnostic {
     let (code, help) = match why {
-        Unusable::LeadsOut => {
+        Unusable::LeadsOut | Unusable::LinkLeadsOut(_) => {
             (layout::OUTSIDE, format!("put it into the folder of the layout, or give it by --{key}"))
         }
         _ => ("E0141", format!("correct \"{key}\", or leave it out and give --{key}")),

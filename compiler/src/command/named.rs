@@ -15,6 +15,8 @@ pub enum Unusable {
     Unread(Unread),
     /// It stands elsewhere than below the folder of the layout.
     LeadsOut,
+    /// A symbolic link in a folder of automata that leads out of it.
+    LinkLeadsOut(PathBuf),
     /// A folder without automata.
     NoAutomata,
     /// Neither a folder nor a file of automata.
@@ -27,6 +29,9 @@ impl fmt::Display for Unusable {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.write_str(match self {
             Unusable::Unread(why) => return why.fmt(f),
+            Unusable::LinkLeadsOut(link) => {
+                return write!(f, "{} is a symbolic link that leads out of it", link.display());
+            }
             Unusable::LeadsOut => "this leads out of the folder of the layout",
             Unusable::NoAutomata => "this folder holds no *.aut file",
             Unusable::NotAutomata => "this is neither a folder nor a *.aut file",
@@ -87,9 +92,12 @@ pub fn automata(path: &Path) -> Result<Vec<PathBuf>, Unusable> {
     }
     let mut files = Vec::new();
     for entry in path.read_dir()? {
-        let path = entry?.path();
-        if is_automata(&path) {
-            files.push(path);
+        let entry = entry?.path();
+        if is_automata(&entry) {
+            if !entry.canonicalize()?.starts_with(path.canonicalize()?) {
+                return Err(Unusable::LinkLeadsOut(entry));
+            }
+            files.push(entry);
         }
         if files.len() == MOST_LISTED {
             break;

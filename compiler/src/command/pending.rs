@@ -36,7 +36,11 @@ impl Content {
         match self {
             Content::IoTrace => bytes.starts_with(b"run_permit,start,reset,"),
             Content::Hashes => {
-                bytes.len() > 16 && bytes[..16].iter().all(u8::is_ascii_hexdigit) && bytes[16] == b'\n'
+                let is_hash = |line: &[u8]| {
+                    line.iter().take(16).all(u8::is_ascii_hexdigit)
+                        && line.get(16).is_none_or(|end| *end == b'\n')
+                };
+                bytes.len() > 16 && bytes.chunks(17).all(is_hash)
             }
             Content::PathTable => bytes.starts_with(HEAD.as_bytes()),
             Content::PathSegments => bytes.starts_with(format!("{{\"format\":\"{FORMAT}\"").as_bytes()),
@@ -48,6 +52,8 @@ impl Content {
 /// How the name of a file ends that is not whole, and the characters before that by which it cannot be foreseen.
 const END: &str = ".partial";
 const RANDOM: usize = 6;
+/// Characters of the file's own name in it: names of files have 255 bytes at most.
+const NAME: usize = 50;
 
 /// Bytes by which contents are told from one another.
 const BEGINNING: u64 = 256;
@@ -76,8 +82,9 @@ impl Pending {
             ));
         }
         let folder = path.parent().filter(|f| !f.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let begin = format!(".{}.", name.to_string_lossy());
-        remove_abandoned(folder, &begin).map_err(failed)?;
+        let begin: String = name.to_string_lossy().chars().take(NAME).collect();
+        let begin = format!(".{begin}.");
+        remove_abandoned(folder, &begin, content).map_err(failed)?;
         let (partial, file) = create(folder, &begin).map_err(failed)?;
         Ok(Self { path: path.into(), partial, file })
     }
@@ -120,14 +127,14 @@ fn create(folder: &Path, begin: &str) -> io::Result<(Temporary, File)> {
 }
 
 /// Removes what processes have left that were killed.
-fn remove_abandoned(folder: &Path, begin: &str) -> io::Result<()> {
+fn remove_abandoned(folder: &Path, begin: &str, content: Content) -> io::Result<()> {
     for entry in fs::read_dir(folder)? {
         let entry = entry?;
         let name = entry.file_name().to_string_lossy().into_owned();
         let is_partial = name.starts_with(begin) && name.len() == begin.len() + RANDOM + END.len();
         if is_partial && name.ends_with(END) && entry.file_type()?.is_file() {
             let is_abandoned = File::open(entry.path()).is_ok_and(|file| lock::claim(&file));
-            if is_abandoned {
+            if is_abandoned && is_free(&entry.path(), content).unwrap_or(false) {
                 drop(Temporary::new(entry.path()));
             }
         }

@@ -3,10 +3,22 @@
 use std::fmt;
 use std::fs::{File, OpenOptions};
 use std::io::{self, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Bytes that a file may have; the largest real layout has 4 MB.
 pub const MOST_BYTES: u64 = 10_000_000;
+
+static FILES: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// All files that this process has read, without symbolic links: none of them is written over.
+pub fn files() -> Vec<PathBuf> {
+    lock(&FILES).clone()
+}
 
 /// Why a file is not read. As text it says so without the file's name.
 #[derive(Debug)]
@@ -39,6 +51,9 @@ impl fmt::Display for Unread {
 /// it could be read. Neither a pipe nor a device that never ends holds this up.
 pub fn text(path: &Path) -> Result<String, Unread> {
     let bytes = bytes(open(path).map_err(Unread::Io)?)?;
+    if let Ok(path) = path.canonicalize() {
+        lock(&FILES).push(path);
+    }
     if is_utf_16(&bytes) {
         return Err(Unread::Utf16);
     }

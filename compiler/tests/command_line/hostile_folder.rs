@@ -6,6 +6,8 @@ use std::os::unix::fs::{PermissionsExt, symlink};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+const UNFINISHED: &str = "autogen-unfinished";
+
 const SHORT: &str = r#"{
     "kinds": [{"name": "battery", "height": 0.053}],
     "orders": [{"station": "as1", "parts": {"battery": 1}}],
@@ -46,6 +48,8 @@ fn nothing_in_the_working_folder_is_run() {
     fs::write(folder.join(".cargo/config.toml"), configuration).expect("a file");
     let toolchain = format!("[toolchain]\npath = \"{}\"\n", folder.display());
     fs::write(folder.join("rust-toolchain.toml"), toolchain).expect("a file");
+    // The cache is below it too, as in a checkout.
+    let cache = folder.join("cache");
     self::trap(&folder, "bin/cargo");
     self::trap(&folder, "bin/rustc");
     self::trap(&folder, "cargo");
@@ -53,7 +57,7 @@ fn nothing_in_the_working_folder_is_run() {
     let output = Command::new(env!("CARGO_BIN_EXE_autogen"))
         .args(["commission", "default.json"])
         .current_dir(&folder)
-        .env("XDG_CACHE_HOME", folder.with_file_name("hostile_cache"))
+        .env("XDG_CACHE_HOME", &cache)
         .env_remove("CARGO")
         .env_remove("RUSTUP_TOOLCHAIN")
         .output()
@@ -311,4 +315,158 @@ fn files_of_the_same_name_stay_apart() {
     let graph = |of: &str| autogen(&folder, &[&["graph", "--of", of], &arguments[..]].concat()).stdout;
     assert_eq!(graph("connectivity_"), text("graph/connectivity_.dot").into_bytes());
     assert_eq!(graph("connectivity"), text("graph/connectivity.dot").into_bytes());
+}
+
+/// Its name begins as a file does that holds values only.
+#[test]
+fn a_type_that_was_changed_is_compiled_again() {
+    let folder = line("changed_type");
+    let layout = fs::read_to_string(folder.join("default.json")).expect("a file");
+    let layout = layout
+        .replacen("{", "{ \"specs\": \"robots.aut\",", 1)
+        .replace("\"bin1\", \"type\": \"bin\"", "\"bin1\", \"type\": \"robots\"");
+    fs::write(folder.join("default.json"), layout).expect("a file");
+    let cache = folder.join("cache");
+    for value in ["1", "2"] {
+        let text = format!(
+            "automaton Robots on bin {{\n    local n: int 0..9 := 0;\n    initial -> Idle {{ n := {value}; }}\n    \
+             state Idle {{ when after 1 s -> Idle {{ n := {value}; }} }}\n}}\n"
+        );
+        fs::write(folder.join("robots.aut"), text).expect("a file");
+        let output = autogen_in(&folder, &cache, &["commission", "default.json"]);
+        assert_eq!(status(&output), 0, "{}", errors(&output));
+        assert!(errors(&output).contains("compiling"), "{value}");
+    }
+}
+
+#[test]
+fn what_was_read_is_neither_removed_nor_restored_over() {
+    let folder = line("planted_beside_the_layout");
+    let hash = |name: &str| sha256(&folder.join(name)).expect("sha256sum");
+    let build = || autogen(&folder, &["build", "default.json", "-o", "."]);
+    // A manifest that says that the inputs are its own.
+    let manifest = format!(
+        "{{\"files\": {{\"default.json\": \"{}\", \"scenario.json\": \"{}\"}}}}",
+        hash("default.json"),
+        hash("scenario.json")
+    );
+    fs::write(folder.join("manifest.json"), manifest).expect("a file");
+    let before = contents(&folder);
+    let output = autogen(&folder, &["build", "default.json", "-o", ".", "--force"]);
+    assert_eq!(status(&output), 2);
+    assert!(errors(&output).contains("were read"), "{}", errors(&output));
+    assert!(contents(&folder) == before);
+    // A journal that says so.
+    fs::remove_file(folder.join("manifest.json")).expect("a file");
+    let unfinished = folder.join(UNFINISHED);
+    fs::create_dir_all(unfinished.join("old")).expect("a folder");
+    fs::write(unfinished.join("old/default.json"), "{}").expect("a file");
+    let journal = format!(
+        "[{{\"name\": \"default.json\", \"existed\": true, \"hash\": \"{}\"}}, \
+          {{\"name\": \"scenario.json\", \"existed\": false, \"hash\": \"{}\"}}]",
+        hash("default.json"),
+        hash("scenario.json")
+    );
+    fs::write(unfinished.join("journal.json"), journal).expect("a file");
+    let before = contents(&folder);
+    assert_eq!(status(&build()), 2);
+    assert!(contents(&folder) == before);
+    // A folder of that name which is somebody's.
+    fs::remove_dir_all(&unfinished).expect("a folder");
+    fs::create_dir_all(&unfinished).expect("a folder");
+    fs::write(unfinished.join("thesis.txt"), "mine").expect("a file");
+    let output = build();
+    assert_eq!(status(&output), 2);
+    assert!(errors(&output).contains("thesis.txt"), "{}", errors(&output));
+    assert!(unfinished.join("thesis.txt").exists());
+}
+
+#[test]
+fn one_file_has_one_name() {
+    let folder = line("other_spelling");
+    fs::create_dir_all(folder.join("sub")).expect("a folder");
+    let before = outside(&folder);
+    for (names, said) in [
+        (["--hashes", "n", "--io-trace", "sub/../n"], "named twice"),
+        (["--hashes", "out/default/../default/manifest.json", "--force", "-q"], "a file of the output"),
+        (["--hashes", "sub/../default.json", "--force", "-q"], "a file of the input"),
+    ] {
+        fs::create_dir_all(folder.join("out/default")).expect("a folder");
+        let output = autogen(&folder, &[&["commission", "default.json"], &names[..]].concat());
+        assert_eq!(status(&output), 2, "{names:?}");
+        assert!(errors(&output).contains(said), "{}", errors(&output));
+    }
+    assert!(outside(&folder) == before);
+}
+
+#[test]
+fn files_of_a_person_are_told_from_those_of_a_run() {
+    let folder = line("own_files");
+    fs::write(folder.join(".h.abcdef.partial"), "thesis").expect("a file");
+    fs::write(folder.join("notes"), "0123456789abcdef\nmy own notes\n").expect("a file");
+    let output = autogen(&folder, &["commission", "default.json", "--hashes", "h"]);
+    assert_eq!(status(&output), 0, "{}", errors(&output));
+    assert!(folder.join(".h.abcdef.partial").exists());
+    assert_eq!(status(&autogen(&folder, &["commission", "default.json", "--hashes", "notes"])), 2);
+    let long = "h".repeat(250);
+    assert_eq!(status(&autogen(&folder, &["commission", "default.json", "--hashes", &long])), 0);
+}
+
+#[test]
+fn a_link_in_a_folder_of_automata_does_not_lead_out() {
+    let folder = line("linked_automata");
+    fs::create_dir_all(folder.join("types")).expect("a folder");
+    fs::write(folder.join("secret"), "PRIVATE LINE").expect("a file");
+    symlink(folder.join("secret"), folder.join("types/x.aut")).expect("a link");
+    let output = autogen(&folder, &["check", "default.json", "--specs", "types"]);
+    assert_eq!(status(&output), 2);
+    assert!(
+        errors(&output).contains("leads out") && !errors(&output).contains("PRIVATE"),
+        "{}",
+        errors(&output)
+    );
+}
+
+#[test]
+fn a_planted_file_is_not_read_whole() {
+    let folder = line("planted_size");
+    fs::create_dir_all(folder.join("out/default/graph")).expect("a folder");
+    for name in ["manifest.json", "graph/plan.svg"] {
+        let path = folder.join("out/default").join(name);
+        fs::File::create(&path).and_then(|file| file.set_len(2_000_000_000)).expect("a sparse file");
+        let limited = format!("ulimit -v 1000000; exec {} build default.json", env!("CARGO_BIN_EXE_autogen"));
+        let output =
+            Command::new("sh").args(["-c", &limited]).current_dir(&folder).output().expect("a shell");
+        assert_eq!(status(&output), 2, "{name}: {}", errors(&output));
+        assert!(errors(&output).contains(name), "{}", errors(&output));
+        fs::remove_file(path).expect("a file");
+    }
+}
+
+#[test]
+fn a_cache_that_others_could_write_is_emptied() {
+    let folder = line("open_cache");
+    let cache = folder.join("cache");
+    let commission = || autogen_in(&folder, &cache, &["commission", "default.json"]);
+    assert_eq!(status(&commission()), 0);
+    fs::set_permissions(cache.join("autogen"), fs::Permissions::from_mode(0o777)).expect("a folder");
+    let output = commission();
+    assert!(errors(&output).contains("compiling"), "{}", errors(&output));
+    // The hash is a link to somewhere else.
+    let files = contents(&cache);
+    let (hash, _) = &files[1];
+    fs::remove_file(hash).expect("a file");
+    fs::write(folder.join("precious.txt"), "precious").expect("a file");
+    symlink(folder.join("precious.txt"), hash).expect("a link");
+    assert_eq!(status(&commission()), 0);
+    assert_eq!(fs::read_to_string(folder.join("precious.txt")).expect("a file"), "precious");
+    assert_eq!(errors(&commission()), "");
+}
+
+#[test]
+fn escapes_of_the_command_line_do_not_reach_the_terminal() {
+    let folder = line("escapes");
+    let output = autogen(&folder, &["check", "default.json", "b\u{1b}]0;pwn\u{7}.json"]);
+    assert_eq!(status(&output), 2);
+    assert!(!output.stderr.contains(&0x1b), "{}", errors(&output));
 }

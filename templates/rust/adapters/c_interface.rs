@@ -87,9 +87,10 @@ pub unsafe extern "C" fn autogen_open(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn autogen_close(session: *mut Session) {
     // SAFETY: `autogen_open` has made the box.
-    let session = unsafe { Box::from_raw(session) };
-    let Layout { kept, .. } = session.layout;
-    // SAFETY: nothing of the layout has left the session, and dropping the rest of it reads none of it.
+    let Session { mut layout, .. } = *unsafe { Box::from_raw(session) };
+    let kept = std::mem::take(&mut layout.kept);
+    drop(layout);
+    // SAFETY: nothing of the layout has left the session.
     unsafe { kept.free() }
 }
 

@@ -31,7 +31,8 @@ impl Entry {
         let lock = Lock::folder(&folder, waits).map_err(failed)?;
         for entry in fs::read_dir(&folder).map_err(failed)? {
             let entry = entry.map_err(failed)?;
-            if entry.file_name() != LIBRARY && entry.file_name() != HASH {
+            let is_own = entry.file_name() == LIBRARY || entry.file_name() == HASH;
+            if !is_own || !entry.file_type().map_err(failed)?.is_file() {
                 drop(Temporary::new(entry.path()));
             }
         }
@@ -59,7 +60,9 @@ impl Entry {
         let bytes = fs::read(&made).map_err(failed)?;
         let library = self.folder.join(LIBRARY);
         let _writing = interrupt::writing();
-        fs::write(self.folder.join(HASH), hash(&bytes)).map_err(failed)?;
+        let new_hash = workspace.path().join(HASH);
+        fs::write(&new_hash, hash(&bytes)).map_err(failed)?;
+        fs::rename(&new_hash, self.folder.join(HASH)).map_err(failed)?;
         fs::rename(&made, &library).map_err(failed)?;
         Ok(library)
     }
@@ -102,6 +105,10 @@ fn close_to_others(folder: &Path) -> Result<(), String> {
              set XDG_CACHE_HOME to another place",
             folder.display()
         ));
+    }
+    if metadata.mode() & 0o022 != 0 && folder.join(FORMAT).symlink_metadata().is_ok() {
+        // Others could have put there what would be run.
+        fs::remove_dir_all(folder.join(FORMAT)).map_err(failed)?;
     }
     if metadata.mode() & 0o077 != 0 {
         fs::set_permissions(folder, fs::Permissions::from_mode(0o700)).map_err(failed)?;

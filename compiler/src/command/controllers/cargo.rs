@@ -11,14 +11,16 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 /// Compiles the adapters' shared library in a folder, and returns its path. Cargo and rustup look for their
-/// configuration in the working directory and above it, so this has to be a folder of the tool's own.
+/// configuration in the working directory and above it, so that is the root.
 pub fn compile(folder: &Path, files: &Files) -> Result<PathBuf, String> {
     put(folder, files).map_err(|e| format!("{}: {e}", folder.display()))?;
     let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     cargo
-        .current_dir(folder)
+        .current_dir(folder.ancestors().last().unwrap_or(folder))
         // The controllers depend on nothing that would have to be fetched.
         .args(["build", "--release", "--offline", "--quiet", "-p", "adapters", "--lib"])
+        .arg("--manifest-path")
+        .arg(folder.join("Cargo.toml"))
         .args(["--message-format", "json-render-diagnostics", "--target", TARGET])
         .arg("--target-dir")
         .arg(folder.join("target"))

@@ -59,5 +59,6 @@ fn key(files: &Files) -> String {
 
 /// Files in which only the layout is written; the library reads its data at run time.
 fn is_of_layout(name: &str) -> bool {
-    name.starts_with("controllers/src/robots") || name == "controllers/src/line.rs"
+    name.starts_with("controllers/src/robots/")
+        || matches!(name, "controllers/src/robots.rs" | "controllers/src/line.rs")
 }

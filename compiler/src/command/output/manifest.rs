@@ -4,6 +4,7 @@ use super::present;
 use serde_json::{Map, Value, json};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
+use std::io;
 use std::path::Path;
 
 /// Name of the file that lists all others.
@@ -14,6 +15,13 @@ const SELF: &str = "manifest";
 
 pub fn hash(bytes: &[u8]) -> String {
     Sha256::digest(bytes).iter().map(|b| format!("{b:02x}")).collect()
+}
+
+/// Hash of all that is still to be read.
+pub fn hash_of(mut file: impl io::Read) -> io::Result<String> {
+    let mut digest = Sha256::new();
+    io::copy(&mut file, &mut digest)?;
+    Ok(digest.finalize().iter().map(|b| format!("{b:02x}")).collect())
 }
 
 #[derive(Clone, Debug, Default)]

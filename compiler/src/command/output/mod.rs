@@ -43,14 +43,17 @@ pub enum Refusal {
 #[derive(Debug)]
 pub struct Output {
     folder: PathBuf,
+    /// Files that nothing is to happen to, without symbolic links.
+    inputs: Vec<PathBuf>,
     is_new: bool,
     _lock: Lock,
 }
 
 impl Output {
     /// Makes the folder if there is none. What an interrupted process has left half written is undone first.
-    /// `waits` is called once if another process has the folder.
-    pub fn open(folder: &Path, waits: impl Fn()) -> Result<Self, Refusal> {
+    /// Nothing happens to `inputs`, which are canonical paths. `waits` is called once if another process has the
+    /// folder.
+    pub fn open(folder: &Path, inputs: Vec<PathBuf>, waits: impl Fn()) -> Result<Self, Refusal> {
         if folder.symlink_metadata().is_ok() && !folder.is_dir() {
             return Err(Refusal::InTheWay(vec![folder.into()]));
         }
@@ -63,8 +66,8 @@ impl Output {
                 break lock;
             }
         };
-        let output = Self { folder: folder.into(), is_new, _lock: lock };
-        transaction::recover(folder)?;
+        let output = Self { folder: folder.into(), inputs, is_new, _lock: lock };
+        transaction::recover(folder, &output.inputs)?;
         Ok(output)
     }
 
@@ -161,8 +164,17 @@ impl Output {
         if overwrite == Overwrite::Own && !foreign.is_empty() {
             return Err(Refusal::NotOurs(foreign));
         }
+        let inputs = among(&self.inputs, changes.iter().map(|change| self.folder.join(&change.name)));
+        if !inputs.is_empty() {
+            return Err(Refusal::Inputs(inputs));
+        }
         transaction::apply(&self.folder, &changes)
     }
+}
+
+/// Those of the paths that are one of `inputs`.
+fn among(inputs: &[PathBuf], paths: impl Iterator<Item = PathBuf>) -> Vec<PathBuf> {
+    paths.filter(|path| path.canonicalize().is_ok_and(|path| inputs.contains(&path))).collect()
 }
 
 impl Drop for Output {

@@ -8,7 +8,7 @@ fn folder(name: &str) -> PathBuf {
 }
 
 fn open(folder: &Path) -> Output {
-    Output::open(folder, || panic!("nobody else writes there")).expect("a folder")
+    Output::open(folder, Vec::new(), || panic!("nobody else writes there")).expect("a folder")
 }
 
 fn files(texts: &[(&str, &str)]) -> Files {

@@ -5,9 +5,9 @@
 //! removed, the new output holds; as long as it is there, the old one does, and whoever opens the folder next
 //! restores it. An error restores it at once.
 
-use super::Refusal;
 use super::manifest::{hash, is_within};
 use super::present::{self, Present, obstacles, present};
+use super::{Refusal, among};
 use crate::command::interrupt::{self, Temporary};
 use serde_json::{Value, json};
 use std::fs::{self, File};
@@ -17,6 +17,11 @@ use std::path::{Path, PathBuf};
 /// The folder of what is not finished. Whoever sees it knows that the rest may be half.
 const UNFINISHED: &str = "autogen-unfinished";
 const JOURNAL: &str = "journal.json";
+/// The journal while it is written.
+const DRAFT: &str = "journal";
+/// The folders of the files before and after.
+const OLD: &str = "old";
+const NEW: &str = "new";
 
 /// What happens to a file.
 #[derive(Clone, Debug)]
@@ -39,7 +44,7 @@ pub fn apply(folder: &Path, changes: &[Change]) -> Result<(), Refusal> {
     });
     if done.is_err() && staged.path().join(JOURNAL).exists() {
         let _writing = interrupt::writing();
-        if let Err(error) = undo(folder, staged.path()) {
+        if let Err(error) = undo(folder, staged.path(), &[]) {
             // The next process tries again.
             staged.leave();
             return Err(error);
@@ -52,7 +57,7 @@ pub fn apply(folder: &Path, changes: &[Change]) -> Result<(), Refusal> {
 }
 
 /// Undoes what a process has begun that is no more.
-pub fn recover(folder: &Path) -> Result<(), Refusal> {
+pub fn recover(folder: &Path, inputs: &[PathBuf]) -> Result<(), Refusal> {
     let unfinished = folder.join(UNFINISHED);
     match unfinished.symlink_metadata() {
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
@@ -60,11 +65,35 @@ pub fn recover(folder: &Path) -> Result<(), Refusal> {
         Ok(there) if !there.is_dir() => return Err(Refusal::InTheWay(vec![unfinished])),
         Ok(_) => {}
     }
+    let below: Vec<PathBuf> = match unfinished.canonicalize() {
+        Ok(unfinished) => inputs.iter().filter(|input| input.starts_with(&unfinished)).cloned().collect(),
+        Err(error) => return Err(Refusal::Io(unfinished, error)),
+    };
+    if !below.is_empty() {
+        return Err(Refusal::Inputs(below));
+    }
+    let strange = strangers(&unfinished)?;
+    if !strange.is_empty() {
+        return Err(Refusal::InTheWay(strange));
+    }
     let _writing = interrupt::writing();
     if unfinished.join(JOURNAL).symlink_metadata().is_ok() {
-        undo(folder, &unfinished)?;
+        undo(folder, &unfinished, inputs)?;
     }
     fs::remove_dir_all(&unfinished).map_err(|e| Refusal::Io(unfinished, e))
+}
+
+/// What is in the folder of what is not finished and was not put there by [`stage`].
+fn strangers(unfinished: &Path) -> Result<Vec<PathBuf>, Refusal> {
+    let failed = |e: io::Error| Refusal::Io(unfinished.into(), e);
+    let mut found = Vec::new();
+    for entry in fs::read_dir(unfinished).map_err(failed)? {
+        let entry = entry.map_err(failed)?;
+        if ![OLD, NEW, DRAFT, JOURNAL].iter().any(|own| entry.file_name() == *own) {
+            found.push(entry.path());
+        }
+    }
+    Ok(found)
 }
 
 /// Puts the new files and the journal on the disk.
@@ -76,20 +105,20 @@ fn stage(folder: &Path, staged: &Path, changes: &[Change]) -> Result<(), Refusal
             json!({ "name": name, "existed": existed, "hash": text.as_ref().map(|t| hash(t.as_bytes())) }),
         );
         if *existed {
-            create_parent(&staged.join("old").join(name))?;
+            create_parent(&staged.join(OLD).join(name))?;
         }
         if let Some(text) = text {
-            let path = staged.join("new").join(name);
+            let path = staged.join(NEW).join(name);
             create_parent(&path)?;
             create_parent(&folder.join(name))?;
             fs::write(&path, text).map_err(|e| Refusal::Io(path, e))?;
         }
     }
     for name in changes.iter().filter(|c| c.text.is_some()).map(|c| &c.name) {
-        sync(&staged.join("new").join(name))?;
+        sync(&staged.join(NEW).join(name))?;
     }
     let journal = format!("{:#}\n", Value::from(journal));
-    let path = staged.join("journal");
+    let path = staged.join(DRAFT);
     fs::write(&path, journal).map_err(|e| Refusal::Io(path.clone(), e))?;
     sync(&path)?;
     rename(&path, &staged.join(JOURNAL))?;
@@ -101,10 +130,10 @@ fn exchange(folder: &Path, staged: &Path, changes: &[Change]) -> Result<(), Refu
     for Change { name, existed, text } in changes {
         let place = folder.join(name);
         if *existed {
-            rename(&place, &staged.join("old").join(name))?;
+            rename(&place, &staged.join(OLD).join(name))?;
         }
         if text.is_some() {
-            rename(&staged.join("new").join(name), &place)?;
+            rename(&staged.join(NEW).join(name), &place)?;
         }
     }
     for name in changes.iter().map(|c| &c.name) {
@@ -119,7 +148,7 @@ fn exchange(folder: &Path, staged: &Path, changes: &[Change]) -> Result<(), Refu
 }
 
 /// Restores the files that were there before, as the journal says. It may be done again from anywhere in it.
-fn undo(folder: &Path, staged: &Path) -> Result<(), Refusal> {
+fn undo(folder: &Path, staged: &Path, inputs: &[PathBuf]) -> Result<(), Refusal> {
     let journal = staged.join(JOURNAL);
     let failed = |e: io::Error| Refusal::Io(journal.clone(), e);
     let text = present::text(&journal).map_err(failed)?;
@@ -131,13 +160,17 @@ fn undo(folder: &Path, staged: &Path) -> Result<(), Refusal> {
             "this is no journal of autogen; remove the folder that it is in",
         )));
     }
-    let olds: Vec<String> = names.iter().map(|name| format!("old/{name}")).collect();
+    let read = among(inputs, names.iter().map(|name| folder.join(name)));
+    if !read.is_empty() {
+        return Err(Refusal::Inputs(read));
+    }
+    let olds: Vec<String> = names.iter().map(|name| format!("{OLD}/{name}")).collect();
     let found = [obstacles(folder, names.iter()), obstacles(staged, olds.iter())].concat();
     if !found.is_empty() {
         return Err(Refusal::InTheWay(found));
     }
     for (name, entry) in names.iter().zip(&all) {
-        let (old, place) = (staged.join("old").join(name), folder.join(name));
+        let (old, place) = (staged.join(OLD).join(name), folder.join(name));
         let new = entry["hash"].as_str().map(String::from);
         let there = present(folder, name)?;
         if there != Present::Nothing && !there.is(new.as_ref()) {
