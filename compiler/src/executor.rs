@@ -193,16 +193,6 @@ impl Controllers for Executor<'_> {
     }
 }
 
-/// Whether a condition on parameters and roles holds for an instance.
-pub fn requirement_holds(system: &System, instance: usize, condition: &crate::ir::Expr) -> bool {
-    Executor::new(system).holds(instance, condition)
-}
-
-/// What an expression of a requirement's text is for an instance.
-pub fn requirement_value(system: &System, instance: usize, expr: &crate::ir::Expr) -> Value {
-    Executor::new(system).value(instance, expr)
-}
-
 /// A value as numbers of a process image.
 fn push(value: Value, out: &mut Vec<f64>) {
     match value {

@@ -4,7 +4,8 @@ use super::Executor;
 use crate::ir::{Domain, Expr, ExprKind, Operator, Place, Value, VariableId};
 
 impl Executor<'_> {
-    pub(super) fn holds(&mut self, robot: usize, expr: &Expr) -> bool {
+    /// Whether a condition holds for an instance, in its state of now.
+    pub fn holds(&mut self, robot: usize, expr: &Expr) -> bool {
         matches!(self.value(robot, expr), Value::Bool(true))
     }
 
@@ -29,7 +30,8 @@ impl Executor<'_> {
         }
     }
 
-    pub(super) fn value(&mut self, robot: usize, expr: &Expr) -> Value {
+    /// What an expression is for an instance, in its state of now.
+    pub fn value(&mut self, robot: usize, expr: &Expr) -> Value {
         match &expr.kind {
             ExprKind::Constant(value) => *value,
             ExprKind::Read(place) => self.read(robot, place),

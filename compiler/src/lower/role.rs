@@ -4,14 +4,14 @@ use super::bind::Robot;
 use super::{Apart, Verdict};
 use crate::connect::{self, Connected, Ground, Node, Proposal, Site};
 use crate::diagnostic::{Diagnostic, collect};
+use crate::executor::Executor;
 use crate::ir::{
-    Automaton, AutomatonId, Expr, Handover, Instance, InterfaceId, Model, Role, RoleKind, Scalar, System,
-    TextPart, Value, Way,
+    self, Automaton, AutomatonId, Expr, Handover, Instance, InterfaceId, Model, Role, RoleKind, Scalar,
+    System, TextPart, Value, Way,
 };
 use crate::layout::Layout;
 use crate::scenario::Scenario;
 use crate::source::{Span, Spanned};
-use crate::{executor, ir};
 use runtime_sim::geometry::SLOTS;
 use std::cell::Cell;
 use std::collections::{BTreeSet, HashMap, HashSet};
@@ -442,12 +442,13 @@ impl<'a> Line<'a> {
     }
 
     fn requirements(&mut self, system: &System) {
+        let mut executor = Executor::new(system);
         for robot in 0..self.robots.len() {
             for require in &self.automaton(robot).requires.clone() {
-                if !executor::requirement_holds(system, robot, &require.condition) {
+                if !executor.holds(robot, &require.condition) {
                     let text = require.text.iter().map(|part| match part {
                         TextPart::Words(words) => words.clone(),
-                        TextPart::Value(value) => shown(system, robot, value),
+                        TextPart::Value(value) => shown(system, &mut executor, robot, value),
                     });
                     let text: String = text.collect();
                     let object = &self.robots[robot].object;
@@ -468,8 +469,8 @@ impl<'a> Line<'a> {
 }
 
 /// A value of a requirement's text, for people: seconds with `s`, points in metres, members and robots by name.
-fn shown(system: &System, robot: usize, expr: &Expr) -> String {
-    let value = executor::requirement_value(system, robot, expr);
+fn shown(system: &System, executor: &mut Executor, robot: usize, expr: &Expr) -> String {
+    let value = executor.value(robot, expr);
     match (value, expr.ty) {
         (Value::Bool(b), _) => b.to_string(),
         (Value::Int(ms), Scalar::Time) => format!("{} s", f64::from(ms) / 1000.0),

@@ -6,7 +6,7 @@
 mod meaning;
 mod text;
 
-use autogen::executor::requirement_holds;
+use autogen::executor::Executor;
 use autogen::ir::{AutomatonId, FaultKind, Model, System};
 use autogen::spec::ast;
 use meaning::Names;
@@ -68,7 +68,7 @@ impl Table {
             for (system, instance) in instances(layouts, AutomatonId(number)) {
                 for require in &automaton.requires {
                     written.require(require);
-                    if requirement_holds(system, instance, &require.condition) {
+                    if Executor::new(system).holds(instance, &require.condition) {
                         executed.require(require);
                     }
                 }
