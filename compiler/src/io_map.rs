@@ -27,15 +27,15 @@ pub struct Point {
     /// Empty for those of the whole line.
     pub robot: String,
     /// In the table of devices, or among the inputs and outputs of the line.
-    pub port: &'static str,
+    pub port: String,
     /// The variable, with the index of an element.
     pub name: String,
     pub direction: Direction,
     pub kind: Kind,
-    pub unit: &'static str,
+    pub unit: String,
     /// What is published while the line does not run; empty for inputs.
     pub stop: String,
-    pub meaning: &'static str,
+    pub meaning: String,
 }
 
 /// What a point carries.
@@ -105,7 +105,9 @@ impl IoMap {
         };
         let is_needed = |point: &Point| match point.direction {
             Direction::Output => !point.robot.is_empty(),
-            Direction::Input => point.robot.is_empty() || ["got", "ack", "error"].contains(&point.port),
+            Direction::Input => {
+                point.robot.is_empty() || ["got", "ack", "error"].contains(&point.port.as_str())
+            }
         };
         let gaps = robots.into_iter().map(|robot| {
             let own = of(robot);

@@ -13,8 +13,10 @@
 //! - Every place at which a step can fault has a code, from 1, unique in the model.
 //! - Values are in SI units, times in whole milliseconds.
 
+use crate::device::Device;
 use crate::source::Span;
-use runtime_sim::device::{self, Device, PortType};
+use runtime_sim::device::{self, PortType};
+use std::sync::Arc;
 
 macro_rules! id {
     ($(#[$doc:meta])* $name:ident) => {
@@ -107,7 +109,7 @@ pub struct Automaton {
     pub name: String,
     pub doc: Vec<String>,
     pub place: Span,
-    pub device: &'static Device,
+    pub device: Arc<Device>,
     /// Interfaces of which each instance is a member.
     pub implements: Vec<Implements>,
     pub parameters: Vec<Parameter>,

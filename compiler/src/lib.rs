@@ -2,10 +2,15 @@
 
 #![deny(clippy::print_stderr, clippy::print_stdout)]
 
+/// Test files that this crate shares with others name it so.
+#[cfg(test)]
+extern crate self as autogen;
+
 pub mod backend;
 pub mod check;
 pub mod connect;
 pub mod csv;
+pub mod device;
 pub mod diagnostic;
 pub mod executor;
 pub mod io_map;

@@ -12,13 +12,14 @@ mod interrupt;
 #[cfg(target_os = "linux")]
 #[path = "command_line/interrupted_write.rs"]
 mod interrupted_write;
+#[path = "../../tests/src/machines.rs"]
+mod machines;
 #[path = "command_line/side_by_side.rs"]
 mod side_by_side;
 #[path = "command_line/sweep.rs"]
 mod sweep;
 
-use runtime_sim::geometry::Geometry;
-use runtime_sim::kinematics::arm::{Arm, Joints};
+use runtime_sim::kinematics::arm::Joints;
 use runtime_sim::point::{Axis, Point};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -342,19 +343,12 @@ fn obeys_its_law(segment: &Value) {
             near(&[0, 1, 2].map(|i| from[i] + velocity[i] * (end - begin)), "to");
         }
         Some("hangs") => {
-            let geometry = match segment["carrier"].as_str() {
-                Some("gripper of kitting") => Geometry::RailArm {
-                    pose: Point::new(-1.3, 0.0, 1.127),
-                    rail_dim: Axis::Y,
-                    rail_range: [-4.8, 4.8],
-                },
-                _ => Geometry::Gantry {
-                    pose: Point::new(-4.0, 0.0, 2.0),
-                    x_rail_range: [-14.4, 0.4],
-                    y_rail_range: [-4.5, 4.5],
-                },
-            };
-            let arm = Arm::from_geometry(&geometry).expect("an arm");
+            let arm = machines::arm(&match segment["carrier"].as_str() {
+                Some("gripper of kitting") => {
+                    machines::rail_arm(Point::new(-1.3, 0.0, 1.127), Axis::Y, [-4.8, 4.8])
+                }
+                _ => machines::gantry(Point::new(-4.0, 0.0, 2.0), [-14.4, 0.4], [-4.5, 4.5]),
+            });
             let hang = numbers(&segment["hang"]);
             let pieces = segment["pieces"].as_array().expect("pieces");
             for (piece, at, key) in [(pieces.first(), begin, "from"), (pieces.last(), end, "to")] {

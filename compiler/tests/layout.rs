@@ -4,6 +4,7 @@ mod fixture;
 
 use autogen::diagnostic::{Diagnostic, render};
 use autogen::layout::{self, Layout, Part};
+use autogen::library;
 use autogen::source::{FileId, Sources};
 use fixture::{root, walk};
 
@@ -24,7 +25,9 @@ fn check(sources: &Sources, file: FileId) -> Vec<Diagnostic> {
     let (layout, mut diagnostics) = layout::parse(sources, file);
     for object in layout.iter().flat_map(|l| &l.objects) {
         diagnostics.extend(match device(&object.kind.value) {
-            Some(device) => layout::geometry(object, device).err().unwrap_or_default(),
+            Some(device) => {
+                layout::machine(object, &library::device(device).unwrap()).err().unwrap_or_default()
+            }
             None => layout::obstacle(object).err().unwrap_or_default(),
         });
     }
@@ -73,7 +76,7 @@ fn numbers_of_an_object_have_paths_and_places() {
     let file = sources.add("default.json", example("default.json"));
     let layout = layout::parse(&sources, file).0.unwrap();
     let agv = layout.objects.iter().find(|o| o.name.value == "agv1").unwrap();
-    let (_, numbers) = layout::geometry(agv, "vehicle").unwrap();
+    let (_, numbers) = layout::machine(agv, &library::device("vehicle").unwrap()).unwrap();
     let paths: Vec<&str> = numbers.iter().map(|n| n.path.as_str()).collect();
     assert_eq!(
         paths,
@@ -102,15 +105,6 @@ fn the_name_of_a_layout_is_that_of_its_file() {
 }
 
 const NOISE: &[u8] = b"{}[]\",:'\\/*-+.eE01u_ \n\xff\xc3\xa9t";
-
-#[test]
-fn a_device_that_does_not_exist() {
-    let mut sources = Sources::default();
-    let file = sources.add("default.json", example("default.json"));
-    let layout = layout::parse(&sources, file).0.unwrap();
-    let diagnostics = layout::geometry(&layout.objects[0], "blet").unwrap_err();
-    assert_eq!((diagnostics[0].code, diagnostics[0].help.as_str()), ("E0127", "did you mean \"belt\"?"));
-}
 
 /// Nothing but "no panic" is asked, of the rendering too.
 fn survives(text: String) {

@@ -3,10 +3,11 @@
 
 use crate::command::options::Cli;
 use autogen::io_map::Raw;
+use autogen::library;
 use autogen::spec::parser::RESERVED;
 use autogen_tests::text;
 use clap::{Command, CommandFactory};
-use runtime_sim::device::DEVICES;
+use runtime_sim::part::ALL;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
@@ -208,14 +209,21 @@ fn json(page: &str) -> Vec<String> {
 /// Names that the devices give: their own, of ports, commands, constants, places.
 fn devices() -> Vec<String> {
     let mut words = Vec::new();
-    for device in DEVICES {
-        words.push(device.name);
-        words.extend(device.ports.iter().map(|port| port.name));
-        words.extend(device.verbs.iter().map(|verb| verb.name));
-        words.extend(device.constants.iter().map(|constant| constant.name));
-        words.extend(device.handovers.iter().map(|handover| handover.name));
+    for device in library::devices() {
+        words.push(device.name.clone());
+        words.extend(device.ports.iter().map(|port| port.name.clone()));
+        words.extend(device.verbs.iter().map(|verb| verb.name.clone()));
+        words.extend(device.constants.iter().map(|constant| constant.name.clone()));
+        words.extend(device.handovers.iter().map(|handover| handover.name.clone()));
     }
-    words.into_iter().map(String::from).collect()
+    for schema in ALL {
+        words.push(schema.name.into());
+        words.extend(schema.settings.iter().map(|setting| setting.name.into()));
+        words.extend(schema.signals.iter().map(|signal| signal.name.into()));
+        words.extend(schema.levels.iter().map(|level| level.name.into()));
+        words.extend(schema.actions.iter().map(|action| action.name.into()));
+    }
+    words
 }
 
 /// The fenced blocks of a page whose language begins so.

@@ -2,44 +2,37 @@
 
 use crate::point::Point;
 
-/// What bears an item. `machine` is an index into the line's machines.
+/// What bears an item. `machine` is an index into the line's machines, `part` one into the parts of the machine.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Carrier {
     /// Not on the line yet.
     Supply,
-    /// `at` is where along the belt it would lie if the belt had not moved since the start of the run,
-    /// `across` its distance from the belt's middle line.
-    Belt {
+    /// `at` is where along the lane it would lie if the lane had not moved since the start of the run,
+    /// `across` its distance from the lane's middle line.
+    Lane {
         machine: usize,
+        part: usize,
         at: f64,
         across: f64,
     },
     /// `hang` leads from the tool to the item's underside.
-    Gripper {
+    Grip {
         machine: usize,
+        part: usize,
         hang: Point,
     },
-    /// `offset` from the vehicle's position.
-    Tray {
+    /// `offset` from the origin of what carries the place.
+    Place {
         machine: usize,
-        offset: Point,
-    },
-    /// `offset` from the station's pose.
-    Briefcase {
-        machine: usize,
-        offset: Point,
-    },
-    /// `offset` from the bin's pose.
-    Bin {
-        machine: usize,
+        part: usize,
         offset: Point,
     },
     Floor {
         point: Point,
     },
-    /// It left a belt at its lower end, or lay in a briefcase whose order was made elsewhere.
+    /// It left a lane at its end, or lay at a place whose order was made elsewhere.
     Collector,
-    /// Taken away in the briefcase of an order.
+    /// Taken away with an order.
     Shipped {
         order: usize,
     },
@@ -48,11 +41,18 @@ pub enum Carrier {
 impl Carrier {
     pub fn machine(&self) -> Option<usize> {
         match *self {
-            Carrier::Belt { machine, .. }
-            | Carrier::Gripper { machine, .. }
-            | Carrier::Tray { machine, .. }
-            | Carrier::Briefcase { machine, .. }
-            | Carrier::Bin { machine, .. } => Some(machine),
+            Carrier::Lane { machine, .. }
+            | Carrier::Grip { machine, .. }
+            | Carrier::Place { machine, .. } => Some(machine),
+            Carrier::Supply | Carrier::Floor { .. } | Carrier::Collector | Carrier::Shipped { .. } => None,
+        }
+    }
+
+    pub fn part(&self) -> Option<usize> {
+        match *self {
+            Carrier::Lane { part, .. } | Carrier::Grip { part, .. } | Carrier::Place { part, .. } => {
+                Some(part)
+            }
             Carrier::Supply | Carrier::Floor { .. } | Carrier::Collector | Carrier::Shipped { .. } => None,
         }
     }

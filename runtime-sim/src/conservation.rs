@@ -29,10 +29,9 @@ pub fn conservation(log: &[Event], items: &Items) -> Result<(), String> {
         if !(point.x.is_finite() && point.y.is_finite() && point.z.is_finite()) {
             return Err(format!("scan {scan}: item {item} is nowhere"));
         }
-        if let Carrier::Gripper { machine, .. } = to {
-            let held = carriers
-                .iter()
-                .position(|c| matches!(c, Carrier::Gripper { machine: m, .. } if *m == machine));
+        if let Carrier::Grip { machine, .. } = to {
+            let held =
+                carriers.iter().position(|c| matches!(c, Carrier::Grip { machine: m, .. } if *m == machine));
             if let Some(other) = held {
                 return Err(format!(
                     "scan {scan}: gripper {machine} holds item {other} and takes item {item}"
@@ -59,21 +58,24 @@ pub fn conservation(log: &[Event], items: &Items) -> Result<(), String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Geometry;
-    use crate::line::{IoDelay, Kind, Line, Machine, Scenario, Supply};
-    use crate::point::{Axis, Point};
+    use crate::line::{IoDelay, Kind, Line, Scenario, Supply};
+    use crate::machine::Machine;
+    use crate::point::Point;
+    use std::sync::Arc;
 
     /// Two items on their way to a belt and two bins.
     fn items() -> Items {
-        let pose = Point::default();
-        let belt = Geometry::Belt { pose, orient: Axis::X, orient_range: [0.0, 1.0] };
-        let machines = [belt, Geometry::Bin { pose }, Geometry::Bin { pose }].into_iter();
+        let machine = |_| Machine {
+            name: "m".into(),
+            pose: Point::default(),
+            parts: vec![],
+            wiring: Arc::default(),
+            states: vec![],
+        };
         Items::new(&Line {
             scan_ms: 10,
             kinds: vec![Kind { name: "part".into(), height: 0.1, size: [0.1, 0.1] }],
-            machines: machines
-                .map(|geometry| Machine { name: "m".into(), geometry, states: vec![] })
-                .collect(),
+            machines: (0..3).map(machine).collect(),
             obstacles: vec![],
             may_touch: vec![],
             scenario: Scenario { supply: vec![Supply { belt: 0, items: vec![0, 0] }], ..Scenario::default() },
@@ -82,7 +84,7 @@ mod tests {
     }
 
     fn bin(machine: usize) -> Carrier {
-        Carrier::Bin { machine, offset: Point::default() }
+        Carrier::Place { machine, part: 0, offset: Point::default() }
     }
 
     fn verdict(items: &Items) -> Result<(), String> {
@@ -109,7 +111,7 @@ mod tests {
     #[test]
     fn a_gripper_holds_one_item() {
         let mut items = items();
-        let gripper = Carrier::Gripper { machine: 1, hang: Point::default() };
+        let gripper = Carrier::Grip { machine: 1, part: 0, hang: Point::default() };
         items.pass(0, gripper, Point::default());
         assert_eq!(verdict(&items), Ok(()));
         items.pass(1, gripper, Point::default());
@@ -122,7 +124,7 @@ mod tests {
         items.pass(0, bin(1), Point::default());
         let mut log = items.log().to_vec();
         let Event::Item { to, .. } = &mut log[0] else { unreachable!() };
-        *to = Carrier::Bin { machine: 1, offset: Point::new(0.1, 0.0, 0.0) };
+        *to = Carrier::Place { machine: 1, part: 0, offset: Point::new(0.1, 0.0, 0.0) };
         assert!(conservation(&log, &items).unwrap_err().starts_with("item 0 ends at"));
     }
 

@@ -3,7 +3,7 @@
 mod check;
 mod text;
 
-use crate::geometry::Geometry;
+use crate::machine::Machine;
 use crate::point::Point;
 
 /// A factory line, its machines in the order of the layout, and what is to happen on it.
@@ -29,14 +29,6 @@ pub struct Kind {
     pub height: f64,
     /// Lengths along x and y as it appears on a belt, in metres.
     pub size: [f64; 2],
-}
-
-#[derive(Clone, Debug, PartialEq)]
-pub struct Machine {
-    pub name: String,
-    pub geometry: Geometry,
-    /// States of its automaton; empty if it has none.
-    pub states: Vec<State>,
 }
 
 /// Something stationary without an automaton.

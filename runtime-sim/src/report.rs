@@ -226,11 +226,12 @@ pub(crate) fn carrier_text(line: &Line, carrier: Carrier) -> String {
     let name = |machine: usize| &line.machines[machine].name;
     match carrier {
         Carrier::Supply => "supply".into(),
-        Carrier::Belt { machine, .. } => name(machine).clone(),
-        Carrier::Gripper { machine, .. } => format!("gripper of {}", name(machine)),
-        Carrier::Tray { machine, .. } => format!("tray of {}", name(machine)),
-        Carrier::Briefcase { machine, .. } => format!("briefcase of {}", name(machine)),
-        Carrier::Bin { machine, .. } => name(machine).clone(),
+        Carrier::Lane { machine, .. } => name(machine).clone(),
+        Carrier::Grip { machine, .. } => format!("gripper of {}", name(machine)),
+        Carrier::Place { machine, part, .. } => match line.machines[machine].title(part) {
+            Some(title) => format!("{title} of {}", name(machine)),
+            None => name(machine).clone(),
+        },
         Carrier::Floor { .. } => "floor".into(),
         Carrier::Collector => "collector".into(),
         Carrier::Shipped { order } => format!("order {}", order + 1),

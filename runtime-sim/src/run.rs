@@ -4,16 +4,15 @@ use crate::account::{Account, Activity};
 use crate::collision::{Contact, Watch};
 use crate::conservation::conservation;
 use crate::event::{Event, OrderChange};
-use crate::geometry::Geometry;
 use crate::hash::Hash;
 use crate::line::Line;
 use crate::path::{Path, Recorder};
-use crate::plant::image::{in_head, out};
 use crate::plant::{self, Bus, Plant};
 use crate::report::{Outcome, Report};
 use crate::scan::{Controllers, SystemInputs, SystemOutputs};
 use crate::shortage::{point_text, shortage};
 use crate::system::Operator;
+use crate::wiring::{Drives, Source};
 
 /// What an observer is shown of a scan, once its outputs are published.
 pub struct Seen<'a> {
@@ -67,6 +66,7 @@ fn simulate(
     let output_words: Vec<usize> = outputs.iter().map(Vec::len).collect();
     let mut accounts = vec![Account::new(line); line.machines.len()];
     let mut states = vec![usize::MAX; line.machines.len()];
+    let numbers: Vec<_> = (0..line.machines.len()).map(|machine| numbers(line, machine)).collect();
     let mut hash = Hash::default();
     let mut trace = Vec::new();
     let mut progress = Progress::default();
@@ -102,7 +102,8 @@ fn simulate(
             changed |= std::mem::replace(&mut states[machine], state) != state;
             let activity = if !answer.running {
                 Activity::Stopped
-            } else if is_moving(line, machine, &inputs[machine], &outputs[machine]) {
+            } else if numbers[machine].is_some_and(|(cmd, ack)| outputs[machine][cmd] != inputs[machine][ack])
+            {
                 Activity::Moving
             } else {
                 Activity::InState(state)
@@ -180,11 +181,11 @@ impl Progress {
     }
 }
 
-fn is_moving(line: &Line, machine: usize, inputs: &[f64], outputs: &[f64]) -> bool {
-    match line.machines[machine].geometry {
-        Geometry::Station { .. } | Geometry::Bin { .. } => false,
-        _ => inputs[in_head::ACK] != outputs[out::CMD],
-    }
+/// Where in the images of a machine the number of its last command stands, and the number answered. None for a
+/// machine without commands.
+fn numbers(line: &Line, machine: usize) -> Option<(usize, usize)> {
+    let (wiring, kinds) = (&line.machines[machine].wiring, line.kinds.len());
+    Some((wiring.output_at(Drives::Command, kinds)?, wiring.input_at(Source::Ack, kinds)?))
 }
 
 fn collision_text(contact: &Contact) -> String {

@@ -5,8 +5,8 @@ use crate::line::Line;
 use crate::plant::Plant;
 use crate::point::Point;
 
-/// What the briefcase of each open order lacks or has too much, which stations wait for `complete` to fall,
-/// then the parts that are neither on a belt nor in a briefcase, and those that passed.
+/// What each open order lacks or has too much, which machines wait for `complete` to fall,
+/// then the items that lie elsewhere than on a lane or at an order's place, and those that passed.
 pub fn shortage(line: &Line, plant: &Plant) -> String {
     let mut facts = Vec::new();
     for (machine, station) in line.machines.iter().enumerate() {
@@ -29,9 +29,13 @@ pub fn shortage(line: &Line, plant: &Plant) -> String {
         let on = |machine: usize, what: &str| format!("{what} of {}", line.machines[machine].name);
         let carrier = match item.carrier {
             Carrier::Floor { .. } => "the floor".to_string(),
-            Carrier::Tray { machine, .. } => on(machine, "the tray"),
-            Carrier::Gripper { machine, .. } => on(machine, "the gripper"),
-            Carrier::Bin { machine, .. } => line.machines[machine].name.clone(),
+            Carrier::Place { machine, part, .. } if !line.machines[machine].is_place_of_orders(part) => {
+                match line.machines[machine].title(part) {
+                    Some(title) => on(machine, &format!("the {title}")),
+                    None => line.machines[machine].name.clone(),
+                }
+            }
+            Carrier::Grip { machine, .. } => on(machine, "the gripper"),
             _ => continue,
         };
         let place = plant.place(index).map_or(String::new(), |point| format!(" at {}", point_text(point)));
@@ -58,7 +62,8 @@ fn state_of(line: &Line, plant: &Plant, machine: usize, order: usize) -> String 
         let held = plant.items().borne_by(machine).iter().filter(|&&item| items[item].kind == kind).count();
         let wanted = wanted as usize;
         if held < wanted {
-            let to_come = items.iter().filter(|item| item.kind == kind && can_come(&item.carrier)).count();
+            let to_come =
+                items.iter().filter(|item| item.kind == kind && can_come(line, &item.carrier)).count();
             let none_left = if to_come == 0 { " (none left)" } else { "" };
             lacks.push(match wanted - held {
                 1 => format!("{name}{none_left}"),
@@ -76,17 +81,12 @@ fn state_of(line: &Line, plant: &Plant, machine: usize, order: usize) -> String 
     }
 }
 
-/// Whether an item may still come into a briefcase in which it is not.
-fn can_come(carrier: &Carrier) -> bool {
-    match carrier {
-        Carrier::Supply
-        | Carrier::Belt { .. }
-        | Carrier::Gripper { .. }
-        | Carrier::Tray { .. }
-        | Carrier::Bin { .. } => true,
-        Carrier::Briefcase { .. } | Carrier::Floor { .. } | Carrier::Collector | Carrier::Shipped { .. } => {
-            false
-        }
+/// Whether an item may still come to the place of an order at which it is not.
+fn can_come(line: &Line, carrier: &Carrier) -> bool {
+    match *carrier {
+        Carrier::Supply | Carrier::Lane { .. } | Carrier::Grip { .. } => true,
+        Carrier::Place { machine, part, .. } => !line.machines[machine].is_place_of_orders(part),
+        Carrier::Floor { .. } | Carrier::Collector | Carrier::Shipped { .. } => false,
     }
 }
 

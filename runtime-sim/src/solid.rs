@@ -2,27 +2,23 @@
 //!
 //! A solid contains what it stands for, so that what passes the solid passes the machine.
 
-mod belt;
-mod bin;
-mod robot;
-mod station;
-mod ur10;
-mod vehicle;
-
-use crate::geometry::Geometry;
 use crate::kinematics::pose::Pose;
 use crate::line::Obstacle;
-use crate::point::{Axis, Point};
+use crate::machine::Machine;
+use crate::part::Primitive;
+use crate::point::Point;
 
 /// A body of simple shape that is fixed to a link.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solid {
     /// Unlike every other one of the same machine: an identifier such as `upper_arm_tube`.
-    pub name: &'static str,
+    pub name: String,
     pub link: Link,
     /// Of the shape's middle, in the frame of the link.
     pub pose: Pose,
     pub shape: Shape,
+    /// Items hang on it.
+    pub grips: bool,
 }
 
 /// What a solid is fixed to.
@@ -30,15 +26,12 @@ pub struct Solid {
 pub enum Link {
     /// Does not move; the frame is the world's.
     World,
-    /// Moves with the vehicle; the frame has its origin at the vehicle's position and the world's axes.
-    Vehicle,
-    /// Moves with the link behind joint number so and so of the robot:
+    /// Moves along the route; the frame has its origin at the position and the world's axes.
+    Route,
+    /// Moves with the link behind joint number so and so of the arm:
     /// an index into [`crate::kinematics::arm::Arm::frames`].
     Joint(usize),
 }
-
-/// Name of the solid that takes hold of parts.
-pub const GRIPPER: &str = "gripper";
 
 /// A shape about its middle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,17 +43,29 @@ pub enum Shape {
     Capsule { length: f64, radius: f64 },
 }
 
-/// All solids of a machine; those of a robot in the order of its links.
-pub fn solids(geometry: &Geometry) -> Vec<Solid> {
-    match *geometry {
-        Geometry::Belt { pose, orient, orient_range } => belt::solids(pose, orient, orient_range),
-        Geometry::Vehicle { .. } => vehicle::solids(),
-        Geometry::RailArm { pose, rail_dim, rail_range } => robot::on_rail(pose, rail_dim, rail_range),
-        Geometry::Gantry { pose, x_rail_range, y_rail_range } => {
-            robot::gantry(pose, x_rail_range, y_rail_range)
+impl Machine {
+    /// All its bodies, in the order of its parts.
+    pub fn solids(&self) -> Vec<Solid> {
+        let arm = self.arm();
+        let axes = self.axes().len();
+        let mut solids = Vec::new();
+        for part in &self.parts {
+            let Primitive::Body(body) = &part.primitive else { continue };
+            let (link, pose) = match body.on {
+                None => (Link::World, body.pose),
+                Some((other, frame)) => match (&self.parts[other].primitive, &arm) {
+                    (Primitive::Route(_), _) => (Link::Route, body.pose),
+                    // The base is a part of what carries it.
+                    (Primitive::Chain(_), Some(arm)) if frame == 0 => {
+                        (Link::Joint(axes - 1), arm.mount().then(&body.pose))
+                    }
+                    (Primitive::Chain(_), _) => (Link::Joint(axes + frame - 1), body.pose),
+                    _ => (self.joint_of(other).map_or(Link::World, Link::Joint), body.pose),
+                },
+            };
+            solids.push(Solid { name: part.name.clone(), link, pose, shape: body.shape, grips: body.grips });
         }
-        Geometry::Station { pose } => station::solids(pose),
-        Geometry::Bin { pose } => bin::solids(pose),
+        solids
     }
 }
 
@@ -69,27 +74,7 @@ impl Obstacle {
     pub fn solid(&self) -> Option<Solid> {
         let size = self.size?;
         let middle = self.pose.up(size.z / 2.0);
-        Some(Solid { name: "body", link: Link::World, pose: at(middle), shape: Shape::Box { size } })
+        let pose = Pose { position: middle, ..Pose::IDENTITY };
+        Some(Solid { name: "body".into(), link: Link::World, pose, shape: Shape::Box { size }, grips: false })
     }
 }
-
-fn at(position: Point) -> Pose {
-    Pose { position, ..Pose::IDENTITY }
-}
-
-/// A box by two opposite corners, with the axes of its link.
-fn cuboid(name: &'static str, link: Link, low: Point, high: Point) -> Solid {
-    let middle = Point::new((low.x + high.x) / 2.0, (low.y + high.y) / 2.0, (low.z + high.z) / 2.0);
-    Solid { name, link, pose: at(middle), shape: Shape::Box { size: high - low } }
-}
-
-/// What lies along one axis of the world and across the other.
-fn laid(axis: Axis, along: f64, across: f64, z: f64) -> Point {
-    match axis {
-        Axis::X => Point::new(along, across, z),
-        Axis::Y => Point::new(across, along, z),
-    }
-}
-
-#[cfg(test)]
-mod tests;

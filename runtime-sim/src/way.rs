@@ -82,9 +82,8 @@ impl Ways {
     /// Of the machine of this number; none if it is no gantry.
     pub fn of(line: &crate::line::Line, index: usize) -> Option<Self> {
         let scene = Scene::of(line, index)?;
-        let arm = Arm::from_geometry(&line.machines[index].geometry)?;
-        let Arm::Gantry(gantry) = &arm else { return None };
-        let [x, y] = gantry.rails();
+        let arm = line.machines[index].arm()?;
+        let [x, y] = arm.gantry()?.rails();
         let room = Rectangle { low: Point::new(x[0], y[0], 0.0), high: Point::new(x[1], y[1], 0.0) };
         Some(Self { arm, scene, room })
     }

@@ -7,8 +7,7 @@ use runtime_sim::carrier::Carrier;
 use runtime_sim::conservation::conservation;
 use runtime_sim::device::error;
 use runtime_sim::event::{Event, OrderChange};
-use runtime_sim::geometry::{Geometry, TRAY_SURFACE, slot_offset};
-use runtime_sim::line::{Line, Machine, Order, Refusal, Slip, Supply};
+use runtime_sim::line::{Line, Order, Refusal, Slip, Supply};
 use runtime_sim::point::Point;
 
 fn near(a: Point, b: Point) -> bool {
@@ -17,6 +16,14 @@ fn near(a: Point, b: Point) -> bool {
 }
 
 // --- commands
+
+/// Height of a tray over the vehicle's position.
+const TRAY_SURFACE: f64 = 0.755;
+
+/// Slot `i` of a tray, from the vehicle's position.
+fn slot(i: usize) -> Point {
+    line().machines[AGV].places().next().unwrap().slots[i]
+}
 
 #[test]
 fn a_command_is_accepted_ended_and_counted_round() {
@@ -272,7 +279,7 @@ fn an_arm_begins_at_rest() {
     let line = line();
     let rig = Rig::new(&line);
     for arm in [KITTING, GANTRY] {
-        let rest = line.machines[arm].geometry.rest();
+        let rest = line.machines[arm].chain().unwrap().rest;
         assert!(near(point(rig.image(arm), input::TOOL), rest), "{rest:?} {:?}", rig.image(arm));
     }
 }
@@ -296,19 +303,19 @@ fn an_unreachable_goal_is_answered_at_once() {
 fn a_part_is_gripped_carried_and_put_on_a_tray_that_travels() {
     let mut rig = Rig::new(&line());
     rig.pick_from_belt(BATTERY);
-    assert!(matches!(rig.plant.items().all()[0].carrier, Carrier::Gripper { machine: KITTING, .. }));
+    assert!(matches!(rig.plant.items().all()[0].carrier, Carrier::Grip { machine: KITTING, .. }));
     assert_eq!(rig.image(BELT)[input::SEES], 0.0);
-    let slot = START + slot_offset(3);
-    assert_eq!(rig.go(KITTING, MOVE, grip_point(slot, BATTERY).up(0.3)), 0.0);
-    assert!(near(rig.plant.place(0).unwrap(), slot.up(0.3)));
-    assert_eq!(rig.go(KITTING, MOVE, grip_point(slot, BATTERY)), 0.0);
+    let here = START + slot(3);
+    assert_eq!(rig.go(KITTING, MOVE, grip_point(here, BATTERY).up(0.3)), 0.0);
+    assert!(near(rig.plant.place(0).unwrap(), here.up(0.3)));
+    assert_eq!(rig.go(KITTING, MOVE, grip_point(here, BATTERY)), 0.0);
     rig.let_go(KITTING);
     assert_eq!(rig.image(KITTING)[input::ATTACHED], 0.0);
-    assert!(matches!(rig.plant.items().all()[0].carrier, Carrier::Tray { machine: AGV, .. }));
-    assert!(near(rig.plant.place(0).unwrap(), slot));
-    assert_eq!(rig.go(KITTING, MOVE, grip_point(slot, BATTERY).up(0.3)), 0.0);
+    assert!(matches!(rig.plant.items().all()[0].carrier, Carrier::Place { machine: AGV, .. }));
+    assert!(near(rig.plant.place(0).unwrap(), here));
+    assert_eq!(rig.go(KITTING, MOVE, grip_point(here, BATTERY).up(0.3)), 0.0);
     assert_eq!(rig.go(AGV, MOVE, NEAR), 0.0);
-    assert!(near(rig.plant.place(0).unwrap(), NEAR + slot_offset(3)));
+    assert!(near(rig.plant.place(0).unwrap(), NEAR + slot(3)));
 }
 
 #[test]
@@ -333,7 +340,7 @@ fn a_pick_of_nothing_ends_in_error_half_a_second_after_it_arrives() {
     let goal = Point::new(-0.573076, 0.3, 1.2);
     rig.command(KITTING, MOVE, Some(goal));
     let moving = rig.finish(KITTING);
-    rig.go(KITTING, MOVE, line().machines[KITTING].geometry.rest());
+    rig.go(KITTING, MOVE, line().machines[KITTING].chain().unwrap().rest);
     rig.outputs[KITTING][output::GRIP] = 1.0;
     rig.command(KITTING, PICK, Some(goal));
     let picking = rig.finish(KITTING);
@@ -357,16 +364,16 @@ fn what_is_let_go_falls_on_what_is_below() {
     for (place, carrier, height) in [
         // Let go below the surface.
         (Point::new(-0.573076, 0.7, 0.8 + BATTERY_HEIGHT), "Floor", 0.0),
-        (over(-0.573076 + 0.2, 0.7), "Belt", 0.875),
+        (over(-0.573076 + 0.2, 0.7), "Lane { machine: 0,", 0.875),
         (over(-0.573076 - 0.22, 0.7), "Floor", 0.0),
-        (over(START.x + 0.15 + 0.34, START.y - 0.24), "Tray", TRAY_SURFACE),
+        (over(START.x + 0.15 + 0.34, START.y - 0.24), "Place { machine: 2,", TRAY_SURFACE),
         (over(START.x + 0.15 + 0.36, START.y), "Floor", 0.0),
-        (over(START.x, START.y), "Tray", TRAY_SURFACE),
-        (over(-1.899 + 0.29, 2.565), "Bin", 0.725),
+        (over(START.x, START.y), "Place { machine: 2,", TRAY_SURFACE),
+        (over(-1.899 + 0.29, 2.565), "Place { machine: 5,", 0.725),
     ] {
         let mut line = line();
         // A bin below the vehicle: the tray is higher.
-        let below = Machine { name: "below".into(), geometry: Geometry::Bin { pose: START }, states: vec![] };
+        let below = machines::machine("below", &machines::bin(START));
         line.machines.push(below);
         let mut rig = Rig::new(&line);
         rig.pick_from_belt(BATTERY);
@@ -409,7 +416,7 @@ fn a_slip_loses_the_part_it_names() {
     rig.go(KITTING, MOVE, at.up(0.3));
     assert_eq!(rig.image(KITTING)[input::ATTACHED], 0.0);
     assert!(
-        matches!(rig.plant.items().all()[1].carrier, Carrier::Belt { .. }),
+        matches!(rig.plant.items().all()[1].carrier, Carrier::Lane { .. }),
         "{:?}",
         rig.plant.items().all()
     );
@@ -705,8 +712,7 @@ fn without_an_order_there_is_no_briefcase() {
 fn two_stations(orders: usize) -> (Line, usize) {
     let mut line = line();
     let other = line.machines.len();
-    let geometry = Geometry::Station { pose: Point::new(-7.3, -3.0, 0.0) };
-    line.machines.push(Machine { name: "as3".into(), geometry, states: vec![] });
+    line.machines.push(machines::machine("as3", &machines::station(Point::new(-7.3, -3.0, 0.0))));
     line.scenario.orders = vec![Order { stations: vec![STATION, other], parts: vec![1, 0] }; orders];
     line.scenario.supply = vec![Supply { belt: BELT, items: vec![BATTERY, PUMP, BATTERY, BATTERY] }];
     (line, other)

@@ -172,7 +172,7 @@ fn paths_follow_what_goes_wrong() {
     let (_, paths) = agree(&line, steps);
     let carriers: Vec<Carrier> = paths[0].segments.iter().map(|segment| segment.carrier).collect();
     let drop =
-        carriers.windows(2).position(|pair| matches!(pair, [Carrier::Gripper { .. }, Carrier::Belt { .. }]));
+        carriers.windows(2).position(|pair| matches!(pair, [Carrier::Grip { .. }, Carrier::Lane { .. }]));
     let drop = drop.unwrap_or_else(|| panic!("{carriers:?}"));
     assert!(matches!(paths[0].segments[drop + 1].law, Law::Slides { .. }));
     let hung = paths[0].segments.iter().filter(|segment| matches!(segment.law, Law::Hangs(_))).count();
@@ -204,7 +204,7 @@ fn paths_follow_corners() {
     let (_, paths) = agree(&line, steps);
     let hung = paths[0].segments.iter().filter(|segment| matches!(segment.law, Law::Hangs(_))).count();
     assert!(hung > 10, "{hung}");
-    assert!(paths[0].segments.last().is_some_and(|last| matches!(last.carrier, Carrier::Belt { .. })));
+    assert!(paths[0].segments.last().is_some_and(|last| matches!(last.carrier, Carrier::Lane { .. })));
 }
 
 /// A row of a table: item, time, place, carrier.
@@ -220,11 +220,11 @@ fn rows(table: &str) -> Vec<(String, f64, Point, String)> {
 
 fn carrier_name(carrier: Carrier) -> &'static str {
     match carrier {
-        Carrier::Belt { .. } => "belt",
-        Carrier::Gripper { machine: KITTING, .. } => "gripper of kitting",
-        Carrier::Gripper { .. } => "gripper of gantry",
-        Carrier::Tray { .. } => "tray of agv",
-        Carrier::Briefcase { .. } => "briefcase of as1",
+        Carrier::Lane { .. } => "belt",
+        Carrier::Grip { machine: KITTING, .. } => "gripper of kitting",
+        Carrier::Grip { .. } => "gripper of gantry",
+        Carrier::Place { machine: AGV, .. } => "tray of agv",
+        Carrier::Place { .. } => "briefcase of as1",
         Carrier::Shipped { .. } => "order 1",
         _ => "elsewhere",
     }

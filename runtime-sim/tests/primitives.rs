@@ -10,7 +10,6 @@
 mod common;
 
 use common::*;
-use runtime_sim::geometry::Geometry;
 use runtime_sim::kinematics::arm::{Arm, Joints};
 use runtime_sim::motion::Motion;
 use runtime_sim::point::{Axis, Point};
@@ -82,8 +81,7 @@ fn slot(agv: usize, x: f64, i: usize, z: f64) -> Point {
 
 fn kitting(rail_range: [f64; 2], speed: f64) -> Walk {
     let pose = Point::new(-1.3, 0.0, 1.127);
-    let geometry = Geometry::RailArm { pose, rail_dim: Axis::Y, rail_range };
-    let arm = Arm::from_geometry(&geometry).unwrap();
+    let arm = machines::arm(&machines::rail_arm(pose, Axis::Y, rail_range));
     Walk { arm, joints: arm.start(), speed }
 }
 
@@ -170,12 +168,8 @@ const RELEASE: Point = Point::new(-7.1, 3.1, 1.4 + 0.03);
 /// and for agv4 on the way to y = -3.02; the tool goes to 0.03 m over the part, then down (`settle`);
 /// for agv3 and agv4 it first goes 1 m aside, and back while it goes along y.
 fn gantry_legs(agv: usize, speed: f64) -> Vec<(&'static str, f64)> {
-    let geometry = Geometry::Gantry {
-        pose: Point::new(-4.0, 0.0, 2.0),
-        x_rail_range: [-14.4, 0.4],
-        y_rail_range: [-4.5, 4.5],
-    };
-    let arm = Arm::from_geometry(&geometry).unwrap();
+    let gantry = machines::gantry(Point::new(-4.0, 0.0, 2.0), [-14.4, 0.4], [-4.5, 4.5]);
+    let arm = machines::arm(&gantry);
     let mut walk = Walk { arm, joints: arm.start(), speed };
     let retreat = RELEASE + Point::new(2.5, 0.0, 0.0);
     let part = slot(agv, NEAR_X, 1, ON_TRAY);

@@ -3,14 +3,13 @@
 mod common;
 
 use common::*;
-use runtime_sim::geometry::Geometry;
 use runtime_sim::line::{IoDelay, Line, Obstacle, Pause, Refusal, Slip};
 use runtime_sim::point::Point;
 
 fn rich_line() -> Line {
     let mut line = line();
     line.machines[BELT].states = states(vec![1, 3]);
-    line.machines[BIN].geometry = Geometry::Bin { pose: Point::new(-0.0, 0.1 + 0.2, 1.0 / 3.0) };
+    line.machines[BIN] = machines::machine("bin", &machines::bin(Point::new(-0.0, 0.1 + 0.2, 1.0 / 3.0)));
     let obstacle = |name: &str, size| Obstacle { name: name.into(), pose: Point::new(0.1, -0.0, 2.5), size };
     line.obstacles = vec![obstacle("post", Some(Point::new(0.2, 1.0 / 3.0, 1e-3))), obstacle("mark", None)];
     line.scenario.slips = vec![Slip { machine: GANTRY, pick: 2, after_s: 5e-324 }];
@@ -66,7 +65,7 @@ fn what_cannot_be_run_is_refused() {
     assert_eq!(refused(|l| l.kinds[1].height = 0.0), "the height of pump is no positive number");
     assert_eq!(
         refused(|l| l.scenario.orders[0].stations = vec![1]),
-        "an order at kitting, which is no station"
+        "an order at kitting, which has no terminal"
     );
     assert_eq!(refused(|l| l.scenario.orders[0].stations.clear()), "order 1 names no station");
     assert_eq!(refused(|l| l.scenario.orders[0].stations.push(STATION)), "order 1 names as1 twice");

@@ -10,7 +10,7 @@ use runtime_sim::random::Random;
 /// drawn by lot, and every other member is reached.
 pub fn instantiate(files: &[(String, String)]) -> (System, Sources) {
     let mut sources = Sources::default();
-    let mut trees = Vec::new();
+    let mut trees = crate::devices(&mut sources);
     let mut diagnostics = Vec::new();
     for (name, text) in files {
         let id = sources.add(name.as_str(), text.as_str());

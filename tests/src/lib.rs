@@ -5,6 +5,7 @@ pub mod coverage;
 pub mod generate;
 pub mod instances;
 pub mod lots;
+pub mod machines;
 pub mod many;
 pub mod replay;
 pub mod sdf;
@@ -16,7 +17,8 @@ pub mod xml;
 
 use autogen::diagnostic::{self, Diagnostic};
 use autogen::lower::{Input, Outcome, Project, Setting, compile};
-use autogen::source::Sources;
+use autogen::source::{FileId, Sources};
+use autogen::spec::{ast, parser};
 use autogen::{library, scenario};
 use std::path::{Path, PathBuf};
 
@@ -33,6 +35,16 @@ pub fn is_full_campaign() -> bool {
 /// A file of the project by its path from the project's folder.
 pub fn text(path: &str) -> String {
     std::fs::read_to_string(root().join(path)).unwrap_or_else(|e| panic!("{path}: {e}"))
+}
+
+/// The trees of the library's devices, for a check without the rest of the library.
+pub fn devices(sources: &mut Sources) -> Vec<(FileId, ast::File)> {
+    let files = library::FILES.iter().filter(|(name, _)| name.starts_with(library::DEVICES));
+    let trees = files.map(|(name, text)| {
+        let file = sources.add(*name, *text);
+        (file, parser::parse(file, text).0)
+    });
+    trees.collect()
 }
 
 /// What a line is compiled from, beside the library.

@@ -56,7 +56,7 @@ impl Lots {
         self.scan += 1;
         let (changes, answers) = if (self.scan / 64).is_multiple_of(3) { (6, 2) } else { self.calm };
         for (robot, published) in outputs.iter().enumerate() {
-            let device = system.automaton_of(robot).device;
+            let device = &system.automaton_of(robot).device;
             for word in 0..self.images[robot].len() {
                 if self.one_in(changes) {
                     self.images[robot][word] = self.word();

@@ -135,7 +135,7 @@ impl Finder<'_> {
     fn image(&mut self, index: usize) -> (Vec<Option<Place>>, Vec<Option<Place>>) {
         let robot = self.system.instances[index].name.clone();
         let (mut inputs, mut outputs) = (Vec::new(), Vec::new());
-        for port in self.system.automaton_of(index).device.ports {
+        for port in &self.system.automaton_of(index).device.ports {
             let name = format!("{robot}_{}", port.name);
             for path in self.variables("globals", &name, port.ty == PortType::Point, port.extent.into(), 0) {
                 match port.direction {
@@ -173,7 +173,7 @@ impl Finder<'_> {
             }
         }
         for port in automaton.device.ports.iter().filter(|p| p.direction == Direction::Output) {
-            paths.extend(own(port.name, port.ty == PortType::Point, port.extent.into()));
+            paths.extend(own(&port.name, port.ty == PortType::Point, port.extent.into()));
         }
         for path in paths {
             let place = self.machine.place(&path);

@@ -63,7 +63,7 @@ pub fn compare(fixture: &Fixture, engine: &mut dyn Controllers) -> Result<(), St
     let names = columns(&fixture.system);
     let mut images: Vec<Vec<f64>> = (0..fixture.system.instances.len())
         .map(|i| {
-            let device = fixture.system.automaton_of(i).device;
+            let device = &fixture.system.automaton_of(i).device;
             vec![0.0; device.words(Direction::Output, fixture.system.kinds())]
         })
         .collect();
@@ -123,7 +123,9 @@ pub fn model(spec_text: &str, kinds: &[String]) -> Result<(Sources, ir::Model), 
     if !found.is_empty() {
         return Err(plain(&sources, &found));
     }
-    let checked = check::check(&sources, &[(file, tree)], kinds).map_err(|d| plain(&sources, &d))?;
+    let mut trees = crate::devices(&mut sources);
+    trees.push((file, tree));
+    let checked = check::check(&sources, &trees, kinds).map_err(|d| plain(&sources, &d))?;
     Ok((sources, checked.into_model()))
 }
 
@@ -506,12 +508,12 @@ fn machine(system: &ir::System, index: usize) -> Machine {
         variables.extend(cells.iter().map(|c| filled(&c.name, c.ty, c.initial, None)));
     }
     let mut inputs = Vec::new();
-    for port in automaton.device.ports {
+    for port in &automaton.device.ports {
         let ty = ir::Type { scalar: port.ty.into(), extent: port.extent.into() };
         match port.direction {
-            Direction::Output => variables.push(filled(port.name, ty, first(ty.scalar), Some(port.stop))),
+            Direction::Output => variables.push(filled(&port.name, ty, first(ty.scalar), Some(port.stop))),
             // Inputs come as words of the image, whatever their type.
-            Direction::Input => inputs.push(filled(port.name, ty, first(ty.scalar), None)),
+            Direction::Input => inputs.push(filled(&port.name, ty, first(ty.scalar), None)),
         }
     }
     for input in &mut inputs {

@@ -10,6 +10,7 @@ use autogen_tests::replay::run as start;
 use autogen_tests::workspace::Workspace;
 use autogen_tests::{LAYOUTS, Texts, ariac, is_full_campaign, on_all_processors, own_line};
 use runtime_sim::line::{IoDelay, Line, Pause, Refusal, Slip};
+use runtime_sim::machine::Machine;
 use runtime_sim::random::Random;
 use runtime_sim::run::{Seen, run as simulate};
 use std::collections::BTreeMap;
@@ -113,7 +114,13 @@ fn slip(line: &mut Line, device: &str, one_in: u32, seed: u64) {
 
 /// The machines of one kind of device.
 fn all(line: &Line, device: &str) -> Vec<usize> {
-    (0..line.machines.len()).filter(|m| line.machines[*m].geometry.device() == device).collect()
+    let is_wanted = |machine: &Machine| match device {
+        "belt" => machine.lane().is_some(),
+        "vehicle" => machine.route().is_some(),
+        "rail_arm" => machine.axes().len() == 1,
+        _ => machine.axes().len() > 1,
+    };
+    (0..line.machines.len()).filter(|m| is_wanted(&line.machines[*m])).collect()
 }
 
 /// What a program is compiled from: all but the values of the layout, which it reads.

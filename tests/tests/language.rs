@@ -1,9 +1,10 @@
 //! The examples of `docs/language.md` are right, or wrong as they say; its table of devices is the simulator's.
 
 use autogen::source::Sources;
-use autogen::{check, spec};
+use autogen::{check, library, spec};
 use autogen_tests::{plain, root, text};
-use runtime_sim::device::{DEVICES, Direction, Extent, PortType, Stop};
+use runtime_sim::device::{Direction, Extent, PortType, Stop};
+use runtime_sim::part::{ALL, Action, Form, Setting};
 use std::fmt::Write;
 
 struct Block {
@@ -62,7 +63,9 @@ fn examples_are_as_they_say() {
         let mut sources = Sources::default();
         let id = sources.add("language.md", file.as_str());
         let (tree, mut found) = spec::parser::parse(id, &file);
-        if let Err(errors) = check::check(&sources, &[(id, tree)], &["bolt".to_string(), "nut".to_string()]) {
+        let mut trees = autogen_tests::devices(&mut sources);
+        trees.push((id, tree));
+        if let Err(errors) = check::check(&sources, &trees, &["bolt".to_string(), "nut".to_string()]) {
             found.extend(errors);
         }
         let codes: Vec<&str> = found.iter().map(|d| d.code).collect();
@@ -88,12 +91,12 @@ fn type_of(ty: PortType, extent: Extent) -> String {
 
 fn devices() -> String {
     let mut out = String::new();
-    for device in DEVICES {
+    for device in library::devices() {
         write!(out, "\n### {}\n\n{}\n", device.name, device.purpose).expect("text");
         if !device.ports.is_empty() {
             out += "\n| port | | type | unit | stop value | meaning |\n|---|---|---|---|---|---|\n";
         }
-        for port in device.ports {
+        for port in &device.ports {
             let (direction, stop) = match (port.direction, port.stop) {
                 (Direction::Input, _) => ("in", "".to_string()),
                 (Direction::Output, Stop::Hold) => ("out", "hold".into()),
@@ -113,7 +116,7 @@ fn devices() -> String {
         if !device.verbs.is_empty() {
             out += "\n| command | number | meaning |\n|---|---|---|\n";
         }
-        for verb in device.verbs {
+        for verb in &device.verbs {
             let arguments = verb.arguments.join(", ");
             writeln!(out, "| `{}({arguments})` | {} | {} |", verb.name, verb.number, verb.meaning)
                 .expect("text");
@@ -121,7 +124,7 @@ fn devices() -> String {
         if !device.constants.is_empty() {
             out += "\n| constant | type | unit | meaning |\n|---|---|---|---|\n";
         }
-        for constant in device.constants {
+        for constant in &device.constants {
             let ty = type_of(constant.ty, constant.extent);
             writeln!(out, "| `{}` | `{ty}` | {} | {} |", constant.name, constant.unit, constant.meaning)
                 .expect("text");
@@ -151,6 +154,85 @@ fn devices_are_those_of_the_simulator() {
         return;
     }
     assert!(after == devices(), "run this test with UPDATE=1 and look at the change of docs/language.md");
+}
+
+fn primitives() -> String {
+    let mut out = String::new();
+    for schema in ALL {
+        write!(out, "\n### {}\n\n{}\n", schema.name, schema.purpose).expect("text");
+        out += "\n| setting | value | unit | meaning |\n|---|---|---|---|\n";
+        for setting in schema.settings {
+            let form = form_of(setting.form);
+            let optional = if setting.is_optional { ", optional" } else { "" };
+            let Setting { name, unit, meaning, .. } = setting;
+            writeln!(out, "| `{name}` | {form}{optional} | {unit} | {meaning} |").expect("text");
+        }
+        let mut facts = Vec::new();
+        let mut fact = |what: &str, names: Vec<String>| {
+            if !names.is_empty() {
+                facts.push(format!("{what}: {}.", names.join(", ")));
+            }
+        };
+        let code = |name: &str, ty: String| format!("`{name}: {ty}`");
+        fact("Frames", schema.frames.iter().map(|frame| format!("`{frame}`")).collect());
+        fact("Signals", schema.signals.iter().map(|s| code(s.name, type_of(s.ty, s.extent))).collect());
+        fact("Levels", schema.levels.iter().map(|l| code(l.name, type_of(l.ty, Extent::One))).collect());
+        let action = |action: &Action| {
+            let types = action.arguments.iter().map(|ty| type_of(*ty, Extent::One));
+            format!("`{}({})`", action.name, types.collect::<Vec<_>>().join(", "))
+        };
+        fact("Actions", schema.actions.iter().map(action).collect());
+        if !facts.is_empty() {
+            write!(out, "\n{}\n", facts.join("\n\n")).expect("text");
+        }
+    }
+    out
+}
+
+fn form_of(form: Form) -> String {
+    match form {
+        Form::Truth => "true or false".into(),
+        Form::Number => "number".into(),
+        Form::Positive => "number over 0".into(),
+        Form::Point => "point".into(),
+        Form::Axis => "axis".into(),
+        Form::Word => "word".into(),
+        Form::Part(primitives) => primitives.join(" or "),
+        Form::Range => "two numbers, the lower one first".into(),
+        Form::Points => "points".into(),
+        Form::Numbers => "numbers".into(),
+        Form::Words => "words".into(),
+    }
+}
+
+/// With `UPDATE=1` in the environment the list is written anew.
+#[test]
+fn primitives_are_those_of_the_simulator() {
+    const MARK: &str = "by a test -->\n";
+    let document = text("docs/devices.md");
+    let (before, after) = document.split_once(MARK).expect("the mark before the list");
+    if std::env::var_os("UPDATE").is_some() {
+        std::fs::write(root().join("docs/devices.md"), format!("{before}{MARK}{}", primitives()))
+            .expect("written");
+        return;
+    }
+    assert!(after == primitives(), "run this test with UPDATE=1 and look at the change of docs/devices.md");
+}
+
+/// The device that the page shows has no errors, and can be given to an automaton.
+#[test]
+fn the_device_of_the_page_is_right() {
+    let document = text("docs/devices.md");
+    let shown = document.split("```").nth(1).expect("a block");
+    let automaton = "automaton Stand on table { initial state S { when false -> S {} } }";
+    let file = format!("{shown}\n{automaton}");
+    let mut sources = Sources::default();
+    let id = sources.add("devices.md", file.as_str());
+    let (tree, found) = spec::parser::parse(id, &file);
+    assert!(found.is_empty(), "{}", plain(&sources, &found));
+    if let Err(found) = check::check(&sources, &[(id, tree)], &["bolt".to_string()]) {
+        panic!("{}", plain(&sources, &found));
+    }
 }
 
 #[test]

@@ -207,7 +207,7 @@ fn one_arm_at_a_time_is_over_a_tray_and_none_when_it_moves() {
         project.plant.io_delay = IoDelay::Fixed(delay);
         let of = |device: &[&str]| -> Vec<usize> {
             (0..project.system.instances.len())
-                .filter(|i| device.contains(&project.system.automaton_of(*i).device.name))
+                .filter(|i| device.contains(&project.system.automaton_of(*i).device.name.as_str()))
                 .collect()
         };
         let (arms, vehicles) = (of(&["rail_arm", "gantry"]), of(&["vehicle", "bin"]));

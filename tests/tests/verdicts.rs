@@ -150,7 +150,7 @@ fn no_feasible_layout_fails_for_reach() {
         let kinds = project.plant.kinds.len();
         let places: Vec<Option<usize>> = (0..project.system.instances.len())
             .map(|i| {
-                let device = project.system.automaton_of(i).device;
+                let device = &project.system.automaton_of(i).device;
                 device.port("error").filter(|p| p.direction == Direction::Input)?;
                 device.offset("error", kinds)
             })

@@ -2,17 +2,18 @@
 //! and with joints that put the tool where the simulator has it.
 
 use autogen::backend::sdf;
+use autogen_tests::machines::{belt, bin, gantry, machine, rail_arm, station, vehicle};
 use autogen_tests::sdf::chain::{self, Frame};
 use autogen_tests::sdf::findings;
 use autogen_tests::xml::{self, Element};
 use autogen_tests::{LAYOUTS, Texts, ariac, own_line, text};
-use runtime_sim::geometry::Geometry;
-use runtime_sim::kinematics::arm::{Arm, Joints};
+use runtime_sim::kinematics::arm::Joints;
 use runtime_sim::kinematics::pose::Pose;
-use runtime_sim::line::{IoDelay, Line, Machine, Scenario};
+use runtime_sim::line::{IoDelay, Line, Scenario};
+use runtime_sim::machine::Machine;
 use runtime_sim::point::{Axis, Point};
 use runtime_sim::random::Random;
-use runtime_sim::solid::{self, Link, Shape};
+use runtime_sim::solid::{Link, Shape};
 use std::process::Command;
 
 fn world(texts: &Texts) -> String {
@@ -34,25 +35,21 @@ fn examples() -> Vec<(String, Texts)> {
 fn workshop() -> Line {
     let at = |x, y| Point::new(x, y, 0.0);
     let shoulder = Point::new(-1.3, 0.7, 1.127);
-    let geometries = [
-        Geometry::Belt { pose: at(-0.57, 0.0), orient: Axis::Y, orient_range: [-5.0, 5.0] },
-        Geometry::Belt { pose: at(3.0, 8.0), orient: Axis::X, orient_range: [1.0, 6.0] },
-        Geometry::RailArm { pose: shoulder, rail_dim: Axis::Y, rail_range: [0.4, 4.8] },
-        Geometry::RailArm { pose: shoulder, rail_dim: Axis::X, rail_range: [-3.0, -1.1] },
-        Geometry::Gantry {
-            pose: Point::new(9.0, 9.0, 2.1),
-            x_rail_range: [-14.4, 0.4],
-            y_rail_range: [-1.0, 4.5],
-        },
-        Geometry::Vehicle { pose: at(-2.3, 4.7), destinations: [at(-5.6, 4.7), at(-10.6, 4.2)] },
-        Geometry::Station { pose: at(-7.3, 3.0) },
-        Geometry::Bin { pose: at(-1.9, 3.4) },
+    let machines = [
+        belt(at(-0.57, 0.0), Axis::Y, [-5.0, 5.0]),
+        belt(at(3.0, 8.0), Axis::X, [1.0, 6.0]),
+        rail_arm(shoulder, Axis::Y, [0.4, 4.8]),
+        rail_arm(shoulder, Axis::X, [-3.0, -1.1]),
+        gantry(Point::new(9.0, 9.0, 2.1), [-14.4, 0.4], [-1.0, 4.5]),
+        vehicle(at(-2.3, 4.7), [at(-5.6, 4.7), at(-10.6, 4.2)]),
+        station(at(-7.3, 3.0)),
+        bin(at(-1.9, 3.4)),
     ];
-    let machine = |(i, geometry)| Machine { name: format!("machine{i}"), geometry, states: Vec::new() };
+    let machine = |(i, placed)| machine(&format!("machine{i}"), placed);
     Line {
         scan_ms: 10,
         kinds: Vec::new(),
-        machines: geometries.into_iter().enumerate().map(machine).collect(),
+        machines: machines.iter().enumerate().map(machine).collect(),
         obstacles: Vec::new(),
         may_touch: Vec::new(),
         scenario: Scenario::default(),
@@ -203,15 +200,9 @@ fn assert_same(got: &Frame, expected: &Pose, what: &str) {
 }
 
 /// The kinematics' values where SDF's are 0.
-fn middles(geometry: &Geometry) -> Vec<f64> {
-    let middle = |[low, high]: [f64; 2]| (low + high) / 2.0;
-    match *geometry {
-        Geometry::RailArm { rail_range, .. } => vec![middle(rail_range)],
-        Geometry::Gantry { x_rail_range, y_rail_range, .. } => {
-            vec![middle(x_rail_range), middle(y_rail_range)]
-        }
-        _ => Vec::new(),
-    }
+fn middles(machine: &Machine) -> Vec<f64> {
+    let ranges = machine.axes().into_iter().filter_map(|(_, axis)| axis.range());
+    ranges.map(|[low, high]| (low + high) / 2.0).collect()
 }
 
 #[test]
@@ -222,13 +213,13 @@ fn joints_put_tool_and_shapes_where_the_simulator_has_them() {
     let mut random = Random::new(7);
     let mut robots = 0;
     for machine in &line.machines {
-        let Some(arm) = Arm::from_geometry(&machine.geometry) else { continue };
+        let Some(arm) = machine.arm() else { continue };
         robots += 1;
         let model = models.iter().find(|m| m.attribute("name") == Some(&machine.name)).expect("a model");
         let joints = chain::movable(model);
         let count = arm.start().len();
         assert_eq!(joints.len(), count);
-        let middles = middles(&machine.geometry);
+        let middles = middles(machine);
         let tool = model.named("frame", "tool").and_then(|f| f.attribute("attached_to")).expect("a tool");
         for _ in 0..200 {
             let values: Vec<f64> =
@@ -238,14 +229,14 @@ fn joints_put_tool_and_shapes_where_the_simulator_has_them() {
             let expected = arm.tool_pose(&own);
             assert_same(&chain::link_at(model, tool, &values), &expected, &machine.name);
             let frames = arm.frames(&own);
-            for solid in solid::solids(&machine.geometry) {
+            for solid in machine.solids() {
                 let frame = match solid.link {
                     Link::Joint(i) => frames[i],
                     _ => Pose::IDENTITY,
                 };
-                let (link, shape) = collision(model, solid.name);
+                let (link, shape) = collision(model, &solid.name);
                 let got = chain::link_at(model, link, &values).times(&chain::pose(shape));
-                assert_same(&got, &frame.then(&solid.pose), solid.name);
+                assert_same(&got, &frame.then(&solid.pose), &solid.name);
             }
         }
     }
@@ -271,8 +262,8 @@ fn shapes_have_the_sizes_of_the_solids() {
     for machine in &line.machines {
         let model = models.iter().find(|m| m.attribute("name") == Some(&machine.name)).expect("a model");
         let still = vec![0.0; chain::movable(model).len()];
-        for solid in solid::solids(&machine.geometry) {
-            let (link, shape) = collision(model, solid.name);
+        for solid in machine.solids() {
+            let (link, shape) = collision(model, &solid.name);
             let geometry = shape.child("geometry").and_then(|g| g.children.first()).expect("a shape");
             let number =
                 |name: &str| geometry.child(name).and_then(autogen_tests::sdf::numbers).expect("numbers");
@@ -284,13 +275,13 @@ fn shapes_have_the_sizes_of_the_solids() {
                     for (end, half) in [("lower", -length / 2.0), ("upper", length / 2.0)] {
                         let (_, ball) = collision(model, &format!("{}_{end}_end", solid.name));
                         let along = Pose { position: Point::new(0.0, 0.0, half), ..Pose::IDENTITY };
-                        assert_same(&chain::pose(ball), &solid.pose.then(&along), solid.name);
+                        assert_same(&chain::pose(ball), &solid.pose.then(&along), &solid.name);
                     }
                 }
             }
             if solid.link == Link::World {
                 let got = chain::link_at(model, link, &still).times(&chain::pose(shape));
-                assert_same(&got, &solid.pose, solid.name);
+                assert_same(&got, &solid.pose, &solid.name);
             }
         }
     }

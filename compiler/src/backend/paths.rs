@@ -11,8 +11,9 @@ use super::footprint;
 use crate::lower::Project;
 use askama::Template;
 use panel::{Panel, Tick, View, tenths};
-use runtime_sim::geometry::{BELT_SURFACE, BIN_FLOOR, BRIEFCASE, Geometry, TRAY_SURFACE};
-use runtime_sim::line::{Line, Machine};
+use runtime_sim::line::Line;
+use runtime_sim::machine::Machine;
+use runtime_sim::part::place::Place;
 use runtime_sim::point::{Axis, Point};
 use track::Track;
 
@@ -87,7 +88,7 @@ pub fn svg(project: &Project, table: &str) -> String {
     }
     let mut side = Panel::new("side", View::Side, (LEFT, above.bottom() + GAP), scale, low, high);
     for machine in line.machines.iter().filter(|machine| is_visited(machine, &tracks)) {
-        for (from, to) in supports(&machine.geometry) {
+        for (from, to) in supports(machine) {
             side.support(from, to);
         }
     }
@@ -146,7 +147,7 @@ fn is_visited(machine: &Machine, tracks: &[Track]) -> bool {
 fn extent(line: &Line, tracks: &[Track]) -> (Point, Point) {
     let mut points: Vec<Point> = tracks.iter().flat_map(|track| track.points.iter().copied()).collect();
     for machine in line.machines.iter().filter(|machine| is_visited(machine, tracks)) {
-        for (shape, class) in footprint::shapes(&machine.geometry) {
+        for (shape, class) in footprint::shapes(machine) {
             if let (footprint::Shape::Rectangle { centre, size: (x, y) }, "belt" | "vehicle" | "station") =
                 (shape, class)
             {
@@ -170,22 +171,25 @@ fn extent(line: &Line, tracks: &[Track]) -> (Point, Point) {
 }
 
 /// What items lie on, from the side: both ends of each surface.
-fn supports(geometry: &Geometry) -> Vec<(Point, Point)> {
+fn supports(machine: &Machine) -> Vec<(Point, Point)> {
     let across = |middle: Point, half: f64, height: f64| {
         let middle = middle.up(height);
         (middle - Point::new(0.0, half, 0.0), middle + Point::new(0.0, half, 0.0))
     };
-    match geometry {
-        Geometry::Belt { pose, orient: Axis::Y, orient_range: [low, high] } => {
-            let end = |y: f64| Point::new(pose.x, y, pose.z + BELT_SURFACE);
-            vec![(end(*low), end(*high))]
-        }
-        Geometry::Belt { pose, orient: Axis::X, .. } => vec![across(*pose, 0.325, BELT_SURFACE)],
-        Geometry::Vehicle { .. } => {
-            geometry.stops().into_iter().map(|stop| across(stop, 0.25, TRAY_SURFACE)).collect()
-        }
-        Geometry::Station { pose } => vec![across(*pose + Point { z: 0.0, ..BRIEFCASE }, 0.38, BRIEFCASE.z)],
-        Geometry::Bin { pose } => vec![across(*pose, 0.3, BIN_FLOOR)],
-        Geometry::RailArm { .. } | Geometry::Gantry { .. } => Vec::new(),
+    if let Some(lane) = machine.lane() {
+        let end = |y: f64| Point { y, ..lane.surface };
+        return match lane.along {
+            Axis::Y => vec![(end(lane.range[0]), end(lane.range[1]))],
+            Axis::X => vec![across(lane.surface, lane.outline / 2.0, 0.0)],
+        };
     }
+    let of_place = |place: &Place| -> Vec<(Point, Point)> {
+        let half = (place.floor_y[1] - place.floor_y[0]) / 2.0;
+        let aside = Point::new(0.0, (place.floor_y[0] + place.floor_y[1]) / 2.0, 0.0);
+        let middle = |origin: Point| origin + Point { z: 0.0, ..place.floor } + aside;
+        let stops = machine.stops();
+        let origins = if place.route.is_some() { stops } else { std::slice::from_ref(&place.at) };
+        origins.iter().map(|origin| across(middle(*origin), half, place.floor.z)).collect()
+    };
+    machine.places().flat_map(of_place).collect()
 }

@@ -2,9 +2,10 @@
 
 use super::footprint::{self, Shape};
 use crate::connect::Edge;
-use runtime_sim::geometry::Geometry;
 use runtime_sim::line::Line;
-use runtime_sim::point::{Axis, Point};
+use runtime_sim::machine::Machine;
+use runtime_sim::part::axis::Motion;
+use runtime_sim::point::Point;
 use std::fmt::Write;
 
 /// Pixels per metre.
@@ -26,38 +27,29 @@ pub fn svg(line: &Line, edges: &[Edge]) -> String {
         drawing.label(obstacle.pose, &obstacle.name, "small");
     }
     for machine in &line.machines {
-        drawing.machine(&machine.name, &machine.geometry);
+        drawing.machine(machine);
     }
     for edge in edges {
-        let (from, to) = (&line.machines[edge.from].geometry, &line.machines[edge.to].geometry);
+        let (from, to) = (&line.machines[edge.from], &line.machines[edge.to]);
         drawing.edge(meeting(from, to, true), meeting(to, from, false));
     }
     drawing.finish()
 }
 
 /// Where an arrow touches a machine: a vehicle is loaded at its start and unloaded at its stop.
-fn meeting(machine: &Geometry, other: &Geometry, leaves: bool) -> Point {
-    match machine {
-        Geometry::Vehicle { pose, destinations } => {
-            if leaves {
-                destinations[0]
-            } else {
-                *pose
-            }
-        }
-        Geometry::RailArm { pose, rail_dim, rail_range } => {
-            let along = meeting_along(other, *rail_dim).clamp(rail_range[0], rail_range[1]);
-            match rail_dim {
-                Axis::X => Point::new(along, pose.y, 0.0),
-                Axis::Y => Point::new(pose.x, along, 0.0),
-            }
-        }
-        _ => machine.pose(),
+fn meeting(machine: &Machine, other: &Machine, leaves: bool) -> Point {
+    if let [start, near, ..] = machine.stops() {
+        return if leaves { *near } else { *start };
     }
-}
-
-fn meeting_along(other: &Geometry, axis: Axis) -> f64 {
-    other.pose().coordinate(axis)
+    match machine.axes()[..] {
+        [(_, axis)] => match axis.motion {
+            Motion::Slides { along, range: [low, high] } => {
+                machine.pose.with_coordinate(along, other.pose.coordinate(along).clamp(low, high))
+            }
+            Motion::Turns => machine.pose,
+        },
+        _ => machine.pose,
+    }
 }
 
 struct Drawing {
@@ -69,29 +61,15 @@ struct Drawing {
 }
 
 impl Drawing {
-    fn machine(&mut self, name: &str, geometry: &Geometry) {
-        for (shape, class) in footprint::shapes(geometry) {
+    fn machine(&mut self, machine: &Machine) {
+        for (shape, class) in footprint::shapes(machine) {
             match shape {
                 Shape::Rectangle { centre, size } => self.rectangle(centre, size, class),
                 Shape::Line { from, to } => self.line(from, to, class),
                 Shape::Circle { centre, radius } => self.circle(centre, radius, class),
             }
         }
-        let pose = geometry.pose();
-        let at = match geometry {
-            Geometry::Belt { orient, orient_range, .. } => match orient {
-                Axis::X => Point::new((orient_range[0] + orient_range[1]) / 2.0, pose.y + 0.325 + 0.2, 0.0),
-                Axis::Y => Point::new(pose.x, orient_range[1] + 0.2, 0.0),
-            },
-            Geometry::Vehicle { .. } => pose + Point::new(0.15, 0.37, 0.0),
-            Geometry::RailArm { rail_dim, rail_range, .. } => match rail_dim {
-                Axis::X => Point::new(rail_range[0], pose.y - 0.35, 0.0),
-                Axis::Y => Point::new(pose.x, rail_range[0] - 0.35, 0.0),
-            },
-            Geometry::Gantry { .. } => pose + Point::new(0.0, 0.5, 0.0),
-            Geometry::Station { .. } | Geometry::Bin { .. } => pose + Point::new(0.0, 0.42, 0.0),
-        };
-        self.label(at, name, "name");
+        self.label(footprint::label(machine), &machine.name, "name");
     }
 
     fn take(&mut self, x: f64, y: f64) {

@@ -15,18 +15,14 @@ use super::Files;
 use crate::naming;
 use askama::Template;
 use model::Model;
-use runtime_sim::geometry::Geometry;
-use runtime_sim::kinematics::arm::Arm;
 use runtime_sim::kinematics::pose::Pose;
 use runtime_sim::line::{Line, Obstacle};
+use runtime_sim::machine::Machine;
+use runtime_sim::part::Primitive;
 use runtime_sim::point::Point;
 use runtime_sim::solid;
 
-/// Ambient and diffuse colours.
-const BELT: &str = "0.38 0.49 0.55 1";
-const VEHICLE: &str = "0.9 0.45 0.1 1";
-const STATION: &str = "0.35 0.65 0.35 1";
-const BIN: &str = "0.49 0.82 1 1";
+/// Ambient and diffuse colour of an obstacle, and of a machine of no material.
 const OBSTACLE: &str = "0.75 0.75 0.75 1";
 
 /// Floor beyond the outermost machine, m.
@@ -49,8 +45,8 @@ struct Floor {
 pub fn files(name: &str, line: &Line) -> Files {
     let machines = line.machines.iter().flat_map(|machine| {
         let name = naming::sdf(&machine.name);
-        let cameras = sensor::over_stops(&machine.name, &machine.geometry);
-        [Some(self::machine(name, &machine.geometry)), cameras].into_iter().flatten()
+        let cameras = sensor::over_stops(machine);
+        [Some(self::machine(name, machine)), cameras].into_iter().flatten()
     });
     let world = World {
         name: naming::sdf(name),
@@ -62,29 +58,36 @@ pub fn files(name: &str, line: &Line) -> Files {
     Files::from([("factory.sdf".into(), text + "\n")])
 }
 
-fn machine(name: String, geometry: &Geometry) -> Model {
-    if let Some(arm) = Arm::from_geometry(geometry) {
-        return robot::model(name, geometry, &arm);
+fn machine(name: String, machine: &Machine) -> Model {
+    if let Some(arm) = machine.arm() {
+        return robot::model(name, machine, &arm);
     }
-    let mut model = match geometry {
-        Geometry::Vehicle { .. } => Model::vehicle(name, geometry, VEHICLE),
-        Geometry::Belt { .. } => Model::belt(name, geometry.pose(), &solid::solids(geometry), BELT),
-        Geometry::Bin { .. } => Model::fixed(name, geometry.pose(), &solid::solids(geometry), BIN),
-        _ => Model::fixed(name, geometry.pose(), &solid::solids(geometry), STATION),
+    let material = machine.parts.iter().find_map(|part| match &part.primitive {
+        Primitive::Material(material) => Some(material),
+        _ => None,
+    });
+    let colour = material.map_or(OBSTACLE.to_string(), |m| format!("{} 1", number::list(&m.colour)));
+    let solids = machine.solids();
+    let mut model = match machine.route() {
+        Some(route) => Model::vehicle(name, machine.pose, &solids, route.mass, &colour),
+        None => {
+            let friction = material.and_then(|material| material.friction);
+            Model::standing(name, machine.pose, &solids, friction, &colour)
+        }
     };
-    model.links.extend(sensor::camera_over(geometry));
+    model.links.extend(sensor::cameras_over(machine));
     model
 }
 
 /// None for an obstacle that takes no room.
 fn obstacle(obstacle: &Obstacle) -> Option<Model> {
     let solid = obstacle.solid()?;
-    Some(Model::fixed(naming::sdf(&obstacle.name), obstacle.pose, &[solid], OBSTACLE))
+    Some(Model::standing(naming::sdf(&obstacle.name), obstacle.pose, &[solid], None, OBSTACLE))
 }
 
 /// A floor under every machine and every obstacle.
 fn floor(line: &Line) -> Floor {
-    let machines = line.machines.iter().flat_map(|m| places(&m.geometry));
+    let machines = line.machines.iter().flat_map(places);
     let places: Vec<Point> = machines.chain(line.obstacles.iter().map(|o| o.pose)).collect();
     let extent = |coordinate: fn(&Point) -> f64| {
         let values = places.iter().map(coordinate);
@@ -97,7 +100,7 @@ fn floor(line: &Line) -> Floor {
 }
 
 /// The outermost places of a machine.
-fn places(geometry: &Geometry) -> Vec<Point> {
+fn places(machine: &Machine) -> Vec<Point> {
     let ends = |solid: &solid::Solid| match solid.shape {
         solid::Shape::Box { size } if solid.link == solid::Link::World => {
             let half = Point::new(size.x / 2.0, size.y / 2.0, 0.0);
@@ -105,8 +108,8 @@ fn places(geometry: &Geometry) -> Vec<Point> {
         }
         _ => Vec::new(),
     };
-    match geometry {
-        Geometry::Vehicle { .. } => geometry.stops(),
-        _ => solid::solids(geometry).iter().flat_map(ends).collect(),
+    match machine.route() {
+        Some(route) => route.stops.clone(),
+        None => machine.solids().iter().flat_map(ends).collect(),
     }
 }

@@ -3,13 +3,14 @@
 use super::context::{Context, Symbol};
 use super::facts::Facts;
 use super::{Checker, state};
+use crate::device::Device;
 use crate::diagnostic::{Diagnostic, suggestion};
 use crate::ir::{self, Extent, Scalar, Type};
 use crate::plain;
 use crate::source::Span;
 use crate::spec::ast;
-use runtime_sim::device::{DEVICES, Device};
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 pub(super) fn check(checker: &mut Checker, tree: &ast::Automaton) {
     let Some(device) = device(checker, &tree.device) else { return };
@@ -75,18 +76,22 @@ pub(super) fn check(checker: &mut Checker, tree: &ast::Automaton) {
     checker.model.automata.push(automaton);
 }
 
-fn device(checker: &mut Checker, name: &ast::Name) -> Option<&'static Device> {
-    let found = Device::find(&name.value);
-    if found.is_none() && !name.value.is_empty() {
-        let help = suggestion(&name.value, DEVICES.iter().map(|d| d.name)).map_or(
-            format!("devices are {}", DEVICES.iter().map(|d| d.name).collect::<Vec<_>>().join(", ")),
-            |n| format!("is `{n}` meant?"),
-        );
+/// None has been reported.
+fn device(checker: &mut Checker, name: &ast::Name) -> Option<Arc<Device>> {
+    if let Some((_, device)) = checker.devices.iter().find(|(known, _)| *known == name.value) {
+        return device.clone();
+    }
+    if !name.value.is_empty() {
+        let known = || checker.devices.iter().map(|(name, _)| name.as_str());
+        let help = suggestion(&name.value, known())
+            .map_or(format!("devices are {}", known().collect::<Vec<_>>().join(", ")), |n| {
+                format!("is `{n}` meant?")
+            });
         checker.report(
             Diagnostic::new("E0321", name.span, format!("there is no device `{}`", name.value)).help(help),
         );
     }
-    found
+    None
 }
 
 /// `seen` are the definitions that were looked at already, as each may be used many times.
@@ -157,12 +162,12 @@ impl Context<'_, '_> {
     }
 
     fn names(&mut self, tree: &ast::Automaton) {
-        let device = self.automaton.device;
+        let device = self.automaton.device.clone();
         for (index, port) in device.ports.iter().enumerate() {
-            self.symbols.insert(port.name.into(), Symbol::Port(index));
+            self.symbols.insert(port.name.clone(), Symbol::Port(index));
         }
         for (index, constant) in device.constants.iter().enumerate() {
-            self.symbols.insert(constant.name.into(), Symbol::DeviceConstant(index));
+            self.symbols.insert(constant.name.clone(), Symbol::DeviceConstant(index));
         }
         let mut declared = Vec::new();
         for clause in &tree.implements {
@@ -239,7 +244,7 @@ impl Context<'_, '_> {
             ast::RoleKind::Knows => ir::RoleKind::Knows,
         };
         let is_active = matches!(kind, ir::RoleKind::Takes | ir::RoleKind::Hands);
-        if is_active && !matches!(self.automaton.device.name, "rail_arm" | "gantry") {
+        if is_active && !self.automaton.device.is_arm() {
             let message = format!("a `{}` has no arm to take or to put with", self.automaton.device.name);
             self.report(
                 Diagnostic::new("E0322", tree.name.span, message)
@@ -323,9 +328,10 @@ impl Context<'_, '_> {
     }
 
     fn handover(&mut self, tree: &ast::Handover) -> Option<ir::Handover> {
-        let known = self.automaton.device.handovers;
+        let device = self.automaton.device.clone();
+        let known = &device.handovers;
         let Some(found) = known.iter().find(|h| h.name == tree.place.value) else {
-            let names: Vec<&str> = known.iter().map(|h| h.name).collect();
+            let names: Vec<&str> = known.iter().map(|h| h.name.as_str()).collect();
             let help = if names.is_empty() {
                 "this device hands nothing over".into()
             } else {
@@ -375,21 +381,22 @@ impl Context<'_, '_> {
             ast::Way::Accepts => ir::Way::Accepts,
             ast::Way::Offers => ir::Way::Offers,
         };
-        Some(ir::Handover { place: tree.span, way, name: found.name.into(), index, approach })
+        Some(ir::Handover { place: tree.span, way, name: found.name.clone(), index, approach })
     }
 
     /// The parameter that holds a device constant.
     pub(super) fn device_parameter(&mut self, constant: usize) -> usize {
-        let declared = &self.automaton.device.constants[constant];
+        let device = self.automaton.device.clone();
+        let declared = &device.constants[constant];
         let index = self.automaton.parameters.len();
         self.automaton.parameters.push(ir::Parameter {
-            name: declared.name.into(),
-            doc: vec![sentence(declared.meaning, declared.unit)],
+            name: declared.name.clone(),
+            doc: vec![sentence(&declared.meaning, &declared.unit)],
             ty: Type { scalar: Scalar::from(declared.ty), extent: Extent::from(declared.extent) },
             source: ir::ParameterSource::Device,
             place: self.automaton.place,
         });
-        self.symbols.insert(declared.name.into(), Symbol::Parameter(index));
+        self.symbols.insert(declared.name.clone(), Symbol::Parameter(index));
         index
     }
 

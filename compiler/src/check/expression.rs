@@ -17,6 +17,13 @@ impl Context<'_, '_> {
         use ast::ExprKind as Tree;
         match &tree.kind {
             Tree::Error => None,
+            Tree::List(_) => {
+                self.report(
+                    Diagnostic::new("E0312", tree.span, "a list stands in devices only")
+                        .help("an automaton has arrays: write one value for each element"),
+                );
+                None
+            }
             Tree::Bool(b) => Some(constant(Scalar::Bool, Value::Bool(*b))),
             Tree::Int(i) => {
                 let value = *i as i32;

@@ -15,11 +15,13 @@ mod work;
 
 pub use used::used;
 
+use crate::device::{self, Device};
 use crate::diagnostic::{Diagnostic, collect, suggestion};
 use crate::ir;
 use crate::source::{FileId, Sources, Span};
 use crate::spec::ast;
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 /// A model that has passed every check; only [`check`] makes one.
 #[derive(Clone, Debug)]
@@ -53,7 +55,9 @@ pub fn check(
         model: empty_model(kinds),
         rules: Vec::new(),
         broken: BTreeSet::new(),
+        devices: Vec::new(),
     };
+    checker.devices();
     checker.enums();
     checker.interfaces();
     for index in 0..checker.declarations.automata.len() {
@@ -90,6 +94,7 @@ struct Declarations {
     enums: Vec<ast::Enum>,
     interfaces: Vec<ast::Interface>,
     automata: Vec<ast::Automaton>,
+    devices: Vec<ast::Device>,
 }
 
 fn declarations(files: &[(FileId, ast::File)], diagnostics: &mut Vec<Diagnostic>) -> Declarations {
@@ -129,6 +134,20 @@ fn declarations(files: &[(FileId, ast::File)], diagnostics: &mut Vec<Diagnostic>
             replace(&mut result, &tree.name.value);
             result.automata.push(tree.clone());
         }
+        for (index, device) in tree.devices.iter().enumerate() {
+            if tree.devices[..index].iter().any(|other| other.name.value == device.name.value) {
+                diagnostics.push(
+                    Diagnostic::new(
+                        "E0301",
+                        device.name.span,
+                        format!("`{}` is declared twice", device.name.value),
+                    )
+                    .help("rename or remove one of them"),
+                );
+            }
+            result.devices.retain(|other| other.name.value != device.name.value);
+            result.devices.push(device.clone());
+        }
     }
     result
 }
@@ -161,11 +180,25 @@ struct Checker<'a> {
     rules: Vec<Vec<Rule>>,
     /// Members of interfaces whose declarations have errors; something stands for them in the model.
     broken: BTreeSet<(ir::InterfaceId, String)>,
+    /// Devices by name, in the order of their declarations; none for one with errors.
+    devices: Vec<(String, Option<Arc<Device>>)>,
 }
 
 impl Checker<'_> {
     fn report(&mut self, diagnostic: Diagnostic) {
         collect(&mut self.diagnostics, diagnostic);
+    }
+
+    fn devices(&mut self) {
+        let trees = self.declarations.devices.clone();
+        let declared = trees.iter().map(|tree| (tree.name.value.as_str(), tree)).collect();
+        for tree in &trees {
+            let checked = device::check(tree, &declared);
+            let device = checked.map_err(|found| found.into_iter().for_each(|d| self.report(d))).ok();
+            if !tree.is_assembly {
+                self.devices.push((tree.name.value.clone(), device));
+            }
+        }
     }
 
     fn enums(&mut self) {

@@ -133,7 +133,7 @@ impl Context<'_, '_> {
                 let port = &self.automaton.device.ports[*port];
                 let help = if port.direction == Direction::Input {
                     "the device writes it; the automaton reads it"
-                } else if ["cmd", "verb", "hold", "goal"].contains(&port.name) {
+                } else if ["cmd", "verb", "hold", "goal"].contains(&port.name.as_str()) {
                     "a command writes it"
                 } else {
                     return Some((place, ty));
@@ -171,7 +171,7 @@ impl Context<'_, '_> {
             Place::Cell { interface, cell, .. } => {
                 self.checker.model.interfaces[interface.0].cells[*cell].name.clone()
             }
-            Place::Port { port, .. } => self.automaton.device.ports[*port].name.into(),
+            Place::Port { port, .. } => self.automaton.device.ports[*port].name.clone(),
             Place::Parameter { parameter, .. } => self.automaton.parameters[*parameter].name.clone(),
             Place::Shown { interface, parameter, .. } => {
                 self.checker.model.interfaces[interface.0].parameters[*parameter].name.clone()
@@ -180,11 +180,11 @@ impl Context<'_, '_> {
     }
 
     fn command(&mut self, verb: &ast::Name, arguments: &[ast::Expr]) -> Option<UpdateKind> {
-        let device = self.automaton.device;
+        let device = self.automaton.device.clone();
         // `goto` is how the paper's figure writes a vehicle's command.
         let name = if verb.value == "goto" { "move" } else { verb.value.as_str() };
         let Some(known) = device.verbs.iter().find(|v| v.name == name) else {
-            let names: Vec<&str> = device.verbs.iter().map(|v| v.name).collect();
+            let names: Vec<&str> = device.verbs.iter().map(|v| v.name.as_str()).collect();
             let help = match suggestion(&verb.value, names.iter().copied()) {
                 Some(near) => format!("is `{near}` meant?"),
                 None if names.is_empty() => format!("a `{}` obeys no commands", device.name),
@@ -217,7 +217,7 @@ impl Context<'_, '_> {
             return None;
         }
         let mut written = Vec::new();
-        for (tree, port_name) in arguments.iter().zip(known.arguments) {
+        for (tree, port_name) in arguments.iter().zip(&known.arguments) {
             let port = device.ports.iter().position(|p| p.name == *port_name)?;
             let ty = self.port_type(port);
             let value = self.typed(tree, ty.scalar)?;
@@ -226,8 +226,8 @@ impl Context<'_, '_> {
             written.push(Argument { port, value, check });
         }
         let ports = device.ports.iter().enumerate();
-        for (port, _) in
-            ports.filter(|(_, p)| ["cmd", "verb"].contains(&p.name) || known.arguments.contains(&p.name))
+        for (port, _) in ports
+            .filter(|(_, p)| ["cmd", "verb"].contains(&p.name.as_str()) || known.arguments.contains(&p.name))
         {
             self.facts.forget(&Place::Port { port, index: None });
         }

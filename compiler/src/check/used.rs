@@ -43,6 +43,7 @@ pub fn used(files: &[(FileId, ast::File)], automata: &BTreeSet<String>) -> Vec<(
                     .cloned()
                     .collect(),
                 automata: file.automata.iter().filter(|a| names.contains(&a.name.value)).cloned().collect(),
+                devices: file.devices.clone(),
             };
             (*id, tree)
         })
@@ -154,7 +155,7 @@ fn of_expr(expr: &ast::Expr, names: &mut Vec<String>) {
             of_expr(a, names);
             of_expr(b, names);
         }
-        Kind::Call(_, arguments) => arguments.iter().for_each(|e| of_expr(e, names)),
+        Kind::Call(_, arguments) | Kind::List(arguments) => arguments.iter().for_each(|e| of_expr(e, names)),
         Kind::Quantified { domain, body, .. } => {
             of_domain(domain, names);
             of_expr(body, names);

@@ -1,7 +1,8 @@
 //! The smallest change of one number that makes two machines meet.
 
-use super::{Line, Mend, graph::Ways, poses};
-use runtime_sim::geometry::Geometry;
+use super::poses::Reachable;
+use super::{Line, Mend, graph::Ways};
+use crate::device::Placed;
 
 /// How far a number is changed at most, mm.
 const FURTHEST: i32 = 10_000;
@@ -10,16 +11,18 @@ const COARSE: i32 = 10;
 
 /// Of all numbers of both machines and both directions the change after which most nodes are connected,
 /// among these the smallest; changes that cost an edge do not count.
-pub fn find(line: &Line, stands: &[bool], proposal: usize) -> Option<Mend> {
+pub fn find(line: &Line, reachable: &Reachable, stands: &[bool], proposal: usize) -> Option<Mend> {
     let pair = &line.proposals[proposal];
     let mut best: Option<Mend> = None;
     for node in [pair.passive(), pair.arm] {
         for number in &line.nodes[node].numbers {
             for direction in [1, -1] {
-                let Some((change_mm, geometry)) = first(line, proposal, node, &number.path, direction) else {
+                let Some((change_mm, placed)) =
+                    first(line, reachable, proposal, node, &number.path, direction)
+                else {
                     continue;
                 };
-                let Some(stands_then) = after(line, stands, node, &geometry) else { continue };
+                let Some(stands_then) = after(line, reachable, stands, node, &placed) else { continue };
                 let connected = Ways::new(line, &stands_then).connected();
                 let better = best.as_ref().is_none_or(|best| {
                     (connected, -change_mm.abs()) > (best.connected, -best.change_mm.abs())
@@ -53,19 +56,27 @@ fn stride(missing: f64) -> i32 {
     COARSE.max((missing * 500.0) as i32)
 }
 
-/// The first whole millimetre in one direction at which the pair meets, with the machine's geometry there.
-fn first(line: &Line, proposal: usize, node: usize, path: &str, direction: i32) -> Option<(i32, Geometry)> {
-    let geometry = &line.nodes[node].geometry;
-    let (_, present) = geometry.numbers().into_iter().find(|(known, _)| known == path)?;
+/// The first whole millimetre in one direction at which the pair meets, with the machine's placed there.
+fn first(
+    line: &Line,
+    reachable: &Reachable,
+    proposal: usize,
+    node: usize,
+    path: &str,
+    direction: i32,
+) -> Option<(i32, Placed)> {
+    let placed = &line.nodes[node].placed;
+    let mut numbers = placed.numbers().into_iter().enumerate();
+    let (number, (_, present)) = numbers.find(|(_, (known, _))| known == path)?;
     let pair = &line.proposals[proposal];
     // `None` beyond the values that the machine may have.
-    let at = |mm: i32| geometry.with_number(path, changed(present, direction * mm));
-    if at(COARSE).is_some_and(|changed| !poses::matters(line, pair, (node, &changed))) {
+    let at = |mm: i32| placed.with_number(number, changed(present, direction * mm));
+    if at(COARSE).is_some_and(|changed| !reachable.matters(pair, (node, &changed))) {
         return None;
     }
-    let miss = |geometry: &Geometry| poses::first_miss(line, pair, (node, geometry));
+    let miss = |placed: &Placed| reachable.first_miss(pair, (node, placed));
     let mut passed = 0;
-    let mut step = stride(miss(geometry)?);
+    let mut step = stride(miss(placed)?);
     let coarse = loop {
         let next = (passed + step).min(FURTHEST);
         match at(next).map(|changed| miss(&changed)) {
@@ -82,12 +93,18 @@ fn first(line: &Line, proposal: usize, node: usize, path: &str, direction: i32) 
     })
 }
 
-/// Which pairs meet with another geometry of one node; none if an edge is lost.
-fn after(line: &Line, stands: &[bool], node: usize, geometry: &Geometry) -> Option<Vec<bool>> {
+/// Which pairs meet with another placed of one node; none if an edge is lost.
+fn after(
+    line: &Line,
+    reachable: &Reachable,
+    stands: &[bool],
+    node: usize,
+    placed: &Placed,
+) -> Option<Vec<bool>> {
     let mut after = stands.to_vec();
     for (proposal, stood) in line.proposals.iter().zip(&mut after) {
         if proposal.from == node || proposal.to == node {
-            let stands_now = poses::stands(line, proposal, (node, geometry));
+            let stands_now = reachable.stands(proposal, (node, placed));
             if *stood && !stands_now {
                 return None;
             }

@@ -15,10 +15,10 @@ mod tests;
 
 pub use near::Ground;
 
+use crate::device::Placed;
 use crate::diagnostic::Diagnostic;
 use crate::layout::Number;
 use crate::source::Span;
-use runtime_sim::geometry::Geometry;
 use std::collections::BTreeMap;
 
 /// A machine that hands over or takes.
@@ -27,7 +27,7 @@ pub struct Node {
     pub name: String,
     /// Its JSON object.
     pub span: Span,
-    pub geometry: Geometry,
+    pub placed: Placed,
     /// Those numbers of its JSON object that may be changed to mend the layout.
     pub numbers: Vec<Number>,
     /// Items enter the layout here.
@@ -39,7 +39,7 @@ pub struct Node {
 /// Where the passive one of two machines hands over or takes.
 #[derive(Clone, Debug)]
 pub struct Site {
-    /// As in [`Geometry::handover`].
+    /// As in [`Placed::handover`].
     pub name: String,
     pub index: Option<usize>,
     /// At least 1.
@@ -192,7 +192,8 @@ impl Report {
 /// If a proposal names a node that is not there, an arm that is none, or a site that its machine does not have:
 /// types are bound to machines before.
 pub fn check(line: &Line) -> Report {
-    let tested: Vec<poses::Test> = line.proposals.iter().map(|p| poses::test(line, p)).collect();
+    let reachable = poses::Reachable::new(line);
+    let tested: Vec<poses::Test> = line.proposals.iter().map(|p| reachable.test(p)).collect();
     let stands: Vec<bool> = tested.iter().map(|test| test.margin >= 0.0).collect();
     let edges = edges(line, &tested);
     let ways = graph::Ways::new(line, &stands);
@@ -206,7 +207,7 @@ pub fn check(line: &Line) -> Report {
         .enumerate()
         .map(|(number, (proposal, test))| Failure {
             proposal,
-            mend: if number < mended { mend::find(line, &stands, proposal) } else { None },
+            mend: if number < mended { mend::find(line, &reachable, &stands, proposal) } else { None },
             misses: test.misses,
             tested: test.tested,
         })

@@ -1,7 +1,6 @@
 //! Which pairs of machines are worth a closer look.
 
-use runtime_sim::geometry::Geometry;
-use runtime_sim::point::Axis;
+use crate::device::Placed;
 
 /// More than any arm stretches out from its rails and any place lies from its machine's stops: an arm
 /// of UR10 type reaches 1.3 m, its torso stands out by less than 1 m, and a tray is shorter than that, m.
@@ -13,18 +12,8 @@ const STRETCH: f64 = 5.0;
 pub struct Ground([[f64; 2]; 2]);
 
 impl Ground {
-    pub fn of(geometry: &Geometry) -> Self {
-        let pose = geometry.pose();
-        let at = |value: f64| [value, value];
-        Self(match *geometry {
-            Geometry::RailArm { rail_dim: Axis::X, rail_range, .. } => [rail_range, at(pose.y)],
-            Geometry::RailArm { rail_dim: Axis::Y, rail_range, .. } => [at(pose.x), rail_range],
-            Geometry::Gantry { x_rail_range, y_rail_range, .. } => [x_rail_range, y_rail_range],
-            _ => geometry.stops().iter().fold([at(pose.x), at(pose.y)], |[x, y], stop| {
-                let with = |[low, high]: [f64; 2], value: f64| [low.min(value), high.max(value)];
-                [with(x, stop.x), with(y, stop.y)]
-            }),
-        })
+    pub fn of(placed: &Placed) -> Self {
+        Self(placed.ground())
     }
 
     /// Whether one of the two might reach the other. If not, their poses need not be tried.

@@ -2,9 +2,11 @@ use super::*;
 use crate::diagnostic::render;
 use crate::source::Sources;
 use annotate_snippets::Renderer;
-use runtime_sim::kinematics::arm::Arm;
 use runtime_sim::point::{Axis, Point};
 use std::collections::BTreeSet;
+
+#[path = "../../../tests/src/machines.rs"]
+mod machines;
 
 /// A layout with the spans of all its numbers, a line of text for each machine.
 struct Builder {
@@ -31,12 +33,12 @@ impl Builder {
         }
     }
 
-    fn add(&mut self, name: &str, geometry: Geometry) -> usize {
+    fn add(&mut self, name: &str, placed: Placed) -> usize {
         let file = crate::source::FileId(0);
         let start = self.text.len();
         self.text.push_str(name);
         let mut numbers = Vec::new();
-        for (path, value) in geometry.numbers() {
+        for (path, value) in placed.numbers() {
             self.text.push_str(&format!(" {path}: "));
             let at = self.text.len();
             self.text.push_str(&value.to_string());
@@ -44,34 +46,34 @@ impl Builder {
         }
         let span = Span::new(file, start, self.text.len());
         self.text.push('\n');
-        let is_source = matches!(geometry, Geometry::Belt { .. });
-        let is_destination = matches!(geometry, Geometry::Station { .. });
-        self.nodes.push(Node { name: name.into(), span, geometry, numbers, is_source, is_destination });
+        let is_source = placed.device.has("source");
+        let is_destination = placed.device.has("orders");
+        self.nodes.push(Node { name: name.into(), span, placed, numbers, is_source, is_destination });
         self.nodes.len() - 1
     }
 
     fn belt(&mut self, name: &str, x: f64) -> usize {
         let pose = Point::new(x, 0.0, 0.0);
-        self.add(name, Geometry::Belt { pose, orient: Axis::Y, orient_range: [-5.0, 5.0] })
+        self.add(name, machines::belt(pose, Axis::Y, [-5.0, 5.0]))
     }
 
     fn kitting(&mut self, name: &str, half: f64) -> usize {
         let pose = Point::new(-1.3, 0.0, 1.127);
-        self.add(name, Geometry::RailArm { pose, rail_dim: Axis::Y, rail_range: [-half, half] })
+        self.add(name, machines::rail_arm(pose, Axis::Y, [-half, half]))
     }
 
     fn agv(&mut self, name: &str, x: f64, y: f64) -> usize {
         let destinations = [Point::new(-5.6, y, 0.0), Point::new(-10.590274, y, 0.0)];
-        self.add(name, Geometry::Vehicle { pose: Point::new(x, y, 0.0), destinations })
+        self.add(name, machines::vehicle(Point::new(x, y, 0.0), destinations))
     }
 
     fn gantry(&mut self, name: &str) -> usize {
         let pose = Point::new(-4.0, 0.0, 2.0);
-        self.add(name, Geometry::Gantry { pose, x_rail_range: [-14.4, 0.4], y_rail_range: [-4.5, 4.5] })
+        self.add(name, machines::gantry(pose, [-14.4, 0.4], [-4.5, 4.5]))
     }
 
     fn station(&mut self, name: &str, x: f64, y: f64) -> usize {
-        self.add(name, Geometry::Station { pose: Point::new(x, y, 0.0) })
+        self.add(name, machines::station(Point::new(x, y, 0.0)))
     }
 
     fn propose(&mut self, from: usize, to: usize, arm: usize, site: (&str, Option<usize>, f64)) {
@@ -83,10 +85,10 @@ impl Builder {
 
     /// Every pair of types that hand over to each other.
     fn propose_all(&mut self) {
-        let kinds: Vec<&str> = self.nodes.iter().map(|node| node.geometry.device()).collect();
+        let kinds: Vec<String> = self.nodes.iter().map(|node| node.placed.device.name.clone()).collect();
         for (from, a) in kinds.iter().enumerate() {
             for (to, b) in kinds.iter().enumerate() {
-                match (*a, *b) {
+                match (a.as_str(), b.as_str()) {
                     ("belt", "rail_arm") => self.propose(from, to, to, ("pick_zone", None, 0.1)),
                     ("rail_arm", "vehicle") => self.propose(from, to, from, ("stops", Some(0), 0.5)),
                     ("vehicle", "gantry") => self.propose(from, to, to, ("stops", Some(1), 0.1)),
@@ -165,7 +167,8 @@ fn mended(line: &Line, mend: &Mend, short_mm: i32) -> Line {
     let mut line = line.clone();
     let value = mend.present + f64::from(mend.change_mm - mend.change_mm.signum() * short_mm) / 1000.0;
     let node = &mut line.nodes[mend.node];
-    node.geometry = node.geometry.with_number(&mend.path, (value * 1e9).round() / 1e9).unwrap();
+    let number = node.placed.numbers().iter().position(|(path, _)| *path == mend.path).unwrap();
+    node.placed = node.placed.with_number(number, (value * 1e9).round() / 1e9).unwrap();
     line
 }
 
@@ -383,7 +386,7 @@ fn no_mend_that_parts_others() {
 fn gantry_that_reaches_nothing() {
     let mut builder = with(4.8, &default_agvs(), &STATIONS);
     let gantry = &mut builder.nodes[6];
-    gantry.geometry = gantry.geometry.with_number("pose[2]", 5.0).unwrap();
+    gantry.placed = gantry.placed.with_number(2, 5.0).unwrap();
     for number in gantry.numbers.iter_mut().filter(|number| number.path == "pose[2]") {
         number.value = 5.0;
     }
@@ -433,7 +436,7 @@ fn thousand_random_layouts() {
         assert_eq!(report.edges.len() + report.failures.len(), line.proposals.len());
         let mut is_close = false;
         for proposal in &line.proposals {
-            let arm = Arm::from_geometry(&line.nodes[proposal.arm].geometry).unwrap();
+            let arm = line.nodes[proposal.arm].placed.arm().unwrap();
             let tools = tools(&line, proposal);
             is_close |= tools.iter().any(|tool| arm.margin(*tool).abs() < 0.02);
             let solved = tools.iter().filter(|tool| arm.solve(**tool, &arm.start()).is_some()).count();
@@ -442,7 +445,7 @@ fn thousand_random_layouts() {
         close += usize::from(is_close);
         for failure in &report.failures {
             apart += 1;
-            let arm = Arm::from_geometry(&line.nodes[line.proposals[failure.proposal].arm].geometry).unwrap();
+            let arm = line.nodes[line.proposals[failure.proposal].arm].placed.arm().unwrap();
             assert!(!failure.misses.is_empty());
             for miss in &failure.misses {
                 assert!(arm.solve(miss.tool, &arm.start()).is_none());
@@ -470,8 +473,8 @@ fn thousand_random_layouts() {
 /// Poses of the tool, worked out anew.
 fn tools(line: &Line, proposal: &Proposal) -> Vec<Point> {
     let passive = &line.nodes[if proposal.arm == proposal.from { proposal.to } else { proposal.from }];
-    let names: Vec<String> = line.kinds.iter().map(|kind| kind.0.clone()).collect();
-    let places = passive.geometry.handover(&proposal.site.name, proposal.site.index, 12, &names).unwrap();
+    let places =
+        passive.placed.handover(&proposal.site.name, proposal.site.index, 12, line.kinds.len()).unwrap();
     let heights = line.kinds.iter().flat_map(|kind| [kind.1, kind.1 + proposal.site.approach]);
     let heights: Vec<f64> = heights.collect();
     places.iter().flat_map(|place| heights.iter().map(|height| place.point.up(*height))).collect()
@@ -481,7 +484,7 @@ fn check_edges(line: &Line) -> Vec<bool> {
     line.proposals
         .iter()
         .map(|proposal| {
-            let arm = Arm::from_geometry(&line.nodes[proposal.arm].geometry).unwrap();
+            let arm = line.nodes[proposal.arm].placed.arm().unwrap();
             tools(line, proposal).iter().all(|tool| arm.solve(*tool, &arm.start()).is_some())
         })
         .collect()

@@ -211,7 +211,7 @@ impl Executor<'_> {
     }
 
     pub(super) fn port(&self, robot: usize, name: &str) -> i32 {
-        let ports = self.system.automaton_of(robot).device.ports;
+        let ports = &self.system.automaton_of(robot).device.ports;
         match ports.iter().position(|p| p.name == name).map(|p| self.robots[robot].ports[p][0]) {
             Some(Value::Int(i)) => i,
             _ => 0,

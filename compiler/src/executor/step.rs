@@ -131,7 +131,7 @@ impl Executor<'_> {
     }
 
     fn set_port(&mut self, robot: usize, name: &str, value: i32) {
-        let ports = self.system.automaton_of(robot).device.ports;
+        let ports = &self.system.automaton_of(robot).device.ports;
         if let Some(port) = ports.iter().position(|p| p.name == name) {
             self.robots[robot].ports[port][0] = Value::Int(value);
         }

@@ -1,14 +1,14 @@
 //! The layout: which machines there are and where they stand.
 
 pub mod decode;
-mod geometry;
 pub mod json;
+mod machine;
 mod may_touch;
 mod object;
 mod paths;
 mod read;
 
-pub use geometry::{geometry, obstacle};
+pub use machine::{machine, obstacle};
 pub use object::{Object, Part};
 pub use paths::OUTSIDE;
 pub use read::parse;

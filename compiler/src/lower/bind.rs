@@ -1,9 +1,9 @@
 //! Types of the layout to automata of the same name.
 
+use crate::device::Placed;
 use crate::diagnostic::{Diagnostic, MOST, collect, suggestion};
 use crate::ir::{Automaton, Model};
 use crate::layout::{self, Layout, Number, Object, Part};
-use runtime_sim::geometry::Geometry;
 use runtime_sim::line::Obstacle;
 use std::collections::HashMap;
 
@@ -16,7 +16,7 @@ pub struct Bound {
 pub struct Robot {
     pub object: Object,
     pub automaton: String,
-    pub geometry: Geometry,
+    pub placed: Placed,
     pub numbers: Vec<Number>,
 }
 
@@ -26,9 +26,9 @@ pub fn bind(layout: &Layout, model: &Model, diagnostics: &mut Vec<Diagnostic>) -
     for object in &layout.objects {
         let name = automaton_name(&object.kind.value);
         match automata.get(name.as_str()) {
-            Some(automaton) => match layout::geometry(object, automaton.device.name) {
-                Ok((geometry, numbers)) => {
-                    bound.robots.push(Robot { object: object.clone(), automaton: name, geometry, numbers });
+            Some(automaton) => match layout::machine(object, &automaton.device) {
+                Ok((placed, numbers)) => {
+                    bound.robots.push(Robot { object: object.clone(), automaton: name, placed, numbers });
                 }
                 Err(found) => found.into_iter().for_each(|d| collect(diagnostics, d)),
             },

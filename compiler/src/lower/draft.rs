@@ -149,6 +149,10 @@ impl Parts {
             found.diagnostics.append(&mut line.diagnostics);
             return;
         }
+        let Some(machines) = line.machines() else {
+            found.diagnostics.append(&mut line.diagnostics);
+            return;
+        };
         line.parameters(settings);
         let Some(report) = line.connect() else {
             found.diagnostics.append(&mut line.diagnostics);
@@ -177,7 +181,7 @@ impl Parts {
             found.diagnostics.append(&mut line.diagnostics);
             return;
         };
-        let plant = plant::line(&system, &line, bound.obstacles, resolved, layout.scan_ms);
+        let plant = plant::line(&system, &line, bound.obstacles, resolved, layout.scan_ms, machines);
         found.project =
             Some(Project { name: layout.name, system, plant, edges, may_touch: layout.may_touch });
     }

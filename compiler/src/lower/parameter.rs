@@ -94,7 +94,7 @@ impl Line<'_> {
     }
 
     fn constant(&self, robot: usize, parameter: &Parameter) -> Vec<Value> {
-        let words = self.robots[robot].geometry.constant(&parameter.name, &self.heights).unwrap_or_default();
+        let words = self.robots[robot].placed.constant(&parameter.name, &self.heights).unwrap_or_default();
         match parameter.ty.scalar {
             Scalar::Point => words.chunks_exact(3).map(|p| Value::Point([p[0], p[1], p[2]])).collect(),
             Scalar::Bool => words.iter().map(|w| Value::Bool(*w != 0.0)).collect(),

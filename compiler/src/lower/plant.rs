@@ -5,6 +5,7 @@ use crate::diagnostic::Diagnostic;
 use crate::ir::{Clause, Domain, Expr, ExprKind, InterfaceId, Place, RoleKind, State, System};
 use crate::scenario::{self, ResolvedScenario, Scenario};
 use runtime_sim::line;
+use runtime_sim::machine::Machine;
 use std::collections::BTreeSet;
 
 pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec<Diagnostic>> {
@@ -14,13 +15,13 @@ pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec
             .map(|r| (line.robots[r].object.name.value.as_str(), r))
             .collect()
     };
-    let device = |r: usize| line.automaton(r).device.name;
+    let has = |r: usize, primitive: &str| line.automaton(r).device.has(primitive);
     scenario::resolve(
         scenario,
         &scenario::Line {
-            stations: &named(&|r| device(r) == "station"),
-            belts: &named(&|r| device(r) == "belt"),
-            arms: &named(&|r| matches!(device(r), "rail_arm" | "gantry")),
+            stations: &named(&|r| has(r, "orders")),
+            belts: &named(&|r| has(r, "source")),
+            arms: &named(&|r| has(r, "grip")),
             commanded: &named(&|r| line.automaton(r).device.is_commanded()),
         },
     )
@@ -32,6 +33,7 @@ pub fn line(
     obstacles: Vec<line::Obstacle>,
     scenario: ResolvedScenario,
     scan_ms: u32,
+    machines: Vec<Machine>,
 ) -> line::Line {
     let scans = |seconds: f64| (seconds * 1000.0 / f64::from(scan_ms)).round() as u64;
     let arms = arms(system);
@@ -42,11 +44,12 @@ pub fn line(
             .iter()
             .map(|kind| line::Kind { name: kind.name.value.clone(), height: kind.height, size: kind.size })
             .collect(),
-        machines: (0..system.instances.len())
-            .map(|i| line::Machine {
-                name: system.instances[i].name.clone(),
-                geometry: line.robots[i].geometry.clone(),
+        machines: machines
+            .into_iter()
+            .enumerate()
+            .map(|(i, machine)| Machine {
                 states: system.automaton_of(i).states.iter().map(|s| state(system, &arms, i, s)).collect(),
+                ..machine
             })
             .collect(),
         obstacles,

@@ -12,7 +12,7 @@ use crate::ir::{
 use crate::layout::Layout;
 use crate::scenario::Scenario;
 use crate::source::{Span, Spanned};
-use runtime_sim::geometry::SLOTS;
+use runtime_sim::machine::Machine;
 use std::cell::Cell;
 use std::collections::{BTreeSet, HashMap, HashSet};
 
@@ -81,6 +81,18 @@ impl<'a> Line<'a> {
         line
     }
 
+    /// The machines as the simulator takes them, their automata still to come; `None` has been reported.
+    pub fn machines(&mut self) -> Option<Vec<Machine>> {
+        let mut all = Vec::new();
+        for robot in &self.robots {
+            match robot.placed.machine(&robot.object.name.value, &self.heights, robot.object.span) {
+                Ok(machine) => all.push(machine),
+                Err(found) => found.into_iter().for_each(|d| collect(&mut self.diagnostics, d)),
+            }
+        }
+        self.diagnostics.is_empty().then_some(all)
+    }
+
     pub fn automaton_id(&self, robot: usize) -> AutomatonId {
         self.automata[robot]
     }
@@ -118,14 +130,14 @@ impl<'a> Line<'a> {
             Node {
                 name: robot.object.name.value.clone(),
                 span: robot.object.name.span,
-                geometry: robot.geometry.clone(),
+                placed: robot.placed.clone(),
                 numbers: robot.numbers.clone(),
                 is_source: offers && !accepts,
                 is_destination: accepts && !offers,
             }
         });
         let nodes: Vec<Node> = nodes.collect();
-        let ground: Vec<Ground> = self.robots.iter().map(|r| Ground::of(&r.geometry)).collect();
+        let ground: Vec<Ground> = self.robots.iter().map(|r| Ground::of(&r.placed)).collect();
         let near = |arm: usize, passive: usize| ground[arm].is_near(ground[passive]);
         let span = Span::new(self.layout.file, 0, 0);
         let mut line = connect::Line { span, nodes, proposals: Vec::new(), kinds: self.kinds.clone() };
@@ -238,8 +250,8 @@ impl<'a> Line<'a> {
         let handover = automaton.implements[automaton.implementing(role.interface)?].handover.as_ref()?;
         let capacity = automaton.parameters.iter().position(|p| p.name == "capacity");
         let capacity = match capacity.map(|p| &self.values[passive][p][0]) {
-            Some(Value::Int(n)) => (*n).clamp(1, SLOTS as i32) as usize,
-            _ => SLOTS,
+            Some(Value::Int(n)) => (*n).max(1) as usize,
+            _ => usize::MAX,
         };
         Some(Site {
             name: handover.name.clone(),

@@ -9,6 +9,7 @@ pub struct File {
     pub enums: Vec<Enum>,
     pub interfaces: Vec<Interface>,
     pub automata: Vec<Automaton>,
+    pub devices: Vec<Device>,
 }
 
 #[derive(Clone, Debug)]
@@ -80,6 +81,98 @@ pub enum Scalar {
     Time,
     Point,
     Named(Name),
+}
+
+/// A type of machine: its parts, and what they offer a controller.
+#[derive(Clone, Debug)]
+pub struct Device {
+    pub doc: Vec<String>,
+    pub name: Name,
+    /// Its parts are for other devices: it has no I/O of its own.
+    pub is_assembly: bool,
+    pub parameters: Vec<DeviceParameter>,
+    /// Definitions and parts, in their order.
+    pub members: Vec<DeviceMember>,
+    pub requires: Vec<Require>,
+    pub ports: Vec<Port>,
+    pub commands: Vec<Command>,
+    pub constants: Vec<Constant>,
+    pub handovers: Vec<Place>,
+}
+
+#[derive(Clone, Debug)]
+pub struct DeviceParameter {
+    pub doc: Vec<String>,
+    pub name: Name,
+    pub ty: Type,
+    /// What each element of a list is.
+    pub elements: Vec<String>,
+}
+
+#[derive(Clone, Debug)]
+pub enum DeviceMember {
+    Define(Define),
+    Part(Part),
+}
+
+#[derive(Clone, Debug)]
+pub struct Part {
+    pub name: Name,
+    /// A primitive or an assembly.
+    pub kind: Name,
+    pub settings: Vec<(Name, Expr)>,
+}
+
+#[derive(Clone, Debug)]
+pub struct Port {
+    pub doc: Vec<String>,
+    pub direction: runtime_sim::device::Direction,
+    pub name: Name,
+    pub ty: Type,
+    pub unit: String,
+    /// A signal or a level of a part.
+    pub wire: Option<Expr>,
+    /// What is published while the system does not run.
+    pub stop: Option<Expr>,
+}
+
+/// `command 2 pick(goal) = arm.joints(goal) then gripper.holds within 500 ms else 2;`
+#[derive(Clone, Debug)]
+pub struct Command {
+    pub doc: Vec<String>,
+    pub number: Spanned<i64>,
+    pub name: Name,
+    pub arguments: Vec<Name>,
+    pub part: Expr,
+    pub action: Name,
+    pub given: Vec<Name>,
+    pub then: Option<Await>,
+}
+
+#[derive(Clone, Debug)]
+pub struct Await {
+    pub signal: Expr,
+    pub within: Expr,
+    pub error: Expr,
+}
+
+#[derive(Clone, Debug)]
+pub struct Constant {
+    pub doc: Vec<String>,
+    pub name: Name,
+    pub ty: Type,
+    pub unit: String,
+    pub value: Expr,
+}
+
+/// Where items change hands.
+#[derive(Clone, Debug)]
+pub struct Place {
+    pub name: Name,
+    /// Number of places, if one of several is meant by an index.
+    pub extent: Option<Expr>,
+    /// A point or a list of points, and what each is called.
+    pub points: Vec<(Expr, Spanned<String>)>,
 }
 
 #[derive(Clone, Debug)]
@@ -316,6 +409,8 @@ pub enum ExprKind {
     Name(String),
     Member(Box<Expr>, Name),
     Index(Box<Expr>, Box<Expr>),
+    /// In devices only.
+    List(Vec<Expr>),
     Call(Name, Vec<Expr>),
     Not(Box<Expr>),
     Negate(Box<Expr>),

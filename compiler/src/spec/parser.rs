@@ -4,6 +4,7 @@
 
 mod automaton;
 mod declaration;
+mod device;
 mod expression;
 mod limits;
 mod state;
@@ -58,6 +59,9 @@ pub fn parse_within(file: FileId, text: &str, left: &mut usize) -> (ast::File, V
     (tree, parser.diagnostics)
 }
 
+/// Words that begin an item of a file.
+const ITEMS: [&str; 5] = ["enum", "interface", "automaton", "device", "assembly"];
+
 pub(super) struct Parser {
     tokens: Vec<(Token, Span)>,
     position: usize,
@@ -85,17 +89,18 @@ impl Parser {
                 Some("enum") => file.enums.extend(self.parse_enum(doc)),
                 Some("interface") => file.interfaces.extend(self.parse_interface(doc)),
                 Some("automaton") => file.automata.extend(self.parse_automaton(doc)),
+                Some("device" | "assembly") => file.devices.extend(self.parse_device(doc)),
                 _ if *self.peek() == Token::End => return file,
                 _ => {
                     let found = self.found();
                     let near = match self.peek() {
-                        Token::Word(w) => suggestion(w, ["enum", "interface", "automaton"]),
+                        Token::Word(w) => suggestion(w, ITEMS),
                         _ => None,
                     };
-                    let help = near
-                        .map_or("a file holds `enum`, `interface` and `automaton`".to_string(), |w| {
-                            format!("is `{w}` meant?")
-                        });
+                    let help = near.map_or(
+                        "a file holds `enum`, `interface`, `automaton`, `device` and `assembly`".to_string(),
+                        |w| format!("is `{w}` meant?"),
+                    );
                     self.error("E0204", format!("{found} cannot begin an item"), help);
                     self.recover_to_item();
                 }
@@ -164,7 +169,7 @@ impl Parser {
                 Token::End => return,
                 Token::Sign("{") => depth += 1,
                 Token::Sign("}") => depth = depth.saturating_sub(1),
-                Token::Word(w) if depth == 0 && ["enum", "interface", "automaton"].contains(&w.as_str()) => {
+                Token::Word(w) if depth == 0 && ITEMS.contains(&w.as_str()) => {
                     return;
                 }
                 _ => {}
@@ -313,8 +318,7 @@ impl Parser {
 
     /// Whether an item of a file begins here.
     fn at_item(&self) -> bool {
-        matches!(self.word(), Some("enum" | "interface" | "automaton"))
-            && matches!(self.peek_second(), Token::Word(_))
+        self.word().is_some_and(|word| ITEMS.contains(&word)) && matches!(self.peek_second(), Token::Word(_))
     }
 
     /// What stands here, for a message.

@@ -2,15 +2,15 @@
 
 use super::body::{Ball, Piece};
 use super::lever::{Chain, Levers, Room};
-use crate::geometry::Geometry;
 use crate::kinematics::arm::{Arm, Frames, Joints};
 use crate::kinematics::pose::Pose;
 use crate::line::{Line, Obstacle};
+use crate::machine::Machine;
 use crate::motion::Motion;
 use crate::plant::Plant;
 use crate::plant::course::Course;
 use crate::point::Point;
-use crate::solid::{self, Link, Solid};
+use crate::solid::{Link, Solid};
 
 /// Solids that keep their places to one another.
 #[derive(Clone, Debug)]
@@ -35,7 +35,8 @@ pub enum Anchor {
     World,
     /// An index into the frames of the arm.
     Link(usize),
-    Vehicle,
+    /// Along the route.
+    Route,
     /// Lies on the machine; the frame has its origin at the underside of the item and is turned by so many radians.
     Lying {
         item: usize,
@@ -60,7 +61,7 @@ pub struct Group {
 #[expect(clippy::large_enum_variant)] // a dozen of them in all
 pub enum Kind {
     Obstacle,
-    Machine { index: usize, geometry: Geometry },
+    Machine { index: usize, machine: Machine },
     Arm { index: usize, arm: Arm, chain: Chain },
 }
 
@@ -83,13 +84,12 @@ enum Movement {
 
 impl Group {
     pub fn of_machine(line: &Line, index: usize) -> Self {
-        let geometry = line.machines[index].geometry.clone();
-        let solids = solid::solids(&geometry);
-        let kind = match Arm::from_geometry(&geometry) {
-            Some(arm) => Kind::Arm { index, arm, chain: Chain::new(&arm, &geometry) },
-            None => Kind::Machine { index, geometry },
+        let machine = &line.machines[index];
+        let kind = match machine.arm() {
+            Some(arm) => Kind::Arm { index, arm, chain: Chain::new(&arm, machine) },
+            None => Kind::Machine { index, machine: machine.clone() },
         };
-        Self::new(line.machines[index].name.clone(), kind, solids)
+        Self::new(machine.name.clone(), kind, machine.solids())
     }
 
     pub fn of_obstacle(obstacle: &Obstacle) -> Self {
@@ -104,10 +104,10 @@ impl Group {
             let anchor = match solids[0].link {
                 Link::World => Anchor::World,
                 Link::Joint(link) => Anchor::Link(link),
-                Link::Vehicle => Anchor::Vehicle,
+                Link::Route => Anchor::Route,
             };
             let pieces =
-                solids.iter().map(|solid| Piece::new(solid.name.into(), &solid.pose, solid.shape)).collect();
+                solids.iter().map(|solid| Piece::new(solid.name.clone(), &solid.pose, solid.shape)).collect();
             group.bodies.push(Some(group.body(anchor, pieces, Room::around)));
         }
         group
@@ -120,7 +120,7 @@ impl Group {
             (Anchor::Link(link), Kind::Arm { chain, .. }) => {
                 (Some(chain.levers(link, &ball)), chain.room(link, &ball))
             }
-            (Anchor::Vehicle, Kind::Machine { geometry, .. }) => (None, at_stops(geometry, &ball)),
+            (Anchor::Route, Kind::Machine { machine, .. }) => (None, at_stops(machine, &ball)),
             _ => (None, still(&ball)),
         };
         Body { anchor, pieces, ball, room, levers, path: self.path, rate: 0.0 }
@@ -129,10 +129,10 @@ impl Group {
     /// Adds an item that comes to lie or to hang here; the number of its body.
     pub fn add_item(&mut self, anchor: Anchor, piece: Piece, plant: &Plant) -> usize {
         let body = match (anchor, &self.kind) {
-            (Anchor::Lying { item, .. }, Kind::Machine { index, geometry }) => {
+            (Anchor::Lying { item, .. }, Kind::Machine { index, machine }) => {
                 let place = plant.place(item).unwrap_or_default();
                 let offset = place - plant.position(*index).unwrap_or_default();
-                self.body(anchor, vec![piece], |ball| lying(geometry, ball, place, offset))
+                self.body(anchor, vec![piece], |ball| lying(machine, ball, place, offset))
             }
             _ => self.body(anchor, vec![piece], Room::around),
         };
@@ -163,7 +163,7 @@ impl Group {
         let number = |body: &Body| match body.anchor {
             Anchor::World => Some(0),
             Anchor::Link(link) => Some(link + 1),
-            Anchor::Vehicle | Anchor::Lying { .. } => None,
+            Anchor::Route | Anchor::Lying { .. } => None,
         };
         let (Some(a), Some(b)) = (number(a), number(b)) else { return true };
         // Neighbours and their neighbours always touch.
@@ -230,7 +230,7 @@ impl Group {
         match anchor {
             Anchor::World => Pose::IDENTITY,
             Anchor::Link(link) => self.frames(plant, time).map_or(Pose::IDENTITY, |frames| frames[link]),
-            Anchor::Vehicle => {
+            Anchor::Route => {
                 let place = self.machine().and_then(|index| plant.position(index)).unwrap_or_default();
                 Pose { position: place + self.movement.shift(time), ..Pose::IDENTITY }
             }
@@ -281,19 +281,20 @@ impl Movement {
 }
 
 /// What a vehicle's body takes at all of its stops and between them.
-fn at_stops(geometry: &Geometry, ball: &Ball) -> Room {
-    let rooms = geometry.stops().into_iter().map(|stop| Room::around(&ball.shifted(stop)));
+fn at_stops(machine: &Machine, ball: &Ball) -> Room {
+    let rooms = machine.stops().iter().map(|stop| Room::around(&ball.shifted(*stop)));
     rooms.reduce(|a, b| a.with(&b)).unwrap_or(Room::around(ball))
 }
 
 /// What an item can take that lies at `place`, at `offset` from the machine's position.
-fn lying(geometry: &Geometry, ball: &Ball, place: Point, offset: Point) -> Room {
+fn lying(machine: &Machine, ball: &Ball, place: Point, offset: Point) -> Room {
     let here = Room::around(&ball.shifted(place));
-    match geometry {
-        Geometry::Vehicle { .. } => at_stops(geometry, &ball.shifted(offset)),
-        Geometry::Belt { orient, orient_range: [low, _], .. } => {
-            here.with(&Room::around(&ball.shifted(place.with_coordinate(*orient, *low))))
+    match (machine.route(), machine.lane()) {
+        (Some(_), _) => at_stops(machine, &ball.shifted(offset)),
+        (None, Some(lane)) => {
+            let end = place.with_coordinate(lane.along, lane.range[0]);
+            here.with(&Room::around(&ball.shifted(end)))
         }
-        _ => here,
+        (None, None) => here,
     }
 }

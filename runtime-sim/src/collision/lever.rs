@@ -1,8 +1,8 @@
 //! How far the joints of an arm can carry what is fixed to its links.
 
 use super::body::Ball;
-use crate::geometry::Geometry;
 use crate::kinematics::arm::{Arm, Frames, Joints, MOST_JOINTS};
+use crate::machine::Machine;
 use crate::point::Point;
 use std::f64::consts::PI;
 
@@ -50,7 +50,7 @@ pub struct Chain {
 }
 
 impl Chain {
-    pub fn new(arm: &Arm, geometry: &Geometry) -> Self {
+    pub fn new(arm: &Arm, machine: &Machine) -> Self {
         let start = arm.start();
         let frames = arm.frames(&start);
         let at =
@@ -63,7 +63,7 @@ impl Chain {
             let on_axis = (there - here).length() < 1e-9;
             turns.then(|| if on_axis { here } else { frames[joint - 1].position })
         });
-        Self { pivots: pivots.collect(), frames, ends: ends(arm, geometry, &start) }
+        Self { pivots: pivots.collect(), frames, ends: ends(arm, machine, &start) }
     }
 
     /// The link that bears the tool.
@@ -105,13 +105,8 @@ impl Chain {
     }
 }
 
-fn ends(arm: &Arm, geometry: &Geometry, start: &Joints) -> Vec<Frames> {
-    let at = |places: &[f64]| arm.frames(&start.map(|i, value| places.get(i).copied().unwrap_or(value)));
-    match *geometry {
-        Geometry::RailArm { rail_range: [low, high], .. } => vec![at(&[low]), at(&[high])],
-        Geometry::Gantry { x_rail_range: [x0, x1], y_rail_range: [y0, y1], .. } => {
-            vec![at(&[x0, y0]), at(&[x1, y1])]
-        }
-        _ => vec![arm.frames(start)],
-    }
+fn ends(arm: &Arm, machine: &Machine, start: &Joints) -> Vec<Frames> {
+    let ranges: Vec<[f64; 2]> = machine.axes().iter().map_while(|(_, axis)| axis.range()).collect();
+    let at = |end: usize| arm.frames(&start.map(|i, value| ranges.get(i).map_or(value, |range| range[end])));
+    vec![at(0), at(1)]
 }

@@ -165,7 +165,7 @@ impl Watch {
         let tracked = &mut self.items[item];
         // Gripped from a little above or below, a part is drawn up to the gripper's face.
         let place = match to {
-            Carrier::Gripper { machine, .. } => {
+            Carrier::Grip { machine, .. } => {
                 let tool = plant.position(machine).unwrap_or(place);
                 Point { z: tool.z - tracked.size.z, ..place }
             }
@@ -173,7 +173,7 @@ impl Watch {
         };
         let lies = Pose::turned(place, tracked.turn);
         let (anchor, frame) = match (to, &group.kind) {
-            (Carrier::Gripper { .. }, Kind::Arm { chain, .. }) => {
+            (Carrier::Grip { .. }, Kind::Arm { chain, .. }) => {
                 tracked.hang = group.link_now(chain.last(), plant).inverse().then(&lies);
                 (Anchor::Link(chain.last()), tracked.hang)
             }

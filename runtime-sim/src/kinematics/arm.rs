@@ -4,9 +4,9 @@ use super::gantry::{self, Gantry, Stance};
 use super::nearest_turn;
 use super::pose::Pose;
 use super::rail_arm::{self, RailArm};
-use crate::geometry::Geometry;
-use crate::point::Point;
-use std::f64::consts::FRAC_PI_4;
+use crate::part::axis::{Axis, Motion};
+use crate::part::chain::Chain;
+use crate::point::{self, Point};
 use std::ops::Deref;
 
 /// Most joints that a robot has.
@@ -35,18 +35,21 @@ pub struct Limits {
     pub acceleration: Joints,
 }
 
+/// A chain and the axes that carry it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Arm {
-    Rail(RailArm),
-    Gantry(Gantry),
+pub struct Arm {
+    solver: Solver,
+    limits: Limits,
 }
 
-/// Rails and torso of both robots, joints of the UR10 (`joint_limits.yaml` and the robots' descriptions, ARIAC 2021).
-const RAIL_VELOCITY: f64 = 1.0;
-const TORSO_VELOCITY: f64 = FRAC_PI_4;
-const UR10_VELOCITY: [f64; 6] = [2.16, 2.16, 3.15, 3.2, 3.2, 3.2];
-/// What MoveIt takes for joints without a limit (`iterative_time_parameterization.cpp`, DEFAULT_ACCEL_MAX).
-const ACCELERATION: f64 = 1.0;
+/// The inverse kinematics, in closed form.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Solver {
+    /// Upright on one rail.
+    Rail(RailArm),
+    /// Sideways at a torso that turns, on two rails that cross.
+    Gantry(Gantry),
+}
 
 impl Joints {
     /// # Panics
@@ -113,33 +116,55 @@ impl Limits {
 }
 
 impl Arm {
-    /// The robot of a machine; none if the machine is no robot.
-    pub fn from_geometry(geometry: &Geometry) -> Option<Self> {
-        match *geometry {
-            Geometry::RailArm { pose, rail_dim, rail_range } => {
-                Some(Arm::Rail(RailArm::new(pose, rail_dim, rail_range)))
-            }
-            Geometry::Gantry { pose, x_rail_range, y_rail_range } => {
-                Some(Arm::Gantry(Gantry::new(pose, x_rail_range, y_rail_range)))
-            }
-            _ => None,
+    /// `axes` carry the chain, the first one first. None if there is no closed form for it.
+    pub fn new(axes: &[&Axis], chain: &Chain) -> Option<Self> {
+        let solver = match axes.iter().map(|axis| axis.motion).collect::<Vec<_>>()[..] {
+            [Motion::Slides { along, range }] => Solver::Rail(RailArm::new(axes[0].at, along, range)),
+            [
+                Motion::Slides { along: point::Axis::X, range: x },
+                Motion::Slides { along: point::Axis::Y, range: y },
+                Motion::Turns,
+            ] => Solver::Gantry(Gantry::new(axes[0].at, x, y)),
+            _ => return None,
+        };
+        let velocities: Vec<f64> =
+            axes.iter().map(|axis| axis.speed).chain(chain.speeds.iter().copied()).collect();
+        let velocity = Joints::new(&velocities);
+        let acceleration =
+            velocity.map(|i, _| axes.get(i).map_or(chain.acceleration, |axis| axis.acceleration));
+        Some(Self { solver, limits: Limits { velocity, acceleration } })
+    }
+
+    /// Its two rails and its torso, if it has them.
+    pub fn gantry(&self) -> Option<&Gantry> {
+        match &self.solver {
+            Solver::Gantry(gantry) => Some(gantry),
+            Solver::Rail(_) => None,
+        }
+    }
+
+    /// The frame of the chain's base in that of the axis that carries it.
+    pub fn mount(&self) -> Pose {
+        match self.solver {
+            Solver::Rail(_) => Pose::IDENTITY,
+            Solver::Gantry(_) => gantry::MOUNT,
         }
     }
 
     /// How far the wrist stays within its reach when the tool, pointing down, is at a place; negative out of reach, m.
     pub fn margin(&self, tool: Point) -> f64 {
-        match self {
-            Arm::Rail(arm) => arm.margin(tool),
-            Arm::Gantry(arm) => arm.margin(tool),
+        match &self.solver {
+            Solver::Rail(arm) => arm.margin(tool),
+            Solver::Gantry(arm) => arm.margin(tool),
         }
     }
 
     /// Joints for a place of the tool, near `from`; some exactly when [`Self::margin`] is not negative.
     /// A part on the tool keeps its direction: the last joint turns back what the others turn.
     pub fn solve(&self, tool: Point, from: &Joints) -> Option<Joints> {
-        let joints = match self {
-            Arm::Rail(arm) => arm.solve(tool, &from.array()).map(|joints| Joints::new(&joints)),
-            Arm::Gantry(arm) => arm.solve(tool, &from.array()).map(|joints| Joints::new(&joints)),
+        let joints = match &self.solver {
+            Solver::Rail(arm) => arm.solve(tool, &from.array()).map(|joints| Joints::new(&joints)),
+            Solver::Gantry(arm) => arm.solve(tool, &from.array()).map(|joints| Joints::new(&joints)),
         }?;
         Some(self.with_direction_of(from, joints))
     }
@@ -159,9 +184,9 @@ impl Arm {
     /// Joints for a place of the tool at this stance, near `from`; a part keeps its direction. None where the limits
     /// forbid it, and for a robot without a torso.
     pub fn solve_stance(&self, tool: Point, stance: &Stance, from: &Joints) -> Option<Joints> {
-        match self {
-            Arm::Rail(_) => None,
-            Arm::Gantry(arm) => {
+        match &self.solver {
+            Solver::Rail(_) => None,
+            Solver::Gantry(arm) => {
                 let joints = Joints::new(&arm.solve_stance(tool, stance, &from.array())?);
                 Some(self.with_direction_of(from, joints))
             }
@@ -171,37 +196,37 @@ impl Arm {
     /// Joints for a place of the tool with rails, torso and the direction of the wrist as they are; none where the
     /// reach forbids it, and for a robot without a torso.
     pub fn solve_standing(&self, tool: Point, from: &Joints) -> Option<Joints> {
-        match self {
-            Arm::Rail(_) => None,
-            Arm::Gantry(arm) => arm.solve_standing(tool, &from.array()).map(|joints| Joints::new(&joints)),
+        match &self.solver {
+            Solver::Rail(_) => None,
+            Solver::Gantry(arm) => arm.solve_standing(tool, &from.array()).map(|joints| Joints::new(&joints)),
         }
     }
 
     /// Joints for a place of the tool, straight under the shoulder, with the torso at exactly this turn (rad);
     /// none where the limits forbid it, and for a robot without a torso.
     pub fn solve_turned(&self, tool: Point, turn: f64, from: &Joints) -> Option<Joints> {
-        match self {
-            Arm::Rail(_) => None,
-            Arm::Gantry(arm) => arm.solve_turned(tool, turn, &from.array()).map(|j| Joints::new(&j)),
+        match &self.solver {
+            Solver::Rail(_) => None,
+            Solver::Gantry(arm) => arm.solve_turned(tool, turn, &from.array()).map(|j| Joints::new(&j)),
         }
     }
 
     pub fn has_torso(&self) -> bool {
-        matches!(self, Arm::Gantry(_))
+        self.gantry().is_some()
     }
 
     pub fn tool_pose(&self, joints: &Joints) -> Pose {
-        match self {
-            Arm::Rail(arm) => arm.tool_pose(&joints.array::<{ rail_arm::JOINTS }>()),
-            Arm::Gantry(arm) => arm.tool_pose(&joints.array::<{ gantry::JOINTS }>()),
+        match &self.solver {
+            Solver::Rail(arm) => arm.tool_pose(&joints.array::<{ rail_arm::JOINTS }>()),
+            Solver::Gantry(arm) => arm.tool_pose(&joints.array::<{ gantry::JOINTS }>()),
         }
     }
 
     /// Pose of the link behind each joint, world frame, in the order of the joints; the last is the tool's.
     pub fn frames(&self, joints: &Joints) -> Frames {
-        match self {
-            Arm::Rail(arm) => Frames::new(&arm.frames(&joints.array())),
-            Arm::Gantry(arm) => Frames::new(&arm.frames(&joints.array())),
+        match &self.solver {
+            Solver::Rail(arm) => Frames::new(&arm.frames(&joints.array())),
+            Solver::Gantry(arm) => Frames::new(&arm.frames(&joints.array())),
         }
     }
 
@@ -211,19 +236,13 @@ impl Arm {
 
     /// Joints to start from, the tool pointing down.
     pub fn start(&self) -> Joints {
-        match self {
-            Arm::Rail(arm) => Joints::new(&arm.start()),
-            Arm::Gantry(arm) => Joints::new(&arm.start()),
+        match &self.solver {
+            Solver::Rail(arm) => Joints::new(&arm.start()),
+            Solver::Gantry(arm) => Joints::new(&arm.start()),
         }
     }
 
     pub fn limits(&self) -> Limits {
-        let mut velocity = match self {
-            Arm::Rail(_) => vec![RAIL_VELOCITY],
-            Arm::Gantry(_) => vec![RAIL_VELOCITY, RAIL_VELOCITY, TORSO_VELOCITY],
-        };
-        velocity.extend(UR10_VELOCITY);
-        let velocity = Joints::new(&velocity);
-        Limits { velocity, acceleration: velocity.map(|_, _| ACCELERATION) }
+        self.limits
     }
 }

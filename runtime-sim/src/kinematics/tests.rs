@@ -6,7 +6,8 @@ use super::pose::Pose;
 use super::rail_arm::RailArm;
 use super::random::Random;
 use super::ur10::{self, D1};
-use crate::geometry::Geometry;
+use crate::part::axis::Motion;
+use crate::part::chain::Chain;
 use crate::point::{Axis, Point};
 use std::f64::consts::{PI, TAU};
 
@@ -327,15 +328,55 @@ fn assert_links(frames: &[Pose], first: usize) {
     }
 }
 
+fn axis(at: Point, motion: Motion) -> crate::part::axis::Axis {
+    let word = String::new();
+    let link = word.clone();
+    let (speed, acceleration, mass, effort, damping, friction) = (1.0, 1.0, 1.0, 1.0, 0.0, 0.0);
+    crate::part::axis::Axis {
+        on: None,
+        at,
+        motion,
+        speed,
+        acceleration,
+        joint: word,
+        link,
+        mass,
+        effort,
+        damping,
+        friction,
+    }
+}
+
+fn chain() -> Chain {
+    let (numbers, names) = (vec![1.0; 6], vec![String::new(); 6]);
+    Chain {
+        on: 0,
+        rest: Point::default(),
+        speeds: numbers.clone(),
+        acceleration: 1.0,
+        joints: names.clone(),
+        links: names,
+        masses: numbers.clone(),
+        efforts: numbers.clone(),
+        damping: numbers.clone(),
+        friction: numbers,
+        envelope: None,
+        clearances: Vec::new(),
+    }
+}
+
 #[test]
 fn links_keep_their_lengths_and_end_at_the_tool() {
     let mut random = Random::new(11);
     for rail in [Axis::X, Axis::Y] {
-        let geometry = Geometry::RailArm { pose: KITTING, rail_dim: rail, rail_range: [-4.8, 4.8] };
-        assert_arm(&Arm::from_geometry(&geometry).unwrap(), 7, &mut random);
+        let rail = axis(KITTING, Motion::Slides { along: rail, range: [-4.8, 4.8] });
+        assert_arm(&Arm::new(&[&rail], &chain()).unwrap(), 7, &mut random);
     }
-    let geometry = Geometry::Gantry { pose: ABOVE, x_rail_range: [-14.4, 0.4], y_rail_range: [-4.5, 4.5] };
-    assert_arm(&Arm::from_geometry(&geometry).unwrap(), 9, &mut random);
+    let x = axis(ABOVE, Motion::Slides { along: Axis::X, range: [-14.4, 0.4] });
+    let y = axis(ABOVE, Motion::Slides { along: Axis::Y, range: [-4.5, 4.5] });
+    let torso = axis(ABOVE, Motion::Turns);
+    assert_arm(&Arm::new(&[&x, &y, &torso], &chain()).unwrap(), 9, &mut random);
+    assert!(Arm::new(&[&y, &x, &torso], &chain()).is_none());
 }
 
 fn assert_arm(arm: &Arm, count: usize, random: &mut Random) {

@@ -1,7 +1,7 @@
 //! Whether a line can be run at all.
 
-use super::{Line, Machine, Obstacle};
-use crate::geometry::Geometry;
+use super::{Line, Obstacle};
+use crate::machine::Machine;
 use crate::point::Point;
 
 /// Scans that a telegram may be late.
@@ -30,7 +30,7 @@ impl Line {
         }
         for machine in &self.machines {
             check_name("machine", &machine.name)?;
-            check_geometry(machine)?;
+            machine.check().map_err(|error| format!("{}: {error}", machine.name))?;
             for state in &machine.states {
                 check_name("state", &state.name)?;
                 for &owner in &state.awaits {
@@ -73,8 +73,8 @@ impl Line {
         for (number, order) in (1..).zip(&scenario.orders) {
             for (i, &index) in order.stations.iter().enumerate() {
                 let station = self.machine(index, "an order")?;
-                if !matches!(station.geometry, Geometry::Station { .. }) {
-                    return Err(format!("an order at {}, which is no station", station.name));
+                if !station.has_orders() {
+                    return Err(format!("an order at {}, which has no terminal", station.name));
                 }
                 if order.stations[..i].contains(&index) {
                     return Err(format!("order {number} names {} twice", station.name));
@@ -89,8 +89,8 @@ impl Line {
         }
         for (i, supply) in scenario.supply.iter().enumerate() {
             let belt = self.machine(supply.belt, "the supply")?;
-            if !matches!(belt.geometry, Geometry::Belt { .. }) {
-                return Err(format!("a supply of {}, which is no belt", belt.name));
+            if !belt.has_source() {
+                return Err(format!("a supply of {}, which has no source", belt.name));
             }
             if scenario.supply[..i].iter().any(|other| other.belt == supply.belt) {
                 return Err(format!("two supplies of {}", belt.name));
@@ -101,7 +101,7 @@ impl Line {
         }
         for slip in &scenario.slips {
             let arm = self.machine(slip.machine, "a slip")?;
-            if !matches!(arm.geometry, Geometry::RailArm { .. } | Geometry::Gantry { .. }) {
+            if !arm.has_grip() {
                 return Err(format!("a slip of {}, which has no gripper", arm.name));
             }
             if !(0.0..=LONGEST_TIME).contains(&slip.after_s) {
@@ -139,26 +139,5 @@ fn check_obstacle(obstacle: &Obstacle) -> Result<(), String> {
             Err(format!("a length of the box of {} is no positive number within 1000 km", obstacle.name))
         }
         _ => Ok(()),
-    }
-}
-
-fn check_geometry(machine: &Machine) -> Result<(), String> {
-    let points = |list: &[Point]| list.iter().all(is_near);
-    let range = |[low, high]: [f64; 2]| low.abs() <= 1e6 && high.abs() <= 1e6 && low <= high;
-    let sound = points(&[machine.geometry.pose()])
-        && points(&machine.geometry.stops())
-        && match machine.geometry {
-            Geometry::Belt { orient_range, .. } => range(orient_range),
-            Geometry::RailArm { rail_range, .. } => range(rail_range),
-            Geometry::Gantry { x_rail_range, y_rail_range, .. } => range(x_rail_range) && range(y_rail_range),
-            Geometry::Vehicle { .. } | Geometry::Station { .. } | Geometry::Bin { .. } => true,
-        };
-    if sound {
-        Ok(())
-    } else {
-        Err(format!(
-            "a coordinate of {} is no number within 1000 km, or a range is in the wrong order",
-            machine.name
-        ))
     }
 }

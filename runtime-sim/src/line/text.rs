@@ -1,10 +1,13 @@
 //! The text form of a line: words between white space, an entry on each line.
 
 use std::fmt::Write;
+use std::sync::Arc;
 
-use super::{IoDelay, Kind, Line, Machine, Obstacle, Order, Pause, Refusal, Scenario, Slip, State, Supply};
-use crate::geometry::Geometry;
-use crate::point::{Axis, Point};
+use super::{IoDelay, Kind, Line, Obstacle, Order, Pause, Refusal, Scenario, Slip, State, Supply};
+use crate::machine::Machine;
+use crate::part::Part;
+use crate::point::Point;
+use crate::wiring::Wiring;
 use crate::words::Words;
 
 impl Line {
@@ -15,7 +18,7 @@ impl Line {
             out.push_str(entry.trim_end());
             out.push('\n');
         };
-        put("line 1".into());
+        put("line 2".into());
         put(format!("scan_ms {}", self.scan_ms));
         put(match self.io_delay {
             IoDelay::Fixed(scans) => format!("io_delay fixed {scans}"),
@@ -26,9 +29,28 @@ impl Line {
             let [x, y] = kind.size;
             put(format!("  {} {:?} {x:?} {y:?}", kind.name, kind.height));
         }
+        let mut devices: Vec<&Wiring> = Vec::new();
+        for machine in &self.machines {
+            if !devices.contains(&machine.wiring.as_ref()) {
+                devices.push(&machine.wiring);
+            }
+        }
+        put(format!("devices {}", devices.len()));
+        for wiring in &devices {
+            let mut text = String::new();
+            wiring.write(&mut text);
+            put(text);
+        }
         put(format!("machines {}", self.machines.len()));
         for machine in &self.machines {
-            put(format!("  {} {}", machine.name, geometry_text(&machine.geometry)));
+            let device = devices.iter().position(|wiring| **wiring == *machine.wiring).unwrap_or(0);
+            put(format!("  {} {device} {}", machine.name, point_text(machine.pose)));
+            put(format!("    parts {}", machine.parts.len()));
+            for part in &machine.parts {
+                let mut text = String::new();
+                part.write(&mut text);
+                put(format!("      {text}"));
+            }
             put(format!("    states {}", machine.states.len()));
             for state in &machine.states {
                 let activity = if state.working { "working" } else { "waiting" };
@@ -89,7 +111,7 @@ impl Line {
     /// Reads the text form, and leaves what follows it.
     pub fn read(words: &mut Words) -> Result<Line, String> {
         words.expect("line")?;
-        words.expect("1")?;
+        words.expect("2")?;
         words.expect("scan_ms")?;
         let scan_ms = words.int()?;
         words.expect("io_delay")?;
@@ -101,8 +123,10 @@ impl Line {
         words.expect("kinds")?;
         let kinds = words
             .list(|w| Ok(Kind { name: w.name()?.into(), height: w.real()?, size: [w.real()?, w.real()?] }))?;
+        words.expect("devices")?;
+        let devices = words.list(|w| Ok(Arc::new(Wiring::read(w)?)))?;
         words.expect("machines")?;
-        let machines = words.list(read_machine)?;
+        let machines = words.list(|w| read_machine(w, &devices))?;
         words.expect("obstacles")?;
         let obstacles = words.list(read_obstacle)?;
         words.expect("may_touch")?;
@@ -121,40 +145,19 @@ fn list<T: std::fmt::Display>(values: &[T]) -> String {
     text
 }
 
-fn geometry_text(geometry: &Geometry) -> String {
-    let device = geometry.device();
-    let pose = point_text(geometry.pose());
-    match geometry {
-        Geometry::Belt { orient, orient_range: [low, high], .. } => {
-            format!("{device} {pose} {} {low:?} {high:?}", axis_text(*orient))
-        }
-        Geometry::Vehicle { destinations: [near, far], .. } => {
-            format!("{device} {pose} {} {}", point_text(*near), point_text(*far))
-        }
-        Geometry::RailArm { rail_dim, rail_range: [low, high], .. } => {
-            format!("{device} {pose} {} {low:?} {high:?}", axis_text(*rail_dim))
-        }
-        Geometry::Gantry { x_rail_range: [x0, x1], y_rail_range: [y0, y1], .. } => {
-            format!("{device} {pose} {x0:?} {x1:?} {y0:?} {y1:?}")
-        }
-        Geometry::Station { .. } | Geometry::Bin { .. } => format!("{device} {pose}"),
-    }
-}
-
 fn point_text(point: Point) -> String {
     format!("{:?} {:?} {:?}", point.x, point.y, point.z)
 }
 
-fn axis_text(axis: Axis) -> &'static str {
-    match axis {
-        Axis::X => "x",
-        Axis::Y => "y",
-    }
-}
-
-fn read_machine(words: &mut Words) -> Result<Machine, String> {
+fn read_machine(words: &mut Words, devices: &[Arc<Wiring>]) -> Result<Machine, String> {
     let name = words.name()?.into();
-    let geometry = read_geometry(words)?;
+    let device: usize = words.int()?;
+    let Some(wiring) = devices.get(device).cloned() else {
+        return Err(words.error(format_args!("device {device} is not there")));
+    };
+    let pose = read_point(words)?;
+    words.expect("parts")?;
+    let parts = words.list(|w| Ok(Arc::new(Part::read(w)?)))?;
     words.expect("states")?;
     let states = words.list(|w| {
         let name = w.name()?.into();
@@ -165,24 +168,7 @@ fn read_machine(words: &mut Words) -> Result<Machine, String> {
         };
         Ok(State { name, working, awaits: w.list(|w| w.int())? })
     })?;
-    Ok(Machine { name, geometry, states })
-}
-
-fn read_geometry(words: &mut Words) -> Result<Geometry, String> {
-    let device = words.name()?;
-    let unknown = words.error(format_args!("`{device}` is no device"));
-    let pose = read_point(words)?;
-    Ok(match device {
-        "belt" => Geometry::Belt { pose, orient: read_axis(words)?, orient_range: read_range(words)? },
-        "vehicle" => Geometry::Vehicle { pose, destinations: [read_point(words)?, read_point(words)?] },
-        "rail_arm" => Geometry::RailArm { pose, rail_dim: read_axis(words)?, rail_range: read_range(words)? },
-        "gantry" => {
-            Geometry::Gantry { pose, x_rail_range: read_range(words)?, y_rail_range: read_range(words)? }
-        }
-        "station" => Geometry::Station { pose },
-        "bin" => Geometry::Bin { pose },
-        _ => return Err(unknown),
-    })
+    Ok(Machine { name, pose, parts, wiring, states })
 }
 
 fn read_obstacle(words: &mut Words) -> Result<Obstacle, String> {
@@ -198,18 +184,6 @@ fn read_obstacle(words: &mut Words) -> Result<Obstacle, String> {
 
 fn read_point(words: &mut Words) -> Result<Point, String> {
     Ok(Point::new(words.real()?, words.real()?, words.real()?))
-}
-
-fn read_range(words: &mut Words) -> Result<[f64; 2], String> {
-    Ok([words.real()?, words.real()?])
-}
-
-fn read_axis(words: &mut Words) -> Result<Axis, String> {
-    match words.name()? {
-        "x" => Ok(Axis::X),
-        "y" => Ok(Axis::Y),
-        other => Err(words.error(format_args!("`{other}` is no axis"))),
-    }
 }
 
 fn read_scenario(words: &mut Words) -> Result<Scenario, String> {

@@ -25,7 +25,7 @@ impl Recorder {
     pub fn new(line: &Line) -> Self {
         let items: usize = line.scenario.supply.iter().map(|supply| supply.items.len()).sum();
         Self {
-            arms: line.machines.iter().map(|machine| Arm::from_geometry(&machine.geometry)).collect(),
+            arms: line.machines.iter().map(|machine| machine.arm()).collect(),
             courses: vec![Course::Rests; line.machines.len()],
             read: 0,
             paths: vec![Path::default(); items],
@@ -119,7 +119,7 @@ fn laws(
             }
             laws
         }
-        (Course::Swings(motion), Some(arm), Carrier::Gripper { hang, .. }) => {
+        (Course::Swings(motion), Some(arm), Carrier::Grip { hang, .. }) => {
             let rests_s = motion.rests_at();
             let hanging = Hanging { arm, motion, hang };
             let rest = Law::Rests(hanging.place(rests_s));

@@ -1,49 +1,94 @@
-//! The head of every commanded device: numbered commands and their answers.
+//! The head of every commanded machine: numbered commands and their answers.
 
-use super::image::{in_head, out, point};
 use crate::device::error;
-use crate::point::Point;
+use crate::wiring::{Await, Command, Drives, Source, Wiring};
+use std::sync::Arc;
 
-/// The last command of a device, and its answer.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Command {
+/// The last command of a machine, and its answer.
+#[derive(Clone, Debug)]
+pub struct Head {
+    wiring: Arc<Wiring>,
+    /// Where in the image of the outputs they stand.
+    cmd: usize,
+    verb: usize,
+    hold: usize,
     got: i32,
     ack: i32,
     error: i32,
     accepted: u32,
+    /// Halted on the path.
+    pub held: bool,
     /// Which commands to refuse, counted from 1.
     refusals: Vec<u32>,
+    task: Option<Task>,
 }
 
-/// What the outputs of a scan ask of a device.
+/// A command under way.
+#[derive(Clone, Copy, Debug)]
+struct Task {
+    /// Its number among those of the wiring.
+    command: usize,
+    /// The action has ended, and a signal is awaited for so long.
+    waited_ms: Option<u64>,
+}
+
+/// What the outputs of a scan ask of a machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Asked {
     /// Nothing new.
     Nothing,
-    /// The verb with this number; the command before it is void.
-    Start(i32),
-    /// A command came and was refused; the command before it is void.
+    /// The command with this number among those of the wiring; the one before it is void.
+    Start(usize),
+    /// A command came and was refused; the one before it is void.
     Refused,
 }
 
-impl Command {
-    pub fn new(refusals: Vec<u32>) -> Self {
-        Self { got: 0, ack: 0, error: error::NONE, accepted: 0, refusals }
+impl Head {
+    /// None for a machine without commands.
+    pub fn new(wiring: &Arc<Wiring>, kinds: usize, refusals: Vec<u32>) -> Option<Self> {
+        wiring.is_commanded().then_some(())?;
+        let at = |drives| wiring.output_at(drives, kinds);
+        Some(Self {
+            cmd: at(Drives::Command)?,
+            verb: at(Drives::Verb)?,
+            hold: at(Drives::Hold)?,
+            wiring: wiring.clone(),
+            got: 0,
+            ack: 0,
+            error: error::NONE,
+            accepted: 0,
+            held: false,
+            refusals,
+            task: None,
+        })
     }
 
     /// Takes a command if the number is new. Number 0 is no command.
     pub fn accept(&mut self, outputs: &[f64]) -> Asked {
-        let number = outputs[out::CMD] as i32;
+        let number = outputs[self.cmd] as i32;
         if number == self.got || number == 0 {
             return Asked::Nothing;
         }
         self.got = number;
         self.accepted = self.accepted.saturating_add(1);
-        if self.refusals.contains(&self.accepted) {
-            self.end(error::REFUSED);
-            return Asked::Refused;
+        let verb = outputs[self.verb] as i32;
+        let known = self.wiring.commands.iter().position(|command| command.number == verb);
+        match known.filter(|_| !self.refusals.contains(&self.accepted)) {
+            Some(command) => Asked::Start(command),
+            None => {
+                self.end(error::REFUSED);
+                Asked::Refused
+            }
         }
-        Asked::Start(outputs[out::VERB] as i32)
+    }
+
+    pub fn is_held_by(&self, outputs: &[f64]) -> bool {
+        outputs[self.hold] != 0.0
+    }
+
+    /// The command has begun.
+    pub fn start(&mut self, command: usize) {
+        self.task = Some(Task { command, waited_ms: None });
     }
 
     pub fn is_under_way(&self) -> bool {
@@ -52,23 +97,50 @@ impl Command {
 
     /// Answers the command under way: reached (0), or why not.
     pub fn end(&mut self, error: i32) {
+        self.task = None;
         self.ack = self.got;
         self.error = error;
     }
 
-    pub fn write(&self, image: &mut [f64]) {
-        image[in_head::READY] = 1.0;
-        image[in_head::GOT] = f64::from(self.got);
-        image[in_head::ACK] = f64::from(self.ack);
-        image[in_head::ERROR] = f64::from(self.error);
+    /// The command whose action is under way.
+    pub fn acting(&self) -> Option<&Command> {
+        let task = self.task.filter(|task| task.waited_ms.is_none())?;
+        self.wiring.commands.get(task.command)
     }
-}
 
-/// The argument `goal` of a command.
-pub fn goal(outputs: &[f64]) -> Point {
-    point(outputs, out::GOAL)
-}
+    /// The part on which a command is under way.
+    pub fn part_at_work(&self) -> Option<usize> {
+        Some(self.wiring.commands.get(self.task?.command)?.part)
+    }
 
-pub fn is_held(outputs: &[f64]) -> bool {
-    outputs[out::HOLD] != 0.0
+    /// The action of the command under way has ended well.
+    pub fn reach(&mut self) {
+        match (self.acting().and_then(|command| command.then), &mut self.task) {
+            (Some(_), Some(task)) => task.waited_ms = Some(0),
+            _ => self.end(error::NONE),
+        }
+    }
+
+    /// What is awaited, and for how long it has been.
+    pub fn awaits(&self) -> Option<(Await, u64)> {
+        let task = self.task?;
+        Some((self.wiring.commands.get(task.command)?.then?, task.waited_ms?))
+    }
+
+    pub fn wait(&mut self, dt_ms: u64) {
+        if let Some(Task { waited_ms: Some(waited), .. }) = &mut self.task {
+            *waited += dt_ms;
+        }
+    }
+
+    /// A word of the head's inputs; none for a signal of a part.
+    pub fn word(&self, source: Source) -> Option<f64> {
+        match source {
+            Source::Ready => Some(1.0),
+            Source::Got => Some(f64::from(self.got)),
+            Source::Ack => Some(f64::from(self.ack)),
+            Source::Error => Some(f64::from(self.error)),
+            Source::Signal { .. } => None,
+        }
+    }
 }

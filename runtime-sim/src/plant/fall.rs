@@ -1,18 +1,18 @@
 //! Where an item comes to rest that nothing holds any more.
 
-use super::Machine;
+use super::Plant;
 use crate::carrier::Carrier;
 use crate::point::Point;
 
-/// An item that is let go at most so far below a surface lies on it: the reach of a contact, twice.
-const SINK: f64 = 2.0 * super::gripper::CONTACT;
+/// An item that is let go at most so far below a surface lies on it: the reach of a contact, twice, m.
+const SINK: f64 = 0.01;
 
 /// The highest surface under `point`, or the floor, and where the item then rests. It stays there however
 /// deep it fell. Items do not lie on one another.
-pub fn fall(machines: &[Machine], point: Point) -> (Carrier, Point) {
+pub fn fall(plant: &Plant, point: Point) -> (Carrier, Point) {
     let mut lands: Option<(f64, Carrier)> = None;
-    for (index, machine) in machines.iter().enumerate() {
-        let Some((height, carrier)) = machine.below(index, point) else { continue };
+    for machine in &plant.machines {
+        let Some((height, carrier)) = machine.below(point, &plant.items, &plant.desk) else { continue };
         if height <= point.z + SINK && lands.is_none_or(|(highest, _)| height > highest) {
             lands = Some((height, carrier));
         }

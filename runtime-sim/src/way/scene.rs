@@ -2,12 +2,14 @@
 
 use super::plane::{Block, Rectangle};
 use crate::collision::body::{Ball, Piece, Placed};
-use crate::geometry::{Geometry, SLOTS, bin_offset, briefcase_offset, slot_offset};
 use crate::kinematics::arm::{Arm, Joints};
 use crate::kinematics::pose::Pose;
 use crate::line::{Kind, Line};
+use crate::machine::Machine;
+use crate::part::axis::Motion;
+use crate::part::place::Place;
 use crate::point::{Axis, Point};
-use crate::solid::{self, Link, Shape, Solid};
+use crate::solid::{Link, Shape, Solid};
 use std::cell::OnceCell;
 
 /// A link of the robot with all that is fixed to it.
@@ -64,14 +66,6 @@ struct AroundAxis {
     radius: f64,
 }
 
-/// Of [`crate::solid`]: the torso with its tray, no point of it farther from the axis than 0.598 m; and the shoulder
-/// of the arm, none farther than 0.782 m.
-const AROUND_AXIS: [AroundAxis; 2] = [
-    AroundAxis { heights: [-0.765, 0.85], radius: 0.63 },
-    AroundAxis { heights: [-0.103, 0.103], radius: 0.8 },
-];
-/// Half of the room across its rail that an arm on a rail needs for itself, and its height over the shoulder, m.
-const RAIL_ARM: (f64, f64) = (0.35, 0.7);
 /// Links with so many joints between them or more may meet.
 const FREE: usize = 3;
 /// A tool is over a place if it is no farther from it than this, m.
@@ -82,23 +76,29 @@ const OVER: f64 = 0.05;
 impl Scene {
     /// What the machine of this number has around it; none if it is no gantry.
     pub fn of(line: &Line, index: usize) -> Option<Self> {
-        let own = &line.machines.get(index)?.geometry;
-        let Geometry::Gantry { pose, .. } = *own else { return None };
-        let arm = Arm::from_geometry(own)?;
+        let own = line.machines.get(index)?;
+        let arm = own.arm()?;
+        arm.gantry()?;
+        let shoulder = own.axes().first()?.1.at.z;
+        let around = own.chain()?.clearances.iter();
+        let around: Vec<AroundAxis> =
+            around.map(|&[low, high, radius]| AroundAxis { heights: [low, high], radius }).collect();
         let others = || {
             let machines = line.machines.iter().enumerate().filter(|(other, _)| *other != index);
-            machines.map(|(_, machine)| &machine.geometry)
+            machines.map(|(_, machine)| machine)
         };
         let obstacles = line.obstacles.iter().filter_map(|o| o.solid()).map(|solid| vec![solid]);
         let boxes: Vec<Vec<Solid>> = others().flat_map(standing).chain(obstacles).collect();
         let passing: Vec<Vec<Solid>> = others().flat_map(passing).collect();
         let all = boxes.iter().chain(&passing);
-        let blocks = all.flat_map(|solids| AROUND_AXIS.map(|part| part.keeps_off(pose.z, solids)));
+        let blocks = all.flat_map(|solids| {
+            around.iter().map(|part| part.keeps_off(shoulder, solids)).collect::<Vec<_>>()
+        });
         let blocks: Vec<Block> = blocks.flatten().collect();
         let standing = boxes.iter().flatten();
         let largest = |value: fn(&Kind) -> f64| line.kinds.iter().map(value).fold(0.0, f64::max);
         let size = Point::new(largest(|k| k.size[0]), largest(|k| k.size[1]), largest(|k| k.height));
-        let tallest = standing.clone().map(top).filter(|top| *top < pose.z).fold(0.0, f64::max);
+        let tallest = standing.clone().map(top).filter(|top| *top < shoulder).fold(0.0, f64::max);
         let standing: Vec<Standing> = standing.map(Standing::new).collect();
         let load = Pose { position: Point::new(0.0, 0.0, size.z / 2.0 + 0.001), ..Pose::IDENTITY };
         let members = members(own);
@@ -227,13 +227,13 @@ impl<'a> Located<'a> {
     }
 }
 
-fn members(geometry: &Geometry) -> Vec<Member> {
-    let mut solids = solid::solids(geometry);
+fn members(machine: &Machine) -> Vec<Member> {
+    let mut solids = machine.solids();
     solids.sort_by_key(|solid| solid.link);
     let links = solids.chunk_by(|a, b| a.link == b.link).filter_map(|solids| {
         let Link::Joint(link) = solids[0].link else { return None };
         let pieces: Vec<Piece> =
-            solids.iter().map(|s| Piece::new(s.name.to_string(), &s.pose, s.shape)).collect();
+            solids.iter().map(|s| Piece::new(s.name.clone(), &s.pose, s.shape)).collect();
         let balls: Vec<Ball> = pieces.iter().map(Piece::ball).collect();
         Some(Member { link, pieces, ball: Ball::around(&balls) })
     });
@@ -246,37 +246,37 @@ fn shifted(solids: &[Solid], by: Point) -> Vec<Solid> {
 }
 
 /// The room that a vehicle takes on its way from its first stop to the second, in groups that stand together.
-fn passing(geometry: &Geometry) -> Vec<Vec<Solid>> {
-    let Geometry::Vehicle { pose, destinations: [near, _] } = *geometry else { return Vec::new() };
-    let way = near - pose;
+fn passing(machine: &Machine) -> Vec<Vec<Solid>> {
+    let [start, near, ..] = *machine.stops() else { return Vec::new() };
+    let way = near - start;
     let steps = (way.length() / STEP).ceil().max(1.0);
-    let solids = solid::solids(geometry);
-    let on_the_way = (0..=steps as u32).map(|i| shifted(&solids, pose + way.scaled(f64::from(i) / steps)));
+    let solids = machine.solids();
+    let on_the_way = (0..=steps as u32).map(|i| shifted(&solids, start + way.scaled(f64::from(i) / steps)));
     // Along an axis of the world all of it is one rectangle from above.
     if way.x == 0.0 || way.y == 0.0 { vec![on_the_way.flatten().collect()] } else { on_the_way.collect() }
 }
 
 /// The room that a machine may take while the gantry works, in groups that stand together: a vehicle at each of its
 /// stops, an arm along its rail.
-fn standing(geometry: &Geometry) -> Vec<Vec<Solid>> {
-    let solids = solid::solids(geometry);
-    match *geometry {
-        Geometry::Vehicle { .. } => geometry.stops().iter().map(|stop| shifted(&solids, *stop)).collect(),
-        Geometry::RailArm { pose, rail_dim, rail_range: [low, high] } => {
-            let (half, height) = RAIL_ARM;
-            let long = high - low + 2.0 * half;
-            let middle = (high + low) / 2.0;
-            let tall = pose.z + height;
-            let (position, size) = match rail_dim {
-                Axis::X => (Point::new(middle, pose.y, tall / 2.0), Point::new(long, 2.0 * half, tall)),
-                Axis::Y => (Point::new(pose.x, middle, tall / 2.0), Point::new(2.0 * half, long, tall)),
-            };
-            let pose = Pose { position, ..Pose::IDENTITY };
-            vec![vec![Solid { name: "rail_arm", link: Link::World, pose, shape: Shape::Box { size } }]]
-        }
-        Geometry::Gantry { .. } => Vec::new(),
-        Geometry::Belt { .. } | Geometry::Station { .. } | Geometry::Bin { .. } => vec![solids],
+fn standing(machine: &Machine) -> Vec<Vec<Solid>> {
+    let solids = machine.solids();
+    if machine.route().is_some() {
+        return machine.stops().iter().map(|stop| shifted(&solids, *stop)).collect();
     }
+    let Some(chain) = machine.chain() else { return vec![solids] };
+    let Some([half, height]) = chain.envelope else { return Vec::new() };
+    let Some((_, axis)) = machine.axes().first().copied() else { return Vec::new() };
+    let Motion::Slides { along, range: [low, high] } = axis.motion else { return Vec::new() };
+    let long = high - low + 2.0 * half;
+    let middle = (high + low) / 2.0;
+    let tall = axis.at.z + height;
+    let (position, size) = match along {
+        Axis::X => (Point::new(middle, axis.at.y, tall / 2.0), Point::new(long, 2.0 * half, tall)),
+        Axis::Y => (Point::new(axis.at.x, middle, tall / 2.0), Point::new(2.0 * half, long, tall)),
+    };
+    let pose = Pose { position, ..Pose::IDENTITY };
+    let shape = Shape::Box { size };
+    vec![vec![Solid { name: "envelope".into(), link: Link::World, pose, shape, grips: false }]]
 }
 
 /// A vehicle on its way is taken at places so far apart: less than what passes between them is thick, m.
@@ -314,21 +314,25 @@ fn places(line: &Line) -> Vec<Places> {
     let Some(highest) = line.kinds.iter().max_by(|a, b| a.height.total_cmp(&b.height)) else {
         return Vec::new();
     };
-    let slots = |at: Point, offset: fn(usize) -> Point| Places {
-        all: (0..SLOTS).map(|i| part(highest, at + offset(i))).collect(),
-        order: Order::FirstToLast,
-    };
-    let of = |geometry: &Geometry| match geometry {
-        Geometry::Vehicle { .. } => {
-            geometry.stops().into_iter().map(|stop| slots(stop, slot_offset)).collect()
+    let of_place = |at: Point, place: &Place| {
+        let slots = place.slots.iter();
+        if place.by_kind {
+            let slots = slots.zip(&line.kinds);
+            Places { all: slots.map(|(slot, kind)| part(kind, at + *slot)).collect(), order: Order::Any }
+        } else {
+            Places { all: slots.map(|slot| part(highest, at + *slot)).collect(), order: Order::FirstToLast }
         }
-        Geometry::Bin { pose } => vec![slots(*pose, bin_offset)],
-        Geometry::Station { pose } => {
-            let kinds = line.kinds.iter().enumerate();
-            let all = kinds.map(|(i, kind)| part(kind, *pose + briefcase_offset(i))).collect();
-            vec![Places { all, order: Order::Any }]
-        }
-        Geometry::Belt { .. } | Geometry::RailArm { .. } | Geometry::Gantry { .. } => Vec::new(),
     };
-    line.machines.iter().flat_map(|machine| of(&machine.geometry)).collect()
+    let of = |machine: &Machine| -> Vec<Places> {
+        let stops = machine.stops();
+        let at_all = |place: &Place| -> Vec<Places> {
+            if place.route.is_some() {
+                stops.iter().map(|stop| of_place(*stop, place)).collect()
+            } else {
+                vec![of_place(place.at, place)]
+            }
+        };
+        machine.places().flat_map(at_all).collect()
+    };
+    line.machines.iter().flat_map(of).collect()
 }

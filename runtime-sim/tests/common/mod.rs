@@ -1,9 +1,12 @@
 //! A small line, and controllers that follow a written list of steps.
 #![allow(dead_code)] // each test file uses a part of it
 
+#[path = "../../../tests/src/machines.rs"]
+pub mod machines;
+
+use machines::{belt, bin, gantry, machine, rail_arm, station, vehicle};
 use runtime_sim::device::LAST_COMMAND;
-use runtime_sim::geometry::Geometry;
-use runtime_sim::line::{IoDelay, Kind, Line, Machine, Order, Scenario, State, Supply};
+use runtime_sim::line::{IoDelay, Kind, Line, Order, Scenario, State, Supply};
 use runtime_sim::plant::{self, Plant};
 use runtime_sim::point::{Axis, Point};
 use runtime_sim::scan::{Controllers, SystemInputs, SystemOutputs};
@@ -26,7 +29,6 @@ pub const PUMP_HEIGHT: f64 = 0.11;
 /// Belt, kitting robot, vehicle, gantry, station and bin of the default line; one order of a battery and a
 /// pump, which the belt brings in this order.
 pub fn line() -> Line {
-    let machine = |name: &str, geometry: Geometry| Machine { name: name.into(), geometry, states: vec![] };
     Line {
         scan_ms: 10,
         kinds: vec![
@@ -34,39 +36,12 @@ pub fn line() -> Line {
             Kind { name: "pump".into(), height: PUMP_HEIGHT, size: [0.11, 0.11] },
         ],
         machines: vec![
-            machine(
-                "belt",
-                Geometry::Belt {
-                    pose: Point::new(-0.573076, 0.0, 0.0),
-                    orient: Axis::Y,
-                    orient_range: [-5.0, 5.0],
-                },
-            ),
-            machine(
-                "kitting",
-                Geometry::RailArm {
-                    pose: Point::new(-1.3, 0.0, 1.127),
-                    rail_dim: Axis::Y,
-                    rail_range: [-4.8, 4.8],
-                },
-            ),
-            machine(
-                "agv",
-                Geometry::Vehicle {
-                    pose: START,
-                    destinations: [NEAR, Point::new(-10.590274, 1.367643, 0.0)],
-                },
-            ),
-            machine(
-                "gantry",
-                Geometry::Gantry {
-                    pose: Point::new(-4.0, 0.0, 2.0),
-                    x_rail_range: [-14.4, 0.4],
-                    y_rail_range: [-4.5, 4.5],
-                },
-            ),
-            machine("as1", Geometry::Station { pose: Point::new(-7.3, 3.0, 0.0) }),
-            machine("bin", Geometry::Bin { pose: Point::new(-1.899, 2.565, 0.0) }),
+            machine("belt", &belt(Point::new(-0.573076, 0.0, 0.0), Axis::Y, [-5.0, 5.0])),
+            machine("kitting", &rail_arm(Point::new(-1.3, 0.0, 1.127), Axis::Y, [-4.8, 4.8])),
+            machine("agv", &vehicle(START, [NEAR, Point::new(-10.590274, 1.367643, 0.0)])),
+            machine("gantry", &gantry(Point::new(-4.0, 0.0, 2.0), [-14.4, 0.4], [-4.5, 4.5])),
+            machine("as1", &station(Point::new(-7.3, 3.0, 0.0))),
+            machine("bin", &bin(Point::new(-1.899, 2.565, 0.0))),
         ],
         obstacles: vec![],
         // The scripts go straight from place to place.
@@ -350,13 +325,14 @@ pub fn unload(kind: usize, slot: Point, place: Point) -> Vec<Step> {
 
 /// Everything that it takes to make the order of [`line`].
 pub fn whole_order() -> Vec<Step> {
-    use runtime_sim::geometry::{briefcase_offset, slot_offset};
+    let slots = |machine: usize| line().machines[machine].places().next().unwrap().slots.clone();
+    let (tray, case) = (slots(AGV), slots(STATION));
     let station = Point::new(-7.3, 3.0, 0.0);
-    let mut steps = load(BATTERY, slot_offset(0));
-    steps.extend(load(PUMP, slot_offset(1)));
+    let mut steps = load(BATTERY, tray[0]);
+    steps.extend(load(PUMP, tray[1]));
     steps.extend([Step::Command(AGV, MOVE, Some(NEAR)), Step::Done(AGV)]);
-    steps.extend(unload(BATTERY, slot_offset(0), station + briefcase_offset(0)));
-    steps.extend(unload(PUMP, slot_offset(1), station + briefcase_offset(1)));
+    steps.extend(unload(BATTERY, tray[0], station + case[0]));
+    steps.extend(unload(PUMP, tray[1], station + case[1]));
     steps.push(Step::Write(STATION, output::COMPLETE, 1.0));
     steps.push(Step::Until(STATION, input::ORDER_OPEN, 0.0));
     steps.push(Step::Write(STATION, output::COMPLETE, 0.0));

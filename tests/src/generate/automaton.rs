@@ -3,12 +3,16 @@
 use super::lot::Lot;
 use super::world::{Extent, Finite, Named, Rule, Ty, World, declaration};
 use super::writer::{Caution, Stage, Writer};
-use runtime_sim::device::{DEVICES, Device, Direction, PortType};
+use autogen::device::Device;
+use autogen::library;
+use runtime_sim::device::{Direction, PortType};
 use std::fmt::Write;
+use std::sync::Arc;
 
 /// An automaton of this name.
 pub fn automaton(lot: &mut Lot, world: &World, name: &str) -> String {
-    let device = lot.pick(DEVICES);
+    let devices = library::devices();
+    let device = lot.pick(&devices);
     let own = match lot.below(5) {
         0 => vec!["Post", "Shelf"],
         1 => vec!["Post"],
@@ -20,11 +24,11 @@ pub fn automaton(lot: &mut Lot, world: &World, name: &str) -> String {
 
 /// One that has every interface, so that each has a member.
 pub fn anchor(lot: &mut Lot, world: &World) -> String {
-    let device = Device::find("vehicle").expect("a device of the table");
-    text(lot, world, "Anchor", device, &["Shelf", "Post"])
+    let device = library::device("vehicle").expect("a device of the library");
+    text(lot, world, "Anchor", &device, &["Shelf", "Post"])
 }
 
-fn text(lot: &mut Lot, world: &World, name: &str, device: &'static Device, own: &[&str]) -> String {
+fn text(lot: &mut Lot, world: &World, name: &str, device: &Arc<Device>, own: &[&str]) -> String {
     let mut declarations = Vec::new();
     let mut names = of_device(device);
     for interface in own.iter().filter_map(|i| world.interface(i)) {
@@ -46,7 +50,7 @@ fn text(lot: &mut Lot, world: &World, name: &str, device: &'static Device, own: 
     let mut writer = Writer {
         lot,
         world,
-        device,
+        device: device.clone(),
         names,
         own: own.iter().map(|o| o.to_string()).chain([name.to_string()]).collect(),
         roles: roles.iter().map(|(_, name, of)| (name.clone(), of.clone())).collect(),
@@ -78,7 +82,7 @@ fn text(lot: &mut Lot, world: &World, name: &str, device: &'static Device, own: 
     out + "}\n"
 }
 
-fn of_device(device: &'static Device) -> Vec<Named> {
+fn of_device(device: &Device) -> Vec<Named> {
     let named = |name: &str, ty: PortType, extent: runtime_sim::device::Extent, rule, finite| Named {
         name: name.into(),
         ty: match ty {
@@ -96,14 +100,14 @@ fn of_device(device: &'static Device) -> Vec<Named> {
         finite,
     };
     let ports = device.ports.iter().map(|port| {
-        let is_of_commands = ["cmd", "verb", "hold"].contains(&port.name)
+        let is_of_commands = ["cmd", "verb", "hold"].contains(&port.name.as_str())
             || device.verbs.iter().any(|verb| verb.arguments.contains(&port.name));
         let is_written = port.direction == Direction::Output && !is_of_commands;
         let rule = if is_written { Rule::Owner } else { Rule::Fixed };
-        named(port.name, port.ty, port.extent, rule, Finite::Perhaps)
+        named(&port.name, port.ty, port.extent, rule, Finite::Perhaps)
     });
     let constants =
-        device.constants.iter().map(|c| named(c.name, c.ty, c.extent, Rule::Fixed, Finite::Always));
+        device.constants.iter().map(|c| named(&c.name, c.ty, c.extent, Rule::Fixed, Finite::Always));
     ports.chain(constants).collect()
 }
 
@@ -189,7 +193,7 @@ fn roles(lot: &mut Lot, _name: &str, device: &Device) -> Vec<(&'static str, Stri
     if lot.one_in(2) {
         roles.push(("knows", "both".into(), vec!["Shelf".into(), "Post".into()]));
     }
-    if matches!(device.name, "rail_arm" | "gantry") {
+    if device.is_arm() {
         roles.push(("takes from", "sources".into(), shelf()));
         roles.push(("hands to", "sinks".into(), shelf()));
     }

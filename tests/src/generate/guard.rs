@@ -100,6 +100,6 @@ impl Writer<'_> {
             "bin" => &["exists s in shelves: s.bell", "count(shelves) = count s in shelves: not s.open"],
             _ => &["ready", "attached", "not attached", "got = 0", "tool.y >= 0"],
         };
-        self.lot.pick(of(self.device.name)).to_string()
+        self.lot.pick(of(&self.device.name)).to_string()
     }
 }

@@ -30,13 +30,14 @@ impl Writer<'_> {
     }
 
     pub fn command(&mut self) -> String {
-        let verb = self.lot.pick(self.device.verbs);
+        let device = self.device.clone();
+        let verb = self.lot.pick(&device.verbs);
         let types: Vec<Ty> = (verb.arguments.iter())
             .filter_map(|argument| self.names.iter().find(|n| n.name == *argument))
             .map(|port| port.ty.clone())
             .collect();
         let arguments: Vec<String> = types.iter().map(|ty| self.value(ty, 2)).collect();
-        let name = if verb.name == "move" && self.lot.one_in(4) { "goto" } else { verb.name };
+        let name = if verb.name == "move" && self.lot.one_in(4) { "goto" } else { &verb.name };
         format!(" {name}({});", arguments.join(", "))
     }
 

@@ -21,7 +21,7 @@ pub enum Stage {
 pub struct Writer<'a> {
     pub lot: &'a mut Lot,
     pub world: &'a World,
-    pub device: &'static runtime_sim::device::Device,
+    pub device: std::sync::Arc<autogen::device::Device>,
     /// Own names.
     pub names: Vec<Named>,
     /// Interfaces of this automaton, for `self`.

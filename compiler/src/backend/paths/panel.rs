@@ -3,7 +3,7 @@
 use super::outline::{Dot, simplified};
 use super::track::Track;
 use crate::backend::footprint::{self, Shape};
-use runtime_sim::line::Machine;
+use runtime_sim::machine::Machine;
 use runtime_sim::point::Point;
 
 /// From where the paths are seen.
@@ -162,7 +162,7 @@ impl Panel {
     /// What a machine takes of the floor, and its name beside it.
     pub fn machine(&mut self, machine: &Machine) {
         let mut beside = None;
-        for (shape, class) in footprint::shapes(&machine.geometry) {
+        for (shape, class) in footprint::shapes(machine) {
             match (shape, class) {
                 (Shape::Rectangle { .. }, "range") | (Shape::Circle { .. }, _) => {}
                 (Shape::Rectangle { centre, size }, _) => {

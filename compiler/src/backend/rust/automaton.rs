@@ -4,9 +4,10 @@ use super::context::{Context, doc};
 use super::format;
 use super::render;
 use super::walk::Uses;
+use crate::device::Port;
 use crate::ir::{Extent, RoleKind, Scalar, Type, Value};
 use askama::Template;
-use runtime_sim::device::{Direction, Port, PortType, Stop};
+use runtime_sim::device::{Direction, PortType, Stop};
 
 #[derive(Template)]
 #[template(path = "rust/controllers/automaton.rs")]
@@ -46,7 +47,7 @@ struct Field {
 pub fn module(context: &Context) -> String {
     let automaton = context.automaton();
     let names = context.own();
-    let device = automaton.device;
+    let device = &automaton.device;
     let ports = |direction: Direction| {
         device.ports.iter().zip(&names.ports).filter(move |(p, _)| p.direction == direction)
     };
@@ -94,7 +95,7 @@ pub fn module(context: &Context) -> String {
             .zip(&names.verbs)
             .map(|(v, name)| Field {
                 initial: v.number.to_string(),
-                ..plain(doc(&[sentence(v.meaning)]), name)
+                ..plain(doc(&[sentence(&v.meaning)]), name)
             })
             .collect(),
         locals: automaton

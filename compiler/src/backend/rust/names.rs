@@ -227,8 +227,8 @@ fn automaton_names(
         states: source.states.iter().map(|s| states.take(camel(&s.name))).collect(),
         methods: source.states.iter().map(|s| method_of(&mut methods, &s.name)).collect(),
         choices: source.states.iter().map(|s| choices(s, &mut methods)).collect(),
-        ports: source.device.ports.iter().map(|p| ports.take(snake(p.name))).collect(),
-        verbs: source.device.verbs.iter().map(|v| verbs.take(camel(v.name))).collect(),
+        ports: source.device.ports.iter().map(|p| ports.take(snake(&p.name))).collect(),
+        verbs: source.device.verbs.iter().map(|v| verbs.take(camel(&v.name))).collect(),
         variables: variables(source),
     }
 }

@@ -37,7 +37,7 @@ impl Context<'_> {
                 }
             }
             UpdateKind::Command { verb, arguments } => {
-                let device = self.automaton().device;
+                let device = &self.automaton().device;
                 let mut text = String::new();
                 for argument in arguments {
                     let place = self.place(&Place::Port { port: argument.port, index: None });

@@ -4,10 +4,9 @@ use super::inertia::{Inertial, inertial};
 use super::number;
 use super::shape::{Shape, shapes};
 use askama::Template;
-use runtime_sim::geometry::Geometry;
 use runtime_sim::kinematics::pose::Pose;
 use runtime_sim::point::Point;
-use runtime_sim::solid::{Solid, solids};
+use runtime_sim::solid::Solid;
 
 #[derive(Template)]
 #[template(path = "sdf/model.sdf")]
@@ -67,28 +66,14 @@ pub struct Axis {
     pub friction: String,
 }
 
-/// Friction of the belt's surface (`conveyor_belt/model.sdf`, ARIAC 2021).
-const BELT_FRICTION: f64 = 1.0;
-/// Of the vehicle and of its tray (`warehouse_robot_ariac/model.sdf`, `kit_tray_ariac/model.sdf`), kg.
-const VEHICLE_MASS: f64 = 50.0 + 1.0;
-
 impl Model {
-    /// A belt: its surface has friction.
-    pub fn belt(name: String, pose: Point, solids: &[Solid], colour: &'static str) -> Self {
-        Self::standing(name, pose, solids, Some(BELT_FRICTION), colour)
-    }
-
     /// Something that does not move. The solids are in the world's frame, the model stands at `pose`.
-    pub fn fixed(name: String, pose: Point, solids: &[Solid], colour: &'static str) -> Self {
-        Self::standing(name, pose, solids, None, colour)
-    }
-
-    fn standing(
+    pub fn standing(
         name: String,
         pose: Point,
         solids: &[Solid],
         friction: Option<f64>,
-        colour: &'static str,
+        colour: &str,
     ) -> Self {
         let from_pose = |solid: &Solid| {
             let mut solid = solid.clone();
@@ -119,18 +104,17 @@ impl Model {
         }
     }
 
-    /// A vehicle at its start, free to be moved.
-    pub fn vehicle(name: String, geometry: &Geometry, colour: &'static str) -> Self {
-        let solids = solids(geometry);
+    /// A vehicle of so many kg at its start, free to be moved.
+    pub fn vehicle(name: String, pose: Point, solids: &[Solid], mass: f64, colour: &str) -> Self {
         let link = Link {
             name: "link".into(),
             relative_to: None,
             pose: number::pose(&Pose::IDENTITY),
             is_weightless: false,
-            inertial: Some(inertial(VEHICLE_MASS, &solids)),
+            inertial: Some(inertial(mass, solids)),
             shapes: solids.iter().flat_map(|s| shapes(s, None, colour)).collect(),
             sensor: None,
         };
-        Self { is_static: false, ..Self::of_links(name, geometry.pose(), vec![link]) }
+        Self { is_static: false, ..Self::of_links(name, pose, vec![link]) }
     }
 }

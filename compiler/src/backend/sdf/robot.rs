@@ -4,10 +4,10 @@ use super::inertia::inertial;
 use super::model::{self, Joint, Link, Model};
 use super::number;
 use super::shape::shapes;
-use runtime_sim::geometry::Geometry;
 use runtime_sim::kinematics::arm::{Arm, Joints};
-use runtime_sim::kinematics::gantry::MOUNT;
 use runtime_sim::kinematics::pose::Pose;
+use runtime_sim::machine::Machine;
+use runtime_sim::part::axis;
 use runtime_sim::point::{Axis, Point};
 use runtime_sim::solid::{self, Solid};
 use std::f64::consts::TAU;
@@ -21,17 +21,11 @@ const GRIPPER_COLOUR: &str = "0.8 0.1 0.1 1";
 const GRIPPER_MASS: f64 = 0.01;
 /// Rails and beams, kg/m: a profile of aluminium. The prototype's description has 1 kg for each, whatever its length.
 const BEAM: f64 = 20.0;
-/// Trolley and torso, kg: estimates, as the prototype's description has 1 kg for each.
-const TROLLEY: f64 = 50.0;
-const TORSO: f64 = 100.0;
-/// The UR10's base, which is part of what carries it (`ur10.urdf.macro.xacro`), kg.
-const BASE: f64 = 4.0;
-
 /// What one joint moves, and how it is driven.
 struct Drive {
     /// Name of the joint, and of its link, without what SDF's names end in.
-    joint: &'static str,
-    link: &'static str,
+    joint: String,
+    link: String,
     /// kg
     mass: f64,
     motion: Motion,
@@ -53,74 +47,44 @@ enum Motion {
     Swing,
 }
 
-/// Masses, efforts, damping and friction from `ur10.urdf.macro.xacro`, ARIAC 2021.
-fn arm(mount: Pose) -> [Drive; 6] {
-    let drive = |joint, link, mass, motion, effort, damping, friction| Drive {
-        joint,
-        link,
-        mass,
-        motion,
-        effort,
-        damping,
-        friction,
+/// The axes that carry the chain, then its joints.
+fn drives(machine: &Machine, mount: Pose) -> Vec<Drive> {
+    let of_axis = |axis: &axis::Axis| Drive {
+        joint: axis.joint.clone(),
+        link: axis.link.clone(),
+        mass: axis.mass,
+        motion: match axis.motion {
+            axis::Motion::Slides { along, range } => Motion::Slide { axis: along, range },
+            axis::Motion::Turns => Motion::Turn,
+        },
+        effort: axis.effort,
+        damping: axis.damping,
+        friction: axis.friction,
     };
-    [
-        drive("shoulder_pan", "shoulder", 7.778, Motion::Pan { mount }, 530.0, 20.0, 20.0),
-        drive("shoulder_lift", "upper_arm", 12.93, Motion::Swing, 330.0, 20.0, 0.0),
-        drive("elbow", "forearm", 3.87, Motion::Swing, 150.0, 20.0, 0.0),
-        drive("wrist_1", "wrist_1", 1.96, Motion::Swing, 54.0, 1.0, 0.0),
-        drive("wrist_2", "wrist_2", 1.96, Motion::Swing, 54.0, 1.0, 0.0),
-        drive("wrist_3", "wrist_3", 0.202, Motion::Swing, 54.0, 0.5, 0.0),
-    ]
-}
-
-/// What carries the arm: effort, damping and friction of the kitting robot's rail from
-/// `linear_arm_actuator.urdf.xacro`, effort of the gantry's drives from `gantry.urdf.xacro`.
-fn carriers(geometry: &Geometry) -> Vec<Drive> {
-    match *geometry {
-        Geometry::RailArm { rail_dim, rail_range, .. } => vec![Drive {
-            joint: "rail",
-            link: "carriage",
-            mass: BASE,
-            motion: Motion::Slide { axis: rail_dim, range: rail_range },
-            effort: 1000.0,
-            damping: 20.0,
-            friction: 500.0,
-        }],
-        Geometry::Gantry { x_rail_range, y_rail_range, .. } => {
-            let free = |joint, link, mass, motion| Drive {
-                joint,
-                link,
-                mass,
-                motion,
-                effort: 1e5,
-                damping: 0.0,
-                friction: 0.0,
-            };
-            let [low, high] = y_rail_range;
-            let along_x = Motion::Slide { axis: Axis::X, range: x_rail_range };
-            let along_y = Motion::Slide { axis: Axis::Y, range: y_rail_range };
-            vec![
-                free("bridge", "bridge", BEAM * (high - low), along_x),
-                free("trolley", "trolley", TROLLEY, along_y),
-                free("torso", "torso", TORSO + BASE, Motion::Turn),
-            ]
-        }
-        _ => Vec::new(),
-    }
+    let mut drives: Vec<Drive> = machine.axes().iter().map(|(_, axis)| of_axis(axis)).collect();
+    let Some(chain) = machine.chain() else { return drives };
+    drives.extend((0..chain.joints.len()).map(|i| Drive {
+        joint: chain.joints[i].clone(),
+        link: chain.links[i].clone(),
+        mass: chain.masses[i],
+        motion: if i == 0 { Motion::Pan { mount } } else { Motion::Swing },
+        effort: chain.efforts[i],
+        damping: chain.damping[i],
+        friction: chain.friction[i],
+    }));
+    drives
 }
 
 /// The model of a robot, its rails at the middle of their ranges and its arm stretched, all angles 0.
-pub fn model(name: String, geometry: &Geometry, kinematics: &Arm) -> Model {
-    let mut drives = carriers(geometry);
-    let carriers = drives.len();
-    drives.extend(arm(if carriers == 1 { Pose::IDENTITY } else { MOUNT }));
+pub fn model(name: String, machine: &Machine, kinematics: &Arm) -> Model {
+    let drives = drives(machine, kinematics.mount());
+    let carriers = machine.axes().len();
     let zero: Vec<f64> = drives.iter().map(|drive| drive.middle()).collect();
     let frames = kinematics.frames(&Joints::new(&zero));
     let velocities = kinematics.limits().velocity;
-    let solids = solid::solids(geometry);
+    let solids = machine.solids();
     let of = |link: solid::Link| -> Vec<Solid> {
-        solids.iter().filter(|s| s.link == link && s.name != solid::GRIPPER).cloned().collect()
+        solids.iter().filter(|s| s.link == link && !s.grips).cloned().collect()
     };
 
     let mut model = Model { is_static: false, ..Model::of_links(name, Point::default(), Vec::new()) };
@@ -136,7 +100,7 @@ pub fn model(name: String, geometry: &Geometry, kinematics: &Arm) -> Model {
             relative_to: Some(parent.clone()),
             is_weightless: i >= carriers,
             ..link(
-                drive.link.into(),
+                drive.link.clone(),
                 &frame.seen_from(&before),
                 drive.mass,
                 &of(solid::Link::Joint(i)),
@@ -163,7 +127,7 @@ pub fn model(name: String, geometry: &Geometry, kinematics: &Arm) -> Model {
 /// The gripper is a link of its own, which simulators attach parts to.
 fn gripper(model: &mut Model, solids: &[Solid]) {
     let Some(wrist) = model.links.last().map(|link| link.name.clone()) else { return };
-    let solids: Vec<Solid> = solids.iter().filter(|s| s.name == solid::GRIPPER).cloned().collect();
+    let solids: Vec<Solid> = solids.iter().filter(|s| s.grips).cloned().collect();
     let gripper = Link {
         relative_to: Some(wrist.clone()),
         is_weightless: true,

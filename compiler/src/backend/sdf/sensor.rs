@@ -3,9 +3,10 @@
 use super::model::{Camera, Link, Model};
 use super::number;
 use super::shape::marker;
-use runtime_sim::geometry::Geometry;
 use runtime_sim::kinematics::pose::Pose;
-use runtime_sim::point::{Axis, Point};
+use runtime_sim::machine::Machine;
+use runtime_sim::part::{self, Primitive};
+use runtime_sim::point::Point;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Values of `logical_camera.sdf.template`, ARIAC 2021: Hz, m, and rad. Its noise is left out.
@@ -15,47 +16,39 @@ const FAR: f64 = 1.1;
 const ASPECT_RATIO: f64 = 1.2;
 const HORIZONTAL_FOV: f64 = 1.5;
 
-/// Heights over a machine's pose, from the prototype's `sample_user_config.yaml` and from `gear.py`: over the
-/// pick zone; over the first stop of a vehicle, where its tray is inspected; over the other stops; over a briefcase.
-const OVER_BELT: f64 = 1.5;
-const OVER_FIRST_STOP: f64 = 1.507;
-const OVER_STOP: f64 = 1.0;
-const OVER_STATION: f64 = 2.286;
-/// The tray's middle from a stop. The prototype's cameras stand at +0.222, +0.000 and -0.128 m from their stops.
-const TRAY_MIDDLE: Point = Point::new(0.15, 0.0, 0.0);
-/// The prototype's cameras over stations, from the station's pose; their 36 mm along y differ in sign.
-const STATION_MIDDLE: Point = Point::new(0.038, 0.0, 0.0);
-
 /// What is drawn for a camera: length of its edges, m, and colour.
 const BODY: f64 = 0.05;
 const COLOUR: &str = "0.1 0.1 0.1 1";
 
-/// The camera of a belt or of a station, in the frame of its model.
-pub fn camera_over(geometry: &Geometry) -> Option<Link> {
-    match geometry {
-        Geometry::Belt { orient, .. } => {
-            let yaw = match orient {
-                Axis::Y => 0.0,
-                Axis::X => -FRAC_PI_2,
-            };
-            Some(link("camera".into(), Point::default().up(OVER_BELT), yaw))
-        }
-        Geometry::Station { .. } => Some(link("camera".into(), STATION_MIDDLE.up(OVER_STATION), 0.0)),
-        _ => None,
-    }
+/// The cameras that stand with the machine, in the frame of its model.
+pub fn cameras_over(machine: &Machine) -> Vec<Link> {
+    let standing = cameras(machine).filter(|camera| camera.route.is_none());
+    let places: Vec<(Point, f64)> =
+        standing.flat_map(|camera| camera.at.iter().map(|at| (*at, camera.yaw))).collect();
+    let name = |i: usize| if places.len() == 1 { "camera".to_string() } else { format!("camera_{i}") };
+    places.iter().enumerate().map(|(i, (at, yaw))| link(name(i), *at, *yaw)).collect()
 }
 
-/// A model with a camera over each stop of a vehicle: it does not move with the vehicle `name`.
-pub fn over_stops(name: &str, geometry: &Geometry) -> Option<Model> {
-    let start = geometry.pose();
-    let links: Vec<Link> = (geometry.stops().iter().enumerate())
-        .map(|(i, stop)| {
-            let height = if i == 0 { OVER_FIRST_STOP } else { OVER_STOP };
-            link(format!("camera_{i}"), (*stop - start + TRAY_MIDDLE).up(height), 0.0)
+/// A model with a camera over each stop of a vehicle: it does not move with the vehicle.
+pub fn over_stops(machine: &Machine) -> Option<Model> {
+    let start = machine.pose;
+    let over = cameras(machine).filter(|camera| camera.route.is_some());
+    let links: Vec<Link> = over
+        .flat_map(|camera| {
+            machine.stops().iter().zip(&camera.at).map(|(stop, at)| (*stop - start + *at, camera.yaw))
         })
+        .enumerate()
+        .map(|(i, (at, yaw))| link(format!("camera_{i}"), at, yaw))
         .collect();
     // Names of a layout have no two underscores in a row.
-    (!links.is_empty()).then(|| Model::of_links(format!("{name}__cameras"), start, links))
+    (!links.is_empty()).then(|| Model::of_links(format!("{}__cameras", machine.name), start, links))
+}
+
+fn cameras(machine: &Machine) -> impl Iterator<Item = &part::camera::Camera> {
+    machine.parts.iter().filter_map(|part| match &part.primitive {
+        Primitive::Camera(camera) => Some(camera),
+        _ => None,
+    })
 }
 
 /// A camera that looks straight down, the longer side of its field along y before it is turned by `yaw`.

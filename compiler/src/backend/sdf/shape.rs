@@ -12,7 +12,7 @@ pub struct Shape {
     name: String,
     pose: String,
     geometry: String,
-    colour: &'static str,
+    colour: String,
     /// None for what can be seen but not touched.
     contact: Option<Contact>,
 }
@@ -23,16 +23,16 @@ pub struct Contact {
 }
 
 /// The shapes of a solid, in the frame of its link.
-pub fn shapes(solid: &solid::Solid, friction: Option<f64>, colour: &'static str) -> Vec<Shape> {
+pub fn shapes(solid: &solid::Solid, friction: Option<f64>, colour: &str) -> Vec<Shape> {
     let shape = |name: String, pose: &Pose, geometry: String| Shape {
         name,
         pose: number::pose(pose),
         geometry,
-        colour,
+        colour: colour.to_string(),
         contact: Some(Contact { friction }),
     };
     match solid.shape {
-        solid::Shape::Box { size } => vec![shape(solid.name.into(), &solid.pose, cuboid(size))],
+        solid::Shape::Box { size } => vec![shape(solid.name.clone(), &solid.pose, cuboid(size))],
         solid::Shape::Capsule { length, radius } => {
             let end = |z: f64| solid.pose.then(&Pose { position: Point::new(0.0, 0.0, z), ..Pose::IDENTITY });
             let ball = format!("<sphere><radius>{}</radius></sphere>", number::length(radius));
@@ -42,7 +42,7 @@ pub fn shapes(solid: &solid::Solid, friction: Option<f64>, colour: &'static str)
                 number::length(length)
             );
             vec![
-                shape(solid.name.into(), &solid.pose, tube),
+                shape(solid.name.clone(), &solid.pose, tube),
                 shape(format!("{}_lower_end", solid.name), &end(-length / 2.0), ball.clone()),
                 shape(format!("{}_upper_end", solid.name), &end(length / 2.0), ball),
             ]
@@ -51,12 +51,12 @@ pub fn shapes(solid: &solid::Solid, friction: Option<f64>, colour: &'static str)
 }
 
 /// Something small to see where a sensor is.
-pub fn marker(name: &str, length: f64, colour: &'static str) -> Shape {
+pub fn marker(name: &str, length: f64, colour: &str) -> Shape {
     Shape {
         name: name.into(),
         pose: number::pose(&Pose::IDENTITY),
         geometry: cuboid(Point::new(length, length, length)),
-        colour,
+        colour: colour.to_string(),
         contact: None,
     }
 }

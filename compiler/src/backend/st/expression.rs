@@ -161,7 +161,7 @@ impl Lowering<'_> {
     /// The variables from which `done` and `failed` are computed.
     pub fn answer_names(&self) -> Vec<String> {
         let ports = self.automaton().device.ports.iter().zip(&self.own().ports);
-        let ports = ports.filter(|(port, _)| ["cmd", "ack", "error"].contains(&port.name));
+        let ports = ports.filter(|(port, _)| ["cmd", "ack", "error"].contains(&port.name.as_str()));
         ports.map(|(_, held)| held[0].clone()).collect()
     }
 

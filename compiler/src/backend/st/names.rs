@@ -3,13 +3,13 @@
 use super::declaration::suffixes;
 use super::role::{self, Members};
 use super::walk;
+use crate::device::Port;
 use crate::ir::{
     Automaton, AutomatonId, Domain, Enum, Expr, ExprKind, Extent, Instance, Interface, RoleId, Scalar,
     System, Type,
 };
 use crate::naming::st::{Renamed, Scope};
 use crate::naming::{camel, snake};
-use runtime_sim::device::Port;
 use std::collections::BTreeMap;
 
 const TAKEN: &[&str] = &[
@@ -217,7 +217,7 @@ fn automaton_names(
     let mut scope = global.inner();
     LOCAL.iter().for_each(|name| drop(scope.take(name)));
     let parameters = source.parameters.iter().map(|p| held(&mut scope, &p.name, p.ty.scalar)).collect();
-    let port = |p: &Port, scope: &mut Scope| held(scope, p.name, Scalar::from(p.ty));
+    let port = |p: &Port, scope: &mut Scope| held(scope, &p.name, Scalar::from(p.ty));
     let ports = source.device.ports.iter().map(|p| port(p, &mut scope)).collect();
     let locals = source.locals.iter().map(|l| held(&mut scope, &l.name, l.ty.scalar)).collect();
     let roles = (source.roles.iter())
@@ -295,7 +295,7 @@ fn robot_names(
     let automaton = system.model.automaton(robot.automaton);
     let own = |part: &str| format!("{}_{part}", robot.name);
     let ports =
-        automaton.device.ports.iter().map(|p| held(global, &own(p.name), Scalar::from(p.ty))).collect();
+        automaton.device.ports.iter().map(|p| held(global, &own(&p.name), Scalar::from(p.ty))).collect();
     let parameters = (automaton.parameters.iter().enumerate())
         .map(|(i, p)| match p.ty.extent != Extent::One && tables[i].is_empty() {
             true => held(global, &own(&p.name), p.ty.scalar),

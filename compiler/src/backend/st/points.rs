@@ -5,9 +5,10 @@ use super::declaration::{Basic, constants};
 use super::names::Names;
 use super::print::Dialect;
 use super::value::{NO_SUCH_STATE, first_value, stop_value};
+use crate::device::Port;
 use crate::io_map::{Kind, Point};
 use crate::ir::{Scalar, System};
-use runtime_sim::device::{Direction, Extent, Port, PortType, Stop};
+use runtime_sim::device::{Direction, Extent, PortType, Stop};
 
 /// A point and its variable.
 pub struct Terminal {
@@ -85,13 +86,13 @@ fn line(system: &System) -> Vec<Terminal> {
     .map(|(variable, direction, kind, first, meaning)| Terminal {
         point: Point {
             robot: String::new(),
-            port: variable,
+            port: variable.into(),
             name: variable.into(),
             direction,
             kind,
-            unit: "",
+            unit: String::new(),
             stop: String::new(),
-            meaning,
+            meaning: meaning.into(),
         },
         variable: variable.into(),
         element: None,
@@ -101,13 +102,7 @@ fn line(system: &System) -> Vec<Terminal> {
     .collect()
 }
 
-fn terminal(
-    robot: &str,
-    port: &'static Port,
-    part: usize,
-    variable: &str,
-    element: Option<usize>,
-) -> Terminal {
+fn terminal(robot: &str, port: &Port, part: usize, variable: &str, element: Option<usize>) -> Terminal {
     let first = || constants(stop_value(port).unwrap_or(first_value(port.ty))).swap_remove(part);
     let kind = match port.ty {
         PortType::Bool => Kind::Bool,
@@ -118,13 +113,13 @@ fn terminal(
     Terminal {
         point: Point {
             robot: robot.into(),
-            port: port.name,
+            port: port.name.clone(),
             name: element.map_or(variable.into(), |i| format!("{variable}[{i}]")),
             direction: port.direction,
             kind,
-            unit: port.unit,
+            unit: port.unit.clone(),
             stop: stop_text(port, part),
-            meaning: port.meaning,
+            meaning: port.meaning.clone(),
         },
         variable: variable.into(),
         element,

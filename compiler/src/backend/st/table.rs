@@ -42,10 +42,13 @@ pub fn io(shared: Shared, map: &IoMap) -> String {
     let mut text = row(&IO);
     for (number, Terminal { point, .. }) in terminals(shared.system, shared.names).iter().enumerate() {
         let direction = if point.direction == Direction::Input { "input" } else { "output" };
-        let about = [&point.robot, &point.name, direction, point.kind.name(), point.unit, &point.stop];
+        let about = [&point.robot, &point.name, direction, point.kind.name(), &point.unit, &point.stop];
         let wired = map.wire(number).map(wire).unwrap_or_default();
-        let fields: Vec<&str> =
-            about.into_iter().chain([point.meaning]).chain(wired.iter().map(String::as_str)).collect();
+        let fields: Vec<&str> = about
+            .into_iter()
+            .chain([point.meaning.as_str()])
+            .chain(wired.iter().map(String::as_str))
+            .collect();
         text += &row(&fields);
     }
     text

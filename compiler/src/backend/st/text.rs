@@ -5,6 +5,7 @@ use super::context::Shared;
 use super::declaration::{Unit, globals};
 use super::print::{Dialect, harmless};
 use crate::backend::Files;
+use crate::library;
 use crate::source::SourceFile;
 use askama::Template;
 
@@ -116,13 +117,15 @@ pub fn unit(shared: Shared, unit: &Unit, dialect: Dialect) -> String {
     })
 }
 
-/// The names of the files that were read, and what was set beside them. Fit for comments, in XML too.
+/// The names of the files that were read, but for the devices that come with the tool, and what was set beside
+/// them. Fit for comments, in XML too.
 pub fn made_from(shared: Shared) -> String {
     let name = |file: &SourceFile| match file.name.as_str() {
         "--set" => format!("{} (set)", file.text),
         name => name.rsplit(['/', '\\']).next().unwrap_or(name).to_string(),
     };
-    let names: Vec<String> = shared.sources.files().iter().map(name).collect();
+    let names: Vec<String> =
+        shared.sources.files().iter().filter(|f| !f.name.starts_with(library::DEVICES)).map(name).collect();
     let text = harmless(&names.join(", "));
     // A comment in XML has no two hyphens side by side.
     text.replace("--", "- -").replace("--", "- -")

@@ -44,12 +44,12 @@ impl Lowering<'_> {
     }
 
     fn command(&self, verb: i32) -> Vec<Stmt> {
-        let device = self.automaton().device;
+        let device = &self.automaton().device;
         let port = |wanted: &str| {
             let position = device.ports.iter().position(|p| p.name == wanted).unwrap_or_default();
             self.own().ports[position][0].clone()
         };
-        let note = device.verbs.iter().find(|v| v.number == verb).map_or("", |v| v.name).to_string();
+        let note = device.verbs.iter().find(|v| v.number == verb).map_or("", |v| v.name.as_str()).to_string();
         let number =
             [("last", "cmd"), ("got", "got"), ("ack", "ack")].map(|(input, p)| (input, name(&port(p))));
         vec![

@@ -1,7 +1,8 @@
 //! Values that variables have where no controller has given them one.
 
+use crate::device::Port;
 use crate::ir::Value;
-use runtime_sim::device::{Port, PortType, Stop};
+use runtime_sim::device::{PortType, Stop};
 
 /// Published if the state has no meaning: the controller's memory is damaged.
 pub const NO_SUCH_STATE: i32 = 32767;

@@ -5,13 +5,15 @@ use crate::layout::decode::{Decoder, find, instead, listing};
 use crate::layout::json::Json;
 use crate::scenario::Kind;
 use crate::source::Spanned;
-use runtime_sim::geometry::MOST_KINDS;
 use std::ops::RangeInclusive;
 
 /// Of height, length and width of a part, m.
 const LENGTHS: RangeInclusive<f64> = 0.001..=1.0;
 /// Of a kind that does not say how long and wide its parts are, m: they fit side by side on a tray.
 const SIZE: [f64; 2] = [0.1, 0.1];
+
+/// Most kinds of part that a line has; a briefcase of the library has a place for each.
+const MOST_KINDS: usize = 16;
 
 impl Decoder {
     pub(super) fn kinds(&mut self, json: &Json) -> Option<Vec<Kind>> {

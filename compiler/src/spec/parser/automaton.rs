@@ -197,7 +197,7 @@ impl Parser {
         (self.errors == errors).then_some(ast::Define { doc, name, value })
     }
 
-    fn require(&mut self) -> Option<ast::Require> {
+    pub(super) fn require(&mut self) -> Option<ast::Require> {
         let span = self.span();
         self.next();
         let errors = self.errors;

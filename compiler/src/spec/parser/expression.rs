@@ -238,6 +238,14 @@ impl Parser {
                 Expr { span: span.to(self.last_span()), kind: inner.kind }
             }
             Token::Word(w) => self.word_expr(w, span),
+            Token::Sign("[") => {
+                self.next();
+                let elements = self.list("]");
+                if self.expect_sign("]", "after the elements of the list").is_none() {
+                    return error(span);
+                }
+                Expr { span: span.to(self.last_span()), kind: ExprKind::List(elements) }
+            }
             _ => {
                 let found = self.found();
                 self.error(
@@ -286,19 +294,25 @@ impl Parser {
                 if !self.maybe_sign("(") {
                     return Expr { span, kind: ExprKind::Name(name.value) };
                 }
-                let mut arguments = Vec::new();
-                while !self.at_sign(")") && *self.peek() != Token::End {
-                    arguments.push(self.parse_expr());
-                    if !self.maybe_sign(",") {
-                        break;
-                    }
-                }
+                let arguments = self.list(")");
                 if self.expect_sign(")", "after the arguments").is_none() {
                     return error(span);
                 }
                 Expr { span: span.to(self.last_span()), kind: ExprKind::Call(name, arguments) }
             }
         }
+    }
+
+    /// Expressions between commas, up to the sign that closes them.
+    fn list(&mut self, close: &'static str) -> Vec<Expr> {
+        let mut elements = Vec::new();
+        while !self.at_sign(close) && *self.peek() != Token::End {
+            elements.push(self.parse_expr());
+            if !self.maybe_sign(",") {
+                break;
+            }
+        }
+        elements
     }
 
     fn quantified(&mut self, quantifier: Quantifier, span: Span) -> Expr {

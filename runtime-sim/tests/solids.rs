@@ -1,33 +1,41 @@
 //! The solids of the default line's machines.
 
-use super::*;
-use crate::geometry::{BELT_SURFACE, BIN_FLOOR, BRIEFCASE, SLOTS, TRAY_SURFACE, slot_offset};
-use crate::kinematics::arm::{Arm, Joints};
+#[path = "../../tests/src/machines.rs"]
+mod machines;
 
-fn machines() -> Vec<Geometry> {
+use autogen::device::Placed;
+use machines::{arm, belt, bin, machine, rail_arm, station, vehicle};
+use runtime_sim::kinematics::arm::Joints;
+use runtime_sim::kinematics::pose::Pose;
+use runtime_sim::line::Obstacle;
+use runtime_sim::point::{Axis, Point};
+use runtime_sim::solid::{Link, Shape, Solid};
+
+const BELT_SURFACE: f64 = 0.875;
+const TRAY_SURFACE: f64 = 0.755;
+const BIN_FLOOR: f64 = 0.725;
+const BRIEFCASE: Point = Point::new(0.08, 0.095839, 1.35);
+
+fn machines() -> Vec<Placed> {
     let pose = Point::new(-2.265685, 4.675404, 0.0);
     vec![
-        Geometry::Belt { pose: Point::new(-0.573076, 0.0, 0.0), orient: Axis::Y, orient_range: [-5.0, 5.0] },
-        Geometry::Belt { pose: Point::new(-4.0, 2.0, 0.0), orient: Axis::X, orient_range: [-6.0, -1.0] },
-        Geometry::Vehicle { pose, destinations: [Point::new(-5.6, 4.675404, 0.0); 2] },
+        belt(Point::new(-0.573076, 0.0, 0.0), Axis::Y, [-5.0, 5.0]),
+        belt(Point::new(-4.0, 2.0, 0.0), Axis::X, [-6.0, -1.0]),
+        vehicle(pose, [Point::new(-5.6, 4.675404, 0.0); 2]),
         kitting(Axis::Y),
         kitting(Axis::X),
         gantry(),
-        Geometry::Station { pose: Point::new(-7.3, 3.0, 0.0) },
-        Geometry::Bin { pose: Point::new(-1.899, 3.38, 0.0) },
+        station(Point::new(-7.3, 3.0, 0.0)),
+        bin(Point::new(-1.899, 3.38, 0.0)),
     ]
 }
 
-fn kitting(rail_dim: Axis) -> Geometry {
-    Geometry::RailArm { pose: Point::new(-1.3, 0.0, 1.127), rail_dim, rail_range: [-4.8, 4.8] }
+fn kitting(rail_dim: Axis) -> Placed {
+    rail_arm(Point::new(-1.3, 0.0, 1.127), rail_dim, [-4.8, 4.8])
 }
 
-fn gantry() -> Geometry {
-    Geometry::Gantry {
-        pose: Point::new(-4.0, 0.0, 2.0),
-        x_rail_range: [-14.4, 0.4],
-        y_rail_range: [-4.5, 4.5],
-    }
+fn gantry() -> Placed {
+    machines::gantry(Point::new(-4.0, 0.0, 2.0), [-14.4, 0.4], [-4.5, 4.5])
 }
 
 /// Of a machine's solid, lowest and highest coordinates; its link is at `frame`.
@@ -44,8 +52,12 @@ fn bounds(solid: &Solid, frame: &Pose) -> [Point; 2] {
     [pose.position - Point::new(x, y, z), pose.position + Point::new(x, y, z)]
 }
 
-fn named(geometry: &Geometry, name: &str) -> Solid {
-    solids(geometry).into_iter().find(|s| s.name == name).unwrap_or_else(|| panic!("no {name}"))
+fn solids(placed: &Placed) -> Vec<Solid> {
+    machine("m", placed).solids()
+}
+
+fn named(placed: &Placed, name: &str) -> Solid {
+    solids(placed).into_iter().find(|s| s.name == name).unwrap_or_else(|| panic!("no {name}"))
 }
 
 fn assert_close(got: Point, expected: (f64, f64, f64)) {
@@ -55,12 +67,12 @@ fn assert_close(got: Point, expected: (f64, f64, f64)) {
 
 #[test]
 fn names_are_unique_and_shapes_have_room() {
-    for geometry in machines() {
-        let solids = solids(&geometry);
-        let mut names: Vec<&str> = solids.iter().map(|s| s.name).collect();
+    for placed in machines() {
+        let solids = solids(&placed);
+        let mut names: Vec<&str> = solids.iter().map(|s| s.name.as_str()).collect();
         names.sort_unstable();
         names.dedup();
-        assert_eq!(names.len(), solids.len(), "{geometry:?}");
+        assert_eq!(names.len(), solids.len(), "{placed:?}");
         for solid in &solids {
             let lengths = match solid.shape {
                 Shape::Box { size } => vec![size.x, size.y, size.z],
@@ -77,18 +89,18 @@ fn names_are_unique_and_shapes_have_room() {
             assert!((0..3).all(|i| (cross[i] - r[i][2]).abs() < 1e-12), "{solid:?}");
         }
         let links = solids.iter().map(|s| s.link);
-        let arm = Arm::from_geometry(&geometry);
+        let arm = placed.arm();
         let joints = arm.map_or(0, |arm| arm.start().len());
         for link in links {
             match link {
-                Link::World => assert!(!matches!(geometry, Geometry::Vehicle { .. })),
-                Link::Vehicle => assert!(matches!(geometry, Geometry::Vehicle { .. })),
+                Link::World => assert!(!placed.device.has("route")),
+                Link::Route => assert!(placed.device.has("route")),
                 Link::Joint(i) => assert!(i < joints),
             }
         }
         let moved: std::collections::BTreeSet<Link> =
             solids.iter().map(|s| s.link).filter(|l| matches!(l, Link::Joint(_))).collect();
-        assert_eq!(moved.len(), joints, "a link of {geometry:?} has no solid");
+        assert_eq!(moved.len(), joints, "a link of {placed:?} has no solid");
     }
 }
 
@@ -115,7 +127,7 @@ fn belts_carry_between_their_guards() {
 fn parts_rest_on_solids() {
     let [low, high] = bounds(&named(&machines()[2], "tray"), &Pose::IDENTITY);
     assert!((high.z - TRAY_SURFACE).abs() < 1e-12);
-    for slot in (0..SLOTS).map(slot_offset) {
+    for slot in machine("agv", &machines()[2]).places().flat_map(|place| place.slots.clone()) {
         assert!(low.x < slot.x && slot.x < high.x && low.y < slot.y && slot.y < high.y, "{slot:?}");
     }
     let station = &machines()[6];
@@ -133,13 +145,13 @@ fn parts_rest_on_solids() {
 /// and 0.049 m measured from its model), and the gripper's face is at the tool.
 #[test]
 fn arms_are_where_their_description_puts_them() {
-    for (geometry, first) in [(kitting(Axis::Y), 1), (kitting(Axis::X), 1), (gantry(), 3)] {
-        let arm = Arm::from_geometry(&geometry).unwrap();
+    for (placed, first) in [(kitting(Axis::Y), 1), (kitting(Axis::X), 1), (gantry(), 3)] {
+        let arm = arm(&placed);
         let joints = Joints::new(&vec![0.4; arm.start().len()]);
         let frames = arm.frames(&joints);
         let tool = arm.tool_pose(&joints);
         let place = |name: &str| {
-            let solid = named(&geometry, name);
+            let solid = named(&placed, name);
             let Link::Joint(i) = solid.link else { panic!("{name} does not move") };
             frames[i].then(&solid.pose)
         };
@@ -169,7 +181,7 @@ fn the_default_gantry_is_the_one_described() {
     let [low, high] = bounds(&named(&gantry(), "lower_rail"), &Pose::IDENTITY);
     assert_close(low, (-14.5, -5.0, 2.85));
     assert_close(high, (0.5, -4.8, 2.95));
-    let arm = Arm::from_geometry(&gantry()).unwrap();
+    let arm = arm(&gantry());
     let frames = arm.frames(&Joints::new(&[-4.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]));
     let [low, high] = bounds(&named(&gantry(), "bridge"), &frames[0]);
     assert_close(low, (-4.1, -5.0, 2.95));

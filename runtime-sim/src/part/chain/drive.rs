@@ -1,6 +1,5 @@
 //! The drives of an arm: its joints on their way to a target of the tool.
 
-use crate::geometry::Geometry;
 use crate::kinematics::arm::{Arm, Joints, Limits};
 use crate::motion::Motion;
 use crate::point::Point;
@@ -49,12 +48,10 @@ pub enum Moved {
 }
 
 impl Drive {
-    /// At rest, the rail at its middle; `None` for a machine without joints, or one that has no
-    /// such place.
-    pub fn new(geometry: &Geometry, ways: Option<Ways>) -> Option<Self> {
-        let arm = Arm::from_geometry(geometry)?;
+    /// At rest with the tool at this place; `None` if it is out of reach.
+    pub fn new(arm: Arm, rest: Point, ways: Option<Ways>) -> Option<Self> {
         let start = arm.start();
-        let joints = arm.solve(geometry.rest(), &start)?;
+        let joints = arm.solve(rest, &start)?;
         let (limits, tool) = (arm.limits(), arm.tool(&joints));
         Some(Self { arm, ways: ways.map(Arc::new), limits, joints, tool, course: Course::Rest })
     }
@@ -76,8 +73,8 @@ impl Drive {
     }
 
     /// The limits of all motions that begin from now on: a part of full speed, and m/s2 or rad/s2.
-    pub fn set_pace(&mut self, speed: f64, gain: f64) {
-        self.limits = self.arm.limits().at_speed(speed).at_gain(gain);
+    pub fn set_pace(&mut self, speed: f64, acceleration: f64) {
+        self.limits = self.arm.limits().at_speed(speed).at_gain(acceleration);
     }
 
     pub fn is_at_rest(&self) -> bool {

@@ -1,0 +1,409 @@
+//! Values of expressions in devices.
+
+use super::program::{Part, Program, Setting as Given, Symbol};
+use crate::diagnostic::{Diagnostic, suggestion};
+use crate::source::Span;
+use crate::spec::ast::{self, ExprKind, Operator};
+use runtime_sim::part::{Form, Setting};
+use runtime_sim::point::{Axis, Point};
+use runtime_sim::value::Value;
+
+/// What an expression may be.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Found {
+    Value(Value),
+    /// Milliseconds.
+    Duration(i64),
+    /// The scope of an assembly.
+    Assembly(usize),
+}
+
+/// A device for one machine.
+pub struct Environment<'a> {
+    pub program: &'a Program,
+    /// None before there is a machine.
+    pub pose: Option<Point>,
+    /// Of each parameter of the device.
+    pub arguments: &'a [Value],
+    /// Of the kinds, in their order; none before they are known.
+    pub heights: Option<&'a [f64]>,
+    /// Behind the name of a place: `index`.
+    pub index: Option<usize>,
+    pub values: Values,
+}
+
+/// Whether limits of settings are looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Values {
+    OfMachine,
+    /// Something of the right type, before there is a machine.
+    Sample,
+}
+
+type Evaluated = Result<Found, Wrong>;
+
+/// What is wrong with an expression.
+pub type Wrong = Box<Diagnostic>;
+
+/// Expressions one in another: definitions may refer to one another.
+const DEEPEST: usize = 200;
+
+impl Environment<'_> {
+    /// A value in the scope of this number.
+    pub fn value(&self, scope: usize, expr: &ast::Expr) -> Result<Value, Wrong> {
+        match self.at(scope, expr, 0)? {
+            Found::Value(value) => Ok(value),
+            Found::Duration(_) => Err(wrong(expr.span, "a time cannot stand here")),
+            Found::Assembly(_) => Err(wrong(expr.span, "an assembly is no value")),
+        }
+    }
+
+    /// What a setting of a part is, in the form that the primitive wants.
+    pub fn setting(&self, part: &Part, setting: &Setting, given: &Given) -> Result<Value, Wrong> {
+        if let Some(known) = &given.known {
+            return Ok(known.clone());
+        }
+        let expr = &given.value;
+        if let Some(word) = words(setting.form, expr) {
+            return word;
+        }
+        let found = match self.at(part.scope, expr, 0)? {
+            Found::Duration(ms) if setting.unit == "ms" => Value::Number(ms as f64),
+            Found::Duration(_) => {
+                let unit = if setting.unit.is_empty() { "no time" } else { setting.unit };
+                return Err(Diagnostic::new(
+                    "E0704",
+                    expr.span,
+                    format!("`{}` is in {unit}, this is a time", setting.name),
+                )
+                .help(format!("{}: {}", setting.name, setting.meaning))
+                .into());
+            }
+            Found::Value(Value::Number(_)) if setting.unit == "ms" => {
+                return Err(Diagnostic::new("E0704", expr.span, format!("`{}` is a time", setting.name))
+                    .help("write the unit behind the number, such as `750 ms`")
+                    .into());
+            }
+            Found::Assembly(_) => return Err(wrong(expr.span, "an assembly is no value")),
+            Found::Value(value) => value,
+        };
+        match self.fits(setting.form, &found) {
+            true => Ok(found),
+            false => Err(Diagnostic::new(
+                "E0704",
+                expr.span,
+                format!("`{}` has to be {}", setting.name, described(setting.form)),
+            )
+            .help(format!("{}: {}", setting.name, setting.meaning))
+            .into()),
+        }
+    }
+
+    fn fits(&self, form: Form, value: &Value) -> bool {
+        let all = |wanted: fn(&Value) -> bool| match value {
+            Value::List(values) => values.iter().all(wanted),
+            _ => false,
+        };
+        match (form, value) {
+            (Form::Truth, Value::Truth(_))
+            | (Form::Number, Value::Number(_))
+            | (Form::Point, Value::Point(_))
+            | (Form::Axis, Value::Axis(_))
+            | (Form::Word, Value::Word(_)) => true,
+            (Form::Positive, Value::Number(number)) => *number > 0.0 || self.values == Values::Sample,
+            (Form::Part(primitives), Value::Part { part, .. }) => {
+                primitives.contains(&self.program.parts[*part].schema.name)
+            }
+            (Form::Range, Value::List(ends)) => {
+                let is_sample = self.values == Values::Sample;
+                matches!(ends[..], [Value::Number(low), Value::Number(high)] if low <= high || is_sample)
+            }
+            (Form::Points, _) => all(|value| matches!(value, Value::Point(_))),
+            (Form::Numbers, _) => all(|value| matches!(value, Value::Number(_))),
+            (Form::Words, _) => all(|value| matches!(value, Value::Word(_))),
+            _ => false,
+        }
+    }
+
+    fn at(&self, scope: usize, expr: &ast::Expr, depth: usize) -> Evaluated {
+        if depth > DEEPEST {
+            return Err(wrong(expr.span, "this is defined by itself"));
+        }
+        let at = |expr: &ast::Expr| self.at(scope, expr, depth + 1);
+        let number = |expr: &ast::Expr| number(at(expr)?, expr.span);
+        match &expr.kind {
+            ExprKind::Bool(truth) => value(Value::Truth(*truth)),
+            ExprKind::Int(int) => value(Value::Number(*int as f64)),
+            ExprKind::Real(real) => value(Value::Number(*real)),
+            ExprKind::Duration(ms) => Ok(Found::Duration(*ms)),
+            ExprKind::Name(name) => self.name(scope, name, expr.span, depth),
+            ExprKind::List(elements) => {
+                let values: Result<Vec<Value>, _> = elements
+                    .iter()
+                    .map(|element| match at(element)? {
+                        Found::Value(value) => Ok(value),
+                        _ => Err(wrong(element.span, "a list holds values")),
+                    })
+                    .collect();
+                value(Value::List(values?))
+            }
+            ExprKind::Negate(inner) => match at(inner)? {
+                Found::Value(Value::Number(number)) => value(Value::Number(-number)),
+                _ => Err(wrong(expr.span, "only a number has a sign")),
+            },
+            ExprKind::Binary(operator, left, right) => {
+                combined(*operator, at(left)?, at(right)?).ok_or_else(|| {
+                    let wrong = *wrong(expr.span, "this operator does not join these values");
+                    wrong
+                        .note("+ and - join numbers and points, * and / a number with a number")
+                        .note("a point and a list of points are added element by element")
+                        .into()
+                })
+            }
+            ExprKind::Member(base, member) => self.member(at(base)?, member, depth),
+            ExprKind::Index(base, index) => {
+                let list = at(base)?;
+                let index_value = number(index)?;
+                match list {
+                    Found::Value(Value::List(values)) => {
+                        let element = (index_value.fract() == 0.0 && index_value >= 0.0)
+                            .then(|| values.get(index_value as usize))
+                            .flatten();
+                        element.cloned().map(Found::Value).ok_or_else(|| {
+                            let wrong = *wrong(index.span, format!("there is no element {index_value}"));
+                            wrong.note(format!("the list has {} elements", values.len())).into()
+                        })
+                    }
+                    _ => Err(wrong(base.span, "this is no list")),
+                }
+            }
+            ExprKind::Call(name, arguments) => {
+                let found: Result<Vec<Found>, _> = arguments.iter().map(at).collect();
+                call(name, &found?)
+            }
+            ExprKind::Error => Err(wrong(expr.span, "this could not be read")),
+            _ => Err(wrong(expr.span, "this cannot stand in a device")),
+        }
+    }
+
+    fn name(&self, scope: usize, name: &str, span: Span, depth: usize) -> Evaluated {
+        let here = &self.program.scopes[scope];
+        match here.names.get(name) {
+            Some(Symbol::Parameter(number)) => {
+                let argument = self.arguments.get(*number).cloned();
+                argument.map(Found::Value).ok_or_else(|| unknown(name, span, []))
+            }
+            Some(Symbol::Define(expr)) => self.at(scope, expr, depth + 1),
+            Some(Symbol::Argument(expr)) => self.at(here.parent.unwrap_or(0), expr, depth + 1),
+            Some(Symbol::Part(part)) => value(Value::Part { part: *part, frame: 0 }),
+            Some(Symbol::Assembly(inner)) => Ok(Found::Assembly(*inner)),
+            None => {
+                let built_in = match name {
+                    "pose" => self.pose.map(Value::Point),
+                    "kind_heights" => self.heights.map(|heights| {
+                        Value::List(heights.iter().map(|height| Value::Number(*height)).collect())
+                    }),
+                    "pi" => Some(Value::Number(std::f64::consts::PI)),
+                    "index" => self.index.map(|index| Value::Number(index as f64)),
+                    _ => None,
+                };
+                let known = here.names.keys().map(String::as_str);
+                built_in.map(Found::Value).ok_or_else(|| unknown(name, span, known))
+            }
+        }
+    }
+
+    /// A coordinate, a frame or a setting of a part, or what stands in an assembly.
+    fn member(&self, base: Found, member: &ast::Name, depth: usize) -> Evaluated {
+        match base {
+            Found::Value(Value::Point(point)) => match member.value.as_str() {
+                "x" => value(Value::Number(point.x)),
+                "y" => value(Value::Number(point.y)),
+                "z" => value(Value::Number(point.z)),
+                _ => Err(wrong(member.span, "a point has x, y and z")),
+            },
+            Found::Value(Value::Part { part, .. }) => {
+                let found = &self.program.parts[part];
+                if let Some(frame) = found.schema.frames.iter().position(|frame| *frame == member.value) {
+                    return value(Value::Part { part, frame });
+                }
+                let known = found.schema.settings.iter().find(|setting| setting.name == member.value);
+                let given = found.settings.iter().find(|given| given.name.value == member.value);
+                match (known, given) {
+                    (Some(setting), Some(given)) if depth <= DEEPEST => {
+                        Ok(Found::Value(self.setting(found, setting, given)?))
+                    }
+                    _ => {
+                        let names = found.schema.frames.iter().copied();
+                        let settings = found.settings.iter().map(|given| given.name.value.as_str());
+                        Err(unknown(&member.value, member.span, names.chain(settings)))
+                    }
+                }
+            }
+            Found::Assembly(scope) => self.name(scope, &member.value, member.span, depth + 1),
+            _ => Err(wrong(member.span, "this has no members")),
+        }
+    }
+}
+
+/// A word, a list of words, or an axis of the world, where the setting wants such.
+fn words(form: Form, expr: &ast::Expr) -> Option<Result<Value, Wrong>> {
+    let word = |expr: &ast::Expr| match &expr.kind {
+        ExprKind::Name(name) => Ok(Value::Word(name.clone())),
+        _ => {
+            let wrong = Diagnostic::new("E0704", expr.span, "a word is wanted");
+            Err(Wrong::from(wrong.help("write a name, without quotes")))
+        }
+    };
+    match (form, &expr.kind) {
+        (Form::Word, _) => Some(word(expr)),
+        (Form::Axis, ExprKind::Name(name)) if name == "x" => Some(Ok(Value::Axis(Axis::X))),
+        (Form::Axis, ExprKind::Name(name)) if name == "y" => Some(Ok(Value::Axis(Axis::Y))),
+        (Form::Words, ExprKind::List(elements)) => {
+            Some(elements.iter().map(word).collect::<Result<_, _>>().map(Value::List))
+        }
+        _ => None,
+    }
+}
+
+fn described(form: Form) -> String {
+    match form {
+        Form::Truth => "`true` or `false`".into(),
+        Form::Number => "a number".into(),
+        Form::Positive => "a number over 0".into(),
+        Form::Point => "a point".into(),
+        Form::Axis => "an axis".into(),
+        Form::Word => "a word".into(),
+        Form::Part(primitives) => format!("a part that is a {}", primitives.join(" or a ")),
+        Form::Range => "two numbers, the lower one first".into(),
+        Form::Points => "a list of points".into(),
+        Form::Numbers => "a list of numbers".into(),
+        Form::Words => "a list of words".into(),
+    }
+}
+
+fn value(value: Value) -> Evaluated {
+    Ok(Found::Value(value))
+}
+
+pub fn wrong(span: Span, message: impl Into<String>) -> Wrong {
+    Diagnostic::new("E0710", span, message.into())
+        .help("devices are made of numbers, points, axes, lists and parts: see devices.md")
+        .into()
+}
+
+fn unknown<'a>(name: &str, span: Span, known: impl IntoIterator<Item = &'a str>) -> Wrong {
+    let mut known: Vec<&str> = known.into_iter().collect();
+    known.sort_unstable();
+    let diagnostic = Diagnostic::new("E0710", span, format!("there is no `{name}` here"));
+    match suggestion(name, known.iter().copied()) {
+        Some(near) => diagnostic.help(format!("is `{near}` meant?")).into(),
+        None => diagnostic.help(format!("known are {}", known.join(", "))).into(),
+    }
+}
+
+fn number(found: Found, span: Span) -> Result<f64, Wrong> {
+    match found {
+        Found::Value(Value::Number(number)) => Ok(number),
+        _ => Err(wrong(span, "a number is wanted")),
+    }
+}
+
+fn combined(operator: Operator, left: Found, right: Found) -> Option<Found> {
+    let (Found::Value(left), Found::Value(right)) = (left, right) else { return None };
+    Some(Found::Value(joined(operator, &left, &right)?))
+}
+
+fn joined(operator: Operator, left: &Value, right: &Value) -> Option<Value> {
+    use Operator::{Add, Divide, Greater, GreaterEqual, Less, LessEqual, Multiply, Subtract};
+    Some(match (operator, left, right) {
+        (Add, Value::Number(a), Value::Number(b)) => Value::Number(a + b),
+        (Subtract, Value::Number(a), Value::Number(b)) => Value::Number(a - b),
+        (Multiply, Value::Number(a), Value::Number(b)) => Value::Number(a * b),
+        (Divide, Value::Number(a), Value::Number(b)) => Value::Number(a / b),
+        (Less, Value::Number(a), Value::Number(b)) => Value::Truth(a < b),
+        (LessEqual, Value::Number(a), Value::Number(b)) => Value::Truth(a <= b),
+        (Greater, Value::Number(a), Value::Number(b)) => Value::Truth(a > b),
+        (GreaterEqual, Value::Number(a), Value::Number(b)) => Value::Truth(a >= b),
+        (Operator::And, Value::Truth(a), Value::Truth(b)) => Value::Truth(*a && *b),
+        (Operator::Or, Value::Truth(a), Value::Truth(b)) => Value::Truth(*a || *b),
+        (Add, Value::Point(a), Value::Point(b)) => Value::Point(*a + *b),
+        (Subtract, Value::Point(a), Value::Point(b)) => Value::Point(*a - *b),
+        (Add | Subtract, Value::Point(_), Value::List(points)) => {
+            let each = points.iter().map(|point| match point {
+                Value::Point(_) => joined(operator, left, point),
+                _ => None,
+            });
+            Value::List(each.collect::<Option<_>>()?)
+        }
+        _ => return None,
+    })
+}
+
+fn call(name: &ast::Name, arguments: &[Found]) -> Evaluated {
+    let values: Option<Vec<&Value>> = arguments
+        .iter()
+        .map(|argument| match argument {
+            Found::Value(value) => Some(value),
+            _ => None,
+        })
+        .collect();
+    let values = values.unwrap_or_default();
+    let found = match (name.value.as_str(), &values[..]) {
+        ("point", [Value::Number(x), Value::Number(y), Value::Number(z)]) => {
+            Value::Point(Point::new(*x, *y, *z))
+        }
+        ("min", [Value::Number(a), Value::Number(b)]) => Value::Number(a.min(*b)),
+        ("max", [Value::Number(a), Value::Number(b)]) => Value::Number(a.max(*b)),
+        ("by_axis", [Value::Axis(axis), x, y]) => match axis {
+            Axis::X => (*x).clone(),
+            Axis::Y => (*y).clone(),
+        },
+        ("laid", [Value::Axis(axis), Value::Number(along), Value::Number(across), Value::Number(z)]) => {
+            Value::Point(match axis {
+                Axis::X => Point::new(*along, *across, *z),
+                Axis::Y => Point::new(*across, *along, *z),
+            })
+        }
+        (
+            "grid",
+            [
+                Value::Point(first),
+                Value::Number(rows),
+                Value::Number(row),
+                Value::Number(columns),
+                Value::Number(column),
+            ],
+        ) => {
+            let count = |number: f64| {
+                (number.fract() == 0.0 && (1.0..=64.0).contains(&number)).then_some(number as usize)
+            };
+            let (Some(rows), Some(columns)) = (count(*rows), count(*columns)) else {
+                return Err(wrong(name.span, "a grid has whole numbers of rows and columns, 1 to 64"));
+            };
+            let slot = |i: usize| {
+                let (i, j) = ((i / columns) as f64, (i % columns) as f64);
+                Value::Point(Point::new(first.x + row * i, first.y + column * j, first.z))
+            };
+            Value::List((0..rows * columns).map(slot).collect())
+        }
+        (known, _) => {
+            const FUNCTIONS: [(&str, &str); 6] = [
+                ("point", "point(x, y, z)"),
+                ("min", "min(a, b)"),
+                ("max", "max(a, b)"),
+                ("by_axis", "by_axis(axis, if it is x, if it is y)"),
+                ("laid", "laid(axis, along it, across it, z)"),
+                ("grid", "grid(first point, rows, their distance along x, columns, their distance along y)"),
+            ];
+            let diagnostic = Diagnostic::new("E0710", name.span, format!("`{known}` cannot be called so"));
+            return Err(Wrong::from(match FUNCTIONS.iter().find(|(name, _)| *name == known) {
+                Some((_, form)) => diagnostic.help(format!("write `{form}`")),
+                None => {
+                    diagnostic.help(format!("functions are {}", FUNCTIONS.map(|(_, form)| form).join(", ")))
+                }
+            }));
+        }
+    };
+    value(found)
+}

@@ -1,0 +1,135 @@
+//! Devices: what a type of machine consists of, and what it offers its controller.
+//!
+//! A port is what a sensor or a drive of a real plant supplies; none carries what only
+//! a simulator could know.
+
+mod check;
+mod evaluate;
+mod head;
+mod placed;
+mod program;
+mod settle;
+
+pub use check::{Declared, check};
+pub use placed::{Place, Placed};
+
+use crate::source::Span;
+use program::Program;
+use runtime_sim::device::{Direction, Extent, PortType, Stop};
+use runtime_sim::wiring::Wiring;
+use std::sync::Arc;
+
+/// A device that has passed every check; only [`check`] makes one.
+#[derive(Debug)]
+pub struct Device {
+    pub name: String,
+    pub purpose: String,
+    /// Where it is declared.
+    pub place: Span,
+    pub parameters: Vec<Parameter>,
+    pub ports: Vec<Port>,
+    /// Empty for a device that obeys no commands.
+    pub verbs: Vec<Verb>,
+    pub constants: Vec<Constant>,
+    pub handovers: Vec<Handover>,
+    pub wiring: Arc<Wiring>,
+    program: Program,
+}
+
+/// What a layout gives each machine: a key of its JSON object.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parameter {
+    pub name: String,
+    pub form: Form,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub enum Form {
+    Axis,
+    /// Two coordinates or lengths, the lower one first.
+    Range,
+    /// A coordinate or length, m.
+    Real,
+    Point,
+    /// So many points, with what each of them is.
+    Points(Vec<String>),
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct Port {
+    pub name: String,
+    pub direction: Direction,
+    pub ty: PortType,
+    pub extent: Extent,
+    pub unit: String,
+    /// What the port carries, and when it changes.
+    pub meaning: String,
+    /// For outputs: what is published while the system does not run.
+    pub stop: Stop,
+}
+
+/// A command: the output `verb` is set to `number`, the arguments to the named output ports.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Verb {
+    pub name: String,
+    pub number: i32,
+    pub arguments: Vec<String>,
+    pub meaning: String,
+}
+
+/// A value that the layout fixes for a machine, readable in its automaton by name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Constant {
+    pub name: String,
+    pub ty: PortType,
+    pub extent: Extent,
+    pub unit: String,
+    pub meaning: String,
+}
+
+/// A place named behind `accepts at` or `offers at`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Handover {
+    pub name: String,
+    /// Number of places, if one of several is meant by an index.
+    pub indexed: Option<usize>,
+}
+
+impl Port {
+    /// Numbers that this port takes in a process image.
+    pub fn words(&self, kinds: usize) -> usize {
+        self.ty.words() * self.extent.elements(kinds)
+    }
+}
+
+impl Device {
+    pub fn port(&self, name: &str) -> Option<&Port> {
+        self.ports.iter().find(|p| p.name == name)
+    }
+
+    pub fn is_commanded(&self) -> bool {
+        !self.verbs.is_empty()
+    }
+
+    /// It takes items and puts them elsewhere.
+    pub fn is_arm(&self) -> bool {
+        self.has("grip")
+    }
+
+    /// Whether one of its parts is of this primitive.
+    pub fn has(&self, primitive: &str) -> bool {
+        self.program.parts.iter().any(|part| part.schema.name == primitive)
+    }
+
+    /// Numbers of all ports of one direction in a process image.
+    pub fn words(&self, direction: Direction, kinds: usize) -> usize {
+        self.ports.iter().filter(|p| p.direction == direction).map(|p| p.words(kinds)).sum()
+    }
+
+    /// Where a port begins among the ports of its own direction.
+    pub fn offset(&self, name: &str, kinds: usize) -> Option<usize> {
+        let port = self.port(name)?;
+        let own = self.ports.iter().filter(|p| p.direction == port.direction);
+        Some(own.take_while(|p| p.name != name).map(|p| p.words(kinds)).sum())
+    }
+}

@@ -1,0 +1,368 @@
+//! A device at a place of the layout.
+
+use super::evaluate::{Environment, Values, Wrong};
+use super::{Device, Form, Parameter};
+use crate::diagnostic::{Diagnostic, sort};
+use crate::source::Span;
+use crate::spec::ast;
+use runtime_sim::kinematics::arm::Arm;
+use runtime_sim::machine::Machine;
+use runtime_sim::part::{Part, Primitive, Settings};
+use runtime_sim::point::Point;
+use runtime_sim::value::Value;
+use std::sync::Arc;
+
+/// A device with what the layout gives one machine.
+#[derive(Clone, Debug)]
+pub struct Placed {
+    pub device: Arc<Device>,
+    pub pose: Point,
+    /// Of each parameter of the device, in its order.
+    pub arguments: Vec<Value>,
+}
+
+/// A place at which an item changes hands. The point is where the item's underside rests.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place<'a> {
+    pub point: Point,
+    title: &'a str,
+    number: usize,
+    index: Option<usize>,
+}
+
+impl Place<'_> {
+    /// For reports, such as `slot 3 at stops[0]`.
+    pub fn name(&self, kinds: &[(String, f64)]) -> String {
+        let index = self.index.map_or(String::new(), |index| index.to_string());
+        let kind = kinds.get(self.number).map_or("", |(kind, _)| kind.as_str());
+        let title = self.title.replace("{index}", &index).replace("{kind}", kind);
+        title.replace("{number}", &self.number.to_string())
+    }
+}
+
+/// A requirement of a device that a machine does not meet.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unmet {
+    pub parameters: Vec<String>,
+    pub text: String,
+    pub place: Span,
+}
+
+impl Placed {
+    fn environment<'a>(&'a self, heights: &'a [f64], index: Option<usize>) -> Environment<'a> {
+        Environment {
+            program: &self.device.program,
+            pose: Some(self.pose),
+            arguments: &self.arguments,
+            heights: Some(heights),
+            index,
+            values: Values::OfMachine,
+        }
+    }
+
+    /// All parts of the machine; `place` is where the layout describes it. `heights` are those of the kinds.
+    pub fn parts(&self, heights: &[f64], place: Span) -> Result<Vec<Arc<Part>>, Vec<Diagnostic>> {
+        let mut diagnostics = Vec::new();
+        let all: Vec<usize> = (0..self.device.program.parts.len()).collect();
+        let parts = self.some(&all, heights, place, &mut diagnostics);
+        diagnostics.extend(self.too_few(heights, place));
+        sort(&mut diagnostics);
+        if diagnostics.is_empty() { Ok(parts) } else { Err(diagnostics) }
+    }
+
+    /// The machine as the simulator takes it, without an automaton.
+    pub fn machine(&self, name: &str, heights: &[f64], place: Span) -> Result<Machine, Vec<Diagnostic>> {
+        Ok(Machine {
+            name: name.into(),
+            pose: self.pose,
+            parts: self.parts(heights, place)?,
+            wiring: self.device.wiring.clone(),
+            states: Vec::new(),
+        })
+    }
+
+    fn some(
+        &self,
+        numbers: &[usize],
+        heights: &[f64],
+        place: Span,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Vec<Arc<Part>> {
+        let environment = self.environment(heights, None);
+        let mut parts = Vec::new();
+        for number in numbers {
+            let part = &self.device.program.parts[*number];
+            if let Some(known) = &part.known {
+                parts.push(known.clone());
+                continue;
+            }
+            let mut settings = Vec::new();
+            let before = diagnostics.len();
+            for given in &part.settings {
+                let name = &given.name.value;
+                let Some(setting) = part.schema.settings.iter().find(|s| s.name == name) else { continue };
+                match environment.setting(part, setting, given) {
+                    Ok(value) => settings.push((setting.name, value)),
+                    Err(found) => diagnostics.push(found.other(place, "for this machine")),
+                }
+            }
+            if diagnostics.len() > before {
+                continue;
+            }
+            match Part::new(&part.name.value, part.schema.name, Settings::new(settings)) {
+                Ok(part) => parts.push(Arc::new(part)),
+                Err(error) => diagnostics.push(
+                    Diagnostic::new("E0704", part.place(), error)
+                        .other(place, "for this machine")
+                        .help("correct the setting, or what the layout gives the machine"),
+                ),
+            }
+        }
+        parts
+    }
+
+    /// Constants that have not an element for each kind.
+    fn too_few(&self, heights: &[f64], place: Span) -> Vec<Diagnostic> {
+        let constants = self.device.constants.iter().filter_map(|constant| {
+            let words = self.constant(&constant.name, heights).unwrap_or_default().len();
+            let wanted = constant.ty.words() * constant.extent.elements(heights.len());
+            (words < wanted).then(|| {
+                let message = format!(
+                    "`{}` of {} has fewer elements than there are kinds",
+                    constant.name, self.device.name
+                );
+                Diagnostic::new("E0709", place, message)
+                    .other(self.device.place, "the device")
+                    .help("let the device have more slots, or the scenario fewer kinds")
+            })
+        });
+        constants.collect()
+    }
+
+    /// Requirements of the device that do not hold: the parameters that each is about, what is wrong, and where it
+    /// stands.
+    pub fn unmet(&self) -> Result<Vec<Unmet>, Wrong> {
+        let environment = self.environment(&[], None);
+        let mut unmet = Vec::new();
+        for require in &self.device.program.requires {
+            if environment.value(0, &require.condition)? == Value::Truth(true) {
+                continue;
+            }
+            let text = require.text.iter().map(|part| match part {
+                ast::TextPart::Words(words) => words.clone(),
+                ast::TextPart::Value(expr) => shown(environment.value(0, expr)),
+            });
+            let named = |parameter: &&Parameter| mentions(&require.condition, &parameter.name);
+            let parameters = self.device.parameters.iter().filter(named).map(|p| p.name.clone());
+            unmet.push(Unmet { parameters: parameters.collect(), text: text.collect(), place: require.span });
+        }
+        Ok(unmet)
+    }
+
+    /// The parts of some primitives, as far as they are right.
+    fn parts_of(&self, primitives: &[&str]) -> Vec<Arc<Part>> {
+        let all = self.device.program.parts.iter().enumerate();
+        let wanted = all.filter(|(_, part)| primitives.contains(&part.schema.name)).map(|(i, _)| i);
+        self.some(&wanted.collect::<Vec<_>>(), &[], self.device.place, &mut Vec::new())
+    }
+
+    /// None for a machine without a chain.
+    pub fn arm(&self) -> Option<Arm> {
+        let parts = self.parts_of(&["axis", "chain"]);
+        let axes: Vec<_> = parts
+            .iter()
+            .filter_map(|part| match &part.primitive {
+                Primitive::Axis(axis) => Some(axis),
+                _ => None,
+            })
+            .collect();
+        let chain = parts.iter().find_map(|part| match &part.primitive {
+            Primitive::Chain(chain) => Some(chain),
+            _ => None,
+        })?;
+        Arm::new(&axes, chain)
+    }
+
+    /// Where it may stand, and where its axes bring it: the lower and the upper end of x and of y.
+    pub fn ground(&self) -> [[f64; 2]; 2] {
+        let at = |value: f64| [value, value];
+        let mut ground = [at(self.pose.x), at(self.pose.y)];
+        for part in self.parts_of(&["axis", "route"]) {
+            match &part.primitive {
+                Primitive::Axis(axis) => {
+                    if let runtime_sim::part::axis::Motion::Slides { along, range } = axis.motion {
+                        ground[along as usize] = range;
+                    }
+                }
+                Primitive::Route(route) => {
+                    for stop in &route.stops {
+                        let with = |[low, high]: [f64; 2], value: f64| [low.min(value), high.max(value)];
+                        ground = [with(ground[0], stop.x), with(ground[1], stop.y)];
+                    }
+                }
+                _ => {}
+            }
+        }
+        ground
+    }
+
+    /// The values of a device constant, flattened; `None` if this device has no such constant.
+    pub fn constant(&self, name: &str, heights: &[f64]) -> Option<Vec<f64>> {
+        let expr = match self.device.program.scopes.first()?.names.get(name)? {
+            super::program::Symbol::Define(expr) => expr,
+            _ => return None,
+        };
+        let constant = self.device.constants.iter().find(|constant| constant.name == name)?;
+        let value = self.environment(heights, None).value(0, expr).ok()?;
+        let mut words = Vec::new();
+        flatten(&value, &mut words);
+        words.truncate(constant.ty.words() * constant.extent.elements(heights.len()));
+        Some(words)
+    }
+
+    /// The places of a handover that a type names, such as `stops[0]`, `pick_zone` or `places`. Of places with
+    /// numbers only the first `capacity` count; those for kinds are as many as there are kinds.
+    /// `None` if this device has no such handover.
+    pub fn handover(
+        &self,
+        name: &str,
+        index: Option<usize>,
+        capacity: usize,
+        kinds: usize,
+    ) -> Option<Vec<Place<'_>>> {
+        let place = self.device.program.places.iter().find(|place| place.name.value == name)?;
+        let environment = self.environment(&[], index);
+        let mut places = Vec::new();
+        for (expr, title) in &place.points {
+            let title = title.value.as_str();
+            let named = |number: usize, point: Point| Place { point, title, number, index };
+            match environment.value(0, expr).ok()? {
+                Value::Point(point) => places.push(named(0, point)),
+                Value::List(points) => {
+                    let count = if title.contains("{kind}") {
+                        kinds
+                    } else if title.contains("{number}") {
+                        capacity
+                    } else {
+                        usize::MAX
+                    };
+                    for (number, point) in points.into_iter().enumerate().take(count) {
+                        let Value::Point(point) = point else { return None };
+                        places.push(named(number, point));
+                    }
+                }
+                _ => return None,
+            }
+        }
+        Some(places)
+    }
+
+    /// Every number by its path among the keys of the JSON object, such as `pose[0]` or `destinations[0][1]`.
+    pub fn numbers(&self) -> Vec<(String, f64)> {
+        let Point { x, y, z } = self.pose;
+        let pose = [x, y, z].into_iter().enumerate().map(|(i, value)| (format!("pose[{i}]"), value));
+        let mut found: Vec<(String, f64)> = pose.collect();
+        for (parameter, value) in self.device.parameters.iter().zip(&self.arguments) {
+            collect(&parameter.name, value, &mut found);
+        }
+        found
+    }
+
+    /// The same machine with another value of one number, by its place in [`Self::numbers`]; none if it has no such
+    /// number, or a range would lose its order.
+    pub fn with_number(&self, number: usize, value: f64) -> Option<Placed> {
+        let mut changed = self.clone();
+        let mut left = number;
+        let Point { x, y, z } = &mut changed.pose;
+        match [x, y, z].into_iter().nth(number) {
+            Some(coordinate) => *coordinate = value,
+            None => {
+                left -= 3;
+                let mut arguments = changed.arguments.iter_mut();
+                arguments.find_map(|argument| nth(argument, &mut left)).map(|place| *place = value)?;
+            }
+        }
+        let ranges = self.device.parameters.iter().zip(&changed.arguments);
+        let mut ranges = ranges.filter(|(parameter, _)| parameter.form == Form::Range);
+        let in_order = ranges.all(|(_, value)| match value {
+            Value::List(ends) => matches!(ends[..], [Value::Number(low), Value::Number(high)] if low < high),
+            _ => false,
+        });
+        (value.is_finite() && in_order).then_some(changed)
+    }
+}
+
+/// Which arguments two machines differ in tells whether their parts do.
+impl PartialEq for Placed {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.device, &other.device)
+            && self.pose == other.pose
+            && self.arguments == other.arguments
+    }
+}
+
+fn collect(path: &str, value: &Value, found: &mut Vec<(String, f64)>) {
+    match value {
+        Value::Number(number) => found.push((path.to_string(), *number)),
+        Value::Point(Point { x, y, z }) => {
+            found
+                .extend([x, y, z].into_iter().enumerate().map(|(i, value)| (format!("{path}[{i}]"), *value)));
+        }
+        Value::List(values) => {
+            for (i, value) in values.iter().enumerate() {
+                collect(&format!("{path}[{i}]"), value, found);
+            }
+        }
+        _ => {}
+    }
+}
+
+/// The number that is so many behind the first; what is passed is counted off.
+fn nth<'a>(value: &'a mut Value, left: &mut usize) -> Option<&'a mut f64> {
+    match value {
+        Value::Number(number) if *left == 0 => Some(number),
+        Value::Number(_) => {
+            *left -= 1;
+            None
+        }
+        Value::Point(Point { x, y, z }) => {
+            let found = [x, y, z].into_iter().nth(*left);
+            if found.is_none() {
+                *left -= 3;
+            }
+            found
+        }
+        Value::List(values) => values.iter_mut().find_map(|value| nth(value, left)),
+        _ => None,
+    }
+}
+
+fn flatten(value: &Value, words: &mut Vec<f64>) {
+    match value {
+        Value::Number(number) => words.push(*number),
+        Value::Truth(truth) => words.push(f64::from(u8::from(*truth))),
+        Value::Point(point) => words.extend([point.x, point.y, point.z]),
+        Value::List(values) => values.iter().for_each(|value| flatten(value, words)),
+        _ => {}
+    }
+}
+
+fn shown(value: Result<Value, Wrong>) -> String {
+    match value {
+        Ok(Value::Number(number)) => format!("{number:.3}"),
+        Ok(Value::Point(Point { x, y, z })) => format!("({x:.3}, {y:.3}, {z:.3})"),
+        _ => "?".into(),
+    }
+}
+
+/// Whether a name stands in an expression.
+fn mentions(expr: &ast::Expr, name: &str) -> bool {
+    use ast::ExprKind as Kind;
+    match &expr.kind {
+        Kind::Name(word) => word == name,
+        Kind::Member(a, _) | Kind::Negate(a) | Kind::Not(a) => mentions(a, name),
+        Kind::Index(a, b) | Kind::Binary(_, a, b) => mentions(a, name) || mentions(b, name),
+        Kind::Call(_, all) | Kind::List(all) => all.iter().any(|part| mentions(part, name)),
+        _ => false,
+    }
+}

@@ -1,0 +1,146 @@
+//! What of a device can be told before there is a machine: values that are the same for all, and expressions that are
+//! wrong for any.
+
+use super::evaluate::{Environment, Values};
+use super::program::{Program, Setting as Given};
+use super::{Constant, Form, Parameter};
+use crate::diagnostic::Diagnostic;
+use crate::spec::ast;
+use runtime_sim::device::{Extent, PortType};
+use runtime_sim::part::{Part, Settings};
+use runtime_sim::point::{Axis, Point};
+use runtime_sim::value::Value;
+use std::sync::Arc;
+
+/// Works out settings and parts that are the same for all machines.
+pub fn settle(program: &mut Program) {
+    let environment = nothing(program);
+    let known: Vec<Vec<Option<Value>>> = program
+        .parts
+        .iter()
+        .map(|part| {
+            let value = |given: &Given| {
+                let setting = part.schema.settings.iter().find(|s| s.name == given.name.value)?;
+                environment.setting(part, setting, given).ok()
+            };
+            part.settings.iter().map(value).collect()
+        })
+        .collect();
+    for (part, known) in program.parts.iter_mut().zip(known) {
+        part.settings.iter_mut().zip(known).for_each(|(given, known)| given.known = known);
+        let settled = |given: &Given| {
+            let setting = part.schema.settings.iter().find(|s| s.name == given.name.value)?;
+            Some((setting.name, given.known.clone()?))
+        };
+        let settings: Option<Vec<_>> = part.settings.iter().map(settled).collect();
+        let made = settings
+            .and_then(|settings| Part::new(&part.name.value, part.schema.name, Settings::new(settings)).ok());
+        part.known = made.map(Arc::new);
+    }
+}
+
+fn nothing(program: &Program) -> Environment<'_> {
+    let values = Values::OfMachine;
+    Environment { program, pose: None, arguments: &[], heights: None, index: None, values }
+}
+
+/// Expressions that are wrong whatever the layout says.
+pub fn wrong(
+    program: &Program,
+    parameters: &[Parameter],
+    constants: &[(Constant, &ast::Expr)],
+) -> Vec<Diagnostic> {
+    let arguments: Vec<Value> = parameters.iter().map(|parameter| sample(&parameter.form)).collect();
+    let environment = Environment {
+        program,
+        pose: Some(Point::new(0.5, 0.25, 1.0)),
+        arguments: &arguments,
+        heights: Some(&[0.1]),
+        index: None,
+        values: Values::Sample,
+    };
+    let mut found = Vec::new();
+    for part in &program.parts {
+        for given in part.settings.iter().filter(|given| given.known.is_none()) {
+            let setting = part.schema.settings.iter().find(|s| s.name == given.name.value);
+            let Some(setting) = setting else { continue };
+            match nothing(program).setting(part, setting, given) {
+                // It was worked out, and does not fit.
+                Err(diagnostic) if diagnostic.code == "E0704" => found.push(*diagnostic),
+                _ => found.extend(environment.setting(part, setting, given).err().map(|wrong| *wrong)),
+            }
+        }
+    }
+    for (constant, expr) in constants {
+        match environment.value(0, expr) {
+            Err(diagnostic) => found.push(*diagnostic),
+            Ok(value) if is_of(&value, constant) => {}
+            Ok(_) => found.push(
+                Diagnostic::new(
+                    "E0709",
+                    expr.span,
+                    format!("`{}` has another type than this", constant.name),
+                )
+                .help("give the constant the type of its value, or correct the value"),
+            ),
+        }
+    }
+    for require in &program.requires {
+        match environment.value(0, &require.condition) {
+            Ok(Value::Truth(_)) => {}
+            Ok(_) => {
+                found.push(*super::evaluate::wrong(require.condition.span, "this is neither true nor false"))
+            }
+            Err(diagnostic) => found.push(*diagnostic),
+        }
+        for part in &require.text {
+            if let ast::TextPart::Value(expr) = part {
+                found.extend(environment.value(0, expr).err().map(|wrong| *wrong));
+            }
+        }
+    }
+    for place in &program.places {
+        let environment = Environment { index: place.extent.as_ref().map(|_| 0), ..environment };
+        for (expr, _) in &place.points {
+            match environment.value(0, expr) {
+                Ok(Value::Point(_)) => {}
+                Ok(Value::List(points)) if points.iter().all(|p| matches!(p, Value::Point(_))) => {}
+                Ok(_) => found.push(
+                    Diagnostic::new("E0709", expr.span, "items change hands at a point or at points")
+                        .help("write a point or a list of points"),
+                ),
+                Err(diagnostic) => found.push(*diagnostic),
+            }
+        }
+    }
+    found
+}
+
+fn sample(form: &Form) -> Value {
+    let point = |x: f64| Value::Point(Point::new(x, 1.0, 0.0));
+    match form {
+        Form::Axis => Value::Axis(Axis::X),
+        Form::Range => Value::List(vec![Value::Number(-3.0), Value::Number(4.0)]),
+        Form::Real => Value::Number(1.0),
+        Form::Point => point(1.0),
+        Form::Points(elements) => Value::List((0..elements.len()).map(|i| point(i as f64)).collect()),
+    }
+}
+
+/// Whether a value is of the type of a constant, with one kind of part.
+fn is_of(value: &Value, constant: &Constant) -> bool {
+    let is_scalar = |value: &Value| {
+        matches!(
+            (constant.ty, value),
+            (PortType::Bool, Value::Truth(_))
+                | (PortType::Int { .. } | PortType::Real, Value::Number(_))
+                | (PortType::Point, Value::Point(_))
+        )
+    };
+    match (constant.extent, value) {
+        (Extent::One, value) => is_scalar(value),
+        (Extent::Times(n), Value::List(values)) => values.len() == n && values.iter().all(is_scalar),
+        (Extent::PerKind, Value::List(values)) => !values.is_empty() && values.iter().all(is_scalar),
+        _ => false,
+    }
+}

@@ -1,0 +1,180 @@
+//! The keys of an object that depend on its device.
+
+use super::decode::{Decoder, instead, listing};
+use super::json::Json;
+use super::object::COMMON_KEYS;
+use super::{Number, Object, Part};
+use crate::device::{Device, Form, Parameter, Placed};
+use crate::diagnostic::{Diagnostic, sort};
+use runtime_sim::line::Obstacle;
+use runtime_sim::point::Axis;
+use runtime_sim::value::Value;
+use std::sync::Arc;
+
+const OBSTACLES: [&str; 6] = ["bin", "station", "assembly_station", "collector", "rail", "box"];
+
+/// A machine whose type is bound to a device, and all numbers of its object, those of the pose first.
+pub fn machine(object: &Object, device: &Arc<Device>) -> Result<(Placed, Vec<Number>), Vec<Diagnostic>> {
+    let mut reader = Reader { object, decoder: Decoder::default(), numbers: object.pose_numbers.clone() };
+    let known: Vec<&str> = device.parameters.iter().map(|parameter| parameter.name.as_str()).collect();
+    unknown_keys(&mut reader.decoder, object, &known, &format!("an object on the device {}", device.name));
+    let arguments: Vec<_> = device.parameters.iter().map(|parameter| reader.argument(parameter)).collect();
+    let mut diagnostics = std::mem::take(&mut reader.decoder.diagnostics);
+    match arguments.into_iter().collect::<Option<Vec<_>>>().filter(|_| diagnostics.is_empty()) {
+        Some(arguments) => {
+            let placed = Placed { device: device.clone(), pose: object.pose.value, arguments };
+            unmet(object, &placed)?;
+            Ok((placed, reader.numbers))
+        }
+        None => {
+            sort(&mut diagnostics);
+            Err(diagnostics)
+        }
+    }
+}
+
+/// What the device requires of the numbers.
+fn unmet(object: &Object, placed: &Placed) -> Result<(), Vec<Diagnostic>> {
+    let unmet = placed.unmet().map_err(|found| vec![found.other(object.span, "for this machine")])?;
+    let found: Vec<Diagnostic> = unmet
+        .into_iter()
+        .map(|unmet| {
+            let mut members = object.members.iter();
+            let member = members.find(|member| unmet.parameters.contains(&member.key.value));
+            let place = member.map_or(object.span, |member| member.value.span);
+            Diagnostic::new("E0124", place, format!("\"{}\": {}", object.name.value, unmet.text))
+                .other(unmet.place, "required here")
+                .other(object.pose.span, "the machine stands here")
+                .help("change these numbers, or those of the pose")
+        })
+        .collect();
+    if found.is_empty() { Ok(()) } else { Err(found) }
+}
+
+/// The checks of [`machine`] for an object whose type has no automaton.
+pub fn obstacle(object: &Object) -> Result<Obstacle, Vec<Diagnostic>> {
+    let mut decoder = Decoder::default();
+    let kind = object.kind.value.as_str();
+    if OBSTACLES.contains(&kind) && object.part == Part::Stationary {
+        unknown_keys(&mut decoder, object, &[], &format!("a {kind} without an automaton"));
+    } else {
+        decoder.report(
+            Diagnostic::new("E0126", object.kind.span, format!("no automaton has the type \"{kind}\""))
+                .note(format!("stationary things need none if they are of the types {}", listing(&OBSTACLES)))
+                .help(match object.part {
+                    Part::Stationary => instead(kind, &OBSTACLES),
+                    Part::Robot => format!("write an automaton for \"{kind}\", or correct the type"),
+                }),
+        );
+    }
+    match decoder.diagnostics.is_empty() {
+        true => Ok(Obstacle {
+            name: object.name.value.clone(),
+            pose: object.pose.value,
+            size: object.size.as_ref().map(|s| s.value),
+        }),
+        false => Err(decoder.diagnostics),
+    }
+}
+
+fn unknown_keys(decoder: &mut Decoder, object: &Object, own: &[&str], what: &str) {
+    let mut known = COMMON_KEYS.to_vec();
+    known.extend(own);
+    if object.part == Part::Stationary {
+        known.push("box");
+    }
+    decoder.unknown_keys(&object.members, &known, what);
+}
+
+struct Reader<'a> {
+    object: &'a Object,
+    decoder: Decoder,
+    numbers: Vec<Number>,
+}
+
+impl<'a> Reader<'a> {
+    fn argument(&mut self, parameter: &Parameter) -> Option<Value> {
+        let key = parameter.name.as_str();
+        match &parameter.form {
+            Form::Axis => self.axis(key).map(Value::Axis),
+            Form::Range => self.range(key).map(|range| Value::List(range.map(Value::Number).to_vec())),
+            Form::Real => {
+                let json = self.required(key)?;
+                let number = self.decoder.metres(json, key.to_string())?;
+                self.numbers.push(number.clone());
+                Some(Value::Number(number.value))
+            }
+            Form::Point => {
+                let json = self.required(key)?;
+                let (point, numbers) = self.decoder.point(json, key)?;
+                self.numbers.extend(numbers);
+                Some(Value::Point(point))
+            }
+            Form::Points(elements) => self.points(key, elements),
+        }
+    }
+
+    fn required(&mut self, key: &str) -> Option<&'a Json> {
+        let what = format!("\"{}\"", self.object.name.value);
+        self.decoder.required(&self.object.members, key, self.object.span, &what)
+    }
+
+    fn axis(&mut self, key: &str) -> Option<Axis> {
+        let text = self.required(key).and_then(|j| self.decoder.text(j, key))?;
+        match text.value.as_str() {
+            "x" => Some(Axis::X),
+            "y" => Some(Axis::Y),
+            other => {
+                self.decoder.report(
+                    Diagnostic::new(
+                        "E0115",
+                        text.span,
+                        format!("{key} must be \"x\" or \"y\", not \"{other}\""),
+                    )
+                    .note("it is the horizontal axis of the world along which the thing lies")
+                    .help("write \"x\" or \"y\""),
+                );
+                None
+            }
+        }
+    }
+
+    fn range(&mut self, key: &str) -> Option<[f64; 2]> {
+        let json = self.required(key)?;
+        let numbers = self.decoder.metres_list(json, key, &["lower end", "upper end"])?;
+        let (lower, upper) = (numbers[0].value, numbers[1].value);
+        self.numbers.extend(numbers);
+        if lower >= upper {
+            self.decoder.report(
+                Diagnostic::new(
+                    "E0123",
+                    json.span,
+                    format!("{key} goes from {lower} to {upper}, which is not upwards"),
+                )
+                .note("the lower end stands first; both are in the world frame")
+                .help(match lower > upper {
+                    true => format!("write [{upper}, {lower}]"),
+                    false => "write two different ends".into(),
+                }),
+            );
+            return None;
+        }
+        Some([lower, upper])
+    }
+
+    fn points(&mut self, key: &str, elements: &[String]) -> Option<Value> {
+        let json = self.required(key)?;
+        let elements: Vec<&str> = elements.iter().map(String::as_str).collect();
+        let items = self.decoder.exactly(json, key, &elements)?;
+        let points: Vec<_> = (items.iter().enumerate())
+            .map(|(i, item)| self.decoder.point(item, &format!("{key}[{i}]")))
+            .collect();
+        let mut values = Vec::new();
+        for point in points {
+            let (point, numbers) = point?;
+            self.numbers.extend(numbers);
+            values.push(Value::Point(point));
+        }
+        Some(Value::List(values))
+    }
+}

@@ -1,0 +1,233 @@
+//! A machine of a line: the parts of its device with their settings, and how its I/O is wired to them.
+
+use crate::kinematics::arm::Arm;
+use crate::line::State;
+use crate::part::axis::Axis;
+use crate::part::chain::Chain;
+use crate::part::lane::Lane;
+use crate::part::place::Place;
+use crate::part::route::Route;
+use crate::part::{Form, Part, Primitive};
+use crate::point::Point;
+use crate::value::Value;
+use crate::wiring::{Drives, Output, Source, Wiring};
+use std::collections::HashSet;
+use std::sync::Arc;
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct Machine {
+    pub name: String,
+    /// As the layout gives it.
+    pub pose: Point,
+    /// A part refers to parts before it only.
+    pub parts: Vec<Arc<Part>>,
+    pub wiring: Arc<Wiring>,
+    /// States of its automaton; empty if it has none.
+    pub states: Vec<State>,
+}
+
+/// Elements of a port.
+const MOST_ELEMENTS: usize = 1024;
+
+impl Machine {
+    /// The first thing that is wrong with its parts or its wiring.
+    pub fn check(&self) -> Result<(), String> {
+        if [self.pose.x, self.pose.y, self.pose.z].iter().any(|c| c.abs() > 1e6) {
+            return Err("a coordinate of its pose is no number within 1000 km".into());
+        }
+        let mut names = HashSet::new();
+        for (index, part) in self.parts.iter().enumerate() {
+            if !names.insert(&part.name) {
+                return Err(format!("two parts {}", part.name));
+            }
+            self.check_references(index, part)?;
+        }
+        for primitive in ["chain", "route"] {
+            if self.parts.iter().filter(|part| part.schema().name == primitive).count() > 1 {
+                return Err(format!("two parts are a {primitive}"));
+            }
+        }
+        if self.chain().is_some() {
+            let arm = self.arm().ok_or("there is no inverse kinematics for its chain on these axes")?;
+            let rest = self.chain().map(|chain| chain.rest).unwrap_or_default();
+            if arm.solve(rest, &arm.start()).is_none() {
+                return Err("its tool cannot reach its own rest position".into());
+            }
+        }
+        self.check_wiring()
+    }
+
+    fn check_references(&self, index: usize, part: &Part) -> Result<(), String> {
+        for setting in part.schema().settings {
+            let (Form::Part(primitives), Some(Value::Part { part: other, frame })) =
+                (setting.form, part.settings.get(setting.name))
+            else {
+                continue;
+            };
+            let Some(other) = self.parts[..index].get(*other) else {
+                return Err(format!("the part {} refers to one that is not before it", part.name));
+            };
+            let schema = other.schema();
+            if !primitives.contains(&schema.name) || *frame >= schema.frames.len().max(1) {
+                return Err(format!("the part {} cannot refer to {}", part.name, other.name));
+            }
+        }
+        Ok(())
+    }
+
+    fn check_wiring(&self) -> Result<(), String> {
+        let wiring = &self.wiring;
+        let schema = |part: usize| self.parts.get(part).map(|part| part.schema());
+        let sizes = wiring.inputs.iter().map(|i| i.size).chain(wiring.outputs.iter().map(|o| o.size));
+        for size in sizes {
+            if !matches!(size.each, 1 | 3) || size.words(1) > MOST_ELEMENTS {
+                return Err("a port has no size that it may have".into());
+            }
+        }
+        for input in &wiring.inputs {
+            let (expected, is_head) = match input.source {
+                Source::Signal { part, signal } => {
+                    let signal = schema(part).and_then(|schema| schema.signals.get(signal));
+                    let signal = signal.ok_or("an input reads a signal that is not there")?;
+                    ((signal.ty.words(), signal.extent), false)
+                }
+                Source::Ready | Source::Got | Source::Ack | Source::Error => {
+                    ((1, crate::device::Extent::One), true)
+                }
+            };
+            if (input.size.each, input.size.extent) != expected || is_head && !wiring.is_commanded() {
+                return Err("an input has another size than what it reads".into());
+            }
+        }
+        for output in &wiring.outputs {
+            if let Drives::Level { part, level } = output.drives {
+                let level = schema(part).and_then(|schema| schema.levels.get(level));
+                let level = level.ok_or("an output drives a level that is not there")?;
+                if (output.size.each, output.size.words(1)) != (level.ty.words(), level.ty.words()) {
+                    return Err("an output has another size than what it drives".into());
+                }
+            }
+        }
+        let has = |drives: Drives| wiring.outputs.iter().any(|output| output.drives == drives);
+        if wiring.is_commanded() && !(has(Drives::Command) && has(Drives::Verb) && has(Drives::Hold)) {
+            return Err("a machine with commands lacks the outputs for them".into());
+        }
+        for command in &wiring.commands {
+            let action = schema(command.part).and_then(|schema| schema.actions.get(command.action));
+            let action = action.ok_or("a command asks for an action that is not there")?;
+            let given: Option<Vec<&Output>> =
+                command.arguments.iter().map(|argument| wiring.outputs.get(*argument)).collect();
+            let given = given.ok_or("a command has an argument that is not there")?;
+            let wanted: usize = action.arguments.iter().map(|ty| ty.words()).sum();
+            if given.iter().map(|output| output.size.words(1)).sum::<usize>() != wanted {
+                return Err("a command has other arguments than its action".into());
+            }
+            if let Some(then) = command.then {
+                let signal = schema(then.part).and_then(|schema| schema.signals.get(then.signal));
+                let is_one = signal.is_some_and(|s| s.ty.words() == 1 && s.extent.elements(2) == 1);
+                if !is_one || then.within_ms > 1_000_000_000 {
+                    return Err("a command waits for a signal that is not there".into());
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn first<T>(&self, take: impl Fn(&Primitive) -> Option<&T>) -> Option<&T> {
+        self.parts.iter().find_map(|part| take(&part.primitive))
+    }
+
+    pub fn chain(&self) -> Option<&Chain> {
+        self.first(|primitive| match primitive {
+            Primitive::Chain(chain) => Some(chain),
+            _ => None,
+        })
+    }
+
+    pub fn route(&self) -> Option<&Route> {
+        self.first(|primitive| match primitive {
+            Primitive::Route(route) => Some(route),
+            _ => None,
+        })
+    }
+
+    pub fn lane(&self) -> Option<&Lane> {
+        self.first(|primitive| match primitive {
+            Primitive::Lane(lane) => Some(lane),
+            _ => None,
+        })
+    }
+
+    pub fn places(&self) -> impl Iterator<Item = &Place> {
+        self.parts.iter().filter_map(|part| match &part.primitive {
+            Primitive::Place(place) => Some(place),
+            _ => None,
+        })
+    }
+
+    pub fn has_source(&self) -> bool {
+        self.parts.iter().any(|part| matches!(part.primitive, Primitive::Source(_)))
+    }
+
+    pub fn has_orders(&self) -> bool {
+        self.parts.iter().any(|part| matches!(part.primitive, Primitive::Orders(_)))
+    }
+
+    pub fn has_grip(&self) -> bool {
+        self.parts.iter().any(|part| matches!(part.primitive, Primitive::Grip(_)))
+    }
+
+    /// What reports call a place beside the name of its machine.
+    pub fn title(&self, part: usize) -> Option<&str> {
+        match &self.parts.get(part)?.primitive {
+            Primitive::Place(place) => place.title.as_deref(),
+            _ => None,
+        }
+    }
+
+    /// Whether an order desk serves at this place.
+    pub fn is_place_of_orders(&self, part: usize) -> bool {
+        self.parts.iter().any(|other| matches!(&other.primitive, Primitive::Orders(o) if o.place == part))
+    }
+
+    /// Numbers of the parts that carry the chain, the first one first.
+    fn axes_of_chain(&self) -> Vec<usize> {
+        let mut axes = Vec::new();
+        let mut next = self.chain().map(|chain| chain.on);
+        while let Some(index) = next {
+            axes.push(index);
+            next = self.axis(index).and_then(|axis| axis.on).filter(|other| *other < index);
+        }
+        axes.reverse();
+        axes
+    }
+
+    fn axis(&self, part: usize) -> Option<&Axis> {
+        match &self.parts.get(part)?.primitive {
+            Primitive::Axis(axis) => Some(axis),
+            _ => None,
+        }
+    }
+
+    /// The axes that carry the chain with the names of their parts, the first one first.
+    pub fn axes(&self) -> Vec<(&str, &Axis)> {
+        let axes = self.axes_of_chain();
+        axes.iter().filter_map(|part| Some((self.parts[*part].name.as_str(), self.axis(*part)?))).collect()
+    }
+
+    /// Which of the joints of the chain and of the axes that carry it moves with this part.
+    pub(crate) fn joint_of(&self, part: usize) -> Option<usize> {
+        self.axes_of_chain().iter().position(|axis| *axis == part)
+    }
+
+    /// None for a machine without a chain, or with one that no closed form fits.
+    pub fn arm(&self) -> Option<Arm> {
+        let axes = self.axes();
+        Arm::new(&axes.iter().map(|(_, axis)| *axis).collect::<Vec<_>>(), self.chain()?)
+    }
+
+    /// Where it may stand, if it moves as a whole; the first is where it starts.
+    pub fn stops(&self) -> &[Point] {
+        self.route().map_or(&[], |route| &route.stops)
+    }
+}

@@ -1,0 +1,225 @@
+//! The joints of an arm behind the axes that carry it, moved together.
+
+use super::settings::{Form, Setting, Settings};
+use super::{Described, Action, Begun, Progress, Running, Schema, See, Signal, World, Start, Primitive};
+use crate::device::{Extent, PortType, error};
+use crate::kinematics::arm::Joints;
+use crate::plant::course::Course;
+use crate::point::Point;
+use crate::way::{Load, Ways};
+use drive::{Drive, Moved, Target};
+
+pub mod drive;
+
+pub const SCHEMA: Schema = Schema {
+    frames: &["base", "shoulder", "upper_arm", "forearm", "wrist_1", "wrist_2", "wrist_3"],
+    signals: &[Signal { name: "tool", ty: PortType::Point, extent: Extent::One }],
+    actions: &[
+        Action { name: "joints", arguments: &[PortType::Point] },
+        Action { name: "limits", arguments: &[PortType::Real, PortType::Real] },
+        Action { name: "turned", arguments: &[PortType::Point, PortType::Real] },
+        Action { name: "past", arguments: &[PortType::Point, PortType::Point] },
+        Action { name: "around", arguments: &[PortType::Point, PortType::Point] },
+    ],
+    ..Schema::new(
+        "chain",
+        "Six joints of the Universal Robots kind behind the axes that carry them, the tool pointing down.",
+        &[
+            Setting::new("on", Form::Part(&["axis"]), "", "the last of the axes that carry it"),
+            Setting::new("rest", Form::Point, "m", "where the tool is at the start"),
+            Setting::new("speeds", Form::Numbers, "rad/s", "greatest velocity of each joint"),
+            Setting::new("acceleration", Form::Positive, "rad/s2", "greatest of each joint at first"),
+            Setting::new("joints", Form::Words, "", "names of the joints, in the world"),
+            Setting::new("links", Form::Words, "", "names of what they move, in the world"),
+            Setting::new("masses", Form::Numbers, "kg", "of the links, for the world"),
+            Setting::new("efforts", Form::Numbers, "N m", "greatest, for the world"),
+            Setting::new("damping", Form::Numbers, "N m s/rad", "for the world"),
+            Setting::new("friction", Form::Numbers, "N m", "for the world"),
+            Setting::new(
+                "envelope",
+                Form::Numbers,
+                "m",
+                "half of the room across its axis that others leave it, and its height over the shoulder; empty: none",
+            ),
+            Setting::new(
+                "clearances",
+                Form::Points,
+                "m",
+                "of what turns with it about the vertical: lower and upper end from the shoulder's height, and how far its axis keeps off what stands between",
+            ),
+        ],
+    )
+};
+
+/// Joints behind the axes.
+const JOINTS: usize = 6;
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct Chain {
+    /// The last of the axes that carry it.
+    pub on: usize,
+    pub rest: Point,
+    pub speeds: Vec<f64>,
+    pub acceleration: f64,
+    pub joints: Vec<String>,
+    pub links: Vec<String>,
+    pub masses: Vec<f64>,
+    pub efforts: Vec<f64>,
+    pub damping: Vec<f64>,
+    pub friction: Vec<f64>,
+    pub envelope: Option<[f64; 2]>,
+    /// Lower end, upper end and radius of each.
+    pub clearances: Vec<[f64; 3]>,
+}
+
+impl Described for Chain {
+    fn new(settings: &Settings) -> Result<Self, String> {
+        let numbers = |name: &str| {
+            let numbers = settings.numbers(name)?;
+            if numbers.len() == JOINTS {
+                Ok(numbers)
+            } else {
+                Err(format!("the setting {name} has not a number for each of {JOINTS} joints"))
+            }
+        };
+        let words = |name: &str| {
+            let words = settings.words(name)?;
+            if words.len() == JOINTS {
+                Ok(words)
+            } else {
+                Err(format!("the setting {name} has not a name for each of {JOINTS} joints"))
+            }
+        };
+        let speeds = numbers("speeds")?;
+        if speeds.iter().any(|speed| *speed <= 0.0) {
+            return Err("a number of the setting speeds is not over 0".into());
+        }
+        let envelope = match settings.numbers("envelope")?[..] {
+            [] => None,
+            [half, height] => Some([half, height]),
+            _ => return Err("the setting envelope has neither two numbers nor none".into()),
+        };
+        Ok(Self {
+            on: settings.part("on")?,
+            rest: settings.point("rest")?,
+            speeds,
+            acceleration: settings.positive("acceleration")?,
+            joints: words("joints")?,
+            links: words("links")?,
+            masses: numbers("masses")?,
+            efforts: numbers("efforts")?,
+            damping: numbers("damping")?,
+            friction: numbers("friction")?,
+            envelope,
+            clearances: settings.points("clearances")?.iter().map(|p| [p.x, p.y, p.z]).collect(),
+        })
+    }
+
+    fn start(&self, start: &mut Start) -> Result<Option<Box<dyn Running>>, String> {
+        let (machine, part) = (start.machine(), start.part);
+        let name = &machine.name;
+        let arm = machine.arm().ok_or_else(|| format!("{name} has no inverse kinematics"))?;
+        let drive = Drive::new(arm, self.rest, Ways::of(start.line, start.machine))
+            .ok_or_else(|| format!("{name} cannot reach its own rest position"))?;
+        let grip = start.find(|other| matches!(other, Primitive::Grip(grip) if grip.chain == part));
+        Ok(Some(Box::new(Swinging::new(drive, grip))))
+    }
+}
+
+/// Highest acceleration that `limits` takes, m/s2 or rad/s2: ten times that of a fall, more than any drive has.
+const HIGHEST_ACCELERATION: f64 = 100.0;
+
+/// A chain at work.
+#[derive(Clone, Debug)]
+pub struct Swinging {
+    drive: Drive,
+    /// What may hold an item at its tool.
+    grip: Option<usize>,
+}
+
+impl Swinging {
+    pub fn new(drive: Drive, grip: Option<usize>) -> Self {
+        Self { drive, grip }
+    }
+
+    fn start(&mut self, target: Target, now: f64) -> Result<Begun, i32> {
+        self.drive.start(target, now).map(|()| Begun::UnderWay).ok_or(error::UNREACHABLE)
+    }
+
+    fn limit(&mut self, speed: f64, acceleration: f64) -> Result<Begun, i32> {
+        let is_part = speed.is_normal() && speed > 0.0 && speed <= 1.0;
+        let is_acceleration =
+            acceleration.is_normal() && acceleration > 0.0 && acceleration <= HIGHEST_ACCELERATION;
+        if !(is_part && is_acceleration && self.drive.is_at_rest()) {
+            return Err(error::REFUSED);
+        }
+        self.drive.set_pace(speed, acceleration);
+        Ok(Begun::Ended)
+    }
+}
+
+impl Running for Swinging {
+    fn boxed(&self) -> Box<dyn Running> {
+        Box::new(self.clone())
+    }
+
+    fn begin(&mut self, action: usize, arguments: &[f64], world: &mut World) -> Result<Begun, i32> {
+        let now = seconds(world.now_ms);
+        match (action, arguments) {
+            (0, &[x, y, z]) => self.start(Target::Place(Point::new(x, y, z)), now),
+            (1, &[speed, acceleration]) => self.limit(speed, acceleration),
+            (2, &[x, y, z, turn]) if self.drive.has_torso() => {
+                self.start(Target::Turned(Point::new(x, y, z), turn), now)
+            }
+            (3, &[x, y, z, u, v, w]) => {
+                self.start(Target::Past(Point::new(x, y, z), Point::new(u, v, w)), now)
+            }
+            (4, &[x, y, z, u, v, w]) if self.drive.has_torso() => {
+                let see = world.see();
+                let holds = self.grip.is_some_and(|grip| see.borne_by(grip).next().is_some());
+                let load = if holds { Load::Largest } else { Load::None };
+                self.start(Target::Round(Point::new(x, y, z), Point::new(u, v, w), load), now)
+            }
+            _ => Err(error::REFUSED),
+        }
+    }
+
+    fn abandon(&mut self, now_ms: u64) {
+        self.drive.stop(seconds(now_ms));
+    }
+
+    fn hold(&mut self, held: bool, now_ms: u64) {
+        let now = seconds(now_ms);
+        if held { self.drive.hold(now) } else { self.drive.resume(now) }
+    }
+
+    /// It brakes even while it is held.
+    fn advance(&mut self, world: &mut World) -> Progress {
+        match self.drive.advance(seconds(world.next_ms())) {
+            Moved::OnTheWay => Progress::Going,
+            Moved::Arrived => Progress::Reached,
+            Moved::Lost => Progress::Failed(error::UNREACHABLE),
+        }
+    }
+
+    fn signal(&self, _signal: usize, _see: &See, out: &mut [f64]) {
+        let Point { x, y, z } = self.drive.tool();
+        out.copy_from_slice(&[x, y, z]);
+    }
+
+    fn course(&self, _now_ms: u64) -> Course {
+        self.drive.under_way().map_or(Course::Rests, |motion| Course::Swings(motion.clone()))
+    }
+
+    fn position(&self) -> Option<Point> {
+        Some(self.drive.tool())
+    }
+
+    fn joints(&self) -> Option<Joints> {
+        Some(self.drive.joints())
+    }
+}
+
+fn seconds(ms: u64) -> f64 {
+    ms as f64 / 1000.0
+}

@@ -1,0 +1,224 @@
+//! What a part does while a line runs.
+
+use crate::carrier::Carrier;
+use crate::device::error;
+use crate::item::Items;
+use crate::kinematics::arm::Joints;
+use crate::line::Line;
+use crate::machine::Machine;
+use crate::part::Primitive;
+use crate::part::lane;
+use crate::part::orders::Desk;
+use crate::plant::course::Course;
+use crate::point::Point;
+
+/// How a command has begun.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Begun {
+    UnderWay,
+    Ended,
+}
+
+/// What became of the command of a part while it moved on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Progress {
+    Going,
+    Reached,
+    /// A code of [`error`].
+    Failed(i32),
+}
+
+/// What a part is started from.
+pub struct Start<'a> {
+    pub line: &'a Line,
+    /// Numbers of the machine and of the part.
+    pub machine: usize,
+    pub part: usize,
+    pub desk: &'a Desk,
+    pub items: &'a mut Items,
+}
+
+impl<'a> Start<'a> {
+    pub fn machine(&self) -> &'a Machine {
+        &self.line.machines[self.machine]
+    }
+
+    /// The first part of the machine of which this holds.
+    pub fn find(&self, wanted: impl Fn(&Primitive) -> bool) -> Option<usize> {
+        self.machine().parts.iter().position(|part| wanted(&part.primitive))
+    }
+}
+
+/// Of a time in the scenario.
+pub fn milliseconds(seconds: f64) -> u64 {
+    libm::round(seconds * 1000.0) as u64
+}
+
+/// What a part can see of its machine and of the line.
+#[derive(Clone, Copy)]
+pub struct See<'a> {
+    pub machine: usize,
+    /// The parts of the machine; the one that looks may be absent, and those that do nothing are.
+    pub parts: &'a [Option<Box<dyn Running>>],
+    pub items: &'a Items,
+    pub desk: &'a Desk,
+}
+
+/// The same while it may change what concerns all.
+pub struct World<'a> {
+    pub machine: usize,
+    pub parts: &'a [Option<Box<dyn Running>>],
+    pub items: &'a mut Items,
+    pub desk: &'a mut Desk,
+    /// Start of the scan, from the start of the run.
+    pub now_ms: u64,
+    /// Length of the scan.
+    pub dt_ms: u64,
+}
+
+impl<'a> World<'a> {
+    pub fn lane(&self, part: usize) -> Option<&'a lane::Moving> {
+        self.parts.get(part)?.as_deref()?.lane()
+    }
+
+    pub fn see(&self) -> See<'_> {
+        See { machine: self.machine, parts: self.parts, items: self.items, desk: self.desk }
+    }
+
+    /// End of the scan, from the start of the run.
+    pub fn next_ms(&self) -> u64 {
+        self.now_ms + self.dt_ms
+    }
+}
+
+impl<'a> See<'a> {
+    fn part(&self, part: usize) -> Option<&'a dyn Running> {
+        self.parts.get(part)?.as_deref()
+    }
+
+    pub fn lane(&self, part: usize) -> Option<&'a lane::Moving> {
+        self.part(part)?.lane()
+    }
+
+    /// Where the origin is of what this part carries.
+    pub fn position(&self, part: usize) -> Option<Point> {
+        self.part(part)?.position()
+    }
+
+    pub fn is_open(&self, part: usize) -> bool {
+        self.part(part).is_some_and(|orders| orders.open_order().is_some())
+    }
+
+    /// Where the underside of an item is that a part of this machine bears.
+    pub fn place(&self, part: usize, item: usize) -> Option<Point> {
+        self.part(part)?.place(&self.items.all()[item].carrier, self)
+    }
+
+    /// Items that a part of this machine bears, in the order in which they came.
+    pub fn borne_by(&self, part: usize) -> impl Iterator<Item = usize> + 'a {
+        let items = self.items;
+        let of_part = move |item: &usize| items.all()[*item].carrier.part() == Some(part);
+        items.borne_by(self.machine).iter().copied().filter(of_part)
+    }
+}
+
+/// A part at work. In a scan the parts of all machines first obey, then they move on, then what slips falls, then
+/// grippers take, then orders are served, and at last signals are read: each step of all machines, in their order,
+/// before the next one.
+pub trait Running: std::fmt::Debug + Send + Sync {
+    fn boxed(&self) -> Box<dyn Running>;
+
+    /// Begins a numbered command; the one before it is void. An error is a code of [`error`].
+    fn begin(&mut self, _action: usize, _arguments: &[f64], _world: &mut World) -> Result<Begun, i32> {
+        Err(error::REFUSED)
+    }
+
+    /// The command is void, or has ended in error.
+    fn abandon(&mut self, _now_ms: u64) {}
+
+    /// Halts on its path, or goes on.
+    fn hold(&mut self, _held: bool, _now_ms: u64) {}
+
+    fn level(&mut self, _level: usize, _value: &[f64]) {}
+
+    /// An item that a level has let go.
+    fn let_go(&mut self) -> Option<usize> {
+        None
+    }
+
+    /// Moves on to the end of the scan.
+    fn advance(&mut self, _world: &mut World) -> Progress {
+        Progress::Going
+    }
+
+    /// An item that slips by the end of the scan.
+    fn slip(&mut self, _next_ms: u64) -> Option<usize> {
+        None
+    }
+
+    /// Where it looks for an item in this scan, and how near it has to be, m.
+    fn seeks(&self, _see: &See, _now_ms: u64, _next_ms: u64) -> Option<(Point, f64)> {
+        None
+    }
+
+    /// Whether it takes the item that it found, or none, where it looked.
+    fn meets(&mut self, _item: Option<usize>, _now_ms: u64, _next_ms: u64) -> Option<usize> {
+        None
+    }
+
+    fn serve(&mut self, _world: &mut World) {}
+
+    /// What others have served is taken away here.
+    fn withdraw(&mut self, _world: &mut World) {}
+
+    /// Writes a signal; `out` holds its words.
+    fn signal(&self, _signal: usize, _see: &See, _out: &mut [f64]) {}
+
+    /// How what it carries is going to move.
+    fn course(&self, _now_ms: u64) -> Course {
+        Course::Rests
+    }
+
+    /// Something will change even if no output does, besides the end of a command.
+    fn is_busy(&self, _see: &See) -> bool {
+        false
+    }
+
+    /// The height of its surface and what becomes of an item that comes down at this place, if it meets that.
+    fn below(&self, _point: Point, _see: &See) -> Option<(f64, Carrier)> {
+        None
+    }
+
+    /// Where the underside of an item is that it bears.
+    fn place(&self, _carrier: &Carrier, _see: &See) -> Option<Point> {
+        None
+    }
+
+    /// Where the origin is of what it carries.
+    fn position(&self) -> Option<Point> {
+        None
+    }
+
+    fn joints(&self) -> Option<Joints> {
+        None
+    }
+
+    fn lane(&self) -> Option<&lane::Moving> {
+        None
+    }
+
+    fn open_order(&self) -> Option<usize> {
+        None
+    }
+
+    /// Orders that have not opened yet.
+    fn orders_to_open(&self, _desk: &Desk) -> usize {
+        0
+    }
+}
+
+impl Clone for Box<dyn Running> {
+    fn clone(&self) -> Self {
+        self.boxed()
+    }
+}

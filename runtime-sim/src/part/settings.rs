@@ -1,0 +1,180 @@
+//! The settings of a part, read by name.
+
+use crate::point::{Axis, Point};
+use crate::value::Value;
+
+/// A setting that a primitive knows.
+#[derive(Debug, PartialEq)]
+pub struct Setting {
+    pub name: &'static str,
+    pub form: Form,
+    /// Empty for a number without unit.
+    pub unit: &'static str,
+    pub meaning: &'static str,
+    pub is_optional: bool,
+}
+
+/// What values a setting takes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Form {
+    Truth,
+    /// Finite.
+    Number,
+    Positive,
+    Point,
+    Axis,
+    Word,
+    /// Another part, of one of these primitives.
+    Part(&'static [&'static str]),
+    /// Two numbers, the lower one first.
+    Range,
+    Points,
+    Numbers,
+    Words,
+}
+
+impl Setting {
+    pub const fn new(name: &'static str, form: Form, unit: &'static str, meaning: &'static str) -> Self {
+        Self { name, form, unit, meaning, is_optional: false }
+    }
+
+    pub const fn optional(self) -> Self {
+        Self { is_optional: true, ..self }
+    }
+}
+
+/// Names and values, in the order of the text.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Settings(Vec<(&'static str, Value)>);
+
+/// No coordinate and no length is farther from 0 than 1000 km.
+const FARTHEST: f64 = 1e6;
+
+impl Settings {
+    pub fn new(settings: Vec<(&'static str, Value)>) -> Self {
+        Self(settings)
+    }
+
+    pub fn all(&self) -> &[(&'static str, Value)] {
+        &self.0
+    }
+
+    pub fn get(&self, name: &str) -> Option<&Value> {
+        self.0.iter().find(|(known, _)| *known == name).map(|(_, value)| value)
+    }
+
+    pub fn has(&self, name: &str) -> bool {
+        self.get(name).is_some()
+    }
+
+    fn read<T>(&self, name: &str, what: &str, take: impl FnOnce(&Value) -> Option<T>) -> Result<T, String> {
+        let value = self.get(name).ok_or_else(|| format!("the setting {name} is missing"))?;
+        take(value).ok_or_else(|| format!("the setting {name} is no {what}"))
+    }
+
+    pub fn truth(&self, name: &str) -> Result<bool, String> {
+        self.read(name, "`true` or `false`", |value| match value {
+            Value::Truth(truth) => Some(*truth),
+            _ => None,
+        })
+    }
+
+    pub fn number(&self, name: &str) -> Result<f64, String> {
+        self.read(name, "number within 1000 km", number)
+    }
+
+    pub fn positive(&self, name: &str) -> Result<f64, String> {
+        self.read(name, "number over 0", |value| number(value).filter(|n| *n > 0.0))
+    }
+
+    /// Whole milliseconds.
+    pub fn milliseconds(&self, name: &str) -> Result<u64, String> {
+        let is_time = |n: &f64| (0.0..=1e9).contains(n) && n.fract() == 0.0;
+        self.read(name, "time in whole milliseconds", |v| number(v).filter(is_time).map(|n| n as u64))
+    }
+
+    pub fn point(&self, name: &str) -> Result<Point, String> {
+        self.read(name, "point within 1000 km", point)
+    }
+
+    pub fn axis(&self, name: &str) -> Result<Axis, String> {
+        self.read(name, "axis", |value| match value {
+            Value::Axis(axis) => Some(*axis),
+            _ => None,
+        })
+    }
+
+    pub fn word(&self, name: &str) -> Result<&str, String> {
+        let value = self.get(name).ok_or_else(|| format!("the setting {name} is missing"))?;
+        word(value).ok_or_else(|| format!("the setting {name} is no word"))
+    }
+
+    /// The number of another part.
+    pub fn part(&self, name: &str) -> Result<usize, String> {
+        Ok(self.frame(name)?.0)
+    }
+
+    /// The number of another part, and that of one of its frames.
+    pub fn frame(&self, name: &str) -> Result<(usize, usize), String> {
+        self.read(name, "part", |value| match value {
+            Value::Part { part, frame } => Some((*part, *frame)),
+            _ => None,
+        })
+    }
+
+    /// Lower and upper end.
+    pub fn range(&self, name: &str) -> Result<[f64; 2], String> {
+        let ends = self.numbers(name)?;
+        match ends[..] {
+            [low, high] if low <= high => Ok([low, high]),
+            _ => Err(format!("the setting {name} is no range, the lower end first")),
+        }
+    }
+
+    pub fn numbers(&self, name: &str) -> Result<Vec<f64>, String> {
+        self.list(name, "list of numbers", number)
+    }
+
+    pub fn points(&self, name: &str) -> Result<Vec<Point>, String> {
+        self.list(name, "list of points", point)
+    }
+
+    pub fn words(&self, name: &str) -> Result<Vec<String>, String> {
+        self.list(name, "list of words", |value| word(value).map(Into::into))
+    }
+
+    pub fn list<T>(
+        &self,
+        name: &str,
+        what: &str,
+        element: impl Fn(&Value) -> Option<T>,
+    ) -> Result<Vec<T>, String> {
+        self.read(name, what, |value| match value {
+            Value::List(values) => values.iter().map(element).collect(),
+            _ => None,
+        })
+    }
+}
+
+fn number(value: &Value) -> Option<f64> {
+    match value {
+        Value::Number(number) if number.abs() <= FARTHEST => Some(*number),
+        _ => None,
+    }
+}
+
+fn point(value: &Value) -> Option<Point> {
+    match value {
+        Value::Point(point) if [point.x, point.y, point.z].iter().all(|c| c.abs() <= FARTHEST) => {
+            Some(*point)
+        }
+        _ => None,
+    }
+}
+
+fn word(value: &Value) -> Option<&str> {
+    match value {
+        Value::Word(word) => Some(word),
+        _ => None,
+    }
+}

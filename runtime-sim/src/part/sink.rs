@@ -1,0 +1,55 @@
+//! Where items leave a lane.
+
+use super::settings::{Form, Setting, Settings};
+use super::{Described, Progress, Running, Schema, World, Start};
+use crate::carrier::Carrier;
+
+pub const SCHEMA: Schema = Schema::new(
+    "sink",
+    "Takes items off a lane near its lower end; they are collected.",
+    &[
+        Setting::new("of", Form::Part(&["lane"]), "", "the lane"),
+        Setting::new("inset", Form::Number, "m", "from the lane's lower end to where items leave"),
+    ],
+);
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sink {
+    pub lane: usize,
+    pub inset: f64,
+}
+
+impl Described for Sink {
+    fn new(settings: &Settings) -> Result<Self, String> {
+        Ok(Self { lane: settings.part("of")?, inset: settings.number("inset")? })
+    }
+
+    fn start(&self, _start: &mut Start) -> Result<Option<Box<dyn Running>>, String> {
+        Ok(Some(Box::new(self.clone())))
+    }
+}
+
+impl Running for Sink {
+    fn boxed(&self) -> Box<dyn Running> {
+        Box::new(self.clone())
+    }
+
+    fn advance(&mut self, world: &mut World) -> Progress {
+        let Some(moving) = world.lane(self.lane).filter(|lane| lane.is_moving()) else {
+            return Progress::Going;
+        };
+        let end = moving.lane().range[0] + self.inset + moving.travel();
+        let leaves = |item: &usize| match world.items.all()[*item].carrier {
+            Carrier::Lane { part, at, .. } => part == self.lane && at <= end,
+            _ => false,
+        };
+        let leaving: Vec<usize> =
+            world.items.borne_by(world.machine).iter().copied().filter(leaves).collect();
+        for item in leaving {
+            if let Carrier::Lane { at, across, .. } = world.items.all()[item].carrier {
+                world.items.pass(item, Carrier::Collector, moving.rests(at, across));
+            }
+        }
+        Progress::Going
+    }
+}

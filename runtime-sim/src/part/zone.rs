@@ -1,0 +1,106 @@
+//! A field over a lane in which items are seen, with their kinds and places.
+
+use super::settings::{Form, Setting, Settings};
+use super::{Described, Running, Schema, See, Signal, Start};
+use crate::carrier::Carrier;
+use crate::device::{Extent, PortType};
+use crate::line::Kind;
+use crate::point::Point;
+
+pub const SCHEMA: Schema = Schema {
+    signals: &[
+        Signal { name: "sees", ty: PortType::Bool, extent: Extent::PerKind },
+        Signal { name: "foremost", ty: PortType::Point, extent: Extent::PerKind },
+    ],
+    ..Schema::new(
+        "zone",
+        "A field over a lane: which kinds lie wholly in it, and where the foremost item of each does.",
+        &[
+            Setting::new("over", Form::Part(&["lane"]), "", "the lane"),
+            Setting::new("middle", Form::Point, "m", "the middle of the field, seen along the lane"),
+            Setting::new("half", Form::Positive, "m", "half of the field's length"),
+            Setting::new(
+                "part_half",
+                Form::Number,
+                "m",
+                "half of the least length that an item is taken to have",
+            ),
+        ],
+    )
+};
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct Zone {
+    pub lane: usize,
+    pub middle: Point,
+    pub half: f64,
+    pub part_half: f64,
+}
+
+impl Described for Zone {
+    fn new(settings: &Settings) -> Result<Self, String> {
+        Ok(Self {
+            lane: settings.part("over")?,
+            middle: settings.point("middle")?,
+            half: settings.positive("half")?,
+            part_half: settings.number("part_half")?,
+        })
+    }
+
+    fn start(&self, start: &mut Start) -> Result<Option<Box<dyn Running>>, String> {
+        Ok(Some(Box::new(Seeing::new(self, &start.line.kinds))))
+    }
+}
+
+/// A zone at work.
+#[derive(Clone, Debug)]
+pub struct Seeing {
+    zone: Zone,
+    /// By kind: how far the middle of an item that lies wholly in the field is from the field's at most.
+    farthest: Vec<f64>,
+}
+
+impl Seeing {
+    pub fn new(zone: &Zone, kinds: &[Kind]) -> Self {
+        let half = |kind: &Kind| (kind.size[0].max(kind.size[1]) / 2.0).max(zone.part_half);
+        Self { zone: zone.clone(), farthest: kinds.iter().map(|kind| zone.half - half(kind)).collect() }
+    }
+
+    /// Of each kind that lies wholly in the field, where its foremost item is along the lane, and where it rests.
+    fn foremost(&self, see: &See) -> Vec<Option<(f64, Point)>> {
+        let mut foremost = vec![None; self.farthest.len()];
+        let Some(moving) = see.lane(self.zone.lane) else { return foremost };
+        let middle = self.zone.middle.coordinate(moving.lane().along);
+        for item in see.borne_by(self.zone.lane) {
+            let item = &see.items.all()[item];
+            let Carrier::Lane { at, across, .. } = item.carrier else { continue };
+            let along = at - moving.travel();
+            if (along - middle).abs() > self.farthest[item.kind] {
+                continue;
+            }
+            if foremost[item.kind].is_none_or(|(other, _)| along < other) {
+                foremost[item.kind] = Some((along, moving.rests(at, across)));
+            }
+        }
+        foremost
+    }
+}
+
+impl Running for Seeing {
+    fn boxed(&self) -> Box<dyn Running> {
+        Box::new(self.clone())
+    }
+
+    fn signal(&self, signal: usize, see: &See, out: &mut [f64]) {
+        out.fill(0.0);
+        for (kind, place) in self.foremost(see).into_iter().enumerate() {
+            match (signal, place) {
+                (_, None) => {}
+                (0, Some(_)) => out[kind] = 1.0,
+                (_, Some((_, Point { x, y, z }))) => {
+                    out[3 * kind..3 * kind + 3].copy_from_slice(&[x, y, z]);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,312 @@
+//! A machine at work: its parts, and the head that commands them.
+
+use super::command::{Asked, Head};
+use crate::carrier::Carrier;
+use crate::device::error;
+use crate::item::Items;
+use crate::kinematics::arm::Joints;
+use crate::line::Line;
+use crate::part::orders::Desk;
+use crate::part::{Begun, Part, Progress, Running, See, Start, World};
+use crate::plant::course::Course;
+use crate::point::Point;
+use crate::wiring::{Drives, Source, Wiring};
+use std::ops::Range;
+use std::sync::Arc;
+
+#[derive(Clone, Debug)]
+pub struct Working {
+    index: usize,
+    pose: Point,
+    wiring: Arc<Wiring>,
+    /// None for those that do nothing; the one that works is taken out.
+    parts: Vec<Option<Box<dyn Running>>>,
+    head: Option<Head>,
+    /// Where each input stands in the image.
+    inputs: Vec<Range<usize>>,
+    outputs: Vec<Range<usize>>,
+    /// The parts of which commands ask something.
+    commanded: Vec<usize>,
+}
+
+/// What all machines share.
+pub struct Shared<'a> {
+    pub items: &'a mut Items,
+    pub desk: &'a mut Desk,
+    /// Start of the scan.
+    pub now_ms: u64,
+    /// Length of the scan.
+    pub dt_ms: u64,
+}
+
+impl Shared<'_> {
+    pub fn next_ms(&self) -> u64 {
+        self.now_ms + self.dt_ms
+    }
+}
+
+impl Working {
+    /// At rest; the first order of a terminal open.
+    pub fn new(line: &Line, index: usize, desk: &Desk, items: &mut Items) -> Result<Self, String> {
+        let machine = &line.machines[index];
+        let kinds = line.kinds.len();
+        let mut commanded: Vec<usize> = machine.wiring.commands.iter().map(|command| command.part).collect();
+        commanded.sort_unstable();
+        commanded.dedup();
+        let refusals = line.scenario.refusals.iter().filter(|refusal| refusal.machine == index);
+        let refusals = refusals.map(|refusal| refusal.command).collect();
+        let start = |(part, made): (usize, &Arc<Part>)| {
+            made.primitive.start(&mut Start { line, machine: index, part, desk, items })
+        };
+        let parts = machine.parts.iter().enumerate().map(start);
+        Ok(Self {
+            index,
+            pose: machine.pose,
+            parts: parts.collect::<Result<_, _>>()?,
+            head: Head::new(&machine.wiring, kinds, refusals),
+            inputs: ranges(machine.wiring.inputs.iter().map(|input| input.size.words(kinds))),
+            outputs: ranges(machine.wiring.outputs.iter().map(|output| output.size.words(kinds))),
+            wiring: machine.wiring.clone(),
+            commanded,
+        })
+    }
+
+    /// Numbers of all inputs.
+    pub fn input_words(&self) -> usize {
+        self.inputs.last().map_or(0, |last| last.end)
+    }
+
+    pub fn see<'a>(&'a self, items: &'a Items, desk: &'a Desk) -> See<'a> {
+        See { machine: self.index, parts: &self.parts, items, desk }
+    }
+
+    /// Lets a part work; none if it does nothing.
+    fn with<T>(
+        &mut self,
+        part: usize,
+        shared: &mut Shared,
+        work: impl FnOnce(&mut dyn Running, &mut World) -> T,
+    ) -> Option<T> {
+        let mut taken = self.parts.get_mut(part)?.take()?;
+        let mut world = World {
+            machine: self.index,
+            parts: &self.parts,
+            items: shared.items,
+            desk: shared.desk,
+            now_ms: shared.now_ms,
+            dt_ms: shared.dt_ms,
+        };
+        let result = work(taken.as_mut(), &mut world);
+        self.parts[part] = Some(taken);
+        Some(result)
+    }
+
+    fn abandon(&mut self, now_ms: u64) {
+        for part in &self.commanded {
+            if let Some(part) = &mut self.parts[*part] {
+                part.abandon(now_ms);
+            }
+        }
+    }
+
+    fn end(&mut self, error: i32) {
+        if let Some(head) = &mut self.head {
+            head.end(error);
+        }
+    }
+
+    /// Takes a command and all levels.
+    pub fn obey(&mut self, outputs: &[f64], shared: &mut Shared) {
+        self.command(outputs, shared);
+        for (index, range) in self.outputs.iter().enumerate() {
+            if let Drives::Level { part, level } = self.wiring.outputs[index].drives
+                && let Some(part) = &mut self.parts[part]
+            {
+                part.level(level, &outputs[range.clone()]);
+            }
+        }
+    }
+
+    fn command(&mut self, outputs: &[f64], shared: &mut Shared) {
+        let Some(head) = &mut self.head else { return };
+        let before = head.part_at_work();
+        match head.accept(outputs) {
+            Asked::Nothing => {}
+            Asked::Refused => self.abandon(shared.now_ms),
+            Asked::Start(command) => self.begin(command, before, outputs, shared),
+        }
+        let Some(head) = &mut self.head else { return };
+        head.held = head.is_held_by(outputs);
+        for part in &self.commanded {
+            if let Some(part) = &mut self.parts[*part] {
+                part.hold(head.held, shared.now_ms);
+            }
+        }
+    }
+
+    fn begin(&mut self, command: usize, before: Option<usize>, outputs: &[f64], shared: &mut Shared) {
+        let wiring = self.wiring.clone();
+        let asked = &wiring.commands[command];
+        if let Some(other) = before.filter(|before| *before != asked.part)
+            && let Some(other) = &mut self.parts[other]
+        {
+            other.abandon(shared.now_ms);
+        }
+        let words = asked.arguments.iter().flat_map(|output| &outputs[self.outputs[*output].clone()]);
+        let arguments: Vec<f64> = words.copied().collect();
+        let begun = self.with(asked.part, shared, |part, world| part.begin(asked.action, &arguments, world));
+        match begun.unwrap_or(Err(error::REFUSED)) {
+            Ok(Begun::UnderWay) => {
+                if let Some(head) = &mut self.head {
+                    head.start(command);
+                }
+            }
+            Ok(Begun::Ended) => self.end(error::NONE),
+            Err(error) => {
+                self.abandon(shared.now_ms);
+                self.end(error);
+            }
+        }
+    }
+
+    /// An item that a level has let go.
+    pub fn let_go(&mut self) -> Option<usize> {
+        self.parts.iter_mut().flatten().find_map(|part| part.let_go())
+    }
+
+    pub fn advance(&mut self, shared: &mut Shared) {
+        if let Some(head) = self.head.as_mut().filter(|head| !head.held) {
+            head.wait(shared.dt_ms);
+        }
+        for part in 0..self.parts.len() {
+            let Some(progress) = self.with(part, shared, |part, world| part.advance(world)) else { continue };
+            let Some(head) = self.head.as_mut().filter(|head| !head.held) else { continue };
+            if head.acting().is_none_or(|command| command.part != part) {
+                continue;
+            }
+            match progress {
+                Progress::Going => {}
+                Progress::Reached => head.reach(),
+                Progress::Failed(error) => {
+                    self.abandon(shared.next_ms());
+                    self.end(error);
+                }
+            }
+        }
+    }
+
+    /// An item that slips by the end of the scan.
+    pub fn slip(&mut self, next_ms: u64) -> Option<usize> {
+        self.parts.iter_mut().flatten().find_map(|part| part.slip(next_ms))
+    }
+
+    /// Where a part looks for an item in this scan, and how near it has to be, m.
+    pub fn seeks(&self, part: usize, see: &See, now_ms: u64, next_ms: u64) -> Option<(Point, f64)> {
+        self.parts.get(part)?.as_ref()?.seeks(see, now_ms, next_ms)
+    }
+
+    pub fn meets(&mut self, part: usize, item: Option<usize>, now_ms: u64, next_ms: u64) -> Option<usize> {
+        self.parts.get_mut(part)?.as_mut()?.meets(item, now_ms, next_ms)
+    }
+
+    pub fn count(&self) -> usize {
+        self.parts.len()
+    }
+
+    /// Ends a command that has waited for a signal, once it is known.
+    pub fn settle(&mut self, items: &Items, desk: &Desk) {
+        let Some(head) = self.head.as_ref().filter(|head| !head.held) else { return };
+        let Some((awaited, waited_ms)) = head.awaits() else { return };
+        let mut word = [0.0];
+        if let Some(part) = &self.parts[awaited.part] {
+            part.signal(awaited.signal, &self.see(items, desk), &mut word);
+        }
+        if word[0] != 0.0 {
+            self.end(error::NONE);
+        } else if waited_ms >= awaited.within_ms {
+            self.end(awaited.error);
+        }
+    }
+
+    pub fn serve(&mut self, shared: &mut Shared) {
+        (0..self.parts.len()).for_each(|part| {
+            self.with(part, shared, |part, world| part.serve(world));
+        });
+    }
+
+    pub fn withdraw(&mut self, shared: &mut Shared) {
+        (0..self.parts.len()).for_each(|part| {
+            self.with(part, shared, |part, world| part.withdraw(world));
+        });
+    }
+
+    pub fn write(&self, image: &mut [f64], items: &Items, desk: &Desk) {
+        let see = self.see(items, desk);
+        for (input, range) in self.wiring.inputs.iter().zip(&self.inputs) {
+            let words = &mut image[range.clone()];
+            match (input.source, &self.head) {
+                (Source::Signal { part, signal }, _) => {
+                    if let Some(part) = &self.parts[part] {
+                        part.signal(signal, &see, words);
+                    }
+                }
+                (source, Some(head)) => words[0] = head.word(source).unwrap_or(0.0),
+                (_, None) => {}
+            }
+        }
+    }
+
+    pub fn below(&self, point: Point, items: &Items, desk: &Desk) -> Option<(f64, Carrier)> {
+        let see = self.see(items, desk);
+        let surfaces = self.parts.iter().flatten().filter_map(|part| part.below(point, &see));
+        surfaces.reduce(|best, other| if other.0 > best.0 { other } else { best })
+    }
+
+    pub fn place(&self, carrier: &Carrier, items: &Items, desk: &Desk) -> Option<Point> {
+        let part = self.parts.get(carrier.part()?)?.as_ref()?;
+        part.place(carrier, &self.see(items, desk))
+    }
+
+    fn running(&self) -> impl Iterator<Item = &dyn Running> {
+        self.parts.iter().flatten().map(|part| part.as_ref())
+    }
+
+    /// Where it is: the tool of an arm, the position of a vehicle, the pose of what stands.
+    pub fn position(&self) -> Point {
+        self.running().find_map(|part| part.position()).unwrap_or(self.pose)
+    }
+
+    pub fn joints(&self) -> Option<Joints> {
+        self.running().find_map(|part| part.joints())
+    }
+
+    pub fn course(&self, now_ms: u64) -> Course {
+        let mut courses = self.running().map(|part| part.course(now_ms));
+        courses.find(|course| *course != Course::Rests).unwrap_or(Course::Rests)
+    }
+
+    pub fn open_order(&self) -> Option<usize> {
+        self.running().find_map(|part| part.open_order())
+    }
+
+    pub fn orders_to_open(&self, desk: &Desk) -> usize {
+        self.running().map(|part| part.orders_to_open(desk)).sum()
+    }
+
+    /// Something will change even if no output does.
+    pub fn is_busy(&self, items: &Items, desk: &Desk) -> bool {
+        let see = self.see(items, desk);
+        self.head.as_ref().is_some_and(|head| head.is_under_way() && !head.held)
+            || self.running().any(|part| part.is_busy(&see))
+    }
+}
+
+fn ranges(sizes: impl Iterator<Item = usize>) -> Vec<Range<usize>> {
+    let mut begin = 0;
+    let range = |size| {
+        let range = begin..begin + size;
+        begin = range.end;
+        range
+    };
+    sizes.map(range).collect()
+}
