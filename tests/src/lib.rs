@@ -106,7 +106,7 @@ pub fn ariac(layout: &str) -> Texts {
 /// A layout of the user's own, with its types and its scenario if it has any.
 pub fn own_line(folder: &str) -> Texts {
     let specs = match folder {
-        "buffer" => vec![text("examples/buffer/specs/buffer.aut")],
+        "buffer" | "rack" => vec![text(&format!("examples/{folder}/specs/{folder}.aut"))],
         _ => Vec::new(),
     };
     let scenario = std::fs::read_to_string(root().join(format!("examples/{folder}/scenario.json"))).ok();

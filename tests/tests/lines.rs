@@ -68,7 +68,7 @@ fn every_layout_works_with_every_capacity_and_touches_nothing() {
 #[test]
 fn lines_of_the_users_own_make_their_orders() {
     let mut inputs = Vec::new();
-    for folder in ["buffer", "shared_agv"] {
+    for folder in ["buffer", "rack", "shared_agv"] {
         for seed in 0..campaign(8, 100) as u64 {
             inputs.push((folder, seed));
         }
