@@ -115,6 +115,7 @@ primitives! {
     camera::Camera,
     chain::Chain,
     grip::Grip,
+    lamp::Lamp,
     lane::Lane,
     material::Material,
     orders::Orders,
