@@ -72,13 +72,24 @@ impl Placed {
 
     /// The machine as the simulator takes it, without an automaton.
     pub fn machine(&self, name: &str, heights: &[f64], place: Span) -> Result<Machine, Vec<Diagnostic>> {
-        Ok(Machine {
+        let machine = Machine {
             name: name.into(),
             pose: self.pose,
             parts: self.parts(heights, place)?,
             wiring: self.device.wiring.clone(),
             states: Vec::new(),
-        })
+        };
+        match machine.check() {
+            Ok(()) => Ok(machine),
+            Err(error) => {
+                let message = format!("`{name}` cannot be built from its device: {error}");
+                Err(vec![
+                    Diagnostic::new("E0711", place, message)
+                        .other(self.device.place, "the device")
+                        .help("change the device, or what the layout gives the machine"),
+                ])
+            }
+        }
     }
 
     fn some(
