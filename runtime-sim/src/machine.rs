@@ -32,7 +32,7 @@ const MOST_ELEMENTS: usize = 1024;
 impl Machine {
     /// The first thing that is wrong with its parts or its wiring.
     pub fn check(&self) -> Result<(), String> {
-        if [self.pose.x, self.pose.y, self.pose.z].iter().any(|c| c.abs() > 1e6) {
+        if !self.pose.is_near() {
             return Err("a coordinate of its pose is no number within 1000 km".into());
         }
         let mut names = HashSet::new();
@@ -190,40 +190,24 @@ impl Machine {
         self.parts.iter().any(|other| matches!(&other.primitive, Primitive::Orders(o) if o.place == part))
     }
 
-    /// Numbers of the parts that carry the chain, the first one first.
-    fn axes_of_chain(&self) -> Vec<usize> {
-        let mut axes = Vec::new();
-        let mut next = self.chain().map(|chain| chain.on);
-        while let Some(index) = next {
-            axes.push(index);
-            next = self.axis(index).and_then(|axis| axis.on).filter(|other| *other < index);
-        }
-        axes.reverse();
-        axes
+    fn carriers(&self) -> Vec<(usize, &Axis)> {
+        let axis = |part: usize| self.parts.get(part).and_then(|part| part.axis());
+        self.chain().map_or(Vec::new(), |chain| chain.carriers(axis))
     }
 
-    fn axis(&self, part: usize) -> Option<&Axis> {
-        match &self.parts.get(part)?.primitive {
-            Primitive::Axis(axis) => Some(axis),
-            _ => None,
-        }
-    }
-
-    /// The axes that carry the chain with the names of their parts, the first one first.
-    pub fn axes(&self) -> Vec<(&str, &Axis)> {
-        let axes = self.axes_of_chain();
-        axes.iter().filter_map(|part| Some((self.parts[*part].name.as_str(), self.axis(*part)?))).collect()
+    /// The axes that carry the chain, the first one first.
+    pub fn axes(&self) -> Vec<&Axis> {
+        self.carriers().into_iter().map(|(_, axis)| axis).collect()
     }
 
     /// Which of the joints of the chain and of the axes that carry it moves with this part.
     pub(crate) fn joint_of(&self, part: usize) -> Option<usize> {
-        self.axes_of_chain().iter().position(|axis| *axis == part)
+        self.carriers().iter().position(|(axis, _)| *axis == part)
     }
 
     /// None for a machine without a chain, or with one that no closed form fits.
     pub fn arm(&self) -> Option<Arm> {
-        let axes = self.axes();
-        Arm::new(&axes.iter().map(|(_, axis)| *axis).collect::<Vec<_>>(), self.chain()?)
+        Arm::new(&self.axes(), self.chain()?)
     }
 
     /// Where it may stand, if it moves as a whole; the first is where it starts.

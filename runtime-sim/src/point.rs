@@ -15,6 +15,11 @@ impl Point {
         Self { x, y, z }
     }
 
+    /// Whether every coordinate is a number within 1000 km.
+    pub fn is_near(self) -> bool {
+        [self.x, self.y, self.z].iter().all(|coordinate| coordinate.abs() <= 1e6)
+    }
+
     /// The same place, `height` metres higher.
     pub fn up(self, height: f64) -> Self {
         Self { z: self.z + height, ..self }

@@ -1,6 +1,10 @@
 //! Devices that are right as texts and wrong for a machine: what a line with one of them is told.
 
-use autogen_tests::Texts;
+use autogen::device::{self, Placed};
+use autogen::source::Sources;
+use autogen::spec::parser;
+use autogen_tests::{Texts, devices};
+use runtime_sim::point::Point;
 
 const AUTOMATON: &str = "automaton Thing on thing { initial state S { when false -> S {} } }";
 
@@ -50,4 +54,56 @@ fn a_constant_for_each_kind_has_enough_elements() {
         told.iter().any(|(code, text)| *code == "E0709" && text.contains("`places` of thing")),
         "{told:?}"
     );
+}
+
+/// A lamp, so that there is something beside what is tried.
+fn with_constant(constant: &str) -> Vec<(&'static str, String)> {
+    told(
+        &format!(
+            "device thing {{
+                parameter width: real;
+                part lamp = lamp {{ at: pose; colour: red; }};
+                out on: bool = lamp.on;
+                constant {constant};
+            }}"
+        ),
+        r#", "width": 3.5"#,
+    )
+}
+
+#[test]
+fn constants_keep_their_types_for_each_machine() {
+    let fits = |constant: &str| with_constant(constant).iter().all(|(code, _)| !code.starts_with("E07"));
+    assert!(fits("n: int 0..7 = width * 2.0"));
+    assert!(fits("x: real = 1.0 / width"));
+    for (constant, code) in [
+        ("n: int 0..6 = width * 2.0", "E0709"),
+        ("n: int 0..6 = width", "E0709"),
+        ("x: real = 1.0 / (width - 3.5)", "E0710"),
+        ("x: real = 1.0 / 0.0", "E0710"),
+        ("p: point = pose + point(1e308 * 10.0, 0.0, 0.0)", "E0710"),
+    ] {
+        let told = with_constant(constant);
+        assert!(told.iter().any(|(found, _)| *found == code), "{constant}: {told:?}");
+    }
+}
+
+/// The check of connectivity and the simulator have the same arm, whatever other axes stand among the parts.
+#[test]
+fn an_axis_that_does_not_carry_the_chain_changes_nothing() {
+    let text = "device thing {
+        part aside = axis { at: pose; along: x; range: [0.0, 9.0]; speed: 1.0; acceleration: 1.0; joint: a; link: a; mass: 1.0; effort: 1.0; damping: 0.0; friction: 0.0; };
+        part rails = axis { at: pose; along: y; range: [-3.0, 3.0]; speed: 1.0; acceleration: 1.0; joint: r; link: r; mass: 1.0; effort: 1.0; damping: 0.0; friction: 0.0; };
+        part arm = ur10 { on: rails; rest: pose + point(0.574, 0.163, 0.402); envelope: []; clearances: []; };
+        in tool: point = arm.joints.tool;
+    }";
+    let mut sources = Sources::default();
+    let mut trees: Vec<_> = devices(&mut sources).into_iter().flat_map(|(_, file)| file.devices).collect();
+    trees.extend(parser::parse(sources.add("thing.aut", text), text).0.devices);
+    let declared = trees.iter().map(|tree| (tree.name.value.as_str(), tree)).collect();
+    let device = device::check(trees.last().unwrap(), &declared).unwrap();
+    let placed = Placed { device, pose: Point::new(0.0, 0.0, 1.1), arguments: Vec::new() };
+    let machine = placed.machine("m", &[0.1], placed.device.place).unwrap();
+    assert!(machine.arm().is_some());
+    assert_eq!(placed.arm(), machine.arm());
 }

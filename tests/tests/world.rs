@@ -201,7 +201,7 @@ fn assert_same(got: &Frame, expected: &Pose, what: &str) {
 
 /// The kinematics' values where SDF's are 0.
 fn middles(machine: &Machine) -> Vec<f64> {
-    let ranges = machine.axes().into_iter().filter_map(|(_, axis)| axis.range());
+    let ranges = machine.axes().into_iter().filter_map(|axis| axis.range());
     ranges.map(|[low, high]| (low + high) / 2.0).collect()
 }
 

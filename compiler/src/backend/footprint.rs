@@ -68,7 +68,7 @@ fn of_place(place: &Place, origin: Point) -> Shape {
 fn of_axes(machine: &Machine) -> Vec<(Shape, &'static str)> {
     let axes = machine.axes();
     let pose = machine.pose;
-    match axes.iter().map(|(_, axis)| axis.motion).collect::<Vec<_>>()[..] {
+    match axes.iter().map(|axis| axis.motion).collect::<Vec<_>>()[..] {
         [Motion::Slides { along, range: [low, high] }] => {
             let end = |at: f64| pose.with_coordinate(along, at);
             vec![
@@ -111,7 +111,7 @@ pub fn label(machine: &Machine) -> Point {
             Axis::Y => Point::new(pose.x, lane.range[1] + 0.2, 0.0),
         };
     }
-    match (machine.axes().first().map(|(_, axis)| axis.motion), machine.axes().len()) {
+    match (machine.axes().first().map(|axis| axis.motion), machine.axes().len()) {
         (Some(Motion::Slides { along: Axis::X, range }), 1) => {
             return Point::new(range[0], pose.y - 0.35, 0.0);
         }

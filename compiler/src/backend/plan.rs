@@ -42,7 +42,7 @@ fn meeting(machine: &Machine, other: &Machine, leaves: bool) -> Point {
         return if leaves { *near } else { *start };
     }
     match machine.axes()[..] {
-        [(_, axis)] => match axis.motion {
+        [axis] => match axis.motion {
             Motion::Slides { along, range: [low, high] } => {
                 machine.pose.with_coordinate(along, other.pose.coordinate(along).clamp(low, high))
             }

@@ -156,7 +156,7 @@ impl Environment<'_> {
                     let wrong = *wrong(expr.span, "this operator does not join these values");
                     wrong
                         .note("+ and - join numbers and points, * and / a number with a number")
-                        .note("a point and a list of points are added element by element")
+                        .note("a point and a list of points are added element by element; nothing is divided by 0")
                         .into()
                 })
             }
@@ -311,7 +311,17 @@ fn number(found: Found, span: Span) -> Result<f64, Wrong> {
 
 fn combined(operator: Operator, left: Found, right: Found) -> Option<Found> {
     let (Found::Value(left), Found::Value(right)) = (left, right) else { return None };
-    Some(Found::Value(joined(operator, &left, &right)?))
+    joined(operator, &left, &right).filter(is_finite).map(Found::Value)
+}
+
+/// A division by 0 has no value, nor has what is too large.
+fn is_finite(value: &Value) -> bool {
+    match value {
+        Value::Number(number) => number.is_finite(),
+        Value::Point(Point { x, y, z }) => [x, y, z].into_iter().all(|c| c.is_finite()),
+        Value::List(values) => values.iter().all(is_finite),
+        _ => true,
+    }
 }
 
 fn joined(operator: Operator, left: &Value, right: &Value) -> Option<Value> {

@@ -9,6 +9,7 @@ mod head;
 mod placed;
 mod program;
 mod settle;
+mod wires;
 
 pub use check::{Declared, check};
 pub use placed::{Place, Placed};
@@ -16,6 +17,7 @@ pub use placed::{Place, Placed};
 use crate::source::Span;
 use program::Program;
 use runtime_sim::device::{Direction, Extent, PortType, Stop};
+use runtime_sim::value::Value;
 use runtime_sim::wiring::Wiring;
 use std::sync::Arc;
 
@@ -93,6 +95,49 @@ pub struct Handover {
     pub name: String,
     /// Number of places, if one of several is meant by an index.
     pub indexed: Option<usize>,
+}
+
+impl Constant {
+    /// Whether a value has the type, whatever its bounds and the number of kinds.
+    fn takes(&self, value: &Value) -> bool {
+        let is_scalar = |value: &Value| {
+            matches!(
+                (self.ty, value),
+                (PortType::Bool, Value::Truth(_))
+                    | (PortType::Int { .. } | PortType::Real, Value::Number(_))
+                    | (PortType::Point, Value::Point(_))
+            )
+        };
+        match (self.extent, value) {
+            (Extent::One, value) => is_scalar(value),
+            (Extent::Times(n), Value::List(values)) => values.len() == n && values.iter().all(is_scalar),
+            (Extent::PerKind, Value::List(values)) => !values.is_empty() && values.iter().all(is_scalar),
+            _ => false,
+        }
+    }
+
+    /// Why a value cannot be that of a machine in a line with so many kinds.
+    fn refuses(&self, value: &Value, kinds: usize) -> Option<&'static str> {
+        let elements = match value {
+            Value::List(values) => values.as_slice(),
+            one => std::slice::from_ref(one),
+        };
+        let is_within = |element: &Value| match (self.ty, element) {
+            (PortType::Int { lo, hi }, Value::Number(n)) => {
+                n.fract() == 0.0 && (f64::from(lo)..=f64::from(hi)).contains(n)
+            }
+            _ => true,
+        };
+        if !self.takes(value) {
+            Some("has another type than its value")
+        } else if elements.len() < self.extent.elements(kinds) {
+            Some("has fewer elements than there are kinds")
+        } else if !elements.iter().all(is_within) {
+            Some("is no whole number within its bounds")
+        } else {
+            None
+        }
+    }
 }
 
 impl Port {

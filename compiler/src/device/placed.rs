@@ -1,12 +1,14 @@
 //! A device at a place of the layout.
 
 use super::evaluate::{Environment, Values, Wrong};
+use super::program::Symbol;
 use super::{Device, Form, Parameter};
 use crate::diagnostic::{Diagnostic, sort};
 use crate::source::Span;
 use crate::spec::ast;
 use runtime_sim::kinematics::arm::Arm;
 use runtime_sim::machine::Machine;
+use runtime_sim::part::axis::Motion;
 use runtime_sim::part::{Part, Primitive, Settings};
 use runtime_sim::point::Point;
 use runtime_sim::value::Value;
@@ -65,7 +67,8 @@ impl Placed {
         let mut diagnostics = Vec::new();
         let all: Vec<usize> = (0..self.device.program.parts.len()).collect();
         let parts = self.some(&all, heights, place, &mut diagnostics);
-        diagnostics.extend(self.too_few(heights, place));
+        let parts = parts.into_iter().map(|(_, part)| part).collect();
+        diagnostics.extend(self.wrong_constants(heights, place));
         sort(&mut diagnostics);
         if diagnostics.is_empty() { Ok(parts) } else { Err(diagnostics) }
     }
@@ -92,19 +95,20 @@ impl Placed {
         }
     }
 
+    /// Parts by their numbers, as far as they are right.
     fn some(
         &self,
         numbers: &[usize],
         heights: &[f64],
         place: Span,
         diagnostics: &mut Vec<Diagnostic>,
-    ) -> Vec<Arc<Part>> {
+    ) -> Vec<(usize, Arc<Part>)> {
         let environment = self.environment(heights, None);
         let mut parts = Vec::new();
         for number in numbers {
             let part = &self.device.program.parts[*number];
             if let Some(known) = &part.known {
-                parts.push(known.clone());
+                parts.push((*number, known.clone()));
                 continue;
             }
             let mut settings = Vec::new();
@@ -121,9 +125,9 @@ impl Placed {
                 continue;
             }
             match Part::new(&part.name.value, part.schema.name, Settings::new(settings)) {
-                Ok(part) => parts.push(Arc::new(part)),
+                Ok(part) => parts.push((*number, Arc::new(part))),
                 Err(error) => diagnostics.push(
-                    Diagnostic::new("E0704", part.place(), error)
+                    Diagnostic::new("E0704", part.name.span, error)
                         .other(place, "for this machine")
                         .help("correct the setting, or what the layout gives the machine"),
                 ),
@@ -132,22 +136,30 @@ impl Placed {
         parts
     }
 
-    /// Constants that have not an element for each kind.
-    fn too_few(&self, heights: &[f64], place: Span) -> Vec<Diagnostic> {
+    /// Constants that are not of their types for this machine: generated code relies on them.
+    fn wrong_constants(&self, heights: &[f64], place: Span) -> Vec<Diagnostic> {
+        let environment = self.environment(heights, None);
         let constants = self.device.constants.iter().filter_map(|constant| {
-            let words = self.constant(&constant.name, heights).unwrap_or_default().len();
-            let wanted = constant.ty.words() * constant.extent.elements(heights.len());
-            (words < wanted).then(|| {
-                let message = format!(
-                    "`{}` of {} has fewer elements than there are kinds",
-                    constant.name, self.device.name
-                );
+            let value = match environment.value(0, self.expression(&constant.name)?) {
+                Ok(value) => value,
+                Err(found) => return Some(found.other(place, "for this machine")),
+            };
+            let reason = constant.refuses(&value, heights.len())?;
+            let message = format!("`{}` of {} {reason}", constant.name, self.device.name);
+            Some(
                 Diagnostic::new("E0709", place, message)
                     .other(self.device.place, "the device")
-                    .help("let the device have more slots, or the scenario fewer kinds")
-            })
+                    .help("change the device, the scenario's kinds, or what the layout gives the machine"),
+            )
         });
         constants.collect()
+    }
+
+    fn expression(&self, name: &str) -> Option<&ast::Expr> {
+        match self.device.program.scopes.first()?.names.get(name)? {
+            Symbol::Define(expr) => Some(expr),
+            _ => None,
+        }
     }
 
     /// Requirements of the device that do not hold: the parameters that each is about, what is wrong, and where it
@@ -171,7 +183,7 @@ impl Placed {
     }
 
     /// The parts of some primitives, as far as they are right.
-    fn parts_of(&self, primitives: &[&str]) -> Vec<Arc<Part>> {
+    fn parts_of(&self, primitives: &[&str]) -> Vec<(usize, Arc<Part>)> {
         let all = self.device.program.parts.iter().enumerate();
         let wanted = all.filter(|(_, part)| primitives.contains(&part.schema.name)).map(|(i, _)| i);
         self.some(&wanted.collect::<Vec<_>>(), &[], self.device.place, &mut Vec::new())
@@ -180,17 +192,12 @@ impl Placed {
     /// None for a machine without a chain.
     pub fn arm(&self) -> Option<Arm> {
         let parts = self.parts_of(&["axis", "chain"]);
-        let axes: Vec<_> = parts
-            .iter()
-            .filter_map(|part| match &part.primitive {
-                Primitive::Axis(axis) => Some(axis),
-                _ => None,
-            })
-            .collect();
-        let chain = parts.iter().find_map(|part| match &part.primitive {
+        let chain = parts.iter().find_map(|(_, part)| match &part.primitive {
             Primitive::Chain(chain) => Some(chain),
             _ => None,
         })?;
+        let axis = |wanted: usize| parts.iter().find(|(number, _)| *number == wanted)?.1.axis();
+        let axes: Vec<_> = chain.carriers(axis).into_iter().map(|(_, axis)| axis).collect();
         Arm::new(&axes, chain)
     }
 
@@ -198,10 +205,10 @@ impl Placed {
     pub fn ground(&self) -> [[f64; 2]; 2] {
         let at = |value: f64| [value, value];
         let mut ground = [at(self.pose.x), at(self.pose.y)];
-        for part in self.parts_of(&["axis", "route"]) {
+        for (_, part) in self.parts_of(&["axis", "route"]) {
             match &part.primitive {
                 Primitive::Axis(axis) => {
-                    if let runtime_sim::part::axis::Motion::Slides { along, range } = axis.motion {
+                    if let Motion::Slides { along, range } = axis.motion {
                         ground[along as usize] = range;
                     }
                 }
@@ -219,12 +226,8 @@ impl Placed {
 
     /// The values of a device constant, flattened; `None` if this device has no such constant.
     pub fn constant(&self, name: &str, heights: &[f64]) -> Option<Vec<f64>> {
-        let expr = match self.device.program.scopes.first()?.names.get(name)? {
-            super::program::Symbol::Define(expr) => expr,
-            _ => return None,
-        };
         let constant = self.device.constants.iter().find(|constant| constant.name == name)?;
-        let value = self.environment(heights, None).value(0, expr).ok()?;
+        let value = self.environment(heights, None).value(0, self.expression(name)?).ok()?;
         let mut words = Vec::new();
         flatten(&value, &mut words);
         words.truncate(constant.ty.words() * constant.extent.elements(heights.len()));
@@ -300,15 +303,6 @@ impl Placed {
             _ => false,
         });
         (value.is_finite() && in_order).then_some(changed)
-    }
-}
-
-/// Which arguments two machines differ in tells whether their parts do.
-impl PartialEq for Placed {
-    fn eq(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.device, &other.device)
-            && self.pose == other.pose
-            && self.arguments == other.arguments
     }
 }
 

@@ -1,6 +1,5 @@
 //! The parts of a device with their assemblies taken apart, and what each name means where.
 
-use crate::source::Span;
 use crate::spec::ast;
 use runtime_sim::part::Schema;
 use runtime_sim::value::Value;
@@ -55,10 +54,4 @@ pub struct Setting {
     pub value: ast::Expr,
     /// The value, if it is the same for all machines.
     pub known: Option<Value>,
-}
-
-impl Part {
-    pub fn place(&self) -> Span {
-        self.name.span
-    }
 }

@@ -6,7 +6,6 @@ use super::program::{Program, Setting as Given};
 use super::{Constant, Form, Parameter};
 use crate::diagnostic::Diagnostic;
 use crate::spec::ast;
-use runtime_sim::device::{Extent, PortType};
 use runtime_sim::part::{Part, Settings};
 use runtime_sim::point::{Axis, Point};
 use runtime_sim::value::Value;
@@ -74,7 +73,7 @@ pub fn wrong(
     for (constant, expr) in constants {
         match environment.value(0, expr) {
             Err(diagnostic) => found.push(*diagnostic),
-            Ok(value) if is_of(&value, constant) => {}
+            Ok(value) if constant.takes(&value) => {}
             Ok(_) => found.push(
                 Diagnostic::new(
                     "E0709",
@@ -124,23 +123,5 @@ fn sample(form: &Form) -> Value {
         Form::Real => Value::Number(1.0),
         Form::Point => point(1.0),
         Form::Points(elements) => Value::List((0..elements.len()).map(|i| point(i as f64)).collect()),
-    }
-}
-
-/// Whether a value is of the type of a constant, with one kind of part.
-fn is_of(value: &Value, constant: &Constant) -> bool {
-    let is_scalar = |value: &Value| {
-        matches!(
-            (constant.ty, value),
-            (PortType::Bool, Value::Truth(_))
-                | (PortType::Int { .. } | PortType::Real, Value::Number(_))
-                | (PortType::Point, Value::Point(_))
-        )
-    };
-    match (constant.extent, value) {
-        (Extent::One, value) => is_scalar(value),
-        (Extent::Times(n), Value::List(values)) => values.len() == n && values.iter().all(is_scalar),
-        (Extent::PerKind, Value::List(values)) => !values.is_empty() && values.iter().all(is_scalar),
-        _ => false,
     }
 }

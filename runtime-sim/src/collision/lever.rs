@@ -106,7 +106,7 @@ impl Chain {
 }
 
 fn ends(arm: &Arm, machine: &Machine, start: &Joints) -> Vec<Frames> {
-    let ranges: Vec<[f64; 2]> = machine.axes().iter().map_while(|(_, axis)| axis.range()).collect();
+    let ranges: Vec<[f64; 2]> = machine.axes().iter().map_while(|axis| axis.range()).collect();
     let at = |end: usize| arm.frames(&start.map(|i, value| ranges.get(i).map_or(value, |range| range[end])));
     vec![at(0), at(1)]
 }

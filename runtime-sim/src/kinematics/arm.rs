@@ -118,13 +118,14 @@ impl Limits {
 impl Arm {
     /// `axes` carry the chain, the first one first. None if there is no closed form for it.
     pub fn new(axes: &[&Axis], chain: &Chain) -> Option<Self> {
+        let at = axes.first()?.at?;
         let solver = match axes.iter().map(|axis| axis.motion).collect::<Vec<_>>()[..] {
-            [Motion::Slides { along, range }] => Solver::Rail(RailArm::new(axes[0].at, along, range)),
+            [Motion::Slides { along, range }] => Solver::Rail(RailArm::new(at, along, range)),
             [
                 Motion::Slides { along: point::Axis::X, range: x },
                 Motion::Slides { along: point::Axis::Y, range: y },
                 Motion::Turns,
-            ] => Solver::Gantry(Gantry::new(axes[0].at, x, y)),
+            ] => Solver::Gantry(Gantry::new(at, x, y)),
             _ => return None,
         };
         let velocities: Vec<f64> =

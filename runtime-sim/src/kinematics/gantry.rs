@@ -55,7 +55,7 @@ struct View {
 }
 
 impl Gantry {
-    /// As in [`crate::geometry::Geometry::Gantry`].
+    /// `pose.z` is the height of the shoulder; the ranges are those of the torso's axis in the world.
     pub fn new(pose: Point, x_range: [f64; 2], y_range: [f64; 2]) -> Self {
         Self { x: x_range, y: y_range, shoulder: pose.z }
     }

@@ -34,7 +34,7 @@ struct View {
 }
 
 impl RailArm {
-    /// `pose` and `range` as in [`crate::geometry::Geometry::RailArm`].
+    /// `pose` is a point of the rail, at the height of the shoulder; `range` goes along the rail, in the world.
     pub fn new(pose: Point, rail: Axis, range: [f64; 2]) -> Self {
         let line = match rail {
             Axis::X => pose.y,

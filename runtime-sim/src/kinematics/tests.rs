@@ -334,7 +334,7 @@ fn axis(at: Point, motion: Motion) -> crate::part::axis::Axis {
     let (speed, acceleration, mass, effort, damping, friction) = (1.0, 1.0, 1.0, 1.0, 0.0, 0.0);
     crate::part::axis::Axis {
         on: None,
-        at,
+        at: Some(at),
         motion,
         speed,
         acceleration,

@@ -2,7 +2,6 @@
 
 use super::{Line, Obstacle};
 use crate::machine::Machine;
-use crate::point::Point;
 
 /// Scans that a telegram may be late.
 const LONGEST_DELAY: u32 = 1000;
@@ -126,16 +125,12 @@ fn check_name(what: &str, name: &str) -> Result<(), String> {
     Ok(())
 }
 
-fn is_near(point: &Point) -> bool {
-    [point.x, point.y, point.z].iter().all(|c| c.abs() <= 1e6)
-}
-
 fn check_obstacle(obstacle: &Obstacle) -> Result<(), String> {
-    if !is_near(&obstacle.pose) {
+    if !obstacle.pose.is_near() {
         return Err(format!("a coordinate of {} is no number within 1000 km", obstacle.name));
     }
     match obstacle.size {
-        Some(size) if !(is_near(&size) && size.x > 0.0 && size.y > 0.0 && size.z > 0.0) => {
+        Some(size) if !(size.is_near() && size.x > 0.0 && size.y > 0.0 && size.z > 0.0) => {
             Err(format!("a length of the box of {} is no positive number within 1000 km", obstacle.name))
         }
         _ => Ok(()),

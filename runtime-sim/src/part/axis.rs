@@ -9,7 +9,13 @@ pub const SCHEMA: Schema = Schema::new(
     "A joint that carries a chain and moves with it. With `range` it slides, without it turns about the vertical.",
     &[
         Setting::new("on", Form::Part(&["axis"]), "", "the joint before it").optional(),
-        Setting::new("at", Form::Point, "m", "a point of its line; z is the height of the chain's shoulder"),
+        Setting::new(
+            "at",
+            Form::Point,
+            "m",
+            "a point of its line, z the height of the chain's shoulder; of the first joint only",
+        )
+        .optional(),
         Setting::new("along", Form::Axis, "", "axis of the world along which it slides").optional(),
         Setting::new("range", Form::Range, "m", "both ends along that axis, in the world").optional(),
         Setting::new("speed", Form::Positive, "m/s or rad/s", "greatest velocity"),
@@ -26,7 +32,8 @@ pub const SCHEMA: Schema = Schema::new(
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
     pub on: Option<usize>,
-    pub at: Point,
+    /// None for a joint on another one.
+    pub at: Option<Point>,
     pub motion: Motion,
     pub speed: f64,
     pub acceleration: f64,
@@ -51,9 +58,12 @@ impl Described for Axis {
         } else {
             Motion::Turns
         };
+        if settings.has("on") == settings.has("at") {
+            return Err("of the settings on and at it has one: at for the first joint, on for the others".into());
+        }
         Ok(Self {
             on: settings.has("on").then(|| settings.part("on")).transpose()?,
-            at: settings.point("at")?,
+            at: settings.has("at").then(|| settings.point("at")).transpose()?,
             motion,
             speed: settings.positive("speed")?,
             acceleration: settings.positive("acceleration")?,

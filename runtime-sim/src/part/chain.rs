@@ -4,6 +4,7 @@ use super::settings::{Form, Setting, Settings};
 use super::{Described, Action, Begun, Progress, Running, Schema, See, Signal, World, Start, Primitive};
 use crate::device::{Extent, PortType, error};
 use crate::kinematics::arm::Joints;
+use crate::part::axis::Axis;
 use crate::plant::course::Course;
 use crate::point::Point;
 use crate::way::{Load, Ways};
@@ -123,6 +124,20 @@ impl Described for Chain {
             .ok_or_else(|| format!("{name} cannot reach its own rest position"))?;
         let grip = start.find(|other| matches!(other, Primitive::Grip(grip) if grip.chain == part));
         Ok(Some(Box::new(Swinging::new(drive, grip))))
+    }
+}
+
+impl Chain {
+    /// The axes that carry it, the first one first, with the numbers of their parts. `axis` finds one by its number.
+    pub fn carriers<'a>(&self, axis: impl Fn(usize) -> Option<&'a Axis>) -> Vec<(usize, &'a Axis)> {
+        let mut carriers = Vec::new();
+        let mut next = Some(self.on);
+        while let Some((part, found)) = next.and_then(|part| Some((part, axis(part)?))) {
+            carriers.push((part, found));
+            next = found.on.filter(|before| *before < part);
+        }
+        carriers.reverse();
+        carriers
     }
 }
 

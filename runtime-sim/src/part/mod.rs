@@ -147,6 +147,14 @@ impl Part {
         self.primitive.schema()
     }
 
+    /// None for a part of another primitive.
+    pub fn axis(&self) -> Option<&axis::Axis> {
+        match &self.primitive {
+            Primitive::Axis(axis) => Some(axis),
+            _ => None,
+        }
+    }
+
     /// Appends the words that [`Self::read`] reads back.
     pub fn write(&self, out: &mut String) {
         let settings = self.settings.all();

@@ -47,7 +47,7 @@ impl Setting {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Settings(Vec<(&'static str, Value)>);
 
-/// No coordinate and no length is farther from 0 than 1000 km.
+/// No number is farther from 0.
 const FARTHEST: f64 = 1e6;
 
 impl Settings {
@@ -165,9 +165,7 @@ fn number(value: &Value) -> Option<f64> {
 
 fn point(value: &Value) -> Option<Point> {
     match value {
-        Value::Point(point) if [point.x, point.y, point.z].iter().all(|c| c.abs() <= FARTHEST) => {
-            Some(*point)
-        }
+        Value::Point(point) if point.is_near() => Some(*point),
         _ => None,
     }
 }

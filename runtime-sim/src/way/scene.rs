@@ -79,7 +79,7 @@ impl Scene {
         let own = line.machines.get(index)?;
         let arm = own.arm()?;
         arm.gantry()?;
-        let shoulder = own.axes().first()?.1.at.z;
+        let shoulder = own.axes().first()?.at?.z;
         let around = own.chain()?.clearances.iter();
         let around: Vec<AroundAxis> =
             around.map(|&[low, high, radius]| AroundAxis { heights: [low, high], radius }).collect();
@@ -265,14 +265,15 @@ fn standing(machine: &Machine) -> Vec<Vec<Solid>> {
     }
     let Some(chain) = machine.chain() else { return vec![solids] };
     let Some([half, height]) = chain.envelope else { return Vec::new() };
-    let Some((_, axis)) = machine.axes().first().copied() else { return Vec::new() };
+    let Some(axis) = machine.axes().first().copied() else { return Vec::new() };
     let Motion::Slides { along, range: [low, high] } = axis.motion else { return Vec::new() };
     let long = high - low + 2.0 * half;
     let middle = (high + low) / 2.0;
-    let tall = axis.at.z + height;
+    let Some(at) = axis.at else { return Vec::new() };
+    let tall = at.z + height;
     let (position, size) = match along {
-        Axis::X => (Point::new(middle, axis.at.y, tall / 2.0), Point::new(long, 2.0 * half, tall)),
-        Axis::Y => (Point::new(axis.at.x, middle, tall / 2.0), Point::new(2.0 * half, long, tall)),
+        Axis::X => (Point::new(middle, at.y, tall / 2.0), Point::new(long, 2.0 * half, tall)),
+        Axis::Y => (Point::new(at.x, middle, tall / 2.0), Point::new(2.0 * half, long, tall)),
     };
     let pose = Pose { position, ..Pose::IDENTITY };
     let shape = Shape::Box { size };

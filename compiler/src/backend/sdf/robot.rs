@@ -61,7 +61,7 @@ fn drives(machine: &Machine, mount: Pose) -> Vec<Drive> {
         damping: axis.damping,
         friction: axis.friction,
     };
-    let mut drives: Vec<Drive> = machine.axes().iter().map(|(_, axis)| of_axis(axis)).collect();
+    let mut drives: Vec<Drive> = machine.axes().into_iter().map(of_axis).collect();
     let Some(chain) = machine.chain() else { return drives };
     drives.extend((0..chain.joints.len()).map(|i| Drive {
         joint: chain.joints[i].clone(),
