@@ -108,6 +108,7 @@ pub fn verdict_json(verdict: Option<&Verdict>, sources: &Sources, found: &[Diagn
         "edges": v.edges.iter().map(|(a, b, m)| json!([a, b, m])).collect::<Vec<_>>(),
         "sources": v.sources,
         "destinations": v.destinations,
+        "single_points": v.single_points,
         "unreachable": v.unreachable,
         "dead_ends": v.dead_ends,
         "apart": v.apart.iter().filter(|a| is_missed(a, v)).map(apart_json).collect::<Vec<_>>(),
@@ -144,6 +145,7 @@ pub fn verdict(v: &Verdict) -> String {
     }
     text += &format!("sources       {}\n", list(&v.sources));
     text += &format!("destinations  {}\n", list(&v.destinations));
+    text += &format!("single points {} (every item passes each of them)\n", list(&v.single_points));
     text += &format!("step order    {}\n", list(&v.robots));
     text
 }

@@ -1,7 +1,7 @@
 //! The smallest change of one number that makes two machines meet.
 
 use super::poses::Reachable;
-use super::{Line, Mend, graph::Ways};
+use super::{Line, Mend, flow::Flow};
 use crate::device::Placed;
 
 /// How far a number is changed at most, mm.
@@ -11,7 +11,13 @@ const COARSE: i32 = 10;
 
 /// Of all numbers of both machines and both directions the change after which most nodes are connected,
 /// among these the smallest; changes that cost an edge do not count.
-pub fn find(line: &Line, reachable: &Reachable, stands: &[bool], proposal: usize) -> Option<Mend> {
+pub fn find(
+    line: &Line,
+    flow: &Flow,
+    reachable: &Reachable,
+    stands: &[bool],
+    proposal: usize,
+) -> Option<Mend> {
     let pair = &line.proposals[proposal];
     let mut best: Option<Mend> = None;
     for node in [pair.passive(), pair.arm] {
@@ -23,7 +29,7 @@ pub fn find(line: &Line, reachable: &Reachable, stands: &[bool], proposal: usize
                     continue;
                 };
                 let Some(stands_then) = after(line, reachable, stands, node, &placed) else { continue };
-                let connected = Ways::new(line, &stands_then).connected();
+                let connected = flow.served(&stands_then).connected();
                 let better = best.as_ref().is_none_or(|best| {
                     (connected, -change_mm.abs()) > (best.connected, -best.change_mm.abs())
                 });

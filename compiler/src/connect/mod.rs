@@ -4,7 +4,7 @@
 //! reaches every place of the other, at contact and above it. From these edges
 //! follows which machines lie on a way from a source to a destination.
 
-mod graph;
+mod flow;
 mod mend;
 mod near;
 mod poses;
@@ -137,6 +137,8 @@ pub struct Report {
     /// In layout order of `from`, then of `to`.
     pub edges: Vec<Edge>,
     pub failures: Vec<Failure>,
+    /// Nodes between sources and destinations through which every item goes, in that order.
+    pub single_points: Vec<usize>,
     /// Nodes that no item ever gets to.
     pub unreachable: Vec<usize>,
     /// Nodes from which no item ever leaves the layout.
@@ -150,7 +152,7 @@ pub struct Report {
 #[derive(Clone, Debug)]
 pub struct Connected {
     edges: Vec<Edge>,
-    reach: graph::Reach,
+    reach: flow::Reach,
 }
 
 impl Connected {
@@ -196,9 +198,10 @@ pub fn check(line: &Line) -> Report {
     let tested: Vec<poses::Test> = line.proposals.iter().map(|p| reachable.test(p)).collect();
     let stands: Vec<bool> = tested.iter().map(|test| test.margin >= 0.0).collect();
     let edges = edges(line, &tested);
-    let ways = graph::Ways::new(line, &stands);
+    let flow = flow::Flow::new(line);
+    let served = flow.served(&stands);
     // A pair that does not meet matters only where machines are cut off.
-    let is_whole = ways.connected() == line.nodes.len();
+    let is_whole = served.connected() == line.nodes.len();
     let mended = if is_whole { 0 } else { most_mended(line) };
     let failures: Vec<Failure> = tested
         .into_iter()
@@ -207,20 +210,20 @@ pub fn check(line: &Line) -> Report {
         .enumerate()
         .map(|(number, (proposal, test))| Failure {
             proposal,
-            mend: if number < mended { mend::find(line, &reachable, &stands, proposal) } else { None },
+            mend: if number < mended { mend::find(line, &flow, &reachable, &stands, proposal) } else { None },
             misses: test.misses,
             tested: test.tested,
         })
         .collect();
-    let diagnostics = verdict::diagnostics(line, &stands, &failures);
-    let connected = diagnostics
-        .is_empty()
-        .then(|| Connected { edges: edges.clone(), reach: graph::Reach::new(line, &stands) });
+    let diagnostics = verdict::diagnostics(line, &flow, &stands, &failures);
+    let connected =
+        diagnostics.is_empty().then(|| Connected { edges: edges.clone(), reach: flow.reach(&stands) });
     Report {
         edges,
         failures,
-        unreachable: ways.unreachable(),
-        dead_ends: ways.dead_ends(),
+        single_points: flow.single_points(&stands),
+        unreachable: served.unreachable(),
+        dead_ends: served.dead_ends(),
         diagnostics,
         connected,
     }

@@ -1,6 +1,6 @@
 //! What is wrong, said once for each cause.
 
-use super::graph::{Reach, Ways};
+use super::flow::{Flow, Served};
 use super::{Failure, Line, Miss, Stage, most_mended};
 use crate::diagnostic::{Diagnostic, MOST, sort};
 use std::collections::HashSet;
@@ -8,7 +8,7 @@ use std::collections::HashSet;
 /// Places listed in a report; the data hold every pose.
 const LISTED: usize = 3;
 
-pub fn diagnostics(line: &Line, stands: &[bool], failures: &[Failure]) -> Vec<Diagnostic> {
+pub fn diagnostics(line: &Line, flow: &Flow, stands: &[bool], failures: &[Failure]) -> Vec<Diagnostic> {
     let mut found = Vec::new();
     if !line.nodes.iter().any(|node| node.is_source) {
         found.push(
@@ -23,17 +23,17 @@ pub fn diagnostics(line: &Line, stands: &[bool], failures: &[Failure]) -> Vec<Di
         );
     }
     let mut stands = stands.to_vec();
-    let mut ways = Ways::new(line, &stands);
-    if found.is_empty() && ways.connected() == line.nodes.len() {
+    let mut served = flow.served(&stands);
+    if found.is_empty() && served.connected() == line.nodes.len() {
         return found;
     }
     let failures = &failures[..failures.len().min(most_mended(line))];
-    while let Some((failure, after)) = most_helpful(line, &stands, failures, &ways) {
-        found.push(apart(line, failure, failures, &stands, &ways, &after));
+    while let Some((failure, after)) = most_helpful(flow, &stands, failures, &served) {
+        found.push(apart(line, failure, failures, &stands, &served, &after));
         join(&mut stands, failure);
-        ways = after;
+        served = after;
     }
-    found.extend(left_alone(line, &ways));
+    found.extend(left_alone(line, flow, &served));
     sort(&mut found);
     found
 }
@@ -49,17 +49,18 @@ fn join(stands: &mut [bool], failure: &Failure) {
 /// The failed pair that would put most nodes on a way if it were mended, and the ways then.
 /// At equal numbers the one that misses by least.
 fn most_helpful<'a>(
-    line: &Line,
+    flow: &Flow,
     stands: &[bool],
     failures: &'a [Failure],
-    ways: &Ways,
-) -> Option<(&'a Failure, Ways)> {
-    let mut best: Option<(usize, &Failure, Ways)> = None;
+    served: &Served,
+) -> Option<(&'a Failure, Served)> {
+    let mut best: Option<(usize, &Failure, Served)> = None;
     for failure in failures.iter().filter(|failure| !stands[failure.proposal]) {
         let mut with = stands.to_vec();
         join(&mut with, failure);
-        let after = Ways::new(line, &with);
-        let gain = newly(&ways.supplied, &after.supplied).len() + newly(&ways.drained, &after.drained).len();
+        let after = flow.served(&with);
+        let gain =
+            newly(&served.supplied, &after.supplied).len() + newly(&served.drained, &after.drained).len();
         let better = match &best {
             None => gain > 0,
             Some((most, other, _)) => gain > *most || (gain == *most && worst_mm(failure) < worst_mm(other)),
@@ -85,8 +86,8 @@ fn apart(
     failure: &Failure,
     failures: &[Failure],
     stands: &[bool],
-    ways: &Ways,
-    after: &Ways,
+    served: &Served,
+    after: &Served,
 ) -> Diagnostic {
     let pair = &line.proposals[failure.proposal];
     let [arm, passive] = [pair.arm, pair.passive()].map(|n| &line.nodes[n]);
@@ -114,11 +115,11 @@ fn apart(
     if failure.misses.len() > listed.len() {
         diagnostic = diagnostic.note(format!("and {} more poses", failure.misses.len() - listed.len()));
     }
-    let starved = newly(&ways.supplied, &after.supplied);
+    let starved = newly(&served.supplied, &after.supplied);
     if !starved.is_empty() {
         diagnostic = diagnostic.note(format!("no item gets to {}", names(line, &starved)));
     }
-    let stuck = newly(&ways.drained, &after.drained);
+    let stuck = newly(&served.drained, &after.drained);
     if !stuck.is_empty() {
         diagnostic = diagnostic.note(format!("no item from {} ever leaves the layout", names(line, &stuck)));
     }
@@ -165,17 +166,17 @@ fn apart(
 }
 
 /// Nodes that are on no way even if every pair met.
-fn left_alone(line: &Line, ways: &Ways) -> Vec<Diagnostic> {
+fn left_alone(line: &Line, flow: &Flow, served: &Served) -> Vec<Diagnostic> {
     let nodes = &line.nodes;
     let has_source = nodes.iter().any(|node| node.is_source);
     let has_destination = nodes.iter().any(|node| node.is_destination);
     // Behind a machine that nothing supplies, machines out of its reach are cut off too.
-    let full = Reach::new(line, &vec![true; line.proposals.len()]);
+    let full = flow.reach(&vec![true; line.proposals.len()]);
     let is_given: HashSet<usize> = line.proposals.iter().map(|p| p.to).collect();
     let gives: HashSet<usize> = line.proposals.iter().map(|p| p.from).collect();
     let mut found = Vec::new();
-    let mut starved: Vec<usize> = if has_source { ways.unreachable() } else { Vec::new() };
-    let mut stuck: Vec<usize> = if has_destination { ways.dead_ends() } else { Vec::new() };
+    let mut starved: Vec<usize> = if has_source { served.unreachable() } else { Vec::new() };
+    let mut stuck: Vec<usize> = if has_destination { served.dead_ends() } else { Vec::new() };
     let roots: Vec<usize> = starved.iter().copied().filter(|n| !is_given.contains(n)).take(MOST).collect();
     for root in roots {
         let behind: Vec<usize> =

@@ -53,6 +53,8 @@ pub struct Verdict {
     pub edges: Vec<(String, String, f64)>,
     pub sources: Vec<String>,
     pub destinations: Vec<String>,
+    /// Machines between sources and destinations that every item passes, in the order in which it does.
+    pub single_points: Vec<String>,
     pub unreachable: Vec<String>,
     pub dead_ends: Vec<String>,
     /// Pairs that should meet and do not.
