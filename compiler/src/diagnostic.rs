@@ -21,7 +21,7 @@ pub struct Diagnostic {
     pub others: Vec<(Span, String)>,
     /// Facts, a line each.
     pub notes: Vec<String>,
-    /// How to mend it.
+    /// How to correct it.
     pub help: String,
 }
 
@@ -59,7 +59,7 @@ impl Diagnostic {
     }
 }
 
-/// What every code means and how to mend it.
+/// What every code means and how to correct it.
 const ERRORS: &str = include_str!("../../docs/errors.md");
 
 /// The long text of a code, in Markdown without its heading.

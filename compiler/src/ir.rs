@@ -136,7 +136,7 @@ pub struct Implements {
 #[derive(Clone, Debug)]
 pub struct Handover {
     pub place: Span,
-    pub way: Way,
+    pub direction: Direction,
     pub name: String,
     pub index: Option<usize>,
     /// Height over the contact from which an arm comes and to which it leaves, m.
@@ -144,7 +144,7 @@ pub struct Handover {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Way {
+pub enum Direction {
     Accepts,
     Offers,
 }

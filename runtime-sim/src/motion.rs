@@ -1,8 +1,8 @@
 //! Motion of all joints together, between two sets of joints: straight, or past a third without a stop.
 //!
-//! The place on the way is one number from 0 to 1. It gains speed, keeps it and
+//! The place on the path is one number from 0 to 1. It gains speed, keeps it and
 //! loses it again, as fast as the slowest joint allows. On a straight line
-//! `top` = min v/way, `gain` = min a/way over the joints; an undisturbed motion takes
+//! `top` = min v/change, `gain` = min a/change over the joints; an undisturbed motion takes
 //! 1/top + top/gain if top^2 >= gain, otherwise 2/sqrt(gain).
 
 mod path;
@@ -16,7 +16,7 @@ use crate::kinematics::arm::{Joints, Limits};
 use path::Path;
 use profile::{Phase, Zone};
 
-/// A motion that may be held on its way and go on. Times are seconds on any one clock.
+/// A motion that may be held and resumed. Times are seconds on any one clock.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Motion {
     path: Path,
@@ -56,7 +56,7 @@ impl Motion {
         Self::between(from, to, limits, 0.0).rests_at()
     }
 
-    /// Brakes on its way from time `t` on; later calls change nothing until it goes on.
+    /// Brakes on its path from time `t` on; later calls change nothing until it goes on.
     pub fn hold(&mut self, t: f64) {
         if self.drive == Drive::Held {
             return;
@@ -110,7 +110,7 @@ impl Motion {
         self.path.at(self.place(t))
     }
 
-    /// Joints at a place on the way, 0 to 1.
+    /// Joints at a place on the path, 0 to 1.
     pub fn along(&self, place: f64) -> Joints {
         self.path.at(place)
     }
@@ -119,12 +119,12 @@ impl Motion {
         self.path.goal()
     }
 
-    /// How far each joint goes at most for each unit of the place on the way.
+    /// How far each joint goes at most for each unit of the place on the path.
     pub fn rates(&self) -> Joints {
         self.path.rates()
     }
 
-    /// Place on the way, 0 to 1.
+    /// Place on the path, 0 to 1.
     pub fn place(&self, t: f64) -> f64 {
         match self.phase(t) {
             Some((phase, passed)) => phase.place_after(passed).clamp(0.0, 1.0),
@@ -132,7 +132,7 @@ impl Motion {
         }
     }
 
-    /// Change of the place on the way, 1/s.
+    /// Change of the place on the path, 1/s.
     fn speed(&self, t: f64) -> f64 {
         self.phase(t).map_or(0.0, |(phase, passed)| phase.speed_after(passed).max(0.0))
     }
@@ -203,10 +203,10 @@ mod tests {
     #[test]
     fn durations_follow_the_law() {
         let limits = limits();
-        let time = |way: f64| Motion::undisturbed(joints(&[0.0; 3]), joints(&[way, 0.0, 0.0]), &limits);
+        let time = |change: f64| Motion::undisturbed(joints(&[0.0; 3]), joints(&[change, 0.0, 0.0]), &limits);
         // Full speed is reached: 4 m at 1 m/s with 1 s to gain it.
         assert!((time(4.0) - 5.0).abs() < 1e-12);
-        // It is not: twice the root of the way.
+        // It is not: twice the root of the change.
         assert!((time(0.25) - 1.0).abs() < 1e-12);
         assert!((time(1.0) - 2.0).abs() < 1e-12);
         assert_eq!(time(0.0), 0.0);
@@ -245,7 +245,7 @@ mod tests {
                 let end = motion.ends_at().unwrap();
                 assert_eq!(motion.at(end), joints(&[4.0, -1.2, 0.3]));
                 assert!(end >= whole - 1e-9 && end <= whole + pause + 2.2, "{end}");
-                // On the line: all joints have done the same part of their ways.
+                // On the line: all joints have done the same part of their changes.
                 let now = motion.at(halt + pause + 0.05);
                 let parts = [now[0] / 4.0, (now[1] - 1.0) / -2.2, (now[2] + 0.5) / 0.8];
                 assert!(parts.iter().all(|p| (p - parts[0]).abs() < 1e-12));
@@ -320,7 +320,7 @@ mod tests {
             let (velocity, acceleration, motion) = worst_of(motion, &limits, end + 0.1, |_, _| {});
             assert!(velocity <= 1.0 + 1e-9, "{velocity} through {via:?}");
             assert!(acceleration <= 1.0 + 1e-6, "{acceleration} through {via:?}");
-            // On the way it never stands.
+            // On its path it never stands.
             for step in 1..1000 {
                 slowest = slowest.min(motion.speed(end * f64::from(step) / 1000.0) * end);
             }

@@ -1,9 +1,9 @@
 //! The plant: all machines and items of a line, and how a scan moves them on.
 
 mod command;
-pub mod course;
 mod delay;
 mod fall;
+pub mod trajectory;
 mod working;
 
 pub(crate) use delay::Bus;
@@ -14,7 +14,7 @@ use crate::kinematics::arm::Joints;
 use crate::line::Line;
 use crate::part::orders::Desk;
 use crate::point::Point;
-use course::Course;
+use trajectory::Trajectory;
 use working::{Shared, Working};
 
 /// The state of the plant at the start of a scan.
@@ -174,7 +174,7 @@ impl Plant {
         }
     }
 
-    /// Where a machine is: the tool of an arm, the position of a vehicle, the pose of what stands.
+    /// Where a machine is: the tool of an arm, the position of a vehicle, the pose of what does not move.
     pub fn position(&self, machine: usize) -> Option<Point> {
         self.machines.get(machine).map(Working::position)
     }
@@ -185,8 +185,8 @@ impl Plant {
     }
 
     /// How a machine moves from now on.
-    pub(crate) fn course(&self, machine: usize) -> Course {
-        self.machines.get(machine).map_or(Course::Rests, |machine| machine.course(self.now_ms()))
+    pub(crate) fn trajectory(&self, machine: usize) -> Trajectory {
+        self.machines.get(machine).map_or(Trajectory::Rests, |machine| machine.trajectory(self.now_ms()))
     }
 
     /// Time from the start of the run.

@@ -1,7 +1,7 @@
 //! A run: controllers against the plant, scan by scan, until it is over.
 
 use crate::account::{Account, Activity};
-use crate::collision::{Contact, Watch};
+use crate::collision::{CollisionCheck, Contact};
 use crate::conservation::conservation;
 use crate::event::{Event, OrderChange};
 use crate::hash::Hash;
@@ -58,7 +58,7 @@ fn simulate(
     mut recorder: Option<Recorder>,
 ) -> Result<(Report, Vec<Path>), String> {
     let mut plant = Plant::new(line)?;
-    let mut watch = Watch::new(line);
+    let mut check = CollisionCheck::new(line);
     let mut bus = Bus::new(line.io_delay.clone(), plant.images());
     let mut operator = Operator::new();
     let mut inputs = plant.images().to_vec();
@@ -115,7 +115,7 @@ fn simulate(
         if let Some(recorder) = &mut recorder {
             recorder.look(&plant);
         }
-        let collision = watch.look(&plant).map(collision_text);
+        let collision = check.look(&plant).map(collision_text);
         plant.proceed();
         scan += 1;
         changed |= plant.is_busy() || operator.is_busy(scan, &line.scenario);
@@ -145,7 +145,7 @@ fn simulate(
         accounts,
         states,
         trace_hash: hash.value(),
-        collisions: watch.into_contacts(),
+        collisions: check.into_contacts(),
     };
     let paths = recorder.map_or_else(Vec::new, |recorder| recorder.finish(&plant));
     Ok((Report::new(line, &plant, outcome), paths))

@@ -1,4 +1,4 @@
-//! The room that each machine takes: boxes and capsules on its links.
+//! Bodies of each machine: boxes and capsules on its links.
 //!
 //! A solid contains what it stands for, so that what passes the solid passes the machine.
 

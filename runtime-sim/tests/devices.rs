@@ -454,17 +454,17 @@ fn a_new_goal_on_the_way_is_reached_without_a_jump() {
     let before = point(rig.image(KITTING), input::TOOL);
     rig.step(1);
     let mut last = point(rig.image(KITTING), input::TOOL);
-    let mut last_way = last - before;
-    assert!(last_way.y > 0.005, "at speed");
+    let mut last_step = last - before;
+    assert!(last_step.y > 0.005, "at speed");
     rig.command(KITTING, MOVE, Some(Point::new(-0.6, -3.0, 1.2)));
     for _ in 0..5000 {
         rig.step(1);
         let now = point(rig.image(KITTING), input::TOOL);
-        let way = now - last;
+        let step = now - last;
         // 1 m/s2 of the rail is 0.1 mm in a scan; a jump from 1 m/s to rest would be 10 mm.
-        let change = way - last_way;
+        let change = step - last_step;
         assert!(change.x.abs() + change.y.abs() + change.z.abs() < 0.001, "{change:?}");
-        (last, last_way) = (now, way);
+        (last, last_step) = (now, step);
     }
     assert!(rig.is_ended(KITTING));
     assert!(near(last, Point::new(-0.6, -3.0, 1.2)));

@@ -28,8 +28,8 @@ fn recorded(line: &Line, steps: Vec<Step>) -> (Report, Vec<Path>, Places) {
 }
 
 fn distance(a: Point, b: Point) -> f64 {
-    let way = a - b;
-    way.x.abs().max(way.y.abs()).max(way.z.abs())
+    let offset = a - b;
+    offset.x.abs().max(offset.y.abs()).max(offset.z.abs())
 }
 
 /// Each path has no gap and is, at every scan, where the plant has the item. What hangs on a gripper and what
@@ -79,10 +79,10 @@ fn an_order_is_followed_from_the_belt_to_the_briefcase() {
     assert!(report.finished, "{}", report.reason);
     for path in &paths {
         let carriers: Vec<&str> = path.segments.iter().map(|segment| carrier_name(segment.carrier)).collect();
-        let mut way = carriers.clone();
-        way.dedup();
+        let mut offset = carriers.clone();
+        offset.dedup();
         assert_eq!(
-            way,
+            offset,
             ["belt", "gripper of kitting", "tray of agv", "gripper of gantry", "briefcase of as1", "order 1"]
         );
         assert!(carriers.len() < 25, "{}: {carriers:?}", carriers.len());
@@ -145,7 +145,7 @@ fn a_belt_brings_its_parts_to_the_end() {
     );
 }
 
-/// Commands that come while others are under way, refused ones, and a part that is let go in between: it falls
+/// Commands that come while others are under offset, refused ones, and a part that is let go in between: it falls
 /// on the belt that moves.
 #[test]
 fn paths_follow_what_goes_wrong() {

@@ -47,13 +47,13 @@ fn project(fixture: &Value) -> Project {
     texts.project()
 }
 
-fn watched(project: &Project, mut observer: impl FnMut(&Plant)) -> Report {
+fn observed(project: &Project, mut observer: impl FnMut(&Plant)) -> Report {
     let mut executor = Executor::new(&project.system);
     run(&project.plant, &mut executor, &mut |seen| observer(seen.plant)).expect("a line that can be run")
 }
 
 fn executed(fixture: &Value) -> Report {
-    watched(&project(fixture), |_| {})
+    observed(&project(fixture), |_| {})
 }
 
 /// The fixture with one stationary thing moved.
@@ -127,7 +127,7 @@ fn samples_would_step_over_the_thin_wall() {
     let driver = index("driver").expect("the vehicle");
     let wall = fixture["stationary"][0]["pose"][0].as_f64().expect("a number");
     let (mut before, mut behind) = (0, 0);
-    let report = watched(&project, |plant| {
+    let report = observed(&project, |plant| {
         // The mast stands 0.275 m behind the vehicle's middle and is 0.085 m thick.
         let mast = plant.position(driver).expect("it is somewhere").x - 0.27539;
         assert!((mast - wall).abs() > 0.043 + 0.001, "a sample at {mast} meets the wall");

@@ -140,8 +140,8 @@ impl Core {
                 (p - a - t * (b - a)).length()
             }
             Core::Block(block) => {
-                let way = p - vector(block.middle);
-                let beyond = |(axis, half): (&Point, f64)| way.dot(vector(*axis)).abs() - half;
+                let offset = p - vector(block.middle);
+                let beyond = |(axis, half): (&Point, f64)| offset.dot(vector(*axis)).abs() - half;
                 block.axes.iter().zip(block.half).map(beyond).fold(0.0, f64::max)
             }
         }
@@ -153,11 +153,11 @@ impl Core {
 fn prove(a: &Core, b: &Core, gap: &Gap) {
     let [p, q] = gap.points;
     assert!(a.outside(p) < 1e-12 && b.outside(q) < 1e-12, "{gap:?} is not of {a:?} and {b:?}");
-    let way = vector(q) - vector(p);
-    assert!((way.length() - gap.distance).abs() < 1e-12);
+    let offset = vector(q) - vector(p);
+    assert!((offset.length() - gap.distance).abs() < 1e-12);
     // A direction shorter than that is rounding.
     if gap.distance > 1e-7 {
-        let direction = way / way.length();
+        let direction = offset / offset.length();
         let apart = b.extent(direction)[0] - a.extent(direction)[1];
         assert!((apart - gap.distance).abs() < 1e-8, "{gap:?}, but {apart} between {a:?} and {b:?}");
     }

@@ -68,9 +68,12 @@ fn a_vehicle_that_is_partly_or_wholly_out_of_reach_is_named_with_a_mend() {
             .expect("the pair that should have met");
         assert_eq!(apart.misses.len() == apart.tested, all);
         assert!(apart.misses.iter().all(|m| m.missing_mm > 0.0));
-        let (robot, path, _, value) = apart.mend.clone().expect("a mend");
+        let (robot, path, _, value) = apart.suggestion.clone().expect("a suggestion");
         assert_eq!((robot.as_str(), path.as_str()), ("agv3", "pose[0]"));
-        assert!(ariac_with_agv3_at(value).project.is_some(), "the mend {value} makes the layout feasible");
+        assert!(
+            ariac_with_agv3_at(value).project.is_some(),
+            "the suggestion {value} makes the layout feasible"
+        );
         assert!(ariac_with_agv3_at(value - 0.001).project.is_none(), "a millimetre shorter does not");
     }
 }

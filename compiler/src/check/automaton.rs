@@ -377,11 +377,11 @@ impl Context<'_, '_> {
                 }
             },
         };
-        let way = match tree.way {
-            ast::Way::Accepts => ir::Way::Accepts,
-            ast::Way::Offers => ir::Way::Offers,
+        let direction = match tree.direction {
+            ast::Direction::Accepts => ir::Direction::Accepts,
+            ast::Direction::Offers => ir::Direction::Offers,
         };
-        Some(ir::Handover { place: tree.span, way, name: found.name.clone(), index, approach })
+        Some(ir::Handover { place: tree.span, direction, name: found.name.clone(), index, approach })
     }
 
     /// The parameter that holds a device constant.

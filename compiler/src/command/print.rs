@@ -125,10 +125,10 @@ fn apart_json(apart: &Apart) -> Value {
     let misses: Vec<Value> = (apart.misses.iter())
         .map(|m| json!({ "place": m.place, "kind": m.kind, "stage": format!("{:?}", m.stage).to_lowercase(), "missing_mm": m.missing_mm }))
         .collect();
-    let mend = apart.mend.as_ref().map(|(robot, path, present, value)| {
+    let suggestion = apart.suggestion.as_ref().map(|(robot, path, present, value)| {
         json!({ "robot": robot, "number": path, "present": present, "value": value })
     });
-    json!({ "from": apart.from, "to": apart.to, "poses_tested": apart.tested, "misses": misses, "mend": mend })
+    json!({ "from": apart.from, "to": apart.to, "poses_tested": apart.tested, "misses": misses, "suggested_change": suggestion })
 }
 
 /// The verdict in text.

@@ -1,13 +1,13 @@
-//! Does every item that enters the layout find its way out?
+//! Does every item that enters the layout leave it?
 //!
 //! Two machines whose types hand over to each other meet if the arm of the one
 //! reaches every place of the other, at contact and above it. From these edges
-//! follows which machines lie on a way from a source to a destination.
+//! follows which machines lie on a path from a source to a destination.
 
 mod flow;
-mod mend;
 mod near;
 mod poses;
+mod suggestion;
 mod verdict;
 
 #[cfg(test)]
@@ -28,7 +28,7 @@ pub struct Node {
     /// Its JSON object.
     pub span: Span,
     pub placed: Placed,
-    /// Those numbers of its JSON object that may be changed to mend the layout.
+    /// Those numbers of its JSON object that may be changed so that machines meet.
     pub numbers: Vec<Number>,
     /// Items enter the layout here.
     pub is_source: bool,
@@ -104,7 +104,7 @@ pub struct Miss {
 
 /// One number whose change makes two machines meet: by whole millimetres, and one fewer is not enough.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Mend {
+pub struct Suggestion {
     pub node: usize,
     pub path: String,
     pub span: Span,
@@ -112,7 +112,7 @@ pub struct Mend {
     pub value: f64,
     /// Change in mm, signed.
     pub change_mm: i32,
-    /// Nodes on a way from a source to a destination after the change.
+    /// Nodes on a path from a source to a destination after the change.
     pub connected: usize,
     /// Indices of all proposals whose machines meet only after the change.
     pub joined: Vec<usize>,
@@ -128,7 +128,7 @@ pub struct Failure {
     /// Number of poses that were tested.
     pub tested: usize,
     /// Sought only in a layout that is not connected.
-    pub mend: Option<Mend>,
+    pub suggestion: Option<Suggestion>,
 }
 
 /// What the check found, whether the layout is connected or not.
@@ -148,7 +148,7 @@ pub struct Report {
     connected: Option<Connected>,
 }
 
-/// Proof that every node lies on a way from a source to a destination. Only [`check`] makes one.
+/// Proof that every node lies on a path from a source to a destination. Only [`check`] makes one.
 #[derive(Clone, Debug)]
 pub struct Connected {
     edges: Vec<Edge>,
@@ -202,7 +202,7 @@ pub fn check(line: &Line) -> Report {
     let served = flow.served(&stands);
     // A pair that does not meet matters only where machines are cut off.
     let is_whole = served.connected() == line.nodes.len();
-    let mended = if is_whole { 0 } else { most_mended(line) };
+    let sought = if is_whole { 0 } else { most_suggestions(line) };
     let failures: Vec<Failure> = tested
         .into_iter()
         .enumerate()
@@ -210,7 +210,11 @@ pub fn check(line: &Line) -> Report {
         .enumerate()
         .map(|(number, (proposal, test))| Failure {
             proposal,
-            mend: if number < mended { mend::find(line, &flow, &reachable, &stands, proposal) } else { None },
+            suggestion: if number < sought {
+                suggestion::find(line, &flow, &reachable, &stands, proposal)
+            } else {
+                None
+            },
             misses: test.misses,
             tested: test.tested,
         })
@@ -229,9 +233,9 @@ pub fn check(line: &Line) -> Report {
     }
 }
 
-/// Pairs that do not meet for which a mend is sought, and which are compared with one another: fewer in a long
+/// Pairs that do not meet for which a suggestion is sought, and which are compared with one another: fewer in a long
 /// line, where each costs more.
-fn most_mended(line: &Line) -> usize {
+fn most_suggestions(line: &Line) -> usize {
     const WORK: usize = 20_000_000;
     (WORK / (line.nodes.len() + line.proposals.len()).max(1)).isqrt().max(8)
 }

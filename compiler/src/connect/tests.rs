@@ -162,12 +162,13 @@ fn failure<'a>(line: &Line, report: &'a Report, from: &str, to: &str) -> &'a Fai
         .unwrap()
 }
 
-/// The same layout after the mend, or short of it by some millimetres.
-fn mended(line: &Line, mend: &Mend, short_mm: i32) -> Line {
+/// The same layout after the suggestion, or short of it by some millimetres.
+fn changed_line(line: &Line, suggestion: &Suggestion, short_mm: i32) -> Line {
     let mut line = line.clone();
-    let value = mend.present + f64::from(mend.change_mm - mend.change_mm.signum() * short_mm) / 1000.0;
-    let node = &mut line.nodes[mend.node];
-    let number = node.placed.numbers().iter().position(|(path, _)| *path == mend.path).unwrap();
+    let value = suggestion.present
+        + f64::from(suggestion.change_mm - suggestion.change_mm.signum() * short_mm) / 1000.0;
+    let node = &mut line.nodes[suggestion.node];
+    let number = node.placed.numbers().iter().position(|(path, _)| *path == suggestion.path).unwrap();
     node.placed = node.placed.with_number(number, (value * 1e9).round() / 1e9).unwrap();
     line
 }
@@ -176,10 +177,10 @@ fn has_edge(report: &Report, proposal: &Proposal) -> bool {
     report.edges.iter().any(|edge| edge.from == proposal.from && edge.to == proposal.to)
 }
 
-fn assert_mend_is_least(line: &Line, failure: &Failure, mend: &Mend) {
+fn assert_change_is_least(line: &Line, failure: &Failure, suggestion: &Suggestion) {
     let proposal = &line.proposals[failure.proposal];
-    assert!(has_edge(&check(&mended(line, mend, 0)), proposal), "{mend:?}");
-    assert!(!has_edge(&check(&mended(line, mend, 1)), proposal), "{mend:?}");
+    assert!(has_edge(&check(&changed_line(line, suggestion, 0)), proposal), "{suggestion:?}");
+    assert!(!has_edge(&check(&changed_line(line, suggestion, 1)), proposal), "{suggestion:?}");
 }
 
 #[test]
@@ -234,7 +235,7 @@ fn short_rail_misses_the_outer_vehicles() {
     let codes: Vec<_> = report.diagnostics.iter().map(|d| d.code).collect();
     assert_eq!(codes, ["E0401", "E0401"]);
     for failure in &report.failures {
-        assert_mend_is_least(&line, failure, failure.mend.as_ref().unwrap());
+        assert_change_is_least(&line, failure, failure.suggestion.as_ref().unwrap());
     }
 }
 
@@ -251,9 +252,9 @@ fn vehicle_moved_away() {
         let failure = &report.failures[0];
         assert_eq!(failure.tested, 96);
         assert_eq!(failure.misses.len() < failure.tested, partly, "{}", failure.misses.len());
-        let mend = failure.mend.as_ref().unwrap();
-        assert_eq!(mend.connected, line.nodes.len());
-        assert_mend_is_least(&line, failure, mend);
+        let suggestion = failure.suggestion.as_ref().unwrap();
+        assert_eq!(suggestion.connected, line.nodes.len());
+        assert_change_is_least(&line, failure, suggestion);
         let text = builder.rendered(&report);
         for part in [
             "E0401",
@@ -282,9 +283,9 @@ fn pair_of_figure_2() {
     let text = builder.rendered(&far);
     assert!(text.contains("no item gets to agv1, gantry_robot, as1"), "{text}");
     assert!(text.contains("no item from conveyor, kitting_robot ever leaves"), "{text}");
-    let mend = far.failures[0].mend.as_ref().unwrap();
-    assert_mend_is_least(&line, &far.failures[0], mend);
-    assert!(check(&mended(&line, mend, 0)).is_feasible());
+    let suggestion = far.failures[0].suggestion.as_ref().unwrap();
+    assert_change_is_least(&line, &far.failures[0], suggestion);
+    assert!(check(&changed_line(&line, suggestion, 0)).is_feasible());
 }
 
 #[test]
@@ -295,8 +296,8 @@ fn station_out_of_the_gantrys_reach() {
     let (line, report) = builder.check();
     assert_eq!(names(&line, &report.unreachable), ["as2"]);
     assert_eq!(report.diagnostics.len(), 1);
-    let mend = report.failures[0].mend.as_ref().unwrap();
-    assert_mend_is_least(&line, &report.failures[0], mend);
+    let suggestion = report.failures[0].suggestion.as_ref().unwrap();
+    assert_change_is_least(&line, &report.failures[0], suggestion);
     assert!(builder.rendered(&report).contains("gantry_robot cannot hand over to as2"));
 }
 
@@ -310,7 +311,7 @@ fn source_without_a_way() {
     assert_eq!(report.diagnostics.len(), 1);
     assert_eq!(report.diagnostics[0].code, "E0401");
     assert!(report.diagnostics[0].message.starts_with("kitting_robot cannot take from conveyor2"));
-    assert_mend_is_least(&line, &report.failures[0], report.failures[0].mend.as_ref().unwrap());
+    assert_change_is_least(&line, &report.failures[0], report.failures[0].suggestion.as_ref().unwrap());
 }
 
 #[test]
@@ -366,7 +367,7 @@ fn failed_pair_that_nobody_needs() {
 
 /// The arm could be moved to the vehicle, but then it would leave the belt.
 #[test]
-fn no_mend_that_parts_others() {
+fn no_change_that_parts_others() {
     let mut builder = Builder::new();
     builder.belt("conveyor", -0.1);
     builder.kitting("kitting_robot", 4.8);
@@ -377,8 +378,8 @@ fn no_mend_that_parts_others() {
     builder.nodes[agv].numbers.clear();
     let (_, report) = builder.check();
     assert_eq!(report.failures.len(), 1);
-    assert_eq!(report.failures[0].mend, None);
-    assert!(report.diagnostics[0].help.starts_with("no single number"), "{:?}", report.diagnostics);
+    assert_eq!(report.failures[0].suggestion, None);
+    assert!(report.diagnostics[0].help.starts_with("no change of one number"), "{:?}", report.diagnostics);
 }
 
 /// A gantry so high that all eight pairs with it fail: one cause, one report, one number.
@@ -399,9 +400,9 @@ fn gantry_that_reaches_nothing() {
         assert!(notes.iter().any(|n| n.starts_with("no item gets to ") && n.contains(node)), "{notes:?}");
     }
     assert!(notes.iter().any(|n| n.starts_with("out of reach as well: ") && n.contains("as4")), "{notes:?}");
-    let mend = failure(&line, &report, "agv1", "gantry_robot").mend.as_ref().unwrap();
-    assert_eq!((mend.path.as_str(), mend.joined.len()), ("pose[2]", 8));
-    assert!(check(&mended(&line, mend, 0)).is_feasible());
+    let suggestion = failure(&line, &report, "agv1", "gantry_robot").suggestion.as_ref().unwrap();
+    assert_eq!((suggestion.path.as_str(), suggestion.joined.len()), ("pose[2]", 8));
+    assert!(check(&changed_line(&line, suggestion, 0)).is_feasible());
 }
 
 /// Numbers drawn around the default layout, many of them near the limit of reach.
@@ -428,7 +429,7 @@ fn drawn(random: &mut Random) -> Builder {
 #[test]
 fn random_layouts() {
     let mut random = Random(0x5EED);
-    let (mut feasible, mut close, mut apart, mut mends, mut single) = (0, 0, 0, 0, 0);
+    let (mut feasible, mut close, mut apart, mut suggestions, mut single) = (0, 0, 0, 0, 0);
     for _ in 0..300 {
         let (line, report) = drawn(&mut random).check();
         feasible += usize::from(report.is_feasible());
@@ -456,25 +457,28 @@ fn random_layouts() {
             for miss in &failure.misses {
                 assert!(arm.solve(miss.tool, &arm.start()).is_none());
             }
-            if let Some(mend) = &failure.mend {
-                mends += 1;
-                let after = check_edges(&mended(&line, mend, 0));
+            if let Some(suggestion) = &failure.suggestion {
+                suggestions += 1;
+                let after = check_edges(&changed_line(&line, suggestion, 0));
                 let before = check_edges(&line);
                 assert!(after[failure.proposal] && !before[failure.proposal]);
                 assert!(before.iter().zip(&after).all(|(before, after)| !before || *after), "lost an edge");
-                assert!(!check_edges(&mended(&line, mend, 1))[failure.proposal], "{mend:?}");
-                assert_eq!(flow::Flow::new(&line).served(&after).connected(), mend.connected);
+                assert!(
+                    !check_edges(&changed_line(&line, suggestion, 1))[failure.proposal],
+                    "{suggestion:?}"
+                );
+                assert_eq!(flow::Flow::new(&line).served(&after).connected(), suggestion.connected);
             }
         }
     }
     #[expect(clippy::print_stdout, reason = "the figures of a test")]
     {
-        println!("{feasible} feasible, {close} close, {apart} pairs apart, {mends} mends");
+        println!("{feasible} feasible, {close} close, {apart} pairs apart, {suggestions} suggestions");
     }
     assert!(feasible >= 90, "{feasible} feasible");
     assert!(close >= 90, "{close} close");
     assert!(single >= 90, "{single} single points");
-    assert!(mends * 10 >= apart * 9, "{mends} of {apart}");
+    assert!(suggestions * 10 >= apart * 9, "{suggestions} of {apart}");
 }
 
 /// Whether an item gets from some source to some destination, while one machine stands still.

@@ -1,7 +1,7 @@
 //! What is wrong, said once for each cause.
 
 use super::flow::{Flow, Served};
-use super::{Failure, Line, Miss, Stage, most_mended};
+use super::{Failure, Line, Miss, Stage, most_suggestions};
 use crate::diagnostic::{Diagnostic, MOST, sort};
 use std::collections::HashSet;
 
@@ -27,7 +27,7 @@ pub fn diagnostics(line: &Line, flow: &Flow, stands: &[bool], failures: &[Failur
     if found.is_empty() && served.connected() == line.nodes.len() {
         return found;
     }
-    let failures = &failures[..failures.len().min(most_mended(line))];
+    let failures = &failures[..failures.len().min(most_suggestions(line))];
     while let Some((failure, after)) = most_helpful(flow, &stands, failures, &served) {
         found.push(apart(line, failure, failures, &stands, &served, &after));
         join(&mut stands, failure);
@@ -38,15 +38,15 @@ pub fn diagnostics(line: &Line, flow: &Flow, stands: &[bool], failures: &[Failur
     found
 }
 
-/// Takes a failed pair for mended, with all that its mend brings together.
+/// Takes a failed pair for changed as suggested, with all that the change brings together.
 fn join(stands: &mut [bool], failure: &Failure) {
     stands[failure.proposal] = true;
-    for proposal in failure.mend.iter().flat_map(|mend| &mend.joined) {
+    for proposal in failure.suggestion.iter().flat_map(|suggestion| &suggestion.joined) {
         stands[*proposal] = true;
     }
 }
 
-/// The failed pair that would put most nodes on a way if it were mended, and the ways then.
+/// The failed pair that would connect most nodes if it were changed, and what is connected then.
 /// At equal numbers the one that misses by least.
 fn most_helpful<'a>(
     flow: &Flow,
@@ -127,7 +127,10 @@ fn apart(
         .iter()
         .filter(|other| other.proposal != failure.proposal && !stands[other.proposal])
         .filter(|other| {
-            let joined = failure.mend.as_ref().is_some_and(|mend| mend.joined.contains(&other.proposal));
+            let joined = failure
+                .suggestion
+                .as_ref()
+                .is_some_and(|suggestion| suggestion.joined.contains(&other.proposal));
             let other = &line.proposals[other.proposal];
             joined
                 || (other.to == pair.to && starved.contains(&pair.to))
@@ -146,26 +149,26 @@ fn apart(
     if !also.is_empty() {
         diagnostic = diagnostic.note(format!("out of reach as well: {}", also.join(", ")));
     }
-    match &failure.mend {
-        Some(mend) => {
-            let name = &line.nodes[mend.node].name;
-            diagnostic.other(mend.span, "this number can mend it").help(format!(
+    match &failure.suggestion {
+        Some(suggestion) => {
+            let name = &line.nodes[suggestion.node].name;
+            diagnostic.other(suggestion.span, "a change of this number is enough").help(format!(
                 "set `{}` of {name} to {} (now {}): {} mm bring the two together, {} mm do not",
-                mend.path,
-                mend.value,
-                mend.present,
-                mend.change_mm.abs(),
-                mend.change_mm.abs() - 1
+                suggestion.path,
+                suggestion.value,
+                suggestion.present,
+                suggestion.change_mm.abs(),
+                suggestion.change_mm.abs() - 1
             ))
         }
         None => diagnostic.help(format!(
-            "no single number within 10 m mends this without parting others: move {} or {}, or lower the approach",
+            "no change of one number by up to 10 m brings them together and parts no others: move {} or {}, or lower the approach",
             passive.name, arm.name
         )),
     }
 }
 
-/// Nodes that are on no way even if every pair met.
+/// Nodes that are on no path even if every pair met.
 fn left_alone(line: &Line, flow: &Flow, served: &Served) -> Vec<Diagnostic> {
     let nodes = &line.nodes;
     let has_source = nodes.iter().any(|node| node.is_source);

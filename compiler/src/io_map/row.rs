@@ -154,14 +154,14 @@ impl<'p> Rows<'p> {
             Direction::Output => ("output", Area::Output),
         };
         if address.area != wanted && address.area != Area::Memory {
-            let mended = Address { area: wanted, ..address };
+            let corrected = Address { area: wanted, ..address };
             found.push(
                 Diagnostic::new(
                     "E0607",
                     field.span,
                     format!("{} is an {word}: {address} does not go with it", point.name),
                 )
-                .help(format!("give it an address such as {mended}")),
+                .help(format!("give it an address such as {corrected}")),
             );
             return None;
         }

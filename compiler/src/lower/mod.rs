@@ -70,7 +70,7 @@ pub struct Apart {
     /// Place, kind, stage and missing mm of each pose, the worst first.
     pub misses: Vec<connect::Miss>,
     /// Robot, path of the number, present and new value.
-    pub mend: Option<(String, String, f64, f64)>,
+    pub suggestion: Option<(String, String, f64, f64)>,
 }
 
 /// The result of a compilation: `project` is there exactly when `diagnostics` is empty.

@@ -6,8 +6,8 @@ use crate::connect::{self, Connected, Ground, Node, Proposal, Site};
 use crate::diagnostic::{Diagnostic, collect};
 use crate::executor::Executor;
 use crate::ir::{
-    self, Automaton, AutomatonId, Expr, Handover, Instance, InterfaceId, Model, Role, RoleKind, Scalar,
-    System, TextPart, Value, Way,
+    self, Automaton, AutomatonId, Direction, Expr, Handover, Instance, InterfaceId, Model, Role, RoleKind,
+    Scalar, System, TextPart, Value,
 };
 use crate::layout::Layout;
 use crate::scenario::Scenario;
@@ -101,12 +101,12 @@ impl<'a> Line<'a> {
         self.model.automaton(self.automaton_id(robot))
     }
 
-    fn handover(&self, robot: usize, way: Way) -> impl Iterator<Item = &Handover> {
+    fn handover(&self, robot: usize, direction: Direction) -> impl Iterator<Item = &Handover> {
         self.automaton(robot)
             .implements
             .iter()
             .filter_map(|i| i.handover.as_ref())
-            .filter(move |h| h.way == way)
+            .filter(move |h| h.direction == direction)
     }
 
     fn takes_part(&self, robot: usize) -> bool {
@@ -124,8 +124,10 @@ impl<'a> Line<'a> {
     pub fn connect(&mut self) -> Option<connect::Report> {
         let nodes_of: Vec<usize> = (0..self.robots.len()).filter(|r| self.takes_part(*r)).collect();
         let nodes = nodes_of.iter().map(|&r| {
-            let (offers, accepts) =
-                (self.handover(r, Way::Offers).count() > 0, self.handover(r, Way::Accepts).count() > 0);
+            let (offers, accepts) = (
+                self.handover(r, Direction::Offers).count() > 0,
+                self.handover(r, Direction::Accepts).count() > 0,
+            );
             let robot = &self.robots[r];
             Node {
                 name: robot.object.name.value.clone(),
@@ -224,9 +226,9 @@ impl<'a> Line<'a> {
     /// Robots that a role of an arm could have, by their types and by the layout's `takes_from` and `hands_to`.
     fn candidates<'l>(&'l self, arm: usize, role: &Role) -> Vec<usize> {
         let object = &self.robots[arm].object;
-        let (way, narrowed) = match role.kind {
-            RoleKind::Takes => (Way::Offers, &object.takes_from),
-            RoleKind::Hands => (Way::Accepts, &object.hands_to),
+        let (direction, narrowed) = match role.kind {
+            RoleKind::Takes => (Direction::Offers, &object.takes_from),
+            RoleKind::Hands => (Direction::Accepts, &object.hands_to),
             RoleKind::Serves | RoleKind::Knows => return Vec::new(),
         };
         let names = |names: &'l Vec<Spanned<String>>| names.iter().map(|n| n.value.as_str()).collect();
@@ -238,7 +240,7 @@ impl<'a> Line<'a> {
             let place = automaton
                 .implementing(role.interface)
                 .and_then(|i| automaton.implements[i].handover.as_ref());
-            place.is_some_and(|h| h.way == way)
+            place.is_some_and(|h| h.direction == direction)
                 && role.also.iter().all(|i| automaton.implementing(*i).is_some())
         };
         let fits: Vec<bool> = self.model.automata.iter().map(fits).collect();
@@ -284,8 +286,8 @@ impl<'a> Line<'a> {
                         to: name(proposal.to),
                         tested: failure.tested,
                         misses: failure.misses.clone(),
-                        mend: failure
-                            .mend
+                        suggestion: failure
+                            .suggestion
                             .as_ref()
                             .map(|m| (name(m.node), m.path.clone(), m.present, m.value)),
                     }

@@ -203,14 +203,14 @@ pub struct Implements {
 #[derive(Clone, Debug)]
 pub struct Handover {
     pub span: Span,
-    pub way: Way,
+    pub direction: Direction,
     pub place: Name,
     pub index: Option<Expr>,
     pub approach: Option<Expr>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Way {
+pub enum Direction {
     Accepts,
     Offers,
 }

@@ -34,8 +34,8 @@ impl Ball {
         ((other.middle - self.middle).length() - self.radius - other.radius).max(0.0)
     }
 
-    pub fn shifted(&self, way: Point) -> Self {
-        Self { middle: self.middle + way, ..*self }
+    pub fn shifted(&self, offset: Point) -> Self {
+        Self { middle: self.middle + offset, ..*self }
     }
 
     pub fn within(&self, frame: &Pose) -> Self {
@@ -65,9 +65,9 @@ impl Piece {
                 (Core::Block(Block { middle, axes, half }), 0.0, reach)
             }
             Shape::Capsule { length, radius } => {
-                let way = axes[2].scaled(length / 2.0);
+                let offset = axes[2].scaled(length / 2.0);
                 let radius = less(radius);
-                (Core::Segment([middle - way, middle + way]), radius, length / 2.0 + radius)
+                (Core::Segment([middle - offset, middle + offset]), radius, length / 2.0 + radius)
             }
         };
         Self { name, core, radius, ball: Ball { middle, radius: reach } }
@@ -106,12 +106,12 @@ impl Placed {
         if balls >= enough {
             return balls;
         }
-        let way = other.ball.middle - self.ball.middle;
+        let offset = other.ball.middle - self.ball.middle;
         let axes = [self, other].into_iter().filter_map(|placed| match &placed.core {
             Core::Block(block) => Some(block.axes),
             Core::Segment(_) => None,
         });
-        let along = |axis| way.dot(axis).abs() - self.extent(axis) - other.extent(axis);
+        let along = |axis| offset.dot(axis).abs() - self.extent(axis) - other.extent(axis);
         axes.flatten().map(along).fold(balls, f64::max)
     }
 
@@ -133,11 +133,11 @@ impl Placed {
             (Core::Block(a), Core::Block(b)) => block_block(a, b),
         };
         let [a, b] = gap.points;
-        let way = (b - a).scaled(1.0 / gap.distance.max(f64::MIN_POSITIVE));
+        let offset = (b - a).scaled(1.0 / gap.distance.max(f64::MIN_POSITIVE));
         let distance = gap.distance - self.radius - other.radius;
         if distance < 0.0 {
             return Gap { distance: 0.0, points: [a, b] };
         }
-        Gap { distance, points: [a + way.scaled(self.radius), b - way.scaled(other.radius)] }
+        Gap { distance, points: [a + offset.scaled(self.radius), b - offset.scaled(other.radius)] }
     }
 }

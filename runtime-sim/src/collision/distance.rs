@@ -66,8 +66,8 @@ fn part(value: f64, of: f64) -> f64 {
 impl Block {
     /// A point in the box's own frame.
     fn own(&self, point: Point) -> [f64; 3] {
-        let way = point - self.middle;
-        self.axes.map(|axis| way.dot(axis))
+        let offset = point - self.middle;
+        self.axes.map(|axis| offset.dot(axis))
     }
 
     /// How far a point of the box's own frame is outside along each axis.
@@ -113,12 +113,12 @@ pub fn segment_block(segment: [Point; 2], block: &Block) -> Gap {
 /// Where on the segment, 0 to 1, it is nearest to the box, and how near.
 fn nearest_on(segment: [Point; 2], block: &Block) -> (f64, f64) {
     let [start, end] = segment.map(|point| block.own(point));
-    let way = [0, 1, 2].map(|i| end[i] - start[i]);
-    let at = |t: f64| [0, 1, 2].map(|i| start[i] + t * way[i]);
+    let offset = [0, 1, 2].map(|i| end[i] - start[i]);
+    let at = |t: f64| [0, 1, 2].map(|i| start[i] + t * offset[i]);
     // Half of the slope of the square distance: it grows with t, and is straight between the faces' planes.
     let slope = |t: f64| {
         let [x, y, z] = block.outside(at(t));
-        x * way[0] + y * way[1] + z * way[2]
+        x * offset[0] + y * offset[1] + z * offset[2]
     };
     let found = |t: f64| {
         let [x, y, z] = block.outside(at(t));
@@ -134,7 +134,7 @@ fn nearest_on(segment: [Point; 2], block: &Block) -> (f64, f64) {
     }
     for i in 0..3 {
         for face in [-block.half[i], block.half[i]] {
-            let t = (face - start[i]) / way[i];
+            let t = (face - start[i]) / offset[i];
             if t > low && t < high {
                 let there = slope(t);
                 if there < 0.0 {

@@ -1,14 +1,14 @@
 //! All bodies of one machine or obstacle, and how they move within a scan.
 
 use super::body::{Ball, Piece};
-use super::lever::{Chain, Levers, Room};
+use super::bounds::{BoundingBox, Chain, Radii};
 use crate::kinematics::arm::{Arm, Frames, Joints};
 use crate::kinematics::pose::Pose;
 use crate::line::{Line, Obstacle};
 use crate::machine::Machine;
 use crate::motion::Motion;
 use crate::plant::Plant;
-use crate::plant::course::Course;
+use crate::plant::trajectory::Trajectory;
 use crate::point::Point;
 use crate::solid::{Link, Solid};
 
@@ -20,12 +20,12 @@ pub struct Body {
     /// Around all of them, in the frame of the anchor.
     pub ball: Ball,
     /// All that it can ever take.
-    pub room: Room,
+    pub bounds: BoundingBox,
     /// Of an arm's joints, if it is fixed to one of the links.
-    levers: Option<Levers>,
+    radii: Option<Radii>,
     /// Metres that no point of it has gone more than, from the start of the run to the end of the scan.
     pub path: f64,
-    /// Metres for each unit of the place on an arm's way.
+    /// Metres for each unit of the place on the path of an arm.
     rate: f64,
 }
 
@@ -108,22 +108,22 @@ impl Group {
             };
             let pieces =
                 solids.iter().map(|solid| Piece::new(solid.name.clone(), &solid.pose, solid.shape)).collect();
-            group.bodies.push(Some(group.body(anchor, pieces, Room::around)));
+            group.bodies.push(Some(group.body(anchor, pieces, BoundingBox::around)));
         }
         group
     }
 
-    /// `still` is the room of what no joint and no vehicle moves.
-    fn body(&self, anchor: Anchor, pieces: Vec<Piece>, still: impl Fn(&Ball) -> Room) -> Body {
+    /// `still` is the bounding box of what no joint and no vehicle moves.
+    fn body(&self, anchor: Anchor, pieces: Vec<Piece>, still: impl Fn(&Ball) -> BoundingBox) -> Body {
         let ball = Ball::around(&pieces.iter().map(Piece::ball).collect::<Vec<_>>());
-        let (levers, room) = match (anchor, &self.kind) {
+        let (radii, bounds) = match (anchor, &self.kind) {
             (Anchor::Link(link), Kind::Arm { chain, .. }) => {
-                (Some(chain.levers(link, &ball)), chain.room(link, &ball))
+                (Some(chain.radii(link, &ball)), chain.bounds(link, &ball))
             }
             (Anchor::Route, Kind::Machine { machine, .. }) => (None, at_stops(machine, &ball)),
             _ => (None, still(&ball)),
         };
-        Body { anchor, pieces, ball, room, levers, path: self.path, rate: 0.0 }
+        Body { anchor, pieces, ball, bounds, radii, path: self.path, rate: 0.0 }
     }
 
     /// Adds an item that comes to lie or to hang here; the number of its body.
@@ -134,7 +134,7 @@ impl Group {
                 let offset = place - plant.position(*index).unwrap_or_default();
                 self.body(anchor, vec![piece], |ball| lying(machine, ball, place, offset))
             }
-            _ => self.body(anchor, vec![piece], Room::around),
+            _ => self.body(anchor, vec![piece], BoundingBox::around),
         };
         match self.bodies.iter().position(Option::is_none) {
             Some(free) => {
@@ -157,7 +157,7 @@ impl Group {
         }
     }
 
-    /// Whether two of its own bodies are to be watched.
+    /// Whether two of its own bodies are checked.
     pub fn is_free_of(&self, a: &Body, b: &Body) -> bool {
         // What stands comes before the first link; an item hangs from the last.
         let number = |body: &Body| match body.anchor {
@@ -191,14 +191,14 @@ impl Group {
     pub fn begin_scan(&mut self, plant: &Plant, seconds: f64) {
         let Some(index) = self.machine() else { return };
         let now_ms = plant.now_ms() as f64;
-        self.movement = match plant.course(index).since(now_ms) {
-            Course::Rests => Movement::Still,
-            Course::Drives { velocity, from_ms, until_ms } => Movement::Slides {
+        self.movement = match plant.trajectory(index).since(now_ms) {
+            Trajectory::Rests => Movement::Still,
+            Trajectory::Drives { velocity, from_ms, until_ms } => Movement::Slides {
                 velocity,
                 from: (from_ms - now_ms) / 1000.0,
                 until: (until_ms - now_ms) / 1000.0,
             },
-            Course::Swings(motion) => Movement::Swings { motion, begin: now_ms / 1000.0 },
+            Trajectory::Swings(motion) => Movement::Swings { motion, begin: now_ms / 1000.0 },
         };
         if let Movement::Still = self.movement {
             return;
@@ -208,8 +208,8 @@ impl Group {
             Movement::Still | Movement::Slides { .. } => None,
         };
         for body in self.bodies.iter_mut().flatten() {
-            let parts = rates.iter().flat_map(|rates| rates.iter()).zip(body.levers.iter().flatten());
-            body.rate = parts.map(|(rate, lever)| rate * lever).sum();
+            let parts = rates.iter().flat_map(|rates| rates.iter()).zip(body.radii.iter().flatten());
+            body.rate = parts.map(|(rate, radius)| rate * radius).sum();
         }
         let mut longest = 0.0_f64;
         for body in self.bodies.iter_mut().flatten() {
@@ -281,19 +281,19 @@ impl Movement {
 }
 
 /// What a vehicle's body takes at all of its stops and between them.
-fn at_stops(machine: &Machine, ball: &Ball) -> Room {
-    let rooms = machine.stops().iter().map(|stop| Room::around(&ball.shifted(*stop)));
-    rooms.reduce(|a, b| a.with(&b)).unwrap_or(Room::around(ball))
+fn at_stops(machine: &Machine, ball: &Ball) -> BoundingBox {
+    let boxes = machine.stops().iter().map(|stop| BoundingBox::around(&ball.shifted(*stop)));
+    boxes.reduce(|a, b| a.with(&b)).unwrap_or(BoundingBox::around(ball))
 }
 
 /// What an item can take that lies at `place`, at `offset` from the machine's position.
-fn lying(machine: &Machine, ball: &Ball, place: Point, offset: Point) -> Room {
-    let here = Room::around(&ball.shifted(place));
+fn lying(machine: &Machine, ball: &Ball, place: Point, offset: Point) -> BoundingBox {
+    let here = BoundingBox::around(&ball.shifted(place));
     match (machine.route(), machine.lane()) {
         (Some(_), _) => at_stops(machine, &ball.shifted(offset)),
         (None, Some(lane)) => {
             let end = place.with_coordinate(lane.along, lane.range[0]);
-            here.with(&Room::around(&ball.shifted(end)))
+            here.with(&BoundingBox::around(&ball.shifted(end)))
         }
         (None, None) => here,
     }

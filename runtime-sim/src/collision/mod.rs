@@ -1,6 +1,6 @@
-//! Contact of what moves with what is in its way.
+//! Contact of what moves with the machines and obstacles about it.
 //!
-//! Everything is made of simple solids ([`crate::solid`]): what the watch does not report is free of contact as
+//! Everything is made of simple solids ([`crate::solid`]): what the check does not report is free of contact as
 //! far as these go. It is no safety function.
 //!
 //! Surfaces touch where parts are handed over, so a contact is more than touching: solids that go more than
@@ -9,12 +9,12 @@
 pub mod distance;
 
 pub(crate) mod body;
+mod bounds;
+mod check;
 mod group;
-mod lever;
 mod pair;
-mod watch;
 
-pub use watch::{Contact, Watch};
+pub use check::{CollisionCheck, Contact};
 
 /// Solids may go so far into one another, m.
 pub const SKIN: f64 = 0.001;

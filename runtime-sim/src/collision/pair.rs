@@ -160,22 +160,22 @@ impl Scan<'_> {
         let [Some(a), Some(b)] = two.map(|one| self.body(one)) else { return false };
         let stand = a.anchor == Anchor::World && b.anchor == Anchor::World;
         let own = two[0].0 == two[1].0 && !self.groups[two[0].0].is_free_of(a, b);
-        !stand && !own && !a.room.is_apart(&b.room)
+        !stand && !own && !a.bounds.is_apart(&b.bounds)
     }
 
     /// Metres that both bodies together go at most between two times.
-    fn ways(&self, two: Two, from: f64, to: f64) -> f64 {
-        let way = |one: (usize, usize)| {
+    fn travel(&self, two: Two, from: f64, to: f64) -> f64 {
+        let of = |one: (usize, usize)| {
             self.body(one).map_or(0.0, |body| self.groups[one.0].path_between(body, from, to))
         };
-        way(two[0]) + way(two[1])
+        of(two[0]) + of(two[1])
     }
 
     /// Advances by as much as the distance allows, until the scan is over or there is none.
     fn search(&mut self, two: Two) -> Search {
         let mut time = 0.0;
         loop {
-            let left = self.ways(two, time, self.seconds);
+            let left = self.travel(two, time, self.seconds);
             let apart = self.apart(two, time, left + FAR);
             let distance = match apart {
                 Apart::AtLeast(distance) => distance,
@@ -190,10 +190,10 @@ impl Scan<'_> {
                 return Search::Clear(distance - left);
             }
             let mut step = self.seconds - time;
-            let mut way = left;
-            while way > distance && step > SHORTEST_STEP {
-                step = (step * 0.99 * distance / way).max(SHORTEST_STEP);
-                way = self.ways(two, time, time + step);
+            let mut travel = left;
+            while travel > distance && step > SHORTEST_STEP {
+                step = (step * 0.99 * distance / travel).max(SHORTEST_STEP);
+                travel = self.travel(two, time, time + step);
             }
             time += step;
         }

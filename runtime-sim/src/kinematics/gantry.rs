@@ -175,13 +175,13 @@ impl Gantry {
     /// The place at a distance from the tool, on the line from the nearest to the farthest place of the torso.
     fn between(&self, view: &View, radius: f64) -> (f64, f64) {
         let [near, far] = view.ends;
-        let (start, way) = (near - view.tool, far - near);
-        let a = way.x * way.x + way.y * way.y;
-        let b = start.x * way.x + start.y * way.y;
+        let (start, span) = (near - view.tool, far - near);
+        let a = span.x * span.x + span.y * span.y;
+        let b = start.x * span.x + start.y * span.y;
         let c = start.x * start.x + start.y * start.y - radius * radius;
         let part = if a > 0.0 { ((root(b * b - a * c) - b) / a).clamp(0.0, 1.0) } else { 0.0 };
-        let place = |near: f64, way: f64, range: [f64; 2]| (near + part * way).clamp(range[0], range[1]);
-        (place(near.x, way.x, self.x), place(near.y, way.y, self.y))
+        let place = |near: f64, span: f64, range: [f64; 2]| (near + part * span).clamp(range[0], range[1]);
+        (place(near.x, span.x, self.x), place(near.y, span.y, self.y))
     }
 
     fn joints(&self, view: &View, (x, y): (f64, f64), wrist: Wrist, from: &Joints) -> Joints {

@@ -13,7 +13,7 @@ use std::f64::consts::FRAC_PI_2;
 const LONGEST: f64 = -A2 - A3;
 const SHORTEST: f64 = A3 - A2;
 /// A solution is comfortable if the wrist could go this much further out or in:
-/// with the arm stretched, small ways of the tool are large ones of the elbow.
+/// with the arm stretched, small motions of the tool are large ones of the elbow.
 const COMFORT: f64 = 0.01;
 
 /// Where the wrist is as seen from the tool.
@@ -25,7 +25,7 @@ pub enum Wrist {
     Outside,
 }
 
-/// Best way to have the tool within an interval of `u`.
+/// How best to have the tool within an interval of `u`.
 #[derive(Clone, Copy, Debug)]
 pub struct Reach {
     /// How far the wrist is from both limits, negative when beyond one, m.

@@ -62,7 +62,7 @@ fn assert_gantry_solved(arm: &Gantry, tool: Point, from: &mut [f64; 9]) {
     }
 }
 
-/// The same arm with its base fixed: is there any solution at all, whichever way it bends?
+/// The same arm with its base fixed: is there any solution at all, however it bends?
 fn rail_arm_at(place: f64, rail: Axis, tool: Point) -> bool {
     let base = match rail {
         Axis::X => Point::new(place, KITTING.y, KITTING.z - D1),
@@ -88,8 +88,8 @@ fn near_limit(margin: impl Fn(Point) -> f64, inside: Point, outside: Point, aim:
     if margin(inside) <= aim || margin(outside) >= aim {
         return None;
     }
-    let way = outside - inside;
-    let at = |part: f64| inside + Point::new(way.x * part, way.y * part, way.z * part);
+    let offset = outside - inside;
+    let at = |part: f64| inside + Point::new(offset.x * part, offset.y * part, offset.z * part);
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..40 {
         let middle = (low + high) / 2.0;
@@ -98,7 +98,7 @@ fn near_limit(margin: impl Fn(Point) -> f64, inside: Point, outside: Point, aim:
     Some(at(high))
 }
 
-/// Up to 5 mm either way, as often down to a picometre as not.
+/// Up to 5 mm in either direction, as often down to a picometre as not.
 fn small(random: &mut Random) -> f64 {
     let size = 0.005 * libm::pow(10.0, -random.between(0.0, 9.0));
     if random.between(0.0, 1.0) < 0.5 { size } else { -size }

@@ -209,7 +209,7 @@ mod tests {
                 0 => joints[2] = off,
                 1 => joints[4] = if i % 2 == 0 { off } else { PI - off },
                 _ => {
-                    // Wrist centre over the axis of the shoulder's offset: its way ahead in the arm's plane is nearly 0.
+                    // Wrist centre over the axis of the shoulder's offset: it is ahead in the plane of the arm by nearly 0.
                     let lift = joints[1];
                     let ahead = A2 * libm::cos(lift) + A3 * libm::cos(lift + joints[2]);
                     let sine = (off - ahead) / D5;

@@ -1,6 +1,6 @@
 //! Ways of all joints together: a straight line, or two with a rounded corner.
 //!
-//! The place on a way is one number from 0 to 1. On a line the joints change evenly with
+//! The place on a path is one number from 0 to 1. On a line the joints change evenly with
 //! it. Over a corner they follow a parabola that touches both lines, so that their change
 //! with the place has no jump.
 
@@ -32,9 +32,12 @@ struct Corner {
 impl Path {
     /// The straight line, and what its joints' limits allow on it; no zone if no joint moves.
     pub fn straight(from: Joints, to: Joints, limits: &Limits) -> (Self, Vec<Zone>) {
-        let ways = difference(&to, &from);
-        let zone =
-            Zone { end: 1.0, top: least(&limits.velocity, &ways), gain: least(&limits.acceleration, &ways) };
+        let changes = difference(&to, &from);
+        let zone = Zone {
+            end: 1.0,
+            top: least(&limits.velocity, &changes),
+            gain: least(&limits.acceleration, &changes),
+        };
         let zones = if zone.top.is_finite() { vec![zone] } else { Vec::new() };
         (Self { from, to, corner: None }, zones)
     }
@@ -44,13 +47,14 @@ impl Path {
     /// The corner is as long as passing it at full speed asks for; but no longer than
     /// [`CORNER_NEAR`] allows, and it takes at most half of either line.
     pub fn past(from: Joints, via: Joints, to: Joints, limits: &Limits) -> (Self, Vec<Zone>) {
-        let ways = [difference(&via, &from), difference(&to, &via)];
-        let times = ways.each_ref().map(|way| 1.0 / least(&limits.velocity, way));
+        let changes = [difference(&via, &from), difference(&to, &via)];
+        let times = changes.each_ref().map(|change| 1.0 / least(&limits.velocity, change));
         let whole = times[0] + times[1];
         if times.contains(&0.0) {
             return Self::straight(from, to, limits);
         }
-        let rates: [Joints; 2] = std::array::from_fn(|i| ways[i].map(|_, way| way * (whole / times[i])));
+        let rates: [Joints; 2] =
+            std::array::from_fn(|i| changes[i].map(|_, change| change * (whole / times[i])));
         let change = difference(&rates[1], &rates[0]);
         let share = limits.acceleration.map(|_, gain| gain * CORNER_SHARE);
         let top = rates.each_ref().map(|rate| least(&limits.velocity, rate));
@@ -111,10 +115,10 @@ impl Path {
             .collect()
     }
 
-    /// The greatest change of each joint with the place, on the whole way.
+    /// The greatest change of each joint with the place, on the whole path.
     pub fn rates(&self) -> Joints {
         match &self.corner {
-            None => difference(&self.to, &self.from).map(|_, way| way.abs()),
+            None => difference(&self.to, &self.from).map(|_, change| change.abs()),
             // Over the corner it goes from the one to the other.
             Some(Corner { rates: [first, second], .. }) => {
                 first.map(|i, rate| rate.abs().max(second[i].abs()))

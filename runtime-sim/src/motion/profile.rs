@@ -1,6 +1,6 @@
-//! How the place on a way changes with time: as fast as the limits of each zone allow.
+//! How the place on a path changes with time: as fast as the limits of each zone allow.
 
-/// A part of a way with limits of its own.
+/// A part of a path with limits of its own.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Zone {
     /// Place at which the zone ends; it begins where the one before ends, or at 0.
@@ -41,13 +41,16 @@ pub fn to_the_end(zones: &[Zone], mut place: f64, mut speed: f64) -> Vec<Phase> 
     let leave = leaving(zones);
     let mut phases = Vec::with_capacity(3 * zones.len());
     for (zone, leave) in zones.iter().zip(leave) {
-        let way = (zone.end - place).max(0.0);
-        let out = leave.min((speed * speed + 2.0 * zone.gain * way).sqrt());
-        let peak =
-            (zone.gain * way + (speed * speed + out * out) / 2.0).sqrt().min(zone.top).max(speed).max(out);
+        let distance = (zone.end - place).max(0.0);
+        let out = leave.min((speed * speed + 2.0 * zone.gain * distance).sqrt());
+        let peak = (zone.gain * distance + (speed * speed + out * out) / 2.0)
+            .sqrt()
+            .min(zone.top)
+            .max(speed)
+            .max(out);
         let rise = (peak - speed) / zone.gain;
         let fall = (peak - out) / zone.gain;
-        let rest = (way - (speed + peak) / 2.0 * rise - (peak + out) / 2.0 * fall).max(0.0);
+        let rest = (distance - (speed + peak) / 2.0 * rise - (peak + out) / 2.0 * fall).max(0.0);
         let rising = Phase { duration: rise, place, speed, acceleration: zone.gain };
         let level = Phase {
             duration: rest / peak.max(f64::MIN_POSITIVE),
@@ -71,8 +74,8 @@ pub fn to_the_end(zones: &[Zone], mut place: f64, mut speed: f64) -> Vec<Phase> 
 pub fn to_rest(zones: &[Zone], mut place: f64, mut speed: f64) -> (Vec<Phase>, f64) {
     let mut phases = Vec::new();
     for zone in zones.iter().skip(present(zones, place)) {
-        let way = (zone.end - place).max(0.0);
-        let left = speed * speed - 2.0 * zone.gain * way;
+        let distance = (zone.end - place).max(0.0);
+        let left = speed * speed - 2.0 * zone.gain * distance;
         let out = if left > 0.0 && zone.end < 1.0 { left.sqrt() } else { 0.0 };
         let duration = (speed - out) / zone.gain;
         let braking = Phase { duration, place, speed, acceleration: -zone.gain };

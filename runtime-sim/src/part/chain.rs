@@ -5,9 +5,9 @@ use super::{Described, Action, Begun, Progress, Running, Schema, See, Signal, Wo
 use crate::device::{Extent, PortType, error};
 use crate::kinematics::arm::Joints;
 use crate::part::axis::Axis;
-use crate::plant::course::Course;
+use crate::plant::trajectory::Trajectory;
 use crate::point::Point;
-use crate::way::{Load, Ways};
+use crate::planner::{Load, Planner};
 use drive::{Drive, Moved, Target};
 
 pub mod drive;
@@ -40,13 +40,13 @@ pub const SCHEMA: Schema = Schema {
                 "envelope",
                 Form::Numbers,
                 "m",
-                "half of the room across its axis that others leave it, and its height over the shoulder; empty: none",
+                "half of the workspace across its axis that others leave it, and its height over the shoulder; empty: none",
             ),
             Setting::new(
                 "clearances",
                 Form::Points,
                 "m",
-                "of what turns with it about the vertical: lower and upper end from the shoulder's height, and how far its axis keeps off what stands between",
+                "of what turns with it about the vertical: lower and upper end from the shoulder's height, and how far its axis keeps off obstacles between",
             ),
         ],
     )
@@ -120,7 +120,7 @@ impl Described for Chain {
         let (machine, part) = (start.machine(), start.part);
         let name = &machine.name;
         let arm = machine.arm().ok_or_else(|| format!("{name} has no inverse kinematics"))?;
-        let drive = Drive::new(arm, self.rest, Ways::of(start.line, start.machine))
+        let drive = Drive::new(arm, self.rest, Planner::of(start.line, start.machine))
             .ok_or_else(|| format!("{name} cannot reach its own rest position"))?;
         let grip = start.find(|other| matches!(other, Primitive::Grip(grip) if grip.chain == part));
         Ok(Some(Box::new(Swinging::new(drive, grip))))
@@ -211,7 +211,7 @@ impl Running for Swinging {
     /// It brakes even while it is held.
     fn advance(&mut self, world: &mut World) -> Progress {
         match self.drive.advance(seconds(world.next_ms())) {
-            Moved::OnTheWay => Progress::Going,
+            Moved::Moving => Progress::Going,
             Moved::Arrived => Progress::Reached,
             Moved::Lost => Progress::Failed(error::UNREACHABLE),
         }
@@ -222,8 +222,8 @@ impl Running for Swinging {
         out.copy_from_slice(&[x, y, z]);
     }
 
-    fn course(&self, _now_ms: u64) -> Course {
-        self.drive.under_way().map_or(Course::Rests, |motion| Course::Swings(motion.clone()))
+    fn trajectory(&self, _now_ms: u64) -> Trajectory {
+        self.drive.under_way().map_or(Trajectory::Rests, |motion| Trajectory::Swings(motion.clone()))
     }
 
     fn position(&self) -> Option<Point> {

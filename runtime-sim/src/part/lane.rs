@@ -4,7 +4,7 @@ use super::settings::{Form, Setting, Settings};
 use super::{Described, Action, Begun, Progress, Running, Schema, See, Signal, World, Start};
 use crate::carrier::Carrier;
 use crate::device::{Extent, PortType, error};
-use crate::plant::course::Course;
+use crate::plant::trajectory::Trajectory;
 use crate::point::{Axis, Point};
 
 pub const SCHEMA: Schema = Schema {
@@ -137,16 +137,16 @@ impl Running for Moving {
         out[0] = f64::from(u8::from(self.is_moving()));
     }
 
-    fn course(&self, _now_ms: u64) -> Course {
+    fn trajectory(&self, _now_ms: u64) -> Trajectory {
         if !self.is_moving() {
-            return Course::Rests;
+            return Trajectory::Rests;
         }
         let speed = self.lane.speed;
         let velocity = match self.lane.along {
             Axis::X => Point::new(-speed, 0.0, 0.0),
             Axis::Y => Point::new(0.0, -speed, 0.0),
         };
-        Course::Drives { velocity, from_ms: 0.0, until_ms: f64::INFINITY }
+        Trajectory::Drives { velocity, from_ms: 0.0, until_ms: f64::INFINITY }
     }
 
     fn is_busy(&self, see: &See) -> bool {

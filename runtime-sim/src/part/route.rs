@@ -3,7 +3,7 @@
 use super::settings::{Form, Setting, Settings};
 use super::{Described, Action, Begun, Progress, Running, Schema, See, Signal, World, Start};
 use crate::device::{Extent, PortType, error};
-use crate::plant::course::Course;
+use crate::plant::trajectory::Trajectory;
 use crate::point::Point;
 
 pub const SCHEMA: Schema = Schema {
@@ -146,14 +146,14 @@ impl Running for Driving {
         out[0] = stop.map_or(-1.0, |stop| stop as f64);
     }
 
-    fn course(&self, now_ms: u64) -> Course {
+    fn trajectory(&self, now_ms: u64) -> Trajectory {
         let Some(trip) = self.trip.as_ref().filter(|trip| !self.held && trip.length > 0.0) else {
-            return Course::Rests;
+            return Trajectory::Rests;
         };
         let Route { speed, latency_ms, .. } = self.route;
         let from_ms = (now_ms + latency_ms) as f64 - trip.elapsed_ms as f64;
         let until_ms = from_ms + 1000.0 * trip.length / speed;
-        Course::Drives { velocity: (trip.to - trip.from).scaled(speed / trip.length), from_ms, until_ms }
+        Trajectory::Drives { velocity: (trip.to - trip.from).scaled(speed / trip.length), from_ms, until_ms }
     }
 
     fn position(&self) -> Option<Point> {

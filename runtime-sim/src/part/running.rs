@@ -9,7 +9,7 @@ use crate::machine::Machine;
 use crate::part::Primitive;
 use crate::part::lane;
 use crate::part::orders::Desk;
-use crate::plant::course::Course;
+use crate::plant::trajectory::Trajectory;
 use crate::point::Point;
 
 /// How a command has begun.
@@ -175,8 +175,8 @@ pub trait Running: std::fmt::Debug + Send + Sync {
     fn signal(&self, _signal: usize, _see: &See, _out: &mut [f64]) {}
 
     /// How what it carries is going to move.
-    fn course(&self, _now_ms: u64) -> Course {
-        Course::Rests
+    fn trajectory(&self, _now_ms: u64) -> Trajectory {
+        Trajectory::Rests
     }
 
     /// Something will change even if no output does, besides the end of a command.

@@ -6,7 +6,7 @@ use crate::event::Event;
 use crate::kinematics::arm::Arm;
 use crate::line::Line;
 use crate::plant::Plant;
-use crate::plant::course::Course;
+use crate::plant::trajectory::Trajectory;
 use crate::point::Point;
 
 /// What is known of the paths so far. What goes on ends never, until something changes it.
@@ -15,7 +15,7 @@ pub struct Recorder {
     /// The arm of each machine that is one.
     arms: Vec<Option<Arm>>,
     /// How each machine moved when it was looked at last.
-    courses: Vec<Course>,
+    trajectories: Vec<Trajectory>,
     /// Events that were looked at.
     read: usize,
     paths: Vec<Path>,
@@ -26,7 +26,7 @@ impl Recorder {
         let items: usize = line.scenario.supply.iter().map(|supply| supply.items.len()).sum();
         Self {
             arms: line.machines.iter().map(|machine| machine.arm()).collect(),
-            courses: vec![Course::Rests; line.machines.len()],
+            trajectories: vec![Trajectory::Rests; line.machines.len()],
             read: 0,
             paths: vec![Path::default(); items],
         }
@@ -36,9 +36,9 @@ impl Recorder {
     pub(crate) fn look(&mut self, plant: &Plant) {
         let now_ms = plant.now_ms() as f64;
         let mut changed = self.take_events(plant);
-        for (machine, last) in self.courses.iter_mut().enumerate() {
-            let course = plant.course(machine).since(now_ms);
-            if std::mem::replace(last, course.clone()).since(now_ms) != course {
+        for (machine, last) in self.trajectories.iter_mut().enumerate() {
+            let trajectory = plant.trajectory(machine).since(now_ms);
+            if std::mem::replace(last, trajectory.clone()).since(now_ms) != trajectory {
                 changed.extend(plant.items().borne_by(machine));
             }
         }
@@ -83,14 +83,14 @@ impl Recorder {
         let carrier = plant.items().all()[item].carrier;
         let Some(place) = plant.place(item) else { return };
         let machine = carrier.machine();
-        let course = machine.map_or(Course::Rests, |machine| self.courses[machine].clone());
+        let trajectory = machine.map_or(Trajectory::Rests, |machine| self.trajectories[machine].clone());
         let arm = machine.and_then(|machine| self.arms[machine]);
         let path = &mut self.paths[item];
         path.cut(now_ms);
         if path.segments.last().is_some_and(|last| last.begin_ms == now_ms && last.carrier == carrier) {
             path.segments.pop();
         }
-        for (begin_ms, end_ms, law) in laws(now_ms, place, carrier, course, arm) {
+        for (begin_ms, end_ms, law) in laws(now_ms, place, carrier, trajectory, arm) {
             if begin_ms < end_ms {
                 path.push(Segment { begin_ms, end_ms, carrier, law });
             }
@@ -103,23 +103,23 @@ fn laws(
     now_ms: f64,
     place: Point,
     carrier: Carrier,
-    course: Course,
+    trajectory: Trajectory,
     arm: Option<Arm>,
 ) -> Vec<(f64, f64, Law)> {
-    match (course, arm, carrier) {
-        (Course::Drives { velocity, from_ms, until_ms }, ..) => {
+    match (trajectory, arm, carrier) {
+        (Trajectory::Drives { velocity, from_ms, until_ms }, ..) => {
             let begin_ms = from_ms.max(now_ms);
-            let way = || velocity.scaled((until_ms - begin_ms) / 1000.0);
+            let offset = || velocity.scaled((until_ms - begin_ms) / 1000.0);
             let mut laws = vec![
                 (now_ms, begin_ms, Law::Rests(place)),
                 (begin_ms, until_ms, Law::Slides { from: place, velocity }),
             ];
             if until_ms.is_finite() {
-                laws.push((until_ms, f64::INFINITY, Law::Rests(place + way())));
+                laws.push((until_ms, f64::INFINITY, Law::Rests(place + offset())));
             }
             laws
         }
-        (Course::Swings(motion), Some(arm), Carrier::Grip { hang, .. }) => {
+        (Trajectory::Swings(motion), Some(arm), Carrier::Grip { hang, .. }) => {
             let rests_s = motion.rests_at();
             let hanging = Hanging { arm, motion, hang };
             let rest = Law::Rests(hanging.place(rests_s));

@@ -8,7 +8,7 @@ use crate::kinematics::arm::Joints;
 use crate::line::Line;
 use crate::part::orders::Desk;
 use crate::part::{Begun, Part, Progress, Running, See, Start, World};
-use crate::plant::course::Course;
+use crate::plant::trajectory::Trajectory;
 use crate::point::Point;
 use crate::wiring::{Drives, Source, Wiring};
 use std::ops::Range;
@@ -271,7 +271,7 @@ impl Working {
         self.parts.iter().flatten().map(|part| part.as_ref())
     }
 
-    /// Where it is: the tool of an arm, the position of a vehicle, the pose of what stands.
+    /// Where it is: the tool of an arm, the position of a vehicle, the pose of what does not move.
     pub fn position(&self) -> Point {
         self.running().find_map(|part| part.position()).unwrap_or(self.pose)
     }
@@ -280,9 +280,9 @@ impl Working {
         self.running().find_map(|part| part.joints())
     }
 
-    pub fn course(&self, now_ms: u64) -> Course {
-        let mut courses = self.running().map(|part| part.course(now_ms));
-        courses.find(|course| *course != Course::Rests).unwrap_or(Course::Rests)
+    pub fn trajectory(&self, now_ms: u64) -> Trajectory {
+        let mut trajectories = self.running().map(|part| part.trajectory(now_ms));
+        trajectories.find(|trajectory| *trajectory != Trajectory::Rests).unwrap_or(Trajectory::Rests)
     }
 
     pub fn open_order(&self) -> Option<usize> {

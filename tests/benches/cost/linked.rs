@@ -62,8 +62,8 @@ impl Images {
     }
 }
 
-/// An arm's way: what its kinematics are asked during the run.
-struct Way {
+/// An arm's path: what its kinematics are asked during the run.
+struct Path {
     arm: Arm,
     /// Joints in each scan in which the tool moved.
     moving: Vec<Joints>,
@@ -77,7 +77,7 @@ struct Record {
     inputs: Images,
     outputs: Images,
     trace: Vec<f64>,
-    ways: Vec<Way>,
+    paths: Vec<Path>,
 }
 
 fn main() {
@@ -149,7 +149,7 @@ fn main() {
     row("trace: gathering what controllers remember", trace);
     row("trace: hash of it and of the outputs", hashed);
     row("report as JSON", written);
-    row("rest: watch for collisions, bus, accounts", rest);
+    row("rest: collision check, bus, accounts", rest);
 
     vehicle(&record, &parameters);
 }
@@ -171,10 +171,10 @@ fn record(line: &Line, mut controllers: Deployed) -> Record {
             inputs: Images::like(seen.inputs),
             outputs: Images::like(seen.outputs),
             trace: seen.trace.to_vec(),
-            ways: arms
+            paths: arms
                 .iter()
                 .flatten()
-                .map(|arm| Way { arm: *arm, moving: Vec::new(), goals: Vec::new() })
+                .map(|arm| Path { arm: *arm, moving: Vec::new(), goals: Vec::new() })
                 .collect(),
         });
         record.scans += 1;
@@ -182,17 +182,17 @@ fn record(line: &Line, mut controllers: Deployed) -> Record {
         record.inputs.take(seen.inputs);
         record.outputs.take(seen.outputs);
         let machines = arms.iter().enumerate().filter_map(|(machine, arm)| Some((machine, arm.as_ref()?)));
-        for ((machine, arm), way) in machines.zip(&mut record.ways) {
+        for ((machine, arm), path) in machines.zip(&mut record.paths) {
             let (tool_before, number_before) = before[machine];
             let tool = seen.plant.position(machine);
             let joints = |place: Point, near: &Joints| arm.solve(place, near).unwrap_or(*near);
-            let near = way.moving.last().copied().unwrap_or_else(|| arm.start());
+            let near = path.moving.last().copied().unwrap_or_else(|| arm.start());
             if let Some(tool) = tool.filter(|_| tool_before.is_some() && tool != tool_before) {
-                way.moving.push(joints(tool, &near));
+                path.moving.push(joints(tool, &near));
             }
             let number = seen.outputs[machine][0];
             if number != number_before {
-                way.goals.push((tool.unwrap_or(Point::new(0.0, 0.0, 0.0)), near));
+                path.goals.push((tool.unwrap_or(Point::new(0.0, 0.0, 0.0)), near));
             }
             before[machine] = (tool, number);
         }
@@ -214,12 +214,12 @@ fn scan(record: &Record, controllers: &mut Deployed, mut after: impl FnMut(&Depl
 
 /// Where the tools are whenever they move, and the joints for each command.
 fn kinematics(record: &Record) {
-    for way in &record.ways {
-        for joints in &way.moving {
-            black_box(way.arm.tool(black_box(joints)));
+    for path in &record.paths {
+        for joints in &path.moving {
+            black_box(path.arm.tool(black_box(joints)));
         }
-        for (goal, near) in &way.goals {
-            black_box(way.arm.solve(black_box(*goal), near));
+        for (goal, near) in &path.goals {
+            black_box(path.arm.solve(black_box(*goal), near));
         }
     }
 }

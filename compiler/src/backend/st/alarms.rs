@@ -7,7 +7,7 @@ use crate::ir::{Automaton, FaultId, FaultKind, Transition, UpdateKind};
 
 /// `alarms.csv`: the codes that are published with a fault. Robots have the numbers that `fault_robot` gives.
 pub fn table(shared: Shared) -> String {
-    let mut text = row(&["code", "type", "robots", "state", "transition", "text", "mend"]);
+    let mut text = row(&["code", "type", "robots", "state", "transition", "text", "remedy"]);
     for (i, site) in shared.system.model.faults.iter().enumerate() {
         let robots: Vec<String> = (shared.instances(site.automaton).iter())
             .map(|r| format!("{r} {}", shared.system.instances[*r].name))
@@ -15,7 +15,7 @@ pub fn table(shared: Shared) -> String {
         if robots.is_empty() {
             continue;
         }
-        let mend = match site.kind {
+        let remedy = match site.kind {
             FaultKind::OutOfBounds => {
                 "The number was limited to its bounds. Look at the state of the robot and at what it counts. After reset and start the step is made again from its beginning: what it counted before the fault is counted twice."
             }
@@ -39,10 +39,10 @@ pub fn table(shared: Shared) -> String {
             &state,
             &transition,
             &about,
-            mend,
+            remedy,
         ]);
     }
-    let mend = "The memory of the controller is damaged: only a cold start helps. Secure the parts on the grippers first: without power they are let go. Empty trays and briefcases: the controller forgets what lies there.";
+    let remedy = "The memory of the controller is damaged: only a cold start helps. Secure the parts on the grippers first: without power they are let go. Empty trays and briefcases: the controller forgets what lies there.";
     text + &row(&[
         &NO_SUCH_STATE.to_string(),
         "",
@@ -50,7 +50,7 @@ pub fn table(shared: Shared) -> String {
         "",
         "",
         "the state has a number that does not exist",
-        mend,
+        remedy,
     ])
 }
 

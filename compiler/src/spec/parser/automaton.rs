@@ -83,9 +83,9 @@ impl Parser {
 
     fn implements(&mut self) -> Option<ast::Implements> {
         let interface = self.expect_name("the interface")?;
-        let way = match self.word() {
-            Some("accepts") => ast::Way::Accepts,
-            Some("offers") => ast::Way::Offers,
+        let direction = match self.word() {
+            Some("accepts") => ast::Direction::Accepts,
+            Some("offers") => ast::Direction::Offers,
             _ => return Some(ast::Implements { interface, handover: None }),
         };
         let span = self.span();
@@ -103,7 +103,7 @@ impl Parser {
         let span = span.to(self.last_span());
         Some(ast::Implements {
             interface,
-            handover: Some(ast::Handover { span, way, place, index, approach }),
+            handover: Some(ast::Handover { span, direction, place, index, approach }),
         })
     }
 

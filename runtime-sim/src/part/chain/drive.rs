@@ -1,20 +1,20 @@
-//! The drives of an arm: its joints on their way to a target of the tool.
+//! The drives of an arm: its joints moving to a target of the tool.
 
 use crate::kinematics::arm::{Arm, Joints, Limits};
 use crate::motion::Motion;
 use crate::point::Point;
-use crate::way::{Leg, Load, Ways};
+use crate::planner::{Leg, Load, Planner};
 use std::sync::Arc;
 
 #[derive(Clone, Debug)]
 pub struct Drive {
     arm: Arm,
     /// What a gantry knows of its surroundings.
-    ways: Option<Arc<Ways>>,
+    planner: Option<Arc<Planner>>,
     limits: Limits,
     joints: Joints,
     tool: Point,
-    course: Course,
+    phase: Phase,
 }
 
 /// Where to go, and how.
@@ -25,13 +25,13 @@ pub enum Target {
     Turned(Point, f64),
     /// The second place, past the first one without a stop.
     Past(Point, Point),
-    /// The first place, round what stands and with this on the tool, so that the tool can be lowered to the second
+    /// The first place, round obstacles and with this on the tool, so that the tool can be lowered to the second
     /// from there.
     Round(Point, Point, Load),
 }
 
 #[derive(Clone, Debug)]
-enum Course {
+enum Phase {
     Rest,
     /// The motion, and the legs behind it, the last one first.
     Going(Motion, Vec<Leg>),
@@ -41,19 +41,19 @@ enum Course {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Moved {
-    OnTheWay,
+    Moving,
     Arrived,
-    /// From where the motion before it came to rest there is no way to the target.
+    /// From where the motion before it came to rest the target cannot be reached.
     Lost,
 }
 
 impl Drive {
     /// At rest with the tool at this place; `None` if it is out of reach.
-    pub fn new(arm: Arm, rest: Point, ways: Option<Ways>) -> Option<Self> {
+    pub fn new(arm: Arm, rest: Point, planner: Option<Planner>) -> Option<Self> {
         let start = arm.start();
         let joints = arm.solve(rest, &start)?;
         let (limits, tool) = (arm.limits(), arm.tool(&joints));
-        Some(Self { arm, ways: ways.map(Arc::new), limits, joints, tool, course: Course::Rest })
+        Some(Self { arm, planner: planner.map(Arc::new), limits, joints, tool, phase: Phase::Rest })
     }
 
     pub fn tool(&self) -> Point {
@@ -66,9 +66,9 @@ impl Drive {
 
     /// What moves the joints at present.
     pub fn under_way(&self) -> Option<&Motion> {
-        match &self.course {
-            Course::Rest => None,
-            Course::Going(motion, _) | Course::Braking(motion, _) => Some(motion),
+        match &self.phase {
+            Phase::Rest => None,
+            Phase::Going(motion, _) | Phase::Braking(motion, _) => Some(motion),
         }
     }
 
@@ -78,7 +78,7 @@ impl Drive {
     }
 
     pub fn is_at_rest(&self) -> bool {
-        matches!(self.course, Course::Rest)
+        matches!(self.phase, Phase::Rest)
     }
 
     pub fn has_torso(&self) -> bool {
@@ -88,19 +88,19 @@ impl Drive {
     /// Sets out for a target at `t`, in seconds; what moves still brakes first. `None` if no joints bring the
     /// tool there.
     pub fn start(&mut self, target: Target, t: f64) -> Option<()> {
-        let course = self.course_to(target, t)?;
-        self.course = match std::mem::replace(&mut self.course, Course::Rest) {
-            Course::Rest => course,
-            Course::Going(mut motion, _) | Course::Braking(mut motion, _) => {
+        let phase = self.phase_to(target, t)?;
+        self.phase = match std::mem::replace(&mut self.phase, Phase::Rest) {
+            Phase::Rest => phase,
+            Phase::Going(mut motion, _) | Phase::Braking(mut motion, _) => {
                 motion.hold(t);
-                Course::Braking(motion, Some(target))
+                Phase::Braking(motion, Some(target))
             }
         };
         Some(())
     }
 
     /// From the present joints, which stand.
-    fn course_to(&self, target: Target, t: f64) -> Option<Course> {
+    fn phase_to(&self, target: Target, t: f64) -> Option<Phase> {
         let (from, limits) = (self.joints, &self.limits);
         let straight = |goal| Some(Leg::To(self.arm.solve(goal, &from)?));
         let mut legs = match target {
@@ -111,7 +111,7 @@ impl Drive {
                 vec![Leg::Past(via, self.arm.solve(goal, &via)?)]
             }
             Target::Round(via, goal, load) => {
-                match self.ways.as_ref().and_then(|ways| ways.legs(&from, load, [via, goal], limits)) {
+                match self.planner.as_ref().and_then(|planner| planner.legs(&from, load, [via, goal], limits)) {
                     Some(legs) => legs,
                     None => vec![straight(via)?],
                 }
@@ -119,61 +119,61 @@ impl Drive {
         };
         legs.reverse();
         let first = legs.pop().unwrap_or(Leg::To(from));
-        Some(Course::Going(first.motion(from, limits, t), legs))
+        Some(Phase::Going(first.motion(from, limits, t), legs))
     }
 
     /// Brakes and forgets the target.
     pub fn stop(&mut self, t: f64) {
-        self.course = match std::mem::replace(&mut self.course, Course::Rest) {
-            Course::Rest => Course::Rest,
-            Course::Going(mut motion, _) | Course::Braking(mut motion, _) => {
+        self.phase = match std::mem::replace(&mut self.phase, Phase::Rest) {
+            Phase::Rest => Phase::Rest,
+            Phase::Going(mut motion, _) | Phase::Braking(mut motion, _) => {
                 motion.hold(t);
-                Course::Braking(motion, None)
+                Phase::Braking(motion, None)
             }
         };
     }
 
     /// Brakes on the path and keeps the target.
     pub fn hold(&mut self, t: f64) {
-        if let Course::Going(motion, _) = &mut self.course {
+        if let Phase::Going(motion, _) = &mut self.phase {
             motion.hold(t);
         }
     }
 
     pub fn resume(&mut self, t: f64) {
-        if let Course::Going(motion, _) = &mut self.course {
+        if let Phase::Going(motion, _) = &mut self.phase {
             motion.resume(t);
         }
     }
 
     /// Goes on to the time `t`. It may arrive while it is held, if it was about to.
     pub fn advance(&mut self, t: f64) -> Moved {
-        let (course, moved) = match std::mem::replace(&mut self.course, Course::Rest) {
-            Course::Rest => (Course::Rest, Moved::Arrived),
-            Course::Going(motion, mut legs) => {
+        let (phase, moved) = match std::mem::replace(&mut self.phase, Phase::Rest) {
+            Phase::Rest => (Phase::Rest, Moved::Arrived),
+            Phase::Going(motion, mut legs) => {
                 self.place(motion.at(t));
                 if !motion.has_ended(t) {
-                    (Course::Going(motion, legs), Moved::OnTheWay)
+                    (Phase::Going(motion, legs), Moved::Moving)
                 } else if let Some(leg) = legs.pop() {
-                    (Course::Going(leg.motion(self.joints, &self.limits, t), legs), Moved::OnTheWay)
+                    (Phase::Going(leg.motion(self.joints, &self.limits, t), legs), Moved::Moving)
                 } else {
-                    (Course::Rest, Moved::Arrived)
+                    (Phase::Rest, Moved::Arrived)
                 }
             }
-            Course::Braking(motion, next) => {
+            Phase::Braking(motion, next) => {
                 self.place(motion.at(t));
                 if t < motion.rests_at() {
-                    (Course::Braking(motion, next), Moved::OnTheWay)
+                    (Phase::Braking(motion, next), Moved::Moving)
                 } else {
-                    match next.map(|target| self.course_to(target, t)) {
-                        None => (Course::Rest, Moved::Arrived),
-                        Some(None) => (Course::Rest, Moved::Lost),
-                        Some(Some(course)) => (course, Moved::OnTheWay),
+                    match next.map(|target| self.phase_to(target, t)) {
+                        None => (Phase::Rest, Moved::Arrived),
+                        Some(None) => (Phase::Rest, Moved::Lost),
+                        Some(Some(phase)) => (phase, Moved::Moving),
                     }
                 }
             }
         };
-        self.course = course;
+        self.phase = phase;
         moved
     }
 

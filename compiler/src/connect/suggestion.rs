@@ -1,7 +1,7 @@
 //! The smallest change of one number that makes two machines meet.
 
 use super::poses::Reachable;
-use super::{Line, Mend, flow::Flow};
+use super::{Line, Suggestion, flow::Flow};
 use crate::device::Placed;
 
 /// How far a number is changed at most, mm.
@@ -17,9 +17,9 @@ pub fn find(
     reachable: &Reachable,
     stands: &[bool],
     proposal: usize,
-) -> Option<Mend> {
+) -> Option<Suggestion> {
     let pair = &line.proposals[proposal];
-    let mut best: Option<Mend> = None;
+    let mut best: Option<Suggestion> = None;
     for node in [pair.passive(), pair.arm] {
         for number in &line.nodes[node].numbers {
             for direction in [1, -1] {
@@ -34,7 +34,7 @@ pub fn find(
                     (connected, -change_mm.abs()) > (best.connected, -best.change_mm.abs())
                 });
                 if better {
-                    best = Some(Mend {
+                    best = Some(Suggestion {
                         node,
                         path: number.path.clone(),
                         span: number.span,

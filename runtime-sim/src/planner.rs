@@ -1,7 +1,7 @@
-//! Ways of a gantry round what stands about it.
+//! Plans the paths of a gantry round obstacles.
 //!
 //! Up as high as its goal or, if need be, over all that stands; then with torso and rails round it; then down. The
-//! robot knows the layout: machines and obstacles, vehicles at their stops and on the way from the first to the
+//! robot knows the layout: machines and obstacles, vehicles at their stops and on the trip from the first to the
 //! second. It does not know where others are at present, nor other arms.
 
 mod plane;
@@ -19,13 +19,13 @@ use std::f64::consts::FRAC_PI_4;
 
 /// What a gantry knows of its surroundings.
 #[derive(Clone, Debug)]
-pub struct Ways {
+pub struct Planner {
     arm: Arm,
     scene: Scene,
-    room: Rectangle,
+    area: Rectangle,
 }
 
-/// A part of a way, from rest to rest.
+/// A part of a path, from rest to rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Leg {
     To(Joints),
@@ -33,7 +33,7 @@ pub enum Leg {
     Past(Joints, Joints),
 }
 
-/// On a way, and at its end, nothing comes nearer, m.
+/// On a path, and at its end, nothing comes nearer, m.
 const MARGIN: f64 = 0.015;
 const MARGIN_AT_PLACE: f64 = 0.003;
 /// What is farther than this is not looked at, m.
@@ -42,7 +42,7 @@ const ENOUGH: f64 = 0.12;
 const BEYOND: [f64; 5] = [0.45, 0.6, 0.3, 0.15, 0.0];
 /// How far the robot draws back at the beginning, and from how far back it comes at the end, m; the best first.
 const BACK: [[f64; 2]; 6] = [[0.0, 0.0], [0.4, 0.0], [0.0, 0.4], [0.4, 0.4], [0.8, 0.4], [0.4, 0.8]];
-/// The same where none of these leads to a way.
+/// The same where none of these leads to a path.
 const FARTHER_BACK: [[f64; 2]; 9] = [
     [0.2, 0.2],
     [0.2, 0.0],
@@ -54,23 +54,23 @@ const FARTHER_BACK: [[f64; 2]; 9] = [
     [0.4, 1.2],
     [1.2, 1.2],
 ];
-/// Ways to so many stances are tried at first.
+/// Planner to so many stances are tried at first.
 const TRIES: usize = 8;
 /// No point of the robot and its load goes farther for a metre of a rail or a radian of a joint, m: from the axis to
 /// the end of the stretched arm, from the shoulder, from the elbow, from the wrists.
-const LEVERS: [f64; 9] = [1.0, 1.0, 2.2, 1.6, 1.6, 1.0, 0.5, 0.4, 0.3];
-/// A way is looked at again at the latest when some point may have gone so far, m: less than [`MARGIN`].
+const RADII: [f64; 9] = [1.0, 1.0, 2.2, 1.6, 1.6, 1.0, 0.5, 0.4, 0.3];
+/// A path is looked at again at the latest when some point may have gone so far, m: less than [`MARGIN`].
 const SHORTEST_STEP: f64 = 0.01;
 const WRISTS: [Wrist; 2] = [Wrist::Inside, Wrist::Outside];
 
 /// Around the torso where it stands.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Room {
+enum Clearance {
     Wide,
     Narrow,
 }
 
-/// When the torso turns on its way.
+/// When the torso turns as it goes.
 #[derive(Clone, Copy)]
 enum Turning {
     Evenly,
@@ -78,18 +78,18 @@ enum Turning {
     Last,
 }
 
-impl Ways {
+impl Planner {
     /// Of the machine of this number; none if it is no gantry.
     pub fn of(line: &crate::line::Line, index: usize) -> Option<Self> {
         let scene = Scene::of(line, index)?;
         let arm = line.machines[index].arm()?;
         let [x, y] = arm.gantry()?.rails();
-        let room = Rectangle { low: Point::new(x[0], y[0], 0.0), high: Point::new(x[1], y[1], 0.0) };
-        Some(Self { arm, scene, room })
+        let area = Rectangle { low: Point::new(x[0], y[0], 0.0), high: Point::new(x[1], y[1], 0.0) };
+        Some(Self { arm, scene, area })
     }
 
     /// Legs that bring the tool to `via`, from where it can be lowered to `goal` while the torso stands; straight over
-    /// if no way keeps off all that stands, none if no stance does.
+    /// if no path keeps off all obstacles, none if no stance does.
     pub fn legs(
         &self,
         from: &Joints,
@@ -121,20 +121,23 @@ impl Ways {
         Some(moved(from, all).into_iter().map(Leg::To).collect())
     }
 
-    /// Joints at `via` of stances that are free of what stands, there and at `goal`: those first in which the torso
-    /// stands as far off as it keeps on its way and so gets out again, then the quickest.
+    /// Joints at `via` of stances that are free of obstacles, there and at `goal`: those first in which the torso
+    /// stands as far off as it keeps on its path and so gets out again, then the quickest.
     fn stances(&self, from: &Joints, via: Point, goal: Point, limits: &Limits) -> Vec<Joints> {
-        let mut found: Vec<(Room, f64, Joints)> = Vec::new();
+        let mut found: Vec<(Clearance, f64, Joints)> = Vec::new();
         for turn in (0..8).map(|i| nearest_turn(f64::from(i) * FRAC_PI_4, from[2])) {
             for (wrist, beyond) in WRISTS.into_iter().flat_map(|w| BEYOND.map(|b| (w, b))) {
                 let stance = Stance { turn, beyond, wrist };
                 let joints = |tool| self.arm.solve_stance(tool, &stance, from);
                 let (Some(over), Some(at)) = (joints(via), joints(goal)) else { continue };
                 if self.is_free_at_place(&at) && self.scene.gap(&over, Load::None, MARGIN) >= MARGIN {
-                    let room =
-                        if keeps_off(axis(&over), &self.scene.blocks) { Room::Wide } else { Room::Narrow };
-                    found.push((room, Motion::undisturbed(*from, over, limits), over));
-                    if room == Room::Wide {
+                    let clearance = if keeps_off(axis(&over), &self.scene.blocks) {
+                        Clearance::Wide
+                    } else {
+                        Clearance::Narrow
+                    };
+                    found.push((clearance, Motion::undisturbed(*from, over, limits), over));
+                    if clearance == Clearance::Wide {
                         break;
                     }
                 }
@@ -159,11 +162,11 @@ impl Ways {
     ) -> Option<Vec<Leg>> {
         let (up, down) = (self.at_height(from, top)?, self.at_height(to, top)?);
         let (start, end) = (self.drawn_back(&up, back)?, self.drawn_back(&down, forth)?);
-        let between = shortest([&start, &end].map(axis), &self.scene.blocks, &self.room)?;
+        let between = shortest([&start, &end].map(axis), &self.scene.blocks, &self.area)?;
         [Turning::Evenly, Turning::First, Turning::Last].into_iter().find_map(|turning| {
             let passed = passed(&start, &end, &between, turning);
             let all = moved(from, [&[up, start], passed.as_slice(), &[end, down, *to]].concat());
-            // Round its corners if there is room for that.
+            // Round its corners if there is space for that.
             [rounded(&all), all.into_iter().map(Leg::To).collect()]
                 .into_iter()
                 .find(|legs| self.are_free(from, load, legs, limits))
@@ -171,10 +174,10 @@ impl Ways {
     }
 
     /// The torso this much farther from what the arm points to, m; none if the rails end before.
-    fn drawn_back(&self, joints: &Joints, way: f64) -> Option<Joints> {
+    fn drawn_back(&self, joints: &Joints, distance: f64) -> Option<Joints> {
         let (s, c) = libm::sincos(joints[2]);
-        let there = axis(joints) + Point::new(s, -c, 0.0).scaled(way);
-        self.room.contains(there).then(|| at(joints, there, joints[2]))
+        let there = axis(joints) + Point::new(s, -c, 0.0).scaled(distance);
+        self.area.contains(there).then(|| at(joints, there, joints[2]))
     }
 
     /// The same stance with the tool at this height, or as it is if it is there.
@@ -186,20 +189,20 @@ impl Ways {
         self.arm.solve_standing(Point { z: height, ..tool }, joints)
     }
 
-    /// Whether nothing on these legs comes near what stands; nearer at least than it was at the beginning.
+    /// Whether nothing on these legs comes near an obstacle; nearer at least than it was at the beginning.
     fn are_free(&self, from: &Joints, load: Load, legs: &[Leg], limits: &Limits) -> bool {
         let margin = self.scene.gap(from, load, MARGIN);
         let mut at = *from;
         legs.iter().all(|leg| {
             let motion = leg.motion(at, limits, 0.0);
-            let way: f64 = motion.rates().iter().zip(LEVERS).map(|(rate, lever)| rate * lever).sum();
+            let rate: f64 = motion.rates().iter().zip(RADII).map(|(rate, radius)| rate * radius).sum();
             let mut place = 0.0;
             while place < 1.0 {
                 let gap = self.scene.gap(&motion.along(place), load, ENOUGH);
                 if gap < margin {
                     return false;
                 }
-                place += (gap - margin).max(SHORTEST_STEP) / way;
+                place += (gap - margin).max(SHORTEST_STEP) / rate;
             }
             at = motion.goal();
             true

@@ -1,4 +1,4 @@
-//! What stands about a gantry, as its planner takes it.
+//! Obstacles about a gantry, as its planner takes it.
 
 use super::plane::{Block, Rectangle};
 use crate::collision::body::{Ball, Piece, Placed};
@@ -20,24 +20,24 @@ struct Member {
     ball: Ball,
 }
 
-/// The robot itself, what stands around it, and what may lie beside a place.
+/// The robot itself, obstacles around it, and what may lie beside a place.
 #[derive(Clone, Debug)]
 pub struct Scene {
     arm: Arm,
     members: Vec<Member>,
     /// The largest part, under the gripper.
     load: Member,
-    standing: Vec<Standing>,
-    /// What stands higher than the torso hangs down, seen from above, and how far its axis keeps off.
+    obstacles: Vec<Obstruction>,
+    /// Obstacles higher than the torso hangs down, seen from above, and how far its axis keeps off.
     pub blocks: Vec<Block>,
     places: Vec<Places>,
-    /// Over all that stands the arm carries its load from this height of the tool on, m.
+    /// Over all obstacles the arm carries its load from this height of the tool on, m.
     pub over_all: f64,
 }
 
-/// A solid that stands, with the axes of the world, and its corners.
+/// A solid that is an obstacle, with the axes of the world, and its corners.
 #[derive(Clone, Debug)]
-struct Standing {
+struct Obstruction {
     placed: Placed,
     low: Point,
     high: Point,
@@ -59,7 +59,7 @@ enum Order {
 }
 
 /// A part of the robot that turns about its axis: its lower and upper end from the height of the shoulder, and how far
-/// the axis keeps off what stands between, m.
+/// the axis keeps off obstacles between, m.
 #[derive(Clone, Copy)]
 struct AroundAxis {
     heights: [f64; 2],
@@ -70,7 +70,7 @@ struct AroundAxis {
 const FREE: usize = 3;
 /// A tool is over a place if it is no farther from it than this, m.
 const AT_PLACE: f64 = 0.02;
-/// Room over what stands when the arm passes over it, m.
+/// Clearance over obstacles when the arm passes over them, m.
 const OVER: f64 = 0.05;
 
 impl Scene {
@@ -88,18 +88,18 @@ impl Scene {
             machines.map(|(_, machine)| machine)
         };
         let obstacles = line.obstacles.iter().filter_map(|o| o.solid()).map(|solid| vec![solid]);
-        let boxes: Vec<Vec<Solid>> = others().flat_map(standing).chain(obstacles).collect();
+        let boxes: Vec<Vec<Solid>> = others().flat_map(workspaces).chain(obstacles).collect();
         let passing: Vec<Vec<Solid>> = others().flat_map(passing).collect();
         let all = boxes.iter().chain(&passing);
         let blocks = all.flat_map(|solids| {
             around.iter().map(|part| part.keeps_off(shoulder, solids)).collect::<Vec<_>>()
         });
         let blocks: Vec<Block> = blocks.flatten().collect();
-        let standing = boxes.iter().flatten();
+        let obstacles = boxes.iter().flatten();
         let largest = |value: fn(&Kind) -> f64| line.kinds.iter().map(value).fold(0.0, f64::max);
         let size = Point::new(largest(|k| k.size[0]), largest(|k| k.size[1]), largest(|k| k.height));
-        let tallest = standing.clone().map(top).filter(|top| *top < shoulder).fold(0.0, f64::max);
-        let standing: Vec<Standing> = standing.map(Standing::new).collect();
+        let tallest = obstacles.clone().map(top).filter(|top| *top < shoulder).fold(0.0, f64::max);
+        let obstacles: Vec<Obstruction> = obstacles.map(Obstruction::new).collect();
         let load = Pose { position: Point::new(0.0, 0.0, size.z / 2.0 + 0.001), ..Pose::IDENTITY };
         let members = members(own);
         let hand = members.last()?.link;
@@ -108,14 +108,14 @@ impl Scene {
             arm,
             members,
             load: Member { link: hand, ball: load.ball(), pieces: vec![load] },
-            standing,
+            obstacles,
             blocks,
             places: places(line),
             over_all: tallest + size.z + OVER,
         })
     }
 
-    /// How far the robot is from all that stands and from its own links, with or without a load, m; `enough` if it is
+    /// How far the robot is from all obstacles and from its own links, with or without a load, m; `enough` if it is
     /// that far or farther, 0 if they touch.
     pub fn gap(&self, joints: &Joints, load: Load, enough: f64) -> f64 {
         let frames = self.arm.frames(joints);
@@ -123,7 +123,7 @@ impl Scene {
         let members: Vec<Located> = members.map(|member| Located::new(member, &frames)).collect();
         let mut least = enough;
         for (i, member) in members.iter().enumerate() {
-            for other in &self.standing {
+            for other in &self.obstacles {
                 if other.is_within(&member.ball, least) {
                     least = member.gap(&other.placed, least);
                 }
@@ -142,8 +142,8 @@ impl Scene {
         let frames = self.arm.frames(joints);
         let tool = self.arm.tool(joints);
         let is_here = |place: &Point| {
-            let way = *place - tool;
-            way.x * way.x + way.y * way.y <= AT_PLACE * AT_PLACE
+            let offset = *place - tool;
+            offset.x * offset.x + offset.y * offset.y <= AT_PLACE * AT_PLACE
         };
         let members: Vec<Located> = self.members.iter().map(|m| Located::new(m, &frames)).collect();
         let mut least = enough;
@@ -159,7 +159,7 @@ impl Scene {
     }
 }
 
-impl Standing {
+impl Obstruction {
     fn new(solid: &Solid) -> Self {
         let (middle, half) = (solid.pose.position, half(solid));
         let placed = Piece::new(String::new(), &solid.pose, solid.shape).within(&Pose::IDENTITY);
@@ -179,7 +179,7 @@ impl Standing {
 }
 
 impl AroundAxis {
-    /// What of these solids is in its way, seen from above.
+    /// What of these solids is an obstacle to it, seen from above.
     fn keeps_off(&self, shoulder: f64, solids: &[Solid]) -> Option<Block> {
         let heights = self.heights.map(|z| shoulder + z);
         let all = solids.iter().filter_map(|solid| footprint(solid, heights));
@@ -245,20 +245,20 @@ fn shifted(solids: &[Solid], by: Point) -> Vec<Solid> {
     solids.iter().map(moved).collect()
 }
 
-/// The room that a vehicle takes on its way from its first stop to the second, in groups that stand together.
+/// The workspace of a vehicle on its trip from its first stop to the second, in groups that stand together.
 fn passing(machine: &Machine) -> Vec<Vec<Solid>> {
     let [start, near, ..] = *machine.stops() else { return Vec::new() };
-    let way = near - start;
-    let steps = (way.length() / STEP).ceil().max(1.0);
+    let trip = near - start;
+    let steps = (trip.length() / STEP).ceil().max(1.0);
     let solids = machine.solids();
-    let on_the_way = (0..=steps as u32).map(|i| shifted(&solids, start + way.scaled(f64::from(i) / steps)));
+    let on_trip = (0..=steps as u32).map(|i| shifted(&solids, start + trip.scaled(f64::from(i) / steps)));
     // Along an axis of the world all of it is one rectangle from above.
-    if way.x == 0.0 || way.y == 0.0 { vec![on_the_way.flatten().collect()] } else { on_the_way.collect() }
+    if trip.x == 0.0 || trip.y == 0.0 { vec![on_trip.flatten().collect()] } else { on_trip.collect() }
 }
 
-/// The room that a machine may take while the gantry works, in groups that stand together: a vehicle at each of its
+/// The workspace of a machine while the gantry works, in groups that stand together: a vehicle at each of its
 /// stops, an arm along its rail.
-fn standing(machine: &Machine) -> Vec<Vec<Solid>> {
+fn workspaces(machine: &Machine) -> Vec<Vec<Solid>> {
     let solids = machine.solids();
     if machine.route().is_some() {
         return machine.stops().iter().map(|stop| shifted(&solids, *stop)).collect();
@@ -280,7 +280,7 @@ fn standing(machine: &Machine) -> Vec<Vec<Solid>> {
     vec![vec![Solid { name: "envelope".into(), link: Link::World, pose, shape, grips: false }]]
 }
 
-/// A vehicle on its way is taken at places so far apart: less than what passes between them is thick, m.
+/// A vehicle that travels is taken at places so far apart: less than what passes between them is thick, m.
 const STEP: f64 = 0.5;
 
 fn half(solid: &Solid) -> Point {
@@ -297,7 +297,7 @@ fn top(solid: &Solid) -> f64 {
     solid.pose.position.z + half(solid).z
 }
 
-/// From above, if it stands at these heights. What stands has the world's axes.
+/// From above, if it is at these heights. Obstacles have the axes of the world.
 fn footprint(solid: &Solid, [low, high]: [f64; 2]) -> Option<Rectangle> {
     let (middle, half) = (solid.pose.position, half(solid));
     let is_between = top(solid) > low && middle.z - half.z < high;

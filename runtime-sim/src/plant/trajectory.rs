@@ -7,7 +7,7 @@ use crate::point::Point;
 /// Times are counted from the start of the run.
 #[derive(Clone, Debug, PartialEq)]
 #[expect(clippy::large_enum_variant)] // one for each machine
-pub enum Course {
+pub enum Trajectory {
     Rests,
     /// Straight on with one velocity, in m/s, between two times; before and after it rests.
     Drives {
@@ -19,14 +19,14 @@ pub enum Course {
     Swings(Motion),
 }
 
-impl Course {
+impl Trajectory {
     /// What is left of it at this time.
     pub fn since(self, ms: f64) -> Self {
         let is_over = match &self {
-            Course::Rests => true,
-            Course::Drives { until_ms, .. } => *until_ms <= ms,
-            Course::Swings(motion) => motion.rests_at() * 1000.0 <= ms,
+            Trajectory::Rests => true,
+            Trajectory::Drives { until_ms, .. } => *until_ms <= ms,
+            Trajectory::Swings(motion) => motion.rests_at() * 1000.0 <= ms,
         };
-        if is_over { Course::Rests } else { self }
+        if is_over { Trajectory::Rests } else { self }
     }
 }

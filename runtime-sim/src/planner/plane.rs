@@ -1,4 +1,4 @@
-//! The shortest way of a disc among rectangles.
+//! The shortest path of a disc among rectangles.
 
 use crate::collision::distance::{self, segment_block};
 use crate::point::Point;
@@ -39,11 +39,11 @@ impl Rectangle {
         (self.low.x..=self.high.x).contains(&point.x) && (self.low.y..=self.high.y).contains(&point.y)
     }
 
-    fn distance(&self, way: [Point; 2]) -> f64 {
+    fn distance(&self, path: [Point; 2]) -> f64 {
         let half = (self.high - self.low).scaled(0.5);
         let axes = [Point::new(1.0, 0.0, 0.0), Point::new(0.0, 1.0, 0.0), Point::new(0.0, 0.0, 1.0)];
         let block = distance::Block { middle: self.low + half, axes, half: [half.x, half.y, 0.0] };
-        segment_block(way, &block).distance
+        segment_block(path, &block).distance
     }
 
     fn corners(&self) -> [Point; 4] {
@@ -57,9 +57,9 @@ pub fn keeps_off(place: Point, blocks: &[Block]) -> bool {
     blocks.iter().all(|block| block.rectangle.distance([place; 2]) >= block.radius)
 }
 
-/// Places to pass between start and goal so that a disc keeps off all blocks, and its middle within `room`; where
-/// start or goal are nearer to a block, no nearer than they. None if there is no way.
-pub fn shortest([start, goal]: [Point; 2], blocks: &[Block], room: &Rectangle) -> Option<Vec<Point>> {
+/// Places to pass between start and goal so that a disc keeps off all blocks, and its middle within `area`; where
+/// start or goal are nearer to a block, no nearer than they. None If there is no path.
+pub fn shortest([start, goal]: [Point; 2], blocks: &[Block], area: &Rectangle) -> Option<Vec<Point>> {
     let near: Vec<Block> = (blocks.iter())
         .filter(|block| block.rectangle.distance([start, goal]) <= DETOUR)
         .map(|block| {
@@ -67,7 +67,7 @@ pub fn shortest([start, goal]: [Point; 2], blocks: &[Block], room: &Rectangle) -
             Block { radius: block.radius.min(at_start).min(at_goal) - 1e-9, ..*block }
         })
         .collect();
-    let is_free = |way: [Point; 2]| near.iter().all(|block| block.rectangle.distance(way) >= block.radius);
+    let is_free = |path: [Point; 2]| near.iter().all(|block| block.rectangle.distance(path) >= block.radius);
     if is_free([start, goal]) {
         return Some(Vec::new());
     }
@@ -80,7 +80,7 @@ pub fn shortest([start, goal]: [Point; 2], blocks: &[Block], room: &Rectangle) -
         let around: Vec<Point> = around.collect();
         let places_near =
             block.rectangle.corners().into_iter().flat_map(|c| around.iter().map(move |a| c + *a));
-        places.extend(places_near.filter(|p| room.contains(*p) && is_free([*p; 2])));
+        places.extend(places_near.filter(|p| area.contains(*p) && is_free([*p; 2])));
     }
     let mut lengths = vec![f64::INFINITY; places.len()];
     let mut before = vec![0; places.len()];
@@ -104,14 +104,14 @@ pub fn shortest([start, goal]: [Point; 2], blocks: &[Block], room: &Rectangle) -
             }
         }
     }
-    let mut way = Vec::new();
+    let mut path = Vec::new();
     let mut at = before[1];
     while at != 0 {
-        way.push(places[at]);
+        path.push(places[at]);
         at = before[at];
     }
-    way.reverse();
-    Some(way)
+    path.reverse();
+    Some(path)
 }
 
 #[cfg(test)]
@@ -130,30 +130,30 @@ mod tests {
         Block { rectangle, radius: 0.6 }
     }
 
-    fn room() -> Rectangle {
+    fn area() -> Rectangle {
         rectangle([-10.0, 10.0], [-5.0, 5.0])
     }
 
     #[test]
-    fn nothing_in_the_way_is_straight_on() {
+    fn without_an_obstacle_it_is_straight() {
         let aside = rectangle([-1.0, 1.0], [0.7, 2.0]);
-        assert_eq!(shortest([point(-3.0, 0.0), point(3.0, 0.0)], &[block(aside)], &room()), Some(vec![]));
+        assert_eq!(shortest([point(-3.0, 0.0), point(3.0, 0.0)], &[block(aside)], &area()), Some(vec![]));
     }
 
     #[test]
     fn it_goes_round_on_the_shorter_side_and_keeps_off() {
         let wall = rectangle([-0.1, 0.1], [-1.0, 3.0]);
         let ends = [point(-3.0, 0.0), point(3.0, 0.0)];
-        let way = shortest(ends, &[block(wall)], &room()).unwrap();
-        assert!(!way.is_empty() && way.iter().all(|p| p.y < -1.0), "{way:?}");
-        let all: Vec<Point> = [ends[0]].into_iter().chain(way).chain([ends[1]]).collect();
+        let path = shortest(ends, &[block(wall)], &area()).unwrap();
+        assert!(!path.is_empty() && path.iter().all(|p| p.y < -1.0), "{path:?}");
+        let all: Vec<Point> = [ends[0]].into_iter().chain(path).chain([ends[1]]).collect();
         for pair in all.windows(2) {
             assert!(wall.distance([pair[0], pair[1]]) >= 0.6, "{all:?}");
         }
         // The shorter side is closed: it takes the other.
         let closed = rectangle([-10.0, 10.0], [-1.5, 5.0]);
-        let way = shortest(ends, &[block(wall)], &closed).unwrap();
-        assert!(way.iter().all(|p| p.y > 3.0), "{way:?}");
+        let path = shortest(ends, &[block(wall)], &closed).unwrap();
+        assert!(path.iter().all(|p| p.y > 3.0), "{path:?}");
         let shut = rectangle([-10.0, 10.0], [-1.5, 3.5]);
         assert_eq!(shortest(ends, &[block(wall)], &shut), None);
     }
@@ -161,8 +161,8 @@ mod tests {
     #[test]
     fn who_begins_too_near_comes_no_nearer() {
         let wall = rectangle([-0.1, 0.1], [-1.0, 1.0]);
-        let way = shortest([point(-0.3, 0.0), point(3.0, 0.0)], &[block(wall)], &room()).unwrap();
-        let first = [point(-0.3, 0.0), way[0]];
-        assert!(wall.distance(first) >= 0.2 - 1e-6, "{way:?}");
+        let path = shortest([point(-0.3, 0.0), point(3.0, 0.0)], &[block(wall)], &area()).unwrap();
+        let first = [point(-0.3, 0.0), path[0]];
+        assert!(wall.distance(first) >= 0.2 - 1e-6, "{path:?}");
     }
 }

@@ -6,30 +6,30 @@ use crate::machine::Machine;
 use crate::point::Point;
 use std::f64::consts::PI;
 
-/// For each joint a bound on how far it moves any point of a body, for each metre or radian of its own way.
-pub type Levers = [f64; MOST_JOINTS];
+/// For each joint a bound on how far it moves any point of a body, for each metre or radian of its own travel.
+pub type Radii = [f64; MOST_JOINTS];
 
-/// The room that something can ever take, by two opposite corners.
+/// What something can ever be in, by two opposite corners.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Room {
+pub struct BoundingBox {
     low: Point,
     high: Point,
 }
 
-impl Room {
+impl BoundingBox {
     pub fn around(ball: &Ball) -> Self {
         let corner = Point::new(ball.radius, ball.radius, ball.radius);
         Self { low: ball.middle - corner, high: ball.middle + corner }
     }
 
-    pub fn with(&self, other: &Room) -> Self {
+    pub fn with(&self, other: &BoundingBox) -> Self {
         Self {
             low: by_coordinate(self.low, other.low, f64::min),
             high: by_coordinate(self.high, other.high, f64::max),
         }
     }
 
-    pub fn is_apart(&self, other: &Room) -> bool {
+    pub fn is_apart(&self, other: &BoundingBox) -> bool {
         let beyond = |low: Point, high: Point| low.x > high.x || low.y > high.y || low.z > high.z;
         beyond(self.low, other.high) || beyond(other.low, self.high)
     }
@@ -72,12 +72,12 @@ impl Chain {
     }
 
     /// For a body within `ball`, given in the frame of link `link`.
-    pub fn levers(&self, link: usize, ball: &Ball) -> Levers {
-        let mut levers = [0.0; MOST_JOINTS];
+    pub fn radii(&self, link: usize, ball: &Ball) -> Radii {
+        let mut radii = [0.0; MOST_JOINTS];
         let place = self.frames[link].point(ball.middle);
         let mut arm: Option<(Point, f64)> = None;
         for joint in (0..=link).rev() {
-            levers[joint] = match self.pivots[joint] {
+            radii[joint] = match self.pivots[joint] {
                 None => 1.0,
                 Some(pivot) => {
                     let (from, beyond) = arm.unwrap_or((place, ball.radius));
@@ -87,21 +87,21 @@ impl Chain {
                 }
             };
         }
-        levers
+        radii
     }
 
     /// Where a body within `ball`, given in the frame of link `link`, can ever be.
-    pub fn room(&self, link: usize, ball: &Ball) -> Room {
-        let levers = self.levers(link, ball);
+    pub fn bounds(&self, link: usize, ball: &Ball) -> BoundingBox {
+        let radii = self.radii(link, ball);
         let first = (0..=link).find_map(|joint| Some((joint, self.pivots[joint]?)));
-        let rooms = self.ends.iter().map(|frames| match first {
+        let boxes = self.ends.iter().map(|frames| match first {
             Some((joint, pivot)) => {
                 let shift = frames[joint].position - self.frames[joint].position;
-                Room::around(&Ball { middle: pivot + shift, radius: levers[joint] })
+                BoundingBox::around(&Ball { middle: pivot + shift, radius: radii[joint] })
             }
-            None => Room::around(&ball.within(&frames[link])),
+            None => BoundingBox::around(&ball.within(&frames[link])),
         });
-        rooms.reduce(|a, b| a.with(&b)).unwrap_or(Room::around(ball))
+        boxes.reduce(|a, b| a.with(&b)).unwrap_or(BoundingBox::around(ball))
     }
 }
 

@@ -1,4 +1,4 @@
-//! The watch over a run.
+//! The collision check of a run.
 //!
 //! Conservative advancement: of each pair of bodies it is known how far the two may go before they can meet at
 //! the earliest, from their last distance; it is looked at again when they may have gone so far. Within a scan
@@ -36,7 +36,7 @@ pub struct Contact {
 
 /// What is known of all that could come into contact.
 #[derive(Clone, Debug)]
-pub struct Watch {
+pub struct CollisionCheck {
     groups: Vec<Group>,
     pairs: Vec<Pair>,
     items: Vec<Tracked>,
@@ -59,7 +59,7 @@ struct Tracked {
     hang: Pose,
 }
 
-impl Watch {
+impl CollisionCheck {
     pub fn new(line: &Line) -> Self {
         let machines = (0..line.machines.len()).map(|index| Group::of_machine(line, index));
         let groups: Vec<Group> = machines.chain(line.obstacles.iter().map(Group::of_obstacle)).collect();
