@@ -3,7 +3,7 @@
 use crate::device::{self, Device};
 use crate::source::Sources;
 use crate::spec::parser;
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 /// The folder of the devices.
 pub const DEVICES: &str = "library/devices/";
@@ -25,8 +25,7 @@ pub const FILES: &[(&str, &str)] = &[
     ("library/station.aut", include_str!("../library/station.aut")),
 ];
 
-/// The devices of the library, in the order of their declarations.
-pub fn devices() -> Vec<Arc<Device>> {
+static ALL: LazyLock<Vec<Arc<Device>>> = LazyLock::new(|| {
     let mut sources = Sources::default();
     let of_devices = FILES.iter().filter(|(name, _)| name.starts_with(DEVICES));
     let trees = of_devices.flat_map(|(name, text)| parser::parse(sources.add(*name, *text), text).0.devices);
@@ -34,8 +33,13 @@ pub fn devices() -> Vec<Arc<Device>> {
     let declared = trees.iter().map(|tree| (tree.name.value.as_str(), tree)).collect();
     let devices = trees.iter().filter(|tree| !tree.is_assembly);
     devices.filter_map(|tree| device::check(tree, &declared).ok()).collect()
+});
+
+/// The devices of the library, in the order of their declarations.
+pub fn devices() -> &'static [Arc<Device>] {
+    &ALL
 }
 
-pub fn device(name: &str) -> Option<Arc<Device>> {
-    devices().into_iter().find(|device| device.name == name)
+pub fn device(name: &str) -> Option<&'static Arc<Device>> {
+    ALL.iter().find(|device| device.name == name)
 }

@@ -26,8 +26,8 @@ pub struct Machine {
     pub states: Vec<State>,
 }
 
-/// Elements of a port.
-const MOST_ELEMENTS: usize = 1024;
+/// Elements of a port or a constant.
+pub const MOST_ELEMENTS: usize = 1024;
 
 impl Machine {
     /// The first thing that is wrong with its parts or its wiring.
@@ -165,16 +165,9 @@ impl Machine {
         })
     }
 
-    pub fn has_source(&self) -> bool {
-        self.parts.iter().any(|part| matches!(part.primitive, Primitive::Source(_)))
-    }
-
-    pub fn has_orders(&self) -> bool {
-        self.parts.iter().any(|part| matches!(part.primitive, Primitive::Orders(_)))
-    }
-
-    pub fn has_grip(&self) -> bool {
-        self.parts.iter().any(|part| matches!(part.primitive, Primitive::Grip(_)))
+    /// Whether one of its parts is of this primitive.
+    pub fn has(&self, primitive: &str) -> bool {
+        self.parts.iter().any(|part| part.schema().name == primitive)
     }
 
     /// What reports call a place beside the name of its machine.

@@ -54,7 +54,7 @@ const FARTHER_BACK: [[f64; 2]; 9] = [
     [0.4, 1.2],
     [1.2, 1.2],
 ];
-/// Planner to so many stances are tried at first.
+/// Paths to so many stances are tried at first.
 const TRIES: usize = 8;
 /// No point of the robot and its load goes farther for a metre of a rail or a radian of a joint, m: from the axis to
 /// the end of the stretched arm, from the shoulder, from the elbow, from the wrists.

@@ -13,7 +13,7 @@ fn placed(device: &str, pose: Point, arguments: Vec<(&str, Value)>) -> Placed {
     let given = |name: &String| arguments.iter().find(|(known, _)| known == name);
     let arguments = device.parameters.iter().filter_map(|parameter| Some(given(&parameter.name)?.1.clone()));
     let arguments = arguments.collect();
-    Placed { device, pose, arguments }
+    Placed { device: device.clone(), pose, arguments }
 }
 
 fn range(ends: [f64; 2]) -> Value {

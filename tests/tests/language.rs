@@ -1,5 +1,6 @@
 //! The examples of `docs/language.md` are right, or wrong as they say; its table of devices is the simulator's.
 
+use autogen::device::type_text;
 use autogen::source::Sources;
 use autogen::{check, library, spec};
 use autogen_tests::{plain, root, text};
@@ -75,20 +76,6 @@ fn examples_are_as_they_say() {
     assert!(blocks.len() >= 15);
 }
 
-fn type_of(ty: PortType, extent: Extent) -> String {
-    let scalar = match ty {
-        PortType::Bool => "bool".to_string(),
-        PortType::Int { lo, hi } => format!("int {lo}..{hi}"),
-        PortType::Real => "real".into(),
-        PortType::Point => "point".into(),
-    };
-    match extent {
-        Extent::One => scalar,
-        Extent::PerKind => scalar + "[Kind]",
-        Extent::Times(n) => format!("{scalar}[{n}]"),
-    }
-}
-
 fn devices() -> String {
     let mut out = String::new();
     for device in library::devices() {
@@ -105,7 +92,7 @@ fn devices() -> String {
                 }
                 (Direction::Output, Stop::Value(v)) => ("out", v.to_string()),
             };
-            let ty = type_of(port.ty, port.extent);
+            let ty = type_text(port.ty, port.extent);
             writeln!(
                 out,
                 "| `{}` | {direction} | `{ty}` | {} | {stop} | {} |",
@@ -125,7 +112,7 @@ fn devices() -> String {
             out += "\n| constant | type | unit | meaning |\n|---|---|---|---|\n";
         }
         for constant in &device.constants {
-            let ty = type_of(constant.ty, constant.extent);
+            let ty = type_text(constant.ty, constant.extent);
             writeln!(out, "| `{}` | `{ty}` | {} | {} |", constant.name, constant.unit, constant.meaning)
                 .expect("text");
         }
@@ -175,10 +162,10 @@ fn primitives() -> String {
         };
         let code = |name: &str, ty: String| format!("`{name}: {ty}`");
         fact("Frames", schema.frames.iter().map(|frame| format!("`{frame}`")).collect());
-        fact("Signals", schema.signals.iter().map(|s| code(s.name, type_of(s.ty, s.extent))).collect());
-        fact("Levels", schema.levels.iter().map(|l| code(l.name, type_of(l.ty, Extent::One))).collect());
+        fact("Signals", schema.signals.iter().map(|s| code(s.name, type_text(s.ty, s.extent))).collect());
+        fact("Levels", schema.levels.iter().map(|l| code(l.name, type_text(l.ty, Extent::One))).collect());
         let action = |action: &Action| {
-            let types = action.arguments.iter().map(|ty| type_of(*ty, Extent::One));
+            let types = action.arguments.iter().map(|ty| type_text(*ty, Extent::One));
             format!("`{}({})`", action.name, types.collect::<Vec<_>>().join(", "))
         };
         fact("Actions", schema.actions.iter().map(action).collect());

@@ -145,7 +145,8 @@ pub fn verdict(v: &Verdict) -> String {
     }
     text += &format!("sources       {}\n", list(&v.sources));
     text += &format!("destinations  {}\n", list(&v.destinations));
-    text += &format!("single points {} (every item passes each of them)\n", list(&v.single_points));
+    let passed = if v.single_points.is_empty() { "" } else { " (every item passes each of them)" };
+    text += &format!("single points {}{passed}\n", list(&v.single_points));
     text += &format!("step order    {}\n", list(&v.robots));
     text
 }

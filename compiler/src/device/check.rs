@@ -1,11 +1,11 @@
 //! From the tree of a device to a [`Device`]: its names, its parts and their settings.
 
 use super::program::{Part, Program, Scope, Setting, Symbol};
-use super::wires::MOST_ELEMENTS;
 use super::{Constant, Device, Form, Handover, Parameter, settle};
 use crate::diagnostic::{Diagnostic, suggestion};
 use crate::source::Span;
 use crate::spec::ast::{self, ExprKind, Name, Scalar};
+use runtime_sim::machine::MOST_ELEMENTS;
 use runtime_sim::part::{ALL, Form as SettingForm, Schema};
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
@@ -154,90 +154,88 @@ impl Checker<'_> {
     }
 
     fn part(&mut self, scope: usize, part: &ast::Part, depth: usize) {
-        let given: HashSet<&str> = part.settings.iter().map(|(name, _)| name.value.as_str()).collect();
-        if given.len() < part.settings.len() {
-            let twice = part.settings.iter().enumerate().find(|(i, (name, _))| {
-                part.settings[..*i].iter().any(|(before, _)| before.value == name.value)
-            });
-            if let Some((_, (name, _))) = twice {
+        let mut given = HashSet::new();
+        for (name, _) in &part.settings {
+            if !given.insert(name.value.as_str()) {
                 let message = format!("the setting `{}` stands here twice", name.value);
                 self.report("E0703", name.span, message, "remove one");
             }
         }
-        if let Some(schema) = Schema::find(&part.kind.value) {
-            self.settings(part, schema);
-            let index = self.program.parts.len();
-            if self.program.parts.iter().any(|other| other.name.value == part.name.value) {
-                let message = format!("two parts of the device are called `{}`", part.name.value);
-                self.report(
-                    "E0701",
-                    part.name.span,
-                    message,
-                    "parts of assemblies count too: choose another name",
-                );
-            }
-            if index == MOST_PARTS {
-                let message = format!("a device has at most {MOST_PARTS} parts");
-                self.report("E0702", part.name.span, message, "make several devices of it");
-            }
-            if index >= MOST_PARTS {
-                return;
-            }
-            self.program.parts.push(Part {
-                name: part.name.clone(),
-                schema,
-                settings: part.settings.iter().map(unknown).collect(),
-                scope,
-                known: None,
-            });
-            self.declare(scope, &part.name, Symbol::Part(index));
-            self.references(scope, part, schema);
-            return;
-        }
-        match self.declared.get(part.kind.value.as_str()).filter(|assembly| assembly.is_assembly) {
-            Some(assembly) if depth < DEEPEST => {
-                let wanted: Vec<&str> =
-                    assembly.parameters.iter().map(|parameter| parameter.name.value.as_str()).collect();
-                for (name, _) in
-                    part.settings.iter().filter(|(name, _)| !wanted.contains(&name.value.as_str()))
-                {
-                    let message = format!("`{}` has no parameter `{}`", part.kind.value, name.value);
-                    self.report("E0703", name.span, message, format!("it has {}", wanted.join(", ")));
-                }
-                for lacking in wanted.iter().filter(|name| !given.contains(**name)) {
-                    let message = format!("the parameter `{lacking}` of `{}` is missing", part.kind.value);
-                    self.report("E0703", part.name.span, message, "give it a value in the braces");
-                }
-                let arguments = part.settings.iter();
-                let arguments = arguments.map(|(name, value)| (name.value.clone(), value.clone())).collect();
-                let inner = self.scope(assembly, Some(scope), arguments, depth + 1);
-                self.declare(scope, &part.name, Symbol::Assembly(inner));
-            }
-            Some(_) => self.report(
-                "E0705",
-                part.kind.span,
-                format!("more than {DEEPEST} assemblies stand in one another"),
-                "an assembly cannot hold itself",
-            ),
-            None => {
+        let kind = part.kind.value.as_str();
+        let assembly = self.declared.get(kind).copied().filter(|device| device.is_assembly);
+        match (Schema::find(kind), assembly) {
+            (Some(schema), _) => self.primitive(scope, part, schema),
+            (None, Some(assembly)) => self.assembly(scope, part, assembly, depth),
+            (None, None) => {
                 let assemblies = self.declared.values().filter(|device| device.is_assembly);
                 let mut known: Vec<&str> = ALL.iter().map(|schema| schema.name).collect();
                 known.extend(assemblies.map(|assembly| assembly.name.value.as_str()));
                 known.sort_unstable();
-                let help = match suggestion(&part.kind.value, known.iter().copied()) {
+                let help = match suggestion(kind, known.iter().copied()) {
                     Some(near) => format!("is `{near}` meant?"),
                     None => format!("primitives and assemblies are {}", known.join(", ")),
                 };
-                let message = format!("`{}` is neither a primitive nor an assembly", part.kind.value);
+                let message = format!("`{kind}` is neither a primitive nor an assembly");
                 self.report("E0702", part.kind.span, message, help);
             }
         }
     }
 
+    fn primitive(&mut self, scope: usize, part: &ast::Part, schema: &'static Schema) {
+        self.settings(part, schema);
+        let index = self.program.parts.len();
+        if self.program.parts.iter().any(|other| other.name.value == part.name.value) {
+            let message = format!("two parts of the device are called `{}`", part.name.value);
+            let help = "parts of assemblies count too: choose another name";
+            self.report("E0701", part.name.span, message, help);
+        }
+        if index == MOST_PARTS {
+            let message = format!("a device has at most {MOST_PARTS} parts");
+            self.report("E0702", part.name.span, message, "make several devices of it");
+        }
+        if index >= MOST_PARTS {
+            return;
+        }
+        self.program.parts.push(Part {
+            name: part.name.clone(),
+            schema,
+            settings: part.settings.iter().map(unknown).collect(),
+            scope,
+            known: None,
+        });
+        self.declare(scope, &part.name, Symbol::Part(index));
+        self.references(scope, part, schema);
+    }
+
+    fn assembly(&mut self, scope: usize, part: &ast::Part, assembly: &ast::Device, depth: usize) {
+        if depth >= DEEPEST {
+            let message = format!("more than {DEEPEST} assemblies stand in one another");
+            self.report("E0705", part.kind.span, message, "an assembly cannot hold itself");
+            return;
+        }
+        let wanted = assembly.parameters.iter().map(|parameter| parameter.name.value.as_str());
+        let wanted: Vec<&str> = wanted.collect();
+        for (name, _) in &part.settings {
+            if !wanted.contains(&name.value.as_str()) {
+                let message = format!("`{}` has no parameter `{}`", part.kind.value, name.value);
+                self.report("E0703", name.span, message, format!("it has {}", wanted.join(", ")));
+            }
+        }
+        for lacking in wanted {
+            if part.settings.iter().all(|(name, _)| name.value != lacking) {
+                let message = format!("the parameter `{lacking}` of `{}` is missing", part.kind.value);
+                self.report("E0703", part.name.span, message, "give it a value in the braces");
+            }
+        }
+        let arguments = part.settings.iter().map(|(name, value)| (name.value.clone(), value.clone()));
+        let inner = self.scope(assembly, Some(scope), arguments.collect(), depth + 1);
+        self.declare(scope, &part.name, Symbol::Assembly(inner));
+    }
+
     /// Every setting is known, and none is missing.
     fn settings(&mut self, part: &ast::Part, schema: &'static Schema) {
         for (name, _) in &part.settings {
-            if schema.settings.iter().all(|setting| setting.name != name.value) {
+            if schema.setting(&name.value).is_none() {
                 let known = schema.settings.iter().map(|setting| setting.name);
                 let help = match suggestion(&name.value, known.clone()) {
                     Some(near) => format!("is `{near}` meant?"),
@@ -263,8 +261,8 @@ impl Checker<'_> {
     /// A part refers to parts before it only: whose names are known by now.
     fn references(&mut self, scope: usize, part: &ast::Part, schema: &'static Schema) {
         for (name, expr) in &part.settings {
-            let setting = schema.settings.iter().find(|setting| setting.name == name.value);
-            let Some(SettingForm::Part(primitives)) = setting.map(|setting| setting.form) else { continue };
+            let form = schema.setting(&name.value).map(|setting| setting.form);
+            let Some(SettingForm::Part(primitives)) = form else { continue };
             if let ExprKind::Name(other) = &expr.kind {
                 let known = &self.program.scopes[scope].names;
                 let is_itself = *other == part.name.value;
@@ -306,7 +304,7 @@ impl Checker<'_> {
             }
             let indexed = match &place.extent {
                 None => None,
-                Some(ast::Expr { kind: ExprKind::Int(n), .. }) if (1..=MOST_ELEMENTS).contains(n) => {
+                Some(ast::Expr { kind: ExprKind::Int(n), .. }) if (1..=MOST_ELEMENTS as i64).contains(n) => {
                     Some(*n as usize)
                 }
                 Some(expr) => {

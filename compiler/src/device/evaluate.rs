@@ -227,7 +227,7 @@ impl Environment<'_> {
                 if let Some(frame) = found.schema.frames.iter().position(|frame| *frame == member.value) {
                     return value(Value::Part { part, frame });
                 }
-                let known = found.schema.settings.iter().find(|setting| setting.name == member.value);
+                let known = found.schema.setting(&member.value);
                 let given = found.settings.iter().find(|given| given.name.value == member.value);
                 match (known, given) {
                     (Some(setting), Some(given)) if depth <= DEEPEST => {

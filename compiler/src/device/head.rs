@@ -52,6 +52,12 @@ pub fn outputs() -> Vec<(Port, Drives)> {
     ]
 }
 
+/// Of all of them.
+pub fn names() -> Vec<String> {
+    let inputs = inputs().into_iter().map(|(port, _)| port.name);
+    inputs.chain(outputs().into_iter().map(|(port, _)| port.name)).collect()
+}
+
 fn port(name: &str, direction: Direction, ty: PortType, meaning: &str, stop: Stop) -> Port {
     Port {
         name: name.into(),

@@ -140,6 +140,21 @@ impl Constant {
     }
 }
 
+/// A type as specifications write it, such as `int 0..12[Kind]`.
+pub fn type_text(ty: PortType, extent: Extent) -> String {
+    let scalar = match ty {
+        PortType::Bool => "bool".to_string(),
+        PortType::Int { lo, hi } => format!("int {lo}..{hi}"),
+        PortType::Real => "real".into(),
+        PortType::Point => "point".into(),
+    };
+    match extent {
+        Extent::One => scalar,
+        Extent::PerKind => format!("{scalar}[Kind]"),
+        Extent::Times(n) => format!("{scalar}[{n}]"),
+    }
+}
+
 impl Port {
     /// Numbers that this port takes in a process image.
     pub fn words(&self, kinds: usize) -> usize {

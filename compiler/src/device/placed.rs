@@ -114,8 +114,7 @@ impl Placed {
             let mut settings = Vec::new();
             let before = diagnostics.len();
             for given in &part.settings {
-                let name = &given.name.value;
-                let Some(setting) = part.schema.settings.iter().find(|s| s.name == name) else { continue };
+                let Some(setting) = part.schema.setting(&given.name.value) else { continue };
                 match environment.setting(part, setting, given) {
                     Ok(value) => settings.push((setting.name, value)),
                     Err(found) => diagnostics.push(found.other(place, "for this machine")),

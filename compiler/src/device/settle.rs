@@ -19,7 +19,7 @@ pub fn settle(program: &mut Program) {
         .iter()
         .map(|part| {
             let value = |given: &Given| {
-                let setting = part.schema.settings.iter().find(|s| s.name == given.name.value)?;
+                let setting = part.schema.setting(&given.name.value)?;
                 environment.setting(part, setting, given).ok()
             };
             part.settings.iter().map(value).collect()
@@ -28,7 +28,7 @@ pub fn settle(program: &mut Program) {
     for (part, known) in program.parts.iter_mut().zip(known) {
         part.settings.iter_mut().zip(known).for_each(|(given, known)| given.known = known);
         let settled = |given: &Given| {
-            let setting = part.schema.settings.iter().find(|s| s.name == given.name.value)?;
+            let setting = part.schema.setting(&given.name.value)?;
             Some((setting.name, given.known.clone()?))
         };
         let settings: Option<Vec<_>> = part.settings.iter().map(settled).collect();
@@ -61,8 +61,7 @@ pub fn wrong(
     let mut found = Vec::new();
     for part in &program.parts {
         for given in part.settings.iter().filter(|given| given.known.is_none()) {
-            let setting = part.schema.settings.iter().find(|s| s.name == given.name.value);
-            let Some(setting) = setting else { continue };
+            let Some(setting) = part.schema.setting(&given.name.value) else { continue };
             match nothing(program).setting(part, setting, given) {
                 // It was worked out, and does not fit.
                 Err(diagnostic) if diagnostic.code == "E0704" => found.push(*diagnostic),

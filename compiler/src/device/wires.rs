@@ -2,13 +2,11 @@
 
 use super::check::Checker;
 use super::program::Symbol;
-use super::{Port, Verb, head};
+use super::{Port, Verb, head, type_text};
 use crate::spec::ast::{self, ExprKind, Name, Scalar};
 use runtime_sim::device::{Direction, Extent, PortType, Stop};
+use runtime_sim::machine::MOST_ELEMENTS;
 use runtime_sim::wiring::{Await, Command, Drives, Input, Output, Size, Source, Wiring};
-
-/// Elements of a port or a constant.
-pub const MOST_ELEMENTS: i64 = 1024;
 
 impl Checker<'_> {
     pub(super) fn port_type(&mut self, ty: &ast::Type) -> Option<(PortType, Extent)> {
@@ -25,7 +23,7 @@ impl Checker<'_> {
         let extent = match &ty.extent {
             None => Some(Extent::One),
             Some(ast::Expr { kind: ExprKind::Name(name), .. }) if name == "Kind" => Some(Extent::PerKind),
-            Some(ast::Expr { kind: ExprKind::Int(n), .. }) if (1..=MOST_ELEMENTS).contains(n) => {
+            Some(ast::Expr { kind: ExprKind::Int(n), .. }) if (1..=MOST_ELEMENTS as i64).contains(n) => {
                 Some(Extent::Times(*n as usize))
             }
             Some(_) => None,
@@ -107,15 +105,14 @@ impl Checker<'_> {
                 ports.push(declared);
             }
         }
+        let of_head: Vec<String> = match tree.commands.is_empty() {
+            true => Vec::new(),
+            false => head::names(),
+        };
         for (index, port) in tree.ports.iter().enumerate() {
-            let is_head = head::inputs()
-                .iter()
-                .map(|(p, _)| p.name.clone())
-                .chain(head::outputs().iter().map(|(p, _)| p.name.clone()))
-                .any(|name| name == port.name.value);
             let is_twice = tree.ports[..index].iter().any(|other| other.name.value == port.name.value)
                 || tree.constants.iter().any(|other| other.name.value == port.name.value);
-            if is_twice || is_head && !tree.commands.is_empty() {
+            if is_twice || of_head.contains(&port.name.value) {
                 let message = format!("`{}` names something here already", port.name.value);
                 self.report("E0701", port.name.span, message, "choose another name");
             }
@@ -313,20 +310,6 @@ fn fits(given: PortType, declared: PortType) -> bool {
     match (given, declared) {
         (PortType::Int { .. }, PortType::Int { .. }) => true,
         (given, declared) => given == declared,
-    }
-}
-
-fn type_text(ty: PortType, extent: Extent) -> String {
-    let scalar = match ty {
-        PortType::Bool => "bool".to_string(),
-        PortType::Int { lo, hi } => format!("int {lo}..{hi}"),
-        PortType::Real => "real".into(),
-        PortType::Point => "point".into(),
-    };
-    match extent {
-        Extent::One => scalar,
-        Extent::PerKind => format!("{scalar}[Kind]"),
-        Extent::Times(n) => format!("{scalar}[{n}]"),
     }
 }
 

@@ -72,7 +72,7 @@ impl Line {
         for (number, order) in (1..).zip(&scenario.orders) {
             for (i, &index) in order.stations.iter().enumerate() {
                 let station = self.machine(index, "an order")?;
-                if !station.has_orders() {
+                if !station.has("orders") {
                     return Err(format!("an order at {}, which has no terminal", station.name));
                 }
                 if order.stations[..i].contains(&index) {
@@ -88,7 +88,7 @@ impl Line {
         }
         for (i, supply) in scenario.supply.iter().enumerate() {
             let belt = self.machine(supply.belt, "the supply")?;
-            if !belt.has_source() {
+            if !belt.has("source") {
                 return Err(format!("a supply of {}, which has no source", belt.name));
             }
             if scenario.supply[..i].iter().any(|other| other.belt == supply.belt) {
@@ -100,7 +100,7 @@ impl Line {
         }
         for slip in &scenario.slips {
             let arm = self.machine(slip.machine, "a slip")?;
-            if !arm.has_grip() {
+            if !arm.has("grip") {
                 return Err(format!("a slip of {}, which has no gripper", arm.name));
             }
             if !(0.0..=LONGEST_TIME).contains(&slip.after_s) {

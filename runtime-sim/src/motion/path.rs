@@ -1,4 +1,4 @@
-//! Ways of all joints together: a straight line, or two with a rounded corner.
+//! Paths of all joints together: a straight line, or two with a rounded corner.
 //!
 //! The place on a path is one number from 0 to 1. On a line the joints change evenly with
 //! it. Over a corner they follow a parabola that touches both lines, so that their change

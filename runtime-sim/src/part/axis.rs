@@ -62,8 +62,8 @@ impl Described for Axis {
             return Err("of the settings on and at it has one: at for the first joint, on for the others".into());
         }
         Ok(Self {
-            on: settings.has("on").then(|| settings.part("on")).transpose()?,
-            at: settings.has("at").then(|| settings.point("at")).transpose()?,
+            on: settings.optional("on", Settings::part)?,
+            at: settings.optional("at", Settings::point)?,
             motion,
             speed: settings.positive("speed")?,
             acceleration: settings.positive("acceleration")?,

@@ -43,7 +43,7 @@ pub struct Body {
 
 impl Described for Body {
     fn new(settings: &Settings) -> Result<Self, String> {
-        let on = settings.has("on").then(|| settings.frame("on")).transpose()?;
+        let on = settings.optional("on", Settings::frame)?;
         let grips = settings.has("grips") && settings.truth("grips")?;
         let at = |position: Point| Pose { position, ..Pose::IDENTITY };
         let (pose, shape) = if settings.has("low") {

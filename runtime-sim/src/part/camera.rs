@@ -29,7 +29,7 @@ pub struct Camera {
 impl Described for Camera {
     fn new(settings: &Settings) -> Result<Self, String> {
         Ok(Self {
-            route: settings.has("over").then(|| settings.part("over")).transpose()?,
+            route: settings.optional("over", Settings::part)?,
             at: settings.points("at")?,
             yaw: settings.number("yaw")?,
         })

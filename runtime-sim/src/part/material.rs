@@ -23,7 +23,7 @@ impl Described for Material {
         let colour = settings.numbers("colour")?;
         let colour = <[f64; 3]>::try_from(colour);
         let colour = colour.map_err(|_| "the setting colour has not three numbers".to_string())?;
-        let friction = settings.has("friction").then(|| settings.number("friction")).transpose()?;
+        let friction = settings.optional("friction", Settings::number)?;
         Ok(Self { colour, friction })
     }
 }

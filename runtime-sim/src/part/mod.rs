@@ -57,6 +57,10 @@ impl Schema {
     pub fn find(name: &str) -> Option<&'static Schema> {
         ALL.iter().copied().find(|schema| schema.name == name)
     }
+
+    pub fn setting(&self, name: &str) -> Option<&'static Setting> {
+        self.settings.iter().find(|setting| setting.name == name)
+    }
 }
 
 /// What every primitive gives.
@@ -173,7 +177,7 @@ impl Part {
         };
         let settings = words.list(|w| {
             let name = w.name()?;
-            let Some(setting) = schema.settings.iter().find(|setting| setting.name == name) else {
+            let Some(setting) = schema.setting(name) else {
                 return Err(w.error(format_args!("a {primitive} has no setting `{name}`")));
             };
             Ok((setting.name, Value::read(w)?))

@@ -47,17 +47,16 @@ pub struct Place {
 
 impl Described for Place {
     fn new(settings: &Settings) -> Result<Self, String> {
-        let optional = |name: &str| settings.has(name);
         Ok(Self {
-            route: optional("on").then(|| settings.part("on")).transpose()?,
+            route: settings.optional("on", Settings::part)?,
             at: settings.point("at")?,
             slots: settings.points("slots")?,
             by_kind: settings.truth("by_kind")?,
             floor: settings.point("floor")?,
             floor_x: settings.range("floor_x")?,
             floor_y: settings.range("floor_y")?,
-            drawn: optional("drawn").then(|| settings.point("drawn")).transpose()?,
-            title: optional("title").then(|| settings.word("title").map(Into::into)).transpose()?,
+            drawn: settings.optional("drawn", Settings::point)?,
+            title: settings.optional("title", Settings::word)?.map(Into::into),
         })
     }
 

@@ -67,6 +67,15 @@ impl Settings {
         self.get(name).is_some()
     }
 
+    /// What `read` gives for a setting, if it is there.
+    pub fn optional<'s, T>(
+        &'s self,
+        name: &str,
+        read: impl FnOnce(&'s Self, &str) -> Result<T, String>,
+    ) -> Result<Option<T>, String> {
+        self.has(name).then(|| read(self, name)).transpose()
+    }
+
     fn read<T>(&self, name: &str, what: &str, take: impl FnOnce(&Value) -> Option<T>) -> Result<T, String> {
         let value = self.get(name).ok_or_else(|| format!("the setting {name} is missing"))?;
         take(value).ok_or_else(|| format!("the setting {name} is no {what}"))
@@ -143,7 +152,7 @@ impl Settings {
         self.list(name, "list of words", |value| word(value).map(Into::into))
     }
 
-    pub fn list<T>(
+    fn list<T>(
         &self,
         name: &str,
         what: &str,

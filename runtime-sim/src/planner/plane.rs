@@ -58,7 +58,7 @@ pub fn keeps_off(place: Point, blocks: &[Block]) -> bool {
 }
 
 /// Places to pass between start and goal so that a disc keeps off all blocks, and its middle within `area`; where
-/// start or goal are nearer to a block, no nearer than they. None If there is no path.
+/// start or goal are nearer to a block, no nearer than they. None if there is no path.
 pub fn shortest([start, goal]: [Point; 2], blocks: &[Block], area: &Rectangle) -> Option<Vec<Point>> {
     let near: Vec<Block> = (blocks.iter())
         .filter(|block| block.rectangle.distance([start, goal]) <= DETOUR)

@@ -12,7 +12,7 @@ use std::sync::Arc;
 /// An automaton of this name.
 pub fn automaton(lot: &mut Lot, world: &World, name: &str) -> String {
     let devices = library::devices();
-    let device = lot.pick(&devices);
+    let device = lot.pick(devices);
     let own = match lot.below(5) {
         0 => vec!["Post", "Shelf"],
         1 => vec!["Post"],
@@ -25,7 +25,7 @@ pub fn automaton(lot: &mut Lot, world: &World, name: &str) -> String {
 /// One that has every interface, so that each has a member.
 pub fn anchor(lot: &mut Lot, world: &World) -> String {
     let device = library::device("vehicle").expect("a device of the library");
-    text(lot, world, "Anchor", &device, &["Shelf", "Post"])
+    text(lot, world, "Anchor", device, &["Shelf", "Post"])
 }
 
 fn text(lot: &mut Lot, world: &World, name: &str, device: &Arc<Device>, own: &[&str]) -> String {
