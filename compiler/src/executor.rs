@@ -179,17 +179,42 @@ impl Controllers for Executor<'_> {
         self.robots[machine].state
     }
 
-    fn trace(&self, out: &mut Vec<f64>) {
-        for (index, robot) in self.robots.iter().enumerate() {
-            out.push(robot.state as f64);
-            out.push(f64::from(robot.elapsed));
-            robot.locals.iter().flatten().for_each(|v| push(*v, out));
-            let automaton = self.system.automaton_of(index);
-            for (implemented, row) in automaton.implements.iter().zip(&self.system.instances[index].rows) {
-                self.cells[implemented.interface.0][*row].iter().flatten().for_each(|v| push(*v, out));
-            }
-            self.outputs(index, true, out);
+    fn stays(&self) -> Vec<usize> {
+        let mut stays = Vec::new();
+        let mut trace = Vec::new();
+        for index in 0..self.robots.len() {
+            stays.push(trace.len() + 1);
+            self.trace_of(index, &mut trace);
         }
+        stays
+    }
+
+    fn skip(&mut self, scans: u64) {
+        if !self.status.running {
+            return;
+        }
+        let passed = i32::try_from(scans).unwrap_or(i32::MAX).saturating_mul(self.system.scan_ms);
+        for robot in &mut self.robots {
+            robot.elapsed = robot.elapsed.saturating_add(passed);
+        }
+    }
+
+    fn trace(&self, out: &mut Vec<f64>) {
+        (0..self.robots.len()).for_each(|index| self.trace_of(index, out));
+    }
+}
+
+impl Executor<'_> {
+    fn trace_of(&self, index: usize, out: &mut Vec<f64>) {
+        let robot = &self.robots[index];
+        out.push(robot.state as f64);
+        out.push(f64::from(robot.elapsed));
+        robot.locals.iter().flatten().for_each(|v| push(*v, out));
+        let automaton = self.system.automaton_of(index);
+        for (implemented, row) in automaton.implements.iter().zip(&self.system.instances[index].rows) {
+            self.cells[implemented.interface.0][*row].iter().flatten().for_each(|v| push(*v, out));
+        }
+        self.outputs(index, true, out);
     }
 }
 

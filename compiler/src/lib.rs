@@ -20,6 +20,7 @@ pub mod library;
 pub mod lower;
 pub mod naming;
 pub mod plain;
+pub mod reads;
 pub mod scenario;
 pub mod simulator;
 pub mod source;

@@ -358,8 +358,9 @@ fn obeys_its_law(segment: &Value) {
                 let joints = piece["joints"].as_array().expect("joints").iter();
                 let joints =
                     joints.map(|powers| numbers(powers).iter().rev().fold(0.0, |sum, c| sum * t + c));
-                let tool = arm.tool(&Joints::new(&joints.collect::<Vec<f64>>()));
-                near(&[tool.x + hang[0], tool.y + hang[1], tool.z + hang[2]], key);
+                let tool = arm.tool_pose(&Joints::new(&joints.collect::<Vec<f64>>()));
+                let place = tool.point(Point::new(hang[0], hang[1], hang[2]));
+                near(&[place.x, place.y, place.z], key);
             }
         }
         _ => panic!("no law: {segment}"),

@@ -18,7 +18,7 @@ pub struct Account {
     pub waiting_for: Vec<u64>,
 }
 
-/// What a machine does in a scan.
+/// What a machine does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Activity {
     Stopped,
@@ -32,19 +32,20 @@ impl Account {
         Self { waiting_for: vec![0; line.machines.len()], ..Self::default() }
     }
 
-    pub fn book(&mut self, line: &Line, machine: usize, activity: Activity) {
+    /// What the machine does in so many scans.
+    pub fn book(&mut self, line: &Line, machine: usize, activity: Activity, scans: u64) {
         match activity {
-            Activity::Stopped => self.stopped += 1,
-            Activity::Moving => self.moving += 1,
+            Activity::Stopped => self.stopped += scans,
+            Activity::Moving => self.moving += scans,
             Activity::InState(state) => match line.machines[machine].states.get(state) {
-                Some(state) if state.working => self.working += 1,
+                Some(state) if state.working => self.working += scans,
                 Some(state) => {
-                    self.waiting += 1;
+                    self.waiting += scans;
                     for &owner in &state.awaits {
-                        self.waiting_for[owner] += 1;
+                        self.waiting_for[owner] += scans;
                     }
                 }
-                None => self.waiting += 1,
+                None => self.waiting += scans,
             },
         }
     }

@@ -9,33 +9,17 @@ pub enum Carrier {
     Supply,
     /// `at` is where along the lane it would lie if the lane had not moved since the start of the run,
     /// `across` its distance from the lane's middle line.
-    Lane {
-        machine: usize,
-        part: usize,
-        at: f64,
-        across: f64,
-    },
-    /// `hang` leads from the tool to the item's underside.
-    Grip {
-        machine: usize,
-        part: usize,
-        hang: Point,
-    },
+    Lane { machine: usize, part: usize, at: f64, across: f64 },
+    /// `hang` leads from the tool to the item's underside, in the frame of the tool: the item is rigid with it.
+    Grip { machine: usize, part: usize, hang: Point },
     /// `offset` from the origin of what carries the place.
-    Place {
-        machine: usize,
-        part: usize,
-        offset: Point,
-    },
-    Floor {
-        point: Point,
-    },
+    Place { machine: usize, part: usize, offset: Point },
+    /// On the ground, or on an obstacle.
+    Floor { point: Point },
     /// It left a lane at its end, or lay at a place whose order was made elsewhere.
     Collector,
     /// Taken away with an order.
-    Shipped {
-        order: usize,
-    },
+    Shipped { order: usize },
 }
 
 impl Carrier {

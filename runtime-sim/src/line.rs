@@ -49,6 +49,10 @@ pub struct State {
     pub working: bool,
     /// The machines whose cells the guards read.
     pub awaits: Vec<usize>,
+    /// Words of its inputs that guards read, not counting what only says which of several comes first.
+    pub reads: Vec<usize>,
+    /// Times in the state, ms, at which a guard may begin to hold or the stay becomes too long; none: any.
+    pub timers: Option<Vec<u32>>,
 }
 
 /// What is asked of the line, what its belts bring, and what goes wrong.
@@ -146,6 +150,15 @@ impl Line {
     /// Whether contact of these two, machines or obstacles, is no reason to end a run.
     pub fn allows(&self, [a, b]: [&str; 2]) -> bool {
         self.may_touch.iter().any(|[c, d]| (a, b) == (c, d) || (b, a) == (c, d))
+    }
+}
+
+impl Obstacle {
+    /// The height of its top, if it has one over or under this place, m.
+    pub fn top_at(&self, place: Point) -> Option<f64> {
+        let size = self.size?;
+        let (x, y) = (place.x - self.pose.x, place.y - self.pose.y);
+        (x.abs() <= size.x / 2.0 && y.abs() <= size.y / 2.0).then_some(self.pose.z + size.z)
     }
 }
 

@@ -1,5 +1,6 @@
 //! A machine of a line: the parts of its device with their settings, and how its I/O is wired to them.
 
+use crate::device::PortType;
 use crate::kinematics::arm::Arm;
 use crate::line::State;
 use crate::part::axis::Axis;
@@ -55,6 +56,20 @@ impl Machine {
             }
         }
         self.check_wiring()
+    }
+
+    /// Of each word of its inputs, whether it changes while something moves.
+    pub fn analogue_inputs(&self, kinds: usize) -> Vec<bool> {
+        let is_analogue = |source: Source| match source {
+            Source::Signal { part, signal } => self
+                .parts
+                .get(part)
+                .and_then(|part| part.schema().signals.get(signal))
+                .is_some_and(|signal| matches!(signal.ty, PortType::Real | PortType::Point)),
+            Source::Ready | Source::Got | Source::Ack | Source::Error => false,
+        };
+        let inputs = self.wiring.inputs.iter();
+        inputs.flat_map(|input| vec![is_analogue(input.source); input.size.words(kinds)]).collect()
     }
 
     fn check_references(&self, index: usize, part: &Part) -> Result<(), String> {

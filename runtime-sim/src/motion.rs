@@ -1,4 +1,4 @@
-//! Motion of all joints together, between two sets of joints: straight, or past a third without a stop.
+//! Motion of all joints together, between two sets of joints: straight, or past others without a stop.
 //!
 //! The place on the path is one number from 0 to 1. It gains speed, keeps it and
 //! loses it again, as fast as the slowest joint allows. On a straight line
@@ -9,23 +9,26 @@ mod path;
 mod pieces;
 mod profile;
 
-pub use path::CORNER_NEAR;
+pub use path::{CORNER_NEAR, Knot, Path, Section, Travel};
 pub use pieces::Piece;
 
+use crate::fingerprint::Fingerprint;
 use crate::kinematics::arm::{Joints, Limits};
-use path::Path;
-use profile::{Phase, Zone};
+use profile::{Phase, Profile, Zone};
+use std::sync::Arc;
 
 /// A motion that may be held and resumed. Times are seconds on any one clock.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Motion {
-    path: Path,
-    zones: Vec<Zone>,
+    path: Arc<Path>,
+    zones: Arc<[Zone]>,
     drive: Drive,
     /// What the motion does from `since` on, one phase after the other; then it rests at `rest`.
-    phases: Vec<Phase>,
+    profile: Arc<Profile>,
     since: f64,
     rest: f64,
+    /// Nothing has held it.
+    is_whole: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,18 +40,38 @@ enum Drive {
 impl Motion {
     /// A motion that begins at time `begin` from rest.
     pub fn between(from: Joints, to: Joints, limits: &Limits, begin: f64) -> Self {
-        Self::on(Path::straight(from, to, limits), begin)
+        Self::past(from, &[Knot::new(to)], limits, begin)
     }
 
     /// The same past `via`: along both lines, with a corner between them that is short of `via`
     /// by at most [`CORNER_NEAR`] for each joint.
     pub fn through(from: Joints, via: Joints, to: Joints, limits: &Limits, begin: f64) -> Self {
-        Self::on(Path::past(from, via, to, limits), begin)
+        Self::past(from, &[Knot::new(via), Knot::new(to)], limits, begin)
     }
 
-    fn on((path, zones): (Path, Vec<Zone>), begin: f64) -> Self {
-        let phases = profile::to_the_end(&zones, 0.0, 0.0);
-        Self { path, zones, drive: Drive::On, phases, since: begin, rest: 1.0 }
+    /// The same past all knots but the last, and to that.
+    pub fn past(from: Joints, knots: &[Knot], limits: &Limits, begin: f64) -> Self {
+        Self::on(Path::new(from, knots, limits), limits, begin)
+    }
+
+    /// The same along a path.
+    pub fn on(path: Path, limits: &Limits, begin: f64) -> Self {
+        let zones = path.zones(limits);
+        let profile = Arc::new(profile::to_the_end(&zones, 0.0, 0.0).into());
+        Self {
+            path: Arc::new(path),
+            zones: zones.into(),
+            drive: Drive::On,
+            profile,
+            since: begin,
+            rest: 1.0,
+            is_whole: true,
+        }
+    }
+
+    /// The same motion, begun at another time; of one that nothing has held.
+    pub fn begun(&self, begin: f64) -> Self {
+        Self { since: begin, ..self.clone() }
     }
 
     /// Time of the whole motion if nothing holds it.
@@ -62,13 +85,15 @@ impl Motion {
             return;
         }
         let (place, speed) = (self.place(t), self.speed(t));
+        self.is_whole = false;
         self.drive = Drive::Held;
         if speed > 0.0 {
-            (self.phases, self.rest) = profile::to_rest(&self.zones, place, speed);
+            let (profile, rest) = profile::to_rest(&self.zones, place, speed);
+            (self.profile, self.rest) = (Arc::new(profile.into()), rest);
             self.since = t;
         } else if t < self.rests_at() {
             self.rest = place;
-            self.phases = Vec::new();
+            self.profile = Arc::default();
             self.since = t;
         }
     }
@@ -81,10 +106,25 @@ impl Motion {
         self.drive = Drive::On;
         let (place, speed) = (self.place(t), self.speed(t));
         if place < 1.0 {
-            self.phases = profile::to_the_end(&self.zones, place, speed);
+            self.profile = Arc::new(profile::to_the_end(&self.zones, place, speed).into());
             self.since = t;
             self.rest = 1.0;
         }
+    }
+
+    /// Whether both go along the same path, whenever.
+    pub fn is_along(&self, other: &Motion) -> bool {
+        Arc::ptr_eq(&self.path, &other.path)
+    }
+
+    /// Of its path.
+    pub(crate) fn fingerprint(&self) -> Fingerprint {
+        self.path.fingerprint()
+    }
+
+    /// When it began, if nothing has held it since.
+    pub(crate) fn whole_since(&self) -> Option<f64> {
+        self.is_whole.then_some(self.since)
     }
 
     pub fn is_held(&self) -> bool {
@@ -93,7 +133,7 @@ impl Motion {
 
     /// When the joints stand still, at the end or held.
     pub fn rests_at(&self) -> f64 {
-        self.since + self.phases.iter().map(|phase| phase.duration).sum::<f64>()
+        self.since + self.profile.duration()
     }
 
     /// When the end is reached; none while the motion is held before it.
@@ -119,6 +159,11 @@ impl Motion {
         self.path.goal()
     }
 
+    /// How far a point goes at most, if it goes so far for each metre or radian of each joint.
+    pub fn travel(&self, radii: &[f64]) -> Travel {
+        Travel::new(self.path.sections(radii))
+    }
+
     /// How far each joint goes at most for each unit of the place on the path.
     pub fn rates(&self) -> Joints {
         self.path.rates()
@@ -141,14 +186,16 @@ impl Motion {
         if t >= self.rests_at() {
             return None;
         }
-        let mut passed = (t - self.since).max(0.0);
-        for phase in &self.phases {
-            if passed < phase.duration {
-                return Some((phase, passed));
-            }
-            passed -= phase.duration;
-        }
-        None
+        self.profile.at((t - self.since).max(0.0))
+    }
+}
+
+impl PartialEq for Motion {
+    /// What is shared is equal without a look at it.
+    fn eq(&self, other: &Self) -> bool {
+        (self.since, self.rest, self.drive) == (other.since, other.rest, other.drive)
+            && (Arc::ptr_eq(&self.profile, &other.profile) || self.profile == other.profile)
+            && (Arc::ptr_eq(&self.path, &other.path) || self.path == other.path)
     }
 }
 
@@ -329,7 +376,7 @@ mod tests {
     }
 
     #[test]
-    fn held_anywhere_about_a_corner_it_stops_on_its_way_and_ends_at_the_goal() {
+    fn held_anywhere_about_a_corner_it_stops_on_its_path_and_ends_at_the_goal() {
         let whole = corner().ends_at().unwrap();
         let at_place = |place: f64| corner().path.at(place);
         for part in 0..150 {
@@ -377,7 +424,52 @@ mod tests {
     }
 
     #[test]
-    fn a_way_without_a_corner() {
+    fn many_knots_are_passed_without_a_stop_within_the_limits() {
+        let mut random = Random::new(22);
+        for i in 0..100 {
+            let half = [1.0, 0.2, 0.02][i % 3];
+            let mut at = joints(&[0.0; 3]);
+            let knots: Vec<Knot> = (0..3 + i % 20)
+                .map(|_| {
+                    let step: [f64; 3] = std::array::from_fn(|_| random.between(-half, half));
+                    at = at.map(|i, value| value + step[i]);
+                    Knot { joints: at, near: [0.3, CORNER_NEAR][i % 2] }
+                })
+                .collect();
+            let from = joints(&[0.0; 3]);
+            let motion = Motion::past(from, &knots, &limits(), 0.0);
+            let end = motion.ends_at().unwrap();
+            assert_eq!((motion.at(0.0), motion.at(end)), (from, at));
+            for knot in &knots {
+                assert!(passes(&motion, &knot.joints) <= knot.near + 1e-2 * half, "{knot:?}");
+            }
+            let travel = motion.travel(&[1.0, 2.0, 0.5]);
+            let mut gone = 0.0;
+            for step in 0..2000 {
+                let [a, b] = [step, step + 1].map(|step| motion.along(f64::from(step) / 2000.0));
+                let radii = [1.0, 2.0, 0.5];
+                gone += (0..3).map(|j| (b[j] - a[j]).abs() * radii[j]).sum::<f64>();
+                assert!(travel.to(f64::from(step + 1) / 2000.0) >= gone - 1e-9);
+            }
+            let (velocity, acceleration, _) = worst_of(motion, &limits(), end + 0.1, |_, _| {});
+            assert!(velocity <= 1.0 + 1e-9 && acceleration <= 1.0 + 1e-6, "{velocity} {acceleration}");
+        }
+    }
+
+    /// Knots that lie together are one: no corner between lines that are none.
+    #[test]
+    fn a_line_that_is_none_is_left_out() {
+        let (from, to) = (joints(&[0.0; 3]), joints(&[1.0, 0.5, -0.2]));
+        let beside = to.map(|_, value| value + 1e-10);
+        let knots = [from, from, to, beside, to].map(Knot::new);
+        let motion = Motion::past(from, &knots, &limits(), 0.0);
+        assert!((motion.rests_at() - Motion::undisturbed(from, to, &limits())).abs() < 1e-9);
+        assert_eq!(motion.goal(), to);
+        assert!(motion.pieces().iter().all(|piece| piece.end_s - piece.begin_s > 1e-3));
+    }
+
+    #[test]
+    fn a_path_without_a_corner() {
         let (from, via, to) = (joints(&[0.0; 3]), joints(&[1.0, 0.5, -0.2]), joints(&[3.0, 1.5, -0.6]));
         let straight = Motion::undisturbed(from, to, &limits());
         for (via, duration) in [(via, straight), (from, straight), (to, straight)] {

@@ -51,7 +51,7 @@ pub enum Law {
 pub struct Hanging {
     pub arm: Arm,
     pub motion: Motion,
-    /// From the tool to the item's underside; the tool does not turn it.
+    /// From the tool to the item's underside, in the frame of the tool.
     pub hang: Point,
 }
 
@@ -105,6 +105,6 @@ impl Segment {
 
 impl Hanging {
     fn place(&self, s: f64) -> Point {
-        self.arm.tool(&self.motion.at(s)) + self.hang
+        self.arm.tool_pose(&self.motion.at(s)).point(self.hang)
     }
 }

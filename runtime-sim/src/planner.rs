@@ -1,82 +1,170 @@
 //! Plans the paths of a gantry round obstacles.
 //!
-//! Up as high as its goal or, if need be, over all that stands; then with torso and rails round it; then down. The
-//! robot knows the layout: machines and obstacles, vehicles at their stops and on the trip from the first to the
-//! second. It does not know where others are at present, nor other arms.
+//! Up as high as its goal or, if need be, over all obstacles; then with torso and rails round them; then down. All
+//! of it is one path without a stop. The robot knows the layout: machines and obstacles, vehicles at their stops and
+//! on the trip from the first to the second. It does not know where others are at present, nor other arms.
 
+mod line;
+mod options;
 mod plane;
 mod scene;
+mod timing;
 
-use crate::kinematics::arm::{Arm, Joints, Limits};
+use crate::kinematics::arm::{Arm, Joints, LINE_STEP, Limits};
 use crate::kinematics::gantry::{Stance, Wrist};
-use crate::kinematics::nearest_turn;
-use crate::motion::Motion;
+use crate::kinematics::{nearest_equivalent, nearest_turn};
+use crate::motion::{Knot, Motion, Path, Section};
 use crate::point::Point;
+use line::Line;
+use options::Options;
 use plane::{Rectangle, keeps_off, shortest};
 pub use scene::Load;
 use scene::Scene;
-use std::f64::consts::FRAC_PI_4;
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+use timing::{Lift, Timing};
 
 /// What a gantry knows of its surroundings.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Planner {
     arm: Arm,
     scene: Scene,
     area: Rectangle,
 }
 
-/// A part of a path, from rest to rest.
+/// Where the tool is to be brought.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Leg {
-    To(Joints),
-    /// To the second past the first.
-    Past(Joints, Joints),
+pub struct Transfer {
+    /// Straight over `goal`.
+    pub via: Point,
+    pub goal: Point,
+    pub end: End,
 }
 
-/// On a path, and at its end, nothing comes nearer, m.
+impl Transfer {
+    /// How far the path goes straight down to the goal, m.
+    fn clearance(&self) -> f64 {
+        self.via.z - self.goal.z
+    }
+}
+
+/// Where a path ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    /// At `via`, from where the tool can be lowered to `goal`.
+    Above,
+    AtGoal,
+}
+
+/// What a path is asked for.
+struct Task<'a> {
+    from: &'a Joints,
+    load: Load,
+    transfer: &'a Transfer,
+    limits: &'a Limits,
+    /// From where the path begins, to each height on which it may go over.
+    rises: Vec<Vertical>,
+}
+
+/// How the robot may stand over a place and at it.
+struct Candidate {
+    stance: Stance,
+    over: Joints,
+    at: Joints,
+}
+
+impl Candidate {
+    fn end(&self, transfer: &Transfer) -> Joints {
+        match transfer.end {
+            End::Above => self.over,
+            End::AtGoal => self.at,
+        }
+    }
+}
+
+/// The tool straight up from a place.
+#[derive(Clone)]
+struct Vertical {
+    /// Behind those at the place, the last ones at the height of `top`.
+    joints: Vec<Joints>,
+    top: f64,
+    /// How far the robot is from all obstacles there, m; at most [`MARGIN`].
+    gap: f64,
+}
+
+/// On a path nothing comes nearer, m.
 const MARGIN: f64 = 0.015;
+/// The same where the tool is lowered to a part or lifts it.
 const MARGIN_AT_PLACE: f64 = 0.003;
+/// A part that is lifted is clear of what it lay on when its underside is so high over it, m.
+const LIFTED: f64 = 0.02;
 /// What is farther than this is not looked at, m.
-const ENOUGH: f64 = 0.12;
+const ENOUGH: f64 = 0.15;
 /// The tool may be so far beyond the shoulder at a place, m; the best first.
 const BEYOND: [f64; 5] = [0.45, 0.6, 0.3, 0.15, 0.0];
-/// How far the robot draws back at the beginning, and from how far back it comes at the end, m; the best first.
-const BACK: [[f64; 2]; 6] = [[0.0, 0.0], [0.4, 0.0], [0.0, 0.4], [0.4, 0.4], [0.8, 0.4], [0.4, 0.8]];
-/// The same where none of these leads to a path.
-const FARTHER_BACK: [[f64; 2]; 9] = [
-    [0.2, 0.2],
-    [0.2, 0.0],
-    [0.0, 0.2],
-    [0.8, 0.0],
-    [0.0, 0.8],
-    [0.8, 0.8],
-    [1.2, 0.4],
-    [0.4, 1.2],
-    [1.2, 1.2],
+/// Turns of the torso at a place on either side of 0: steps of 22.5 degrees.
+const TURNS: i32 = 8;
+
+/// How much is tried before the next effort.
+struct Effort {
+    /// So many paths.
+    tries: usize,
+    /// How far the robot draws back at the beginning, and from how far back it comes at the end, m.
+    backs: &'static [[f64; 2]],
+}
+
+const EFFORTS: [Effort; 2] = [
+    Effort { tries: 100, backs: &[[0.0, 0.0]] },
+    Effort {
+        tries: 1000,
+        backs: &[
+            [0.4, 0.0],
+            [0.0, 0.4],
+            [0.4, 0.4],
+            [0.8, 0.4],
+            [0.4, 0.8],
+            [0.2, 0.2],
+            [0.2, 0.0],
+            [0.0, 0.2],
+            [0.8, 0.0],
+            [0.0, 0.8],
+            [0.8, 0.8],
+            [1.2, 0.4],
+            [0.4, 1.2],
+            [1.2, 1.2],
+        ],
+    },
 ];
-/// Paths to so many stances are tried at first.
-const TRIES: usize = 8;
+/// How far the tool is lifted before the torso sets out, and how high it still is when the torso arrives, m.
+const CLEARS: [f64; 2] = [STRAIGHT, f64::INFINITY];
 /// No point of the robot and its load goes farther for a metre of a rail or a radian of a joint, m: from the axis to
 /// the end of the stretched arm, from the shoulder, from the elbow, from the wrists.
 const RADII: [f64; 9] = [1.0, 1.0, 2.2, 1.6, 1.6, 1.0, 0.5, 0.4, 0.3];
-/// A path is looked at again at the latest when some point may have gone so far, m: less than [`MARGIN`].
-const SHORTEST_STEP: f64 = 0.01;
+/// A path is looked at again at the latest when some point may have gone this part of what is kept.
+const SHORTEST_STEP: f64 = 0.6;
+/// A path is looked at between so many equal parts, before it is from end to end.
+const FIRST_LOOKS: u32 = 32;
+/// Pieces of a line by which it is timed, m.
+const LIFT_STEP: f64 = 0.1;
+/// A plan becomes joints so often, s.
+const SAMPLE: f64 = 0.15;
+/// Joints that differ by less are the same, m or rad.
+const SAME: f64 = 1e-9;
+/// So high over a place the tool goes straight up and down, m; beyond that its line is made of longer and longer
+/// pieces, on which it is less and less straight.
+const STRAIGHT: f64 = 0.25;
+const WIDER_STEP: f64 = 1.3;
 const WRISTS: [Wrist; 2] = [Wrist::Inside, Wrist::Outside];
-
-/// Around the torso where it stands.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Clearance {
-    Wide,
-    Narrow,
-}
 
 /// When the torso turns as it goes.
 #[derive(Clone, Copy)]
-enum Turning {
+pub enum Turning {
     Evenly,
     First,
     Last,
 }
+
+const TURNINGS: [Turning; 3] = [Turning::Evenly, Turning::First, Turning::Last];
 
 impl Planner {
     /// Of the machine of this number; none if it is no gantry.
@@ -88,135 +176,230 @@ impl Planner {
         Some(Self { arm, scene, area })
     }
 
-    /// Legs that bring the tool to `via`, from where it can be lowered to `goal` while the torso stands; straight over
-    /// if no path keeps off all obstacles, none if no stance does.
-    pub fn legs(
-        &self,
-        from: &Joints,
-        load: Load,
-        [via, goal]: [Point; 2],
-        limits: &Limits,
-    ) -> Option<Vec<Leg>> {
-        let stances = self.stances(from, via, goal, limits);
-        let heights = |joints: &Joints| {
-            let low = self.arm.tool(joints).z.max(via.z);
-            [low, low.max(self.scene.over_all)]
-        };
-        let tops = heights(from);
-        let search = |stances: &[Joints], backs: &[[f64; 2]]| {
-            stances.iter().find_map(|to| {
-                backs.iter().find_map(|back| {
-                    tops.iter().find_map(|top| self.legs_to([from, to], load, *top, *back, limits))
-                })
+    /// None if no path keeps off all obstacles. With a part on the tool the wrist stays on its side.
+    pub fn path(&self, from: &Joints, load: Load, transfer: &Transfer, limits: &Limits) -> Option<Path> {
+        let low = self.arm.tool(from).z.max(transfer.via.z);
+        let mut tops = vec![low, low.max(self.scene.over_all)];
+        tops.dedup();
+        let rises = tops.iter().filter_map(|top| self.vertical(from, *top, load)).collect();
+        let task = Task { from, load, transfer, limits, rises };
+        let present = Wrist::of_angle(from[7]);
+        let mut wrists = WRISTS.into_iter().filter(|wrist| load == Load::None || *wrist == present);
+        wrists.find_map(|wrist| {
+            let candidates = self.candidates(from, wrist, transfer);
+            EFFORTS.iter().find_map(|effort| {
+                candidates.iter().find_map(|candidates| self.quickest(&task, candidates, effort))
             })
-        };
-        search(&stances[..stances.len().min(TRIES)], &BACK)
-            .or_else(|| search(&stances, &FARTHER_BACK))
-            .or_else(|| self.straight(from, stances.first()?, tops[0]))
+        })
     }
 
-    /// Up, straight over, and down, whatever stands there.
-    fn straight(&self, from: &Joints, to: &Joints, top: f64) -> Option<Vec<Leg>> {
-        let all = vec![self.at_height(from, top)?, self.at_height(to, top)?, *to];
-        Some(moved(from, all).into_iter().map(Leg::To).collect())
+    /// The quickest path: the first one that is free of those that are next in time.
+    fn quickest(&self, task: &Task, candidates: &[Candidate], effort: &Effort) -> Option<Path> {
+        let Task { from, load, transfer, limits, rises } = task;
+        let first = self.arm.stance(from)?;
+        let mut stands: Vec<Option<bool>> = vec![None; candidates.len()];
+        let mut falls: BTreeMap<(usize, usize), Option<Vertical>> = BTreeMap::new();
+        let mut options = Options::new(self, task, &first, candidates, effort);
+        let mut tries = 0;
+        while let Some((choice, timing, line)) = options.next() {
+            let candidate = &candidates[choice.candidate];
+            let is_free = stands[choice.candidate].get_or_insert_with(|| self.is_free_at_place(candidate));
+            if !*is_free {
+                continue;
+            }
+            let (rise, end) = (&rises[choice.rise], candidate.end(transfer));
+            // What is fetched is lifted from there, as high as it may have to go.
+            let (lifted, top) = match transfer.end {
+                End::AtGoal => (Load::Largest, rise.top.max(self.scene.highest_place + transfer.clearance())),
+                End::Above => (*load, rise.top),
+            };
+            let fall = falls
+                .entry((choice.candidate, choice.rise))
+                .or_insert_with(|| self.vertical(&end, top, lifted));
+            let Some(fall) = fall else { continue };
+            tries += 1;
+            if tries > effort.tries {
+                return None;
+            }
+            let margin = MARGIN.min(rise.gap).min(fall.gap);
+            let Some(knots) = self.sampled(&timing, &line, [&first, &candidate.stance], from, &end) else {
+                continue;
+            };
+            let path = Path::new(**from, &knots, limits);
+            if self.is_free([from, &end], &path, *load, margin) {
+                return Some(path);
+            }
+        }
+        None
     }
 
-    /// Joints at `via` of stances that are free of obstacles, there and at `goal`: those first in which the torso
-    /// stands as far off as it keeps on its path and so gets out again, then the quickest.
-    fn stances(&self, from: &Joints, via: Point, goal: Point, limits: &Limits) -> Vec<Joints> {
-        let mut found: Vec<(Clearance, f64, Joints)> = Vec::new();
-        for turn in (0..8).map(|i| nearest_turn(f64::from(i) * FRAC_PI_4, from[2])) {
-            for (wrist, beyond) in WRISTS.into_iter().flat_map(|w| BEYOND.map(|b| (w, b))) {
+    /// How the tool is lifted to a height, as fast as the limits allow; none if the reach forbids it.
+    fn lift(&self, from: &Joints, top: f64, limits: &Limits) -> Option<Lift> {
+        let tool = self.arm.tool(from);
+        let (mut z, mut last) = (tool.z, *from);
+        let mut knots = Vec::new();
+        while z < top {
+            z = if z + 2.0 * LIFT_STEP < top { z + LIFT_STEP } else { top };
+            last = self.arm.solve_standing(Point { z, ..tool }, &last)?;
+            knots.push(Knot::new(last));
+        }
+        let motion = Motion::past(*from, &knots, limits, 0.0);
+        Some(Lift::new(motion.rests_at(), |t| self.arm.tool(&motion.at(t)).z))
+    }
+
+    /// The line of the torso's axis; none if nothing leads round the obstacles.
+    fn line(&self, from: &Joints, to: &Joints, [back, forth]: [f64; 2]) -> Option<Line> {
+        let (start, end) = (self.drawn_back(from, back)?, self.drawn_back(to, forth)?);
+        let mut places = vec![axis(from)];
+        if back > 0.0 {
+            places.push(start);
+        }
+        places.extend(shortest([start, end], &self.scene.blocks, &self.area)?);
+        if forth > 0.0 {
+            places.push(end);
+        }
+        places.push(axis(to));
+        Some(Line::new(&places))
+    }
+
+    /// All stances that the reach allows. Those in which the torso stands as far off obstacles as it keeps on its path
+    /// are enough where there are any: it gets out of them again.
+    fn candidates(&self, from: &Joints, wrist: Wrist, transfer: &Transfer) -> [Vec<Candidate>; 2] {
+        let (mut wide, mut narrow) = (Vec::new(), Vec::new());
+        for turn in (-TURNS..=TURNS).map(|step| f64::from(step) * PI / f64::from(TURNS)) {
+            for beyond in BEYOND {
                 let stance = Stance { turn, beyond, wrist };
                 let joints = |tool| self.arm.solve_stance(tool, &stance, from);
-                let (Some(over), Some(at)) = (joints(via), joints(goal)) else { continue };
-                if self.is_free_at_place(&at) && self.scene.gap(&over, Load::None, MARGIN) >= MARGIN {
-                    let clearance = if keeps_off(axis(&over), &self.scene.blocks) {
-                        Clearance::Wide
-                    } else {
-                        Clearance::Narrow
-                    };
-                    found.push((clearance, Motion::undisturbed(*from, over, limits), over));
-                    if clearance == Clearance::Wide {
-                        break;
-                    }
-                }
+                let (Some(over), Some(at)) = (joints(transfer.via), joints(transfer.goal)) else { continue };
+                let list = if keeps_off(axis(&over), &self.scene.blocks) { &mut wide } else { &mut narrow };
+                list.push(Candidate { stance, over, at });
             }
         }
-        found.sort_by(|(a, t, _), (b, u, _)| a.cmp(b).then(t.total_cmp(u)));
-        found.into_iter().map(|(.., joints)| joints).collect()
+        [wide, narrow]
     }
 
-    fn is_free_at_place(&self, joints: &Joints) -> bool {
-        self.scene.gap(joints, Load::None, MARGIN_AT_PLACE) >= MARGIN_AT_PLACE
-            && self.scene.gap_at_place(joints, MARGIN_AT_PLACE) >= MARGIN_AT_PLACE
+    fn is_free_at_place(&self, Candidate { over, at, .. }: &Candidate) -> bool {
+        let near = self.scene.near([over, at].map(axis));
+        let gap = |joints, enough| self.scene.gap(&near, &self.arm.frames(joints), Load::None, [enough; 2]);
+        gap(at, MARGIN_AT_PLACE) >= MARGIN_AT_PLACE
+            && gap(over, MARGIN_AT_PLACE) >= MARGIN_AT_PLACE
+            && self.scene.gap_at_place(at, MARGIN_AT_PLACE) >= MARGIN_AT_PLACE
     }
 
-    fn legs_to(
+    /// The joints at regular times of a plan, and those at its end.
+    fn sampled(
         &self,
-        [from, to]: [&Joints; 2],
-        load: Load,
-        top: f64,
-        [back, forth]: [f64; 2],
-        limits: &Limits,
-    ) -> Option<Vec<Leg>> {
-        let (up, down) = (self.at_height(from, top)?, self.at_height(to, top)?);
-        let (start, end) = (self.drawn_back(&up, back)?, self.drawn_back(&down, forth)?);
-        let between = shortest([&start, &end].map(axis), &self.scene.blocks, &self.area)?;
-        [Turning::Evenly, Turning::First, Turning::Last].into_iter().find_map(|turning| {
-            let passed = passed(&start, &end, &between, turning);
-            let all = moved(from, [&[up, start], passed.as_slice(), &[end, down, *to]].concat());
-            // Round its corners if there is space for that.
-            [rounded(&all), all.into_iter().map(Leg::To).collect()]
-                .into_iter()
-                .find(|legs| self.are_free(from, load, legs, limits))
-        })
+        plan: &Timing,
+        line: &Line,
+        [first, last]: [&Stance; 2],
+        from: &Joints,
+        to: &Joints,
+    ) -> Option<Vec<Knot>> {
+        let count = (plan.end / SAMPLE).ceil().max(1.0) as u32;
+        let time = |i: u32| plan.end * f64::from(i) / f64::from(count);
+        let mut knots: Vec<Knot> = Vec::with_capacity(count as usize);
+        for i in 1..count {
+            let (part, turned, height) = plan.at(time(i));
+            let stance = Stance {
+                turn: first.turn + turned * (last.turn - first.turn),
+                beyond: first.beyond + part * (last.beyond - first.beyond),
+                wrist: last.wrist,
+            };
+            let near = knots.last().map_or(from, |knot| &knot.joints);
+            let place = if part <= 0.0 {
+                axis(from)
+            } else if part >= 1.0 {
+                axis(to)
+            } else {
+                line.at(part * line.length())
+            };
+            knots.push(Knot::new(self.arm.standing_at(place, height, &stance, near)?));
+        }
+        // Where the limits of the last joint do not let it keep the direction of a part, it turns back while the torso
+        // moves.
+        let tool = to.len() - 1;
+        let reached = knots.last().map_or(from[tool], |knot| knot.joints[tool]);
+        let end = to.map(|i, value| if i == tool { nearest_turn(value, reached) } else { value });
+        let back = nearest_equivalent(end[tool], reached);
+        let turns = end[tool] - back;
+        for (i, knot) in (1..count).zip(&mut knots) {
+            let part = plan.passed(time(i));
+            knot.joints = knot.joints.map(|i, value| if i == tool { value + part * turns } else { value });
+        }
+        knots.push(Knot::new(end));
+        Some(knots)
     }
 
-    /// The torso this much farther from what the arm points to, m; none if the rails end before.
-    fn drawn_back(&self, joints: &Joints, distance: f64) -> Option<Joints> {
+    /// The straight line of the tool up to a height, from these joints; none if something is in the way.
+    fn vertical(&self, low: &Joints, top: f64, load: Load) -> Option<Vertical> {
+        let tool = self.arm.tool(low);
+        let near = self.scene.near([axis(low)]);
+        let gap = if tool.z < top {
+            f64::INFINITY
+        } else {
+            self.scene.gap(&near, &self.arm.frames(low), load, [MARGIN_AT_PLACE, MARGIN])
+        };
+        let mut vertical = Vertical { joints: Vec::new(), top, gap };
+        let (mut z, mut step, mut last) = (tool.z, LINE_STEP, *low);
+        while z < top {
+            if z >= tool.z + STRAIGHT {
+                step *= WIDER_STEP;
+            }
+            z = if z + 1.5 * step < top { z + step } else { top };
+            last = self.arm.solve_standing(Point { z, ..tool }, &last)?;
+            let lifted = z > tool.z + self.scene.load_height + LIFTED;
+            let load = if lifted { load } else { Load::None };
+            vertical.gap = self.scene.gap(&near, &self.arm.frames(&last), load, [MARGIN_AT_PLACE, MARGIN]);
+            if vertical.gap < MARGIN_AT_PLACE {
+                return None;
+            }
+            vertical.joints.push(last);
+        }
+        Some(vertical)
+    }
+
+    /// Where the torso is this much farther from what the arm points to, m; none if the rails end before.
+    fn drawn_back(&self, joints: &Joints, distance: f64) -> Option<Point> {
         let (s, c) = libm::sincos(joints[2]);
         let there = axis(joints) + Point::new(s, -c, 0.0).scaled(distance);
-        self.area.contains(there).then(|| at(joints, there, joints[2]))
+        self.area.contains(there).then_some(there)
     }
 
-    /// The same stance with the tool at this height, or as it is if it is there.
-    fn at_height(&self, joints: &Joints, height: f64) -> Option<Joints> {
-        let tool = self.arm.tool(joints);
-        if tool.z == height {
-            return Some(*joints);
+    /// Whether nothing on this path comes nearer to an obstacle than `margin`. On the verticals at its ends it may come
+    /// nearer, and the load touches what it lies on.
+    fn is_free(&self, ends: [&Joints; 2], path: &Path, load: Load, margin: f64) -> bool {
+        let lifted = ends.map(|end| self.arm.tool(end).z + self.scene.load_height + LIFTED);
+        let near = self.scene.near(path.knots().iter().map(axis));
+        // What the gap is at a place on the path, and what it has to be.
+        let gap = |place: f64| {
+            let joints = path.at(place);
+            let frames = self.arm.frames(&joints);
+            let height = frames.last().map_or(0.0, |tool| tool.position.z);
+            let stands = |end: usize| (0..3).all(|i| (joints[i] - ends[end][i]).abs() < SAME);
+            let end = [0, 1].into_iter().find(|end| stands(*end));
+            let lies = end.is_some_and(|end| height < lifted[end]);
+            let load = if lies { Load::None } else { load };
+            let margin = if end.is_some() { MARGIN_AT_PLACE } else { margin };
+            (self.scene.gap(&near, &frames, load, [margin, ENOUGH]), margin)
+        };
+        let is_apart = |place: f64| {
+            let (gap, margin) = gap(place);
+            gap >= margin
+        };
+        // Most that are not free are not by far.
+        if !(1..FIRST_LOOKS).all(|i| is_apart(f64::from(i) / f64::from(FIRST_LOOKS))) {
+            return false;
         }
-        self.arm.solve_standing(Point { z: height, ..tool }, joints)
-    }
-
-    /// Whether nothing on these legs comes near an obstacle; nearer at least than it was at the beginning.
-    fn are_free(&self, from: &Joints, load: Load, legs: &[Leg], limits: &Limits) -> bool {
-        let margin = self.scene.gap(from, load, MARGIN);
-        let mut at = *from;
-        legs.iter().all(|leg| {
-            let motion = leg.motion(at, limits, 0.0);
-            let rate: f64 = motion.rates().iter().zip(RADII).map(|(rate, radius)| rate * radius).sum();
-            let mut place = 0.0;
-            while place < 1.0 {
-                let gap = self.scene.gap(&motion.along(place), load, ENOUGH);
-                if gap < margin {
-                    return false;
-                }
-                place += (gap - margin).max(SHORTEST_STEP) / rate;
+        let sections = path.sections(&RADII);
+        let mut place = 0.0;
+        while place < 1.0 {
+            let (gap, margin) = gap(place);
+            if gap < margin {
+                return false;
             }
-            at = motion.goal();
-            true
-        })
-    }
-}
-
-impl Leg {
-    /// From rest at time `begin`.
-    pub fn motion(&self, from: Joints, limits: &Limits, begin: f64) -> Motion {
-        match *self {
-            Leg::To(to) => Motion::between(from, to, limits, begin),
-            Leg::Past(via, to) => Motion::through(from, via, to, limits, begin),
+            place = after(&sections, place, (gap - margin).max(margin * SHORTEST_STEP));
         }
+        true
     }
 }
 
@@ -225,41 +408,16 @@ fn axis(joints: &Joints) -> Point {
     Point::new(joints[0], joints[1], 0.0)
 }
 
-/// The same arm with the torso elsewhere, at this turn, rad.
-fn at(joints: &Joints, place: Point, turn: f64) -> Joints {
-    joints.map(|i, value| [place.x, place.y, turn].get(i).copied().unwrap_or(value))
-}
-
-/// Joints at the places that the torso passes: the arm as at the beginning.
-fn passed(from: &Joints, to: &Joints, places: &[Point], turning: Turning) -> Vec<Joints> {
-    let ends = [from, to].map(axis);
-    let all: Vec<Point> = [&ends[..1], places, &ends[1..]].concat();
-    let lengths: Vec<f64> = all.windows(2).map(|pair| (pair[1] - pair[0]).length()).collect();
-    let whole: f64 = lengths.iter().sum();
-    let mut gone = 0.0;
-    let mut joints = Vec::new();
-    for (place, length) in places.iter().zip(&lengths) {
-        gone += length;
-        let part = match turning {
-            Turning::Evenly => gone / whole,
-            Turning::First => 1.0,
-            Turning::Last => 0.0,
-        };
-        let turn = from[2] + part * (to[2] - from[2]);
-        joints.push(at(from, *place, turn));
+/// The place on a path after so many metres of the fastest point from `place` on, at least.
+fn after(sections: &[Section], place: f64, mut distance: f64) -> f64 {
+    let mut at = place;
+    for section in &sections[sections.partition_point(|section| section.end <= place)..] {
+        let reached = at + distance / section.rate.max(f64::MIN_POSITIVE);
+        if reached < section.end {
+            return reached;
+        }
+        distance -= (section.end - at) * section.rate;
+        at = section.end;
     }
-    joints
-}
-
-/// Without those that are reached already.
-fn moved(from: &Joints, mut all: Vec<Joints>) -> Vec<Joints> {
-    let mut last = *from;
-    all.retain(|joints| std::mem::replace(&mut last, *joints) != *joints);
-    all
-}
-
-/// Past every second of these joints.
-fn rounded(all: &[Joints]) -> Vec<Leg> {
-    let pairs = all.chunks(2);
-    pairs.map(|pair| if let [via, to] = *pair { Leg::Past(via, to) } else { Leg::To(pair[0]) }).collect()
+    1.0
 }

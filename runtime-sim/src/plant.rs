@@ -6,16 +6,24 @@ mod fall;
 pub mod trajectory;
 mod working;
 
-pub(crate) use delay::Bus;
+pub(crate) use delay::{Arrived, Bus};
 
 use crate::carrier::Carrier;
 use crate::item::Items;
 use crate::kinematics::arm::Joints;
-use crate::line::Line;
+use crate::line::{Line, Obstacle};
+use crate::memory::Memory;
 use crate::part::orders::Desk;
 use crate::point::Point;
 use trajectory::Trajectory;
 use working::{Shared, Working};
+
+/// A time is not told from one that is so much later.
+const EARLY_MS: f64 = 1e-6;
+/// A gripper that finds nothing is asked again after so many looks at the latest.
+const MOST_LOOKS: u32 = 1000;
+/// What is rounded in a distance, m.
+const ROUNDED: f64 = 1e-6;
 
 /// The state of the plant at the start of a scan.
 #[derive(Clone, Debug)]
@@ -26,6 +34,7 @@ pub struct Plant {
     items: Items,
     /// Heights of the kinds.
     heights: Vec<f64>,
+    obstacles: Vec<Obstacle>,
     desk: Desk,
     images: Vec<Vec<f64>>,
 }
@@ -34,11 +43,17 @@ impl Plant {
     /// The plant before scan 0: lanes empty and at rest, vehicles at their first stop, arms at rest, the first
     /// order of each terminal open.
     pub fn new(line: &Line) -> Result<Self, String> {
+        Self::remembering(line, &mut Memory::default())
+    }
+
+    /// The same, with what earlier runs of these machines have found.
+    pub(crate) fn remembering(line: &Line, memory: &mut Memory) -> Result<Self, String> {
         line.check()?;
+        memory.keep_for(line);
         let mut items = Items::new(line);
         let desk = Desk::new(line.scenario.orders.clone());
         let machines = (0..line.machines.len())
-            .map(|index| Working::new(line, index, &desk, &mut items))
+            .map(|index| Working::new(line, index, &desk, &mut items, memory))
             .collect::<Result<Vec<_>, _>>()?;
         let images = machines.iter().map(|machine| vec![0.0; machine.input_words()]).collect();
         let mut plant = Self {
@@ -47,6 +62,7 @@ impl Plant {
             machines,
             items,
             heights: line.kinds.iter().map(|kind| kind.height).collect(),
+            obstacles: line.obstacles.clone(),
             desk,
             images,
         };
@@ -58,33 +74,81 @@ impl Plant {
     /// Every image has to have the length that [`outputs`] gives it.
     pub fn advance(&mut self, outputs: &[Vec<f64>]) {
         self.obey(outputs);
-        self.proceed();
+        self.proceed_to(self.scan + 1);
     }
 
-    /// All machines, and what they share.
-    fn split(&mut self) -> (&mut Vec<Working>, Shared<'_>) {
+    /// All machines, and what they share on the way to the start of a scan.
+    fn split(&mut self, scan: u64) -> (&mut Vec<Working>, Shared<'_>) {
         let shared = Shared {
             items: &mut self.items,
             desk: &mut self.desk,
             now_ms: self.scan * self.scan_ms,
-            dt_ms: self.scan_ms,
+            dt_ms: (scan - self.scan) * self.scan_ms,
         };
         (&mut self.machines, shared)
     }
 
-    /// The second part of [`Self::advance`]: everything moves on to the start of the next scan.
-    pub(crate) fn proceed(&mut self) {
-        let (machines, mut shared) = self.split();
+    /// The first scan, not before the next one, at whose start something may have happened, if no output changes:
+    /// until then all that moves goes on along its path, and nothing else changes. None: nothing ever will.
+    pub(crate) fn next_change(&self) -> Option<u64> {
+        let now_ms = self.now_ms();
+        let next = self.machines.iter().map(|machine| machine.next_change(&self.items, &self.desk, now_ms));
+        let looks = (0..self.machines.len()).map(|machine| self.next_look(machine, now_ms));
+        let next_ms = next.chain(looks).fold(f64::INFINITY, f64::min);
+        // What is rounded may be early.
+        let scan = ((next_ms - EARLY_MS) / self.scan_ms as f64).ceil() as u64;
+        next_ms.is_finite().then(|| scan.max(self.scan + 1))
+    }
+
+    /// When a gripper of a machine next looks and could find an item, ms; infinity: never, as everything moves now.
+    fn next_look(&self, machine: usize, now_ms: u64) -> f64 {
+        let working = &self.machines[machine];
+        let Some((part, looks)) = working.looks() else { return f64::INFINITY };
+        let see = working.see(&self.items, &self.desk);
+        let Some(tool) = see.tool(looks.chain) else { return f64::INFINITY };
+        let Some(nearest) = self.nearest(tool.position) else { return f64::INFINITY };
+        let speeds = self.machines.iter().map(|machine| machine.trajectory(now_ms).speed());
+        let speed = speeds.fold(0.0, f64::max);
+        let seconds = |ms: u64| ms as f64 / 1000.0;
+        let rests = working.trajectory(now_ms).since(now_ms as f64) == Trajectory::Rests;
+        let mut look = (now_ms / looks.period_ms + 1) * looks.period_ms;
+        if rests && speed == 0.0 && nearest > looks.near {
+            return f64::INFINITY;
+        }
+        for _ in 0..MOST_LOOKS {
+            let come =
+                working.tool_goes(part, seconds(now_ms), seconds(look)) + speed * seconds(look - now_ms);
+            if nearest - come <= looks.near + ROUNDED {
+                break;
+            }
+            look += looks.period_ms;
+        }
+        look as f64
+    }
+
+    /// How far a tool is from where the nearest item is gripped, of those that are not, m.
+    fn nearest(&self, tool: Point) -> Option<f64> {
+        let all = self.items.all().iter().enumerate();
+        let free = all.filter(|(_, item)| !matches!(item.carrier, Carrier::Grip { .. }));
+        let tops = free.filter_map(|(index, item)| Some(self.place(index)?.up(self.heights[item.kind])));
+        tops.map(|top| (top - tool).length()).reduce(f64::min)
+    }
+
+    /// The second part of [`Self::advance`]: everything moves on to the start of a later scan, before which nothing
+    /// happens ([`Self::next_change`]).
+    pub(crate) fn proceed_to(&mut self, scan: u64) {
+        self.items.scan = scan;
+        let (machines, mut shared) = self.split(scan);
         machines.iter_mut().for_each(|machine| machine.advance(&mut shared));
-        self.slip();
-        self.grip();
-        let (machines, mut shared) = self.split();
+        self.slip(scan);
+        self.grip(scan);
+        let (machines, mut shared) = self.split(scan);
         for machine in machines.iter_mut() {
             machine.settle(shared.items, shared.desk);
             machine.serve(&mut shared);
         }
         machines.iter_mut().for_each(|machine| machine.withdraw(&mut shared));
-        self.scan += 1;
+        self.scan = scan;
         self.write_images();
     }
 
@@ -93,7 +157,7 @@ impl Plant {
     pub(crate) fn obey(&mut self, outputs: &[Vec<f64>]) {
         self.items.scan = self.scan + 1;
         for (index, outputs) in outputs.iter().enumerate().take(self.machines.len()) {
-            let (machines, mut shared) = self.split();
+            let (machines, mut shared) = self.split(self.scan + 1);
             machines[index].obey(outputs, &mut shared);
             while let Some(item) = self.machines[index].let_go() {
                 self.drop_item(item);
@@ -101,8 +165,8 @@ impl Plant {
         }
     }
 
-    fn slip(&mut self) {
-        let next_ms = (self.scan + 1) * self.scan_ms;
+    fn slip(&mut self, scan: u64) {
+        let next_ms = scan * self.scan_ms;
         for index in 0..self.machines.len() {
             while let Some(item) = self.machines[index].slip(next_ms) {
                 self.drop_item(item);
@@ -110,19 +174,21 @@ impl Plant {
         }
     }
 
-    fn grip(&mut self) {
-        let now_ms = self.scan * self.scan_ms;
-        let next_ms = now_ms + self.scan_ms;
+    /// In the last scan before this one.
+    fn grip(&mut self, scan: u64) {
+        let next_ms = scan * self.scan_ms;
+        let now_ms = next_ms - self.scan_ms;
         for machine in 0..self.machines.len() {
             for part in 0..self.machines[machine].count() {
                 let working = &self.machines[machine];
                 let see = working.see(&self.items, &self.desk);
                 let Some((tool, near)) = working.seeks(part, &see, now_ms, next_ms) else { continue };
-                let contact = self.contact(tool, near);
+                let contact = self.contact(tool.position, near);
                 if let Some(item) = self.machines[machine].meets(part, contact, now_ms, next_ms)
                     && let Some(place) = self.place(item)
                 {
-                    self.items.pass(item, Carrier::Grip { machine, part, hang: place - tool }, place);
+                    let hang = tool.inverse().point(place);
+                    self.items.pass(item, Carrier::Grip { machine, part, hang }, place);
                 }
             }
         }
@@ -204,10 +270,16 @@ impl Plant {
         self.machines.get(machine).map_or(0, |machine| machine.orders_to_open(&self.desk))
     }
 
-    /// Whether something will change even if no output does: a command under way that is not held, or a
-    /// moving lane that bears items or will.
+    /// Whether something will change even if no output does: a command under way that is not held, an arm that brakes, or
+    /// a moving lane that bears items or will.
     pub fn is_busy(&self) -> bool {
-        self.machines.iter().any(|machine| machine.is_busy(&self.items, &self.desk))
+        let now_ms = self.now_ms();
+        self.machines.iter().any(|machine| machine.is_busy(&self.items, &self.desk, now_ms))
+    }
+
+    /// Whether a machine moves at the start of this scan.
+    pub(crate) fn moves(&self, machine: usize) -> bool {
+        self.trajectory(machine).since(self.now_ms() as f64) != Trajectory::Rests
     }
 }
 

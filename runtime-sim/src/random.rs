@@ -11,6 +11,14 @@ impl Random {
         Self { state: seed }
     }
 
+    /// One for each pair of numbers: what is drawn at one place does not depend on what is drawn at others.
+    pub fn at(seed: u64, place: [u64; 2]) -> Self {
+        place.into_iter().fold(Self::new(seed), |random, number| {
+            let mut random = Self { state: random.state ^ number.wrapping_mul(0xD6E8_FEB8_6659_FD93) };
+            Self::new(random.next_u64())
+        })
+    }
+
     pub fn next_u64(&mut self) -> u64 {
         self.state = self.state.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let mut z = self.state;

@@ -1,18 +1,24 @@
 //! A run: controllers against the plant, scan by scan, until it is over.
 
+mod agenda;
+mod changes;
+mod progress;
+
 use crate::account::{Account, Activity};
 use crate::collision::{CollisionCheck, Contact};
 use crate::conservation::conservation;
-use crate::event::{Event, OrderChange};
-use crate::hash::Hash;
 use crate::line::Line;
+use crate::memory::Memory;
 use crate::path::{Path, Recorder};
-use crate::plant::{self, Bus, Plant};
+use crate::plant::{self, Arrived, Bus, Plant};
 use crate::report::{Outcome, Report};
 use crate::scan::{Controllers, SystemInputs, SystemOutputs};
-use crate::shortage::{point_text, shortage};
+use crate::shortage::point_text;
 use crate::system::Operator;
 use crate::wiring::{Drives, Source};
+use agenda::Agenda;
+use changes::Changes;
+use progress::Progress;
 
 /// What an observer is shown of a scan, once its outputs are published.
 pub struct Seen<'a> {
@@ -30,15 +36,38 @@ pub struct Seen<'a> {
     pub plant: &'a Plant,
 }
 
+/// Which scans a run executes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stepping {
+    /// Those in which something may happen. In all others nothing changes but times in states, and places on paths.
+    Events,
+    EveryScan,
+    /// Every scan; an error, if something happens in one that [`Stepping::Events`] leaves out.
+    Checked,
+}
+
 /// Runs the line until all orders are made, a fault is reported, time is up or nothing changes any more.
 /// In scan n the inputs are latched, the controllers stepped and their outputs published, which act from
-/// then on; then the plant goes on to scan n+1. An error means that the line cannot be run at all.
+/// then on; then the plant goes on to scan n+1. The observer is shown the scans that are executed. An error means that
+/// the line cannot be run at all.
 pub fn run(
     line: &Line,
     controllers: &mut dyn Controllers,
+    stepping: Stepping,
     observer: &mut dyn FnMut(&Seen),
 ) -> Result<Report, String> {
-    let (report, _) = simulate(line, controllers, observer, None)?;
+    run_again(line, controllers, stepping, &mut Memory::default(), observer)
+}
+
+/// The same with what earlier runs have found about these machines: the same events, sooner.
+pub fn run_again(
+    line: &Line,
+    controllers: &mut dyn Controllers,
+    stepping: Stepping,
+    memory: &mut Memory,
+    observer: &mut dyn FnMut(&Seen),
+) -> Result<Report, String> {
+    let (report, _) = simulate(line, controllers, stepping, memory, observer, None)?;
     Ok(report)
 }
 
@@ -46,80 +75,125 @@ pub fn run(
 pub fn record(
     line: &Line,
     controllers: &mut dyn Controllers,
+    stepping: Stepping,
     observer: &mut dyn FnMut(&Seen),
 ) -> Result<(Report, Vec<Path>), String> {
-    simulate(line, controllers, observer, Some(Recorder::new(line)))
+    let recorder = Some(Recorder::new(line));
+    simulate(line, controllers, stepping, &mut Memory::default(), observer, recorder)
 }
 
 fn simulate(
     line: &Line,
     controllers: &mut dyn Controllers,
+    stepping: Stepping,
+    memory: &mut Memory,
     observer: &mut dyn FnMut(&Seen),
     mut recorder: Option<Recorder>,
 ) -> Result<(Report, Vec<Path>), String> {
-    let mut plant = Plant::new(line)?;
+    let mut plant = Plant::remembering(line, memory)?;
     let mut check = CollisionCheck::new(line);
-    let mut bus = Bus::new(line.io_delay.clone(), plant.images());
+    let kinds = line.kinds.len();
+    let analogue: Vec<_> = line.machines.iter().map(|machine| machine.analogue_inputs(kinds)).collect();
+    let mut bus = Bus::new(line.io_delay.clone(), plant.images(), analogue.clone());
     let mut operator = Operator::new();
     let mut inputs = plant.images().to_vec();
     let mut outputs = plant::outputs(line);
     let output_words: Vec<usize> = outputs.iter().map(Vec::len).collect();
     let mut accounts = vec![Account::new(line); line.machines.len()];
-    let mut states = vec![usize::MAX; line.machines.len()];
+    let mut states: Vec<usize> = (0..line.machines.len()).map(|machine| controllers.state(machine)).collect();
     let numbers: Vec<_> = (0..line.machines.len()).map(|machine| numbers(line, machine)).collect();
-    let mut hash = Hash::default();
+    let stays = controllers.stays();
+    let mut changes = Changes::new(&stays, line.scan_ms);
+    let mut agenda = Agenda::new(line, stays, &inputs, analogue);
+    let mut answer = SystemOutputs::default();
     let mut trace = Vec::new();
-    let mut progress = Progress::default();
+    let mut progress = Progress::new(line);
     let mut scan = 0;
+    // In `Checked`: before this scan nothing happens.
+    let mut quiet_until = 0;
 
     let mut fault = None;
     let (finished, reason) = loop {
-        let mut changed = bus.exchange(scan, plant.images(), &mut inputs);
+        let arrived = bus.exchange(scan, plant.images(), &mut inputs);
         let system = operator.inputs(scan, &line.scenario);
-        let answer = controllers.scan(system, &inputs, &mut outputs);
-        if outputs.len() != output_words.len()
-            || outputs.iter().zip(&output_words).any(|(o, &n)| o.len() != n)
-        {
-            return Err(format!("the controllers changed the size of an output image in scan {scan}"));
+        let is_due = agenda.is_due(scan, system, &inputs, &states, &changes);
+        let mut acted = false;
+        if is_due || stepping != Stepping::Events {
+            let scans = agenda.scans_since(scan);
+            controllers.skip(scans - 1);
+            let before = std::mem::replace(&mut answer, controllers.scan(system, &inputs, &mut outputs));
+            if outputs.len() != output_words.len()
+                || outputs.iter().zip(&output_words).any(|(o, &n)| o.len() != n)
+            {
+                return Err(format!("the controllers changed the size of an output image in scan {scan}"));
+            }
+            trace.clear();
+            controllers.trace(&mut trace);
+            let running = if answer.running { scans } else { 0 };
+            acted = changes.take(scan, running, &trace, &outputs) || answer != before;
+            for (machine, state) in states.iter_mut().enumerate() {
+                *state = controllers.state(machine);
+            }
+            if acted && stepping == Stepping::Checked && (!is_due || scan < quiet_until) {
+                return Err(format!("something happens in scan {scan}, which would be left out"));
+            }
+            agenda.step(scan, system, &inputs, answer, acted);
+            observer(&Seen {
+                scan,
+                system,
+                answer,
+                inputs: &inputs,
+                outputs: &outputs,
+                trace: &trace,
+                hash: changes.hash(),
+                plant: &plant,
+            });
         }
-        trace.clear();
-        controllers.trace(&mut trace);
-        hash.take(&trace);
-        outputs.iter().for_each(|image| hash.take(image));
-        observer(&Seen {
-            scan,
-            system,
-            answer,
-            inputs: &inputs,
-            outputs: &outputs,
-            trace: &trace,
-            hash: hash.value(),
-            plant: &plant,
-        });
+        if stepping == Stepping::Checked && arrived == Arrived::Events && scan < quiet_until {
+            return Err(format!("an input changes in scan {scan}, which would be left out"));
+        }
+        progress.note(scan, acted || arrived == Arrived::Events);
 
+        plant.obey(&outputs);
+        if let Some(recorder) = &mut recorder {
+            recorder.look(&plant);
+        }
+        let is_alive = plant.is_busy() || operator.is_busy(scan + 1, &line.scenario);
+        if is_alive {
+            progress.is_alive(scan);
+        }
+        let mut next = scan + 1;
+        if stepping != Stepping::EveryScan && scan >= quiet_until {
+            let events = [
+                agenda.next_step(scan, &states, &changes, &plant),
+                plant.next_change(),
+                operator.next_change(scan, &line.scenario),
+                Some(progress.longest(scan)),
+            ];
+            let quiet = events.into_iter().flatten().min().unwrap_or(scan + 1);
+            quiet_until = bus.next_exchange(scan, quiet.max(scan + 1), progress.last_event());
+            if stepping == Stepping::Events && !check.touches() {
+                next = quiet_until;
+            }
+        }
+        let (next, collision) = check.look_until(&plant, memory, scan, next);
+        let collision = collision.map(collision_text);
+        plant.proceed_to(next);
+        if is_alive {
+            progress.is_alive(next - 1);
+        }
         for (machine, account) in accounts.iter_mut().enumerate() {
-            let state = controllers.state(machine);
-            changed |= std::mem::replace(&mut states[machine], state) != state;
             let activity = if !answer.running {
                 Activity::Stopped
             } else if numbers[machine].is_some_and(|(cmd, ack)| outputs[machine][cmd] != inputs[machine][ack])
             {
                 Activity::Moving
             } else {
-                Activity::InState(state)
+                Activity::InState(states[machine])
             };
-            account.book(line, machine, activity);
+            account.book(line, machine, activity, next - scan);
         }
-
-        plant.obey(&outputs);
-        if let Some(recorder) = &mut recorder {
-            recorder.look(&plant);
-        }
-        let collision = check.look(&plant).map(collision_text);
-        plant.proceed();
-        scan += 1;
-        changed |= plant.is_busy() || operator.is_busy(scan, &line.scenario);
-        progress.quiet_scans = if changed { 0 } else { progress.quiet_scans + 1 };
+        scan = next;
         if answer.fault {
             let machine =
                 usize::try_from(answer.fault_robot).ok().filter(|&robot| robot < line.machines.len());
@@ -144,41 +218,11 @@ fn simulate(
         scans: scan,
         accounts,
         states,
-        trace_hash: hash.value(),
+        trace_hash: changes.hash(),
         collisions: check.into_contacts(),
     };
     let paths = recorder.map_or_else(Vec::new, |recorder| recorder.finish(&plant));
     Ok((Report::new(line, &plant, outcome), paths))
-}
-
-/// How far a run has come, and for how long nothing has happened.
-#[derive(Default)]
-struct Progress {
-    made: usize,
-    /// Events that were looked at.
-    read: usize,
-    quiet_scans: u64,
-}
-
-impl Progress {
-    fn end(&mut self, line: &Line, plant: &Plant, scans: u64) -> Option<(bool, String)> {
-        let log = plant.items().log();
-        let made = |event: &&Event| matches!(event, Event::Order { change: OrderChange::Made, .. });
-        self.made += log[self.read..].iter().filter(made).count();
-        self.read = log.len();
-
-        let scenario = &line.scenario;
-        let reached = |scans: u64, limit_s: f64| (scans * u64::from(line.scan_ms)) as f64 >= limit_s * 1000.0;
-        if self.made == scenario.orders.len() {
-            Some((true, "all orders made".into()))
-        } else if reached(self.quiet_scans, scenario.stall_limit_s) {
-            Some((false, format!("deadlock: {}", shortage(line, plant))))
-        } else if reached(scans, scenario.time_limit_s) {
-            Some((false, format!("time limit: {}", shortage(line, plant))))
-        } else {
-            None
-        }
-    }
 }
 
 /// Where in the images of a machine the number of its last command stands, and the number answered. None for a

@@ -11,7 +11,7 @@ pub struct SystemInputs {
 }
 
 /// Outputs of the system as a whole.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SystemOutputs {
     pub running: bool,
     pub fault: bool,
@@ -32,4 +32,10 @@ pub trait Controllers {
 
     /// Appends all that the controllers remember, so that two engines can be compared scan by scan.
     fn trace(&self, out: &mut Vec<f64>);
+
+    /// For each machine, which number of the trace is the time in its present state, ms.
+    fn stays(&self) -> Vec<usize>;
+
+    /// So many scans pass in which nothing happens: while the system runs, times in states go on, and nothing else.
+    fn skip(&mut self, scans: u64);
 }

@@ -4,14 +4,16 @@ use crate::line::Scenario;
 use crate::scan::SystemInputs;
 
 /// Takes the permit away in the pauses, and gives an edge of `start` one scan after it has come back.
+#[derive(Clone)]
 pub struct Operator {
     had_permit: bool,
     owes_start: bool,
+    last: SystemInputs,
 }
 
 impl Operator {
     pub fn new() -> Self {
-        Self { had_permit: true, owes_start: false }
+        Self { had_permit: true, owes_start: false, last: SystemInputs::default() }
     }
 
     pub fn inputs(&mut self, scan: u64, scenario: &Scenario) -> SystemInputs {
@@ -27,7 +29,18 @@ impl Operator {
             self.owes_start = false;
         }
         self.had_permit = run_permit;
-        SystemInputs { run_permit, start, reset: false }
+        self.last = SystemInputs { run_permit, start, reset: false };
+        self.last
+    }
+
+    /// The first scan after this one, whose inputs were given last, in which they may be others. None: never.
+    pub fn next_change(&self, scan: u64, scenario: &Scenario) -> Option<u64> {
+        if self.clone().inputs(scan + 1, scenario) != self.last {
+            return Some(scan + 1);
+        }
+        let pauses = scenario.pauses.iter();
+        let ends = pauses.flat_map(|pause| [pause.at_scan, pause.at_scan.saturating_add(pause.scans)]);
+        ends.chain([scenario.start_scan]).filter(|at| *at > scan).min()
     }
 
     /// Something is still to come from here: a permit, or an edge of `start`.

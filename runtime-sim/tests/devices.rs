@@ -7,7 +7,7 @@ use runtime_sim::carrier::Carrier;
 use runtime_sim::conservation::conservation;
 use runtime_sim::device::error;
 use runtime_sim::event::{Event, OrderChange};
-use runtime_sim::line::{Line, Order, Refusal, Slip, Supply};
+use runtime_sim::line::{Line, Obstacle, Order, Refusal, Slip, Supply};
 use runtime_sim::point::Point;
 
 fn near(a: Point, b: Point) -> bool {
@@ -370,11 +370,15 @@ fn what_is_let_go_falls_on_what_is_below() {
         (over(START.x + 0.15 + 0.36, START.y), "Floor", 0.0),
         (over(START.x, START.y), "Place { machine: 2,", TRAY_SURFACE),
         (over(-1.899 + 0.29, 2.565), "Place { machine: 5,", 0.725),
+        (over(-1.9 + 0.19, -2.0), "Floor", 0.6),
+        (over(-1.9 + 0.21, -2.0), "Floor", 0.0),
     ] {
         let mut line = line();
         // A bin below the vehicle: the tray is higher.
         let below = machines::machine("below", &machines::bin(START));
         line.machines.push(below);
+        let (pose, size) = (Point::new(-1.9, -2.0, 0.0), Some(Point::new(0.4, 0.4, 0.6)));
+        line.obstacles.push(Obstacle { name: "box".into(), pose, size });
         let mut rig = Rig::new(&line);
         rig.pick_from_belt(BATTERY);
         assert_eq!(rig.go(KITTING, MOVE, place), 0.0, "{place:?}");

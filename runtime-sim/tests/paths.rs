@@ -11,7 +11,7 @@ use runtime_sim::path::{Law, Path, table_csv};
 use runtime_sim::plant::Plant;
 use runtime_sim::point::Point;
 use runtime_sim::report::Report;
-use runtime_sim::run::{Seen, record, run};
+use runtime_sim::run::{Seen, Stepping, record, run};
 
 /// Where every item was at the start of every scan, by the plant: carrier and place.
 type Places = Vec<Vec<(Carrier, Option<Point>)>>;
@@ -23,7 +23,7 @@ fn places(plant: &Plant) -> Vec<(Carrier, Option<Point>)> {
 fn recorded(line: &Line, steps: Vec<Step>) -> (Report, Vec<Path>, Places) {
     let mut all = Places::new();
     let mut observe = |seen: &Seen| all.push(places(seen.plant));
-    let (report, paths) = record(line, &mut Script::new(steps), &mut observe).unwrap();
+    let (report, paths) = record(line, &mut Script::new(steps), Stepping::EveryScan, &mut observe).unwrap();
     (report, paths, all)
 }
 
@@ -37,7 +37,11 @@ fn distance(a: Point, b: Point) -> f64 {
 /// reckoned from where it began to slide, by the plant from where the belt or the vehicle began.
 fn agree(line: &Line, steps: Vec<Step>) -> (Report, Vec<Path>) {
     let (report, paths, places) = recorded(line, steps.clone());
-    assert_eq!(report, run(line, &mut Script::new(steps), &mut |_: &Seen| {}).unwrap(), "recorded or not");
+    assert_eq!(
+        report,
+        run(line, &mut Script::new(steps), Stepping::EveryScan, &mut |_: &Seen| {}).unwrap(),
+        "recorded or not"
+    );
     for (item, path) in paths.iter().enumerate() {
         for pair in path.segments.windows(2) {
             assert_eq!(pair[0].end_ms, pair[1].begin_ms, "{pair:?}");
@@ -291,8 +295,8 @@ fn a_hanging_part_can_be_computed_from_polynomials() {
                 bent += usize::from(piece.joints.iter().any(|powers| powers.len() > 3));
                 let power = |c: &Vec<f64>| c.iter().rev().fold(0.0, |sum, c| sum * (s - piece.begin_s) + c);
                 let joints: Vec<f64> = piece.joints.iter().map(power).collect();
-                let tool = hangs.arm.tool(&Joints::new(&joints));
-                let off = distance(tool + hangs.hang, segment.place(ms));
+                let tool = hangs.arm.tool_pose(&Joints::new(&joints));
+                let off = distance(tool.point(hangs.hang), segment.place(ms));
                 assert!(off < 1e-12, "{off}: {segment:?} at {ms}");
             }
         }

@@ -9,14 +9,14 @@ use runtime_sim::event::Event;
 use runtime_sim::item::Items;
 use runtime_sim::line::{IoDelay, Line, Pause, Slip};
 use runtime_sim::report::Report;
-use runtime_sim::run::{Seen, run};
+use runtime_sim::run::{Seen, Stepping, run};
 use runtime_sim::scan::{Controllers, SystemInputs, SystemOutputs};
 
 const DELAYS: [IoDelay; 4] =
     [IoDelay::Fixed(0), IoDelay::Fixed(1), IoDelay::Fixed(5), IoDelay::Random { max: 5, seed: 3 }];
 
 fn follow(line: &Line, steps: Vec<Step>) -> Report {
-    run(line, &mut Script::new(steps), &mut |_: &Seen| {}).unwrap()
+    run(line, &mut Script::new(steps), Stepping::EveryScan, &mut |_: &Seen| {}).unwrap()
 }
 
 #[test]
@@ -78,6 +78,12 @@ impl Controllers for Restless {
     }
 
     fn trace(&self, _: &mut Vec<f64>) {}
+
+    fn stays(&self) -> Vec<usize> {
+        Vec::new()
+    }
+
+    fn skip(&mut self, _: u64) {}
 }
 
 #[test]
@@ -86,7 +92,7 @@ fn the_answer_to_the_last_command_is_never_taken_for_this_one() {
         let mut line = line();
         line.io_delay = delay.clone();
         let mut restless = Restless { answered: vec![], scan: 0 };
-        run(&line, &mut restless, &mut |_| {}).unwrap();
+        run(&line, &mut restless, Stepping::EveryScan, &mut |_| {}).unwrap();
         let gaps: Vec<u64> = restless.answered.windows(2).map(|pair| pair[1] - pair[0]).collect();
         match delay {
             // The command acts in its scan, and its answer is there a scan later, and so many more.
@@ -124,6 +130,12 @@ impl Controllers for Pensive {
     fn trace(&self, out: &mut Vec<f64>) {
         out.push(self.1);
     }
+
+    fn stays(&self) -> Vec<usize> {
+        Vec::new()
+    }
+
+    fn skip(&mut self, _: u64) {}
 }
 
 #[test]
@@ -131,7 +143,9 @@ fn the_trace_tells_what_the_controllers_remember() {
     let hash = |memory: f64, steps: Vec<Step>| {
         let mut hashes = Vec::new();
         let mut controllers = Pensive(Script::new(steps), memory);
-        let report = run(&line(), &mut controllers, &mut |seen: &Seen| hashes.push(seen.hash)).unwrap();
+        let report =
+            run(&line(), &mut controllers, Stepping::EveryScan, &mut |seen: &Seen| hashes.push(seen.hash))
+                .unwrap();
         assert_eq!(hashes.last(), Some(&report.trace_hash));
         assert_eq!(hashes.len() as u64, report.scans);
         hashes
@@ -226,7 +240,7 @@ fn ends_that_are_no_success() {
 fn a_line_that_cannot_be_run_is_an_error() {
     let mut line = line();
     line.machines.truncate(2);
-    assert!(run(&line, &mut Script::new(vec![]), &mut |_| {}).is_err());
+    assert!(run(&line, &mut Script::new(vec![]), Stepping::EveryScan, &mut |_| {}).is_err());
 }
 
 #[test]
@@ -249,7 +263,7 @@ fn the_report_as_json() {
 /// The plant's last log and items, of a run that makes an order.
 fn finished_plant() -> Items {
     let mut rest = None;
-    run(&line(), &mut Script::new(whole_order()), &mut |seen: &Seen| {
+    run(&line(), &mut Script::new(whole_order()), Stepping::EveryScan, &mut |seen: &Seen| {
         if seen.scan.is_multiple_of(500) {
             rest = Some(seen.plant.items().clone());
         }

@@ -14,8 +14,13 @@ fn main() {
         Err(error) => panic!("{error}"),
     };
     let begin = std::time::Instant::now();
-    let report =
-        runtime_sim::run::run(&project.plant, &mut beside, &mut |_| {}).expect("a line that can be run");
+    let report = runtime_sim::run::run(
+        &project.plant,
+        &mut beside,
+        runtime_sim::run::Stepping::EveryScan,
+        &mut |_| {},
+    )
+    .expect("a line that can be run");
     println!("{} of {} orders, {:.1} s", report.orders_done, report.orders, begin.elapsed().as_secs_f64());
     println!("{} scans, {} words compared; {:?}", beside.scans, beside.words, beside.difference);
     let branches = beside.text.machine.branches();

@@ -231,6 +231,14 @@ impl Controllers for StructuredText {
             Word::Constant(value) => *value,
         }));
     }
+
+    fn stays(&self) -> Vec<usize> {
+        Vec::new()
+    }
+
+    fn skip(&mut self, scans: u64) {
+        assert_eq!(scans, 0, "the text runs in every scan");
+    }
 }
 
 /// The reference executor with the text beside it; the first difference stays.
@@ -313,5 +321,13 @@ impl Controllers for Beside<'_> {
 
     fn trace(&self, out: &mut Vec<f64>) {
         self.executor.trace(out);
+    }
+
+    fn stays(&self) -> Vec<usize> {
+        self.executor.stays()
+    }
+
+    fn skip(&mut self, scans: u64) {
+        assert_eq!(scans, 0, "the text runs in every scan");
     }
 }

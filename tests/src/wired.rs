@@ -272,4 +272,12 @@ impl Controllers for Wired<'_> {
     fn trace(&self, out: &mut Vec<f64>) {
         self.beside.trace(out);
     }
+
+    fn stays(&self) -> Vec<usize> {
+        self.beside.stays()
+    }
+
+    fn skip(&mut self, scans: u64) {
+        self.beside.skip(scans);
+    }
 }

@@ -5,7 +5,7 @@ use autogen::lower::Project;
 use autogen_tests::{Texts, root, text};
 use runtime_sim::plant::Plant;
 use runtime_sim::report::Report;
-use runtime_sim::run::run;
+use runtime_sim::run::{Stepping, run};
 use serde_json::{Value, json};
 
 const FOLDER: &str = "tests/fixtures/collision";
@@ -49,7 +49,8 @@ fn project(fixture: &Value) -> Project {
 
 fn observed(project: &Project, mut observer: impl FnMut(&Plant)) -> Report {
     let mut executor = Executor::new(&project.system);
-    run(&project.plant, &mut executor, &mut |seen| observer(seen.plant)).expect("a line that can be run")
+    run(&project.plant, &mut executor, Stepping::EveryScan, &mut |seen| observer(seen.plant))
+        .expect("a line that can be run")
 }
 
 fn executed(fixture: &Value) -> Report {

@@ -12,7 +12,7 @@ use autogen_tests::{LAYOUTS, Texts, ariac, is_full_campaign, on_all_processors, 
 use runtime_sim::line::{IoDelay, Line, Pause, Refusal, Slip};
 use runtime_sim::machine::Machine;
 use runtime_sim::random::Random;
-use runtime_sim::run::{Seen, run as simulate};
+use runtime_sim::run::{Seen, Stepping, run as simulate};
 use std::collections::BTreeMap;
 use std::time::Instant;
 
@@ -163,7 +163,7 @@ fn compare(job: &Job, workspace: &Workspace, number: usize) -> Result<(usize, Fi
     let found = std::fs::read_to_string(workspace.folder.join(file("hashes"))).expect("the hashes");
     let mut hashes = Vec::new();
     let mut executor = Executor::new(&job.project.system);
-    let expected = simulate(&job.project.plant, &mut executor, &mut |seen: &Seen| {
+    let expected = simulate(&job.project.plant, &mut executor, Stepping::EveryScan, &mut |seen: &Seen| {
         hashes.push(format!("{:016x}", seen.hash));
     });
     let expected = expected.expect("a line that can be run");

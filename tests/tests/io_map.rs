@@ -166,7 +166,8 @@ fn layouts_with_a_table_are_the_same_to_one_raw_step() {
             scans += same(&wired, &format!("{layout}, table {seed}, drawn inputs"));
         }
         let mut wired = beside(&project.system, &sources, 4);
-        runtime_sim::run::run(&project.plant, &mut wired, &mut |_| {}).expect("a line that can be run");
+        runtime_sim::run::run(&project.plant, &mut wired, runtime_sim::run::Stepping::EveryScan, &mut |_| {})
+            .expect("a line that can be run");
         scans += same(&wired, &format!("{layout}, table 4, simulator"));
     }
     println!("{scans} scans");

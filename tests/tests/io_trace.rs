@@ -6,7 +6,7 @@ use autogen::executor::Executor;
 use autogen::io_map::IoMap;
 use autogen_st_judge::machine::{Machine, Place};
 use autogen_tests::{Texts, examples, on_all_processors};
-use runtime_sim::run::{Seen, run};
+use runtime_sim::run::{Seen, Stepping, run};
 
 /// A text that follows a trace row by row.
 struct Driven {
@@ -74,7 +74,8 @@ fn driven((name, texts): &(String, Texts)) -> Driven {
         columns.row(seen, &mut row);
         driven.follow(&row);
     };
-    run(&project.plant, &mut Executor::new(&project.system), &mut observe).expect("a line that can be run");
+    run(&project.plant, &mut Executor::new(&project.system), Stepping::EveryScan, &mut observe)
+        .expect("a line that can be run");
     driven
 }
 

@@ -12,7 +12,7 @@ use autogen_tests::replay::{Recording, bits, difference, record, replay, run, si
 use autogen_tests::workspace::Workspace;
 use autogen_tests::{ariac, root};
 use runtime_sim::device::Direction;
-use runtime_sim::run::{Seen, run as simulate};
+use runtime_sim::run::{Seen, Stepping, run as simulate};
 use std::io::{BufRead, BufReader};
 
 /// Names and texts of the fixtures.
@@ -131,7 +131,8 @@ fn the_line_runs_as_on_the_executor() {
         trace.read_line(&mut found).expect("a line");
         assert_eq!(found, wanted, "scan {}", seen.scan);
     };
-    let expected = simulate(&project.plant, &mut executor, observe).expect("a line that can be run");
+    let expected = simulate(&project.plant, &mut executor, Stepping::EveryScan, observe)
+        .expect("a line that can be run");
     assert_eq!(trace.read_line(&mut found).expect("the end"), 0);
     let found = std::fs::read_to_string(workspace.folder.join("hashes.txt")).expect("the hashes");
     for (scan, (found, wanted)) in found.lines().zip(hashes.lines()).enumerate() {

@@ -8,7 +8,7 @@ use autogen_tests::generate::generate;
 use autogen_tests::instances::instantiate;
 use autogen_tests::lots::Lots;
 use autogen_tests::st::Beside;
-use autogen_tests::{Texts, examples, is_full_campaign, on_all_processors, root, trace};
+use autogen_tests::{Texts, examples, is_full_campaign, on_all_processors, prototype, root, trace};
 use runtime_sim::scan::Controllers;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -52,7 +52,13 @@ fn coverage(job: &Job) -> Coverage {
             let project = outcome.project.expect("a layout that can be built");
             let text = Text::new(name, "examples", &project.system, &outcome.sources);
             coverage.take(&text, |beside| {
-                runtime_sim::run::run(&project.plant, beside, &mut |_| {}).expect("a line that can be run");
+                runtime_sim::run::run(
+                    &project.plant,
+                    beside,
+                    runtime_sim::run::Stepping::EveryScan,
+                    &mut |_| {},
+                )
+                .expect("a line that can be run");
             });
             for seed in 1..=3 {
                 coverage.take(&text, |beside| drawn(beside, &text, Lots::new(text.system, seed), 3000));
@@ -106,6 +112,10 @@ fn every_text_does_what_the_executor_does() {
     let first: u64 = std::env::var("AUTOGEN_SEED").ok().and_then(|s| s.parse().ok()).unwrap_or(1);
     let mut jobs: Vec<Job> =
         examples().into_iter().map(|(name, texts)| Job::Example(name, Box::new(texts))).collect();
+    // Only this version goes a metre aside.
+    let fast = ["agv.capacity=4", "kitting.speed=1", "gantry.speed=1", "gantry.version=V4"];
+    let aside = fast.iter().fold(prototype("default"), |texts, setting| texts.set(setting));
+    jobs.push(Job::Example("prototype, V4".into(), Box::new(aside)));
     jobs.extend(fixtures("rust").into_iter().map(Job::Fixture));
     jobs.extend(fixtures("trace").into_iter().map(Job::Trace));
     jobs.extend((first..).take(families).map(Job::ByLot));

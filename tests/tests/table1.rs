@@ -3,7 +3,7 @@
 
 use autogen::executor::Executor;
 use autogen_tests::{Texts, ariac, on_all_processors, prototype, root, text};
-use runtime_sim::run::run;
+use runtime_sim::run::{Stepping, run};
 use std::fmt::Write;
 use std::process::Command;
 use std::sync::OnceLock;
@@ -44,7 +44,8 @@ fn cell(texts: &Texts) -> Cell {
         return Cell::Refused(reasons.join("; "));
     };
     let mut executor = Executor::new(&project.system);
-    let report = run(&project.plant, &mut executor, &mut |_| {}).expect("a line that can be run");
+    let report =
+        run(&project.plant, &mut executor, Stepping::Events, &mut |_| {}).expect("a line that can be run");
     assert!(report.finished, "{}", report.reason);
     Cell::SecondsPerOrder(report.simulated_s / report.orders as f64)
 }
@@ -225,9 +226,13 @@ fn requirements_are_known_where_indices_are_proved() {
     assert!(codes(wrong).iter().all(|code| *code == "E0507"));
 }
 
-/// `independent/table1.py` shares no code and no table with the project. Python is needed where judges are.
+/// What straight lines take longer at most, part of the whole time.
+const LONGER: f64 = 0.0025;
+
+/// `independent/table1.py` shares no code and no table with the project. Python is needed where judges are. There all
+/// moves are straight in the joints; here the tool goes up and down along a straight line, which takes a little longer.
 #[test]
-fn an_independent_calculation_ends_in_the_same_scan() {
+fn an_independent_calculation_ends_at_nearly_the_same_time() {
     let script = root().join("tests/independent/table1.py");
     let examples = root().join("examples/ariac2021");
     let python = |arguments: &[&std::ffi::OsStr]| Command::new("python3").args(arguments).output();
@@ -247,10 +252,16 @@ fn an_independent_calculation_ends_in_the_same_scan() {
         let project = prototype(&measured.layout).set(&format!("agv.capacity={capacity}")).compile().project;
         let ours = project.map(|project| {
             let mut executor = Executor::new(&project.system);
-            run(&project.plant, &mut executor, &mut |_| {}).expect("a line that can be run").scans
+            run(&project.plant, &mut executor, Stepping::Events, &mut |_| {})
+                .expect("a line that can be run")
+                .scans
         });
         println!("{} {capacity}: {ours:?} scans here, {theirs:?} there", measured.layout);
-        (ours != theirs).then(|| format!("{} {capacity}: {ours:?}, there {theirs:?}", measured.layout))
+        let is_near = match (ours, theirs) {
+            (Some(ours), Some(theirs)) => (0.0..=LONGER).contains(&(ours as f64 / theirs as f64 - 1.0)),
+            (ours, theirs) => ours == theirs,
+        };
+        (!is_near).then(|| format!("{} {capacity}: {ours:?}, there {theirs:?}", measured.layout))
     })
     .into_iter()
     .flatten()

@@ -14,7 +14,7 @@ use super::trajectories::Request;
 use crate::Status;
 use autogen::backend::rust::parameters_text;
 use runtime_sim::line::IoDelay;
-use runtime_sim::run::{Seen, record, run as simulate};
+use runtime_sim::run::{Seen, Stepping, record, run as simulate};
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::io::{self, IsTerminal};
@@ -121,6 +121,9 @@ fn report(options: &CommissionOptions, built: &Built, delay: IoDelay, files: Fil
     let columns = &built.files["rust/commissioning/data/columns.txt"];
     let mut io_trace = io_trace.map(|file| IoTrace::new(columns, file)).transpose()?;
     let mut hash_list = String::new();
+    // A row or a line for each scan wants every scan.
+    let every_scan = options.every_scan || io_trace.is_some() || hashes.is_some();
+    let stepping = if every_scan { Stepping::EveryScan } else { Stepping::Events };
     let mut progress = Progress::new(!is_quiet && io::stderr().is_terminal());
     let mut observe = |seen: &Seen| {
         if let Some(io_trace) = &mut io_trace {
@@ -132,9 +135,9 @@ fn report(options: &CommissionOptions, built: &Built, delay: IoDelay, files: Fil
         progress.show(seen.scan * u64::from(line.scan_ms) / 1000);
     };
     let report = match trajectories.is_empty() {
-        true => simulate(&line, &mut controllers, &mut observe)?,
+        true => simulate(&line, &mut controllers, stepping, &mut observe)?,
         false => {
-            let (report, paths) = record(&line, &mut controllers, &mut observe)?;
+            let (report, paths) = record(&line, &mut controllers, stepping, &mut observe)?;
             trajectories.write(&built.project, &line, &paths)?;
             report
         }

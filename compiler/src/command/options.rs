@@ -2,7 +2,7 @@
 
 use super::output::Overwrite;
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use std::num::NonZeroUsize;
+use std::num::{NonZeroU32, NonZeroUsize};
 use std::path::PathBuf;
 
 /// Compiles a factory layout and parameterized automata into controllers that can be deployed.
@@ -110,6 +110,9 @@ pub struct CommissionOptions {
     /// Write the hash of each scan's trace to this file, a line each
     #[arg(long, value_name = "FILE")]
     pub hashes: Option<PathBuf>,
+    /// Execute every scan, also those in which nothing can happen; events and results are the same
+    #[arg(long)]
+    pub every_scan: bool,
     #[command(flatten)]
     pub trajectories: TrajectoryOptions,
 }
@@ -150,6 +153,10 @@ pub struct SweepOptions {
     /// How many scans late devices answer: numbers, `random` or `random:SEED` for 0 to 5
     #[arg(long, value_name = "N,...", value_delimiter = ',')]
     pub io_delay: Vec<String>,
+    /// Runs of each point: the first with the seeds that are given, each further one with the seed of the supply and that
+    /// of random delays one higher. Rows then have means, with half of the width of their 95 % intervals
+    #[arg(long, value_name = "N", default_value = "1")]
+    pub replications: NonZeroU32,
     /// Figures to stand beside the rows: a CSV file with the column seconds_per_order and columns of the
     /// sweep's own CSV that name a point, such as layout and agv.capacity
     #[arg(long, value_name = "FILE")]

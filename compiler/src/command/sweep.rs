@@ -6,6 +6,7 @@
 pub mod axis;
 mod grid;
 mod in_order;
+mod interval;
 pub mod measured;
 mod plan;
 mod point;
@@ -20,6 +21,7 @@ use crate::Status;
 use autogen::diagnostic::Diagnostic;
 use plan::{Plan, Refusal};
 use progress::Progress;
+use row::Row;
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use std::num::NonZeroUsize;
@@ -41,17 +43,29 @@ pub fn run(options: &SweepOptions) -> Status {
     let jobs = options.jobs.or_else(|| thread::available_parallelism().ok()).map_or(1, NonZeroUsize::get);
     let is_text = options.format == TableFormat::Text;
     let notice = if is_text && !options.quiet { Notice::Compiling } else { Notice::None };
-    let mut progress = Progress::new(plan.len(), options.quiet);
+    let Some(all) = plan.len().checked_mul(options.replications.get() as usize) else {
+        return not_planned(options, &Refusal::Said("there are too many runs to count".into()));
+    };
+    let mut progress = Progress::new(all, options.quiet);
     let mut status = Status::Done;
     table.begin();
+    let replications = options.replications.get();
+    let mut runs = Vec::new();
     in_order::each(
-        plan.len(),
+        all,
         jobs,
-        |index| point::row(&plan, index, notice),
-        |row| {
-            status = worse(status, row.status);
+        |index| {
+            point::row(&plan, index / replications as usize, (index % replications as usize) as u32, notice)
+        },
+        |run| {
+            status = worse(status, run.status);
+            runs.push(run);
             progress.clear();
-            table.row(&row);
+            if runs.len() == replications as usize
+                && let Some(row) = Row::of_runs(std::mem::take(&mut runs))
+            {
+                table.row(&row);
+            }
             progress.count();
         },
     );

@@ -123,11 +123,12 @@ impl Draft {
         self.orders
     }
 
-    /// The line with these values, and with its instances in layout order or in one drawn from `order`.
-    pub fn line(&self, settings: &[Setting], order: Option<u64>) -> Line {
+    /// The line with these values, and with its instances in layout order or in one drawn from `order`. Replication 0 is
+    /// that of the scenario; another one adds its number to the seed of the supply.
+    pub fn line(&self, settings: &[Setting], order: Option<u64>, replication: u32) -> Line {
         let mut line = Line { diagnostics: self.diagnostics.clone(), verdict: None, project: None };
         if let Some(parts) = &self.parts {
-            parts.line(&mut line, settings, order);
+            parts.line(&mut line, settings, order, replication);
             diagnostic::sort(&mut line.diagnostics);
         }
         if !line.diagnostics.is_empty() {
@@ -138,13 +139,14 @@ impl Draft {
 }
 
 impl Parts {
-    fn line(&self, found: &mut Line, settings: &[Setting], order: Option<u64>) {
+    fn line(&self, found: &mut Line, settings: &[Setting], order: Option<u64>, replication: u32) {
+        let scenario = self.scenario.replication(replication);
         let mut layout = self.layout.clone();
         if let Some(seed) = order {
             Random::new(seed).shuffle(&mut layout.objects);
         }
         let bound = bind::bind(&layout, &self.model, &mut found.diagnostics);
-        let mut line = role::Line::new(&layout, bound.robots, self.model.clone(), &self.scenario);
+        let mut line = role::Line::new(&layout, bound.robots, self.model.clone(), &scenario);
         if line.is_too_large() {
             found.diagnostics.append(&mut line.diagnostics);
             return;
@@ -161,7 +163,7 @@ impl Parts {
         found.verdict = Some(line.verdict(&report));
         found.diagnostics.append(&mut line.diagnostics);
         found.diagnostics.extend(report.diagnostics.iter().cloned());
-        let resolved = match plant::resolve(&self.scenario, &line) {
+        let resolved = match plant::resolve(&scenario, &line) {
             Ok(resolved) => resolved,
             Err(wrong) => {
                 found.diagnostics.extend(wrong);

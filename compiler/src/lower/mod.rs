@@ -87,6 +87,6 @@ pub struct Outcome {
 pub fn compile(input: Input) -> Outcome {
     let Input { sources, layout, specs, scenario, settings, order } = input;
     let draft = Draft::new(&sources, Texts { layout, specs: &specs, scenario }, &settings);
-    let Line { diagnostics, verdict, project } = draft.line(&settings, order);
+    let Line { diagnostics, verdict, project } = draft.line(&settings, order, 0);
     Outcome { sources, diagnostics, verdict, project }
 }

@@ -2,7 +2,9 @@
 
 use super::role::Line;
 use crate::diagnostic::Diagnostic;
-use crate::ir::{Clause, Domain, Expr, ExprKind, InterfaceId, Place, RoleKind, State, System};
+use crate::executor::Executor;
+use crate::ir::{Automaton, InterfaceId, RoleKind, System, Value};
+use crate::reads::{self, ReadCell, Reads, Whose};
 use crate::scenario::{self, ResolvedScenario, Scenario};
 use runtime_sim::line;
 use runtime_sim::machine::Machine;
@@ -37,6 +39,8 @@ pub fn line(
 ) -> line::Line {
     let scans = |seconds: f64| (seconds * 1000.0 / f64::from(scan_ms)).round() as u64;
     let arms = arms(system);
+    let mut executor = Executor::new(system);
+    let reads: Vec<Vec<StateReads>> = system.model.automata.iter().map(state_reads).collect();
     line::Line {
         scan_ms,
         kinds: scenario
@@ -48,7 +52,7 @@ pub fn line(
             .into_iter()
             .enumerate()
             .map(|(i, machine)| Machine {
-                states: system.automaton_of(i).states.iter().map(|s| state(system, &arms, i, s)).collect(),
+                states: states(system, &arms, &reads, &mut executor, i),
                 ..machine
             })
             .collect(),
@@ -95,116 +99,70 @@ fn arms(system: &System) -> Vec<Arms> {
     arms
 }
 
-/// What is awaited in a state: own timer and ports, or the owners of the cells that its guards read.
-fn state(system: &System, arms: &[Arms], instance: usize, state: &State) -> line::State {
-    let mut reads =
-        Reads { system, arms, instance, working: false, owners: BTreeSet::new(), seen: BTreeSet::new() };
-    for transition in &state.transitions {
-        for clause in &transition.clauses {
-            match clause {
-                Clause::Condition(condition) => reads.expr(condition),
-                Clause::Bind(binder) => {
-                    reads.domain(&binder.domain);
-                    binder.condition.iter().for_each(|c| reads.expr(c));
-                }
-            }
-        }
-    }
-    reads.owners.remove(&instance);
-    line::State {
-        name: state.name.clone(),
-        working: reads.working,
-        awaits: reads.owners.into_iter().collect(),
-    }
+/// What the guards of a state read, and what the state as a whole does.
+struct StateReads<'a> {
+    guards: Reads<'a>,
+    all: Reads<'a>,
 }
 
-struct Reads<'a> {
-    system: &'a System,
-    arms: &'a [Arms],
+fn state_reads(automaton: &Automaton) -> Vec<StateReads<'_>> {
+    let states = automaton.states.iter();
+    let reads = states.map(|state| StateReads {
+        guards: Reads::of_guards(automaton, state),
+        all: Reads::of_state(automaton, state),
+    });
+    reads.collect()
+}
+
+/// What the simulator needs of the states of an instance.
+fn states(
+    system: &System,
+    arms: &[Arms],
+    reads: &[Vec<StateReads>],
+    executor: &mut Executor,
     instance: usize,
-    working: bool,
-    owners: BTreeSet<usize>,
-    /// Definitions that were read already, as each may be used many times.
-    seen: BTreeSet<usize>,
+) -> Vec<line::State> {
+    let automaton = system.automaton_of(instance);
+    let mut states = Vec::new();
+    let reads = &reads[system.instances[instance].automaton.0];
+    for (state, StateReads { guards, all }) in automaton.states.iter().zip(reads) {
+        let is_fixed = all.timers.iter().all(|time| reads::is_fixed(automaton, time));
+        let times = all.timers.iter().map(|time| match executor.value(instance, time) {
+            Value::Int(ms) => ms.max(0) as u32,
+            other => unreachable!("a checked time is {other:?}"),
+        });
+        states.push(line::State {
+            name: state.name.clone(),
+            working: !guards.timers.is_empty() || !guards.inputs.is_empty(),
+            awaits: owners(system, arms, instance, guards).into_iter().collect(),
+            reads: all.words(system.kinds()),
+            timers: is_fixed.then(|| times.collect()),
+        });
+    }
+    states
 }
 
-impl Reads<'_> {
-    fn domain(&mut self, domain: &Domain) {
-        if let Domain::Range(low, high) = domain {
-            self.expr(low);
-            self.expr(high);
-        }
-    }
-
-    fn expr(&mut self, expr: &Expr) {
-        match &expr.kind {
-            ExprKind::After(time) => {
-                self.working = true;
-                self.expr(time);
+/// Who writes the cells that guards read, but for the instance itself.
+fn owners(system: &System, arms: &[Arms], instance: usize, guards: &Reads) -> BTreeSet<usize> {
+    let mut owners = BTreeSet::new();
+    for ReadCell { interface, of, .. } in &guards.cells {
+        match of {
+            // A cell of its own is awaited from the arms that come here: they write it too.
+            Whose::Own => {
+                let come_here = arms[instance].iter().filter(|(i, _)| i == interface);
+                owners.extend(come_here.map(|(_, arm)| *arm));
             }
-            ExprKind::Done | ExprKind::Failed => self.working = true,
-            ExprKind::Read(place) => self.place(place),
-            ExprKind::Define(define) if !self.seen.insert(*define) => {}
-            ExprKind::Define(define) => {
-                let system = self.system;
-                self.expr(&system.automaton_of(self.instance).defines[*define].value);
-            }
-            ExprKind::Not(a)
-            | ExprKind::Negate(a)
-            | ExprKind::Absolute(a)
-            | ExprKind::ToReal(a)
-            | ExprKind::Coordinate(a, _)
-            | ExprKind::IsMember(a, _) => self.expr(a),
-            ExprKind::Binary(_, a, b)
-            | ExprKind::Min(a, b)
-            | ExprKind::Max(a, b)
-            | ExprKind::SquaredDistance(a, b)
-            | ExprKind::Reaches(_, a, b) => {
-                self.expr(a);
-                self.expr(b);
-            }
-            ExprKind::MakePoint(parts) => parts.iter().for_each(|p| self.expr(p)),
-            ExprKind::Exists { domain, body, .. }
-            | ExprKind::Forall { domain, body, .. }
-            | ExprKind::Count { domain, body, .. }
-            | ExprKind::Sum { domain, body, .. } => {
-                self.domain(domain);
-                self.expr(body);
-            }
-            ExprKind::Constant(_) | ExprKind::Variable(_) | ExprKind::Own(_) | ExprKind::Members(_) => {}
-        }
-    }
-
-    /// A cell of its own is awaited from the arms that come here: they write it too.
-    fn partners(&mut self, interface: InterfaceId) {
-        let come_here = self.arms[self.instance].iter().filter(|(i, _)| *i == interface);
-        self.owners.extend(come_here.map(|(_, arm)| arm));
-    }
-
-    fn place(&mut self, place: &Place) {
-        let index = match place {
-            Place::Port { index, .. } => {
-                self.working = true;
-                index
-            }
-            Place::Cell { interface, of: None, index, .. } => {
-                self.partners(*interface);
-                index
-            }
-            Place::Cell { interface, of: Some(_), index, .. } => {
-                let roles = &self.system.automaton_of(self.instance).roles;
+            Whose::Others => {
+                let roles = &system.automaton_of(instance).roles;
                 let rows = roles
                     .iter()
-                    .zip(&self.system.instances[self.instance].roles)
+                    .zip(&system.instances[instance].roles)
                     .filter(|(role, _)| role.interface == *interface && role.kind != RoleKind::Knows)
                     .flat_map(|(_, rows)| rows);
-                self.owners.extend(rows.map(|row| self.system.members[interface.0][*row]));
-                index
+                owners.extend(rows.map(|row| system.members[interface.0][*row]));
             }
-            Place::Local { index, .. } | Place::Parameter { index, .. } | Place::Shown { index, .. } => index,
-        };
-        if let Some(index) = index {
-            self.expr(index);
         }
     }
+    owners.remove(&instance);
+    owners
 }

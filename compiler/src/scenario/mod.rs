@@ -60,6 +60,17 @@ pub struct Supply {
     pub items: Items,
 }
 
+impl Scenario {
+    /// The same with another seed of the supply: so many more. A supply that is a list stays as it is.
+    pub fn replication(&self, number: u32) -> Self {
+        let mut scenario = self.clone();
+        if let Items::Shuffled { seed, .. } = &mut scenario.supply.items {
+            *seed = seed.wrapping_add(number);
+        }
+        scenario
+    }
+}
+
 /// What the belts bring; numbers are kinds.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Items {

@@ -73,6 +73,11 @@ impl Piece {
         Self { name, core, radius, ball: Ball { middle, radius: reach } }
     }
 
+    /// The least z of any of its points, in the frame that its pose is given in.
+    pub fn lowest(&self) -> f64 {
+        self.ball.middle.z - self.within(&Pose::IDENTITY).extent(Point::new(0.0, 0.0, 1.0))
+    }
+
     pub fn within(&self, frame: &Pose) -> Placed {
         let core = match self.core {
             Core::Segment(ends) => Core::Segment(ends.map(|end| frame.point(end))),

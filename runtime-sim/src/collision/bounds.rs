@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 /// For each joint a bound on how far it moves any point of a body, for each metre or radian of its own travel.
 pub type Radii = [f64; MOST_JOINTS];
 
-/// What something can ever be in, by two opposite corners.
+/// What something is in, now or at any time, by two opposite corners.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BoundingBox {
     low: Point,
@@ -28,6 +28,12 @@ impl BoundingBox {
             high: by_coordinate(self.high, other.high, f64::max),
         }
     }
+
+    /// That of nothing.
+    pub const NOTHING: Self = Self {
+        low: Point::new(f64::INFINITY, f64::INFINITY, f64::INFINITY),
+        high: Point::new(f64::NEG_INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY),
+    };
 
     pub fn is_apart(&self, other: &BoundingBox) -> bool {
         let beyond = |low: Point, high: Point| low.x > high.x || low.y > high.y || low.z > high.z;

@@ -6,13 +6,16 @@
 //! So nothing is stepped over, however thin.
 
 use super::body::Piece;
+use super::bounds::BoundingBox;
 use super::group::{Anchor, Group, Kind};
 use super::pair::{Pair, Scan, Touch};
 use crate::carrier::Carrier;
 use crate::event::Event;
+use crate::fingerprint::Fingerprint;
 use crate::item;
 use crate::kinematics::pose::Pose;
 use crate::line::Line;
+use crate::memory::Memory;
 use crate::plant::Plant;
 use crate::point::Point;
 use crate::solid::Shape;
@@ -92,25 +95,80 @@ impl CollisionCheck {
         self.contacts
     }
 
-    /// Looks ahead over the scan that begins, when the plant has obeyed its outputs and nothing has moved yet.
-    /// The first contact that the layout does not allow.
-    pub(crate) fn look(&mut self, plant: &Plant) -> Option<&Contact> {
+    /// Whether something is in contact: then every scan has to be looked at.
+    pub(crate) fn touches(&self) -> bool {
+        self.pairs.iter().any(Pair::touches)
+    }
+
+    /// Looks ahead from the scan that begins, when the plant has obeyed its outputs and nothing has moved yet, to the
+    /// start of the scan `next`, before which no motion changes. The scan to which it is known, and in it the first
+    /// contact that the layout does not allow: what comes into contact is looked at scan by scan.
+    pub(crate) fn look_until(
+        &mut self,
+        plant: &Plant,
+        memory: &mut Memory,
+        scan: u64,
+        next: u64,
+    ) -> (u64, Option<&Contact>) {
         self.follow_items(plant);
-        for group in &mut self.groups {
-            group.begin_scan(plant, self.seconds);
+        let mut next = next;
+        loop {
+            let found = self.search(plant, memory, self.seconds * (next - scan) as f64);
+            let Some((_, first)) = found.first().filter(|_| next > scan + 1) else {
+                return (next, self.note_all(found, plant));
+            };
+            // One scan less: the time is rounded.
+            let before = (first.time / self.seconds) as u64;
+            next = scan + before.saturating_sub(1).max(1);
+            self.pairs.iter_mut().for_each(Pair::forget);
         }
+    }
+
+    /// What comes into contact within so many seconds, by time; the numbers of the pairs.
+    fn search(&mut self, plant: &Plant, memory: &mut Memory, seconds: f64) -> Vec<(usize, Touch)> {
+        for group in &mut self.groups {
+            group.begin_scan(plant, seconds);
+        }
+        let sets_out: Vec<bool> = self.groups.iter().map(Group::is_about_to_slide).collect();
+        let mut boxes: Vec<Option<BoundingBox>> = vec![None; self.groups.len()];
         let mut found = Vec::new();
         for (index, pair) in self.pairs.iter_mut().enumerate() {
             let [a, b] = pair.groups;
-            if self.groups[a].path + self.groups[b].path <= pair.clear {
+            let is_clear = self.groups[a].path + self.groups[b].path <= pair.clear;
+            // Later on its way it would be too late to ask.
+            if is_clear && !sets_out[a] && !sets_out[b] {
                 continue;
             }
-            let mut scan = Scan { groups: &mut self.groups, plant, seconds: self.seconds };
+            for group in [a, b] {
+                if boxes[group].is_none() {
+                    boxes[group] = Some(self.groups[group].box_for(seconds, plant, memory));
+                }
+            }
+            if let (Some(first), Some(second)) = (&boxes[a], &boxes[b])
+                && a != b
+                && first.is_apart(second)
+            {
+                continue;
+            }
+            if let Some(question) = question(&mut self.groups, index, [a, b], plant)
+                && (pair.free == Some(question) || is_free(&mut self.groups, [a, b], plant, memory, question))
+            {
+                pair.free = Some(question);
+                continue;
+            }
+            if is_clear {
+                continue;
+            }
+            let mut scan = Scan { groups: &mut self.groups, plant, seconds };
             if let Some(touch) = pair.look(&mut scan) {
                 found.push((index, touch));
             }
         }
         found.sort_by(|(_, a), (_, b)| a.time.total_cmp(&b.time));
+        found
+    }
+
+    fn note_all(&mut self, found: Vec<(usize, Touch)>, plant: &Plant) -> Option<&Contact> {
         let known = self.contacts.len();
         for (index, touch) in found {
             self.note(index, touch, plant);
@@ -152,7 +210,7 @@ impl CollisionCheck {
         let tracked = &mut self.items[item];
         let Some((group, body)) = tracked.place.take() else { return };
         let group = &mut self.groups[group];
-        if let Some(Anchor::Link(link)) = group.bodies[body].take().map(|body| body.anchor) {
+        if let Some(Anchor::Link(link)) = group.remove(body).map(|body| body.anchor) {
             let along = group.link_now(link, plant).then(&tracked.hang).axis(0);
             tracked.turn = libm::atan2(along.y, along.x);
         }
@@ -182,10 +240,58 @@ impl CollisionCheck {
         let middle = Pose { position: Point::new(0.0, 0.0, tracked.size.z / 2.0), ..Pose::IDENTITY };
         let shape = Shape::Box { size: tracked.size };
         let piece = Piece::new(tracked.name.clone(), &frame.then(&middle), shape);
-        let body = group.add_item(anchor, piece, plant);
+        let size = [tracked.size.x, tracked.size.y, tracked.size.z, tracked.turn];
+        let turned = frame.rotation.into_iter().flatten();
+        let hang = [frame.position.x, frame.position.y, frame.position.z];
+        let item = size.into_iter().chain(turned).chain(hang).fold(Fingerprint::default(), Fingerprint::near);
+        let body = group.add_item(anchor, piece, item, plant);
         tracked.place = Some((index, body));
         for pair in self.pairs.iter_mut().filter(|pair| pair.groups.contains(&index)) {
             pair.expect(index, body);
         }
     }
+}
+
+/// What decides whether two groups stay apart as one of them moves and the other one rests, or as one moves alone; none
+/// if both move or both rest.
+fn question(groups: &mut [Group], pair: usize, [a, b]: [usize; 2], plant: &Plant) -> Option<Fingerprint> {
+    let pair = Fingerprint::default().with(pair as u64);
+    if a == b {
+        return Some(pair.and(groups[a].moving(plant)?));
+    }
+    let both = match (groups[a].resting(plant), groups[b].resting(plant)) {
+        (None, Some(rests)) => groups[a].moving(plant)?.and(rests),
+        (Some(rests), None) => rests.and(groups[b].moving(plant)?),
+        _ => return None,
+    };
+    Some(pair.and(both))
+}
+
+/// Whether two stay apart for the whole motion of one of them; false if that is not known.
+fn is_free(
+    groups: &mut [Group],
+    [a, b]: [usize; 2],
+    plant: &Plant,
+    memory: &mut Memory,
+    question: Fingerprint,
+) -> bool {
+    if let Some(known) = memory.is_free(question) {
+        return known;
+    }
+    if a != b {
+        let boxes = groups[b].boxes(plant, memory);
+        if groups[a].boxes(plant, memory).iter().all(|a| boxes.iter().all(|b| a.is_apart(b))) {
+            memory.note_free(question, true);
+            return true;
+        }
+    }
+    for group in [a, b] {
+        if let Some((seconds, present)) = groups[group].rewind() {
+            let is_free = Scan { groups, plant, seconds }.stay_apart([a, b]);
+            groups[group].restore(present);
+            memory.note_free(question, is_free);
+            return is_free;
+        }
+    }
+    false
 }

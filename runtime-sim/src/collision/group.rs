@@ -2,15 +2,19 @@
 
 use super::body::{Ball, Piece};
 use super::bounds::{BoundingBox, Chain, Radii};
+use super::{TOLERANCE, UNCERTAIN};
+use crate::fingerprint::Fingerprint;
 use crate::kinematics::arm::{Arm, Frames, Joints};
 use crate::kinematics::pose::Pose;
 use crate::line::{Line, Obstacle};
 use crate::machine::Machine;
-use crate::motion::Motion;
+use crate::memory::Memory;
+use crate::motion::{Motion, Travel};
 use crate::plant::Plant;
 use crate::plant::trajectory::Trajectory;
 use crate::point::Point;
 use crate::solid::{Link, Solid};
+use std::sync::Arc;
 
 /// Solids that keep their places to one another.
 #[derive(Clone, Debug)]
@@ -25,8 +29,10 @@ pub struct Body {
     radii: Option<Radii>,
     /// Metres that no point of it has gone more than, from the start of the run to the end of the scan.
     pub path: f64,
-    /// Metres for each unit of the place on the path of an arm.
-    rate: f64,
+    /// Along the path of an arm, metres that no point of it goes more than.
+    travel: Travel,
+    /// Of an item: of its size, of how it is turned, and of how it hangs.
+    item: Option<Fingerprint>,
 }
 
 /// What a body moves with.
@@ -55,7 +61,21 @@ pub struct Group {
     movement: Movement,
     /// Of an arm, as last looked at.
     frames: Option<(Joints, Frames)>,
+    /// While it moves and comes to rest by itself: of where it moves along, from the beginning to the end, and of what it
+    /// bears.
+    moving: Option<Fingerprint>,
+    /// While it rests: of where all of it is. None until somebody asks.
+    resting: Option<Fingerprint>,
+    /// What contains it on each of [`PIECES`] of the path of an arm, or all the while. Empty until somebody asks.
+    boxes: Arc<[BoundingBox]>,
 }
+
+/// Boxes that do not meet are farther apart than this, m: than what is in contact, and than what joints can differ by
+/// that have the same fingerprint.
+const NEAR: f64 = TOLERANCE + UNCERTAIN;
+/// Pieces of the path of an arm, each of which has a box, and places in each of them at which it is looked at.
+const PIECES: usize = 16;
+const PLACES: usize = 4;
 
 #[derive(Clone, Debug)]
 #[expect(clippy::large_enum_variant)] // a dozen of them in all
@@ -67,7 +87,6 @@ pub enum Kind {
 
 /// Within one scan; times are seconds from its start.
 #[derive(Clone, Debug)]
-#[expect(clippy::large_enum_variant)] // a dozen of them in all
 enum Movement {
     Still,
     Slides {
@@ -81,6 +100,9 @@ enum Movement {
         begin: f64,
     },
 }
+
+/// The movement of a group while another one stands in its place.
+pub struct Present(Movement);
 
 impl Group {
     pub fn of_machine(line: &Line, index: usize) -> Self {
@@ -98,8 +120,17 @@ impl Group {
 
     fn new(name: String, kind: Kind, mut solids: Vec<Solid>) -> Self {
         solids.sort_by_key(|solid| solid.link);
-        let mut group =
-            Self { name, kind, bodies: Vec::new(), path: 0.0, movement: Movement::Still, frames: None };
+        let mut group = Self {
+            name,
+            kind,
+            bodies: Vec::new(),
+            path: 0.0,
+            movement: Movement::Still,
+            frames: None,
+            moving: None,
+            resting: None,
+            boxes: Arc::default(),
+        };
         for solids in solids.chunk_by(|a, b| a.link == b.link) {
             let anchor = match solids[0].link {
                 Link::World => Anchor::World,
@@ -123,12 +154,14 @@ impl Group {
             (Anchor::Route, Kind::Machine { machine, .. }) => (None, at_stops(machine, &ball)),
             _ => (None, still(&ball)),
         };
-        Body { anchor, pieces, ball, bounds, radii, path: self.path, rate: 0.0 }
+        let travel = self.travel(radii.as_ref());
+        Body { anchor, pieces, ball, bounds, travel, radii, path: self.path, item: None }
     }
 
     /// Adds an item that comes to lie or to hang here; the number of its body.
-    pub fn add_item(&mut self, anchor: Anchor, piece: Piece, plant: &Plant) -> usize {
-        let body = match (anchor, &self.kind) {
+    pub fn add_item(&mut self, anchor: Anchor, piece: Piece, item: Fingerprint, plant: &Plant) -> usize {
+        self.forget();
+        let mut body = match (anchor, &self.kind) {
             (Anchor::Lying { item, .. }, Kind::Machine { index, machine }) => {
                 let place = plant.place(item).unwrap_or_default();
                 let offset = place - plant.position(*index).unwrap_or_default();
@@ -136,6 +169,7 @@ impl Group {
             }
             _ => self.body(anchor, vec![piece], BoundingBox::around),
         };
+        body.item = Some(item);
         match self.bodies.iter().position(Option::is_none) {
             Some(free) => {
                 self.bodies[free] = Some(body);
@@ -146,6 +180,178 @@ impl Group {
                 self.bodies.len() - 1
             }
         }
+    }
+
+    /// Takes a body away.
+    pub fn remove(&mut self, body: usize) -> Option<Body> {
+        self.forget();
+        self.bodies[body].take()
+    }
+
+    /// What it bears has changed.
+    fn forget(&mut self) {
+        self.moving = None;
+        self.resting = None;
+        self.boxes = Arc::default();
+    }
+
+    /// Of the motion under way and of what is borne; none if it rests, or does not come to rest by itself.
+    pub fn moving(&mut self, plant: &Plant) -> Option<Fingerprint> {
+        if self.moving.is_none() {
+            let motion = match &self.movement {
+                Movement::Still => return None,
+                Movement::Slides { until, .. } if until.is_infinite() => return None,
+                Movement::Slides { velocity, from, until } => {
+                    let begin = self.position(plant) - velocity.scaled((-from).max(0.0));
+                    let end = begin + velocity.scaled(until - from);
+                    near(near(Fingerprint::default(), begin), end)
+                }
+                Movement::Swings { motion, .. } => motion.fingerprint(),
+            };
+            self.moving = Some(motion.and(self.borne(plant)));
+        }
+        self.moving
+    }
+
+    /// Of where all of it is; none if it moves.
+    pub fn resting(&mut self, plant: &Plant) -> Option<Fingerprint> {
+        if !matches!(self.movement, Movement::Still) {
+            return None;
+        }
+        if self.resting.is_none() {
+            let place = match &self.kind {
+                Kind::Obstacle => Fingerprint::default(),
+                Kind::Machine { index, .. } => {
+                    near(Fingerprint::default(), plant.position(*index).unwrap_or_default())
+                }
+                Kind::Arm { index, .. } => {
+                    let joints = plant.joints(*index);
+                    joints
+                        .iter()
+                        .flat_map(|joints| joints.iter())
+                        .fold(Fingerprint::default(), |print, joint| print.near(*joint))
+                }
+            };
+            self.resting = Some(place.and(self.borne(plant)));
+        }
+        self.resting
+    }
+
+    /// Of all items, and of where they are on the machine.
+    fn borne(&self, plant: &Plant) -> Fingerprint {
+        let origin = self.position(plant);
+        let items = self.bodies.iter().flatten().filter_map(|body| {
+            let place = match body.anchor {
+                Anchor::Lying { item, .. } => plant.place(item).unwrap_or_default() - origin,
+                Anchor::World | Anchor::Link(_) | Anchor::Route => Point::default(),
+            };
+            Some(near(body.item?, place))
+        });
+        items.fold(Fingerprint::default(), Fingerprint::sum)
+    }
+
+    fn position(&self, plant: &Plant) -> Point {
+        self.machine().and_then(|index| plant.position(index)).unwrap_or_default()
+    }
+
+    /// Lets something look at the motion from its beginning to its end, of so many seconds; none if it rests, has been
+    /// held on its way, or does not come to rest by itself.
+    fn whole_motion(&self) -> Option<(Movement, f64)> {
+        match &self.movement {
+            Movement::Still => None,
+            Movement::Slides { until, .. } => {
+                (self.is_about_to_slide() && until.is_finite()).then(|| (self.movement.clone(), *until))
+            }
+            Movement::Swings { motion, .. } => {
+                let begin = motion.whole_since()?;
+                Some((Movement::Swings { motion: motion.clone(), begin }, motion.rests_at() - begin))
+            }
+        }
+    }
+
+    /// What contains it on each piece of its path, or all the while.
+    pub fn boxes(&mut self, plant: &Plant, memory: &mut Memory) -> Arc<[BoundingBox]> {
+        if self.boxes.is_empty() {
+            let moving = self.moving(plant).zip(self.machine());
+            self.boxes = match (&self.movement, moving) {
+                (Movement::Swings { motion, .. }, Some((moving, machine))) => {
+                    memory.boxes(moving.with(machine as u64), || self.swept(motion))
+                }
+                (Movement::Swings { motion, .. }, None) => self.swept(motion),
+                // All that it can ever be in.
+                (Movement::Slides { .. }, _) => [self.around(|body| body.bounds)].into(),
+                (Movement::Still, _) => [self.present(plant)].into(),
+            };
+        }
+        self.boxes.clone()
+    }
+
+    fn around(&self, of: impl Fn(&Body) -> BoundingBox) -> BoundingBox {
+        let boxes = self.bodies.iter().flatten().map(of);
+        boxes.fold(BoundingBox::NOTHING, |all, next| all.with(&next))
+    }
+
+    /// What contains all bodies where they are.
+    fn present(&mut self, plant: &Plant) -> BoundingBox {
+        let mut all = BoundingBox::NOTHING;
+        for number in 0..self.bodies.len() {
+            let Some((anchor, ball)) = self.bodies[number].as_ref().map(|body| (body.anchor, body.ball))
+            else {
+                continue;
+            };
+            let frame = self.frame(anchor, plant, 0.0);
+            let Ball { middle, radius } = ball.within(&frame);
+            all = all.with(&BoundingBox::around(&Ball { middle, radius: radius + NEAR }));
+        }
+        all
+    }
+
+    /// On each piece of a path.
+    fn swept(&self, motion: &Motion) -> Arc<[BoundingBox]> {
+        let Kind::Arm { arm, .. } = &self.kind else { return Arc::default() };
+        let half = 0.5 / (PIECES * PLACES) as f64;
+        let piece = |piece: usize| {
+            (0..PLACES).fold(BoundingBox::NOTHING, |all, place| {
+                let middle = (2 * (piece * PLACES + place) + 1) as f64 * half;
+                let frames = arm.frames(&motion.along(middle));
+                let here = self.around(|body| {
+                    let Anchor::Link(link) = body.anchor else { return body.bounds };
+                    let gone = body.travel.to(middle);
+                    let reach =
+                        (gone - body.travel.to(middle - half)).max(body.travel.to(middle + half) - gone);
+                    let Ball { middle, radius } = body.ball.within(&frames[link]);
+                    BoundingBox::around(&Ball { middle, radius: radius + reach + NEAR })
+                });
+                all.with(&here)
+            })
+        };
+        (0..PIECES).map(piece).collect()
+    }
+
+    /// What contains it for so many seconds from now on.
+    pub fn box_for(&mut self, seconds: f64, plant: &Plant, memory: &mut Memory) -> BoundingBox {
+        let [from, to] = match &self.movement {
+            Movement::Swings { .. } => self.movement.span(0.0, seconds),
+            Movement::Still | Movement::Slides { .. } => [0.0; 2],
+        };
+        let boxes = self.boxes(plant, memory);
+        let at = |place: f64| ((place * PIECES as f64) as usize).min(boxes.len() - 1);
+        boxes[at(from)..=at(to)].iter().fold(BoundingBox::NOTHING, |all, next| all.with(next))
+    }
+
+    /// As if the motion was at its beginning; the seconds that it takes, and what it is in truth.
+    pub fn rewind(&mut self) -> Option<(f64, Present)> {
+        let (whole, seconds) = self.whole_motion()?;
+        Some((seconds, Present(std::mem::replace(&mut self.movement, whole))))
+    }
+
+    pub fn restore(&mut self, Present(movement): Present) {
+        self.movement = movement;
+    }
+
+    /// It has not set out yet.
+    pub fn is_about_to_slide(&self) -> bool {
+        matches!(self.movement, Movement::Slides { from, .. } if from >= 0.0)
     }
 
     /// Whether there is sense in watching the two; for one group and itself, whether it could touch itself.
@@ -191,8 +397,14 @@ impl Group {
     pub fn begin_scan(&mut self, plant: &Plant, seconds: f64) {
         let Some(index) = self.machine() else { return };
         let now_ms = plant.now_ms() as f64;
+        let last = std::mem::replace(&mut self.movement, Movement::Still);
         self.movement = match plant.trajectory(index).since(now_ms) {
-            Trajectory::Rests => Movement::Still,
+            Trajectory::Rests => {
+                if !matches!(last, Movement::Still) {
+                    self.forget();
+                }
+                return;
+            }
             Trajectory::Drives { velocity, from_ms, until_ms } => Movement::Slides {
                 velocity,
                 from: (from_ms - now_ms) / 1000.0,
@@ -200,29 +412,40 @@ impl Group {
             },
             Trajectory::Swings(motion) => Movement::Swings { motion, begin: now_ms / 1000.0 },
         };
-        if let Movement::Still = self.movement {
-            return;
+        let goes_on = matches!(
+            (&self.movement, &last),
+            (Movement::Swings { motion, .. }, Movement::Swings { motion: last, .. }) if motion.is_along(last)
+        );
+        if !goes_on {
+            self.forget();
         }
-        let rates = match &self.movement {
-            Movement::Swings { motion, .. } => Some(motion.rates()),
-            Movement::Still | Movement::Slides { .. } => None,
-        };
-        for body in self.bodies.iter_mut().flatten() {
-            let parts = rates.iter().flat_map(|rates| rates.iter()).zip(body.radii.iter().flatten());
-            body.rate = parts.map(|(rate, radius)| rate * radius).sum();
+        if let Movement::Swings { motion, .. } = &self.movement {
+            let is_known = goes_on;
+            for body in self.bodies.iter_mut().flatten().filter(|_| !is_known) {
+                body.travel = body.radii.as_ref().map_or_else(Travel::default, |radii| motion.travel(radii));
+            }
         }
+        let span = self.movement.span(0.0, seconds);
         let mut longest = 0.0_f64;
         for body in self.bodies.iter_mut().flatten() {
-            let path = self.movement.path(body, 0.0, seconds);
+            let path = self.movement.path(body, span);
             body.path += path;
             longest = longest.max(path);
         }
         self.path += longest;
     }
 
+    /// Of a body with these radii on the path of the arm.
+    fn travel(&self, radii: Option<&Radii>) -> Travel {
+        match (&self.movement, radii) {
+            (Movement::Swings { motion, .. }, Some(radii)) => motion.travel(radii),
+            _ => Travel::default(),
+        }
+    }
+
     /// Metres that no point of the body goes more than between two times of the scan.
     pub fn path_between(&self, body: &Body, from: f64, to: f64) -> f64 {
-        self.movement.path(body, from, to)
+        self.movement.path(body, self.movement.span(from, to))
     }
 
     /// The frame of an anchor at a time of the scan.
@@ -259,13 +482,21 @@ impl Group {
 }
 
 impl Movement {
-    fn path(&self, body: &Body, from: f64, to: f64) -> f64 {
+    /// Between two times of the scan: metres of what slides, or both places on the path of an arm.
+    fn span(&self, from: f64, to: f64) -> [f64; 2] {
+        match self {
+            Movement::Still => [0.0; 2],
+            Movement::Slides { .. } => [0.0, (self.shift(to) - self.shift(from)).length()],
+            Movement::Swings { motion, begin } => [motion.place(begin + from), motion.place(begin + to)],
+        }
+    }
+
+    /// Metres that no point of the body goes more than in this span.
+    fn path(&self, body: &Body, [from, to]: [f64; 2]) -> f64 {
         match (self, body.anchor) {
             (Movement::Still, _) | (_, Anchor::World) => 0.0,
-            (Movement::Slides { .. }, _) => (self.shift(to) - self.shift(from)).length(),
-            (Movement::Swings { motion, begin }, _) => {
-                body.rate * (motion.place(begin + to) - motion.place(begin + from))
-            }
+            (Movement::Slides { .. }, _) => to - from,
+            (Movement::Swings { .. }, _) => body.travel.to(to) - body.travel.to(from),
         }
     }
 
@@ -297,4 +528,8 @@ fn lying(machine: &Machine, ball: &Ball, place: Point, offset: Point) -> Boundin
         }
         (None, None) => here,
     }
+}
+
+fn near(print: Fingerprint, place: Point) -> Fingerprint {
+    [place.x, place.y, place.z].into_iter().fold(print, Fingerprint::near)
 }

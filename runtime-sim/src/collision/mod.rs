@@ -14,9 +14,21 @@ mod check;
 mod group;
 mod pair;
 
+pub(crate) use bounds::BoundingBox;
+
+/// How far the joints of an arm can carry what is fixed to it.
+pub(crate) mod reach {
+    pub use super::body::Ball;
+    pub use super::bounds::{Chain, Radii};
+}
+
 pub use check::{CollisionCheck, Contact};
 
 /// Solids may go so far into one another, m.
 pub const SKIN: f64 = 0.001;
 /// Shrunk solids that are no farther apart than this are in contact, m.
 pub const TOLERANCE: f64 = 5e-5;
+
+/// What joints and places that are the same to a micrometre and a microradian can differ by at any point of an arm, m:
+/// the sum of the radii of its joints is less than 12 m.
+const UNCERTAIN: f64 = 2e-5;

@@ -3,7 +3,8 @@
 use super::body::Placed;
 use super::distance::Gap;
 use super::group::{Anchor, Body, Group};
-use super::{SKIN, TOLERANCE};
+use super::{SKIN, TOLERANCE, UNCERTAIN};
+use crate::fingerprint::Fingerprint;
 use crate::plant::Plant;
 use crate::point::Point;
 
@@ -20,6 +21,8 @@ pub struct Pair {
     /// The same for each body of the first group and each of the second; negative infinity if nothing is known.
     bodies: Vec<Vec<f64>>,
     touching: Vec<Touching>,
+    /// The motion of one of them in which it does not meet the other, see [`crate::memory::Memory`].
+    pub free: Option<Fingerprint>,
 }
 
 /// Bodies that are in contact.
@@ -68,6 +71,8 @@ enum Search {
 const FAR: f64 = 0.1;
 /// No search takes shorter steps, s: whatever moves goes less than a thousandth of the tolerance.
 const SHORTEST_STEP: f64 = 1e-9;
+/// A motion is looked at in pieces no smaller than its time divided by two so often.
+const HALVINGS: u32 = 18;
 
 impl Pair {
     pub fn new(groups: [usize; 2], allowed: bool) -> Self {
@@ -78,7 +83,19 @@ impl Pair {
             clear: f64::NEG_INFINITY,
             bodies: Vec::new(),
             touching: Vec::new(),
+            free: None,
         }
+    }
+
+    pub fn touches(&self) -> bool {
+        !self.touching.is_empty()
+    }
+
+    /// What is known is looked up anew.
+    pub fn forget(&mut self) {
+        self.clear = f64::NEG_INFINITY;
+        self.bodies.iter_mut().for_each(|row| row.fill(f64::NEG_INFINITY));
+        self.touching.clear();
     }
 
     /// Another body stands at this number of a group.
@@ -171,6 +188,57 @@ impl Scan<'_> {
         of(two[0]) + of(two[1])
     }
 
+    /// Whether all bodies of two groups stay so far apart for the whole time that it does not matter where they are to
+    /// the grain of a [`Fingerprint`]; false if that is not known soon.
+    pub fn stay_apart(&mut self, [a, b]: [usize; 2]) -> bool {
+        let counts = [a, b].map(|group| self.groups[group].bodies.len());
+        let all = (0..counts[0]).flat_map(|i| {
+            let from = if a == b { i + 1 } else { 0 };
+            (from..counts[1]).map(move |j| [(a, i), (b, j)])
+        });
+        let all: Vec<Two> = all.filter(|two| self.can_meet(*two)).collect();
+        self.keep_off(&all, [0.0, self.seconds], HALVINGS)
+    }
+
+    /// The same of these bodies between two times, which is halved so often at most. From where they are in the middle
+    /// they cannot go farther than they do to either end.
+    fn keep_off(&mut self, all: &[Two], [from, to]: [f64; 2], halvings: u32) -> bool {
+        if all.is_empty() {
+            return true;
+        }
+        if halvings == 0 {
+            return false;
+        }
+        let middle = from + (to - from) / 2.0;
+        let mut near = Vec::new();
+        for two in all {
+            let travel = self.travel(*two, from, middle).max(self.travel(*two, middle, to));
+            let distance = match self.apart(*two, middle, TOLERANCE + UNCERTAIN + travel) {
+                Apart::AtLeast(distance) => distance,
+                Apart::Exactly(gap, _) => gap.distance,
+            };
+            let free = distance - TOLERANCE - UNCERTAIN;
+            if is_within(free, 0.0) {
+                return false;
+            }
+            if free < travel {
+                near.push(*two);
+            }
+        }
+        self.keep_off(&near, [from, middle], halvings - 1) && self.keep_off(&near, [middle, to], halvings - 1)
+    }
+
+    /// A time after this one in which both together go no farther than `distance`; `left` is what they go to the end.
+    fn longest_step(&self, two: Two, time: f64, distance: f64, left: f64) -> f64 {
+        let mut step = self.seconds - time;
+        let mut travel = left;
+        while travel > distance && step > SHORTEST_STEP {
+            step = (step * 0.99 * distance / travel).max(SHORTEST_STEP);
+            travel = self.travel(two, time, time + step);
+        }
+        step
+    }
+
     /// Advances by as much as the distance allows, until the scan is over or there is none.
     fn search(&mut self, two: Two) -> Search {
         let mut time = 0.0;
@@ -189,13 +257,7 @@ impl Scan<'_> {
             if distance >= left {
                 return Search::Clear(distance - left);
             }
-            let mut step = self.seconds - time;
-            let mut travel = left;
-            while travel > distance && step > SHORTEST_STEP {
-                step = (step * 0.99 * distance / travel).max(SHORTEST_STEP);
-                travel = self.travel(two, time, time + step);
-            }
-            time += step;
+            time += self.longest_step(two, time, distance, left);
         }
     }
 

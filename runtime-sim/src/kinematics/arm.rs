@@ -1,14 +1,27 @@
 //! Both robots alike: joints, reach, limits.
 
 use super::gantry::{self, Gantry, Stance};
-use super::nearest_turn;
 use super::pose::Pose;
 use super::rail_arm::{self, RailArm};
+use super::{nearest_equivalent, nearest_turn};
 use crate::part::axis::{Axis, Motion};
 use crate::part::chain::Chain;
 use crate::point::{self, Point};
+use std::f64::consts::PI;
 use std::ops::Deref;
 
+/// The joint of a torso.
+const TORSO: usize = 2;
+/// Joints of the arm itself, behind its axes.
+const WRIST_JOINTS: usize = 6;
+/// A tool that is not farther from a vertical line is on it, and an axis that moves less stands, m or rad.
+const ALIGNED: f64 = 1e-6;
+/// On a straight line of the tool the joints change evenly for so many metres: it is off the line by less than 0.2 mm.
+pub const LINE_STEP: f64 = 0.025;
+/// A longer line is not straight.
+const MOST_STEPS: f64 = 200.0;
+/// The joints of two places so near to one another differ by less, rad: else the arm has turned over.
+const NEAR_JOINTS: f64 = 0.5;
 /// Most joints that a robot has.
 pub const MOST_JOINTS: usize = 9;
 
@@ -50,6 +63,9 @@ enum Solver {
     /// Sideways at a torso that turns, on two rails that cross.
     Gantry(Gantry),
 }
+
+/// Turns of the last joint differ by a multiple of this, rad: 0.2 um at a metre.
+const FINEST_TURN: f64 = PI / 16_777_216.0;
 
 impl Joints {
     /// # Panics
@@ -167,7 +183,34 @@ impl Arm {
             Solver::Rail(arm) => arm.solve(tool, &from.array()).map(|joints| Joints::new(&joints)),
             Solver::Gantry(arm) => arm.solve(tool, &from.array()).map(|joints| Joints::new(&joints)),
         }?;
-        Some(self.with_direction_of(from, joints))
+        Some(Self::within_limits(self.with_direction_of(from, joints)))
+    }
+
+    /// Joints to pass on the way of the tool to a place, the last ones there: straight up or down in small steps where
+    /// the place is over or under the tool and nothing but the arm has to move, else at once. Some exactly when
+    /// [`Self::margin`] is not negative.
+    pub fn line_to(&self, tool: Point, from: &Joints) -> Option<Vec<Joints>> {
+        let goal = self.solve(tool, from)?;
+        Some(self.vertical(tool, from).unwrap_or_else(|| vec![goal]))
+    }
+
+    fn vertical(&self, tool: Point, from: &Joints) -> Option<Vec<Joints>> {
+        let start = self.tool(from);
+        let carriers = from.len() - WRIST_JOINTS;
+        let is_over = (tool.x - start.x).abs() < ALIGNED && (tool.y - start.y).abs() < ALIGNED;
+        let steps = ((tool.z - start.z).abs() / LINE_STEP).ceil();
+        (is_over && steps > 1.0 && steps <= MOST_STEPS).then_some(())?;
+        let mut all: Vec<Joints> = Vec::new();
+        for i in 1..=steps as u32 {
+            let z = start.z + (tool.z - start.z) * f64::from(i) / steps;
+            let last = *all.last().unwrap_or(from);
+            let next = self.solve(Point { z, ..tool }, &last)?;
+            let stands = (0..carriers).all(|j| (next[j] - last[j]).abs() < ALIGNED);
+            let is_near = next.iter().zip(last.iter()).all(|(a, b)| (a - b).abs() < NEAR_JOINTS);
+            (stands && is_near).then_some(())?;
+            all.push(next);
+        }
+        Some(all)
     }
 
     /// The same place of the tool, and a part on it with the direction that it has at `from`.
@@ -179,7 +222,18 @@ impl Arm {
         let last = joints.len() - 1;
         // The last joint's axis points down.
         let angle = joints[last] + direction(&joints) - direction(from);
-        joints.map(|i, value| if i == last { nearest_turn(angle, from[last]) } else { value })
+        // As far as the torso turns, the last joint turns too.
+        let turned = if self.has_torso() { joints[TORSO] - from[TORSO] } else { 0.0 };
+        let kept = nearest_equivalent(angle, from[last] + turned);
+        // What is rounded would add up: the same place has the same joints, however the arm has come there.
+        let kept = libm::round(kept / FINEST_TURN) * FINEST_TURN;
+        joints.map(|i, value| if i == last { kept } else { value })
+    }
+
+    /// The same with the last joint within its limits, as near to where it is as they allow.
+    fn within_limits(joints: Joints) -> Joints {
+        let last = joints.len() - 1;
+        joints.map(|i, value| if i == last { nearest_turn(value, value) } else { value })
     }
 
     /// Joints for a place of the tool at this stance, near `from`; a part keeps its direction. None where the limits
@@ -189,9 +243,21 @@ impl Arm {
             Solver::Rail(_) => None,
             Solver::Gantry(arm) => {
                 let joints = Joints::new(&arm.solve_stance(tool, stance, &from.array())?);
-                Some(self.with_direction_of(from, joints))
+                Some(Self::within_limits(self.with_direction_of(from, joints)))
             }
         }
+    }
+
+    /// How the robot stands at these joints; none for a robot without a torso.
+    pub fn stance(&self, joints: &Joints) -> Option<Stance> {
+        Some(self.gantry()?.stance(&joints.array()))
+    }
+
+    /// Joints at this stance with the torso's axis here and the tool at this height, near `from`; a part keeps its
+    /// direction, whatever the limits of the last joint. None where the reach forbids it, and for a robot without a torso.
+    pub fn standing_at(&self, torso: Point, height: f64, stance: &Stance, from: &Joints) -> Option<Joints> {
+        let joints = self.gantry()?.standing_at(torso, height, stance, &from.array())?;
+        Some(self.with_direction_of(from, Joints::new(&joints)))
     }
 
     /// Joints for a place of the tool with rails, torso and the direction of the wrist as they are; none where the

@@ -4,7 +4,7 @@ pub use super::planar::Wrist;
 use super::planar::{self, Links};
 use super::pose::Pose;
 use super::ur10::{self, D1, D4};
-use super::{is_finite, nearest_turn, root, wrapped};
+use super::{is_finite, nearest_turn, root};
 use crate::point::Point;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -120,16 +120,12 @@ impl Gantry {
         planar::reaches(0.0, dz, wrist).then(|| arm_joints([x, y, turn], planar::links(0.0, dz, wrist), from))
     }
 
-    /// Joints for a tool at this stance, with room to spare; none if rails, torso or reach forbid it. The angles of
-    /// the arm are within half a turn, so that motions from there are short of the joints' limits.
+    /// Joints for a tool at this stance, with room to spare; none if rails, torso or reach forbid it. They depend on
+    /// tool and stance alone but for the whole turns that the joints of the arm have at `from`, and the last joint,
+    /// which is that of `from`.
     pub fn solve_stance(&self, tool: Point, stance: &Stance, from: &Joints) -> Option<Joints> {
-        let Stance { turn, beyond, wrist } = *stance;
-        let dz = planar::wrist_height(tool, self.shoulder);
-        let (x, y) = self.torso_at(tool, SHOULDER + beyond, turn)?;
-        planar::comfortable(beyond, dz, [wrist; 2])?;
-        let turn = nearest_turn(turn, from[2]);
-        let joints = arm_joints([x, y, turn], planar::links(beyond, dz, wrist), from);
-        Some(std::array::from_fn(|i| if (3..8).contains(&i) { wrapped(joints[i]) } else { joints[i] }))
+        let (x, y) = self.torso_at(tool, SHOULDER + stance.beyond, stance.turn)?;
+        self.standing_at(Point::new(x, y, 0.0), tool.z, stance, from)
     }
 
     /// Joints for a tool with rails, torso and the direction of the wrist as they are.
@@ -145,6 +141,35 @@ impl Gantry {
             return None;
         }
         Some(arm_joints([x, y, turn], planar::links(beyond, dz, wrist), from))
+    }
+
+    /// How the robot stands at these joints, the tool pointing down.
+    pub fn stance(&self, joints: &Joints) -> Stance {
+        let [x, y, turn, ..] = *joints;
+        let tool = self.tool(joints);
+        let (s, c) = libm::sincos(turn);
+        let ahead = (tool.y - y) * c - (tool.x - x) * s;
+        Stance { turn, beyond: ahead - SHOULDER, wrist: Wrist::of_angle(joints[7]) }
+    }
+
+    /// Joints at this stance with the torso's axis here and the tool at this height, as [`Self::solve_stance`] has
+    /// them; none if the reach forbids it.
+    pub fn standing_at(&self, torso: Point, height: f64, stance: &Stance, from: &Joints) -> Option<Joints> {
+        let Stance { turn, beyond, wrist } = *stance;
+        let dz = planar::wrist_height(Point { z: height, ..torso }, self.shoulder);
+        planar::comfortable(beyond, dz, [wrist; 2])?;
+        let angles = angles(planar::links(beyond, dz, wrist));
+        // Joints that go on and on without a jump are those of the formula, and whole turns.
+        let present = self.stance(from);
+        let present_dz = planar::wrist_height(self.tool(from), self.shoulder);
+        let known = angles_at(&present, present_dz);
+        Some(std::array::from_fn(|i| match i {
+            0 => torso.x,
+            1 => torso.y,
+            2 => turn,
+            3..8 => angles[i - 3] + TAU * libm::round((from[i] - known[i - 3]) / TAU),
+            _ => from[8],
+        }))
     }
 
     /// Where the torso's axis may be: the lower and the upper end of x and of y.
@@ -230,13 +255,22 @@ impl Gantry {
 
 /// All joints for a place and a turn of the torso; the angles of the arm take the turn nearest to `from`.
 fn arm_joints(torso: [f64; 3], links: Links, from: &Joints) -> Joints {
-    // The base lies on its side: what is level in the arm's own plane is a quarter turn back.
-    let lift = links.lift - FRAC_PI_2;
-    let angles = [0.0, lift, links.elbow, links.wrist_1, links.wrist_2, from[8]];
+    let angles = angles(links);
     std::array::from_fn(|i| match i {
         0..3 => torso[i],
+        8 => from[8],
         _ => nearest_turn(angles[i - 3], from[i]),
     })
+}
+
+/// The first five joints of the arm. Its base lies on its side: what is level in its own plane is a quarter turn back.
+fn angles(links: Links) -> [f64; 5] {
+    [0.0, links.lift - FRAC_PI_2, links.elbow, links.wrist_1, links.wrist_2]
+}
+
+/// The same at a stance with the wrist so high over the shoulder; beyond its reach those at its limit.
+fn angles_at(stance: &Stance, dz: f64) -> [f64; 5] {
+    angles(planar::links(stance.beyond, dz, stance.wrist))
 }
 
 fn within(range: [f64; 2], value: f64) -> bool {

@@ -23,13 +23,22 @@ pub fn wrapped(angle: f64) -> f64 {
     if turned <= -PI { turned + TAU } else { turned.min(PI) }
 }
 
-/// Among the equivalents of `angle` within one joint's limits of two turns (-2 pi to 2 pi) the one nearest to `present`.
+/// The equivalent of `angle` nearest to `present`, whatever the limits of the joint.
+pub fn nearest_equivalent(angle: f64, present: f64) -> f64 {
+    present + wrapped(angle - present)
+}
+
+/// One turn and what rounding may have added, rad.
+const MOST_TURN: f64 = TAU + 1e-9;
+
+/// Among the equivalents of `angle` within one joint's limits (-2 pi to 2 pi) the one nearest to `present`.
 pub fn nearest_turn(angle: f64, present: f64) -> f64 {
     let base = wrapped(angle);
     let distance = |candidate: f64| (candidate - present).abs();
     [base - TAU, base + TAU]
         .into_iter()
-        .filter(|candidate| candidate.abs() <= TAU)
+        .filter(|candidate| candidate.abs() <= MOST_TURN)
+        .map(|candidate| candidate.clamp(-TAU, TAU))
         .fold(base, |best, candidate| if distance(candidate) < distance(best) { candidate } else { best })
 }
 

@@ -35,6 +35,10 @@ impl Line {
                 for &owner in &state.awaits {
                     self.machine(owner, "a state")?;
                 }
+                let words = machine.wiring.input_words(self.kinds.len());
+                if let Some(word) = state.reads.iter().find(|word| **word >= words) {
+                    return Err(format!("a state of {} reads word {word} of {words}", machine.name));
+                }
             }
         }
         for obstacle in &self.obstacles {

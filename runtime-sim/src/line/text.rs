@@ -18,7 +18,7 @@ impl Line {
             out.push_str(entry.trim_end());
             out.push('\n');
         };
-        put("line 2".into());
+        put("line 3".into());
         put(format!("scan_ms {}", self.scan_ms));
         put(match self.io_delay {
             IoDelay::Fixed(scans) => format!("io_delay fixed {scans}"),
@@ -54,7 +54,14 @@ impl Line {
             put(format!("    states {}", machine.states.len()));
             for state in &machine.states {
                 let activity = if state.working { "working" } else { "waiting" };
-                put(format!("      {} {activity} {}", state.name, list(&state.awaits)));
+                let timers =
+                    state.timers.as_ref().map_or("any".into(), |timers| format!("at {}", list(timers)));
+                put(format!(
+                    "      {} {activity} {} reads {} timers {timers}",
+                    state.name,
+                    list(&state.awaits),
+                    list(&state.reads)
+                ));
             }
         }
         put(format!("obstacles {}", self.obstacles.len()));
@@ -111,7 +118,7 @@ impl Line {
     /// Reads the text form, and leaves what follows it.
     pub fn read(words: &mut Words) -> Result<Line, String> {
         words.expect("line")?;
-        words.expect("2")?;
+        words.expect("3")?;
         words.expect("scan_ms")?;
         let scan_ms = words.int()?;
         words.expect("io_delay")?;
@@ -166,7 +173,16 @@ fn read_machine(words: &mut Words, devices: &[Arc<Wiring>]) -> Result<Machine, S
             "waiting" => false,
             other => return Err(w.error(format_args!("`{other}` is neither `working` nor `waiting`"))),
         };
-        Ok(State { name, working, awaits: w.list(|w| w.int())? })
+        let awaits = w.list(|w| w.int())?;
+        w.expect("reads")?;
+        let reads = w.list(|w| w.int())?;
+        w.expect("timers")?;
+        let timers = match w.name()? {
+            "any" => None,
+            "at" => Some(w.list(|w| w.int())?),
+            other => return Err(w.error(format_args!("`{other}` is neither `any` nor `at`"))),
+        };
+        Ok(State { name, working, awaits, reads, timers })
     })?;
     Ok(Machine { name, pose, parts, wiring, states })
 }

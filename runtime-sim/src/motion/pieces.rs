@@ -16,7 +16,7 @@ impl Motion {
     pub fn pieces(&self) -> Vec<Piece> {
         let mut pieces = Vec::new();
         let mut begin_s = self.since;
-        for phase in self.phases.iter().filter(|phase| phase.duration > 0.0) {
+        for phase in self.profile.phases().iter().filter(|phase| phase.duration > 0.0) {
             let end_s = begin_s + phase.duration;
             // No phase goes from a line into a corner or out of it.
             let within = phase.place_after(phase.duration / 2.0);

@@ -4,13 +4,15 @@ use super::settings::{Form, Setting, Settings};
 use super::{Described, Action, Begun, Progress, Running, Schema, See, Signal, World, Start, Primitive};
 use crate::device::{Extent, PortType, error};
 use crate::kinematics::arm::Joints;
+use crate::kinematics::pose::Pose;
 use crate::part::axis::Axis;
 use crate::plant::trajectory::Trajectory;
 use crate::point::Point;
-use crate::planner::{Load, Planner};
+use crate::planner::{End, Load, Transfer};
 use drive::{Drive, Moved, Target};
 
 pub mod drive;
+pub(crate) mod motions;
 
 pub const SCHEMA: Schema = Schema {
     frames: &["base", "shoulder", "upper_arm", "forearm", "wrist_1", "wrist_2", "wrist_3"],
@@ -21,6 +23,7 @@ pub const SCHEMA: Schema = Schema {
         Action { name: "turned", arguments: &[PortType::Point, PortType::Real] },
         Action { name: "past", arguments: &[PortType::Point, PortType::Point] },
         Action { name: "around", arguments: &[PortType::Point, PortType::Point] },
+        Action { name: "onto", arguments: &[PortType::Point, PortType::Point] },
     ],
     ..Schema::new(
         "chain",
@@ -119,8 +122,9 @@ impl Described for Chain {
     fn start(&self, start: &mut Start) -> Result<Option<Box<dyn Running>>, String> {
         let (machine, part) = (start.machine(), start.part);
         let name = &machine.name;
-        let arm = machine.arm().ok_or_else(|| format!("{name} has no inverse kinematics"))?;
-        let drive = Drive::new(arm, self.rest, Planner::of(start.line, start.machine))
+        let motions = start.memory.motions(start.line, start.machine);
+        let motions = motions.ok_or_else(|| format!("{name} has no inverse kinematics"))?;
+        let drive = Drive::new(motions, self.rest)
             .ok_or_else(|| format!("{name} cannot reach its own rest position"))?;
         let grip = start.find(|other| matches!(other, Primitive::Grip(grip) if grip.chain == part));
         Ok(Some(Box::new(Swinging::new(drive, grip))))
@@ -189,11 +193,13 @@ impl Running for Swinging {
             (3, &[x, y, z, u, v, w]) => {
                 self.start(Target::Past(Point::new(x, y, z), Point::new(u, v, w)), now)
             }
-            (4, &[x, y, z, u, v, w]) if self.drive.has_torso() => {
+            (4 | 5, &[x, y, z, u, v, w]) if self.drive.has_torso() => {
                 let see = world.see();
                 let holds = self.grip.is_some_and(|grip| see.borne_by(grip).next().is_some());
                 let load = if holds { Load::Largest } else { Load::None };
-                self.start(Target::Round(Point::new(x, y, z), Point::new(u, v, w), load), now)
+                let end = if action == 4 { End::Above } else { End::AtGoal };
+                let transfer = Transfer { via: Point::new(x, y, z), goal: Point::new(u, v, w), end };
+                self.start(Target::Round(transfer, load), now)
             }
             _ => Err(error::REFUSED),
         }
@@ -218,7 +224,7 @@ impl Running for Swinging {
     }
 
     fn signal(&self, _signal: usize, _see: &See, out: &mut [f64]) {
-        let Point { x, y, z } = self.drive.tool();
+        let Point { x, y, z } = self.drive.tool().position;
         out.copy_from_slice(&[x, y, z]);
     }
 
@@ -226,8 +232,26 @@ impl Running for Swinging {
         self.drive.under_way().map_or(Trajectory::Rests, |motion| Trajectory::Swings(motion.clone()))
     }
 
+    fn next_change(&self, _see: &See, now_ms: u64) -> f64 {
+        let now = seconds(now_ms);
+        match self.drive.under_way() {
+            // Held, it stands where it has come to.
+            Some(motion) if motion.is_held() && motion.rests_at() <= now && !self.drive.is_braking() => f64::INFINITY,
+            Some(motion) => 1000.0 * motion.rests_at(),
+            None => f64::INFINITY,
+        }
+    }
+
     fn position(&self) -> Option<Point> {
+        Some(self.drive.tool().position)
+    }
+
+    fn tool(&self) -> Option<Pose> {
         Some(self.drive.tool())
+    }
+
+    fn tool_goes(&self, from: f64, to: f64) -> f64 {
+        self.drive.tool_goes(from, to)
     }
 
     fn joints(&self) -> Option<Joints> {

@@ -2,9 +2,10 @@
 
 use super::running::milliseconds;
 use super::settings::{Form, Setting, Settings};
-use super::{Described, Level, Running, Schema, See, Signal, Start};
+use super::{Described, Level, Looks, Running, Schema, See, Signal, Start};
 use crate::carrier::Carrier;
 use crate::device::{Extent, PortType};
+use crate::kinematics::pose::Pose;
 use crate::point::Point;
 
 pub const SCHEMA: Schema = Schema {
@@ -136,10 +137,10 @@ impl Running for Gripping {
         self.lose()
     }
 
-    fn seeks(&self, see: &See, now_ms: u64, next_ms: u64) -> Option<(Point, f64)> {
+    fn seeks(&self, see: &See, now_ms: u64, next_ms: u64) -> Option<(Pose, f64)> {
         let period = self.grip.period_ms;
         let looks = self.vacuum == Vacuum::On && self.held.is_none() && now_ms / period != next_ms / period;
-        looks.then(|| Some((see.position(self.grip.chain)?, self.grip.near))).flatten()
+        looks.then(|| Some((see.tool(self.grip.chain)?, self.grip.near))).flatten()
     }
 
     fn meets(&mut self, item: Option<usize>, now_ms: u64, next_ms: u64) -> Option<usize> {
@@ -161,6 +162,16 @@ impl Running for Gripping {
         self.held
     }
 
+    /// It loses an item.
+    fn next_change(&self, _see: &See, _now_ms: u64) -> f64 {
+        self.loses_at_ms.map_or(f64::INFINITY, |ms| ms as f64)
+    }
+
+    fn looks(&self) -> Option<Looks> {
+        let looks = Looks { chain: self.grip.chain, period_ms: self.grip.period_ms, near: self.grip.near };
+        (self.vacuum == Vacuum::On && self.held.is_none()).then_some(looks)
+    }
+
     fn signal(&self, _signal: usize, _see: &See, out: &mut [f64]) {
         out[0] = f64::from(u8::from(self.held.is_some()));
     }
@@ -172,7 +183,7 @@ impl Running for Gripping {
 
     fn place(&self, carrier: &Carrier, see: &See) -> Option<Point> {
         match *carrier {
-            Carrier::Grip { hang, .. } => Some(see.position(self.grip.chain)? + hang),
+            Carrier::Grip { hang, .. } => Some(see.tool(self.grip.chain)?.point(hang)),
             _ => None,
         }
     }

@@ -58,6 +58,9 @@ impl Lane {
     }
 }
 
+/// What is less is rounding, m.
+const AT_ONCE: f64 = 1e-9;
+
 /// A lane at work.
 #[derive(Clone, Debug)]
 pub struct Moving {
@@ -95,6 +98,16 @@ impl Moving {
 
     pub fn is_moving(&self) -> bool {
         self.drive == Drive::FullSpeed && !self.held
+    }
+
+    /// When it has moved so many metres since the start of the run, ms; now, if it has just moved so far, and infinity if
+    /// it has moved farther or stands.
+    pub fn reaches(&self, travel: f64, now_ms: u64) -> f64 {
+        let left = travel - self.travel();
+        if !self.is_moving() || left < -AT_ONCE {
+            return f64::INFINITY;
+        }
+        now_ms as f64 + 1000.0 * (left - AT_ONCE).max(0.0) / self.lane.speed
     }
 
     /// Where an item rests that has these coordinates, see [`Carrier::Lane`].

@@ -6,7 +6,7 @@
 mod running;
 mod settings;
 
-pub use running::{Begun, Progress, Running, See, Start, World};
+pub use running::{Begun, Looks, Progress, Running, See, Start, World};
 pub use settings::{Form, Setting, Settings};
 
 use crate::device::{Extent, PortType};

@@ -171,6 +171,14 @@ impl Running for Serving {
         }
     }
 
+    fn next_change(&self, _see: &See, now_ms: u64) -> f64 {
+        match self.table {
+            Table::Opening => now_ms as f64,
+            Table::Gone if !self.complete => now_ms as f64,
+            Table::Open { .. } | Table::Gone | Table::Bare => f64::INFINITY,
+        }
+    }
+
     /// An order is about to open.
     fn is_busy(&self, _see: &See) -> bool {
         self.table == Table::Opening

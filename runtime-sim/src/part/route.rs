@@ -146,6 +146,14 @@ impl Running for Driving {
         out[0] = stop.map_or(-1.0, |stop| stop as f64);
     }
 
+    /// It sets out, or arrives.
+    fn next_change(&self, _see: &See, now_ms: u64) -> f64 {
+        let Some(trip) = self.trip.as_ref().filter(|_| !self.held) else { return f64::INFINITY };
+        let Route { speed, latency_ms, .. } = self.route;
+        let begin = (now_ms + latency_ms) as f64 - trip.elapsed_ms as f64;
+        if trip.elapsed_ms <= latency_ms { begin } else { begin + 1000.0 * trip.length / speed }
+    }
+
     fn trajectory(&self, now_ms: u64) -> Trajectory {
         let Some(trip) = self.trip.as_ref().filter(|trip| !self.held && trip.length > 0.0) else {
             return Trajectory::Rests;

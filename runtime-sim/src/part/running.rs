@@ -4,8 +4,10 @@ use crate::carrier::Carrier;
 use crate::device::error;
 use crate::item::Items;
 use crate::kinematics::arm::Joints;
+use crate::kinematics::pose::Pose;
 use crate::line::Line;
 use crate::machine::Machine;
+use crate::memory::Memory;
 use crate::part::Primitive;
 use crate::part::lane;
 use crate::part::orders::Desk;
@@ -36,6 +38,7 @@ pub struct Start<'a> {
     pub part: usize,
     pub desk: &'a Desk,
     pub items: &'a mut Items,
+    pub memory: &'a mut Memory,
 }
 
 impl<'a> Start<'a> {
@@ -52,6 +55,17 @@ impl<'a> Start<'a> {
 /// Of a time in the scenario.
 pub fn milliseconds(seconds: f64) -> u64 {
     libm::round(seconds * 1000.0) as u64
+}
+
+/// How a part looks for an item.
+#[derive(Clone, Copy, Debug)]
+pub struct Looks {
+    /// The chain at whose tool it looks.
+    pub chain: usize,
+    /// At whole multiples of it.
+    pub period_ms: u64,
+    /// It finds what is gripped no farther from the tool, m.
+    pub near: f64,
 }
 
 /// What a part can see of its machine and of the line.
@@ -109,6 +123,11 @@ impl<'a> See<'a> {
         self.part(part).is_some_and(|orders| orders.open_order().is_some())
     }
 
+    /// The frame of the tool of this chain.
+    pub fn tool(&self, part: usize) -> Option<Pose> {
+        self.part(part)?.tool()
+    }
+
     /// Where the underside of an item is that a part of this machine bears.
     pub fn place(&self, part: usize, item: usize) -> Option<Point> {
         self.part(part)?.place(&self.items.all()[item].carrier, self)
@@ -156,9 +175,19 @@ pub trait Running: std::fmt::Debug + Send + Sync {
         None
     }
 
-    /// Where it looks for an item in this scan, and how near it has to be, m.
-    fn seeks(&self, _see: &See, _now_ms: u64, _next_ms: u64) -> Option<(Point, f64)> {
+    /// The frame of the tool where it looks for an item in this scan, and how near that has to be, m.
+    fn seeks(&self, _see: &See, _now_ms: u64, _next_ms: u64) -> Option<(Pose, f64)> {
         None
+    }
+
+    /// While it looks for an item: when, and how near it has to be.
+    fn looks(&self) -> Option<Looks> {
+        None
+    }
+
+    /// Metres that the tool goes at most between two times, s.
+    fn tool_goes(&self, _from: f64, _to: f64) -> f64 {
+        0.0
     }
 
     /// Whether it takes the item that it found, or none, where it looked.
@@ -173,6 +202,13 @@ pub trait Running: std::fmt::Debug + Send + Sync {
 
     /// Writes a signal; `out` holds its words.
     fn signal(&self, _signal: usize, _see: &See, _out: &mut [f64]) {}
+
+    /// When it does something next but go on along its path, ms from the start of the run, if no output changes and
+    /// nothing else does: the earliest end of a motion, item that comes or goes, signal that rises or falls. It may be
+    /// earlier than the truth, never later; infinity: never.
+    fn next_change(&self, _see: &See, _now_ms: u64) -> f64 {
+        f64::INFINITY
+    }
 
     /// How what it carries is going to move.
     fn trajectory(&self, _now_ms: u64) -> Trajectory {
@@ -200,6 +236,11 @@ pub trait Running: std::fmt::Debug + Send + Sync {
     }
 
     fn joints(&self) -> Option<Joints> {
+        None
+    }
+
+    /// The frame of its tool, world frame.
+    fn tool(&self) -> Option<Pose> {
         None
     }
 

@@ -1,7 +1,7 @@
 //! Where items leave a lane.
 
 use super::settings::{Form, Setting, Settings};
-use super::{Described, Progress, Running, Schema, World, Start};
+use super::{Described, Progress, Running, Schema, See, Start, World};
 use crate::carrier::Carrier;
 
 pub const SCHEMA: Schema = Schema::new(
@@ -51,5 +51,15 @@ impl Running for Sink {
             }
         }
         Progress::Going
+    }
+
+    /// An item comes to the end.
+    fn next_change(&self, see: &See, now_ms: u64) -> f64 {
+        let Some(moving) = see.lane(self.lane) else { return f64::INFINITY };
+        let ends = see.borne_by(self.lane).filter_map(|item| match see.items.all()[item].carrier {
+            Carrier::Lane { at, .. } => Some(at - moving.lane().range[0] - self.inset),
+            _ => None,
+        });
+        ends.map(|end| moving.reaches(end, now_ms)).fold(f64::INFINITY, f64::min)
     }
 }

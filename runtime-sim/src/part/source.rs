@@ -87,6 +87,13 @@ impl Running for Spawning {
         Progress::Going
     }
 
+    fn next_change(&self, see: &See, now_ms: u64) -> f64 {
+        let moving = see.lane(self.source.lane).filter(|lane| lane.is_moving() && !self.supply.is_empty());
+        moving.map_or(f64::INFINITY, |lane| {
+            now_ms as f64 + self.spawn.at_ms(self.spawned).saturating_sub(lane.travel_ms()) as f64
+        })
+    }
+
     fn is_busy(&self, see: &See) -> bool {
         !self.supply.is_empty() && see.lane(self.source.lane).is_some_and(|lane| lane.is_moving())
     }

@@ -91,6 +91,21 @@ impl Running for Seeing {
         Box::new(self.clone())
     }
 
+    /// An item comes into the field, or leaves it.
+    fn next_change(&self, see: &See, now_ms: u64) -> f64 {
+        let Some(moving) = see.lane(self.zone.lane) else { return f64::INFINITY };
+        let middle = self.zone.middle.coordinate(moving.lane().along);
+        let ends = see.borne_by(self.zone.lane).flat_map(|item| {
+            let item = &see.items.all()[item];
+            let far = self.farthest[item.kind];
+            match item.carrier {
+                Carrier::Lane { at, .. } => [at - middle - far, at - middle + far],
+                _ => [f64::NEG_INFINITY; 2],
+            }
+        });
+        ends.map(|end| moving.reaches(end, now_ms)).fold(f64::INFINITY, f64::min)
+    }
+
     fn signal(&self, signal: usize, see: &See, out: &mut [f64]) {
         out.fill(0.0);
         for (kind, place) in self.foremost(see).into_iter().enumerate() {

@@ -1,8 +1,7 @@
 //! The shortest path of a disc among rectangles.
 
-use crate::collision::distance::{self, segment_block};
 use crate::point::Point;
-use std::f64::consts::TAU;
+use std::f64::consts::FRAC_PI_2;
 
 /// On the plane: lower and upper corner; z has no meaning.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,8 +17,8 @@ pub struct Block {
     pub radius: f64,
 }
 
-/// Directions from a corner in which the middle of a disc may pass it.
-const AROUND: u32 = 16;
+/// Steps in a quarter of a turn between the directions from a corner in which the middle of a disc may pass it.
+const AROUND: u32 = 4;
 /// It passes a corner at so many radii: between two of these directions it is still farther away than one.
 const WIDER: f64 = 1.02;
 /// Rectangles that are farther than this from start and goal are not looked at, m.
@@ -39,11 +38,46 @@ impl Rectangle {
         (self.low.x..=self.high.x).contains(&point.x) && (self.low.y..=self.high.y).contains(&point.y)
     }
 
-    fn distance(&self, path: [Point; 2]) -> f64 {
-        let half = (self.high - self.low).scaled(0.5);
-        let axes = [Point::new(1.0, 0.0, 0.0), Point::new(0.0, 1.0, 0.0), Point::new(0.0, 0.0, 1.0)];
-        let block = distance::Block { middle: self.low + half, axes, half: [half.x, half.y, 0.0] };
-        segment_block(path, &block).distance
+    /// From a segment, 0 if they meet.
+    fn distance(&self, [a, b]: [Point; 2]) -> f64 {
+        if self.meets([a, b]) {
+            return 0.0;
+        }
+        let of_ends = [a, b].map(|end| self.square_distance(end));
+        let of_corners = self.corners().map(|corner| square_distance(corner, [a, b]));
+        of_ends.into_iter().chain(of_corners).fold(f64::INFINITY, f64::min).sqrt()
+    }
+
+    /// Whether a segment is at least so far away.
+    fn is_apart(&self, [a, b]: [Point; 2], distance: f64) -> bool {
+        let beside = a.x.min(b.x) - self.high.x >= distance || self.low.x - a.x.max(b.x) >= distance;
+        let behind = a.y.min(b.y) - self.high.y >= distance || self.low.y - a.y.max(b.y) >= distance;
+        beside || behind || self.distance([a, b]) >= distance
+    }
+
+    /// What of the segment is between the sides is cut to what is between the others too.
+    fn meets(&self, [a, b]: [Point; 2]) -> bool {
+        let (mut begin, mut end) = (0.0_f64, 1.0_f64);
+        for (from, to, low, high) in
+            [(a.x, b.x, self.low.x, self.high.x), (a.y, b.y, self.low.y, self.high.y)]
+        {
+            if from == to {
+                if from < low || from > high {
+                    return false;
+                }
+                continue;
+            }
+            let [enters, leaves] = [(low - from) / (to - from), (high - from) / (to - from)];
+            begin = begin.max(enters.min(leaves));
+            end = end.min(enters.max(leaves));
+        }
+        begin <= end
+    }
+
+    fn square_distance(&self, point: Point) -> f64 {
+        let x = (self.low.x - point.x).max(point.x - self.high.x).max(0.0);
+        let y = (self.low.y - point.y).max(point.y - self.high.y).max(0.0);
+        x * x + y * y
     }
 
     fn corners(&self) -> [Point; 4] {
@@ -52,9 +86,19 @@ impl Rectangle {
     }
 }
 
+/// Of a point from a segment.
+fn square_distance(point: Point, [a, b]: [Point; 2]) -> f64 {
+    let [along, beside] = [b - a, point - a];
+    let square = along.x * along.x + along.y * along.y;
+    let part = (along.x * beside.x + along.y * beside.y) / square;
+    let part = if square > 0.0 { part.clamp(0.0, 1.0) } else { 0.0 };
+    let [x, y] = [beside.x - part * along.x, beside.y - part * along.y];
+    x * x + y * y
+}
+
 /// Whether a disc with its middle here keeps off all blocks.
 pub fn keeps_off(place: Point, blocks: &[Block]) -> bool {
-    blocks.iter().all(|block| block.rectangle.distance([place; 2]) >= block.radius)
+    blocks.iter().all(|block| block.rectangle.is_apart([place; 2], block.radius))
 }
 
 /// Places to pass between start and goal so that a disc keeps off all blocks, and its middle within `area`; where
@@ -67,19 +111,22 @@ pub fn shortest([start, goal]: [Point; 2], blocks: &[Block], area: &Rectangle) -
             Block { radius: block.radius.min(at_start).min(at_goal) - 1e-9, ..*block }
         })
         .collect();
-    let is_free = |path: [Point; 2]| near.iter().all(|block| block.rectangle.distance(path) >= block.radius);
+    let is_free = |path: [Point; 2]| near.iter().all(|block| block.rectangle.is_apart(path, block.radius));
     if is_free([start, goal]) {
         return Some(Vec::new());
     }
     let mut places = vec![start, goal];
     for block in &near {
-        let around = (0..AROUND).map(|i| {
-            let (y, x) = libm::sincos(TAU * f64::from(i) / f64::from(AROUND));
-            Point::new(x, y, 0.0).scaled(block.radius * WIDER)
+        let middle = block.rectangle.low + (block.rectangle.high - block.rectangle.low).scaled(0.5);
+        let places_near = block.rectangle.corners().into_iter().flat_map(|corner| {
+            // Away from the rectangle, in a quarter of a turn.
+            let away = corner - middle;
+            (0..=AROUND).map(move |i| {
+                let (y, x) = libm::sincos(FRAC_PI_2 * f64::from(i) / f64::from(AROUND));
+                let toward = Point::new(x.copysign(away.x), y.copysign(away.y), 0.0);
+                corner + toward.scaled(block.radius * WIDER)
+            })
         });
-        let around: Vec<Point> = around.collect();
-        let places_near =
-            block.rectangle.corners().into_iter().flat_map(|c| around.iter().map(move |a| c + *a));
         places.extend(places_near.filter(|p| area.contains(*p) && is_free([*p; 2])));
     }
     let mut lengths = vec![f64::INFINITY; places.len()];

@@ -2,7 +2,7 @@
 
 use super::plane::{Block, Rectangle};
 use crate::collision::body::{Ball, Piece, Placed};
-use crate::kinematics::arm::{Arm, Joints};
+use crate::kinematics::arm::{Arm, Frames, Joints};
 use crate::kinematics::pose::Pose;
 use crate::line::{Kind, Line};
 use crate::machine::Machine;
@@ -28,16 +28,22 @@ pub struct Scene {
     /// The largest part, under the gripper.
     load: Member,
     obstacles: Vec<Obstruction>,
+    /// The lowest point of what does not turn with the torso, m.
+    lowest_beam: f64,
     /// Obstacles higher than the torso hangs down, seen from above, and how far its axis keeps off.
     pub blocks: Vec<Block>,
     places: Vec<Places>,
+    /// Of the tool with the highest part at the highest place, m.
+    pub highest_place: f64,
+    /// Of the highest part, m.
+    pub load_height: f64,
     /// Over all obstacles the arm carries its load from this height of the tool on, m.
     pub over_all: f64,
 }
 
 /// A solid that is an obstacle, with the axes of the world, and its corners.
 #[derive(Clone, Debug)]
-struct Obstruction {
+pub struct Obstruction {
     placed: Placed,
     low: Point,
     high: Point,
@@ -66,6 +72,13 @@ struct AroundAxis {
     radius: f64,
 }
 
+/// Number of the joint that turns the torso.
+const TORSO: usize = 2;
+/// No point of the robot and its load is farther from the torso's axis, m: to the shoulder 0.64, upper arm and forearm
+/// 1.19, wrists and load 0.5.
+const REACH: f64 = 2.33;
+/// An obstacle this much lower than what travels on the rails is not near it, m.
+const HIGH: f64 = 0.3;
 /// Links with so many joints between them or more may meet.
 const FREE: usize = 3;
 /// A tool is over a place if it is no farther from it than this, m.
@@ -104,34 +117,65 @@ impl Scene {
         let members = members(own);
         let hand = members.last()?.link;
         let load = Piece::new(String::new(), &load, Shape::Box { size });
+        let beams = members.iter().filter(|member| member.link < TORSO).flat_map(|member| &member.pieces);
+        let lowest_beam = beams.map(|piece| shoulder + piece.lowest()).fold(f64::INFINITY, f64::min);
+        let places = places(line);
+        let heights = places.iter().flat_map(|places| &places.all).map(|(place, _)| place.z);
         Some(Self {
             arm,
             members,
             load: Member { link: hand, ball: load.ball(), pieces: vec![load] },
             obstacles,
+            lowest_beam,
+            load_height: size.z,
             blocks,
-            places: places(line),
+            highest_place: heights.fold(0.0, f64::max) + size.z,
+            places,
             over_all: tallest + size.z + OVER,
         })
     }
 
-    /// How far the robot is from all obstacles and from its own links, with or without a load, m; `enough` if it is
-    /// that far or farther, 0 if they touch.
-    pub fn gap(&self, joints: &Joints, load: Load, enough: f64) -> f64 {
-        let frames = self.arm.frames(joints);
+    /// The obstacles that the robot can come near while its torso is between these places.
+    pub fn near(&self, places: impl IntoIterator<Item = Point>) -> Nearby<'_> {
+        let none =
+            [Point::new(f64::INFINITY, f64::INFINITY, 0.0), Point::new(-f64::INFINITY, -f64::INFINITY, 0.0)];
+        let [low, high] = places.into_iter().fold(none, |[low, high], place| {
+            [
+                Point::new(low.x.min(place.x), low.y.min(place.y), 0.0),
+                Point::new(high.x.max(place.x), high.y.max(place.y), 0.0),
+            ]
+        });
+        let is_near = |other: &&Obstruction| {
+            let beside = other.low.x > high.x + REACH || other.high.x < low.x - REACH;
+            let behind = other.low.y > high.y + REACH || other.high.y < low.y - REACH;
+            !(beside || behind)
+        };
+        Nearby {
+            all: self.obstacles.iter().filter(is_near).collect(),
+            high: self.obstacles.iter().filter(|other| other.high.z > self.lowest_beam - HIGH).collect(),
+        }
+    }
+
+    /// How far the robot is from these obstacles and from its own links, with or without a load, m; `enough` if it is
+    /// that far or farther, 0 if they touch. Something less than `needed` if it is nearer than that.
+    pub fn gap(&self, near: &Nearby, frames: &Frames, load: Load, [needed, enough]: [f64; 2]) -> f64 {
         let members = self.members.iter().chain((load == Load::Largest).then_some(&self.load));
-        let members: Vec<Located> = members.map(|member| Located::new(member, &frames)).collect();
+        let members: Vec<Located> = members.map(|member| Located::new(member, frames)).collect();
         let mut least = enough;
         for (i, member) in members.iter().enumerate() {
-            for other in &self.obstacles {
+            let obstacles = if member.link < TORSO { &near.high } else { &near.all };
+            for other in obstacles {
                 if other.is_within(&member.ball, least) {
-                    least = member.gap(&other.placed, least);
+                    least = member.gap_to(other, least);
                 }
             }
             for other in members[i..].iter().filter(|other| other.link >= member.link + FREE) {
                 if member.ball.gap(&other.ball) < least {
                     least = other.pieces().iter().fold(least, |least, piece| member.gap(piece, least));
                 }
+            }
+            if least < needed {
+                break;
             }
         }
         least
@@ -157,6 +201,13 @@ impl Scene {
         }
         least
     }
+}
+
+/// The obstacles that the robot can come near.
+pub struct Nearby<'s> {
+    all: Vec<&'s Obstruction>,
+    /// What travels on the rails without turning can come near these.
+    high: Vec<&'s Obstruction>,
 }
 
 impl Obstruction {
@@ -214,6 +265,15 @@ impl<'a> Located<'a> {
 
     fn pieces(&self) -> &[Placed] {
         self.pieces.get_or_init(|| self.member.pieces.iter().map(|p| p.within(self.frame)).collect())
+    }
+
+    /// The lesser of `least` and the distance.
+    fn gap_to(&self, other: &Obstruction, least: f64) -> f64 {
+        self.pieces().iter().fold(least, |least, piece| {
+            let is_near =
+                other.is_within(&piece.ball, least) && piece.apart_at_least(&other.placed, least) < least;
+            if is_near { least.min(piece.gap(&other.placed).distance) } else { least }
+        })
     }
 
     /// The lesser of `least` and the distance.

@@ -127,6 +127,14 @@ impl Head {
         Some((self.wiring.commands.get(task.command)?.then?, task.waited_ms?))
     }
 
+    /// When it has waited long enough for what it awaits, ms from the start of the run.
+    pub fn next_change(&self, now_ms: u64) -> f64 {
+        match self.awaits().filter(|_| !self.held) {
+            Some((awaited, waited_ms)) => (now_ms + awaited.within_ms.saturating_sub(waited_ms)) as f64,
+            None => f64::INFINITY,
+        }
+    }
+
     pub fn wait(&mut self, dt_ms: u64) {
         if let Some(Task { waited_ms: Some(waited), .. }) = &mut self.task {
             *waited += dt_ms;

@@ -7,57 +7,107 @@ use crate::random::Random;
 #[derive(Clone, Debug)]
 pub struct Bus {
     delay: IoDelay,
-    random: Random,
     wires: Vec<Wire>,
+    /// The last scan whose image differed from the one before in more than places.
+    sent: u64,
 }
 
 #[derive(Clone, Debug)]
 struct Wire {
-    words: usize,
+    /// Which words change while something moves.
+    is_analogue: Vec<bool>,
     /// A ring of `max + 1` images: that of scan n begins at `n % (max + 1) * words`.
     ring: Vec<f64>,
-    /// The scan whose image was delivered last.
+    /// The scan whose image was sent last, and the one that was delivered last.
+    sent: u64,
     delivered: u64,
 }
 
+/// In what the inputs of the controllers differ from those before.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Arrived {
+    Nothing,
+    /// Words that change while something moves.
+    Places,
+    Events,
+}
+
 impl Bus {
-    /// `images` are those of the plant before scan 0.
-    pub fn new(delay: IoDelay, images: &[Vec<f64>]) -> Self {
+    /// `images` are those of the plant before scan 0; `analogue` says which of their words change while something moves.
+    pub fn new(delay: IoDelay, images: &[Vec<f64>], analogue: Vec<Vec<bool>>) -> Self {
         let depth = delay.max() as usize + 1;
         let wires = images
             .iter()
-            .map(|image| Wire { words: image.len(), ring: image.repeat(depth), delivered: 0 })
+            .zip(analogue)
+            .map(|(image, is_analogue)| Wire {
+                is_analogue,
+                ring: image.repeat(depth),
+                sent: 0,
+                delivered: 0,
+            })
             .collect();
-        let seed = match delay {
-            IoDelay::Fixed(_) => 0,
-            IoDelay::Random { seed, .. } => seed,
-        };
-        Self { delay, random: Random::new(seed), wires }
+        Self { delay, wires, sent: 0 }
     }
 
     /// Sends the images that the plant has at the start of `scan`, and delivers those that have come
-    /// through by then. True if what a controller sees differs from the scan before.
-    pub fn exchange(&mut self, scan: u64, images: &[Vec<f64>], inputs: &mut [Vec<f64>]) -> bool {
+    /// through by then.
+    pub fn exchange(&mut self, scan: u64, images: &[Vec<f64>], inputs: &mut [Vec<f64>]) -> Arrived {
         let depth = u64::from(self.delay.max()) + 1;
-        let mut changed = false;
-        for ((wire, image), input) in self.wires.iter_mut().zip(images).zip(inputs) {
+        let mut arrived = Arrived::Nothing;
+        for (machine, ((wire, image), input)) in self.wires.iter_mut().zip(images).zip(inputs).enumerate() {
             let slot = |scan: u64| {
-                let start = (scan % depth) as usize * wire.words;
-                start..start + wire.words
+                let start = (scan % depth) as usize * image.len();
+                start..start + image.len()
             };
+            if wire.compare(image, &wire.ring[slot(wire.sent)]) == Arrived::Events {
+                self.sent = scan;
+            }
             wire.ring[slot(scan)].copy_from_slice(image);
-            let late = match self.delay {
-                IoDelay::Fixed(scans) => scans,
-                IoDelay::Random { max, .. } => self.random.up_to(max),
-            };
-            wire.delivered = wire.delivered.max(scan.saturating_sub(u64::from(late)));
-            let arrived = &wire.ring[slot(wire.delivered)];
-            if arrived != input.as_slice() {
-                changed = true;
-                input.copy_from_slice(arrived);
+            wire.sent = scan;
+            let first = scan.saturating_sub(depth - 1);
+            let through = |scan: u64| scan.saturating_sub(u64::from(late(&self.delay, machine, scan)));
+            wire.delivered = (first..=scan).map(through).fold(wire.delivered, u64::max);
+            let telegram = &wire.ring[slot(wire.delivered)];
+            let difference = wire.compare(telegram, input);
+            if difference != Arrived::Nothing {
+                arrived = arrived.max(difference);
+                input.copy_from_slice(telegram);
             }
         }
-        changed
+        arrived
+    }
+
+    /// The next scan in which images have to be exchanged, if nothing happens before `quiet_until`: those of the last
+    /// scans before something happens are needed, and until they have come through those after it.
+    pub fn next_exchange(&self, scan: u64, quiet_until: u64, last_event: u64) -> u64 {
+        let depth = u64::from(self.delay.max());
+        if depth == 0 {
+            return quiet_until;
+        }
+        let has_settled = scan > last_event.max(self.sent) + depth;
+        if has_settled { quiet_until.saturating_sub(depth).max(scan + 1) } else { scan + 1 }
+    }
+}
+
+impl Wire {
+    fn compare(&self, image: &[f64], other: &[f64]) -> Arrived {
+        let differs = |(a, b): (&f64, &f64)| a.to_bits() != b.to_bits();
+        let mut difference = Arrived::Nothing;
+        for (word, two) in image.iter().zip(other).enumerate() {
+            if differs(two) {
+                let is_place = self.is_analogue.get(word) == Some(&true);
+                difference = difference.max(if is_place { Arrived::Places } else { Arrived::Events });
+            }
+        }
+        difference
+    }
+}
+
+/// How many scans the telegram of a machine takes that is sent in this scan.
+fn late(delay: &IoDelay, machine: usize, scan: u64) -> u32 {
+    match *delay {
+        IoDelay::Fixed(scans) => scans,
+        IoDelay::Random { max, seed } => Random::at(seed, [machine as u64, scan]).up_to(max),
     }
 }
 
@@ -66,7 +116,7 @@ mod tests {
     use super::*;
 
     fn seen(delay: IoDelay, scans: u64) -> Vec<u64> {
-        let mut bus = Bus::new(delay, &[vec![0.0]]);
+        let mut bus = Bus::new(delay, &[vec![0.0]], vec![vec![false]]);
         let mut inputs = vec![vec![0.0]];
         (0..scans)
             .map(|scan| {

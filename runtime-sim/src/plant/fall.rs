@@ -7,7 +7,7 @@ use crate::point::Point;
 /// An item that is let go at most so far below a surface lies on it: the reach of a contact, twice, m.
 const SINK: f64 = 0.01;
 
-/// The highest surface under `point`, or the floor, and where the item then rests. It stays there however
+/// The highest surface under `point`, the top of an obstacle or the floor, and where the item then rests. It stays there however
 /// deep it fell. Items do not lie on one another.
 pub fn fall(plant: &Plant, point: Point) -> (Carrier, Point) {
     let mut lands: Option<(f64, Carrier)> = None;
@@ -17,10 +17,12 @@ pub fn fall(plant: &Plant, point: Point) -> (Carrier, Point) {
             lands = Some((height, carrier));
         }
     }
+    let tops = plant.obstacles.iter().filter_map(|obstacle| obstacle.top_at(point));
+    let floor = tops.filter(|top| *top <= point.z + SINK).fold(0.0, f64::max);
     match lands {
-        Some((height, carrier)) => (carrier, Point { z: height, ..point }),
-        None => {
-            let point = Point { z: 0.0, ..point };
+        Some((height, carrier)) if height >= floor => (carrier, Point { z: height, ..point }),
+        _ => {
+            let point = Point { z: floor, ..point };
             (Carrier::Floor { point }, point)
         }
     }

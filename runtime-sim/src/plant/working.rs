@@ -5,9 +5,11 @@ use crate::carrier::Carrier;
 use crate::device::error;
 use crate::item::Items;
 use crate::kinematics::arm::Joints;
+use crate::kinematics::pose::Pose;
 use crate::line::Line;
+use crate::memory::Memory;
 use crate::part::orders::Desk;
-use crate::part::{Begun, Part, Progress, Running, See, Start, World};
+use crate::part::{Begun, Looks, Part, Progress, Running, See, Start, World};
 use crate::plant::trajectory::Trajectory;
 use crate::point::Point;
 use crate::wiring::{Drives, Source, Wiring};
@@ -47,7 +49,13 @@ impl Shared<'_> {
 
 impl Working {
     /// At rest; the first order of a terminal open.
-    pub fn new(line: &Line, index: usize, desk: &Desk, items: &mut Items) -> Result<Self, String> {
+    pub fn new(
+        line: &Line,
+        index: usize,
+        desk: &Desk,
+        items: &mut Items,
+        memory: &mut Memory,
+    ) -> Result<Self, String> {
         let machine = &line.machines[index];
         let kinds = line.kinds.len();
         let mut commanded: Vec<usize> = machine.wiring.commands.iter().map(|command| command.part).collect();
@@ -56,7 +64,7 @@ impl Working {
         let refusals = line.scenario.refusals.iter().filter(|refusal| refusal.machine == index);
         let refusals = refusals.map(|refusal| refusal.command).collect();
         let start = |(part, made): (usize, &Arc<Part>)| {
-            made.primitive.start(&mut Start { line, machine: index, part, desk, items })
+            made.primitive.start(&mut Start { line, machine: index, part, desk, items, memory })
         };
         let parts = machine.parts.iter().enumerate().map(start);
         Ok(Self {
@@ -169,6 +177,13 @@ impl Working {
         }
     }
 
+    /// As [`Running::next_change`], of all parts and of the head.
+    pub fn next_change(&self, items: &Items, desk: &Desk, now_ms: u64) -> f64 {
+        let see = self.see(items, desk);
+        let head = self.head.as_ref().map_or(f64::INFINITY, |head| head.next_change(now_ms));
+        self.running().map(|part| part.next_change(&see, now_ms)).fold(head, f64::min)
+    }
+
     /// An item that a level has let go.
     pub fn let_go(&mut self) -> Option<usize> {
         self.parts.iter_mut().flatten().find_map(|part| part.let_go())
@@ -195,13 +210,22 @@ impl Working {
         }
     }
 
+    /// The chain at whose tool a part looks for an item, and how it looks.
+    pub fn looks(&self) -> Option<(usize, Looks)> {
+        self.running().find_map(|part| part.looks()).map(|looks| (looks.chain, looks))
+    }
+
+    pub fn tool_goes(&self, chain: usize, from: f64, to: f64) -> f64 {
+        self.parts.get(chain).and_then(Option::as_ref).map_or(0.0, |chain| chain.tool_goes(from, to))
+    }
+
     /// An item that slips by the end of the scan.
     pub fn slip(&mut self, next_ms: u64) -> Option<usize> {
         self.parts.iter_mut().flatten().find_map(|part| part.slip(next_ms))
     }
 
     /// Where a part looks for an item in this scan, and how near it has to be, m.
-    pub fn seeks(&self, part: usize, see: &See, now_ms: u64, next_ms: u64) -> Option<(Point, f64)> {
+    pub fn seeks(&self, part: usize, see: &See, now_ms: u64, next_ms: u64) -> Option<(Pose, f64)> {
         self.parts.get(part)?.as_ref()?.seeks(see, now_ms, next_ms)
     }
 
@@ -294,10 +318,12 @@ impl Working {
     }
 
     /// Something will change even if no output does.
-    pub fn is_busy(&self, items: &Items, desk: &Desk) -> bool {
+    pub fn is_busy(&self, items: &Items, desk: &Desk, now_ms: u64) -> bool {
         let see = self.see(items, desk);
         self.head.as_ref().is_some_and(|head| head.is_under_way() && !head.held)
-            || self.running().any(|part| part.is_busy(&see))
+            || self
+                .running()
+                .any(|part| part.is_busy(&see) || part.trajectory(now_ms).comes_to_rest(now_ms as f64))
     }
 }
 

@@ -277,13 +277,19 @@ impl Controllers for Script {
     fn trace(&self, out: &mut Vec<f64>) {
         out.push(self.next as f64);
     }
+
+    fn stays(&self) -> Vec<usize> {
+        Vec::new()
+    }
+
+    fn skip(&mut self, _: u64) {}
 }
 
 /// The states that [`Script::state`] tells of: waiting for all others, and working.
 pub fn states(others: Vec<usize>) -> Vec<State> {
     vec![
-        State { name: "Waiting".into(), working: false, awaits: others },
-        State { name: "Working".into(), working: true, awaits: vec![] },
+        State { name: "Waiting".into(), working: false, awaits: others, reads: vec![], timers: None },
+        State { name: "Working".into(), working: true, awaits: vec![], reads: vec![], timers: None },
     ]
 }
 

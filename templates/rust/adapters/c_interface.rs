@@ -9,7 +9,7 @@ use crate::read::Reader;
 use controllers::system::{System, SystemInputs};
 
 /// Changes with the functions below.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 
 pub struct Session {
     layout: Layout,
@@ -163,6 +163,29 @@ pub unsafe extern "C" fn autogen_scan(
 pub unsafe extern "C" fn autogen_state(session: *const Session, robot: usize) -> usize {
     // SAFETY: as the caller promises.
     unsafe { &*session }.layout.robots.get(robot).map_or(usize::MAX, |robot| robot.state())
+}
+
+/// So many scans pass in which nothing happens.
+///
+/// # Safety
+/// `session` is open.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn autogen_skip(session: *mut Session, scans: u64) {
+    // SAFETY: as the caller promises.
+    let Session { layout, system, .. } = unsafe { &mut *session };
+    layout.skip(system, scans);
+}
+
+/// Writes where in the trace the time in its state stands, for each robot.
+///
+/// # Safety
+/// `session` is open, and `words` points to a number for each robot.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn autogen_stays(session: *const Session, words: *mut usize) {
+    // SAFETY: as the caller promises.
+    let stays = unsafe { &*session }.layout.stays();
+    // SAFETY: there is one for each robot.
+    unsafe { words.copy_from_nonoverlapping(stays.as_ptr(), stays.len()) };
 }
 
 /// Number of words of all that the controllers remember; they are written if they fit into `capacity`.

@@ -184,27 +184,44 @@ impl Layout {
         system.scan(inputs, &self.wiring, &mut self.robots{% if uses_cells %}, &mut self.cells{% endif %})
     }
 
+    pub fn skip(&mut self, system: &System, scans: u64) {
+        system.skip(u32::try_from(scans).unwrap_or(u32::MAX), &self.wiring, &mut self.robots);
+    }
+
+    /// Where in the trace the time in its state stands, by robot.
+    pub fn stays(&self) -> Vec<usize> {
+        let mut trace = Vec::new();
+        let mut stays = Vec::new();
+        for robot in &self.robots {
+            stays.push(trace.len() + 1);
+            self.trace_of(robot, &mut trace);
+        }
+        stays
+    }
+
     /// All that the controllers remember: for each robot state, time in it, locals, own cells, outputs.
     pub fn trace(&self, out: &mut Vec<f64>) {
+        self.robots.iter().for_each(|robot| self.trace_of(robot, out));
+    }
+
+    fn trace_of(&self, robot: &Robot, out: &mut Vec<f64>) {
         {%- if has_cells %}
         let cells = &self.cells;
         {%- endif %}
-        for robot in &self.robots {
-            match robot {
-                {%- for robot in robots %}
-                Robot::{{ robot.ty }}(robot) => {
-                    (robot.state as i32).put(out);
-                    robot.elapsed.put(out);
-                    {%- for local in robot.locals %}
-                    robot.{{ local }}.put(out);
-                    {%- endfor %}
-                    {%- for cell in robot.cells %}
-                    {{ cell }}.put(out);
-                    {%- endfor %}
-                    robot.outputs.put(out);
-                }
+        match robot {
+            {%- for robot in robots %}
+            Robot::{{ robot.ty }}(robot) => {
+                (robot.state as i32).put(out);
+                robot.elapsed.put(out);
+                {%- for local in robot.locals %}
+                robot.{{ local }}.put(out);
                 {%- endfor %}
+                {%- for cell in robot.cells %}
+                {{ cell }}.put(out);
+                {%- endfor %}
+                robot.outputs.put(out);
             }
+            {%- endfor %}
         }
     }
 }

@@ -57,4 +57,12 @@ impl Controllers for Deployed {
     fn trace(&self, out: &mut Vec<f64>) {
         self.layout.trace(out);
     }
+
+    fn stays(&self) -> Vec<usize> {
+        self.layout.stays()
+    }
+
+    fn skip(&mut self, scans: u64) {
+        self.layout.skip(&self.system, scans);
+    }
 }

@@ -11,7 +11,7 @@ use commissioning::deployed::Deployed;
 use commissioning::replay::replay;
 use runtime_sim::io_trace::Columns;
 use runtime_sim::line::Line;
-use runtime_sim::run::{Seen, run};
+use runtime_sim::run::{Seen, Stepping, run};
 use std::fmt::Write as _;
 use std::fs::File;
 use std::io::{self, BufWriter, Write as _};
@@ -99,6 +99,11 @@ fn simulate(
     mut io_trace: Option<IoTrace>,
 ) -> Result<(), String> {
     let mut kept = String::new();
+    // A row or a line for each scan wants every scan.
+    let stepping = match hashes.is_some() || io_trace.is_some() {
+        true => Stepping::EveryScan,
+        false => Stepping::Events,
+    };
     let mut observe = |seen: &Seen| {
         if hashes.is_some() {
             let _ = writeln!(kept, "{:016x}", seen.hash);
@@ -107,7 +112,7 @@ fn simulate(
             io_trace.take(seen);
         }
     };
-    let report = run(line, &mut deployed, &mut observe)?;
+    let report = run(line, &mut deployed, stepping, &mut observe)?;
     if let Some(path) = hashes {
         fs::write(path, kept).map_err(|e| format!("{path}: {e}"))?;
     }

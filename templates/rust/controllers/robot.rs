@@ -58,6 +58,15 @@ impl Robot<'_> {
     }
     {%- endif %}
 
+    /// So many milliseconds pass in which nothing happens.
+    pub fn stay(&mut self, ms: i32) {
+        match self {
+            {%- for robot in robots %}
+            Self::{{ robot.ty }}(robot) => robot.elapsed = robot.elapsed.saturating_add(ms),
+            {%- endfor %}
+        }
+    }
+
     /// Number of the state it is in.
     pub fn state(&self) -> usize {
         match self {

@@ -18,7 +18,7 @@ use runtime_sim::kinematics::arm::{Arm, Joints};
 use runtime_sim::line::Line;
 use runtime_sim::plant::Plant;
 use runtime_sim::point::Point;
-use runtime_sim::run::run;
+use runtime_sim::run::{Stepping, run};
 use runtime_sim::scan::{Controllers, SystemInputs};
 use std::fs;
 use std::hint::black_box;
@@ -94,7 +94,7 @@ fn main() {
     for _ in 0..ROUNDS {
         let mut keep = |part: usize, seconds: f64| least[part] = least[part].min(seconds);
         let mut controllers = deployed();
-        keep(0, timed(|| drop(black_box(run(&line, &mut controllers, &mut |_| {})))));
+        keep(0, timed(|| drop(black_box(run(&line, &mut controllers, Stepping::EveryScan, &mut |_| {})))));
         keep(1, timed(|| record.inputs.each(|images| _ = black_box(images))));
         keep(2, timed(|| record.outputs.each(|images| _ = black_box(images))));
         let mut controllers = deployed();
@@ -116,7 +116,7 @@ fn main() {
         keep(6, timed(|| kinematics(&record)));
         keep(7, timed(|| hash(&record)));
     }
-    let report = run(&line, &mut deployed(), &mut |_| {}).expect("a line that can be run");
+    let report = run(&line, &mut deployed(), Stepping::EveryScan, &mut |_| {}).expect("a line that can be run");
     let written =
         (0..ROUNDS).map(|_| timed(|| drop(black_box(report.to_json())))).fold(f64::INFINITY, f64::min);
 
@@ -162,9 +162,9 @@ fn timed(work: impl FnOnce()) -> f64 {
 
 fn record(line: &Line, mut controllers: Deployed) -> Record {
     let mut record: Option<Record> = None;
-    let arms: Vec<Option<Arm>> = line.machines.iter().map(|m| Arm::from_geometry(&m.geometry)).collect();
+    let arms: Vec<Option<Arm>> = line.machines.iter().map(|m| m.arm()).collect();
     let mut before: Vec<(Option<Point>, f64)> = vec![(None, 0.0); arms.len()];
-    let report = run(line, &mut controllers, &mut |seen| {
+    let report = run(line, &mut controllers, Stepping::EveryScan, &mut |seen| {
         let record = record.get_or_insert_with(|| Record {
             scans: 0,
             system: Vec::new(),
@@ -226,9 +226,10 @@ fn kinematics(record: &Record) {
 
 fn hash(record: &Record) {
     let mut hash = Hash::default();
-    for outputs in record.outputs.words.chunks_exact(record.outputs.lengths.iter().sum()) {
-        hash.take(&record.trace);
-        hash.take(outputs);
+    for (scan, outputs) in (0..).zip(record.outputs.words.chunks_exact(record.outputs.lengths.iter().sum())) {
+        for (place, word) in record.trace.iter().chain(outputs).enumerate() {
+            hash.change(scan, place, *word);
+        }
     }
     black_box(hash.value());
 }

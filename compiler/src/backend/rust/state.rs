@@ -4,6 +4,7 @@ use super::context::Context;
 use super::format::comment;
 use super::walk::Uses;
 use crate::ir::{Clause, State, Transition, UpdateKind};
+use crate::reads::{Reads, Whose};
 
 /// Methods of one state.
 pub struct Methods {
@@ -75,7 +76,7 @@ impl Context<'_> {
         let title = if number == 0 {
             "/// The first step.\n".to_string()
         } else {
-            format!("/// A step in [`State::{variant}`].\n")
+            format!("/// A step in [`State::{variant}`].\n{}", self.reads(state))
         };
         Methods {
             arm: format!("State::{variant} => self.{method}({}),", self.arguments(&uses)),
@@ -85,6 +86,26 @@ impl Context<'_> {
             uses,
             commands,
         }
+    }
+
+    /// What has to change before a guard can begin to hold, as lines of documentation; nothing if one always holds.
+    fn reads(&self, state: &State) -> String {
+        if state.transitions.iter().any(Transition::is_unconditional) {
+            return String::new();
+        }
+        let (automaton, model) = (self.automaton(), &self.system.model);
+        let reads = Reads::of_state(automaton, state);
+        let inputs = reads.inputs.iter().map(|port| format!("`{}`", automaton.device.ports[*port].name));
+        let cells = reads.cells.iter().map(|cell| {
+            let interface = model.interface(cell.interface);
+            let of = if cell.of == Whose::Own { "" } else { " of others" };
+            format!("`{}.{}`{of}", interface.name, interface.cells[cell.cell].name)
+        });
+        let timer = (!reads.timers.is_empty()).then(|| "the time in it".to_string());
+        let all: Vec<String> = inputs.chain(cells).chain(timer).collect();
+        let text =
+            if all.is_empty() { "Reads nothing.".into() } else { format!("Reads {}.", all.join(", ")) };
+        format!("///\n/// {text}\n")
     }
 
     /// `agv.aut:12: when done -> Dropping`

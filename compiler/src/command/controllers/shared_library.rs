@@ -9,7 +9,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// Of the interface that is spoken here.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 /// Bytes of a message.
 const MESSAGE: usize = 1000;
 
@@ -24,6 +24,8 @@ struct Functions {
     scan: unsafe extern "C" fn(*mut c_void, Inputs, *const Image, *const Image, usize, *mut Outputs) -> usize,
     state: unsafe extern "C" fn(*const c_void, usize) -> usize,
     trace: unsafe extern "C" fn(*mut c_void, *mut f64, usize) -> usize,
+    skip: unsafe extern "C" fn(*mut c_void, u64),
+    stays: unsafe extern "C" fn(*const c_void, *mut usize),
     _library: Library,
 }
 
@@ -70,6 +72,8 @@ impl SharedLibrary {
                 scan: *library.get(b"autogen_scan\0").map_err(failed)?,
                 state: *library.get(b"autogen_state\0").map_err(failed)?,
                 trace: *library.get(b"autogen_trace\0").map_err(failed)?,
+                skip: *library.get(b"autogen_skip\0").map_err(failed)?,
+                stays: *library.get(b"autogen_stays\0").map_err(failed)?,
                 _library: library,
             })))
         }
@@ -146,6 +150,19 @@ impl scan::Controllers for Controllers {
     fn state(&self, machine: usize) -> usize {
         // SAFETY: the session is open.
         unsafe { (self.library.0.state)(self.session, machine) }
+    }
+
+    fn stays(&self) -> Vec<usize> {
+        // SAFETY: the session is open.
+        let mut stays = vec![0; unsafe { (self.library.0.robots)(self.session) }];
+        // SAFETY: the session is open, and there is a number for each robot.
+        unsafe { (self.library.0.stays)(self.session, stays.as_mut_ptr()) };
+        stays
+    }
+
+    fn skip(&mut self, scans: u64) {
+        // SAFETY: the session is open.
+        unsafe { (self.library.0.skip)(self.session, scans) }
     }
 
     fn trace(&self, out: &mut Vec<f64>) {

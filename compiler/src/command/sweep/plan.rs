@@ -10,6 +10,7 @@ use autogen::ir::System;
 use autogen::lower::{Draft, Setting, Texts};
 use autogen::source::Sources;
 use runtime_sim::line::IoDelay;
+use runtime_sim::memory::Memory;
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
@@ -35,6 +36,8 @@ pub struct Line {
     /// The sources under the names that outputs show.
     pub shown: Sources,
     library: Mutex<Option<Result<SharedLibrary, String>>>,
+    /// What runs of this layout have found; one for each that goes on at the same time.
+    memories: Mutex<Vec<Memory>>,
 }
 
 /// Which value a point has of everything that varies.
@@ -171,7 +174,17 @@ impl Line {
             settings,
             shown,
             library: Mutex::new(None),
+            memories: Mutex::default(),
         })
+    }
+
+    /// Lets a run use what others have found about this layout.
+    pub fn remembering<T>(&self, run: impl FnOnce(&mut Memory) -> T) -> T {
+        let memories = || self.memories.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut memory = memories().pop().unwrap_or_default();
+        let result = run(&mut memory);
+        memories().push(memory);
+        result
     }
 
     /// The controllers of this layout's types, compiled by the first who wants them.

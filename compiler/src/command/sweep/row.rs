@@ -1,5 +1,6 @@
 //! What came of one point.
 
+use super::interval;
 use super::plan::{Plan, Point};
 use crate::Status;
 use serde_json::{Map, Value, json};
@@ -14,6 +15,11 @@ pub struct Row {
     pub orders: Option<u64>,
     /// `None` if no order was made.
     pub seconds_per_order: Option<f64>,
+    /// Half of the width of its 95 % interval; `None` of less than two runs.
+    pub half_width: Option<f64>,
+    /// Runs, and those of them in which all orders were made.
+    pub runs: usize,
+    pub finished_runs: usize,
     /// `None` if there was no run.
     pub simulated_s: Option<f64>,
     /// As `commission` reports it.
@@ -33,6 +39,9 @@ impl Row {
             orders_done: 0,
             orders: orders.map(|n| n as u64),
             seconds_per_order: None,
+            half_width: None,
+            runs: 1,
+            finished_runs: 0,
             simulated_s: None,
             trace_hash: None,
             diagnostics: json!([]),
@@ -43,6 +52,7 @@ impl Row {
     /// Takes over what the simulation reports.
     pub fn reported(&mut self, report: &Value) {
         self.finished = report["finished"] == true;
+        self.finished_runs = usize::from(self.finished);
         self.reason = report["reason"].as_str().unwrap_or("").into();
         self.orders_done = report["orders_done"].as_u64().unwrap_or(0);
         self.orders = report["orders"].as_u64();
@@ -56,11 +66,36 @@ impl Row {
         };
     }
 
+    /// Of all runs of a point: means of those in which all orders were made, and what went wrong in the first of the
+    /// others.
+    pub fn of_runs(runs: Vec<Row>) -> Option<Self> {
+        let finished: Vec<&Row> = runs.iter().filter(|row| row.finished).collect();
+        let values = |value: fn(&Row) -> Option<f64>| -> Vec<f64> {
+            finished.iter().filter_map(|row| value(row)).collect()
+        };
+        let (seconds, simulated) = (values(|row| row.seconds_per_order), values(|row| row.simulated_s));
+        let (count, finished) = (runs.len(), finished.len());
+        let orders_done = runs.iter().map(|row| row.orders_done).min()?;
+        let wrong = runs.iter().position(|row| !row.finished);
+        let mut all = runs.into_iter();
+        let mut row = all.nth(wrong.unwrap_or(0))?;
+        if count > 1 {
+            if let Some(wrong) = wrong {
+                row.reason = format!("replication {}: {}", wrong + 1, row.reason);
+            }
+            row.seconds_per_order = interval::mean(&seconds);
+            row.half_width = interval::half_width(&seconds);
+            row.simulated_s = interval::mean(&simulated);
+            row.trace_hash = None;
+        }
+        Some(Self { orders_done, runs: count, finished_runs: finished, ..row })
+    }
+
     pub fn to_json(&self, plan: &Plan) -> Value {
         let set: Map<String, Value> = (plan.axes.iter().zip(&self.point.values))
             .map(|(axis, &value)| (axis.name.clone(), written(&axis.values[value])))
             .collect();
-        json!({
+        let mut json = json!({
             "layout": plan.lines[self.point.line].title,
             "set": set,
             "order_seed": plan.orders[self.point.order],
@@ -73,7 +108,13 @@ impl Row {
             "simulated_s": self.simulated_s,
             "trace_hash": self.trace_hash,
             "diagnostics": self.diagnostics,
-        })
+        });
+        if self.runs > 1 {
+            json["runs"] = json!(self.runs);
+            json["finished_runs"] = json!(self.finished_runs);
+            json["half_width"] = json!(self.half_width);
+        }
+        json
     }
 }
 

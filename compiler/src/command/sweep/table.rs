@@ -16,6 +16,7 @@ pub struct Table<'a> {
     columns: Vec<Column<'a>>,
     grid: Option<Grid>,
     measured: Option<Measured>,
+    replications: u32,
 }
 
 /// What says which point a row is.
@@ -51,7 +52,8 @@ impl<'a> Table<'a> {
         let grid = if format == TableFormat::Text && !quiet { Grid::of(plan) } else { None };
         let names: Vec<&str> = columns.iter().map(|c| c.name).collect();
         let measured = options.beside.as_ref().map(|path| Measured::read(path, &names)).transpose()?;
-        Ok(Self { plan, format, quiet, rows: 0, columns, grid, measured })
+        let replications = options.replications.get();
+        Ok(Self { plan, format, quiet, rows: 0, columns, grid, measured, replications })
     }
 
     pub fn begin(&self) {
@@ -60,8 +62,13 @@ impl<'a> Table<'a> {
             TableFormat::Csv => {
                 let of_point = self.columns.iter().map(|c| c.name);
                 let of_measured = self.measured.iter().flat_map(|_| MEASURED_COLUMNS);
-                let names =
-                    of_point.chain(CSV_COLUMNS).chain(of_measured).map(csv::field).collect::<Vec<_>>();
+                let of_runs = if self.replications > 1 { &RUNS_COLUMNS[..] } else { &[] };
+                let names = of_point
+                    .chain(CSV_COLUMNS)
+                    .chain(of_runs.iter().copied())
+                    .chain(of_measured)
+                    .map(csv::field)
+                    .collect::<Vec<_>>();
                 say!("{}", names.join(","));
             }
             TableFormat::Text if !self.quiet => {
@@ -69,7 +76,8 @@ impl<'a> Table<'a> {
                 let names = self.text(|c| c.name.into());
                 let beside =
                     self.measured.as_ref().map_or_else(String::new, |_| beside_text("measured", "ratio"));
-                say!("{names}  {orders:>11}  {each:>9}{beside}  {simulated:>12}  reason");
+                let runs = if self.replications > 1 { runs_text("+-", "runs") } else { String::new() };
+                say!("{names}  {orders:>11}  {each:>9}{runs}{beside}  {simulated:>12}  reason");
             }
             TableFormat::Text | TableFormat::Jsonl => {}
         }
@@ -87,6 +95,7 @@ impl<'a> Table<'a> {
                 let of_point = self.columns.iter().map(|c| (c.cell)(row));
                 let cells: Vec<String> = of_point
                     .chain(csv_cells(row))
+                    .chain(if self.replications > 1 { runs_cells(row).to_vec() } else { Vec::new() })
                     .chain(beside.into_iter().flat_map(beside_cells))
                     .map(|c| csv::field(&c))
                     .collect();
@@ -102,7 +111,12 @@ impl<'a> Table<'a> {
                     let ratio = beside.ratio.map_or_else(|| "-".into(), |r| format!("{r:.3}"));
                     beside_text(&seconds(beside.seconds_per_order), &ratio)
                 });
-                say!("{point}  {orders:>11}  {each:>9}{beside}  {simulated:>12}  {}", row.reason);
+                let runs = if self.replications > 1 {
+                    runs_text(&seconds(row.half_width), &format!("{} of {}", row.finished_runs, row.runs))
+                } else {
+                    String::new()
+                };
+                say!("{point}  {orders:>11}  {each:>9}{runs}{beside}  {simulated:>12}  {}", row.reason);
             }
         }
         if let Some(grid) = &mut self.grid {
@@ -162,6 +176,18 @@ const MEASURED_COLUMNS: [&str; 2] = ["measured_seconds_per_order", "ratio"];
 
 fn beside_cells(beside: Beside) -> [String; 2] {
     [beside.seconds_per_order, beside.ratio].map(|value| value.map_or_else(String::new, |v| v.to_string()))
+}
+
+/// Columns that stand there if there are several runs of each point.
+const RUNS_COLUMNS: [&str; 3] = ["runs", "finished_runs", "half_width"];
+
+fn runs_cells(row: &Row) -> [String; 3] {
+    let half_width = row.half_width.map_or_else(String::new, |half| half.to_string());
+    [row.runs.to_string(), row.finished_runs.to_string(), half_width]
+}
+
+fn runs_text(half_width: &str, runs: &str) -> String {
+    format!("  {half_width:>6}  {runs:>9}")
 }
 
 fn beside_text(measured: &str, ratio: &str) -> String {

@@ -1,20 +1,22 @@
 //! The drives of an arm: its joints moving to a target of the tool.
 
-use crate::kinematics::arm::{Arm, Joints, Limits};
-use crate::motion::Motion;
+use super::motions::{Planned, Motions};
+use crate::kinematics::arm::{Joints, Limits};
+use crate::kinematics::pose::Pose;
+use crate::motion::{Motion, Travel};
 use crate::point::Point;
-use crate::planner::{Leg, Load, Planner};
+use crate::planner::{Load, Transfer};
 use std::sync::Arc;
 
 #[derive(Clone, Debug)]
 pub struct Drive {
-    arm: Arm,
-    /// What a gantry knows of its surroundings.
-    planner: Option<Arc<Planner>>,
+    motions: Arc<Motions>,
     limits: Limits,
     joints: Joints,
-    tool: Point,
+    tool: Pose,
     phase: Phase,
+    /// How far the tool goes at most along the path under way.
+    travel: Arc<Travel>,
 }
 
 /// Where to go, and how.
@@ -25,16 +27,14 @@ pub enum Target {
     Turned(Point, f64),
     /// The second place, past the first one without a stop.
     Past(Point, Point),
-    /// The first place, round obstacles and with this on the tool, so that the tool can be lowered to the second
-    /// from there.
-    Round(Point, Point, Load),
+    /// Round obstacles, with this on the tool.
+    Round(Transfer, Load),
 }
 
 #[derive(Clone, Debug)]
 enum Phase {
     Rest,
-    /// The motion, and the legs behind it, the last one first.
-    Going(Motion, Vec<Leg>),
+    Going(Motion),
     /// The motion is void and brakes; then the next target, if there is one.
     Braking(Motion, Option<Target>),
 }
@@ -49,14 +49,15 @@ pub enum Moved {
 
 impl Drive {
     /// At rest with the tool at this place; `None` if it is out of reach.
-    pub fn new(arm: Arm, rest: Point, planner: Option<Planner>) -> Option<Self> {
-        let start = arm.start();
-        let joints = arm.solve(rest, &start)?;
-        let (limits, tool) = (arm.limits(), arm.tool(&joints));
-        Some(Self { arm, planner: planner.map(Arc::new), limits, joints, tool, phase: Phase::Rest })
+    pub fn new(motions: Arc<Motions>, rest: Point) -> Option<Self> {
+        let arm = motions.arm();
+        let joints = arm.solve(rest, &arm.start())?;
+        let (limits, tool) = (arm.limits(), arm.tool_pose(&joints));
+        Some(Self { motions, limits, joints, tool, phase: Phase::Rest, travel: Arc::default() })
     }
 
-    pub fn tool(&self) -> Point {
+    /// Its frame, world frame.
+    pub fn tool(&self) -> Pose {
         self.tool
     }
 
@@ -68,13 +69,18 @@ impl Drive {
     pub fn under_way(&self) -> Option<&Motion> {
         match &self.phase {
             Phase::Rest => None,
-            Phase::Going(motion, _) | Phase::Braking(motion, _) => Some(motion),
+            Phase::Going(motion) | Phase::Braking(motion, _) => Some(motion),
         }
     }
 
     /// The limits of all motions that begin from now on: a part of full speed, and m/s2 or rad/s2.
     pub fn set_pace(&mut self, speed: f64, acceleration: f64) {
-        self.limits = self.arm.limits().at_speed(speed).at_gain(acceleration);
+        self.limits = self.motions.arm().limits().at_speed(speed).at_gain(acceleration);
+    }
+
+    /// The motion is void.
+    pub fn is_braking(&self) -> bool {
+        matches!(self.phase, Phase::Braking(..))
     }
 
     pub fn is_at_rest(&self) -> bool {
@@ -82,16 +88,19 @@ impl Drive {
     }
 
     pub fn has_torso(&self) -> bool {
-        self.arm.has_torso()
+        self.motions.arm().has_torso()
     }
 
     /// Sets out for a target at `t`, in seconds; what moves still brakes first. `None` if no joints bring the
     /// tool there.
     pub fn start(&mut self, target: Target, t: f64) -> Option<()> {
-        let phase = self.phase_to(target, t)?;
+        let planned = self.planned_to(target, t)?;
         self.phase = match std::mem::replace(&mut self.phase, Phase::Rest) {
-            Phase::Rest => phase,
-            Phase::Going(mut motion, _) | Phase::Braking(mut motion, _) => {
+            Phase::Rest => {
+                self.travel = planned.tool;
+                Phase::Going(planned.motion)
+            }
+            Phase::Going(mut motion) | Phase::Braking(mut motion, _) => {
                 motion.hold(t);
                 Phase::Braking(motion, Some(target))
             }
@@ -100,33 +109,23 @@ impl Drive {
     }
 
     /// From the present joints, which stand.
-    fn phase_to(&self, target: Target, t: f64) -> Option<Phase> {
-        let (from, limits) = (self.joints, &self.limits);
-        let straight = |goal| Some(Leg::To(self.arm.solve(goal, &from)?));
-        let mut legs = match target {
-            Target::Place(goal) => vec![straight(goal)?],
-            Target::Turned(goal, turn) => vec![Leg::To(self.arm.solve_turned(goal, turn, &from)?)],
-            Target::Past(via, goal) => {
-                let via = self.arm.solve(via, &from)?;
-                vec![Leg::Past(via, self.arm.solve(goal, &via)?)]
-            }
-            Target::Round(via, goal, load) => {
-                match self.planner.as_ref().and_then(|planner| planner.legs(&from, load, [via, goal], limits)) {
-                    Some(legs) => legs,
-                    None => vec![straight(via)?],
-                }
-            }
-        };
-        legs.reverse();
-        let first = legs.pop().unwrap_or(Leg::To(from));
-        Some(Phase::Going(first.motion(from, limits, t), legs))
+    fn planned_to(&self, target: Target, t: f64) -> Option<Planned> {
+        self.motions.planned(&self.joints, &target, &self.limits, t)
+    }
+
+    /// Metres that the tool goes at most between two times.
+    pub fn tool_goes(&self, from: f64, to: f64) -> f64 {
+        self.under_way().map_or(0.0, |motion| {
+            let [from, to] = [from, to].map(|time| self.travel.to(motion.place(time)));
+            to - from
+        })
     }
 
     /// Brakes and forgets the target.
     pub fn stop(&mut self, t: f64) {
         self.phase = match std::mem::replace(&mut self.phase, Phase::Rest) {
             Phase::Rest => Phase::Rest,
-            Phase::Going(mut motion, _) | Phase::Braking(mut motion, _) => {
+            Phase::Going(mut motion) | Phase::Braking(mut motion, _) => {
                 motion.hold(t);
                 Phase::Braking(motion, None)
             }
@@ -135,13 +134,13 @@ impl Drive {
 
     /// Brakes on the path and keeps the target.
     pub fn hold(&mut self, t: f64) {
-        if let Phase::Going(motion, _) = &mut self.phase {
+        if let Phase::Going(motion) = &mut self.phase {
             motion.hold(t);
         }
     }
 
     pub fn resume(&mut self, t: f64) {
-        if let Phase::Going(motion, _) = &mut self.phase {
+        if let Phase::Going(motion) = &mut self.phase {
             motion.resume(t);
         }
     }
@@ -150,25 +149,22 @@ impl Drive {
     pub fn advance(&mut self, t: f64) -> Moved {
         let (phase, moved) = match std::mem::replace(&mut self.phase, Phase::Rest) {
             Phase::Rest => (Phase::Rest, Moved::Arrived),
-            Phase::Going(motion, mut legs) => {
+            Phase::Going(motion) => {
                 self.place(motion.at(t));
-                if !motion.has_ended(t) {
-                    (Phase::Going(motion, legs), Moved::Moving)
-                } else if let Some(leg) = legs.pop() {
-                    (Phase::Going(leg.motion(self.joints, &self.limits, t), legs), Moved::Moving)
-                } else {
-                    (Phase::Rest, Moved::Arrived)
-                }
+                if motion.has_ended(t) { (Phase::Rest, Moved::Arrived) } else { (Phase::Going(motion), Moved::Moving) }
             }
             Phase::Braking(motion, next) => {
                 self.place(motion.at(t));
                 if t < motion.rests_at() {
                     (Phase::Braking(motion, next), Moved::Moving)
                 } else {
-                    match next.map(|target| self.phase_to(target, t)) {
+                    match next.map(|target| self.planned_to(target, t)) {
                         None => (Phase::Rest, Moved::Arrived),
                         Some(None) => (Phase::Rest, Moved::Lost),
-                        Some(Some(phase)) => (phase, Moved::Moving),
+                        Some(Some(Planned { motion, tool })) => {
+                            self.travel = tool;
+                            (Phase::Going(motion), Moved::Moving)
+                        }
                     }
                 }
             }
@@ -180,7 +176,7 @@ impl Drive {
     fn place(&mut self, joints: Joints) {
         if joints != self.joints {
             self.joints = joints;
-            self.tool = self.arm.tool(&joints);
+            self.tool = self.motions.arm().tool_pose(&joints);
         }
     }
 }

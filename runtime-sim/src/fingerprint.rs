@@ -1,0 +1,47 @@
+//! A number of 128 bits by which things are told apart that are compared often.
+
+/// Of a list of numbers. Two lists that differ have the same one with a probability of 2^-128 or so.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Fingerprint([u64; 2]);
+
+/// Lengths and angles count to this, m or rad.
+const GRAIN: f64 = 1e-6;
+
+impl Default for Fingerprint {
+    fn default() -> Self {
+        // The first 128 bits of pi behind the point.
+        Self([0x243F_6A88_85A3_08D3, 0x1319_8A2E_0370_7344])
+    }
+}
+
+impl Fingerprint {
+    pub fn with(self, number: u64) -> Self {
+        let [a, b] = self.0;
+        Self([
+            mixed(a ^ number, 0x9E37_79B9_7F4A_7C15),
+            mixed(b.rotate_left(23) ^ number, 0xD6E8_FEB8_6659_FD93),
+        ])
+    }
+
+    /// A length or an angle, to the nearest micrometre or microradian.
+    pub fn near(self, value: f64) -> Self {
+        self.with((value / GRAIN).round() as i64 as u64)
+    }
+
+    pub fn and(self, other: Fingerprint) -> Self {
+        self.with(other.0[0]).with(other.0[1])
+    }
+
+    /// Of both in any order.
+    pub fn sum(self, other: Fingerprint) -> Self {
+        Self([self.0[0].wrapping_add(other.0[0]), self.0[1].wrapping_add(other.0[1])])
+    }
+}
+
+/// The finalizer of SplitMix64 after a step of it.
+fn mixed(state: u64, step: u64) -> u64 {
+    let z = state.wrapping_add(step);
+    let z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    z ^ (z >> 31)
+}

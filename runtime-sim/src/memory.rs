@@ -1,0 +1,88 @@
+//! What runs of the same machines have in common: motions that were computed, and what was found free of contact.
+
+use crate::collision::BoundingBox;
+use crate::fingerprint::Fingerprint;
+use crate::line::{Kind, Line, Obstacle};
+use crate::part::Part;
+use crate::part::chain::motions::Motions;
+use crate::planner::Planner;
+use crate::point::Point;
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// It changes no result: a run with the memory of another one is the same, and faster. Of other machines, obstacles or
+/// kinds of part it remembers nothing.
+#[derive(Debug, Default)]
+pub struct Memory {
+    surroundings: Option<Surroundings>,
+    /// By machine; none for what is no arm.
+    motions: Vec<Option<Arc<Motions>>>,
+    /// Whether a motion is free of contact with what rests.
+    free: HashMap<Fingerprint, bool>,
+    /// What contains an arm on each piece of its path.
+    boxes: HashMap<Fingerprint, Arc<[BoundingBox]>>,
+}
+
+/// All that paths and contacts depend on.
+#[derive(Debug, PartialEq)]
+struct Surroundings {
+    machines: Vec<(Point, Vec<Arc<Part>>)>,
+    obstacles: Vec<Obstacle>,
+    kinds: Vec<Kind>,
+}
+
+impl Surroundings {
+    fn of(line: &Line) -> Self {
+        let machines = line.machines.iter().map(|machine| (machine.pose, machine.parts.clone()));
+        Self { machines: machines.collect(), obstacles: line.obstacles.clone(), kinds: line.kinds.clone() }
+    }
+}
+
+/// So many answers are remembered: 24 bytes each.
+const MOST: usize = 1_000_000;
+/// So many motions have their boxes remembered: 800 bytes each.
+const MOST_BOXES: usize = 50_000;
+
+impl Memory {
+    /// Forgets what is about other machines.
+    pub(crate) fn keep_for(&mut self, line: &Line) {
+        let surroundings = Surroundings::of(line);
+        if self.surroundings.as_ref() != Some(&surroundings) {
+            *self = Self { surroundings: Some(surroundings), ..Self::default() };
+            self.motions.resize(line.machines.len(), None);
+        }
+    }
+
+    /// The motions of a machine; none if it is no arm.
+    pub(crate) fn motions(&mut self, line: &Line, machine: usize) -> Option<Arc<Motions>> {
+        let known = self.motions.get_mut(machine)?;
+        if known.is_none() {
+            let arm = line.machines[machine].arm()?;
+            let planner = Planner::of(line, machine);
+            *known = Some(Arc::new(Motions::new(arm, &line.machines[machine], planner)));
+        }
+        known.clone()
+    }
+
+    pub(crate) fn boxes(
+        &mut self,
+        motion: Fingerprint,
+        compute: impl FnOnce() -> Arc<[BoundingBox]>,
+    ) -> Arc<[BoundingBox]> {
+        if self.boxes.len() >= MOST_BOXES {
+            self.boxes.clear();
+        }
+        self.boxes.entry(motion).or_insert_with(compute).clone()
+    }
+
+    pub(crate) fn is_free(&self, question: Fingerprint) -> Option<bool> {
+        self.free.get(&question).copied()
+    }
+
+    pub(crate) fn note_free(&mut self, question: Fingerprint, is_free: bool) {
+        if self.free.len() >= MOST {
+            self.free.clear();
+        }
+        self.free.insert(question, is_free);
+    }
+}

@@ -1,0 +1,112 @@
+//! The motions of an arm: what was asked for before is not computed again.
+
+use super::drive::Target;
+use crate::kinematics::arm::{Arm, Joints, Limits};
+use crate::collision::reach::{Ball, Chain, Radii};
+use crate::machine::Machine;
+use crate::motion::{Knot, Motion, Travel};
+use crate::planner::{End, Load, Planner, Transfer};
+use crate::point::Point;
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// All motions of one machine, in all runs of the same line.
+#[derive(Debug)]
+pub struct Motions {
+    arm: Arm,
+    /// What a gantry knows of its surroundings.
+    planner: Option<Planner>,
+    /// How far the tool goes at most for a metre or a radian of each joint, m.
+    radii: Radii,
+    known: Mutex<HashMap<Question, Option<Planned>>>,
+}
+
+/// A motion from rest to rest, and how far the tool goes at most along it.
+#[derive(Clone, Debug)]
+pub struct Planned {
+    pub motion: Motion,
+    pub tool: Arc<Travel>,
+}
+
+/// All that a motion depends on, to the bit.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+struct Question(Vec<u64>);
+
+/// So many are remembered: some 20 kB each at most.
+const MOST: usize = 4_000;
+
+impl Question {
+    fn new(from: &Joints, target: &Target, limits: &Limits) -> Self {
+        let mut words: Vec<u64> = Vec::with_capacity(40);
+        let limits = limits.velocity.iter().chain(limits.acceleration.iter());
+        words.extend(from.iter().chain(limits).map(|value| value.to_bits()));
+        let mut point = |point: &Point| words.extend([point.x, point.y, point.z].map(f64::to_bits));
+        let kind = match target {
+            Target::Place(goal) => {
+                point(goal);
+                0
+            }
+            Target::Turned(goal, turn) => {
+                point(goal);
+                words.push(turn.to_bits());
+                1
+            }
+            Target::Past(via, goal) => {
+                point(via);
+                point(goal);
+                2
+            }
+            Target::Round(Transfer { via, goal, end }, load) => {
+                point(via);
+                point(goal);
+                3 + 2 * u64::from(*end == End::AtGoal) + u64::from(*load == Load::Largest)
+            }
+        };
+        words.push(kind);
+        Self(words)
+    }
+}
+
+impl Motions {
+    pub fn new(arm: Arm, machine: &Machine, planner: Option<Planner>) -> Self {
+        let chain = Chain::new(&arm, machine);
+        let radii = chain.radii(chain.last(), &Ball { middle: Point::default(), radius: 0.0 });
+        Self { arm, planner, radii, known: Mutex::default() }
+    }
+
+    pub fn arm(&self) -> &Arm {
+        &self.arm
+    }
+
+    /// From rest at these joints, begun at `begin`; none if no joints bring the tool there, or no path is free.
+    pub fn planned(&self, from: &Joints, target: &Target, limits: &Limits, begin: f64) -> Option<Planned> {
+        let question = Question::new(from, target, limits);
+        // Nothing panics while it is locked.
+        let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        if known.len() >= MOST {
+            known.clear();
+        }
+        let planned = known.entry(question).or_insert_with(|| {
+            let motion = self.computed(from, target, limits)?;
+            let tool = Arc::new(motion.travel(&self.radii));
+            Some(Planned { motion, tool })
+        });
+        planned.as_ref().map(|Planned { motion, tool }| Planned { motion: motion.begun(begin), tool: tool.clone() })
+    }
+
+    fn computed(&self, from: &Joints, target: &Target, limits: &Limits) -> Option<Motion> {
+        let knots = match target {
+            Target::Place(goal) => self.arm.line_to(*goal, from)?.into_iter().map(Knot::new).collect(),
+            Target::Turned(goal, turn) => vec![Knot::new(self.arm.solve_turned(*goal, *turn, from)?)],
+            Target::Past(via, goal) => {
+                let via = self.arm.solve(*via, from)?;
+                vec![Knot::new(via), Knot::new(self.arm.solve(*goal, &via)?)]
+            }
+            Target::Round(transfer, load) => {
+                let path = self.planner.as_ref()?.path(from, *load, transfer, limits)?;
+                return Some(Motion::on(path, limits, 0.0));
+            }
+        };
+        Some(Motion::past(*from, &knots, limits, 0.0))
+    }
+}

@@ -1,0 +1,116 @@
+//! Which scans have to be executed: those in which a guard may begin to hold, or the plant may change by itself.
+
+use super::changes::Changes;
+use crate::line::Line;
+use crate::plant::Plant;
+use crate::scan::{SystemInputs, SystemOutputs};
+
+/// What the controllers wait for since the last scan in which they were stepped. A scan in which none of this happens
+/// does nothing but let times in states go on.
+pub struct Agenda<'a> {
+    line: &'a Line,
+    /// Where in the trace the time in its state stands, by machine.
+    stays: Vec<usize>,
+    /// The last scan in which the controllers were stepped, and what they were given and gave in it.
+    last: Option<Stepped>,
+    /// The inputs that they latched in it.
+    latched: Vec<Vec<f64>>,
+    analogue: Vec<Vec<bool>>,
+}
+
+struct Stepped {
+    scan: u64,
+    system: SystemInputs,
+    running: bool,
+    /// Something has changed in it.
+    acted: bool,
+}
+
+impl<'a> Agenda<'a> {
+    /// `analogue` says which words of the inputs change while a machine moves.
+    pub fn new(line: &'a Line, stays: Vec<usize>, inputs: &[Vec<f64>], analogue: Vec<Vec<bool>>) -> Self {
+        Self { line, stays, last: None, latched: inputs.to_vec(), analogue }
+    }
+
+    /// Scans since the controllers were stepped last.
+    pub fn scans_since(&self, scan: u64) -> u64 {
+        self.last.as_ref().map_or(1, |last| scan - last.scan)
+    }
+
+    /// Whether the controllers have to be stepped in this scan.
+    pub fn is_due(
+        &self,
+        scan: u64,
+        system: SystemInputs,
+        inputs: &[Vec<f64>],
+        states: &[usize],
+        changes: &Changes,
+    ) -> bool {
+        let Some(last) = &self.last else { return true };
+        if last.acted || system != last.system {
+            return true;
+        }
+        if !last.running {
+            return false;
+        }
+        let passed = ((scan - last.scan) * u64::from(self.line.scan_ms)) as f64;
+        self.line.machines.iter().enumerate().any(|(machine, description)| {
+            let Some(state) = description.states.get(states[machine]) else { return true };
+            let stay = self.stays.get(machine).map_or(0.0, |word| changes.stay(*word));
+            let ends = |timer: &u32| stay < f64::from(*timer) && f64::from(*timer) <= stay + passed;
+            let differs = |word: &usize| {
+                self.latched[machine].get(*word).map(|w| w.to_bits())
+                    != inputs[machine].get(*word).map(|w| w.to_bits())
+            };
+            state.timers.as_ref().is_none_or(|timers| timers.iter().any(ends))
+                || state.reads.iter().any(differs)
+        })
+    }
+
+    /// The controllers were stepped.
+    pub fn step(
+        &mut self,
+        scan: u64,
+        system: SystemInputs,
+        inputs: &[Vec<f64>],
+        answer: SystemOutputs,
+        changed: bool,
+    ) {
+        let running = answer.running;
+        let was_running = self.last.as_ref().is_some_and(|last| last.running);
+        self.last = Some(Stepped { scan, system, running, acted: changed || running != was_running });
+        for (latched, input) in self.latched.iter_mut().zip(inputs) {
+            latched.copy_from_slice(input);
+        }
+    }
+
+    /// The first scan after this one in which the controllers may have to be stepped, if no device changes anything.
+    /// None: never.
+    pub fn next_step(&self, scan: u64, states: &[usize], changes: &Changes, plant: &Plant) -> Option<u64> {
+        let Some(last) = &self.last else { return Some(scan + 1) };
+        if last.acted && last.scan == scan {
+            return Some(scan + 1);
+        }
+        if !last.running {
+            return None;
+        }
+        let mut next: Option<u64> = None;
+        for (machine, description) in self.line.machines.iter().enumerate() {
+            let Some(state) = description.states.get(states[machine]) else { return Some(scan + 1) };
+            let Some(timers) = &state.timers else { return Some(scan + 1) };
+            let reads_analogue =
+                || state.reads.iter().any(|word| self.analogue[machine].get(*word) == Some(&true));
+            if plant.moves(machine) && reads_analogue() {
+                return Some(scan + 1);
+            }
+            let stay = self.stays.get(machine).map_or(0.0, |word| changes.stay(*word));
+            let left = timers.iter().map(|timer| f64::from(*timer) - stay).filter(|left| *left > 0.0);
+            let scans = left.map(|left| (left / f64::from(self.line.scan_ms)).ceil() as u64).min();
+            if let Some(scans) = scans {
+                let due = (last.scan + scans).max(scan + 1);
+                next = Some(next.map_or(due, |next| next.min(due)));
+            }
+        }
+        next
+    }
+}

@@ -1,0 +1,77 @@
+//! How far a run has come, and for how long nothing has happened.
+
+use crate::event::{Event, OrderChange};
+use crate::line::Line;
+use crate::plant::Plant;
+use crate::shortage::shortage;
+
+pub struct Progress {
+    made: usize,
+    /// Events that were looked at.
+    read: usize,
+    /// The last scan in which something happened: an input or a word of the controllers changed, or was about to.
+    alive: u64,
+    /// The same, but for what is only about to.
+    last_event: u64,
+    /// Scans without anything that make a deadlock.
+    stall: u64,
+    /// The scan before which the run ends at the latest.
+    limit: u64,
+}
+
+impl Progress {
+    pub fn new(line: &Line) -> Self {
+        let scans = |seconds: f64| (seconds * 1000.0 / f64::from(line.scan_ms)).ceil() as u64;
+        let scenario = &line.scenario;
+        Self {
+            made: 0,
+            read: 0,
+            alive: 0,
+            last_event: 0,
+            stall: scans(scenario.stall_limit_s),
+            limit: scans(scenario.time_limit_s).max(1),
+        }
+    }
+
+    pub fn note(&mut self, scan: u64, happened: bool) {
+        if happened {
+            self.last_event = scan;
+            self.is_alive(scan);
+        }
+    }
+
+    /// Something is going to happen after this scan.
+    pub fn is_alive(&mut self, scan: u64) {
+        self.alive = scan;
+    }
+
+    pub fn last_event(&self) -> u64 {
+        self.last_event
+    }
+
+    /// The scan at which the run ends if nothing happens after this one.
+    pub fn longest(&self, scan: u64) -> u64 {
+        let stalls = self.alive.saturating_add(1).saturating_add(self.stall);
+        if self.alive < scan { stalls.min(self.limit) } else { self.limit }
+    }
+
+    /// Whether the run is over before this scan, and whether all orders are made.
+    pub fn end(&mut self, line: &Line, plant: &Plant, scan: u64) -> Option<(bool, String)> {
+        let log = plant.items().log();
+        let made = |event: &&Event| matches!(event, Event::Order { change: OrderChange::Made, .. });
+        self.made += log[self.read..].iter().filter(made).count();
+        if self.read < log.len() {
+            self.note(scan, true);
+        }
+        self.read = log.len();
+        if self.made == line.scenario.orders.len() {
+            Some((true, "all orders made".into()))
+        } else if scan.saturating_sub(self.alive.saturating_add(1)) >= self.stall {
+            Some((false, format!("deadlock: {}", shortage(line, plant))))
+        } else if scan >= self.limit {
+            Some((false, format!("time limit: {}", shortage(line, plant))))
+        } else {
+            None
+        }
+    }
+}

@@ -1,0 +1,183 @@
+//! What is left out when a run goes from event to event: nothing that anybody could see.
+//!
+//! The long form: `AUTOGEN_CAMPAIGN=full cargo test --release -p autogen-tests --test stepping`.
+
+use autogen::executor::Executor;
+use autogen::ir::{System, Value};
+use autogen::reads::{self, Reads};
+use autogen_tests::generate::generate;
+use autogen_tests::lots::Lots;
+use autogen_tests::{Texts, ariac, examples, is_full_campaign, on_all_processors, own_line};
+use runtime_sim::line::{IoDelay, Line, Pause, Refusal, Slip};
+use runtime_sim::memory::Memory;
+use runtime_sim::random::Random;
+use runtime_sim::report::Report;
+use runtime_sim::run::{Stepping, run_again};
+use runtime_sim::scan::Controllers;
+
+/// A run by name, and what is done to its line.
+struct Case {
+    name: String,
+    texts: Texts,
+    change: Box<dyn Fn(&mut Line) + Sync + Send>,
+}
+
+fn case(name: &str, texts: Texts, change: impl Fn(&mut Line) + Sync + Send + 'static) -> Case {
+    Case { name: name.into(), texts, change: Box::new(change) }
+}
+
+fn machine(line: &Line, name: &str) -> usize {
+    line.machines.iter().position(|machine| machine.name == name).expect("a machine of the layout")
+}
+
+fn cases() -> Vec<Case> {
+    let mut cases: Vec<Case> =
+        examples().into_iter().map(|(name, texts)| case(&name, texts, |_| {})).collect();
+    let delays =
+        [IoDelay::Fixed(1), IoDelay::Fixed(5), IoDelay::Random { max: 5, seed: 9 }, IoDelay::Fixed(40)];
+    for delay in delays {
+        let name = format!("default, {delay:?}");
+        cases.push(case(&name, ariac("default"), move |line| line.io_delay = delay.clone()));
+    }
+    cases.push(case("buffer, late", own_line("buffer"), |line| {
+        line.io_delay = IoDelay::Random { max: 3, seed: 2 };
+    }));
+    cases.push(case("rack", own_line("rack"), |_| {}));
+    cases.push(case("order 5", Texts { order: Some(5), ..ariac("spaced") }.set("agv.capacity=3"), |_| {}));
+    cases.push(case("pauses", ariac("default"), |line| {
+        let pause = |at_scan| Pause { at_scan, scans: 700 };
+        line.scenario.pauses = [3, 5000, 5701, 20_000, 33_333].map(pause).into();
+    }));
+    cases.push(case("slips", ariac("default"), |line| {
+        let slip = |machine, pick, after_s| Slip { machine, pick, after_s };
+        let (kitting, gantry) = (machine(line, "kitting"), machine(line, "gantry"));
+        line.scenario.slips = vec![slip(kitting, 3, 0.5), slip(gantry, 2, 3.0)];
+    }));
+    cases.push(case("refusals", ariac("default"), |line| {
+        let refused = ["kitting", "gantry", "agv1", "agv2", "conveyor_belt"].map(|name| machine(line, name));
+        let refusals = refused.into_iter().flat_map(|m| [2, 5, 9].map(|command| (m, command)));
+        line.scenario.refusals = refusals.map(|(machine, command)| Refusal { machine, command }).collect();
+    }));
+    cases.push(case("deadlock", ariac("default"), |line| {
+        line.scenario.supply[0].items.truncate(9);
+        line.scenario.stall_limit_s = 33.33;
+    }));
+    cases.push(case("time limit", ariac("default"), |line| line.scenario.time_limit_s = 123.456));
+    cases.push(case("contact", ariac("default"), |line| {
+        line.may_touch.clear();
+        line.scenario.refusals.clear();
+        let gantry = machine(line, "gantry");
+        line.scenario.slips = vec![Slip { machine: gantry, pick: 1, after_s: 5.0 }];
+    }));
+    if is_full_campaign() {
+        for layout in autogen_tests::LAYOUTS {
+            for capacity in 1..=12 {
+                let texts = ariac(layout).set(&format!("agv.capacity={capacity}"));
+                cases.push(case(&format!("{layout}, {capacity}"), texts, |_| {}));
+            }
+            for order in 1..=40 {
+                let texts = Texts { order: Some(order), ..ariac(layout) };
+                let delay = IoDelay::Random { max: 5, seed: order };
+                cases.push(case(&format!("{layout}, order {order}"), texts, move |line| {
+                    line.io_delay = delay.clone();
+                }));
+            }
+        }
+    }
+    cases
+}
+
+#[test]
+fn events_and_every_scan_are_the_same() {
+    let cases = cases();
+    let wrong = on_all_processors(&cases, |case| {
+        let mut project = case.texts.project();
+        (case.change)(&mut project.plant);
+        let mut memory = Memory::default();
+        let mut execute = |stepping| -> Result<Report, String> {
+            run_again(&project.plant, &mut Executor::new(&project.system), stepping, &mut memory, &mut |_| {})
+        };
+        let every = execute(Stepping::EveryScan).expect("a line that can be run");
+        let events = execute(Stepping::Events).expect("a line that can be run");
+        let again = execute(Stepping::Events).expect("a line that can be run");
+        println!("{}: {} scans, {}", case.name, every.scans, every.reason);
+        let mut wrong = Vec::new();
+        if events != every {
+            wrong.push(format!("{}: {:#?}\nbut with every scan {:#?}", case.name, events, every));
+        }
+        if again != events {
+            wrong.push(format!("{}: another result with memory", case.name));
+        }
+        wrong.extend(execute(Stepping::Checked).err().map(|text| format!("{}: {text}", case.name)));
+        wrong
+    });
+    let wrong: Vec<String> = wrong.into_iter().flatten().collect();
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// A scan in which only inputs change that no present state reads does nothing, unless a timer ends.
+#[test]
+fn what_a_state_does_not_read_does_not_move_it() {
+    let seeds: Vec<u64> = (1..=if is_full_campaign() { 20 } else { 2 }).collect();
+    let counts = on_all_processors(&seeds, |seed| {
+        let made = generate(*seed, 49);
+        made.layouts.iter().map(|system| quiet_scans(system, *seed)).sum::<usize>()
+    });
+    let quiet: usize = counts.iter().sum();
+    println!("{quiet} scans in which nothing happened");
+    assert!(quiet > 500 * seeds.len(), "only {quiet} quiet scans");
+}
+
+fn quiet_scans(system: &System, seed: u64) -> usize {
+    let mut executor = Executor::new(system);
+    let mut lots = Lots::new(system, seed);
+    let mut random = Random::new(seed);
+    let mut outputs = vec![Vec::new(); system.instances.len()];
+    let stays = executor.stays();
+    let remembered = |executor: &Executor| {
+        let mut trace = Vec::new();
+        executor.trace(&mut trace);
+        trace
+    };
+    let without_stays = |trace: &[f64]| -> Vec<u64> {
+        let words = trace.iter().enumerate().filter(|(word, _)| !stays.contains(word));
+        words.map(|(_, value)| value.to_bits()).collect()
+    };
+    let mut given = lots.next(system, &outputs);
+    let mut before = executor.scan(given, &lots.images, &mut outputs);
+    let (mut acted, mut quiet) = (true, 0);
+    for _ in 0..6000 {
+        let trace = remembered(&executor);
+        let mut may_act = acted;
+        if acted || random.up_to(6) == 0 {
+            given = lots.next(system, &outputs);
+            given.run_permit = true;
+            may_act = true;
+        }
+        for instance in 0..system.instances.len() {
+            let automaton = system.automaton_of(instance);
+            let reads = Reads::of_state(automaton, &automaton.states[executor.state(instance)]);
+            let read = reads.words(system.kinds());
+            for word in (0..lots.images[instance].len()).filter(|word| !read.contains(word)) {
+                lots.images[instance][word] = f64::from(random.up_to(12)) - 2.0;
+            }
+            let stay = trace[stays[instance]];
+            for time in &reads.timers {
+                let is_fixed = reads::is_fixed(automaton, time);
+                may_act |= !is_fixed;
+                if is_fixed && let Value::Int(time) = executor.value(instance, time) {
+                    may_act |= stay < f64::from(time) && f64::from(time) <= stay + f64::from(system.scan_ms);
+                }
+            }
+        }
+        let answer = executor.scan(given, &lots.images, &mut outputs);
+        let after = remembered(&executor);
+        let passed = if answer.running { f64::from(system.scan_ms) } else { 0.0 };
+        let restarted = stays.iter().any(|stay| after[*stay] != trace[*stay] + passed);
+        acted = restarted || answer != before || without_stays(&trace) != without_stays(&after);
+        assert!(may_act || !acted, "seed {seed}: something happens though nothing was read");
+        quiet += usize::from(!may_act && answer.running);
+        before = answer;
+    }
+    quiet
+}
