@@ -13,6 +13,7 @@ use crate::item::Items;
 use crate::kinematics::arm::Joints;
 use crate::line::{Line, Obstacle};
 use crate::memory::Memory;
+use crate::part::Looks;
 use crate::part::orders::Desk;
 use crate::point::Point;
 use trajectory::Trajectory;
@@ -102,23 +103,27 @@ impl Plant {
 
     /// When a gripper of a machine next looks and could find an item, ms; infinity: never, as everything moves now.
     fn next_look(&self, machine: usize, now_ms: u64) -> f64 {
+        let looks = self.machines[machine].looks();
+        looks.map(|looks| self.next_look_of(machine, looks, now_ms)).fold(f64::INFINITY, f64::min)
+    }
+
+    fn next_look_of(&self, machine: usize, looks: Looks, now_ms: u64) -> f64 {
         let working = &self.machines[machine];
-        let Some((part, looks)) = working.looks() else { return f64::INFINITY };
+        let mut look = (now_ms / looks.period_ms + 1) * looks.period_ms;
+        if looks.has_found {
+            return look as f64;
+        }
         let see = working.see(&self.items, &self.desk);
         let Some(tool) = see.tool(looks.chain) else { return f64::INFINITY };
         let Some(nearest) = self.nearest(tool.position) else { return f64::INFINITY };
-        let speeds = self.machines.iter().map(|machine| machine.trajectory(now_ms).speed());
-        let speed = speeds.fold(0.0, f64::max);
+        let speed = self.machines.iter().map(|machine| machine.speed(now_ms)).fold(0.0, f64::max);
         let seconds = |ms: u64| ms as f64 / 1000.0;
-        let rests = working.trajectory(now_ms).since(now_ms as f64) == Trajectory::Rests;
-        let mut look = (now_ms / looks.period_ms + 1) * looks.period_ms;
-        if rests && speed == 0.0 && nearest > looks.near {
+        if !self.moves(machine) && speed == 0.0 && nearest > looks.near + ROUNDED {
             return f64::INFINITY;
         }
         for _ in 0..MOST_LOOKS {
-            let come =
-                working.tool_goes(part, seconds(now_ms), seconds(look)) + speed * seconds(look - now_ms);
-            if nearest - come <= looks.near + ROUNDED {
+            let tool_goes = working.tool_goes(looks.chain, seconds(now_ms), seconds(look));
+            if nearest - tool_goes - speed * seconds(look - now_ms) <= looks.near + ROUNDED {
                 break;
             }
             look += looks.period_ms;

@@ -168,7 +168,8 @@ fn simulate(
                 agenda.next_step(scan, &states, &changes, &plant),
                 plant.next_change(),
                 operator.next_change(scan, &line.scenario),
-                Some(progress.longest(scan)),
+                Some(progress.limit()),
+                (!is_alive).then(|| progress.stalls_at()),
             ];
             let quiet = events.into_iter().flatten().min().unwrap_or(scan + 1);
             quiet_until = bus.next_exchange(scan, quiet.max(scan + 1), progress.last_event());
@@ -178,7 +179,11 @@ fn simulate(
         }
         let (next, collision) = check.look_until(&plant, memory, scan, next);
         let collision = collision.map(collision_text);
+        let logged = plant.items().log().len();
         plant.proceed_to(next);
+        if stepping == Stepping::Checked && next < quiet_until && plant.items().log().len() > logged {
+            return Err(format!("an item or an order changes before scan {next}, which would be left out"));
+        }
         if is_alive {
             progress.is_alive(next - 1);
         }

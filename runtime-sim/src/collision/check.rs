@@ -146,11 +146,13 @@ impl CollisionCheck {
             }
             if let (Some(first), Some(second)) = (&boxes[a], &boxes[b])
                 && a != b
+                && !pair.touches()
                 && first.is_apart(second)
             {
                 continue;
             }
             if let Some(question) = question(&mut self.groups, index, [a, b], plant)
+                && !pair.touches()
                 && (pair.free == Some(question) || is_free(&mut self.groups, [a, b], plant, memory, question))
             {
                 pair.free = Some(question);
@@ -208,8 +210,11 @@ impl CollisionCheck {
 
     fn leave(&mut self, item: usize, plant: &Plant) {
         let tracked = &mut self.items[item];
-        let Some((group, body)) = tracked.place.take() else { return };
-        let group = &mut self.groups[group];
+        let Some((index, body)) = tracked.place.take() else { return };
+        for pair in self.pairs.iter_mut().filter(|pair| pair.groups.contains(&index)) {
+            pair.expect(index, body);
+        }
+        let group = &mut self.groups[index];
         if let Some(Anchor::Link(link)) = group.remove(body).map(|body| body.anchor) {
             let along = group.link_now(link, plant).then(&tracked.hang).axis(0);
             tracked.turn = libm::atan2(along.y, along.x);

@@ -29,6 +29,6 @@ pub const SKIN: f64 = 0.001;
 /// Shrunk solids that are no farther apart than this are in contact, m.
 pub const TOLERANCE: f64 = 5e-5;
 
-/// What joints and places that are the same to a micrometre and a microradian can differ by at any point of an arm, m:
-/// the sum of the radii of its joints is less than 12 m.
-const UNCERTAIN: f64 = 2e-5;
+/// What joints and places that are the same to a micrometre and a microradian can differ by at any point of two arms, m:
+/// the sum of the radii of the joints of each is less than 12 m.
+const UNCERTAIN: f64 = 5e-5;

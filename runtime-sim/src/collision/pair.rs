@@ -98,7 +98,7 @@ impl Pair {
         self.touching.clear();
     }
 
-    /// Another body stands at this number of a group.
+    /// Another body stands at this number of a group, or none any more.
     pub fn expect(&mut self, group: usize, body: usize) {
         self.clear = f64::NEG_INFINITY;
         let [a, b] = self.groups;

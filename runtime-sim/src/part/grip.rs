@@ -168,7 +168,8 @@ impl Running for Gripping {
     }
 
     fn looks(&self) -> Option<Looks> {
-        let looks = Looks { chain: self.grip.chain, period_ms: self.grip.period_ms, near: self.grip.near };
+        let Grip { chain, period_ms, near, .. } = self.grip;
+        let looks = Looks { chain, period_ms, near, has_found: self.looks > 0 };
         (self.vacuum == Vacuum::On && self.held.is_none()).then_some(looks)
     }
 

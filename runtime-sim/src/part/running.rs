@@ -66,6 +66,8 @@ pub struct Looks {
     pub period_ms: u64,
     /// It finds what is gripped no farther from the tool, m.
     pub near: f64,
+    /// It has found something at the last look: the next one counts, whatever it finds.
+    pub has_found: bool,
 }
 
 /// What a part can see of its machine and of the line.

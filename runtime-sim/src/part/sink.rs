@@ -60,6 +60,10 @@ impl Running for Sink {
             Carrier::Lane { at, .. } => Some(at - moving.lane().range[0] - self.inset),
             _ => None,
         });
-        ends.map(|end| moving.reaches(end, now_ms)).fold(f64::INFINITY, f64::min)
+        let leaves = |end: f64| {
+            let is_beyond = moving.is_moving() && end <= moving.travel();
+            if is_beyond { now_ms as f64 } else { moving.reaches(end, now_ms) }
+        };
+        ends.map(leaves).fold(f64::INFINITY, f64::min)
     }
 }

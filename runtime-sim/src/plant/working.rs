@@ -181,6 +181,7 @@ impl Working {
     pub fn next_change(&self, items: &Items, desk: &Desk, now_ms: u64) -> f64 {
         let see = self.see(items, desk);
         let head = self.head.as_ref().map_or(f64::INFINITY, |head| head.next_change(now_ms));
+        let head = if self.awaited(&see) == Some(true) { now_ms as f64 } else { head };
         self.running().map(|part| part.next_change(&see, now_ms)).fold(head, f64::min)
     }
 
@@ -210,9 +211,14 @@ impl Working {
         }
     }
 
-    /// The chain at whose tool a part looks for an item, and how it looks.
-    pub fn looks(&self) -> Option<(usize, Looks)> {
-        self.running().find_map(|part| part.looks()).map(|looks| (looks.chain, looks))
+    /// All grippers that look for an item.
+    pub fn looks(&self) -> impl Iterator<Item = Looks> {
+        self.running().filter_map(|part| part.looks())
+    }
+
+    /// The highest speed of what its parts carry along, m/s.
+    pub fn speed(&self, now_ms: u64) -> f64 {
+        self.running().map(|part| part.trajectory(now_ms).speed()).fold(0.0, f64::max)
     }
 
     pub fn tool_goes(&self, chain: usize, from: f64, to: f64) -> f64 {
@@ -239,17 +245,23 @@ impl Working {
 
     /// Ends a command that has waited for a signal, once it is known.
     pub fn settle(&mut self, items: &Items, desk: &Desk) {
-        let Some(head) = self.head.as_ref().filter(|head| !head.held) else { return };
-        let Some((awaited, waited_ms)) = head.awaits() else { return };
-        let mut word = [0.0];
-        if let Some(part) = &self.parts[awaited.part] {
-            part.signal(awaited.signal, &self.see(items, desk), &mut word);
-        }
-        if word[0] != 0.0 {
+        let Some(is_there) = self.awaited(&self.see(items, desk)) else { return };
+        let Some((awaited, waited_ms)) = self.head.as_ref().and_then(Head::awaits) else { return };
+        if is_there {
             self.end(error::NONE);
         } else if waited_ms >= awaited.within_ms {
             self.end(awaited.error);
         }
+    }
+
+    /// Whether the signal is there that the command waits for; none if it waits for none, or is held.
+    fn awaited(&self, see: &See) -> Option<bool> {
+        let (awaited, _) = self.head.as_ref().filter(|head| !head.held)?.awaits()?;
+        let mut word = [0.0];
+        if let Some(part) = &self.parts[awaited.part] {
+            part.signal(awaited.signal, see, &mut word);
+        }
+        Some(word[0] != 0.0)
     }
 
     pub fn serve(&mut self, shared: &mut Shared) {

@@ -49,10 +49,14 @@ impl Progress {
         self.last_event
     }
 
-    /// The scan at which the run ends if nothing happens after this one.
-    pub fn longest(&self, scan: u64) -> u64 {
-        let stalls = self.alive.saturating_add(1).saturating_add(self.stall);
-        if self.alive < scan { stalls.min(self.limit) } else { self.limit }
+    /// The scan at which the run ends at the latest if nothing happens before.
+    pub fn limit(&self) -> u64 {
+        self.limit
+    }
+
+    /// The scan at which it ends if nothing is about to happen any more.
+    pub fn stalls_at(&self) -> u64 {
+        self.alive.saturating_add(1).saturating_add(self.stall)
     }
 
     /// Whether the run is over before this scan, and whether all orders are made.
