@@ -1,5 +1,7 @@
 //! A number of 128 bits by which things are told apart that are compared often.
 
+use crate::random::Random;
+
 /// Of a list of numbers. Two lists that differ have the same one with a probability of 2^-128 or so.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Fingerprint([u64; 2]);
@@ -17,10 +19,7 @@ impl Default for Fingerprint {
 impl Fingerprint {
     pub fn with(self, number: u64) -> Self {
         let [a, b] = self.0;
-        Self([
-            mixed(a ^ number, 0x9E37_79B9_7F4A_7C15),
-            mixed(b.rotate_left(23) ^ number, 0xD6E8_FEB8_6659_FD93),
-        ])
+        Self([a, b.rotate_left(23)].map(|half| Random::new(half ^ number).next_u64()))
     }
 
     /// A length or an angle, to the nearest micrometre or microradian.
@@ -36,12 +35,4 @@ impl Fingerprint {
     pub fn sum(self, other: Fingerprint) -> Self {
         Self([self.0[0].wrapping_add(other.0[0]), self.0[1].wrapping_add(other.0[1])])
     }
-}
-
-/// The finalizer of SplitMix64 after a step of it.
-fn mixed(state: u64, step: u64) -> u64 {
-    let z = state.wrapping_add(step);
-    let z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-    z ^ (z >> 31)
 }

@@ -25,3 +25,17 @@ impl Hash {
         self.0
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Computed by a few lines of Python from what is said above.
+    #[test]
+    fn the_hash_of_two_changes() {
+        let mut hash = Hash::default();
+        hash.change(3, 7, 1.5);
+        hash.change(70_000, 0, -0.0);
+        assert_eq!(hash.value(), 0xa938928e3b46a5f4);
+    }
+}

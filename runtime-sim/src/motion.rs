@@ -43,13 +43,8 @@ impl Motion {
         Self::past(from, &[Knot::new(to)], limits, begin)
     }
 
-    /// The same past `via`: along both lines, with a corner between them that is short of `via`
-    /// by at most [`CORNER_NEAR`] for each joint.
-    pub fn through(from: Joints, via: Joints, to: Joints, limits: &Limits, begin: f64) -> Self {
-        Self::past(from, &[Knot::new(via), Knot::new(to)], limits, begin)
-    }
-
-    /// The same past all knots but the last, and to that.
+    /// The same past all knots but the last, and to that. Lines meet in corners that are short of their knots by at most
+    /// [`Knot::near`] for each joint.
     pub fn past(from: Joints, knots: &[Knot], limits: &Limits, begin: f64) -> Self {
         Self::on(Path::new(from, knots, limits), limits, begin)
     }
@@ -162,11 +157,6 @@ impl Motion {
     /// How far a point goes at most, if it goes so far for each metre or radian of each joint.
     pub fn travel(&self, radii: &[f64]) -> Travel {
         Travel::new(self.path.sections(radii))
-    }
-
-    /// How far each joint goes at most for each unit of the place on the path.
-    pub fn rates(&self) -> Joints {
-        self.path.rates()
     }
 
     /// Place on the path, 0 to 1.
@@ -335,9 +325,13 @@ mod tests {
         assert!(nothing.has_ended(8.0));
     }
 
+    fn through(from: Joints, via: Joints, to: Joints, limits: &Limits, begin: f64) -> Motion {
+        Motion::past(from, &[Knot::new(via), Knot::new(to)], limits, begin)
+    }
+
     fn corner() -> Motion {
         let via = joints(&[2.0, 0.2, 1.0]);
-        Motion::through(joints(&[0.0, 1.0, -0.5]), via, joints(&[1.0, -1.2, 0.3]), &limits(), 0.0)
+        through(joints(&[0.0, 1.0, -0.5]), via, joints(&[1.0, -1.2, 0.3]), &limits(), 0.0)
     }
 
     /// Least distance of a motion from `via`, in the joint that is furthest from it.
@@ -357,7 +351,7 @@ mod tests {
             let half = [3.0, 0.3, 0.01][i % 3];
             let [from, via, to] = [0; 3].map(|_| anywhere(half));
             let limits = limits().at_speed([1.0, 0.1][i % 2]);
-            let motion = Motion::through(from, via, to, &limits, 0.0);
+            let motion = through(from, via, to, &limits, 0.0);
             let end = motion.ends_at().unwrap();
             assert_eq!((motion.at(0.0), motion.at(end)), (from, to));
             let near = passes(&motion, &via);
@@ -473,13 +467,13 @@ mod tests {
         let (from, via, to) = (joints(&[0.0; 3]), joints(&[1.0, 0.5, -0.2]), joints(&[3.0, 1.5, -0.6]));
         let straight = Motion::undisturbed(from, to, &limits());
         for (via, duration) in [(via, straight), (from, straight), (to, straight)] {
-            let motion = Motion::through(from, via, to, &limits(), 0.0);
+            let motion = through(from, via, to, &limits(), 0.0);
             assert!((motion.rests_at() - duration).abs() < 1e-6, "{} {duration}", motion.rests_at());
         }
         // There and back: the corner turns round.
-        let motion = Motion::through(from, via, from, &limits(), 0.0);
+        let motion = through(from, via, from, &limits(), 0.0);
         assert_eq!(motion.at(motion.rests_at()), from);
         assert!(passes(&motion, &via) <= CORNER_NEAR);
-        assert_eq!(Motion::through(from, from, from, &limits(), 3.0).ends_at(), Some(3.0));
+        assert_eq!(through(from, from, from, &limits(), 3.0).ends_at(), Some(3.0));
     }
 }

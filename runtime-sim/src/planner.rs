@@ -82,13 +82,12 @@ impl Candidate {
     }
 }
 
-/// The tool straight up from a place.
-#[derive(Clone)]
+/// The tool can go straight up from a place.
 struct Vertical {
-    /// Behind those at the place, the last ones at the height of `top`.
-    joints: Vec<Joints>,
+    /// To this height, m.
     top: f64,
-    /// How far the robot is from all obstacles there, m; at most [`MARGIN`].
+    /// How far the robot is from all obstacles there, m; no less than [`MARGIN_AT_PLACE`], and not looked at beyond
+    /// [`MARGIN`].
     gap: f64,
 }
 
@@ -339,7 +338,7 @@ impl Planner {
         } else {
             self.scene.gap(&near, &self.arm.frames(low), load, [MARGIN_AT_PLACE, MARGIN])
         };
-        let mut vertical = Vertical { joints: Vec::new(), top, gap };
+        let mut vertical = Vertical { top, gap };
         let (mut z, mut step, mut last) = (tool.z, LINE_STEP, *low);
         while z < top {
             if z >= tool.z + STRAIGHT {
@@ -353,7 +352,6 @@ impl Planner {
             if vertical.gap < MARGIN_AT_PLACE {
                 return None;
             }
-            vertical.joints.push(last);
         }
         Some(vertical)
     }

@@ -114,7 +114,7 @@ fn simulate(
 
     let mut fault = None;
     let (finished, reason) = loop {
-        let arrived = bus.exchange(scan, plant.images(), &mut inputs);
+        let arrived = bus.exchange(scan, plant.images(), |machine| plant.moves(machine), &mut inputs);
         let system = operator.inputs(scan, &line.scenario);
         let is_due = agenda.is_due(scan, system, &inputs, &states, &changes);
         let mut acted = false;
@@ -163,7 +163,12 @@ fn simulate(
             progress.is_alive(scan);
         }
         let mut next = scan + 1;
-        if stepping != Stepping::EveryScan && scan >= quiet_until {
+        let looks_ahead = match stepping {
+            Stepping::Events => true,
+            Stepping::EveryScan => false,
+            Stepping::Checked => scan >= quiet_until,
+        };
+        if looks_ahead {
             let events = [
                 agenda.next_step(scan, &states, &changes, &plant),
                 plant.next_change(),

@@ -9,6 +9,7 @@ use autogen_tests::instances::instantiate;
 use autogen_tests::lots::Lots;
 use autogen_tests::st::Beside;
 use autogen_tests::{Texts, examples, is_full_campaign, on_all_processors, prototype, root, trace};
+use runtime_sim::run::{Stepping, run};
 use runtime_sim::scan::Controllers;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -52,13 +53,8 @@ fn coverage(job: &Job) -> Coverage {
             let project = outcome.project.expect("a layout that can be built");
             let text = Text::new(name, "examples", &project.system, &outcome.sources);
             coverage.take(&text, |beside| {
-                runtime_sim::run::run(
-                    &project.plant,
-                    beside,
-                    runtime_sim::run::Stepping::EveryScan,
-                    &mut |_| {},
-                )
-                .expect("a line that can be run");
+                run(&project.plant, beside, Stepping::EveryScan, &mut |_| {})
+                    .expect("a line that can be run");
             });
             for seed in 1..=3 {
                 coverage.take(&text, |beside| drawn(beside, &text, Lots::new(text.system, seed), 3000));

@@ -53,7 +53,7 @@ fn margins_are_those_of_an_independent_calculation() {
 }
 
 #[test]
-fn a_vehicle_that_is_partly_or_wholly_out_of_reach_is_named_with_a_mend() {
+fn a_vehicle_that_is_partly_or_wholly_out_of_reach_is_named_with_a_suggested_change() {
     // The pair of the paper's Fig. 2: the arm is too far from the vehicle.
     for (x, all) in [("-2.765685", false), ("-3.265685", true)] {
         let outcome = changed("[-2.265685, -1.333917, 0]", &format!("[{x}, -1.333917, 0]"));

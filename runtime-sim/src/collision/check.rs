@@ -1,14 +1,15 @@
 //! The collision check of a run.
 //!
 //! Conservative advancement: of each pair of bodies it is known how far the two may go before they can meet at
-//! the earliest, from their last distance; it is looked at again when they may have gone so far. Within a scan
-//! the places are those of the exact motion at exact times, each time so much later as the distance allows.
+//! the earliest, from their last distance; it is looked at again when they may have gone so far. Between two
+//! events the places are those of the exact motion at exact times, each time so much later as the distance allows.
 //! So nothing is stepped over, however thin.
 
+use super::TOLERANCE;
 use super::body::Piece;
 use super::bounds::BoundingBox;
 use super::group::{Anchor, Group, Kind};
-use super::pair::{Pair, Scan, Touch};
+use super::pair::{Pair, Span, Touch};
 use crate::carrier::Carrier;
 use crate::event::Event;
 use crate::fingerprint::Fingerprint;
@@ -113,7 +114,7 @@ impl CollisionCheck {
         self.follow_items(plant);
         let mut next = next;
         loop {
-            let found = self.search(plant, memory, self.seconds * (next - scan) as f64);
+            let found = self.search(plant, memory, next - scan);
             let Some((_, first)) = found.first().filter(|_| next > scan + 1) else {
                 return (next, self.note_all(found, plant));
             };
@@ -124,10 +125,13 @@ impl CollisionCheck {
         }
     }
 
-    /// What comes into contact within so many seconds, by time; the numbers of the pairs.
-    fn search(&mut self, plant: &Plant, memory: &mut Memory, seconds: f64) -> Vec<(usize, Touch)> {
+    /// What comes into contact within so many scans, by time; the numbers of the pairs. Within several, what comes so
+    /// near that it could: when it does is found scan by scan.
+    fn search(&mut self, plant: &Plant, memory: &mut Memory, scans: u64) -> Vec<(usize, Touch)> {
+        let seconds = self.seconds * scans as f64;
+        let contact = if scans == 1 { TOLERANCE } else { 2.0 * TOLERANCE };
         for group in &mut self.groups {
-            group.begin_scan(plant, seconds);
+            group.begin(plant, seconds);
         }
         let sets_out: Vec<bool> = self.groups.iter().map(Group::is_about_to_slide).collect();
         let mut boxes: Vec<Option<BoundingBox>> = vec![None; self.groups.len()];
@@ -161,8 +165,8 @@ impl CollisionCheck {
             if is_clear {
                 continue;
             }
-            let mut scan = Scan { groups: &mut self.groups, plant, seconds };
-            if let Some(touch) = pair.look(&mut scan) {
+            let mut span = Span { groups: &mut self.groups, plant, seconds, contact };
+            if let Some(touch) = pair.look(&mut span) {
                 found.push((index, touch));
             }
         }
@@ -292,7 +296,7 @@ fn is_free(
     }
     for group in [a, b] {
         if let Some((seconds, present)) = groups[group].rewind() {
-            let is_free = Scan { groups, plant, seconds }.stay_apart([a, b]);
+            let is_free = Span { groups, plant, seconds, contact: TOLERANCE }.stay_apart([a, b]);
             groups[group].restore(present);
             memory.note_free(question, is_free);
             return is_free;

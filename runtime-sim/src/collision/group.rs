@@ -1,7 +1,8 @@
-//! All bodies of one machine or obstacle, and how they move within a scan.
+//! All bodies of one machine or obstacle, and how they move from now on.
 
 use super::body::{Ball, Piece};
 use super::bounds::{BoundingBox, Chain, Radii};
+use super::movement::Movement;
 use super::{TOLERANCE, UNCERTAIN};
 use crate::fingerprint::Fingerprint;
 use crate::kinematics::arm::{Arm, Frames, Joints};
@@ -11,7 +12,6 @@ use crate::machine::Machine;
 use crate::memory::Memory;
 use crate::motion::{Motion, Travel};
 use crate::plant::Plant;
-use crate::plant::trajectory::Trajectory;
 use crate::point::Point;
 use crate::solid::{Link, Solid};
 use std::sync::Arc;
@@ -27,10 +27,10 @@ pub struct Body {
     pub bounds: BoundingBox,
     /// Of an arm's joints, if it is fixed to one of the links.
     radii: Option<Radii>,
-    /// Metres that no point of it has gone more than, from the start of the run to the end of the scan.
+    /// Metres that no point of it has gone more than, from the start of the run to the end of the span.
     pub path: f64,
     /// Along the path of an arm, metres that no point of it goes more than.
-    travel: Travel,
+    pub travel: Travel,
     /// Of an item: of its size, of how it is turned, and of how it hangs.
     item: Option<Fingerprint>,
 }
@@ -56,7 +56,7 @@ pub struct Group {
     pub kind: Kind,
     /// Those of items may come and go, and leave their places to others.
     pub bodies: Vec<Option<Body>>,
-    /// Metres that no body has gone more than, from the start of the run to the end of the scan.
+    /// Metres that no body has gone more than, from the start of the run to the end of the span.
     pub path: f64,
     movement: Movement,
     /// Of an arm, as last looked at.
@@ -83,22 +83,6 @@ pub enum Kind {
     Obstacle,
     Machine { index: usize, machine: Machine },
     Arm { index: usize, arm: Arm, chain: Chain },
-}
-
-/// Within one scan; times are seconds from its start.
-#[derive(Clone, Debug)]
-enum Movement {
-    Still,
-    Slides {
-        velocity: Point,
-        from: f64,
-        until: f64,
-    },
-    /// `begin` is the start of the scan on the motion's clock.
-    Swings {
-        motion: Motion,
-        begin: f64,
-    },
 }
 
 /// The movement of a group while another one stands in its place.
@@ -254,21 +238,6 @@ impl Group {
         self.machine().and_then(|index| plant.position(index)).unwrap_or_default()
     }
 
-    /// Lets something look at the motion from its beginning to its end, of so many seconds; none if it rests, has been
-    /// held on its way, or does not come to rest by itself.
-    fn whole_motion(&self) -> Option<(Movement, f64)> {
-        match &self.movement {
-            Movement::Still => None,
-            Movement::Slides { until, .. } => {
-                (self.is_about_to_slide() && until.is_finite()).then(|| (self.movement.clone(), *until))
-            }
-            Movement::Swings { motion, .. } => {
-                let begin = motion.whole_since()?;
-                Some((Movement::Swings { motion: motion.clone(), begin }, motion.rests_at() - begin))
-            }
-        }
-    }
-
     /// What contains it on each piece of its path, or all the while.
     pub fn boxes(&mut self, plant: &Plant, memory: &mut Memory) -> Arc<[BoundingBox]> {
         if self.boxes.is_empty() {
@@ -341,7 +310,7 @@ impl Group {
 
     /// As if the motion was at its beginning; the seconds that it takes, and what it is in truth.
     pub fn rewind(&mut self) -> Option<(f64, Present)> {
-        let (whole, seconds) = self.whole_motion()?;
+        let (whole, seconds) = self.movement.whole()?;
         Some((seconds, Present(std::mem::replace(&mut self.movement, whole))))
     }
 
@@ -351,10 +320,10 @@ impl Group {
 
     /// It has not set out yet.
     pub fn is_about_to_slide(&self) -> bool {
-        matches!(self.movement, Movement::Slides { from, .. } if from >= 0.0)
+        self.movement.is_about_to_slide()
     }
 
-    /// Whether there is sense in watching the two; for one group and itself, whether it could touch itself.
+    /// Whether there is sense in looking at the two; for one group and itself, whether it could touch itself.
     pub fn can_meet(&self, other: &Group, is_same: bool) -> bool {
         match (&self.kind, &other.kind) {
             (Kind::Arm { .. }, _) if is_same => true,
@@ -376,7 +345,7 @@ impl Group {
         a.abs_diff(b) > 2
     }
 
-    /// The frame of a link at the start of the scan.
+    /// The frame of a link now.
     pub fn link_now(&self, link: usize, plant: &Plant) -> Pose {
         match &self.kind {
             Kind::Arm { index, arm, .. } => {
@@ -393,35 +362,22 @@ impl Group {
         }
     }
 
-    /// Looks up how it is going to move in the scan of `seconds` that begins, and how far at most.
-    pub fn begin_scan(&mut self, plant: &Plant, seconds: f64) {
+    /// Looks up how it is going to move in the span of so many seconds that begins, and how far at most.
+    pub fn begin(&mut self, plant: &Plant, seconds: f64) {
         let Some(index) = self.machine() else { return };
-        let now_ms = plant.now_ms() as f64;
-        let last = std::mem::replace(&mut self.movement, Movement::Still);
-        self.movement = match plant.trajectory(index).since(now_ms) {
-            Trajectory::Rests => {
-                if !matches!(last, Movement::Still) {
-                    self.forget();
-                }
-                return;
-            }
-            Trajectory::Drives { velocity, from_ms, until_ms } => Movement::Slides {
-                velocity,
-                from: (from_ms - now_ms) / 1000.0,
-                until: (until_ms - now_ms) / 1000.0,
-            },
-            Trajectory::Swings(motion) => Movement::Swings { motion, begin: now_ms / 1000.0 },
-        };
-        let goes_on = matches!(
-            (&self.movement, &last),
-            (Movement::Swings { motion, .. }, Movement::Swings { motion: last, .. }) if motion.is_along(last)
-        );
+        let movement = Movement::new(plant.trajectory(index), plant.now_ms() as f64);
+        let last = std::mem::replace(&mut self.movement, movement);
+        if matches!((&self.movement, &last), (Movement::Still, Movement::Still)) {
+            return;
+        }
+        let goes_on = self.movement.goes_on(&last);
         if !goes_on {
             self.forget();
         }
-        if let Movement::Swings { motion, .. } = &self.movement {
-            let is_known = goes_on;
-            for body in self.bodies.iter_mut().flatten().filter(|_| !is_known) {
+        if let Movement::Swings { motion, .. } = &self.movement
+            && !goes_on
+        {
+            for body in self.bodies.iter_mut().flatten() {
                 body.travel = body.radii.as_ref().map_or_else(Travel::default, |radii| motion.travel(radii));
             }
         }
@@ -443,12 +399,12 @@ impl Group {
         }
     }
 
-    /// Metres that no point of the body goes more than between two times of the scan.
+    /// Metres that no point of the body goes more than between two times of the span.
     pub fn path_between(&self, body: &Body, from: f64, to: f64) -> f64 {
         self.movement.path(body, self.movement.span(from, to))
     }
 
-    /// The frame of an anchor at a time of the scan.
+    /// The frame of an anchor at a time of the span.
     pub fn frame(&mut self, anchor: Anchor, plant: &Plant, time: f64) -> Pose {
         match anchor {
             Anchor::World => Pose::IDENTITY,
@@ -477,36 +433,6 @@ impl Group {
                 self.frames = Some((joints, frames));
                 Some(frames)
             }
-        }
-    }
-}
-
-impl Movement {
-    /// Between two times of the scan: metres of what slides, or both places on the path of an arm.
-    fn span(&self, from: f64, to: f64) -> [f64; 2] {
-        match self {
-            Movement::Still => [0.0; 2],
-            Movement::Slides { .. } => [0.0, (self.shift(to) - self.shift(from)).length()],
-            Movement::Swings { motion, begin } => [motion.place(begin + from), motion.place(begin + to)],
-        }
-    }
-
-    /// Metres that no point of the body goes more than in this span.
-    fn path(&self, body: &Body, [from, to]: [f64; 2]) -> f64 {
-        match (self, body.anchor) {
-            (Movement::Still, _) | (_, Anchor::World) => 0.0,
-            (Movement::Slides { .. }, _) => to - from,
-            (Movement::Swings { .. }, _) => body.travel.to(to) - body.travel.to(from),
-        }
-    }
-
-    /// How far it has slid since the start of the scan.
-    fn shift(&self, time: f64) -> Point {
-        match self {
-            Movement::Slides { velocity, from, until } => {
-                velocity.scaled((time.min(*until) - from.max(0.0)).max(0.0))
-            }
-            Movement::Still | Movement::Swings { .. } => Point::default(),
         }
     }
 }

@@ -12,6 +12,7 @@ pub(crate) mod body;
 mod bounds;
 mod check;
 mod group;
+mod movement;
 mod pair;
 
 pub(crate) use bounds::BoundingBox;

@@ -36,17 +36,19 @@ struct Touching {
 /// That two bodies have come into contact.
 #[derive(Clone, Debug)]
 pub struct Touch {
-    /// Seconds from the start of the scan.
+    /// Seconds from the start of the span.
     pub time: f64,
     pub place: Point,
     pub parts: [String; 2],
 }
 
-/// The scan that begins.
-pub struct Scan<'a> {
+/// The time that is looked at: so many seconds from now on, in which no motion changes.
+pub struct Span<'a> {
     pub groups: &'a mut [Group],
     pub plant: &'a Plant,
     pub seconds: f64,
+    /// Bodies that are no farther apart than this meet, m.
+    pub contact: f64,
 }
 
 /// Two bodies by the numbers of their groups and by their own.
@@ -60,19 +62,21 @@ enum Apart {
     Exactly(Gap, [usize; 2]),
 }
 
-/// What the search in a scan comes to.
+/// What the search in a span comes to.
 enum Search {
     /// They could go so much further.
     Clear(f64),
     Meet(Touch),
 }
 
-/// Bodies whose balls are so much farther apart than they can go in a scan are not looked at more closely, m.
+/// Bodies whose balls are so much farther apart than they can go in a span are not looked at more closely, m.
 const FAR: f64 = 0.1;
 /// No search takes shorter steps, s: whatever moves goes less than a thousandth of the tolerance.
 const SHORTEST_STEP: f64 = 1e-9;
 /// A motion is looked at in pieces no smaller than its time divided by two so often.
 const HALVINGS: u32 = 18;
+/// Whether all bodies of two groups stay apart is not known if two of them have to be looked at more often.
+const MOST_LOOKS: usize = 100_000;
 
 impl Pair {
     pub fn new(groups: [usize; 2], allowed: bool) -> Self {
@@ -115,32 +119,32 @@ impl Pair {
         });
     }
 
-    /// Looks at all bodies that may have come into contact in this scan; the first contact of the pair, if
+    /// Looks at all bodies that may have come into contact in this span; the first contact of the pair, if
     /// none of its bodies was in contact before.
-    pub fn look(&mut self, scan: &mut Scan) -> Option<Touch> {
+    pub fn look(&mut self, span: &mut Span) -> Option<Touch> {
         let [a, b] = self.groups;
-        let counts = [a, b].map(|group| scan.groups[group].bodies.len());
+        let counts = [a, b].map(|group| span.groups[group].bodies.len());
         self.bodies.resize(counts[0], Vec::new());
         self.bodies.iter_mut().for_each(|row| row.resize(counts[1], f64::NEG_INFINITY));
         let touched = !self.touching.is_empty();
-        self.touching.retain_mut(|touching| scan.still_touch([a, b], touching));
+        self.touching.retain_mut(|touching| span.still_touch([a, b], touching));
         let mut first: Option<Touch> = None;
         let mut slack = f64::INFINITY;
         for i in 0..counts[0] {
             let from = if a == b { i + 1 } else { 0 };
             for j in from..counts[1] {
                 let two = [(a, i), (b, j)];
-                let Some(paths) = scan.paths(two) else { continue };
+                let Some(paths) = span.paths(two) else { continue };
                 if let Some(touching) = self.touching.iter().find(|touching| touching.bodies == [i, j]) {
                     slack = slack.min(touching.until - paths);
                     continue;
                 }
                 let clear = &mut self.bodies[i][j];
-                if *clear == f64::NEG_INFINITY && !scan.can_meet(two) {
+                if *clear == f64::NEG_INFINITY && !span.can_meet(two) {
                     *clear = f64::INFINITY;
                 }
                 if paths > *clear {
-                    match scan.search(two) {
+                    match span.search(two) {
                         Search::Clear(further) => *clear = paths + further,
                         Search::Meet(touch) => {
                             let until = paths + SKIN;
@@ -156,17 +160,17 @@ impl Pair {
                 slack = slack.min(*clear - paths);
             }
         }
-        self.clear = scan.groups[a].path + scan.groups[b].path + slack;
+        self.clear = span.groups[a].path + span.groups[b].path + slack;
         first.filter(|_| !touched)
     }
 }
 
-impl Scan<'_> {
+impl Span<'_> {
     fn body(&self, (group, body): (usize, usize)) -> Option<&Body> {
         self.groups[group].bodies[body].as_ref()
     }
 
-    /// Of both bodies by the end of the scan.
+    /// Of both bodies by the end of the span.
     fn paths(&self, two: Two) -> Option<f64> {
         let [a, b] = two.map(|one| self.body(one));
         Some(a?.path + b?.path)
@@ -197,16 +201,17 @@ impl Scan<'_> {
             (from..counts[1]).map(move |j| [(a, i), (b, j)])
         });
         let all: Vec<Two> = all.filter(|two| self.can_meet(*two)).collect();
-        self.keep_off(&all, [0.0, self.seconds], HALVINGS)
+        self.keep_off(&all, [0.0, self.seconds], HALVINGS, &mut 0)
     }
 
     /// The same of these bodies between two times, which is halved so often at most. From where they are in the middle
     /// they cannot go farther than they do to either end.
-    fn keep_off(&mut self, all: &[Two], [from, to]: [f64; 2], halvings: u32) -> bool {
+    fn keep_off(&mut self, all: &[Two], [from, to]: [f64; 2], halvings: u32, looks: &mut usize) -> bool {
         if all.is_empty() {
             return true;
         }
-        if halvings == 0 {
+        *looks += all.len();
+        if halvings == 0 || *looks > MOST_LOOKS {
             return false;
         }
         let middle = from + (to - from) / 2.0;
@@ -225,7 +230,8 @@ impl Scan<'_> {
                 near.push(*two);
             }
         }
-        self.keep_off(&near, [from, middle], halvings - 1) && self.keep_off(&near, [middle, to], halvings - 1)
+        self.keep_off(&near, [from, middle], halvings - 1, looks)
+            && self.keep_off(&near, [middle, to], halvings - 1, looks)
     }
 
     /// A time after this one in which both together go no farther than `distance`; `left` is what they go to the end.
@@ -239,7 +245,7 @@ impl Scan<'_> {
         step
     }
 
-    /// Advances by as much as the distance allows, until the scan is over or there is none.
+    /// Advances by as much as the distance allows, until the span is over or there is none.
     fn search(&mut self, two: Two) -> Search {
         let mut time = 0.0;
         loop {
@@ -250,14 +256,17 @@ impl Scan<'_> {
                 Apart::Exactly(gap, _) => gap.distance,
             };
             if let Apart::Exactly(gap, pieces) = apart
-                && is_within(distance, TOLERANCE)
+                && is_within(distance, self.contact)
             {
                 return Search::Meet(self.touch(two, time, &gap, pieces));
             }
-            if distance >= left {
-                return Search::Clear(distance - left);
+            let free = distance - TOLERANCE;
+            if free >= left {
+                return Search::Clear(free - left);
             }
-            time += self.longest_step(two, time, distance, left);
+            // In one scan always alike, so that a contact is found at the same time whatever was looked at before.
+            let step = if self.contact > TOLERANCE { free } else { distance };
+            time += self.longest_step(two, time, step, left);
         }
     }
 
@@ -286,7 +295,7 @@ impl Scan<'_> {
         }
     }
 
-    /// At a time of the scan; looked at closely only if it may be less than `far`.
+    /// At a time of the span; looked at closely only if it may be less than `far`.
     fn apart(&mut self, two: Two, time: f64, far: f64) -> Apart {
         let frames = two.map(|(group, body)| {
             let anchor = self.groups[group].bodies[body].as_ref().map_or(Anchor::World, |b| b.anchor);

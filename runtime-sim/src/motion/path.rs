@@ -238,12 +238,6 @@ impl Path {
         }
     }
 
-    /// The greatest change of each joint with the place, on the whole path.
-    pub fn rates(&self) -> Joints {
-        let first = self.rates[0].map(|_, rate| rate.abs());
-        self.rates[1..].iter().fold(first, |most, rates| most.map(|i, most| most.max(rates[i].abs())))
-    }
-
     /// All lines and corners, with the most that the weighted sum of the joints' changes is.
     pub fn sections(&self, weights: &[f64]) -> Vec<Section> {
         let sum = |rates: &Joints| rates.iter().zip(weights).map(|(rate, weight)| rate.abs() * weight).sum();

@@ -27,7 +27,7 @@ impl Line {
             };
             let [back, ahead] = [before - *corner, *after - *corner];
             let reach = ROUND.min(back.length() / 2.0).min(ahead.length() / 2.0);
-            let toward = |way: Point| way.scaled(reach / way.length().max(f64::MIN_POSITIVE));
+            let toward = |side: Point| side.scaled(reach / side.length().max(f64::MIN_POSITIVE));
             for piece in 0..=PIECES {
                 let t = f64::from(piece) / f64::from(PIECES);
                 places

@@ -8,7 +8,7 @@ use crate::random::Random;
 pub struct Bus {
     delay: IoDelay,
     wires: Vec<Wire>,
-    /// The last scan whose image differed from the one before in more than places.
+    /// The last scan whose image differed from the one before in more than places of what moves.
     sent: u64,
 }
 
@@ -50,8 +50,14 @@ impl Bus {
     }
 
     /// Sends the images that the plant has at the start of `scan`, and delivers those that have come
-    /// through by then.
-    pub fn exchange(&mut self, scan: u64, images: &[Vec<f64>], inputs: &mut [Vec<f64>]) -> Arrived {
+    /// through by then. `moves` says which machines still move.
+    pub fn exchange(
+        &mut self,
+        scan: u64,
+        images: &[Vec<f64>],
+        moves: impl Fn(usize) -> bool,
+        inputs: &mut [Vec<f64>],
+    ) -> Arrived {
         let depth = u64::from(self.delay.max()) + 1;
         let mut arrived = Arrived::Nothing;
         for (machine, ((wire, image), input)) in self.wires.iter_mut().zip(images).zip(inputs).enumerate() {
@@ -59,8 +65,11 @@ impl Bus {
                 let start = (scan % depth) as usize * image.len();
                 start..start + image.len()
             };
-            if wire.compare(image, &wire.ring[slot(wire.sent)]) == Arrived::Events {
-                self.sent = scan;
+            match wire.compare(image, &wire.ring[slot(wire.sent)]) {
+                Arrived::Events => self.sent = scan,
+                // The last places of what has come to rest.
+                Arrived::Places if !moves(machine) => self.sent = scan,
+                Arrived::Places | Arrived::Nothing => {}
             }
             wire.ring[slot(scan)].copy_from_slice(image);
             wire.sent = scan;
@@ -120,7 +129,7 @@ mod tests {
         let mut inputs = vec![vec![0.0]];
         (0..scans)
             .map(|scan| {
-                bus.exchange(scan, &[vec![scan as f64]], &mut inputs);
+                bus.exchange(scan, &[vec![scan as f64]], |_| false, &mut inputs);
                 inputs[0][0] as u64
             })
             .collect()

@@ -185,7 +185,7 @@ impl Layout {
     }
 
     pub fn skip(&mut self, system: &System, scans: u64) {
-        system.skip(u32::try_from(scans).unwrap_or(u32::MAX), &self.wiring, &mut self.robots);
+        system.skip(scans, &self.wiring, &mut self.robots);
     }
 
     /// Where in the trace the time in its state stands, by robot.

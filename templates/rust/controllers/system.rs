@@ -92,7 +92,7 @@ impl System {
 
     /// In place of so many scans in which nothing happens: no input that a state reads changes, and no timer ends. Every
     /// state says what it reads. A controller can do without; a simulator saves time.
-    pub fn skip(&self, scans: u32, wiring: &Wiring, robots: &mut [Robot]) {
+    pub fn skip(&self, scans: u64, wiring: &Wiring, robots: &mut [Robot]) {
         if self.running {
             let passed = i32::try_from(scans).unwrap_or(i32::MAX).saturating_mul(wiring.scan_ms);
             robots.iter_mut().for_each(|robot| robot.stay(passed));

@@ -1,0 +1,92 @@
+//! How one machine moves from now on, until a motion changes.
+
+use super::group::{Anchor, Body};
+use crate::motion::Motion;
+use crate::plant::trajectory::Trajectory;
+use crate::point::Point;
+
+/// Times are seconds from now.
+#[derive(Clone, Debug)]
+pub enum Movement {
+    Still,
+    Slides {
+        velocity: Point,
+        from: f64,
+        until: f64,
+    },
+    /// `begin` is now on the motion's clock.
+    Swings {
+        motion: Motion,
+        begin: f64,
+    },
+}
+
+impl Movement {
+    pub fn new(trajectory: Trajectory, now_ms: f64) -> Self {
+        match trajectory.since(now_ms) {
+            Trajectory::Rests => Self::Still,
+            Trajectory::Drives { velocity, from_ms, until_ms } => Self::Slides {
+                velocity,
+                from: (from_ms - now_ms) / 1000.0,
+                until: (until_ms - now_ms) / 1000.0,
+            },
+            Trajectory::Swings(motion) => Self::Swings { motion, begin: now_ms / 1000.0 },
+        }
+    }
+
+    /// The same from its beginning to its end, and the seconds that it takes; none if nothing moves, it has been held,
+    /// does not come to rest by itself, or is no arm's and has set out.
+    pub fn whole(&self) -> Option<(Self, f64)> {
+        match self {
+            Self::Still => None,
+            Self::Slides { until, .. } => {
+                (self.is_about_to_slide() && until.is_finite()).then(|| (self.clone(), *until))
+            }
+            Self::Swings { motion, .. } => {
+                let begin = motion.whole_since()?;
+                Some((Self::Swings { motion: motion.clone(), begin }, motion.rests_at() - begin))
+            }
+        }
+    }
+
+    /// It has not set out yet.
+    pub fn is_about_to_slide(&self) -> bool {
+        matches!(self, Self::Slides { from, .. } if *from >= 0.0)
+    }
+
+    /// Both are motions along the same path of an arm.
+    pub fn goes_on(&self, last: &Self) -> bool {
+        matches!(
+            (self, last),
+            (Self::Swings { motion, .. }, Self::Swings { motion: last, .. }) if motion.is_along(last)
+        )
+    }
+
+    /// Between two times: metres of what slides, or both places on the path of an arm.
+    pub fn span(&self, from: f64, to: f64) -> [f64; 2] {
+        match self {
+            Self::Still => [0.0; 2],
+            Self::Slides { .. } => [0.0, (self.shift(to) - self.shift(from)).length()],
+            Self::Swings { motion, begin } => [motion.place(begin + from), motion.place(begin + to)],
+        }
+    }
+
+    /// Metres that no point of the body goes more than in this span.
+    pub fn path(&self, body: &Body, [from, to]: [f64; 2]) -> f64 {
+        match (self, body.anchor) {
+            (Self::Still, _) | (_, Anchor::World) => 0.0,
+            (Self::Slides { .. }, _) => to - from,
+            (Self::Swings { .. }, _) => body.travel.to(to) - body.travel.to(from),
+        }
+    }
+
+    /// How far it has slid by then.
+    pub fn shift(&self, time: f64) -> Point {
+        match self {
+            Self::Slides { velocity, from, until } => {
+                velocity.scaled((time.min(*until) - from.max(0.0)).max(0.0))
+            }
+            Self::Still | Self::Swings { .. } => Point::default(),
+        }
+    }
+}
