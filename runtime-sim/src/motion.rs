@@ -27,8 +27,6 @@ pub struct Motion {
     profile: Arc<Profile>,
     since: f64,
     rest: f64,
-    /// Nothing has held it.
-    is_whole: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,15 +51,7 @@ impl Motion {
     pub fn on(path: Path, limits: &Limits, begin: f64) -> Self {
         let zones = path.zones(limits);
         let profile = Arc::new(profile::to_the_end(&zones, 0.0, 0.0).into());
-        Self {
-            path: Arc::new(path),
-            zones: zones.into(),
-            drive: Drive::On,
-            profile,
-            since: begin,
-            rest: 1.0,
-            is_whole: true,
-        }
+        Self { path: Arc::new(path), zones: zones.into(), drive: Drive::On, profile, since: begin, rest: 1.0 }
     }
 
     /// The same motion, begun at another time; of one that nothing has held.
@@ -80,7 +70,6 @@ impl Motion {
             return;
         }
         let (place, speed) = (self.place(t), self.speed(t));
-        self.is_whole = false;
         self.drive = Drive::Held;
         if speed > 0.0 {
             let (profile, rest) = profile::to_rest(&self.zones, place, speed);
@@ -115,11 +104,6 @@ impl Motion {
     /// Of its path.
     pub(crate) fn fingerprint(&self) -> Fingerprint {
         self.path.fingerprint()
-    }
-
-    /// When it began, if nothing has held it since.
-    pub(crate) fn whole_since(&self) -> Option<f64> {
-        self.is_whole.then_some(self.since)
     }
 
     pub fn is_held(&self) -> bool {

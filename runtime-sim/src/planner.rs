@@ -200,6 +200,7 @@ impl Planner {
         let mut falls: BTreeMap<(usize, usize), Option<Vertical>> = BTreeMap::new();
         let mut options = Options::new(self, task, &first, candidates, effort);
         let mut tries = 0;
+        let mut suspect = 0.5;
         while let Some((choice, timing, line)) = options.next() {
             let candidate = &candidates[choice.candidate];
             let is_free = stands[choice.candidate].get_or_insert_with(|| self.is_free_at_place(candidate));
@@ -225,7 +226,7 @@ impl Planner {
                 continue;
             };
             let path = Path::new(**from, &knots, limits);
-            if self.is_free([from, &end], &path, *load, margin) {
+            if self.is_free([from, &end], &path, *load, margin, &mut suspect) {
                 return Some(path);
             }
         }
@@ -364,8 +365,9 @@ impl Planner {
     }
 
     /// Whether nothing on this path comes nearer to an obstacle than `margin`. On the verticals at its ends it may come
-    /// nearer, and the load touches what it lies on.
-    fn is_free(&self, ends: [&Joints; 2], path: &Path, load: Load, margin: f64) -> bool {
+    /// nearer, and the load touches what it lies on. `suspect` is the place, 0 to 1, at which it is looked at first: the
+    /// last one that was not free, of paths that are much alike.
+    fn is_free(&self, ends: [&Joints; 2], path: &Path, load: Load, margin: f64, suspect: &mut f64) -> bool {
         let lifted = ends.map(|end| self.arm.tool(end).z + self.scene.load_height + LIFTED);
         let near = self.scene.near(path.knots().iter().map(axis));
         // What the gap is at a place on the path, and what it has to be.
@@ -385,7 +387,9 @@ impl Planner {
             gap >= margin
         };
         // Most that are not free are not by far.
-        if !(1..FIRST_LOOKS).all(|i| is_apart(f64::from(i) / f64::from(FIRST_LOOKS))) {
+        let first = (1..FIRST_LOOKS).map(|i| f64::from(i) / f64::from(FIRST_LOOKS));
+        if let Some(place) = [*suspect].into_iter().chain(first).find(|place| !is_apart(*place)) {
+            *suspect = place;
             return false;
         }
         let sections = path.sections(&RADII);
@@ -393,6 +397,7 @@ impl Planner {
         while place < 1.0 {
             let (gap, margin) = gap(place);
             if gap < margin {
+                *suspect = place;
                 return false;
             }
             place = after(&sections, place, (gap - margin).max(margin * SHORTEST_STEP));

@@ -8,6 +8,7 @@
 use super::TOLERANCE;
 use super::body::Piece;
 use super::bounds::BoundingBox;
+use super::free::{Question, is_free};
 use super::group::{Anchor, Group, Kind};
 use super::pair::{Pair, Span, Touch};
 use crate::carrier::Carrier;
@@ -155,7 +156,7 @@ impl CollisionCheck {
             {
                 continue;
             }
-            if let Some(question) = question(&mut self.groups, index, [a, b], plant)
+            if let Some(question) = Question::of(&mut self.groups, index, [a, b], plant)
                 && !pair.touches()
                 && (pair.free == Some(question) || is_free(&mut self.groups, [a, b], plant, memory, question))
             {
@@ -259,48 +260,4 @@ impl CollisionCheck {
             pair.expect(index, body);
         }
     }
-}
-
-/// What decides whether two groups stay apart as one of them moves and the other one rests, or as one moves alone; none
-/// if both move or both rest.
-fn question(groups: &mut [Group], pair: usize, [a, b]: [usize; 2], plant: &Plant) -> Option<Fingerprint> {
-    let pair = Fingerprint::default().with(pair as u64);
-    if a == b {
-        return Some(pair.and(groups[a].moving(plant)?));
-    }
-    let both = match (groups[a].resting(plant), groups[b].resting(plant)) {
-        (None, Some(rests)) => groups[a].moving(plant)?.and(rests),
-        (Some(rests), None) => rests.and(groups[b].moving(plant)?),
-        _ => return None,
-    };
-    Some(pair.and(both))
-}
-
-/// Whether two stay apart for the whole motion of one of them; false if that is not known.
-fn is_free(
-    groups: &mut [Group],
-    [a, b]: [usize; 2],
-    plant: &Plant,
-    memory: &mut Memory,
-    question: Fingerprint,
-) -> bool {
-    if let Some(known) = memory.is_free(question) {
-        return known;
-    }
-    if a != b {
-        let boxes = groups[b].boxes(plant, memory);
-        if groups[a].boxes(plant, memory).iter().all(|a| boxes.iter().all(|b| a.is_apart(b))) {
-            memory.note_free(question, true);
-            return true;
-        }
-    }
-    for group in [a, b] {
-        if let Some((seconds, present)) = groups[group].rewind() {
-            let is_free = Span { groups, plant, seconds, contact: TOLERANCE }.stay_apart([a, b]);
-            groups[group].restore(present);
-            memory.note_free(question, is_free);
-            return is_free;
-        }
-    }
-    false
 }

@@ -61,11 +61,15 @@ pub struct Group {
     movement: Movement,
     /// Of an arm, as last looked at.
     frames: Option<(Joints, Frames)>,
-    /// While it moves and comes to rest by itself: of where it moves along, from the beginning to the end, and of what it
-    /// bears.
+    /// At a place on the path under way, as last looked at.
+    along: Option<(f64, Frames)>,
+    /// While it moves and comes to rest by itself: of where it moves along, from the beginning to the end. None until
+    /// somebody asks.
     moving: Option<Fingerprint>,
-    /// While it rests: of where all of it is. None until somebody asks.
+    /// While it rests: of where it is.
     resting: Option<Fingerprint>,
+    /// Of all items, and of where they are on the machine.
+    borne: Option<Fingerprint>,
     /// What contains it on each of [`PIECES`] of the path of an arm, or all the while. Empty until somebody asks.
     boxes: Arc<[BoundingBox]>,
 }
@@ -84,9 +88,6 @@ pub enum Kind {
     Machine { index: usize, machine: Machine },
     Arm { index: usize, arm: Arm, chain: Chain },
 }
-
-/// The movement of a group while another one stands in its place.
-pub struct Present(Movement);
 
 impl Group {
     pub fn of_machine(line: &Line, index: usize) -> Self {
@@ -111,8 +112,10 @@ impl Group {
             path: 0.0,
             movement: Movement::Still,
             frames: None,
+            along: None,
             moving: None,
             resting: None,
+            borne: None,
             boxes: Arc::default(),
         };
         for solids in solids.chunk_by(|a, b| a.link == b.link) {
@@ -176,10 +179,11 @@ impl Group {
     fn forget(&mut self) {
         self.moving = None;
         self.resting = None;
+        self.borne = None;
         self.boxes = Arc::default();
     }
 
-    /// Of the motion under way and of what is borne; none if it rests, or does not come to rest by itself.
+    /// Of the motion under way; none if it rests, or does not come to rest by itself.
     pub fn moving(&mut self, plant: &Plant) -> Option<Fingerprint> {
         if self.moving.is_none() {
             let motion = match &self.movement {
@@ -192,12 +196,12 @@ impl Group {
                 }
                 Movement::Swings { motion, .. } => motion.fingerprint(),
             };
-            self.moving = Some(motion.and(self.borne(plant)));
+            self.moving = Some(motion);
         }
         self.moving
     }
 
-    /// Of where all of it is; none if it moves.
+    /// Of where it is; none if it moves.
     pub fn resting(&mut self, plant: &Plant) -> Option<Fingerprint> {
         if !matches!(self.movement, Movement::Still) {
             return None;
@@ -216,22 +220,42 @@ impl Group {
                         .fold(Fingerprint::default(), |print, joint| print.near(*joint))
                 }
             };
-            self.resting = Some(place.and(self.borne(plant)));
+            self.resting = Some(place);
         }
         self.resting
     }
 
     /// Of all items, and of where they are on the machine.
-    fn borne(&self, plant: &Plant) -> Fingerprint {
-        let origin = self.position(plant);
-        let items = self.bodies.iter().flatten().filter_map(|body| {
-            let place = match body.anchor {
-                Anchor::Lying { item, .. } => plant.place(item).unwrap_or_default() - origin,
-                Anchor::World | Anchor::Link(_) | Anchor::Route => Point::default(),
-            };
-            Some(near(body.item?, place))
-        });
-        items.fold(Fingerprint::default(), Fingerprint::sum)
+    pub fn borne(&mut self, plant: &Plant) -> Fingerprint {
+        if let Some(borne) = self.borne {
+            return borne;
+        }
+        let items = self.bodies.iter().flatten().filter_map(|body| self.item(body, plant));
+        let borne = items.fold(Fingerprint::default(), Fingerprint::sum);
+        self.borne = Some(borne);
+        borne
+    }
+
+    /// Of an item, and of where it is on the machine; none for a body of the machine itself.
+    fn item(&self, body: &Body, plant: &Plant) -> Option<Fingerprint> {
+        let place = match body.anchor {
+            Anchor::Lying { item, .. } => plant.place(item).unwrap_or_default() - self.position(plant),
+            Anchor::World | Anchor::Link(_) | Anchor::Route => Point::default(),
+        };
+        Some(near(body.item?, place))
+    }
+
+    /// The machine without items, and each item: what tells it apart, and the numbers of its bodies.
+    pub fn units(&self, plant: &Plant) -> Vec<(Fingerprint, Vec<usize>)> {
+        let mut units = vec![(Fingerprint::default(), Vec::new())];
+        for (number, body) in self.bodies.iter().enumerate() {
+            let Some(body) = body else { continue };
+            match self.item(body, plant) {
+                Some(item) => units.push((item, vec![number])),
+                None => units[0].1.push(number),
+            }
+        }
+        units
     }
 
     fn position(&self, plant: &Plant) -> Point {
@@ -308,14 +332,40 @@ impl Group {
         boxes[at(from)..=at(to)].iter().fold(BoundingBox::NOTHING, |all, next| all.with(next))
     }
 
-    /// As if the motion was at its beginning; the seconds that it takes, and what it is in truth.
-    pub fn rewind(&mut self) -> Option<(f64, Present)> {
-        let (whole, seconds) = self.movement.whole()?;
-        Some((seconds, Present(std::mem::replace(&mut self.movement, whole))))
+    pub fn moves(&self) -> bool {
+        !matches!(self.movement, Movement::Still)
     }
 
-    pub fn restore(&mut self, Present(movement): Present) {
-        self.movement = movement;
+    /// Whether [`Self::frame_along`] knows its path from the beginning to the end.
+    pub fn has_whole_path(&self) -> bool {
+        self.movement.has_whole_path()
+    }
+
+    /// The frame of an anchor at a place on the whole path, 0 to 1; where it is, if it rests.
+    pub fn frame_along(&mut self, anchor: Anchor, plant: &Plant, place: f64) -> Pose {
+        match (&self.movement, anchor) {
+            (Movement::Swings { motion, .. }, Anchor::Link(link)) => {
+                if self.along.as_ref().is_none_or(|(known, _)| *known != place)
+                    && let Kind::Arm { arm, .. } = &self.kind
+                {
+                    self.along = Some((place, arm.frames(&motion.along(place))));
+                }
+                self.along.as_ref().map_or(Pose::IDENTITY, |(_, frames)| frames[link])
+            }
+            _ => self.frame(anchor, plant, self.movement.end() * place),
+        }
+    }
+
+    /// Metres that no point of the body goes more than between two places on the whole path.
+    pub fn path_along(&self, body: &Body, [from, to]: [f64; 2]) -> f64 {
+        let span = match &self.movement {
+            Movement::Swings { .. } => [from, to],
+            Movement::Still | Movement::Slides { .. } => {
+                let end = self.movement.end();
+                self.movement.span(end * from, end * to)
+            }
+        };
+        self.movement.path(body, span)
     }
 
     /// It has not set out yet.
@@ -373,6 +423,7 @@ impl Group {
         let goes_on = self.movement.goes_on(&last);
         if !goes_on {
             self.forget();
+            self.along = None;
         }
         if let Movement::Swings { motion, .. } = &self.movement
             && !goes_on
@@ -420,20 +471,16 @@ impl Group {
         }
     }
 
-    fn frames(&mut self, plant: &Plant, time: f64) -> Option<Frames> {
+    fn frames(&mut self, plant: &Plant, time: f64) -> Option<&Frames> {
         let Kind::Arm { index, arm, .. } = &self.kind else { return None };
         let joints = match &self.movement {
             Movement::Swings { motion, begin } => motion.at(begin + time),
             Movement::Still | Movement::Slides { .. } => plant.joints(*index)?,
         };
-        match &self.frames {
-            Some((known, frames)) if *known == joints => Some(*frames),
-            _ => {
-                let frames = arm.frames(&joints);
-                self.frames = Some((joints, frames));
-                Some(frames)
-            }
+        if self.frames.as_ref().is_none_or(|(known, _)| *known != joints) {
+            self.frames = Some((joints, arm.frames(&joints)));
         }
+        self.frames.as_ref().map(|(_, frames)| frames)
     }
 }
 

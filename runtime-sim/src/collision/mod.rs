@@ -11,6 +11,7 @@ pub mod distance;
 pub(crate) mod body;
 mod bounds;
 mod check;
+mod free;
 mod group;
 mod movement;
 mod pair;

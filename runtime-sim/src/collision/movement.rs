@@ -34,18 +34,21 @@ impl Movement {
         }
     }
 
-    /// The same from its beginning to its end, and the seconds that it takes; none if nothing moves, it has been held,
-    /// does not come to rest by itself, or is no arm's and has set out.
-    pub fn whole(&self) -> Option<(Self, f64)> {
+    /// Whether its path is known from its beginning to its end: not of what rests, does not come to rest by itself, or
+    /// is no arm and has set out.
+    pub fn has_whole_path(&self) -> bool {
         match self {
-            Self::Still => None,
-            Self::Slides { until, .. } => {
-                (self.is_about_to_slide() && until.is_finite()).then(|| (self.clone(), *until))
-            }
-            Self::Swings { motion, .. } => {
-                let begin = motion.whole_since()?;
-                Some((Self::Swings { motion: motion.clone(), begin }, motion.rests_at() - begin))
-            }
+            Self::Still => false,
+            Self::Slides { until, .. } => self.is_about_to_slide() && until.is_finite(),
+            Self::Swings { .. } => true,
+        }
+    }
+
+    /// When what slides comes to rest; 0 for all else.
+    pub fn end(&self) -> f64 {
+        match self {
+            Self::Slides { until, .. } => *until,
+            Self::Still | Self::Swings { .. } => 0.0,
         }
     }
 

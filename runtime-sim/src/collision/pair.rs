@@ -2,9 +2,9 @@
 
 use super::body::Placed;
 use super::distance::Gap;
+use super::free::{Question, can_meet};
 use super::group::{Anchor, Body, Group};
-use super::{SKIN, TOLERANCE, UNCERTAIN};
-use crate::fingerprint::Fingerprint;
+use super::{SKIN, TOLERANCE};
 use crate::plant::Plant;
 use crate::point::Point;
 
@@ -21,8 +21,8 @@ pub struct Pair {
     /// The same for each body of the first group and each of the second; negative infinity if nothing is known.
     bodies: Vec<Vec<f64>>,
     touching: Vec<Touching>,
-    /// The motion of one of them in which it does not meet the other, see [`crate::memory::Memory`].
-    pub free: Option<Fingerprint>,
+    /// The motion of one of them in which it does not meet the other.
+    pub free: Option<Question>,
 }
 
 /// Bodies that are in contact.
@@ -73,11 +73,6 @@ enum Search {
 const FAR: f64 = 0.1;
 /// No search takes shorter steps, s: whatever moves goes less than a thousandth of the tolerance.
 const SHORTEST_STEP: f64 = 1e-9;
-/// A motion is looked at in pieces no smaller than its time divided by two so often.
-const HALVINGS: u32 = 18;
-/// Whether all bodies of two groups stay apart is not known if two of them have to be looked at more often.
-const MOST_LOOKS: usize = 100_000;
-
 impl Pair {
     pub fn new(groups: [usize; 2], allowed: bool) -> Self {
         Self {
@@ -140,7 +135,7 @@ impl Pair {
                     continue;
                 }
                 let clear = &mut self.bodies[i][j];
-                if *clear == f64::NEG_INFINITY && !span.can_meet(two) {
+                if *clear == f64::NEG_INFINITY && !can_meet(span.groups, two) {
                     *clear = f64::INFINITY;
                 }
                 if paths > *clear {
@@ -176,62 +171,12 @@ impl Span<'_> {
         Some(a?.path + b?.path)
     }
 
-    /// Whether two bodies can ever come into contact.
-    fn can_meet(&self, two: Two) -> bool {
-        let [Some(a), Some(b)] = two.map(|one| self.body(one)) else { return false };
-        let stand = a.anchor == Anchor::World && b.anchor == Anchor::World;
-        let own = two[0].0 == two[1].0 && !self.groups[two[0].0].is_free_of(a, b);
-        !stand && !own && !a.bounds.is_apart(&b.bounds)
-    }
-
     /// Metres that both bodies together go at most between two times.
     fn travel(&self, two: Two, from: f64, to: f64) -> f64 {
         let of = |one: (usize, usize)| {
             self.body(one).map_or(0.0, |body| self.groups[one.0].path_between(body, from, to))
         };
         of(two[0]) + of(two[1])
-    }
-
-    /// Whether all bodies of two groups stay so far apart for the whole time that it does not matter where they are to
-    /// the grain of a [`Fingerprint`]; false if that is not known soon.
-    pub fn stay_apart(&mut self, [a, b]: [usize; 2]) -> bool {
-        let counts = [a, b].map(|group| self.groups[group].bodies.len());
-        let all = (0..counts[0]).flat_map(|i| {
-            let from = if a == b { i + 1 } else { 0 };
-            (from..counts[1]).map(move |j| [(a, i), (b, j)])
-        });
-        let all: Vec<Two> = all.filter(|two| self.can_meet(*two)).collect();
-        self.keep_off(&all, [0.0, self.seconds], HALVINGS, &mut 0)
-    }
-
-    /// The same of these bodies between two times, which is halved so often at most. From where they are in the middle
-    /// they cannot go farther than they do to either end.
-    fn keep_off(&mut self, all: &[Two], [from, to]: [f64; 2], halvings: u32, looks: &mut usize) -> bool {
-        if all.is_empty() {
-            return true;
-        }
-        *looks += all.len();
-        if halvings == 0 || *looks > MOST_LOOKS {
-            return false;
-        }
-        let middle = from + (to - from) / 2.0;
-        let mut near = Vec::new();
-        for two in all {
-            let travel = self.travel(*two, from, middle).max(self.travel(*two, middle, to));
-            let distance = match self.apart(*two, middle, TOLERANCE + UNCERTAIN + travel) {
-                Apart::AtLeast(distance) => distance,
-                Apart::Exactly(gap, _) => gap.distance,
-            };
-            let free = distance - TOLERANCE - UNCERTAIN;
-            if is_within(free, 0.0) {
-                return false;
-            }
-            if free < travel {
-                near.push(*two);
-            }
-        }
-        self.keep_off(&near, [from, middle], halvings - 1, looks)
-            && self.keep_off(&near, [middle, to], halvings - 1, looks)
     }
 
     /// A time after this one in which both together go no farther than `distance`; `left` is what they go to the end.

@@ -1,6 +1,8 @@
 //! The shortest path of a disc among rectangles.
 
 use crate::point::Point;
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
 use std::f64::consts::FRAC_PI_2;
 
 /// On the plane: lower and upper corner; z has no meaning.
@@ -129,36 +131,33 @@ pub fn shortest([start, goal]: [Point; 2], blocks: &[Block], area: &Rectangle) -
         });
         places.extend(places_near.filter(|p| area.contains(*p) && is_free([*p; 2])));
     }
-    let mut lengths = vec![f64::INFINITY; places.len()];
-    let mut before = vec![0; places.len()];
-    let mut open: Vec<usize> = (0..places.len()).collect();
-    lengths[0] = 0.0;
-    loop {
-        let still = |i: usize| lengths[i] + (places[1] - places[i]).length();
-        let (at, &present) =
-            open.iter().enumerate().min_by(|(_, a), (_, b)| still(**a).total_cmp(&still(**b)))?;
-        if lengths[present].is_infinite() {
-            return None;
+    // Whether a segment is free is asked only when it is the next on the shortest path. Numbers that are not negative
+    // are in the order of their bits.
+    let still = |place: usize| (places[1] - places[place]).length();
+    let mut before: Vec<Option<usize>> = vec![None; places.len()];
+    let mut queue = BinaryHeap::from([Reverse((still(0).to_bits(), 0, 0, 0))]);
+    while let Some(Reverse((_, present, last, gone))) = queue.pop() {
+        if before[present].is_some() || !is_free([places[last], places[present]]) {
+            continue;
         }
+        before[present] = Some(last);
         if present == 1 {
-            break;
+            return Some(back_from(1, &before, &places));
         }
-        open.swap_remove(at);
-        for &next in &open {
-            let length = lengths[present] + (places[next] - places[present]).length();
-            if length < lengths[next] && is_free([places[present], places[next]]) {
-                (lengths[next], before[next]) = (length, present);
-            }
+        for next in (0..places.len()).filter(|next| before[*next].is_none()) {
+            let length = f64::from_bits(gone) + (places[next] - places[present]).length();
+            queue.push(Reverse(((length + still(next)).to_bits(), next, present, length.to_bits())));
         }
     }
-    let mut path = Vec::new();
-    let mut at = before[1];
-    while at != 0 {
-        path.push(places[at]);
-        at = before[at];
-    }
+    None
+}
+
+/// The places between the first one and this.
+fn back_from(place: usize, before: &[Option<usize>], places: &[Point]) -> Vec<Point> {
+    let steps = std::iter::successors(before[place], |at| before[*at]);
+    let mut path: Vec<Point> = steps.take_while(|at| *at != 0).map(|at| places[at]).collect();
     path.reverse();
-    Some(path)
+    path
 }
 
 #[cfg(test)]

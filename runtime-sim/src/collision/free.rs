@@ -1,0 +1,266 @@
+//! Whether the whole motion of a machine keeps off another one that rests, or off the machine itself.
+//!
+//! Time has no part in this, only places on the path. The answer is remembered for the machine without its items and
+//! for each item: where an item comes or goes, all else is known.
+
+use super::body::{Ball, Placed};
+use super::bounds::BoundingBox;
+use super::group::{Anchor, Body, Group};
+use super::{TOLERANCE, UNCERTAIN};
+use crate::fingerprint::Fingerprint;
+use crate::kinematics::pose::Pose;
+use crate::memory::Memory;
+use crate::plant::Plant;
+use std::cell::OnceCell;
+use std::sync::Arc;
+
+/// A motion is looked at in pieces no smaller than its path divided by two so often.
+const HALVINGS: u32 = 18;
+/// The answer is not known if two bodies have to be looked at more often in all.
+const MOST_LOOKS: usize = 100_000;
+/// Boxes are measured exactly on pieces of a path on which nothing goes farther, m. On longer ones it rarely helps.
+const SHORT: f64 = 0.03;
+
+/// What decides whether two groups stay apart.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Question {
+    /// A motion, and the place of what rests.
+    machines: Fingerprint,
+    /// The same with all items.
+    all: Fingerprint,
+}
+
+impl Question {
+    /// Of two groups as one of them moves and the other one rests, or of one that moves alone; none if both move or
+    /// both rest.
+    pub fn of(groups: &mut [Group], pair: usize, [a, b]: [usize; 2], plant: &Plant) -> Option<Self> {
+        let both = if a == b {
+            groups[a].moving(plant)?
+        } else {
+            match (groups[a].resting(plant), groups[b].resting(plant)) {
+                (None, Some(rests)) => groups[a].moving(plant)?.and(rests),
+                (Some(rests), None) => rests.and(groups[b].moving(plant)?),
+                _ => return None,
+            }
+        };
+        let machines = both.with(pair as u64);
+        let all = machines.and(groups[a].borne(plant)).and(groups[b].borne(plant));
+        Some(Self { machines, all })
+    }
+}
+
+/// Whether two stay apart for the whole motion of one of them; false if that is not known.
+pub fn is_free(
+    groups: &mut [Group],
+    [a, b]: [usize; 2],
+    plant: &Plant,
+    memory: &mut Memory,
+    Question { machines, all }: Question,
+) -> bool {
+    if let Some(known) = memory.is_free(all) {
+        return known;
+    }
+    let boxes = [a, b].map(|group| groups[group].boxes(plant, memory));
+    let near = if a == b { vec![[0.0, 1.0]] } else { near_pieces(&boxes) };
+    if near.is_empty() {
+        memory.note_free(all, true);
+        return true;
+    }
+    if ![a, b].into_iter().any(|group| groups[group].has_whole_path()) {
+        return false;
+    }
+    let units = [a, b].map(|group| groups[group].units(plant));
+    let (mut open, mut asked) = (Vec::new(), Vec::new());
+    for (first, of_a) in &units[0] {
+        for (second, of_b) in &units[1] {
+            let key = machines.and(*first).and(*second);
+            match memory.is_free(key) {
+                Some(true) => continue,
+                Some(false) => {
+                    memory.note_free(all, false);
+                    return false;
+                }
+                None => asked.push(key),
+            }
+            let pairs = of_a.iter().flat_map(|i| of_b.iter().map(move |j| [*i, *j]));
+            let pairs = pairs.filter(|[i, j]| (a != b || i < j) && can_meet(groups, [(a, *i), (b, *j)]));
+            open.extend(pairs.map(|bodies| Two { bodies, asked: asked.len() - 1 }));
+        }
+    }
+    open.sort_by_key(|two| two.bodies);
+    let mut path = Path::new([a, b], groups, plant);
+    let found = near.into_iter().try_for_each(|piece| path.keep_off(&open, piece, HALVINGS));
+    match found {
+        Ok(()) => asked.iter().for_each(|key| memory.note_free(*key, true)),
+        Err(number) => memory.note_free(asked[number], false),
+    }
+    memory.note_free(all, found.is_ok());
+    found.is_ok()
+}
+
+/// The equal pieces of the path of one of two groups, from place to place, on which its box meets one of the other's.
+fn near_pieces([a, b]: &[Arc<[BoundingBox]>; 2]) -> Vec<[f64; 2]> {
+    let [along, other] = if a.len() > b.len() { [a, b] } else { [b, a] };
+    let count = along.len() as f64;
+    let meets = |piece: &BoundingBox| !other.iter().all(|other| piece.is_apart(other));
+    let near = along.iter().enumerate().filter(|(_, piece)| meets(piece));
+    near.map(|(number, _)| [number, number + 1].map(|end| end as f64 / count)).collect()
+}
+
+/// Whether two bodies can ever come into contact.
+pub fn can_meet(groups: &[Group], two: [(usize, usize); 2]) -> bool {
+    let [Some(a), Some(b)] = two.map(|(group, body)| groups[group].bodies[body].as_ref()) else {
+        return false;
+    };
+    let stand = a.anchor == Anchor::World && b.anchor == Anchor::World;
+    let own = two[0].0 == two[1].0 && !groups[two[0].0].is_free_of(a, b);
+    !stand && !own && !a.bounds.is_apart(&b.bounds)
+}
+
+/// Two bodies by their numbers in both groups, and the number of what was asked for them.
+#[derive(Clone, Copy)]
+struct Two {
+    bodies: [usize; 2],
+    asked: usize,
+}
+
+/// A body somewhere.
+struct There {
+    frame: Pose,
+    ball: Ball,
+    /// Known when something is near.
+    pieces: OnceCell<Vec<Placed>>,
+}
+
+/// One that moves, where it was looked at last.
+struct Moving {
+    body: usize,
+    there: There,
+    /// Metres that it goes at most from there.
+    travel: f64,
+}
+
+/// The whole path of one group, and another one at rest, or the same one.
+struct Path<'a> {
+    numbers: [usize; 2],
+    groups: &'a mut [Group],
+    plant: &'a Plant,
+    /// Of the bodies that rest, by group; none that nobody has asked for.
+    resting: [Vec<Option<There>>; 2],
+    looks: usize,
+}
+
+impl<'a> Path<'a> {
+    fn new(numbers: [usize; 2], groups: &'a mut [Group], plant: &'a Plant) -> Self {
+        let resting = numbers.map(|group| groups[group].bodies.iter().map(|_| None).collect());
+        Self { numbers, groups, plant, resting, looks: 0 }
+    }
+
+    /// Whether these bodies, in order, stay so far apart between two places of the path that it does not matter where
+    /// they are to the grain of a [`Fingerprint`]; the path is halved so often at most. From where they are in the
+    /// middle they cannot go farther than they do to either end. An error is what is not known to be free.
+    fn keep_off(&mut self, all: &[Two], [from, to]: [f64; 2], halvings: u32) -> Result<(), usize> {
+        let Some(first) = all.first() else { return Ok(()) };
+        self.looks += all.len();
+        if halvings == 0 || self.looks > MOST_LOOKS {
+            return Err(first.asked);
+        }
+        let middle = from + (to - from) / 2.0;
+        let mut near = Vec::new();
+        let mut moving = [None, None];
+        for two in all {
+            let [of_a, of_b] =
+                [0, 1].map(|side| self.look(side, two.bodies[side], [from, middle, to], &mut moving[side]));
+            let travel = of_a + of_b;
+            let there = |side: usize| {
+                let moving: Option<&Moving> = moving[side].as_ref();
+                moving.map(|moving| &moving.there).or(self.resting[side][two.bodies[side]].as_ref())
+            };
+            let [Some(a), Some(b)] = [there(0), there(1)] else { continue };
+            let bodies = [0, 1].map(|side| self.body(side, two.bodies[side]));
+            let [Some(of_a), Some(of_b)] = bodies else { continue };
+            match keeps_off([a, b], [of_a, of_b], travel) {
+                KeepsOff::Yes => {}
+                KeepsOff::ForNow => near.push(*two),
+                KeepsOff::No => return Err(two.asked),
+            }
+        }
+        self.keep_off(&near, [from, middle], halvings - 1)?;
+        self.keep_off(&near, [middle, to], halvings - 1)
+    }
+
+    /// Looks where a body is in the middle, unless it is known; metres that it goes at most from there to either end.
+    fn look(&mut self, side: usize, body: usize, places: [f64; 3], moving: &mut Option<Moving>) -> f64 {
+        if !self.groups[self.numbers[side]].moves() {
+            if self.resting[side][body].is_none() {
+                self.resting[side][body] = self.there(side, body, places[1]);
+            }
+            return 0.0;
+        }
+        if moving.as_ref().is_none_or(|known| known.body != body) {
+            let travel = self.travel(side, body, places);
+            *moving = self.there(side, body, places[1]).map(|there| Moving { body, there, travel });
+        }
+        moving.as_ref().map_or(0.0, |moving| moving.travel)
+    }
+
+    fn body(&self, side: usize, body: usize) -> Option<&Body> {
+        self.groups[self.numbers[side]].bodies[body].as_ref()
+    }
+
+    /// At a place on the path.
+    fn there(&mut self, side: usize, body: usize, place: f64) -> Option<There> {
+        let anchor = self.body(side, body)?.anchor;
+        let frame = self.groups[self.numbers[side]].frame_along(anchor, self.plant, place);
+        let ball = self.body(side, body)?.ball.within(&frame);
+        Some(There { frame, ball, pieces: OnceCell::new() })
+    }
+
+    /// Metres that the body goes at most from the middle to either end.
+    fn travel(&self, side: usize, body: usize, [from, middle, to]: [f64; 3]) -> f64 {
+        let group = &self.groups[self.numbers[side]];
+        self.body(side, body).map_or(0.0, |body| {
+            let path = |from, to| group.path_along(body, [from, to]);
+            path(from, middle).max(path(middle, to))
+        })
+    }
+}
+
+/// Whether two bodies keep off one another while they go so far.
+enum KeepsOff {
+    Yes,
+    /// Where they are; not known to do so all the while.
+    ForNow,
+    No,
+}
+
+impl There {
+    fn pieces(&self, body: &Body) -> &[Placed] {
+        self.pieces.get_or_init(|| body.pieces.iter().map(|piece| piece.within(&self.frame)).collect())
+    }
+}
+
+/// Of two bodies where they are, while they go so far, m.
+fn keeps_off(there: [&There; 2], [a, b]: [&Body; 2], travel: f64) -> KeepsOff {
+    let least = TOLERANCE + UNCERTAIN;
+    let needed = least + travel;
+    if there[0].ball.gap(&there[1].ball) >= needed {
+        return KeepsOff::Yes;
+    }
+    for a in there[0].pieces(a) {
+        for b in there[1].pieces(b) {
+            if a.apart_at_least(b, needed) >= needed {
+                continue;
+            }
+            if travel > SHORT {
+                return KeepsOff::ForNow;
+            }
+            let distance = a.gap(b).distance;
+            if distance >= needed {
+                continue;
+            }
+            return if distance > least { KeepsOff::ForNow } else { KeepsOff::No };
+        }
+    }
+    KeepsOff::Yes
+}
