@@ -18,7 +18,7 @@ pub fn put(folder: &Path, name: &str, text: &str) {
 }
 
 /// The default layout with a vehicle half a metre out of reach.
-pub fn put_infeasible(folder: &Path) {
+fn put_infeasible(folder: &Path) {
     let layout = fs::read_to_string(example("ariac2021/default.json")).expect("the example");
     put(folder, "moved.json", &layout.replace("[-2.265685, -1.333917, 0]", "[-2.765685, -1.333917, 0]"));
 }

@@ -119,6 +119,9 @@ impl Outcome {
             },
             status: status.unwrap_or(Status::Bug),
         };
+        if outcome.finished != (outcome.status == Status::Done) {
+            return Err("status".into());
+        }
         let wanted = outcome.to_line(design, run);
         if let Some((key, _)) = wanted.iter().find(|(key, value)| line.get(*key) != Some(*value)) {
             return Err(key.clone());
