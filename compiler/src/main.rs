@@ -43,6 +43,7 @@ fn main() -> ExitCode {
         Command::Build(options) => command::build::run(options),
         Command::Commission(options) => command::commission::run(options),
         Command::Sweep(options) => command::sweep::run(options),
+        Command::Merge(options) => command::sweep::merge::run(options),
         Command::Graph(options) => command::graph::run(options),
         Command::Explain(options) => command::explain::run(options),
     });

@@ -14,6 +14,10 @@ mod interrupt;
 mod interrupted_write;
 #[path = "../../tests/src/machines.rs"]
 mod machines;
+#[path = "command_line/parts.rs"]
+mod parts;
+#[path = "command_line/replications.rs"]
+mod replications;
 #[path = "command_line/side_by_side.rs"]
 mod side_by_side;
 #[path = "command_line/sweep.rs"]

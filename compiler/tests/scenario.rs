@@ -3,7 +3,7 @@
 mod fixture;
 
 use autogen::diagnostic::Diagnostic;
-use autogen::scenario::{self, Line, ResolvedScenario};
+use autogen::scenario::{self, Line, Number, ResolvedScenario};
 use autogen::source::{FileId, Sources};
 use fixture::{root, walk};
 
@@ -68,6 +68,23 @@ fn default_scenario() {
         let brought = |n: usize| items[..n].iter().filter(|k| **k == kind).count();
         assert!(brought(items.len() / 2) >= 3);
     }
+}
+
+#[test]
+fn orders_without_end_are_as_many_as_the_belts_can_feed() {
+    let text = r#"{"kinds": [{"name": "part", "height": 0.1}],
+        "orders": {"count": "without end", "parts": {"part": 2}},
+        "supply": {"every_s": 10, "surplus": [0, 1]}, "time_limit_s": LIMIT}"#;
+    let resolved = |limit: &str, line: &Line| resolve(&text.replace("LIMIT", limit), line).unwrap();
+    // A belt brings parts at 10 s, 20 s and so on to 100 s: five orders, and four stations stand open.
+    let short = resolved("100", &LINE);
+    assert_eq!(short.number, Number::WithoutEnd);
+    assert_eq!((short.orders.len(), short.supply[0].1.len()), (9, 18));
+    let two = Line { belts: &[("one", 0), ("two", 1)], ..LINE };
+    assert_eq!(resolved("100", &two).orders.len(), 14);
+    assert_eq!(resolved("5", &LINE).orders.len(), 5);
+    // The numbers of orders end.
+    assert_eq!(resolved("1000000", &LINE).orders.len(), 32767);
 }
 
 #[test]

@@ -191,11 +191,12 @@ fn options(command: &Command, words: &mut Vec<String>) {
 /// Keys of the JSON blocks of a page and of the first columns of its tables, and what stands in quotes.
 fn json(page: &str) -> Vec<String> {
     let page = text(page);
-    let mut words: Vec<String> = ["{", "}", "[", "]", ":", ",", "true", "false", "null", "\"in turn\""]
-        .into_iter()
-        .chain(NUMBERS)
-        .map(String::from)
-        .collect();
+    let mut words: Vec<String> =
+        ["{", "}", "[", "]", ":", ",", "true", "false", "null", "\"in turn\"", "\"without end\""]
+            .into_iter()
+            .chain(NUMBERS)
+            .map(String::from)
+            .collect();
     for block in blocks(&page, "json") {
         words.extend(between(block, '"').filter(|word| is_name(word)).map(|word| format!("\"{word}\"")));
     }

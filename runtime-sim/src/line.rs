@@ -58,6 +58,7 @@ pub struct State {
 /// What is asked of the line, what its belts bring, and what goes wrong.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scenario {
+    pub goal: Goal,
     pub orders: Vec<Order>,
     pub supply: Vec<Supply>,
     /// Seconds of a belt at full speed until its first part.
@@ -72,6 +73,15 @@ pub struct Scenario {
     pub slips: Vec<Slip>,
     pub refusals: Vec<Refusal>,
     pub pauses: Vec<Pause>,
+}
+
+/// When a run has done what it was for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Goal {
+    /// All orders are made.
+    AllOrders,
+    /// The time limit has come: there are more orders than can be made until then.
+    TimeLimit,
 }
 
 /// Orders of one station open one after another, in the order of [`Scenario::orders`].
@@ -130,6 +140,7 @@ pub enum IoDelay {
 impl Default for Scenario {
     fn default() -> Self {
         Self {
+            goal: Goal::AllOrders,
             orders: Vec::new(),
             supply: Vec::new(),
             // Belt population of the qualifier trials: a part every 2 s at 0.2 m/s.

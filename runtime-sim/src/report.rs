@@ -6,13 +6,13 @@ use crate::collision::Contact;
 use crate::event::{Event, OrderChange};
 use crate::item;
 use crate::json::Json;
-use crate::line::Line;
+use crate::line::{Goal, Line};
 use crate::plant::Plant;
 use crate::shortage::point_text;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
-    /// All orders were made.
+    /// The run has reached its goal.
     pub finished: bool,
     /// Why the run ended, and what is missing if it did not finish.
     pub reason: String,
@@ -22,13 +22,15 @@ pub struct Report {
     pub scans: u64,
     pub simulated_s: f64,
     pub orders_done: usize,
-    /// Orders asked for.
+    /// Orders asked for; of orders without end those that were made.
     pub orders: usize,
     /// `None` if none was made.
     pub seconds_per_order: Option<f64>,
+    /// Of orders without end those that have opened.
     pub order_times: Vec<OrderTimes>,
     /// In layout order.
     pub machines: Vec<MachineReport>,
+    /// Of orders without end those that are on the line.
     pub items: Vec<ItemReport>,
     /// Over what all scans left in the controllers and in their published outputs.
     pub trace_hash: u64,
@@ -112,10 +114,17 @@ impl Report {
                 OrderChange::Refused | OrderChange::Withdrawn => {}
             }
         }
+        let is_endless = line.scenario.goal == Goal::TimeLimit;
+        if is_endless {
+            order_times.retain(|times| times.opened_s.is_some());
+        }
         let orders_done = order_times.iter().filter(|times| times.made_s.is_some()).count();
         let simulated_s = seconds(outcome.scans);
         let names = item::names(line);
-        let items = plant.items().all().iter().zip(names).enumerate().map(|(id, (item, name))| ItemReport {
+        let items = plant.items().all().iter().zip(names).enumerate();
+        let is_on_line = |carrier: Carrier| carrier != Carrier::Supply && !carrier.is_final();
+        let items = items.filter(|(_, (item, _))| !is_endless || is_on_line(item.carrier));
+        let items = items.map(|(id, (item, name))| ItemReport {
             id,
             name,
             kind: line.kinds[item.kind].name.clone(),
@@ -132,7 +141,7 @@ impl Report {
             scans: outcome.scans,
             simulated_s,
             orders_done,
-            orders: line.scenario.orders.len(),
+            orders: if is_endless { orders_done } else { line.scenario.orders.len() },
             seconds_per_order: (orders_done > 0).then(|| simulated_s / orders_done as f64),
             order_times,
             machines: line

@@ -7,7 +7,7 @@ use runtime_sim::carrier::Carrier;
 use runtime_sim::conservation::conservation;
 use runtime_sim::event::Event;
 use runtime_sim::item::Items;
-use runtime_sim::line::{IoDelay, Line, Pause, Slip};
+use runtime_sim::line::{Goal, IoDelay, Line, Pause, Slip};
 use runtime_sim::report::Report;
 use runtime_sim::run::{Seen, Stepping, run};
 use runtime_sim::scan::{Controllers, SystemInputs, SystemOutputs};
@@ -175,6 +175,29 @@ fn an_order_behind_another_is_named() {
     // It is made by scan n, in which that is seen; n+1 takes `complete` back, n+2 sees nothing, n+3 the next order.
     let gap = report.order_times[1].opened_s.unwrap() - report.order_times[0].made_s.unwrap();
     assert!((gap - 0.03).abs() < 1e-9, "{gap}");
+}
+
+#[test]
+fn orders_without_end_are_made_until_the_time_limit() {
+    let mut line = line();
+    line.scenario.goal = Goal::TimeLimit;
+    line.scenario.orders = vec![line.scenario.orders[0].clone(); 3];
+    line.scenario.time_limit_s = 300.0;
+    line.scenario.stall_limit_s = 1000.0;
+    assert_eq!(Line::from_text(&line.to_text()), Ok(line.clone()));
+    let report = follow(&line, whole_order());
+    assert!(report.finished, "{}", report.reason);
+    assert_eq!((report.reason.as_str(), report.simulated_s), ("time limit reached", 300.0));
+    assert_eq!((report.orders_done, report.orders, report.seconds_per_order), (1, 1, Some(300.0)));
+    // The third has not opened, and nothing is left on the line.
+    let times: Vec<_> = report.order_times.iter().map(|times| times.made_s.is_some()).collect();
+    assert_eq!(times, [true, false]);
+    assert_eq!(report.items, []);
+
+    line.scenario.orders.truncate(1);
+    let report = follow(&line, whole_order());
+    assert!(!report.finished);
+    assert_eq!(report.reason, "all 1 orders made before the time limit");
 }
 
 #[test]

@@ -27,6 +27,8 @@ pub enum Command {
     /// Run every layout with every combination of values, and print a table
     #[command(after_help = SWEEP_STATUS)]
     Sweep(SweepOptions),
+    /// Put the parts of a sweep together: the table that the whole sweep would print
+    Merge(MergeOptions),
     /// Print the connectivity graph or an automaton as DOT, or the layout from above as SVG
     Graph(GraphOptions),
     /// Print the long text of a diagnostic
@@ -154,21 +156,53 @@ pub struct SweepOptions {
     #[arg(long, value_name = "N,...", value_delimiter = ',')]
     pub io_delay: Vec<String>,
     /// Runs of each point: the first with the seeds that are given, each further one with the seed of the supply and that
-    /// of random delays one higher. Rows then have means, with half of the width of their 95 % intervals
-    #[arg(long, value_name = "N", default_value = "1")]
-    pub replications: NonZeroU32,
+    /// of random delays one higher, the same for all points. Rows then have means, with half of the width of their 95 %
+    /// intervals. Default: 1; with --until-precision, at most 100
+    #[arg(long, value_name = "N")]
+    pub replications: Option<NonZeroU32>,
+    /// Repeat each point, five times at least, until half of the width of the 95 % interval of its seconds per
+    /// order is at most this percentage of their mean
+    #[arg(long, value_name = "P%")]
+    pub until_precision: Option<String>,
+    /// Orders at the start of each run that do not count for its seconds per order: `20orders`, those of the first
+    /// `600s`, or `auto`, by MSER-5
+    #[arg(long, value_name = "auto|Norders|Ss")]
+    pub warm_up: Option<String>,
+    /// Only part K of N of the runs, as lines that `autogen merge` makes a table of; conflicts with what says how
+    /// the table looks, which is for `merge`
+    #[arg(long, value_name = "K/N", conflicts_with_all = ["beside", "compare", "format"])]
+    pub part: Option<String>,
+    /// Runs that are worked on at the same time; default: one for each processor
+    #[arg(short, long, value_name = "N")]
+    pub jobs: Option<NonZeroUsize>,
+    #[command(flatten)]
+    pub table: TableOptions,
+}
+
+#[derive(Args, Debug)]
+pub struct TableOptions {
     /// Figures to stand beside the rows: a CSV file with the column seconds_per_order and columns of the
     /// sweep's own CSV that name a point, such as layout and agv.capacity
     #[arg(long, value_name = "FILE")]
     pub beside: Option<PathBuf>,
-    /// Points that are worked on at the same time; default: one for each processor
-    #[arg(short, long, value_name = "N")]
-    pub jobs: Option<NonZeroUsize>,
+    /// Show what the seconds per order differ from those of the first point with the same seeds: mean, half of the
+    /// width of its 95 % interval, and the number of pairs
+    #[arg(long)]
+    pub compare: bool,
     #[arg(long, value_enum, default_value = "text")]
     pub format: TableFormat,
     /// Print no progress, and as text only the rows that did not finish
     #[arg(short, long)]
     pub quiet: bool,
+}
+
+#[derive(Args, Debug)]
+pub struct MergeOptions {
+    /// What `autogen sweep --part` wrote, all parts of one sweep in any order
+    #[arg(required = true, value_name = "FILE")]
+    pub parts: Vec<PathBuf>,
+    #[command(flatten)]
+    pub table: TableOptions,
 }
 
 const SWEEP_STATUS: &str = "A point that is refused, faults or runs out of time is a row with its reason.

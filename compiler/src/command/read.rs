@@ -50,7 +50,7 @@ impl fmt::Display for Unread {
 /// The text of a file without a byte order mark; what is no UTF-8 is replaced. UTF-16 is refused: nothing in
 /// it could be read. Neither a pipe nor a device that never ends holds this up.
 pub fn text(path: &Path) -> Result<String, Unread> {
-    let bytes = bytes(open(path).map_err(Unread::Io)?)?;
+    let bytes = bytes(regular(path)?)?;
     if let Ok(path) = path.canonicalize() {
         lock(&FILES).push(path);
     }
@@ -59,6 +59,15 @@ pub fn text(path: &Path) -> Result<String, Unread> {
     }
     let text = String::from_utf8_lossy(&bytes);
     Ok(text.strip_prefix('\u{feff}').unwrap_or(&text).into())
+}
+
+/// A regular file that may be of any size, to be read piece by piece.
+pub fn regular(path: &Path) -> Result<File, Unread> {
+    let file = open(path).map_err(Unread::Io)?;
+    match file.metadata().map_err(Unread::Io)?.is_file() {
+        true => Ok(file),
+        false => Err(Unread::NotRegular),
+    }
 }
 
 #[cfg(unix)]
@@ -74,10 +83,6 @@ fn open(path: &Path) -> io::Result<File> {
 }
 
 fn bytes(file: File) -> Result<Vec<u8>, Unread> {
-    let about = file.metadata().map_err(Unread::Io)?;
-    if !about.is_file() {
-        return Err(Unread::NotRegular);
-    }
     // It may grow while it is read, and some regular files of the system have no length.
     let mut bytes = Vec::new();
     file.take(MOST_BYTES + 1).read_to_end(&mut bytes).map_err(Unread::Io)?;

@@ -4,77 +4,139 @@
 //! once, and each processor runs one point after another.
 
 pub mod axis;
+mod columns;
+mod design;
 mod grid;
+mod head;
 mod in_order;
 mod interval;
 pub mod measured;
+pub mod merge;
+mod outcome;
+mod part;
+mod part_file;
 mod plan;
 mod point;
+mod precision;
 mod progress;
-mod row;
+mod rows;
 mod table;
+mod warm_up;
 
 use super::controllers::Notice;
-use super::options::{Format, SweepOptions, TableFormat};
+use super::options::{Format, SweepOptions, TableFormat, TableOptions};
 use super::print;
 use crate::Status;
 use autogen::diagnostic::Diagnostic;
+use design::RunNumber;
+use head::Head;
+use outcome::Outcome;
+use part::{MOST_PARTS, Part};
 use plan::{Plan, Refusal};
 use progress::Progress;
-use row::Row;
+use rows::Rows;
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use std::num::NonZeroUsize;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 use table::Table;
 
 pub fn run(options: &SweepOptions) -> Status {
-    let plan = match Plan::new(options) {
-        Ok(plan) => plan,
-        Err(refusal) => return not_planned(options, &refusal),
-    };
-    let mut table = match Table::new(&plan, options) {
-        Ok(table) => table,
-        Err(refusal) => return not_planned(options, &refusal),
-    };
-    if plan.lines.iter().all(|line| !line.draft.diagnostics().is_empty()) {
-        return refuse(options, &plan);
+    match plan(options) {
+        Ok((plan, _)) if plan.lines.iter().all(|line| !line.draft.diagnostics().is_empty()) => {
+            refuse(&options.table, &plan)
+        }
+        Ok((plan, Some(part))) => of_part(&plan, part, options),
+        Ok((plan, None)) => whole(&plan, options),
+        Err(refusal) => not_planned(&options.table, &refusal),
     }
-    let jobs = options.jobs.or_else(|| thread::available_parallelism().ok()).map_or(1, NonZeroUsize::get);
-    let is_text = options.format == TableFormat::Text;
-    let notice = if is_text && !options.quiet { Notice::Compiling } else { Notice::None };
-    let Some(all) = plan.len().checked_mul(options.replications.get() as usize) else {
-        return not_planned(options, &Refusal::Said("there are too many runs to count".into()));
+}
+
+fn plan(options: &SweepOptions) -> Result<(Plan, Option<Part>), Refusal> {
+    let part = options.part.as_deref().map(part).transpose()?;
+    if part.is_some() && options.until_precision.is_some() {
+        return Err(Refusal::Said(
+            "--until-precision cannot be used with --part: whether a point goes on depends on all of its runs so far, \
+             and a part has only some of them; give --replications instead"
+                .into(),
+        ));
+    }
+    Ok((Plan::new(options)?, part))
+}
+
+fn part(text: &str) -> Result<Part, Refusal> {
+    let said = || {
+        Refusal::Said(format!("--part takes K/N, part K of N, with K from 1 to N and N up to {MOST_PARTS}"))
     };
-    let mut progress = Progress::new(all, options.quiet);
-    let mut status = Status::Done;
-    table.begin();
-    let replications = options.replications.get();
-    let mut runs = Vec::new();
-    in_order::each(
-        all,
-        jobs,
-        |index| {
-            point::row(&plan, index / replications as usize, (index % replications as usize) as u32, notice)
-        },
-        |run| {
-            status = worse(status, run.status);
-            runs.push(run);
-            progress.clear();
-            if runs.len() == replications as usize
-                && let Some(row) = Row::of_runs(std::mem::take(&mut runs))
-            {
-                table.row(&row);
-            }
-            progress.count();
-        },
-    );
+    Part::parse(text).ok_or_else(said)
+}
+
+/// All runs, as rows of a table.
+fn whole(plan: &Plan, options: &SweepOptions) -> Status {
+    let mut rows = match Table::new(&plan.design, &options.table) {
+        Ok(table) => Rows::new(&plan.design, table),
+        Err(refusal) => return not_planned(&options.table, &refusal),
+    };
+    // Points of which all runs are known: a precision may be reached before the last replication.
+    let closed = AtomicUsize::new(0);
+    let mut next = 0;
+    let indices = std::iter::from_fn(|| {
+        let first = closed.load(Ordering::Relaxed).saturating_mul(plan.design.replications as usize);
+        let index = first.max(next);
+        next = index + 1;
+        (index < plan.runs).then_some(index)
+    });
+    let is_text = options.table.format == TableFormat::Text;
+    let mut progress = Progress::new(plan.runs, options.table.quiet);
+    each_run(plan, options, is_text, indices, |number, outcome| {
+        progress.clear();
+        // Of a point that is closed, runs may have begun that it does not need.
+        if number.point == closed.load(Ordering::Relaxed) && rows.take(number, outcome) {
+            closed.store(number.point + 1, Ordering::Relaxed);
+        }
+        progress.count();
+    });
     progress.clear();
-    table.end();
+    rows.end()
+}
+
+/// The runs of a part, a line each.
+fn of_part(plan: &Plan, part: Part, options: &SweepOptions) -> Status {
+    match Head::line(plan, part) {
+        Ok(line) => say!("{line}"),
+        Err(text) => return not_planned(&options.table, &Refusal::Said(text)),
+    }
+    let mut status = Status::Done;
+    let mut progress = Progress::new(part.runs(plan.runs).count(), options.table.quiet);
+    each_run(plan, options, false, part.runs(plan.runs), |number, outcome| {
+        status = rows::worse(status, outcome.status);
+        progress.clear();
+        say!("{}", Value::Object(outcome.to_line(&plan.design, number)));
+        progress.count();
+    });
+    progress.clear();
     status
 }
 
-fn not_planned(options: &SweepOptions, refusal: &Refusal) -> Status {
+/// Runs with these indices, on all processors; `take` sees what came of them in their order.
+fn each_run(
+    plan: &Plan,
+    options: &SweepOptions,
+    is_told: bool,
+    indices: impl Iterator<Item = usize> + Send,
+    mut take: impl FnMut(RunNumber, Outcome),
+) {
+    let jobs = options.jobs.or_else(|| thread::available_parallelism().ok()).map_or(1, NonZeroUsize::get);
+    let notice = if is_told && !options.table.quiet { Notice::Compiling } else { Notice::None };
+    let job = |index| {
+        let number = plan.design.run(index);
+        (number, point::outcome(plan, number, notice))
+    };
+    in_order::each(indices, jobs, job, |(number, outcome)| take(number, outcome));
+}
+
+fn not_planned(options: &TableOptions, refusal: &Refusal) -> Status {
     match refusal {
         Refusal::Failure(failure) => print::failure_in(format(options), failure),
         Refusal::Said(text) => {
@@ -90,7 +152,7 @@ fn not_planned(options: &SweepOptions, refusal: &Refusal) -> Status {
 }
 
 /// What a sweep says that has no table.
-fn format(options: &SweepOptions) -> Format {
+fn format(options: &TableOptions) -> Format {
     match options.format {
         TableFormat::Json => Format::Json,
         TableFormat::Text | TableFormat::Csv | TableFormat::Jsonl => Format::Text,
@@ -98,7 +160,7 @@ fn format(options: &SweepOptions) -> Format {
 }
 
 /// No layout can be run, whatever the values are: what is wrong is said once.
-fn refuse(options: &SweepOptions, plan: &Plan) -> Status {
+fn refuse(options: &TableOptions, plan: &Plan) -> Status {
     let mut said = BTreeSet::new();
     let mut all: Vec<Value> = Vec::new();
     for line in &plan.lines {
@@ -121,16 +183,4 @@ fn refuse(options: &SweepOptions, plan: &Plan) -> Status {
         );
     }
     Status::WrongInput
-}
-
-/// Of what two points came to, that which the sweep came to.
-fn worse(a: Status, b: Status) -> Status {
-    let rank = |status| match status {
-        Status::Done => 0,
-        Status::WrongInput | Status::NotReached => 1,
-        Status::WrongCommand => 2,
-        Status::Bug => 3,
-    };
-    let worst = if rank(a) >= rank(b) { a } else { b };
-    if worst == Status::WrongInput { Status::NotReached } else { worst }
 }

@@ -6,7 +6,7 @@ use crate::check::{self, Checked};
 use crate::diagnostic::{self, Diagnostic};
 use crate::ir::Model;
 use crate::layout::Layout;
-use crate::scenario::Scenario;
+use crate::scenario::{Number, Scenario};
 use crate::source::{FileId, Sources};
 use crate::spec::{ast, parser};
 use crate::{connect, layout, scenario};
@@ -71,11 +71,12 @@ impl Draft {
         // What could not be read is missed by what was read: what follows from that would only confuse.
         let checked = syntax_is_right.then(|| check::check(sources, &files, &kinds));
         let checked = checked.and_then(|checked| checked.map_err(|found| diagnostics.extend(found)).ok());
-        let orders = scenario.as_ref().map(|s| s.orders.list.len());
+        let listed = scenario.as_ref().filter(|s| s.orders.number == Number::Listed);
+        let orders = listed.map(|s| s.orders.list.len());
         let name = layout.as_ref().map(|l| l.name.clone());
         let mut draft = Self { diagnostics, name, orders, parts: None };
         if let (Some(layout), Some(checked), Some(scenario)) = (layout, checked, scenario) {
-            let model = draft.bind(sources, &layout, &files, &checked, &kinds, settings);
+            let model = draft.bind(sources, &layout, &files, &checked, &scenario, settings);
             draft.parts = model.map(|model| Parts { layout, scenario, model });
         }
         diagnostic::sort(&mut draft.diagnostics);
@@ -89,17 +90,17 @@ impl Draft {
         layout: &Layout,
         files: &[(FileId, ast::File)],
         checked: &Checked,
-        kinds: &[String],
+        scenario: &Scenario,
         settings: &[Setting],
     ) -> Option<Model> {
         let is_right = self.diagnostics.is_empty();
         let bound = bind::bind(layout, checked.model(), &mut self.diagnostics);
-        setting::check(settings, &bound, checked.model(), &mut self.diagnostics);
+        setting::check(settings, &bound, checked.model(), scenario, &mut self.diagnostics);
         if !is_right || bound.robots.len() + bound.obstacles.len() != layout.objects.len() {
             return None;
         }
         let names: BTreeSet<String> = bound.robots.iter().map(|r| r.automaton.clone()).collect();
-        match check::check(sources, &check::used(files, &names), kinds) {
+        match check::check(sources, &check::used(files, &names), &kinds(scenario)) {
             Ok(checked) => Some(checked.into_model()),
             Err(found) => {
                 self.diagnostics.extend(found);
@@ -118,7 +119,7 @@ impl Draft {
         self.name.as_deref()
     }
 
-    /// Number of orders of the scenario, if that can be read.
+    /// Number of orders of the scenario, if it has one and that can be read.
     pub fn orders(&self) -> Option<usize> {
         self.orders
     }
@@ -140,12 +141,14 @@ impl Draft {
 
 impl Parts {
     fn line(&self, found: &mut Line, settings: &[Setting], order: Option<u64>, replication: u32) {
-        let scenario = self.scenario.replication(replication);
         let mut layout = self.layout.clone();
         if let Some(seed) = order {
             Random::new(seed).shuffle(&mut layout.objects);
         }
         let bound = bind::bind(&layout, &self.model, &mut found.diagnostics);
+        let mut scenario = self.scenario.clone();
+        setting::apply(settings, &bound, &mut scenario, &mut found.diagnostics);
+        let scenario = scenario.replication(replication);
         let mut line = role::Line::new(&layout, bound.robots, self.model.clone(), &scenario);
         if line.is_too_large() {
             found.diagnostics.append(&mut line.diagnostics);

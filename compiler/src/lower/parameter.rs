@@ -74,7 +74,18 @@ impl Line<'_> {
     /// The parts of each kind that all orders of the scenario ask for.
     fn ordered(&mut self, parameter: &Parameter) -> Vec<Value> {
         let Scalar::Int { lo, hi } = parameter.ty.scalar else { return Vec::new() };
-        let counts: Vec<i32> = self.ordered.iter().map(|n| i32::try_from(*n).unwrap_or(i32::MAX)).collect();
+        let Some(ordered) = &self.ordered else {
+            let message =
+                format!("the orders have no end, and `{}` is how many parts they ask for", parameter.name);
+            collect(
+                &mut self.diagnostics,
+                Diagnostic::new("E0503", parameter.place, message)
+                    .other(self.orders_place, "the orders are here")
+                    .help("set the parameter, or give the orders a number"),
+            );
+            return vec![Value::Int(lo); self.kinds.len()];
+        };
+        let counts: Vec<i32> = ordered.iter().map(|n| i32::try_from(*n).unwrap_or(i32::MAX)).collect();
         let beyond: Vec<String> = (counts.iter().zip(&self.kinds))
             .filter(|(count, _)| !(lo..=hi).contains(*count))
             .map(|(count, (kind, _))| format!("{count} {kind}"))

@@ -5,7 +5,7 @@ use crate::diagnostic::Diagnostic;
 use crate::executor::Executor;
 use crate::ir::{Automaton, InterfaceId, RoleKind, System, Value};
 use crate::reads::{self, ReadCell, Reads, Whose};
-use crate::scenario::{self, ResolvedScenario, Scenario};
+use crate::scenario::{self, Number, ResolvedScenario, Scenario};
 use runtime_sim::line;
 use runtime_sim::machine::Machine;
 use std::collections::BTreeSet;
@@ -59,6 +59,10 @@ pub fn line(
         obstacles,
         may_touch: line.layout.may_touch.iter().map(|m| m.pair.each_ref().map(|n| n.value.clone())).collect(),
         scenario: line::Scenario {
+            goal: match scenario.number {
+                Number::Listed => line::Goal::AllOrders,
+                Number::WithoutEnd => line::Goal::TimeLimit,
+            },
             orders: scenario
                 .orders
                 .into_iter()

@@ -10,7 +10,7 @@ use crate::ir::{
     Scalar, System, TextPart, Value,
 };
 use crate::layout::Layout;
-use crate::scenario::Scenario;
+use crate::scenario::{Number, Scenario};
 use crate::source::{Span, Spanned};
 use runtime_sim::machine::Machine;
 use std::cell::Cell;
@@ -30,8 +30,8 @@ pub struct Line<'a> {
     automata: Vec<AutomatonId>,
     pub kinds: Vec<(String, f64)>,
     pub heights: Vec<f64>,
-    /// Parts of each kind that all orders of the scenario ask for, and where these stand.
-    pub ordered: Vec<u64>,
+    /// Parts of each kind that all orders of the scenario ask for, and where these stand. `None`: without end.
+    pub ordered: Option<Vec<u64>>,
     pub orders_place: Span,
     /// For each interface its members, in layout order.
     pub members: Vec<Vec<usize>>,
@@ -51,7 +51,8 @@ impl<'a> Line<'a> {
             scenario.kinds.iter().map(|k| (k.name.value.clone(), k.height)).collect();
         let heights = kinds.iter().map(|k| k.1).collect();
         let asked = |kind: usize| scenario.orders.list.iter().map(|o| u64::from(o.parts[kind])).sum();
-        let ordered = (0..kinds.len()).map(asked).collect();
+        let has_end = scenario.orders.number == Number::Listed;
+        let ordered = has_end.then(|| (0..kinds.len()).map(asked).collect());
         let automaton =
             |robot: &Robot| model.automata.iter().position(|a| a.name == robot.automaton).unwrap_or(0);
         let automata = robots.iter().map(|robot| AutomatonId(automaton(robot))).collect();

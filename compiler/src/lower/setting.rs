@@ -1,9 +1,10 @@
-//! `--set TYPE.PARAM=VALUE` and `--set ROBOT.PARAM=VALUE`.
+//! `--set TYPE.PARAM=VALUE` and `--set ROBOT.PARAM=VALUE`, and of the scenario `--set supply.seed=VALUE`.
 
 use super::bind::{Bound, Robot};
 use crate::diagnostic::{Diagnostic, suggestion};
 use crate::ir::Model;
 use crate::layout::json::{self, Json};
+use crate::scenario::{Items, Scenario};
 use crate::source::{FileId, Sources, Span};
 
 /// A parameter set on the command line.
@@ -55,9 +56,67 @@ impl Setting {
     }
 }
 
+/// The target and the parameter by which the seed of the supply is set.
+const SUPPLY: &str = "supply";
+const SEED: &str = "seed";
+
+/// Whether a setting concerns the supply: a type or a robot of this name comes first.
+fn is_of_supply(setting: &Setting, bound: &Bound) -> bool {
+    setting.target == SUPPLY && !bound.robots.iter().any(|robot| setting.applies_to(robot))
+}
+
+/// Sets what the settings say of the scenario; the last of several holds.
+pub fn apply(
+    settings: &[Setting],
+    bound: &Bound,
+    scenario: &mut Scenario,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    for setting in settings.iter().filter(|setting| is_of_supply(setting, bound)) {
+        let Items::Shuffled { seed, .. } = &mut scenario.supply.items else { continue };
+        match &setting.value.value {
+            json::Value::Number(n) if n.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(n) => {
+                *seed = *n as u32;
+            }
+            _ => diagnostics.push(
+                Diagnostic::new("E0503", setting.value.span, format!("this is no value for `{SEED}`"))
+                    .help(format!("write a whole number from 0 to {}", u32::MAX)),
+            ),
+        }
+    }
+}
+
+/// What is wrong with a setting of the supply, if anything is.
+fn check_of_supply(setting: &Setting, scenario: &Scenario) -> Option<Diagnostic> {
+    if setting.parameter != SEED {
+        let message = format!("`{SUPPLY}` has no parameter `{}`", setting.parameter);
+        return Some(
+            Diagnostic::new("E0511", setting.span, message).help(format!("its parameter is `{SEED}`")),
+        );
+    }
+    match scenario.supply.items {
+        Items::Shuffled { .. } => None,
+        Items::OnlyBelt(_) | Items::Belts(_) => Some(
+            Diagnostic::new("E0511", setting.span, format!("`{SUPPLY}` has no `{SEED}` in this scenario"))
+                .other(scenario.supply.span, "these parts are brought as they stand")
+                .help("take a scenario whose supply has no \"items\", or leave the setting out"),
+        ),
+    }
+}
+
 /// Each setting has to concern somebody and something.
-pub fn check(settings: &[Setting], bound: &Bound, model: &Model, diagnostics: &mut Vec<Diagnostic>) {
+pub fn check(
+    settings: &[Setting],
+    bound: &Bound,
+    model: &Model,
+    scenario: &Scenario,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
     for setting in settings {
+        if is_of_supply(setting, bound) {
+            diagnostics.extend(check_of_supply(setting, scenario));
+            continue;
+        }
         let meant: Vec<&Robot> = bound.robots.iter().filter(|r| setting.applies_to(r)).collect();
         if meant.is_empty() {
             let known = bound

@@ -36,9 +36,20 @@ pub struct Kind {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Orders {
     pub span: Span,
+    /// Without end: the one order that is repeated.
     pub list: Vec<Order>,
+    pub number: Number,
     /// Over which orders without a station of their own are spread in turn; `None`: over all.
     pub stations: Option<Vec<Spanned<String>>>,
+}
+
+/// How many orders there are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Number {
+    /// Those of the list.
+    Listed,
+    /// As many as the line can make until the time limit, which then is a good end.
+    WithoutEnd,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -117,6 +128,7 @@ pub struct Pause {
 #[derive(Clone, Debug, PartialEq)]
 pub struct ResolvedScenario {
     pub kinds: Vec<Kind>,
+    pub number: Number,
     /// Stations, and the number of parts of each kind.
     pub orders: Vec<(Vec<usize>, Vec<u32>)>,
     /// Belt, and the kinds it brings, in order.

@@ -1,9 +1,11 @@
 //! A scenario meets a line: names of machines become indices, and the supply is laid out.
 
-use super::{Faults, Items, Refusal, ResolvedScenario, Scenario, Slip, supply};
+use super::{Faults, Items, Number, Order, Refusal, ResolvedScenario, Scenario, Slip, supply};
 use crate::diagnostic::{Diagnostic, MOST, collect, sort};
 use crate::layout::decode::{instead, listing};
 use crate::source::{Span, Spanned};
+use runtime_sim::device::LAST_COMMAND;
+use std::borrow::Cow;
 use std::collections::HashMap;
 
 /// Machines by name and index, in layout order.
@@ -39,6 +41,7 @@ pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec
     match (orders, supply) {
         (Some(orders), Some(supply)) if resolver.diagnostics.is_empty() => Ok(ResolvedScenario {
             kinds: scenario.kinds.clone(),
+            number: scenario.orders.number,
             orders,
             supply,
             spawn_first_s: scenario.supply.first_s,
@@ -102,8 +105,8 @@ impl<'a> Resolver<'a> {
             return None;
         }
         let mut next = turn.iter().cycle();
-        let resolved: Vec<_> = orders
-            .list
+        let resolved: Vec<_> = self
+            .list()
             .iter()
             .map(|order| {
                 let stations = match &order.stations {
@@ -114,6 +117,23 @@ impl<'a> Resolver<'a> {
             })
             .collect();
         resolved.into_iter().collect()
+    }
+
+    /// All orders. Of those without end as many as the belts can bring parts for until the time limit, and one for each
+    /// station that would then lie open; no more than have numbers.
+    fn list(&self) -> Cow<'a, [Order]> {
+        let (orders, supply) = (&self.scenario.orders, &self.scenario.supply);
+        let [order] = orders.list.as_slice() else { return Cow::Borrowed(&orders.list) };
+        if orders.number == Number::Listed {
+            return Cow::Borrowed(&orders.list);
+        }
+        let left_s = (self.scenario.time_limit_s - supply.first_s).max(0.0);
+        let parts = (left_s / supply.every_s).floor() + 1.0;
+        let of_order: u32 = order.parts.iter().sum();
+        let made = (parts * self.line.belts.len() as f64 / f64::from(of_order)).ceil();
+        let most = LAST_COMMAND as usize;
+        let count = (made as usize).saturating_add(self.line.stations.len()).min(most);
+        Cow::Owned(vec![order.clone(); count])
     }
 
     fn stations(&mut self, names: &[Spanned<String>]) -> Option<Vec<usize>> {
@@ -163,7 +183,8 @@ impl<'a> Resolver<'a> {
         belts: &[usize],
     ) -> Option<Vec<(usize, Vec<usize>)>> {
         let span = self.scenario.supply.span;
-        let orders: Vec<&[u32]> = self.scenario.orders.list.iter().map(|o| o.parts.as_slice()).collect();
+        let list = self.list();
+        let orders: Vec<&[u32]> = list.iter().map(|o| o.parts.as_slice()).collect();
         let needed: u64 = orders.iter().flat_map(|parts| parts.iter()).map(|n| u64::from(*n)).sum();
         let brought = needed + supply::surplus(needed, surplus);
         if brought > MOST_PARTS {
@@ -191,6 +212,17 @@ impl<'a> Resolver<'a> {
 
     /// A list of parts is enough for all orders.
     fn suffices(&mut self, supply: &[(usize, Vec<usize>)]) {
+        if self.scenario.orders.number == Number::WithoutEnd {
+            let message = "the belts bring a list of parts, and the orders have no end";
+            collect(
+                &mut self.diagnostics,
+                Diagnostic::new("E0138", self.scenario.supply.span, message)
+                    .other(self.scenario.orders.span, "the orders")
+                    .note("the line could not make all orders")
+                    .help("leave out \"items\", so that the belts bring what the orders ask for, or give a \"count\""),
+            );
+            return;
+        }
         for (k, kind) in self.scenario.kinds.iter().enumerate() {
             let needed: u64 = self.scenario.orders.list.iter().map(|o| u64::from(o.parts[k])).sum();
             let brought = supply.iter().flat_map(|(_, items)| items).filter(|i| **i == k).count() as u64;

@@ -7,13 +7,13 @@ use std::path::Path;
 use std::process::Output;
 
 /// One battery for one station: made within a minute of simulated time.
-const ONE_PART: &str = r#"{
+pub const ONE_PART: &str = r#"{
     "kinds": [{"name": "battery", "height": 0.053}],
     "orders": [{"station": "as1", "parts": {"battery": 1}}],
     "supply": {"items": ["battery"]}
 }"#;
 
-fn put(folder: &Path, name: &str, text: &str) {
+pub fn put(folder: &Path, name: &str, text: &str) {
     fs::write(folder.join(name), text).expect("a file that can be written");
 }
 
@@ -23,11 +23,11 @@ fn put_infeasible(folder: &Path) {
     put(folder, "moved.json", &layout.replace("[-2.265685, -1.333917, 0]", "[-2.765685, -1.333917, 0]"));
 }
 
-fn printed(output: &Output) -> String {
+pub fn printed(output: &Output) -> String {
     String::from_utf8_lossy(&output.stdout).into_owned()
 }
 
-fn rows(output: &Output) -> Vec<Value> {
+pub fn rows(output: &Output) -> Vec<Value> {
     json(output)["rows"].as_array().cloned().unwrap_or_else(|| panic!("no rows: {}", errors(output)))
 }
 
@@ -375,40 +375,4 @@ fn wrong_command_lines_are_status_2() {
         assert_eq!(status(&output), 2, "{case:?}: {}", errors(&output));
         assert!(!output.stderr.is_empty() && output.stdout.is_empty(), "{case:?}");
     }
-}
-
-#[test]
-fn replications_are_runs_with_other_seeds() {
-    let folder = folder("sweep_replications");
-    let layout = example("ariac2021/default.json");
-    let scenario = |seed: u32| {
-        format!(
-            r#"{{"kinds": [{{"name": "battery", "height": 0.053}}, {{"name": "pump", "height": 0.11}}],
-                "orders": {{"count": 2, "parts": {{"battery": 1, "pump": 1}}}}, "supply": {{"seed": {seed}}}}}"#
-        )
-    };
-    let seconds = |seed: u32| {
-        put(&folder, "one.json", &scenario(seed));
-        let output = autogen(&folder, &["sweep", &layout, "--scenario", "one.json", "--format", "json"]);
-        rows(&output)[0]["seconds_per_order"].as_f64().expect("orders are made")
-    };
-    let values = [7, 8, 9].map(seconds);
-    put(&folder, "three.json", &scenario(7));
-    let sweep = ["sweep", &layout, "--scenario", "three.json", "--replications", "3", "--format"];
-    let output = autogen(&folder, &[&sweep[..], &["json"]].concat());
-    assert_eq!(status(&output), 0, "{}", errors(&output));
-    let row = &rows(&output)[0];
-    let mean = values.iter().sum::<f64>() / 3.0;
-    let deviation = (values.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / 2.0).sqrt();
-    let is_near = |name: &str, wanted: f64| (row[name].as_f64().expect("a number") - wanted).abs() < 1e-9;
-    assert!(deviation > 0.0 && is_near("seconds_per_order", mean), "{row} for {values:?}");
-    assert!(is_near("half_width", 4.303 * deviation / 3.0_f64.sqrt()), "{row} for {values:?}");
-    assert_eq!((&row["runs"], &row["finished_runs"]), (&Value::from(3), &Value::from(3)));
-
-    let output = autogen(&folder, &[&sweep[..], &["csv"]].concat());
-    let table = printed(&output);
-    let cells: Vec<usize> = table.lines().map(|line| line.split(',').count()).collect();
-    assert_eq!(cells, [11, 11], "{table}");
-    let output = autogen(&folder, &[&sweep[..], &["text"]].concat());
-    assert!(printed(&output).contains("3 of 3"), "{}", printed(&output));
 }

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::sync::Arc;
 
-use super::{IoDelay, Kind, Line, Obstacle, Order, Pause, Refusal, Scenario, Slip, State, Supply};
+use super::{Goal, IoDelay, Kind, Line, Obstacle, Order, Pause, Refusal, Scenario, Slip, State, Supply};
 use crate::machine::Machine;
 use crate::part::Part;
 use crate::point::Point;
@@ -79,6 +79,10 @@ impl Line {
         put(format!("time_limit_s {:?}", scenario.time_limit_s));
         put(format!("stall_limit_s {:?}", scenario.stall_limit_s));
         put(format!("start_scan {}", scenario.start_scan));
+        put(match scenario.goal {
+            Goal::AllOrders => "goal all_orders".into(),
+            Goal::TimeLimit => "goal time_limit".into(),
+        });
         put(format!("orders {}", scenario.orders.len()));
         for order in &scenario.orders {
             put(format!("  {} {}", list(&order.stations), list(&order.parts)));
@@ -213,6 +217,12 @@ fn read_scenario(words: &mut Words) -> Result<Scenario, String> {
     let stall_limit_s = words.real()?;
     words.expect("start_scan")?;
     let start_scan = words.int()?;
+    words.expect("goal")?;
+    let goal = match words.name()? {
+        "all_orders" => Goal::AllOrders,
+        "time_limit" => Goal::TimeLimit,
+        other => return Err(format!("`{other}` is no goal")),
+    };
     words.expect("orders")?;
     let orders = words.list(|w| Ok(Order { stations: w.list(|w| w.int())?, parts: w.list(|w| w.int())? }))?;
     words.expect("supply")?;
@@ -224,6 +234,7 @@ fn read_scenario(words: &mut Words) -> Result<Scenario, String> {
     words.expect("pauses")?;
     let pauses = words.list(|w| Ok(Pause { at_scan: w.int()?, scans: w.int()? }))?;
     Ok(Scenario {
+        goal,
         orders,
         supply,
         spawn_first_s,

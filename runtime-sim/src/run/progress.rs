@@ -1,7 +1,7 @@
 //! How far a run has come, and for how long nothing has happened.
 
 use crate::event::{Event, OrderChange};
-use crate::line::Line;
+use crate::line::{Goal, Line};
 use crate::plant::Plant;
 use crate::shortage::shortage;
 
@@ -59,7 +59,7 @@ impl Progress {
         self.alive.saturating_add(1).saturating_add(self.stall)
     }
 
-    /// Whether the run is over before this scan, and whether all orders are made.
+    /// Whether the run is over before this scan, and whether it has reached its goal.
     pub fn end(&mut self, line: &Line, plant: &Plant, scan: u64) -> Option<(bool, String)> {
         let log = plant.items().log();
         let made = |event: &&Event| matches!(event, Event::Order { change: OrderChange::Made, .. });
@@ -68,10 +68,15 @@ impl Progress {
             self.note(scan, true);
         }
         self.read = log.len();
-        if self.made == line.scenario.orders.len() {
+        let is_all = self.made == line.scenario.orders.len();
+        if is_all && line.scenario.goal == Goal::AllOrders {
             Some((true, "all orders made".into()))
+        } else if is_all {
+            Some((false, format!("all {} orders made before the time limit", self.made)))
         } else if scan.saturating_sub(self.alive.saturating_add(1)) >= self.stall {
             Some((false, format!("deadlock: {}", shortage(line, plant))))
+        } else if scan >= self.limit && line.scenario.goal == Goal::TimeLimit {
+            Some((true, "time limit reached".into()))
         } else if scan >= self.limit {
             Some((false, format!("time limit: {}", shortage(line, plant))))
         } else {

@@ -7,57 +7,80 @@ use std::thread;
 /// Results that may wait for an earlier one, for each thread. So many are held at most, however many there are in all.
 const AHEAD: usize = 16;
 
-struct Progress<R> {
-    /// Index that is given out next.
-    next: usize,
-    /// Index of the result that is taken next.
+struct Progress<W, R> {
+    /// What is still to be done.
+    work: W,
+    /// Pieces of work given out.
+    given: usize,
+    /// Results taken.
     taken: usize,
+    is_out_of_work: bool,
     waiting: BTreeMap<usize, R>,
 }
 
-/// Does the job for each index below `count`, on `threads` threads; `take` sees the
-/// results in the order of the indices, as soon as they can be had. The job must not panic.
-pub fn each<R: Send>(count: usize, threads: usize, job: impl Fn(usize) -> R + Sync, mut take: impl FnMut(R)) {
-    let progress = Mutex::new(Progress { next: 0, taken: 0, waiting: BTreeMap::new() });
+/// Does the job for each piece of work, on `threads` threads; `take` sees the results in the order of the work, as soon
+/// as they can be had. Work is asked for late, so that it may depend on what was taken before. The job must not panic.
+pub fn each<T: Send, R: Send>(
+    work: impl Iterator<Item = T> + Send,
+    threads: usize,
+    job: impl Fn(T) -> R + Sync,
+    mut take: impl FnMut(R),
+) {
+    let progress =
+        Mutex::new(Progress { work, given: 0, taken: 0, is_out_of_work: false, waiting: BTreeMap::new() });
     let changed = Condvar::new();
     let ahead = threads * AHEAD;
     thread::scope(|scope| {
-        for _ in 0..threads.min(count) {
+        for _ in 0..threads {
             scope.spawn(|| {
-                while let Some(index) = next(&progress, &changed, count, ahead) {
-                    let result = job(index);
+                while let Some((index, piece)) = next(&progress, &changed, ahead) {
+                    let result = job(piece);
                     lock(&progress).waiting.insert(index, result);
                     changed.notify_all();
                 }
             });
         }
-        for index in 0..count {
+        loop {
             let mut held = lock(&progress);
             let result = loop {
+                let index = held.taken;
                 if let Some(result) = held.waiting.remove(&index) {
                     break result;
                 }
+                if held.is_out_of_work && held.given == index {
+                    return;
+                }
                 held = changed.wait(held).unwrap_or_else(PoisonError::into_inner);
             };
-            held.taken = index + 1;
+            held.taken += 1;
             drop(held);
-            changed.notify_all();
             take(result);
+            changed.notify_all();
         }
     });
 }
 
-fn next<R>(progress: &Mutex<Progress<R>>, changed: &Condvar, count: usize, ahead: usize) -> Option<usize> {
+fn next<T, R>(
+    progress: &Mutex<Progress<impl Iterator<Item = T>, R>>,
+    changed: &Condvar,
+    ahead: usize,
+) -> Option<(usize, T)> {
     let mut held = lock(progress);
-    while held.next < count && held.next >= held.taken + ahead {
+    while !held.is_out_of_work && held.given >= held.taken + ahead {
         held = changed.wait(held).unwrap_or_else(PoisonError::into_inner);
     }
-    let index = held.next;
-    held.next = index.saturating_add(1);
-    (index < count).then_some(index)
+    let piece = if held.is_out_of_work { None } else { held.work.next() };
+    let Some(piece) = piece else {
+        held.is_out_of_work = true;
+        changed.notify_all();
+        return None;
+    };
+    let index = held.given;
+    held.given += 1;
+    Some((index, piece))
 }
 
-fn lock<R>(progress: &Mutex<Progress<R>>) -> MutexGuard<'_, Progress<R>> {
+fn lock<P>(progress: &Mutex<P>) -> MutexGuard<'_, P> {
     progress.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
@@ -77,7 +100,7 @@ mod tests {
                 made.fetch_add(1, Ordering::Relaxed);
                 index * 3
             };
-            each(500, threads, job, |result| {
+            each(0..500, threads, job, |result| {
                 assert!(made.load(Ordering::Relaxed) <= taken.len() + threads * (AHEAD + 1));
                 taken.push(result);
             });
@@ -86,7 +109,30 @@ mod tests {
     }
 
     #[test]
+    fn work_may_end_by_what_was_taken() {
+        for threads in [1, 4] {
+            let is_enough = AtomicUsize::new(0);
+            let mut next = 0_usize;
+            let work = std::iter::from_fn(|| {
+                next += 1;
+                (is_enough.load(Ordering::Relaxed) == 0).then_some(next)
+            });
+            let mut most = 0;
+            each(
+                work,
+                threads,
+                |index| index,
+                |index| {
+                    most = index;
+                    is_enough.store(usize::from(index >= 10), Ordering::Relaxed);
+                },
+            );
+            assert!((10..=10 + threads * (AHEAD + 1)).contains(&most), "{most}");
+        }
+    }
+
+    #[test]
     fn nothing_to_do() {
-        each(0, 4, |index| index, |_| panic!("there is no result"));
+        each(0..0, 4, |index: usize| index, |_| panic!("there is no result"));
     }
 }

@@ -1,16 +1,33 @@
 //! Means of runs with other seeds, and how sure they are.
 
-pub fn mean(values: &[f64]) -> Option<f64> {
-    (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
+/// Running figures of a sample, by Welford's recurrence (Knuth, The Art of Computer Programming 2, 4.2.2).
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Sample {
+    pub count: usize,
+    mean: f64,
+    /// Sum of the squares of what the values differ from their mean.
+    squares: f64,
 }
 
-/// Half of the width of the 95 % interval of the mean, by Student's t; none of less than two values.
-pub fn half_width(values: &[f64]) -> Option<f64> {
-    let mean = mean(values)?;
-    let degrees = values.len() - 1;
-    let squares: f64 = values.iter().map(|value| (value - mean) * (value - mean)).sum();
-    let deviation = (squares / degrees as f64).sqrt();
-    (degrees > 0).then(|| quantile(degrees) * deviation / (values.len() as f64).sqrt())
+impl Sample {
+    pub fn take(&mut self, value: f64) {
+        self.count += 1;
+        let before = value - self.mean;
+        self.mean += before / self.count as f64;
+        self.squares += before * (value - self.mean);
+    }
+
+    /// `None` without a value.
+    pub fn mean(&self) -> Option<f64> {
+        (self.count > 0).then_some(self.mean)
+    }
+
+    /// Half of the width of the 95 % interval of the mean, by Student's t; none of less than two values.
+    pub fn half_width(&self) -> Option<f64> {
+        let degrees = self.count.checked_sub(1).filter(|degrees| *degrees > 0)?;
+        let deviation = (self.squares / degrees as f64).sqrt();
+        Some(quantile(degrees) * deviation / (self.count as f64).sqrt())
+    }
 }
 
 /// The 0.975 quantile of Student's t for 1 to 30 degrees of freedom (NIST/SEMATECH e-Handbook of Statistical Methods,
@@ -36,14 +53,29 @@ fn quantile(degrees: usize) -> f64 {
 mod tests {
     use super::*;
 
+    fn sample(values: &[f64]) -> Sample {
+        let mut sample = Sample::default();
+        values.iter().for_each(|value| sample.take(*value));
+        sample
+    }
+
     #[test]
     fn an_interval_is_that_of_the_textbook() {
         // Mean 10, deviation 2 of five values: 2.776 * 2 / sqrt(5).
-        let values = [8.0, 9.0, 9.0, 11.0, 13.0];
-        assert_eq!(mean(&values), Some(10.0));
-        assert!((half_width(&values).unwrap() - 2.483).abs() < 1e-3);
-        assert_eq!(half_width(&[1.0]), None);
-        assert_eq!(mean(&[]), None);
+        let five = sample(&[8.0, 9.0, 9.0, 11.0, 13.0]);
+        assert_eq!(five.mean(), Some(10.0));
+        assert!((five.half_width().unwrap() - 2.483).abs() < 1e-3);
+        assert_eq!(sample(&[1.0]).half_width(), None);
+        assert_eq!((sample(&[]).mean(), sample(&[]).half_width()), (None, None));
+    }
+
+    #[test]
+    fn like_values_have_no_width_and_a_far_mean_costs_no_digits() {
+        assert_eq!(sample(&[0.1; 7]).half_width(), Some(0.0));
+        assert_eq!(sample(&[0.1; 7]).mean(), Some(0.1));
+        let far = sample(&[1e9 + 4.0, 1e9 + 7.0, 1e9 + 13.0, 1e9 + 16.0]);
+        // The variance is 30: 3.182 * sqrt(30) / 2.
+        assert!((far.half_width().unwrap() - 8.7143).abs() < 1e-3);
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! All points of a sweep, none of them written out.
+//! What a sweep runs: its layouts, read and checked, and the runs of its design, none of them written out.
 
 use super::super::build;
 use super::super::commission::io_delay;
@@ -6,48 +6,43 @@ use super::super::controllers::{self, Notice, SharedLibrary};
 use super::super::load::{self, Failure};
 use super::super::options::SweepOptions;
 use super::axis::Axis;
+use super::design::Design;
+use super::precision::{self, Precision};
+use super::warm_up::WarmUp;
 use autogen::ir::System;
 use autogen::lower::{Draft, Setting, Texts};
 use autogen::source::Sources;
 use runtime_sim::line::IoDelay;
 use runtime_sim::memory::Memory;
 use std::fmt::Display;
+use std::num::NonZeroU32;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 pub struct Plan {
+    pub design: Design,
+    /// One for each layout of the design.
     pub lines: Vec<Line>,
-    pub axes: Vec<Axis>,
-    /// `None` stands for layout order.
-    pub orders: Vec<Option<u64>>,
-    /// As written, and what it means.
-    pub delays: Vec<(String, IoDelay)>,
-    len: usize,
+    /// What the delays of the design mean; one at least.
+    pub delays: Vec<IoDelay>,
+    /// Number of runs, at most.
+    pub runs: usize,
 }
 
 /// A layout, read and checked as far as values do not matter.
 pub struct Line {
-    /// How rows name it.
-    pub title: String,
     pub sources: Sources,
+    pub texts: load::Texts,
     pub draft: Draft,
     /// For each axis the settings of its values.
     pub settings: Vec<Vec<Setting>>,
     /// The sources under the names that outputs show.
     pub shown: Sources,
+    /// Its own, or that of its file.
+    name: String,
     library: Mutex<Option<Result<SharedLibrary, String>>>,
     /// What runs of this layout have found; one for each that goes on at the same time.
     memories: Mutex<Vec<Memory>>,
-}
-
-/// Which value a point has of everything that varies.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Point {
-    pub line: usize,
-    /// For each axis the index of a value.
-    pub values: Vec<usize>,
-    pub order: usize,
-    pub delay: usize,
 }
 
 /// Why there is no plan.
@@ -83,49 +78,69 @@ impl Plan {
         for path in &options.layouts {
             lines.push(Line::new(path, options, &axes).map_err(Refusal::Failure)?);
         }
-        if (1..lines.len()).any(|i| lines[..i].iter().any(|other| other.title == lines[i].title)) {
-            for (line, path) in lines.iter_mut().zip(&options.layouts) {
-                line.title = path.display().to_string();
-            }
-        }
-        let orders = match options.order.as_slice() {
-            [] => vec![None],
-            seeds => seeds.iter().copied().map(Some).collect(),
-        };
         let mut delays = Vec::new();
         for text in &options.io_delay {
             let delay = io_delay(text).ok_or_else(|| {
                 Refusal::Said("--io-delay takes numbers of scans, `random` or `random:SEED`".into())
             })?;
-            delays.push((text.clone(), delay));
+            delays.push(delay);
         }
         if delays.is_empty() {
-            delays.push(("0".into(), IoDelay::Fixed(0)));
+            delays.push(IoDelay::Fixed(0));
         }
-        let sizes = axes.iter().map(|a| a.values.len()).chain([lines.len(), orders.len(), delays.len()]);
-        let len = sizes.into_iter().try_fold(1, usize::checked_mul);
-        let len = len.ok_or_else(|| Refusal::Said("there are too many combinations to count".into()))?;
-        Ok(Self { lines, axes, orders, delays, len })
-    }
-
-    /// Number of points.
-    pub fn len(&self) -> usize {
-        self.len
-    }
-
-    /// The layout changes slowest, then the first axis, and how late devices answer fastest.
-    pub fn point(&self, index: usize) -> Point {
-        let mut rest = index;
-        let mut digit = |size: usize| {
-            let digit = rest % size;
-            rest /= size;
-            digit
+        let precision = options.until_precision.as_deref().map(precision).transpose()?;
+        let most = if precision.is_some() { precision::MOST } else { 1 };
+        let replications = options.replications.map_or(most, NonZeroU32::get);
+        seeds_are_apart(&axes, replications)?;
+        let design = Design {
+            layouts: titles(&lines, &options.layouts),
+            axes,
+            orders: options.order.clone(),
+            delays: options.io_delay.clone(),
+            replications,
+            warm_up: options.warm_up.as_deref().map(warm_up).transpose()?,
+            precision,
         };
-        let delay = digit(self.delays.len());
-        let order = digit(self.orders.len());
-        let mut values: Vec<usize> = self.axes.iter().rev().map(|axis| digit(axis.values.len())).collect();
-        values.reverse();
-        Point { line: digit(self.lines.len()), values, order, delay }
+        let runs = design.runs().ok_or_else(|| Refusal::Said("there are too many runs to count".into()))?;
+        Ok(Self { design, lines, delays, runs })
+    }
+}
+
+fn precision(text: &str) -> Result<Precision, Refusal> {
+    let said =
+        || Refusal::Said("--until-precision takes a percentage between 0% and 100%, such as 2%".into());
+    Precision::parse(text).ok_or_else(said)
+}
+
+fn warm_up(text: &str) -> Result<WarmUp, Refusal> {
+    let said = || {
+        Refusal::Said("--warm-up takes `auto`, orders such as `20orders`, or seconds such as `600s`".into())
+    };
+    WarmUp::parse(text).ok_or_else(said)
+}
+
+/// Names of the layouts, or their paths if two have the same name.
+fn titles(lines: &[Line], paths: &[PathBuf]) -> Vec<String> {
+    let titles: Vec<String> = lines.iter().map(|line| line.name.clone()).collect();
+    match twice(&titles) {
+        Some(_) => paths.iter().map(|path| path.display().to_string()).collect(),
+        None => titles,
+    }
+}
+
+/// Replications of a point take the seeds that follow its own. Were one of them that of another point, both would be
+/// the same run.
+fn seeds_are_apart(axes: &[Axis], replications: u32) -> Result<(), Refusal> {
+    let seeds = axes.iter().filter(|axis| axis.name == "supply.seed");
+    let mut seeds: Vec<u64> = seeds.flat_map(|axis| &axis.values).filter_map(|v| v.parse().ok()).collect();
+    seeds.sort_unstable();
+    match seeds.windows(2).find(|pair| pair[1] - pair[0] < u64::from(replications)) {
+        Some(pair) => Err(Refusal::Said(format!(
+            "--set supply.seed: {} and {} are less than {replications} apart, so that with {replications} replications \
+             both points would have some runs in common; take seeds that are farther apart, or no list of them",
+            pair[0], pair[1]
+        ))),
+        None => Ok(()),
     }
 }
 
@@ -163,13 +178,14 @@ impl Line {
         // Whom and what a setting concerns is the same for all values of an axis.
         let concerned: Vec<Setting> =
             settings.iter().filter_map(|of_axis| of_axis.first().cloned()).collect();
-        let texts = Texts { layout: texts.layout, specs: &texts.specs, scenario: texts.scenario };
-        let draft = Draft::new(&sources, texts, &concerned);
+        let named = Texts { layout: texts.layout, specs: &texts.specs, scenario: texts.scenario };
+        let draft = Draft::new(&sources, named, &concerned);
         let stem = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
         let shown = build::shown(&sources, path);
         Ok(Self {
-            title: draft.name().map_or(stem, String::from),
+            name: draft.name().map_or(stem, String::from),
             sources,
+            texts,
             draft,
             settings,
             shown,

@@ -1,10 +1,11 @@
-//! One point of a sweep: its values made a line, and the line run.
+//! One run of a point: its values made a line, and the line run.
 
 use super::super::controllers::Notice;
 use super::super::fault;
 use super::super::print;
+use super::design::{Point, RunNumber};
+use super::outcome::Outcome;
 use super::plan::Plan;
-use super::row::Row;
 use crate::Status;
 use autogen::backend::rust::parameters_text;
 use autogen::diagnostic::Diagnostic;
@@ -15,32 +16,32 @@ use runtime_sim::run::{Stepping, run_again};
 use serde_json::Value;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// What came of a run of a point; whatever went wrong is in the row.
-pub fn row(plan: &Plan, index: usize, replication: u32, notice: Notice) -> Row {
-    let point = plan.point(index);
-    let line = &plan.lines[point.line];
-    let mut row = Row::new(point, line.draft.orders());
-    match catch_unwind(AssertUnwindSafe(|| run(plan, &row, replication, notice))) {
-        Ok(Ok(report)) => row.reported(&report),
+/// What came of a run; whatever went wrong is in it.
+pub fn outcome(plan: &Plan, number: RunNumber, notice: Notice) -> Outcome {
+    let point = plan.design.point(number.point);
+    let line = &plan.lines[point.layout];
+    let mut outcome = Outcome::new(line.draft.orders());
+    match catch_unwind(AssertUnwindSafe(|| run(plan, &point, number.replication, notice))) {
+        Ok(Ok(report)) => outcome.reported(&report, plan.design.warm_up),
         Ok(Err(End::Refused(found))) => {
-            row.reason = refusal(&found);
-            row.diagnostics = print::diagnostics_json(&line.sources, &found);
-            row.status = Status::WrongInput;
+            outcome.reason = refusal(&found);
+            outcome.diagnostics = print::diagnostics_json(&line.sources, &found);
+            outcome.status = Status::WrongInput;
         }
         Ok(Err(End::NoControllers(text))) => {
-            row.reason = text;
-            row.status = Status::WrongCommand;
+            outcome.reason = text;
+            outcome.status = Status::WrongCommand;
         }
         Ok(Err(End::NoReport(text))) => {
-            row.reason = text;
-            row.status = Status::NotReached;
+            outcome.reason = text;
+            outcome.status = Status::NotReached;
         }
         Err(_) => {
-            row.reason = "bug: autogen panicked".into();
-            row.status = Status::Bug;
+            outcome.reason = "bug: autogen panicked".into();
+            outcome.status = Status::Bug;
         }
     }
-    row
+    outcome
 }
 
 enum End {
@@ -49,15 +50,14 @@ enum End {
     NoReport(String),
 }
 
-fn run(plan: &Plan, row: &Row, replication: u32, notice: Notice) -> Result<Value, End> {
-    let point = &row.point;
-    let line = &plan.lines[point.line];
+fn run(plan: &Plan, point: &Point, replication: u32, notice: Notice) -> Result<Value, End> {
+    let line = &plan.lines[point.layout];
     let settings: Vec<Setting> =
         line.settings.iter().zip(&point.values).map(|(of_axis, &value)| of_axis[value].clone()).collect();
-    let made = line.draft.line(&settings, plan.orders[point.order], replication);
+    let made = line.draft.line(&settings, plan.design.orders.get(point.order).copied(), replication);
     let Some(mut project) = made.project else { return Err(End::Refused(made.diagnostics)) };
     let library = line.library(&project.system, notice).map_err(End::NoControllers)?;
-    project.plant.io_delay = match plan.delays[point.delay].1 {
+    project.plant.io_delay = match plan.delays[point.delay] {
         IoDelay::Random { max, seed } => {
             IoDelay::Random { max, seed: seed.wrapping_add(u64::from(replication)) }
         }

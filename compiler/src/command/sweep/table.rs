@@ -1,83 +1,100 @@
 //! Rows on standard output, as they come.
 
-use super::super::options::{SweepOptions, TableFormat};
+use super::super::options::{TableFormat, TableOptions};
+use super::columns::{Columns, seconds};
+use super::design::Design;
 use super::grid::Grid;
 use super::measured::{Beside, Measured};
-use super::plan::{Plan, Refusal};
-use super::row::Row;
+use super::plan::Refusal;
+use super::rows::Row;
 use autogen::csv;
 use serde_json::{Value, json};
 
 pub struct Table<'a> {
-    plan: &'a Plan,
+    design: &'a Design,
     format: TableFormat,
     quiet: bool,
+    compare: bool,
     rows: usize,
-    columns: Vec<Column<'a>>,
+    names: Vec<Name<'a>>,
     grid: Option<Grid>,
     measured: Option<Measured>,
-    replications: u32,
 }
 
-/// What says which point a row is.
-struct Column<'a> {
-    name: &'a str,
-    /// Characters of the widest of its cells, its name among them.
+/// A column that says which point a row is.
+struct Name<'a> {
+    title: &'a str,
+    /// Characters of the widest of its cells, its title among them.
     width: usize,
     cell: Box<dyn Fn(&Row) -> String + 'a>,
 }
 
-impl<'a> Column<'a> {
-    fn new(name: &'a str, cells: Vec<String>, index: impl Fn(&Row) -> usize + 'a) -> Self {
-        let width = cells.iter().map(|c| c.chars().count()).chain([name.len()]).max().unwrap_or(0);
-        Self { name, width, cell: Box::new(move |row| cells[index(row)].clone()) }
+impl<'a> Name<'a> {
+    fn new(title: &'a str, cells: Vec<String>, index: impl Fn(&Row) -> usize + 'a) -> Self {
+        let width = cells.iter().map(|c| c.chars().count()).chain([title.len()]).max().unwrap_or(0);
+        Self { title, width, cell: Box::new(move |row| cells[index(row)].clone()) }
     }
 }
 
 impl<'a> Table<'a> {
-    pub fn new(plan: &'a Plan, options: &SweepOptions) -> Result<Self, Refusal> {
-        let titles = plan.lines.iter().map(|line| line.title.clone()).collect();
-        let mut columns = vec![Column::new("layout", titles, |row| row.point.line)];
-        for (number, axis) in plan.axes.iter().enumerate() {
-            columns.push(Column::new(&axis.name, axis.values.clone(), move |row| row.point.values[number]));
+    pub fn new(design: &'a Design, options: &TableOptions) -> Result<Self, Refusal> {
+        let mut names = vec![Name::new("layout", design.layouts.clone(), |row| row.point.layout)];
+        for (number, axis) in design.axes.iter().enumerate() {
+            names.push(Name::new(&axis.name, axis.values.clone(), move |row| row.point.values[number]));
         }
-        if !options.order.is_empty() {
-            let seeds = options.order.iter().map(u64::to_string).collect();
-            columns.push(Column::new("order_seed", seeds, |row| row.point.order));
+        if !design.orders.is_empty() {
+            let seeds = design.orders.iter().map(u64::to_string).collect();
+            names.push(Name::new("order_seed", seeds, |row| row.point.order));
         }
-        if !options.io_delay.is_empty() {
-            columns.push(Column::new("io_delay", options.io_delay.clone(), |row| row.point.delay));
+        if !design.delays.is_empty() {
+            names.push(Name::new("io_delay", design.delays.clone(), |row| row.point.delay));
         }
         let (format, quiet) = (options.format, options.quiet);
-        let grid = if format == TableFormat::Text && !quiet { Grid::of(plan) } else { None };
-        let names: Vec<&str> = columns.iter().map(|c| c.name).collect();
-        let measured = options.beside.as_ref().map(|path| Measured::read(path, &names)).transpose()?;
-        let replications = options.replications.get();
-        Ok(Self { plan, format, quiet, rows: 0, columns, grid, measured, replications })
+        let grid = if format == TableFormat::Text && !quiet { Grid::of(design) } else { None };
+        let titles: Vec<&str> = names.iter().map(|name| name.title).collect();
+        let measured = options.beside.as_ref().map(|path| Measured::read(path, &titles)).transpose()?;
+        Ok(Self { design, format, quiet, compare: options.compare, rows: 0, names, grid, measured })
+    }
+
+    /// Whether its rows say what they differ from the first.
+    pub fn compares(&self) -> bool {
+        self.compare
+    }
+
+    /// Those that are asked for. `beside` is there if there are figures from elsewhere.
+    fn columns(&self, row: &Row, beside: Option<Beside>) -> Vec<Columns> {
+        let mut columns = Vec::new();
+        if self.design.has_means() {
+            columns.push(Columns::of_runs(row));
+        }
+        if self.design.warm_up.is_some() {
+            columns.push(Columns::of_warm_up(row));
+        }
+        if self.compare {
+            columns.push(Columns::of_comparison(row));
+        }
+        columns.extend(beside.map(Columns::of_measured));
+        columns
     }
 
     pub fn begin(&self) {
+        let beside = self.measured.as_ref().map(|_| Beside::default());
+        let columns = self.columns(&Row::empty(self.design), beside);
         match self.format {
             TableFormat::Json => say_part!("{{\"rows\":["),
             TableFormat::Csv => {
-                let of_point = self.columns.iter().map(|c| c.name);
-                let of_measured = self.measured.iter().flat_map(|_| MEASURED_COLUMNS);
-                let of_runs = if self.replications > 1 { &RUNS_COLUMNS[..] } else { &[] };
-                let names = of_point
-                    .chain(CSV_COLUMNS)
-                    .chain(of_runs.iter().copied())
-                    .chain(of_measured)
-                    .map(csv::field)
-                    .collect::<Vec<_>>();
-                say!("{}", names.join(","));
+                let names = self.names.iter().map(|name| name.title).chain(CSV_COLUMNS);
+                let values =
+                    columns.iter().flat_map(|columns| columns.values.iter().map(|(title, _)| *title));
+                say!("{}", names.chain(values).map(csv::field).collect::<Vec<_>>().join(","));
             }
             TableFormat::Text if !self.quiet => {
                 let (orders, each, simulated) = ("orders", "s/order", "simulated");
-                let names = self.text(|c| c.name.into());
-                let beside =
-                    self.measured.as_ref().map_or_else(String::new, |_| beside_text("measured", "ratio"));
-                let runs = if self.replications > 1 { runs_text("+-", "runs") } else { String::new() };
-                say!("{names}  {orders:>11}  {each:>9}{runs}{beside}  {simulated:>12}  reason");
+                let names = self.text(|name| name.title.into());
+                let more: String = (columns.iter().flat_map(|columns| &columns.texts))
+                    .map(|(title, width, _)| format!("  {title:>width$}"))
+                    .collect();
+                say!("{names}  {orders:>11}  {each:>9}{more}  {simulated:>12}  reason");
             }
             TableFormat::Text | TableFormat::Jsonl => {}
         }
@@ -85,38 +102,33 @@ impl<'a> Table<'a> {
 
     pub fn row(&mut self, row: &Row) {
         let beside = self.beside(row);
+        let columns = self.columns(row, beside);
         match self.format {
             TableFormat::Json => {
                 let before = if self.rows == 0 { "\n" } else { ",\n" };
-                say_part!("{before}{}", self.json(row, beside));
+                say_part!("{before}{}", self.json(row, columns));
             }
-            TableFormat::Jsonl => say!("{}", self.json(row, beside)),
+            TableFormat::Jsonl => say!("{}", self.json(row, columns)),
             TableFormat::Csv => {
-                let of_point = self.columns.iter().map(|c| (c.cell)(row));
-                let cells: Vec<String> = of_point
+                let values = columns.iter().flat_map(|columns| columns.values.iter().map(|(_, value)| value));
+                let cells: Vec<String> = (self.names.iter().map(|name| (name.cell)(row)))
                     .chain(csv_cells(row))
-                    .chain(if self.replications > 1 { runs_cells(row).to_vec() } else { Vec::new() })
-                    .chain(beside.into_iter().flat_map(beside_cells))
-                    .map(|c| csv::field(&c))
+                    .chain(values.map(number))
+                    .map(|cell| csv::field(&cell))
                     .collect();
                 say!("{}", cells.join(","));
             }
-            TableFormat::Text if self.quiet && row.finished => {}
+            TableFormat::Text if self.quiet && row.outcome.finished => {}
             TableFormat::Text => {
-                let point = self.text(|c| (c.cell)(row));
-                let orders = row.orders.map_or_else(|| "-".into(), |n| format!("{} of {n}", row.orders_done));
-                let seconds = |value: Option<f64>| value.map_or_else(|| "-".into(), |s| format!("{s:.2}"));
-                let (each, simulated) = (seconds(row.seconds_per_order), seconds(row.simulated_s));
-                let beside = beside.map_or_else(String::new, |beside| {
-                    let ratio = beside.ratio.map_or_else(|| "-".into(), |r| format!("{r:.3}"));
-                    beside_text(&seconds(beside.seconds_per_order), &ratio)
-                });
-                let runs = if self.replications > 1 {
-                    runs_text(&seconds(row.half_width), &format!("{} of {}", row.finished_runs, row.runs))
-                } else {
-                    String::new()
-                };
-                say!("{point}  {orders:>11}  {each:>9}{runs}{beside}  {simulated:>12}  {}", row.reason);
+                let outcome = &row.outcome;
+                let point = self.text(|name| (name.cell)(row));
+                let orders =
+                    outcome.orders.map_or_else(|| "-".into(), |n| format!("{} of {n}", outcome.orders_done));
+                let (each, simulated) = (seconds(outcome.seconds_per_order), seconds(outcome.simulated_s));
+                let more: String = (columns.iter().flat_map(|columns| &columns.texts))
+                    .map(|(_, width, cell)| format!("  {cell:>width$}"))
+                    .collect();
+                say!("{point}  {orders:>11}  {each:>9}{more}  {simulated:>12}  {}", outcome.reason);
             }
         }
         if let Some(grid) = &mut self.grid {
@@ -132,7 +144,7 @@ impl<'a> Table<'a> {
             say!("\n]{rms}}}");
         }
         if let Some(grid) = &self.grid {
-            say_part!("\n{}", grid.text(self.plan));
+            say_part!("\n{}", grid.text(self.design));
         }
         if self.format == TableFormat::Text
             && let Some((rms, ratios)) = rms
@@ -143,27 +155,26 @@ impl<'a> Table<'a> {
 
     /// What the measured figures say of a row's point; none without such figures.
     fn beside(&mut self, row: &Row) -> Option<Beside> {
-        let columns = &self.columns;
-        let cell =
-            |name: &str| columns.iter().find(|c| c.name == name).map_or_else(String::new, |c| (c.cell)(row));
-        let seconds = row.seconds_per_order.filter(|_| row.finished);
+        let names = &self.names;
+        let cell = |title: &str| {
+            names.iter().find(|name| name.title == title).map_or_else(String::new, |name| (name.cell)(row))
+        };
+        let seconds = row.outcome.seconds_per_order.filter(|_| row.outcome.finished);
         self.measured.as_mut().map(|measured| measured.beside(seconds, cell))
     }
 
-    fn json(&self, row: &Row, beside: Option<Beside>) -> Value {
-        let mut json = row.to_json(self.plan);
-        if let Some(beside) = beside {
-            json["measured_seconds_per_order"] = json!(beside.seconds_per_order);
-            json["ratio"] = json!(beside.ratio);
-        }
-        json
+    fn json(&self, row: &Row, columns: Vec<Columns>) -> Value {
+        let mut json = self.design.names(&row.point);
+        json.extend(row.outcome.to_json());
+        json.extend(columns.into_iter().flat_map(|c| c.values).map(|(key, value)| (key.into(), value)));
+        Value::Object(json)
     }
 
-    /// Cells of the columns of text, each as wide as its column.
-    fn text(&self, cell: impl Fn(&Column) -> String) -> String {
-        let mut cells = self.columns.iter();
-        let layout = cells.next().map(|c| format!("{:width$}", cell(c), width = c.width));
-        let values = cells.map(|c| format!("{:>width$}", cell(c), width = c.width));
+    /// Cells of the columns that name points, each as wide as its column.
+    fn text(&self, cell: impl Fn(&Name) -> String) -> String {
+        let mut names = self.names.iter();
+        let layout = names.next().map(|name| format!("{:width$}", cell(name), width = name.width));
+        let values = names.map(|name| format!("{:>width$}", cell(name), width = name.width));
         layout.into_iter().chain(values).collect::<Vec<_>>().join("  ")
     }
 }
@@ -171,39 +182,21 @@ impl<'a> Table<'a> {
 const CSV_COLUMNS: [&str; 7] =
     ["finished", "reason", "orders_done", "orders", "seconds_per_order", "simulated_s", "trace_hash"];
 
-/// Columns that stand there if there are measured figures.
-const MEASURED_COLUMNS: [&str; 2] = ["measured_seconds_per_order", "ratio"];
-
-fn beside_cells(beside: Beside) -> [String; 2] {
-    [beside.seconds_per_order, beside.ratio].map(|value| value.map_or_else(String::new, |v| v.to_string()))
+/// Empty where there is nothing.
+fn number(value: &Value) -> String {
+    if value.is_null() { String::new() } else { value.to_string() }
 }
 
-/// Columns that stand there if there are several runs of each point.
-const RUNS_COLUMNS: [&str; 3] = ["runs", "finished_runs", "half_width"];
-
-fn runs_cells(row: &Row) -> [String; 3] {
-    let half_width = row.half_width.map_or_else(String::new, |half| half.to_string());
-    [row.runs.to_string(), row.finished_runs.to_string(), half_width]
-}
-
-fn runs_text(half_width: &str, runs: &str) -> String {
-    format!("  {half_width:>6}  {runs:>9}")
-}
-
-fn beside_text(measured: &str, ratio: &str) -> String {
-    format!("  {measured:>9}  {ratio:>6}")
-}
-
-/// In the order of [`CSV_COLUMNS`]; empty where there is nothing.
+/// In the order of [`CSV_COLUMNS`].
 fn csv_cells(row: &Row) -> [String; 7] {
-    let number = |value: Value| if value.is_null() { String::new() } else { value.to_string() };
+    let outcome = &row.outcome;
     [
-        row.finished.to_string(),
-        row.reason.clone(),
-        row.orders_done.to_string(),
-        number(json!(row.orders)),
-        number(json!(row.seconds_per_order)),
-        number(json!(row.simulated_s)),
-        row.trace_hash.clone().unwrap_or_default(),
+        outcome.finished.to_string(),
+        outcome.reason.clone(),
+        outcome.orders_done.to_string(),
+        number(&json!(outcome.orders)),
+        number(&json!(outcome.seconds_per_order)),
+        number(&json!(outcome.simulated_s)),
+        outcome.trace_hash.clone().unwrap_or_default(),
     ]
 }

@@ -3,11 +3,13 @@
 use crate::diagnostic::Diagnostic;
 use crate::layout::decode::{Decoder, find};
 use crate::layout::json::{Json, Member, Value};
-use crate::scenario::{Order, Orders};
+use crate::scenario::{Number, Order, Orders};
 use crate::source::{Span, Spanned};
 use std::collections::HashMap;
 
 const MOST_ORDERS: u32 = 10_000;
+/// The `count` of orders that go on until the time limit.
+const WITHOUT_END: &str = "without end";
 /// Highest value of the port `order_parts` of a station.
 const MOST_OF_A_KIND: u32 = 12;
 
@@ -18,12 +20,19 @@ impl Decoder {
         };
         self.unknown_keys(members, &["count", "parts", "stations"], "orders");
         let count = self.required(members, "count", json.span, "orders");
-        let count = count.and_then(|j| self.whole(j, "count", 0..=MOST_ORDERS));
+        let number = match count.map(|j| &j.value) {
+            Some(Value::Text(text)) if text == WITHOUT_END => Number::WithoutEnd,
+            _ => Number::Listed,
+        };
+        let count = match number {
+            Number::Listed => count.and_then(|j| self.whole(j, "count", 0..=MOST_ORDERS)),
+            Number::WithoutEnd => Some(1),
+        };
         let parts = self.required(members, "parts", json.span, "orders");
         let parts = parts.and_then(|j| self.parts(j, kinds));
         let stations = find(members, "stations").and_then(|j| self.stations(j));
         let order = Order { stations: None, parts: parts? };
-        Some(Orders { span: json.span, list: vec![order; count? as usize], stations })
+        Some(Orders { span: json.span, list: vec![order; count? as usize], number, stations })
     }
 
     fn order_list(&mut self, json: &Json, kinds: &[&str]) -> Option<Orders> {
@@ -36,7 +45,12 @@ impl Decoder {
             return None;
         }
         let list = items.iter().map(|item| self.order(item, kinds)).collect::<Vec<_>>();
-        Some(Orders { span: json.span, list: list.into_iter().collect::<Option<_>>()?, stations: None })
+        Some(Orders {
+            span: json.span,
+            list: list.into_iter().collect::<Option<_>>()?,
+            number: Number::Listed,
+            stations: None,
+        })
     }
 
     fn order(&mut self, json: &Json, kinds: &[&str]) -> Option<Order> {

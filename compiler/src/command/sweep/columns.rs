@@ -1,0 +1,73 @@
+//! Columns that stand in a table only if they are asked for.
+
+use super::measured::Beside;
+use super::rows::Row;
+use serde_json::{Value, json};
+
+/// Some columns of one row.
+pub struct Columns {
+    /// By their keys; of a table of values these are the titles.
+    pub values: Vec<(&'static str, Value)>,
+    /// Title, width and cell of each column of text.
+    pub texts: Vec<(&'static str, usize, String)>,
+}
+
+impl Columns {
+    /// Of several runs of each point.
+    pub fn of_runs(row: &Row) -> Self {
+        Self {
+            values: vec![
+                ("runs", json!(row.runs)),
+                ("finished_runs", json!(row.finished_runs)),
+                ("half_width", json!(row.half_width)),
+            ],
+            texts: vec![
+                ("+-", 6, seconds(row.half_width)),
+                ("runs", 9, format!("{} of {}", row.finished_runs, row.runs)),
+            ],
+        }
+    }
+
+    /// Of orders that are cut.
+    pub fn of_warm_up(row: &Row) -> Self {
+        let cut = row.cut_orders;
+        let text = cut.map_or_else(|| "-".into(), |cut| format!("{}", (cut * 10.0).round() / 10.0));
+        Self { values: vec![("cut_orders", json!(cut))], texts: vec![("cut", 5, text)] }
+    }
+
+    /// Of the differences to the first point.
+    pub fn of_comparison(row: &Row) -> Self {
+        let differences = &row.differences;
+        let (mean, half_width) = (differences.mean(), differences.half_width());
+        let signed = mean.map_or_else(|| "-".into(), |mean| format!("{mean:+.2}"));
+        Self {
+            values: vec![
+                ("difference", json!(mean)),
+                ("difference_half_width", json!(half_width)),
+                ("pairs", json!(differences.count)),
+            ],
+            texts: vec![
+                ("difference", 10, signed),
+                ("+-", 6, seconds(half_width)),
+                ("pairs", 5, differences.count.to_string()),
+            ],
+        }
+    }
+
+    /// Of figures from elsewhere.
+    pub fn of_measured(beside: Beside) -> Self {
+        let ratio = beside.ratio.map_or_else(|| "-".into(), |ratio| format!("{ratio:.3}"));
+        Self {
+            values: vec![
+                ("measured_seconds_per_order", json!(beside.seconds_per_order)),
+                ("ratio", json!(beside.ratio)),
+            ],
+            texts: vec![("measured", 9, seconds(beside.seconds_per_order)), ("ratio", 6, ratio)],
+        }
+    }
+}
+
+/// With two places.
+pub fn seconds(value: Option<f64>) -> String {
+    value.map_or_else(|| "-".into(), |s| format!("{s:.2}"))
+}

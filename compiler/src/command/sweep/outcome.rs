@@ -1,0 +1,134 @@
+//! What came of one run.
+
+use super::design::{Design, RunNumber};
+use super::warm_up::{WarmUp, seconds_per_order};
+use crate::Status;
+use serde_json::{Map, Value, json};
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outcome {
+    pub finished: bool,
+    /// In one line, why the run ended or why there was none.
+    pub reason: String,
+    pub orders_done: u64,
+    /// Number asked for; `None` if the scenario cannot be read.
+    pub orders: Option<u64>,
+    /// `None` if no order was made, or all were cut.
+    pub seconds_per_order: Option<f64>,
+    /// Orders of the warm-up, which are not in [`Self::seconds_per_order`].
+    pub cut_orders: u64,
+    /// `None` if there was no run.
+    pub simulated_s: Option<f64>,
+    /// As `commission` reports it.
+    pub trace_hash: Option<String>,
+    /// A list; of a point that was refused.
+    pub diagnostics: Value,
+    pub status: Status,
+}
+
+impl Outcome {
+    /// Nothing has come of it yet.
+    pub fn new(orders: Option<usize>) -> Self {
+        Self {
+            finished: false,
+            reason: String::new(),
+            orders_done: 0,
+            orders: orders.map(|n| n as u64),
+            seconds_per_order: None,
+            cut_orders: 0,
+            simulated_s: None,
+            trace_hash: None,
+            diagnostics: json!([]),
+            status: Status::NotReached,
+        }
+    }
+
+    /// Takes over what the simulation reports.
+    pub fn reported(&mut self, report: &Value, warm_up: Option<WarmUp>) {
+        self.finished = report["finished"] == true;
+        self.reason = report["reason"].as_str().unwrap_or("").into();
+        self.orders_done = report["orders_done"].as_u64().unwrap_or(0);
+        self.orders = report["orders"].as_u64();
+        self.seconds_per_order = report["seconds_per_order"].as_f64();
+        if let Some(warm_up) = warm_up {
+            let times = report["order_times"].as_array().into_iter().flatten();
+            let mut made: Vec<f64> = times.filter_map(|times| times["made_s"].as_f64()).collect();
+            made.sort_by(f64::total_cmp);
+            let cut = warm_up.cut(&made);
+            self.cut_orders = cut as u64;
+            self.seconds_per_order = seconds_per_order(&made, cut);
+        }
+        self.simulated_s = report["simulated_s"].as_f64();
+        self.trace_hash = report["trace_hash"].as_str().map(String::from);
+        self.status = match self.finished {
+            true => Status::Done,
+            false if self.reason.starts_with("bug: ") => Status::Bug,
+            false => Status::NotReached,
+        };
+    }
+
+    /// The point cannot be run, whatever the seeds are.
+    pub fn is_refused(&self) -> bool {
+        self.status == Status::WrongInput
+    }
+
+    /// What a row of JSON says beside the names of its point.
+    pub fn to_json(&self) -> Map<String, Value> {
+        let all = [
+            ("finished", json!(self.finished)),
+            ("reason", json!(self.reason)),
+            ("orders_done", json!(self.orders_done)),
+            ("orders", json!(self.orders)),
+            ("seconds_per_order", json!(self.seconds_per_order)),
+            ("simulated_s", json!(self.simulated_s)),
+            ("trace_hash", json!(self.trace_hash)),
+            ("diagnostics", self.diagnostics.clone()),
+        ];
+        all.into_iter().map(|(key, value)| (key.into(), value)).collect()
+    }
+
+    /// A line of a part: what names the run, what came of it, and the exit status of a sweep of this run alone.
+    pub fn to_line(&self, design: &Design, run: RunNumber) -> Map<String, Value> {
+        let mut line = design.names(&design.point(run.point));
+        line.insert("replication".into(), json!(run.replication));
+        line.extend(self.to_json());
+        line.insert("cut_orders".into(), json!(self.cut_orders));
+        line.insert("status".into(), json!(self.status as u8));
+        line
+    }
+
+    /// Reads such a line of this run; an error names a key that is not as [`Self::to_line`] writes it.
+    pub fn from_line(line: &Map<String, Value>, design: &Design, run: RunNumber) -> Result<Self, String> {
+        let value = |key: &str| line.get(key).unwrap_or(&Value::Null);
+        let number = |key: &str| value(key).as_u64();
+        let status =
+            [Status::Done, Status::WrongInput, Status::WrongCommand, Status::NotReached, Status::Bug];
+        let status = status.into_iter().find(|status| number("status") == Some(*status as u64));
+        let outcome = Self {
+            finished: value("finished") == &json!(true),
+            reason: value("reason").as_str().unwrap_or("").into(),
+            orders_done: number("orders_done").unwrap_or(0),
+            orders: number("orders"),
+            seconds_per_order: value("seconds_per_order").as_f64(),
+            cut_orders: number("cut_orders").unwrap_or(0),
+            simulated_s: value("simulated_s").as_f64(),
+            trace_hash: value("trace_hash").as_str().map(String::from),
+            diagnostics: match value("diagnostics") {
+                list @ Value::Array(_) => list.clone(),
+                _ => json!([]),
+            },
+            status: status.unwrap_or(Status::Bug),
+        };
+        if outcome.finished != (outcome.status == Status::Done) {
+            return Err("status".into());
+        }
+        let wanted = outcome.to_line(design, run);
+        if let Some((key, _)) = wanted.iter().find(|(key, value)| line.get(*key) != Some(*value)) {
+            return Err(key.clone());
+        }
+        match line.keys().find(|key| !wanted.contains_key(*key)) {
+            Some(key) => Err(key.clone()),
+            None => Ok(outcome),
+        }
+    }
+}

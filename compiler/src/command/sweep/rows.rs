@@ -1,0 +1,164 @@
+//! Runs, taken in order, become rows.
+
+use super::design::{Design, Point, RunNumber};
+use super::interval::Sample;
+use super::outcome::Outcome;
+use super::table::Table;
+use crate::Status;
+
+/// What came of one point.
+pub struct Row {
+    pub point: Point,
+    /// The only run; of several the first in which not all orders were made, else the first, with means instead of its
+    /// figures.
+    pub outcome: Outcome,
+    /// Runs, and those of them in which all orders were made.
+    pub runs: u32,
+    pub finished_runs: usize,
+    /// Half of the width of the 95 % interval of the seconds per order; `None` of less than two runs.
+    pub half_width: Option<f64>,
+    /// Mean over the runs in which all orders were made.
+    pub cut_orders: Option<f64>,
+    /// Seconds per order less those of the first point with the same seeds.
+    pub differences: Sample,
+}
+
+impl Row {
+    /// Of a point of which nothing is known.
+    pub fn empty(design: &Design) -> Self {
+        Self {
+            point: design.point(0),
+            outcome: Outcome::new(None),
+            runs: 0,
+            finished_runs: 0,
+            half_width: None,
+            cut_orders: None,
+            differences: Sample::default(),
+        }
+    }
+}
+
+/// The runs of the point at work, as running figures.
+#[derive(Default)]
+struct Tally {
+    runs: u32,
+    orders_done: Option<u64>,
+    shown: Option<Outcome>,
+    seconds_per_order: Sample,
+    simulated_s: Sample,
+    cut_orders: Sample,
+    differences: Sample,
+}
+
+impl Tally {
+    fn take(&mut self, replication: u32, mut outcome: Outcome) {
+        self.runs += 1;
+        self.orders_done = self.orders_done.into_iter().chain([outcome.orders_done]).min();
+        if outcome.finished {
+            outcome.seconds_per_order.into_iter().for_each(|s| self.seconds_per_order.take(s));
+            outcome.simulated_s.into_iter().for_each(|s| self.simulated_s.take(s));
+            self.cut_orders.take(outcome.cut_orders as f64);
+        } else {
+            outcome.reason = format!("replication {}: {}", replication + 1, outcome.reason);
+        }
+        if self.shown.as_ref().is_none_or(|shown| shown.finished && !outcome.finished) {
+            self.shown = Some(outcome);
+        }
+    }
+
+    fn row(self, point: Point) -> Option<Row> {
+        let mut outcome = self.shown?;
+        outcome.orders_done = self.orders_done?;
+        outcome.seconds_per_order = self.seconds_per_order.mean();
+        outcome.simulated_s = self.simulated_s.mean();
+        outcome.trace_hash = None;
+        Some(Row {
+            point,
+            outcome,
+            runs: self.runs,
+            finished_runs: self.cut_orders.count,
+            half_width: self.seconds_per_order.half_width(),
+            cut_orders: self.cut_orders.mean(),
+            differences: self.differences,
+        })
+    }
+}
+
+/// Puts rows into a table, each as soon as its last run is known.
+pub struct Rows<'a> {
+    design: &'a Design,
+    table: Table<'a>,
+    tally: Tally,
+    /// Of the first point, for each replication: seconds per order, if all orders were made. Empty unless the table
+    /// compares.
+    first: Vec<Option<f64>>,
+    /// What all runs so far came to.
+    pub status: Status,
+}
+
+impl<'a> Rows<'a> {
+    pub fn new(design: &'a Design, table: Table<'a>) -> Self {
+        table.begin();
+        Self { design, table, tally: Tally::default(), first: Vec::new(), status: Status::Done }
+    }
+
+    /// The runs of a point come in the order of their replications, the points in theirs. Whether it was the last run
+    /// of its point.
+    pub fn take(&mut self, run: RunNumber, outcome: Outcome) -> bool {
+        self.status = worse(self.status, outcome.status);
+        if self.table.compares() {
+            self.compare(run, outcome.seconds_per_order.filter(|_| outcome.finished));
+        }
+        let is_refused = outcome.is_refused();
+        if !self.design.has_means() {
+            let row = Row {
+                point: self.design.point(run.point),
+                runs: 1,
+                finished_runs: usize::from(outcome.finished),
+                half_width: None,
+                cut_orders: outcome.finished.then_some(outcome.cut_orders as f64),
+                differences: std::mem::take(&mut self.tally).differences,
+                outcome,
+            };
+            self.table.row(&row);
+            return true;
+        }
+        self.tally.take(run.replication, outcome);
+        let is_enough = self
+            .design
+            .precision
+            .is_some_and(|precision| is_refused || precision.is_reached(&self.tally.seconds_per_order));
+        let is_last = is_enough || self.tally.runs == self.design.replications;
+        if is_last && let Some(row) = std::mem::take(&mut self.tally).row(self.design.point(run.point)) {
+            self.table.row(&row);
+        }
+        is_last
+    }
+
+    fn compare(&mut self, run: RunNumber, seconds_per_order: Option<f64>) {
+        if run.point == 0 {
+            self.first.push(seconds_per_order);
+        } else if let Some(first) = self.first.get(run.replication as usize).copied().flatten()
+            && let Some(here) = seconds_per_order
+        {
+            self.tally.differences.take(here - first);
+        }
+    }
+
+    pub fn end(self) -> Status {
+        self.table.end();
+        self.status
+    }
+}
+
+/// Of what two points came to, that which the sweep came to.
+pub fn worse(a: Status, b: Status) -> Status {
+    let rank = |status| match status {
+        Status::Done => 0,
+        Status::WrongInput | Status::NotReached => 1,
+        Status::WrongCommand => 2,
+        Status::Bug => 3,
+    };
+    let worst = if rank(a) >= rank(b) { a } else { b };
+    if worst == Status::WrongInput { Status::NotReached } else { worst }
+}
