@@ -3,7 +3,7 @@
 mod fixture;
 
 use autogen::diagnostic::Diagnostic;
-use autogen::scenario::{self, Line, Number, ResolvedScenario};
+use autogen::scenario::{self, Line, Number, Operated, ResolvedScenario, Takes};
 use autogen::source::{FileId, Sources};
 use fixture::{root, walk};
 
@@ -19,6 +19,10 @@ const LINE: Line = Line {
         ("agv3", 4),
         ("agv4", 5),
         ("gantry", 6),
+    ],
+    operated: &[
+        Operated { robot: "desk", part: "start", numbers: [11, 0], takes: Takes::Press },
+        Operated { robot: "desk", part: "speed", numbers: [11, 1], takes: Takes::Number },
     ],
 };
 
@@ -68,6 +72,17 @@ fn default_scenario() {
         let brought = |n: usize| items[..n].iter().filter(|k| **k == kind).count();
         assert!(brought(items.len() / 2) >= 3);
     }
+}
+
+#[test]
+fn what_a_person_operates_is_found_by_its_names() {
+    let text = r#"{"time_limit_s": 9, "operator": [
+        {"robot": "desk", "part": "speed", "at_s": 2, "value": -0.5},
+        {"robot": "desk", "part": "start", "at_s": 1.5, "for_s": 0.25}]}"#;
+    let resolved = resolve(text, &LINE).unwrap();
+    assert_eq!((resolved.number, resolved.orders.len(), resolved.time_limit_s), (Number::None, 0, 9.0));
+    let operations: Vec<_> = resolved.operations.iter().map(|o| (o.part, o.at_s, o.for_s, o.value)).collect();
+    assert_eq!(operations, [([11, 1], 2.0, None, -0.5), ([11, 0], 1.5, Some(0.25), 1.0)]);
 }
 
 #[test]

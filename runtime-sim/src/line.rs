@@ -73,6 +73,7 @@ pub struct Scenario {
     pub slips: Vec<Slip>,
     pub refusals: Vec<Refusal>,
     pub pauses: Vec<Pause>,
+    pub operations: Vec<Operation>,
 }
 
 /// When a run has done what it was for.
@@ -80,7 +81,7 @@ pub struct Scenario {
 pub enum Goal {
     /// All orders are made.
     AllOrders,
-    /// The time limit has come: there are more orders than can be made until then.
+    /// The time limit has come: there are no orders, or more than can be made until then.
     TimeLimit,
 }
 
@@ -126,6 +127,18 @@ pub struct Pause {
     pub scans: u64,
 }
 
+/// A person presses a button or sets a number.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Operation {
+    pub machine: usize,
+    pub part: usize,
+    pub at_s: f64,
+    /// None: to the end of the run.
+    pub for_s: Option<f64>,
+    /// 1 for a button.
+    pub value: f64,
+}
+
 /// How many scans late the inputs of a machine reach its controller. They travel in one telegram.
 #[derive(Clone, Debug, PartialEq)]
 pub enum IoDelay {
@@ -153,6 +166,7 @@ impl Default for Scenario {
             slips: Vec::new(),
             refusals: Vec::new(),
             pauses: Vec::new(),
+            operations: Vec::new(),
         }
     }
 }

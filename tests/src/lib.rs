@@ -124,13 +124,30 @@ pub fn prototype(layout: &str) -> Texts {
     Texts { specs, scenario, ..ariac(layout) }
 }
 
+/// The lines of `examples/scenes` by name.
+pub fn scenes() -> Vec<(String, Texts)> {
+    let folder = root().join("examples/scenes");
+    let entries = std::fs::read_dir(folder).expect("the folder of the scenes");
+    let names = entries.map(|entry| entry.expect("an entry").file_name().into_string().expect("a name"));
+    let mut scenes: Vec<String> =
+        names.filter_map(|name| name.strip_suffix(".aut").map(String::from)).collect();
+    scenes.sort();
+    let texts = |scene: String| {
+        let part = |end: &str| text(&format!("examples/scenes/{scene}{end}"));
+        let (specs, scenario) = (vec![part(".aut")], Some(part(".scenario.json")));
+        let texts = Texts { layout: part(".json"), specs, scenario, ..Texts::default() };
+        (scene, texts)
+    };
+    scenes.into_iter().map(texts).collect()
+}
+
 /// Every line of the examples by name; the prototype at full speed.
 pub fn examples() -> Vec<(String, Texts)> {
     let layouts = LAYOUTS.map(|layout| (layout.to_string(), ariac(layout)));
     let own = ["buffer", "shared_agv"].map(|line| (line.to_string(), own_line(line)));
     let fast = ["agv.capacity=4", "kitting.speed=1", "gantry.speed=1"];
     let prototype = fast.iter().fold(prototype("default"), |texts, setting| texts.set(setting));
-    layouts.into_iter().chain(own).chain([("prototype".into(), prototype)]).collect()
+    layouts.into_iter().chain(own).chain([("prototype".into(), prototype)]).chain(scenes()).collect()
 }
 
 /// Runs `job` for each of the inputs on all processors; results in the order of the inputs.

@@ -27,11 +27,12 @@ fn blocks(document: &str) -> Vec<(usize, String, String)> {
 }
 
 /// A block `json` is a whole layout or a whole scenario, `json stationary` and `json may_touch` an object of
-/// these lists.
+/// these lists, `json operator` a scenario for a desk.
 /// Objects and scenarios are tried in the first layout, with the types of the document.
 #[test]
 fn examples_are_right() {
     const STATIONARY: &str = "\"stationary\": [";
+    const DESK: &str = r#"{"robots": [{"name": "desk", "type": "desk", "pose": [0, 0, 0]}]}"#;
     let document = text("docs/layout.md");
     let blocks = blocks(&document);
     let specs: Vec<String> =
@@ -45,6 +46,7 @@ fn examples_are_right() {
         let (layout, scenario) = match kind.as_str() {
             "json" if text.contains("\"kinds\"") => (frame.clone(), Some(text.clone())),
             "json" => (text.clone(), None),
+            "json operator" => (DESK.into(), Some(text.clone())),
             "json stationary" => {
                 (frame.replacen(STATIONARY, &format!("{STATIONARY}\n{},", text.trim_end()), 1), None)
             }

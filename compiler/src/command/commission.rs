@@ -213,9 +213,12 @@ fn are_free(options: &CommissionOptions, built: &Built) -> Result<(), String> {
 fn text(report: &Value, wall: f64, output: &Output) -> String {
     let number = |v: &Value| v.as_f64().unwrap_or(0.0);
     let mut out = format!("{}\n\n", report["reason"].as_str().unwrap_or("").replace("; ", "\n  "));
-    out += &format!("orders made        {} of {}\n", report["orders_done"], report["orders"]);
-    let per_order = report["seconds_per_order"].as_f64().map_or("-".into(), |s| format!("{s:.2}"));
-    out += &format!("seconds per order  {per_order}\n");
+    let is_ordered = report["orders"] != 0;
+    if is_ordered {
+        out += &format!("orders made        {} of {}\n", report["orders_done"], report["orders"]);
+        let per_order = report["seconds_per_order"].as_f64().map_or("-".into(), |s| format!("{s:.2}"));
+        out += &format!("seconds per order  {per_order}\n");
+    }
     out += &format!("simulated          {:.2} s, in {wall:.2} s\n", number(&report["simulated_s"]));
     out += &format!("collisions         {}\n\n", contact::text(report));
     let empty = serde_json::Map::new();
@@ -250,7 +253,10 @@ fn text(report: &Value, wall: f64, output: &Output) -> String {
         *places.entry(carrier.to_string()).or_default() += 1;
     }
     let places: Vec<String> = places.iter().map(|(place, n)| format!("{n} {place}")).collect();
-    out += &format!("\nitems              {} ({})\n", items.len(), places.join(", "));
+    out += "\n";
+    if is_ordered || !items.is_empty() {
+        out += &format!("items              {} ({})\n", items.len(), places.join(", "));
+    }
     out += &format!("written to         {}\n", output.folder().display());
     out
 }

@@ -133,6 +133,10 @@ fn apart_json(apart: &Apart) -> Value {
 
 /// The verdict in text.
 pub fn verdict(v: &Verdict) -> String {
+    let step_order = format!("step order    {}\n", list(&v.robots));
+    if v.edges.is_empty() && v.sources.is_empty() && v.destinations.is_empty() {
+        return format!("no machine hands anything over to another\n{step_order}");
+    }
     let mut text = String::new();
     let width = v.edges.iter().map(|(a, _, _)| a.len()).max().unwrap_or(0);
     let to_width = v.edges.iter().map(|(_, b, _)| b.len()).max().unwrap_or(0);
@@ -147,8 +151,7 @@ pub fn verdict(v: &Verdict) -> String {
     text += &format!("destinations  {}\n", list(&v.destinations));
     let passed = if v.single_points.is_empty() { "" } else { " (every item passes each of them)" };
     text += &format!("single points {}{passed}\n", list(&v.single_points));
-    text += &format!("step order    {}\n", list(&v.robots));
-    text
+    text + &step_order
 }
 
 fn list(names: &[String]) -> String {

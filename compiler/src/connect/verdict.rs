@@ -10,6 +10,10 @@ const LISTED: usize = 3;
 
 pub fn diagnostics(line: &Line, flow: &Flow, stands: &[bool], failures: &[Failure]) -> Vec<Diagnostic> {
     let mut found = Vec::new();
+    // Where no type hands anything over, nothing has to get anywhere.
+    if line.nodes.is_empty() {
+        return found;
+    }
     if !line.nodes.iter().any(|node| node.is_source) {
         found.push(
             Diagnostic::new("E0404", line.span, "no machine of this layout brings items in")

@@ -14,6 +14,7 @@ mod wires;
 pub use check::{Declared, check};
 pub use placed::{Place, Placed};
 
+use crate::scenario::Takes;
 use crate::source::Span;
 use program::Program;
 use runtime_sim::device::{Direction, Extent, PortType, Stop};
@@ -174,6 +175,18 @@ impl Device {
     /// It takes items and puts them elsewhere.
     pub fn is_arm(&self) -> bool {
         self.has("grip")
+    }
+
+    /// Its buttons and set-points: number and name of the part, and what it takes.
+    pub fn operated(&self) -> impl Iterator<Item = (usize, &str, Takes)> {
+        self.program.parts.iter().enumerate().filter_map(|(number, part)| {
+            let takes = match part.schema.name {
+                "button" => Takes::Press,
+                "setpoint" => Takes::Number,
+                _ => return None,
+            };
+            Some((number, part.name.value.as_str(), takes))
+        })
     }
 
     /// Whether one of its parts is of this primitive.

@@ -77,7 +77,12 @@ impl Draft {
         let mut draft = Self { diagnostics, name, orders, parts: None };
         if let (Some(layout), Some(checked), Some(scenario)) = (layout, checked, scenario) {
             let model = draft.bind(sources, &layout, &files, &checked, &scenario, settings);
-            draft.parts = model.map(|model| Parts { layout, scenario, model });
+            draft.parts = model.map(|model| {
+                let makes = model.automata.iter().any(|a| a.device.has("orders") || a.device.has("source"));
+                let is_for_it = makes || !scenario.is_built_in(sources);
+                let scenario = if is_for_it { scenario } else { scenario.without_orders() };
+                Parts { layout, scenario, model }
+            });
         }
         diagnostic::sort(&mut draft.diagnostics);
         draft

@@ -5,7 +5,7 @@ use crate::diagnostic::Diagnostic;
 use crate::executor::Executor;
 use crate::ir::{Automaton, InterfaceId, RoleKind, System, Value};
 use crate::reads::{self, ReadCell, Reads, Whose};
-use crate::scenario::{self, Number, ResolvedScenario, Scenario};
+use crate::scenario::{self, Number, Operated, ResolvedScenario, Scenario};
 use runtime_sim::line;
 use runtime_sim::machine::Machine;
 use std::collections::BTreeSet;
@@ -18,6 +18,13 @@ pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec
             .collect()
     };
     let has = |r: usize, primitive: &str| line.automaton(r).device.has(primitive);
+    let operated: Vec<Operated> = (0..line.robots.len())
+        .flat_map(|r| {
+            let robot = line.robots[r].object.name.value.as_str();
+            let parts = line.automaton(r).device.operated();
+            parts.map(move |(number, part, takes)| Operated { robot, part, numbers: [r, number], takes })
+        })
+        .collect();
     scenario::resolve(
         scenario,
         &scenario::Line {
@@ -25,6 +32,7 @@ pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec
             belts: &named(&|r| has(r, "source")),
             arms: &named(&|r| has(r, "grip")),
             commanded: &named(&|r| line.automaton(r).device.is_commanded()),
+            operated: &operated,
         },
     )
 }
@@ -61,7 +69,7 @@ pub fn line(
         scenario: line::Scenario {
             goal: match scenario.number {
                 Number::Listed => line::Goal::AllOrders,
-                Number::WithoutEnd => line::Goal::TimeLimit,
+                Number::WithoutEnd | Number::None => line::Goal::TimeLimit,
             },
             orders: scenario
                 .orders
@@ -72,6 +80,11 @@ pub fn line(
             spawn_first_s: scenario.spawn_first_s,
             spawn_every_s: scenario.spawn_every_s,
             time_limit_s: scenario.time_limit_s,
+            // A line of which nothing is asked may wait as long as it likes.
+            stall_limit_s: match scenario.number {
+                Number::None => scenario.time_limit_s,
+                Number::Listed | Number::WithoutEnd => line::Scenario::default().stall_limit_s,
+            },
             slips: (scenario.slips.iter())
                 .map(|s| line::Slip { machine: s.robot, pick: s.pick, after_s: s.after_s })
                 .collect(),
@@ -80,6 +93,15 @@ pub fn line(
                 .collect(),
             pauses: (scenario.pauses.iter())
                 .map(|p| line::Pause { at_scan: scans(p.at_s), scans: scans(p.for_s) })
+                .collect(),
+            operations: (scenario.operations.iter())
+                .map(|o| line::Operation {
+                    machine: o.part[0],
+                    part: o.part[1],
+                    at_s: o.at_s,
+                    for_s: o.for_s,
+                    value: o.value,
+                })
                 .collect(),
             ..line::Scenario::default()
         },

@@ -5,9 +5,9 @@ mod resolve;
 mod supply;
 
 pub use read::parse;
-pub use resolve::{Line, resolve};
+pub use resolve::{Line, Operated, Takes, resolve};
 
-use crate::source::{FileId, Span, Spanned};
+use crate::source::{FileId, Sources, Span, Spanned};
 
 /// For a layout that names no scenario and has none beside it.
 pub const DEFAULT: &str = include_str!("default.json");
@@ -21,6 +21,7 @@ pub struct Scenario {
     pub supply: Supply,
     pub time_limit_s: f64,
     pub faults: Faults,
+    pub operations: Vec<Operation<Part>>,
 }
 
 /// A kind of part.
@@ -50,6 +51,8 @@ pub enum Number {
     Listed,
     /// As many as the line can make until the time limit, which then is a good end.
     WithoutEnd,
+    /// None are asked for: the line runs until the time limit, a good end too.
+    None,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -71,7 +74,24 @@ pub struct Supply {
     pub items: Items,
 }
 
+impl Orders {
+    /// Nobody asks for anything.
+    pub fn none(span: Span) -> Self {
+        Self { span, list: Vec::new(), number: Number::None, stations: None }
+    }
+}
+
 impl Scenario {
+    /// The same without orders: what the built-in scenario is in a layout in which nothing is made.
+    pub fn without_orders(&self) -> Self {
+        Self { orders: Orders::none(self.orders.span), ..self.clone() }
+    }
+
+    /// Whether it is the built-in one.
+    pub fn is_built_in(&self, sources: &Sources) -> bool {
+        sources.file(self.file).text == DEFAULT
+    }
+
     /// The same with another seed of the supply: so many more. A supply that is a list stays as it is.
     pub fn replication(&self, number: u32) -> Self {
         let mut scenario = self.clone();
@@ -100,6 +120,26 @@ pub struct Faults {
     pub slips: Vec<Slip<Spanned<String>>>,
     pub refusals: Vec<Refusal<Spanned<String>>>,
     pub pauses: Vec<Pause>,
+}
+
+/// A button or a set-point of a machine.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Part {
+    pub robot: Spanned<String>,
+    pub part: Spanned<String>,
+    /// Where the number is given that is set, if one is.
+    pub value: Option<Span>,
+}
+
+/// A person presses a button or sets a number.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Operation<Whose> {
+    pub part: Whose,
+    pub at_s: f64,
+    /// None: to the end of the run.
+    pub for_s: Option<f64>,
+    /// 1 for a button.
+    pub value: f64,
 }
 
 /// A part falls off the gripper of `robot` so long after its pick number `pick`, counted from 1.
@@ -139,4 +179,6 @@ pub struct ResolvedScenario {
     pub slips: Vec<Slip<usize>>,
     pub refusals: Vec<Refusal<usize>>,
     pub pauses: Vec<Pause>,
+    /// By numbers of the machine and of its part.
+    pub operations: Vec<Operation<[usize; 2]>>,
 }

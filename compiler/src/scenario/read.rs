@@ -2,10 +2,11 @@
 
 mod faults;
 mod kinds;
+mod operator;
 mod orders;
 mod supply;
 
-use super::{Items, Scenario, Supply};
+use super::{Items, Orders, Scenario, Supply};
 use crate::diagnostic::{Diagnostic, sort};
 use crate::layout::decode::{Decoder, find};
 use crate::layout::json::{self, Json, Member};
@@ -29,14 +30,25 @@ pub fn parse(sources: &Sources, file: FileId) -> (Option<Scenario>, Vec<Diagnost
 impl Decoder {
     fn scenario(&mut self, json: &Json) -> Option<Scenario> {
         let members = self.object(json, "a scenario")?;
-        self.unknown_keys(members, &["kinds", "orders", "supply", "time_limit_s", "faults"], "a scenario");
-        let kinds = self.required(members, "kinds", json.span, "the scenario");
-        let orders = self.required(members, "orders", json.span, "the scenario");
+        let keys = ["kinds", "orders", "supply", "time_limit_s", "faults", "operator"];
+        self.unknown_keys(members, &keys, "a scenario");
+        // Without orders nothing has to be brought, and nobody has to tell kinds apart.
+        let has_parts = ["kinds", "orders", "supply"].iter().any(|key| find(members, key).is_some());
+        let kinds = if has_parts {
+            self.required(members, "kinds", json.span, "the scenario").map(|json| self.kinds(json))
+        } else {
+            Some(Some(vec![kinds::any(json.span)]))
+        };
+        let orders = find(members, "orders");
         let time_limit_s = self.seconds_or(members, "time_limit_s", TIME_LIMIT_S);
         let faults = find(members, "faults").and_then(|j| self.faults(j)).unwrap_or_default();
-        let kinds = kinds.and_then(|j| self.kinds(j))?;
+        let operations = find(members, "operator").map_or_else(Vec::new, |j| self.operator(j));
+        let kinds = kinds??;
         let names: Vec<&str> = kinds.iter().map(|k| k.name.value.as_str()).collect();
-        let orders = orders.and_then(|j| self.orders(j, &names));
+        let orders = match orders {
+            Some(orders) => self.orders(orders, &names),
+            None => Some(Orders::none(json.span)),
+        };
         let supply = match find(members, "supply") {
             Some(supply) => self.supply(supply, &names),
             None => Some(Supply {
@@ -46,7 +58,15 @@ impl Decoder {
                 items: Items::Shuffled { surplus: SURPLUS, seed: SEED },
             }),
         };
-        Some(Scenario { file: json.span.file, kinds, orders: orders?, supply: supply?, time_limit_s, faults })
+        Some(Scenario {
+            file: json.span.file,
+            kinds,
+            orders: orders?,
+            supply: supply?,
+            time_limit_s,
+            faults,
+            operations,
+        })
     }
 
     /// A time longer than nothing.

@@ -1,6 +1,8 @@
 //! A scenario meets a line: names of machines become indices, and the supply is laid out.
 
-use super::{Faults, Items, Number, Order, Refusal, ResolvedScenario, Scenario, Slip, supply};
+use super::{
+    Faults, Items, Number, Operation, Order, Part, Refusal, ResolvedScenario, Scenario, Slip, supply,
+};
 use crate::diagnostic::{Diagnostic, MOST, collect, sort};
 use crate::layout::decode::{instead, listing};
 use crate::source::{Span, Spanned};
@@ -17,6 +19,24 @@ pub struct Line<'a> {
     pub arms: &'a [(&'a str, usize)],
     /// Those that obey commands.
     pub commanded: &'a [(&'a str, usize)],
+    /// Those with something that a person operates.
+    pub operated: &'a [Operated<'a>],
+}
+
+/// A button or a set-point.
+#[derive(Clone, Copy, Debug)]
+pub struct Operated<'a> {
+    pub robot: &'a str,
+    pub part: &'a str,
+    /// Of the machine and of the part.
+    pub numbers: [usize; 2],
+    pub takes: Takes,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Takes {
+    Press,
+    Number,
 }
 
 /// More than a plant could bring in the longest time limit.
@@ -37,6 +57,8 @@ pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec
         Some(Refusal { robot, command: r.command })
     });
     let refusals = refusals.collect();
+    let operations = scenario.operations.iter().filter_map(|operation| resolver.operation(operation));
+    let operations = operations.collect();
     sort(&mut resolver.diagnostics);
     match (orders, supply) {
         (Some(orders), Some(supply)) if resolver.diagnostics.is_empty() => Ok(ResolvedScenario {
@@ -50,6 +72,7 @@ pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec
             slips,
             refusals,
             pauses: pauses.clone(),
+            operations,
         }),
         _ => Err(resolver.diagnostics),
     }
@@ -82,6 +105,50 @@ impl<'a> Resolver<'a> {
             );
         }
         found
+    }
+
+    fn operation(&mut self, operation: &Operation<Part>) -> Option<Operation<[usize; 2]>> {
+        let Part { robot, part, value } = &operation.part;
+        let all = self.line.operated;
+        if !all.iter().any(|operated| operated.robot == robot.value) {
+            let mut robots: Vec<(&str, usize)> = all.iter().map(|o| (o.robot, o.numbers[0])).collect();
+            robots.dedup();
+            self.named(robot, &robots, "robot with a panel")?;
+        }
+        let of_robot = || all.iter().filter(|operated| operated.robot == robot.value);
+        let Some(found) = of_robot().find(|operated| operated.part == part.value) else {
+            let names: Vec<&str> = of_robot().map(|operated| operated.part).collect();
+            let message = format!("nobody operates \"{}\" of {}", part.value, robot.value);
+            self.wrong_operation(part.span, message, |d| {
+                d.note(format!("buttons and set-points of it: {}", listing(&names)))
+                    .help(instead(&part.value, &names))
+            });
+            return None;
+        };
+        match (found.takes, value) {
+            (Takes::Press, Some(value)) => {
+                let message = format!("\"{}\" is a button and takes no number", part.value);
+                self.wrong_operation(*value, message, |d| d.help("remove \"value\""));
+                return None;
+            }
+            (Takes::Number, None) => {
+                let message = format!("\"{}\" is a set-point and gets no number", part.value);
+                self.wrong_operation(part.span, message, |d| d.help("add the number: \"value\": 1.5"));
+                return None;
+            }
+            (Takes::Press, None) | (Takes::Number, Some(_)) => {}
+        }
+        let Operation { at_s, for_s, value, .. } = *operation;
+        Some(Operation { part: found.numbers, at_s, for_s, value })
+    }
+
+    fn wrong_operation(
+        &mut self,
+        place: Span,
+        message: String,
+        finish: impl FnOnce(Diagnostic) -> Diagnostic,
+    ) {
+        collect(&mut self.diagnostics, finish(Diagnostic::new("E0139", place, message)));
     }
 
     fn missing(&mut self, place: Span, what: &str, why: &str) {

@@ -114,6 +114,17 @@ impl Line {
         for refusal in &scenario.refusals {
             self.machine(refusal.machine, "a refusal")?;
         }
+        for operation in &scenario.operations {
+            let panel = self.machine(operation.machine, "an operation")?;
+            let part = panel.parts.get(operation.part).map(|part| part.schema().name);
+            if !matches!(part, Some("button" | "setpoint")) {
+                return Err(format!("an operation of {}, at what nobody operates", panel.name));
+            }
+            let times = [operation.at_s, operation.for_s.unwrap_or_default()];
+            if !times.iter().all(|time| (0.0..=LONGEST_TIME).contains(time)) || !operation.value.is_finite() {
+                return Err(format!("an operation of {} at no time, or to no number", panel.name));
+            }
+        }
         Ok(())
     }
 

@@ -3,7 +3,9 @@
 use std::fmt::Write;
 use std::sync::Arc;
 
-use super::{Goal, IoDelay, Kind, Line, Obstacle, Order, Pause, Refusal, Scenario, Slip, State, Supply};
+use super::{
+    Goal, IoDelay, Kind, Line, Obstacle, Operation, Order, Pause, Refusal, Scenario, Slip, State, Supply,
+};
 use crate::machine::Machine;
 use crate::part::Part;
 use crate::point::Point;
@@ -102,6 +104,11 @@ impl Line {
         put(format!("pauses {}", scenario.pauses.len()));
         for pause in &scenario.pauses {
             put(format!("  {} {}", pause.at_scan, pause.scans));
+        }
+        put(format!("operations {}", scenario.operations.len()));
+        for Operation { machine, part, at_s, for_s, value } in &scenario.operations {
+            let until = for_s.map_or("on".into(), |for_s| format!("for {for_s:?}"));
+            put(format!("  {machine} {part} {at_s:?} {until} {value:?}"));
         }
         put("end".into());
         out
@@ -233,6 +240,8 @@ fn read_scenario(words: &mut Words) -> Result<Scenario, String> {
     let refusals = words.list(|w| Ok(Refusal { machine: w.int()?, command: w.int()? }))?;
     words.expect("pauses")?;
     let pauses = words.list(|w| Ok(Pause { at_scan: w.int()?, scans: w.int()? }))?;
+    words.expect("operations")?;
+    let operations = words.list(read_operation)?;
     Ok(Scenario {
         goal,
         orders,
@@ -245,5 +254,16 @@ fn read_scenario(words: &mut Words) -> Result<Scenario, String> {
         slips,
         refusals,
         pauses,
+        operations,
     })
+}
+
+fn read_operation(words: &mut Words) -> Result<Operation, String> {
+    let (machine, part, at_s) = (words.int()?, words.int()?, words.real()?);
+    let for_s = match words.name()? {
+        "on" => None,
+        "for" => Some(words.real()?),
+        other => return Err(words.error(format_args!("`{other}` is neither `on` nor `for`"))),
+    };
+    Ok(Operation { machine, part, at_s, for_s, value: words.real()? })
 }

@@ -3,6 +3,7 @@
 //! A primitive is a file here and a line in [`primitives!`]: what its settings are, which signals, levels and
 //! actions it has, and how it behaves while a line runs. A machine is a list of parts, see [`crate::machine`].
 
+mod operated;
 mod running;
 mod settings;
 
@@ -116,8 +117,10 @@ macro_rules! primitives {
 primitives! {
     axis::Axis,
     body::Body,
+    button::Button,
     camera::Camera,
     chain::Chain,
+    cylinder::Cylinder,
     grip::Grip,
     lamp::Lamp,
     lane::Lane,
@@ -125,6 +128,7 @@ primitives! {
     orders::Orders,
     place::Place,
     route::Route,
+    setpoint::Setpoint,
     sink::Sink,
     source::Source,
     zone::Zone,

@@ -71,7 +71,7 @@ impl Progress {
         let is_all = self.made == line.scenario.orders.len();
         if is_all && line.scenario.goal == Goal::AllOrders {
             Some((true, "all orders made".into()))
-        } else if is_all {
+        } else if is_all && !line.scenario.orders.is_empty() {
             Some((false, format!("all {} orders made before the time limit", self.made)))
         } else if scan.saturating_sub(self.alive.saturating_add(1)) >= self.stall {
             Some((false, format!("deadlock: {}", shortage(line, plant))))

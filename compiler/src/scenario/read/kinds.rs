@@ -4,7 +4,7 @@ use crate::diagnostic::Diagnostic;
 use crate::layout::decode::{Decoder, find, instead, listing};
 use crate::layout::json::Json;
 use crate::scenario::Kind;
-use crate::source::Spanned;
+use crate::source::{Span, Spanned};
 use std::ops::RangeInclusive;
 
 /// Of height, length and width of a part, m.
@@ -14,6 +14,11 @@ const SIZE: [f64; 2] = [0.1, 0.1];
 
 /// Most kinds of part that a line has; a briefcase of the library has a place for each.
 const MOST_KINDS: usize = 16;
+
+/// Of a line in which nobody tells kinds apart.
+pub fn any(span: Span) -> Kind {
+    Kind { name: Spanned { value: "part".into(), span }, height: SIZE[0], size: SIZE }
+}
 
 impl Decoder {
     pub(super) fn kinds(&mut self, json: &Json) -> Option<Vec<Kind>> {

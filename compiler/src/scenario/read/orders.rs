@@ -20,13 +20,9 @@ impl Decoder {
         };
         self.unknown_keys(members, &["count", "parts", "stations"], "orders");
         let count = self.required(members, "count", json.span, "orders");
-        let number = match count.map(|j| &j.value) {
-            Some(Value::Text(text)) if text == WITHOUT_END => Number::WithoutEnd,
-            _ => Number::Listed,
-        };
-        let count = match number {
-            Number::Listed => count.and_then(|j| self.whole(j, "count", 0..=MOST_ORDERS)),
-            Number::WithoutEnd => Some(1),
+        let (number, count) = match count.map(|j| &j.value) {
+            Some(Value::Text(text)) if text == WITHOUT_END => (Number::WithoutEnd, Some(1)),
+            _ => (Number::Listed, count.and_then(|j| self.whole(j, "count", 0..=MOST_ORDERS))),
         };
         let parts = self.required(members, "parts", json.span, "orders");
         let parts = parts.and_then(|j| self.parts(j, kinds));
