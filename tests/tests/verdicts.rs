@@ -201,3 +201,31 @@ fn every_layout_of_the_paper_is_feasible() {
         assert!(verdict(&ariac(layout).compile()).feasible, "{layout}");
     }
 }
+
+#[test]
+fn what_stands_in_something_else_is_named() {
+    // Two stations at one place, a box about a station, two vehicles with one start.
+    for (from, to, pair) in [
+        ("\"pose\": [-12.3, 3, 0]", "\"pose\": [-7.3, 3, 0]", "as1 and as2"),
+        ("\"pose\": [-1.899, 3.38, 0]", "\"pose\": [-7.3, 3.1, 0]", "as1 and bin1"),
+        ("[-2.265685, -1.333917, 0]", "[-2.265685, 1.367643, 0]", "agv2 and agv3"),
+    ] {
+        let outcome = changed(from, to);
+        assert_eq!(codes(&outcome), ["E0409"], "{pair}");
+        let mut names: Vec<&str> = outcome.diagnostics[0].message.split(' ').collect();
+        names.truncate(3);
+        names.sort_unstable();
+        let mut expected: Vec<&str> = pair.split(' ').collect();
+        expected.sort_unstable();
+        assert_eq!(names, expected);
+        assert!(outcome.project.is_none());
+    }
+    let stacked = text("examples/ariac2021/default.json")
+        .replacen("\"pose\": [-1.899, 3.38, 0]", "\"pose\": [-7.3, 3.1, 0]", 1)
+        .replacen(
+            "\"may_touch\": [",
+            "\"may_touch\": [{\"pair\": [\"as1\", \"bin1\"], \"reason\": \"stacked\"},",
+            1,
+        );
+    assert_eq!(codes(&Texts::of_layout(stacked).compile()), Vec::<&str>::new());
+}

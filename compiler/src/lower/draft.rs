@@ -7,11 +7,12 @@ use crate::diagnostic::{self, Diagnostic};
 use crate::ir::Model;
 use crate::layout::Layout;
 use crate::scenario::{Number, Scenario};
-use crate::source::{FileId, Sources};
+use crate::source::{FileId, Sources, Span};
 use crate::spec::{ast, parser};
 use crate::{connect, layout, scenario};
+use runtime_sim::collision::Overlap;
 use runtime_sim::random::Random;
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 
 /// The texts of a line, by their numbers in [`Sources`].
 #[derive(Clone, Copy, Debug)]
@@ -192,9 +193,33 @@ impl Parts {
             return;
         };
         let plant = plant::line(&system, &line, bound.obstacles, resolved, layout.scan_ms, machines);
+        found.diagnostics.extend(overlaps(&layout, &plant));
         found.project =
             Some(Project { name: layout.name, system, plant, edges, may_touch: layout.may_touch });
     }
+}
+
+/// The type of an obstacle that takes what comes off a belt.
+const COLLECTOR: &str = "collector";
+
+/// Machines that stand in one another or in an obstacle.
+fn overlaps(layout: &Layout, plant: &runtime_sim::line::Line) -> Vec<Diagnostic> {
+    let spans: HashMap<&str, Span> =
+        layout.objects.iter().map(|object| (object.name.value.as_str(), object.name.span)).collect();
+    let span = |name: &str| spans.get(name).copied().unwrap_or(Span::new(layout.file, 0, 0));
+    // It stands about the end of a belt.
+    let is_collector = |name: &String| {
+        layout.objects.iter().any(|object| object.name.value == *name && object.kind.value == COLLECTOR)
+    };
+    let overlaps = runtime_sim::collision::overlaps(plant, diagnostic::MOST).into_iter();
+    let overlaps = overlaps.filter(|overlap| !overlap.names.iter().any(is_collector));
+    let diagnostic = |Overlap { names: [a, b], parts: [of_a, of_b] }| {
+        Diagnostic::new("E0409", span(&a), format!("{a} and {b} stand in one another"))
+            .other(span(&b), "the other one")
+            .note(format!("{of_a} of {a} meets {of_b} of {b} before anything moves"))
+            .help("move one of the two, or say under \"may_touch\" why that is no harm")
+    };
+    overlaps.map(diagnostic).collect()
 }
 
 fn kinds(scenario: &Scenario) -> Vec<String> {

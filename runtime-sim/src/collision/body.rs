@@ -1,6 +1,7 @@
 //! Solids that keep their places to one another, and where they are.
 
 use super::SKIN;
+use super::bounds::BoundingBox;
 use super::distance::{Block, Gap, block_block, segment_block, segment_segment};
 use crate::kinematics::pose::Pose;
 use crate::point::Point;
@@ -118,6 +119,14 @@ impl Placed {
         });
         let along = |axis| offset.dot(axis).abs() - self.extent(axis) - other.extent(axis);
         axes.flatten().map(along).fold(balls, f64::max)
+    }
+
+    /// What contains it.
+    pub fn bounds(&self) -> BoundingBox {
+        let axes = [Point::new(1.0, 0.0, 0.0), Point::new(0.0, 1.0, 0.0), Point::new(0.0, 0.0, 1.0)];
+        let [x, y, z] = axes.map(|axis| self.extent(axis));
+        let half = Point::new(x, y, z);
+        BoundingBox::between(self.ball.middle - half, self.ball.middle + half)
     }
 
     /// Half of its length along a direction.

@@ -3,7 +3,7 @@
 use super::body::Ball;
 use crate::kinematics::arm::{Arm, Frames, Joints, MOST_JOINTS};
 use crate::machine::Machine;
-use crate::point::Point;
+use crate::point::{Axis, Point};
 use std::f64::consts::PI;
 
 /// For each joint a bound on how far it moves any point of a body, for each metre or radian of its own travel.
@@ -34,6 +34,15 @@ impl BoundingBox {
         low: Point::new(f64::INFINITY, f64::INFINITY, f64::INFINITY),
         high: Point::new(f64::NEG_INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY),
     };
+
+    /// From where to where along a horizontal axis, m.
+    pub fn along(&self, axis: Axis) -> [f64; 2] {
+        [self.low, self.high].map(|corner| corner.coordinate(axis))
+    }
+
+    pub fn between(low: Point, high: Point) -> Self {
+        Self { low, high }
+    }
 
     pub fn is_apart(&self, other: &BoundingBox) -> bool {
         let beyond = |low: Point, high: Point| low.x > high.x || low.y > high.y || low.z > high.z;

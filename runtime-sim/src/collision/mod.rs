@@ -15,6 +15,7 @@ mod free;
 mod group;
 mod movement;
 mod pair;
+mod standing;
 
 pub(crate) use bounds::BoundingBox;
 
@@ -25,6 +26,7 @@ pub(crate) mod reach {
 }
 
 pub use check::{CollisionCheck, Contact};
+pub use standing::{Overlap, overlaps};
 
 /// Solids may go so far into one another, m.
 pub const SKIN: f64 = 0.001;

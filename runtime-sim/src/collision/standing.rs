@@ -1,0 +1,91 @@
+//! Machines and obstacles that stand in one another before anything moves.
+
+use super::body::{Piece, Placed};
+use super::bounds::BoundingBox;
+use crate::kinematics::pose::Pose;
+use crate::line::Line;
+use crate::point::Axis;
+use crate::solid::{Link, Solid};
+
+/// Two that are in one another by more than the skin of the collision check, by their names, and which solid of each.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Overlap {
+    pub names: [String; 2],
+    pub parts: [String; 2],
+}
+
+struct Thing<'a> {
+    name: &'a str,
+    is_machine: bool,
+    pieces: Vec<(String, Placed)>,
+    bounds: BoundingBox,
+}
+
+/// Of what no joint moves, with vehicles at their first stops; two obstacles may stand in one another, and so may those
+/// that the layout allows to touch. The first pair of solids of each two, and `most` of them at most.
+pub fn overlaps(line: &Line, most: usize) -> Vec<Overlap> {
+    let machines = line.machines.iter().map(|machine| {
+        let start = machine.stops().first().copied().unwrap_or_default();
+        let solids = machine.solids().into_iter().filter_map(|solid| match solid.link {
+            Link::World => Some(solid),
+            Link::Route => {
+                let position = solid.pose.position + start;
+                Some(Solid { pose: Pose { position, ..solid.pose }, ..solid })
+            }
+            Link::Joint(_) => None,
+        });
+        thing(&machine.name, true, solids)
+    });
+    let obstacles = line.obstacles.iter().map(|o| thing(&o.name, false, o.solid().into_iter()));
+    let mut things: Vec<Thing> = machines.chain(obstacles).filter(|thing| !thing.pieces.is_empty()).collect();
+    let axis = longer_axis(&things);
+    things.sort_by(|a, b| a.bounds.along(axis)[0].total_cmp(&b.bounds.along(axis)[0]));
+    let mut found = Vec::new();
+    for (i, first) in things.iter().enumerate() {
+        let end = first.bounds.along(axis)[1];
+        let near = things[i + 1..].iter().take_while(|second| second.bounds.along(axis)[0] <= end);
+        for second in near {
+            let matters = first.is_machine || second.is_machine;
+            if found.len() >= most {
+                return found;
+            }
+            if matters && !first.bounds.is_apart(&second.bounds) && !line.allows([first.name, second.name]) {
+                found.extend(overlap(first, second));
+            }
+        }
+    }
+    found
+}
+
+fn thing(name: &str, is_machine: bool, solids: impl Iterator<Item = Solid>) -> Thing<'_> {
+    let pieces: Vec<(String, Placed)> = solids
+        .map(|solid| {
+            let piece = Piece::new(String::new(), &solid.pose, solid.shape);
+            (solid.name, piece.within(&Pose::IDENTITY))
+        })
+        .collect();
+    let bounds = pieces.iter().map(|(_, placed)| placed.bounds());
+    let bounds = bounds.fold(BoundingBox::NOTHING, |all, next| all.with(&next));
+    Thing { name, is_machine, pieces, bounds }
+}
+
+/// Along which they are spread farther.
+fn longer_axis(things: &[Thing]) -> Axis {
+    let all = things.iter().fold(BoundingBox::NOTHING, |all, thing| all.with(&thing.bounds));
+    let length = |axis: Axis| all.along(axis)[1] - all.along(axis)[0];
+    if length(Axis::X) >= length(Axis::Y) { Axis::X } else { Axis::Y }
+}
+
+fn overlap(first: &Thing, second: &Thing) -> Option<Overlap> {
+    for (part, a) in &first.pieces {
+        for (other, b) in &second.pieces {
+            if a.apart_at_least(b, f64::MIN_POSITIVE) <= 0.0 && a.gap(b).distance <= 0.0 {
+                return Some(Overlap {
+                    names: [first.name.into(), second.name.into()],
+                    parts: [part.clone(), other.clone()],
+                });
+            }
+        }
+    }
+    None
+}
