@@ -47,9 +47,9 @@ pub fn load(options: &InputOptions) -> Result<Input, Failure> {
     Ok(Input { sources, layout, specs, scenario, settings, order: options.order })
 }
 
-/// The texts of a line, by their numbers in the sources.
+/// The layout of a line, and its other texts by their numbers in the sources.
 pub struct Texts {
-    pub layout: FileId,
+    pub layout: layout::Reading,
     pub specs: Vec<FileId>,
     pub scenario: FileId,
 }
@@ -66,9 +66,10 @@ pub fn texts(
     let mut specs: Vec<FileId> =
         library::FILES.iter().map(|(name, text)| sources.add(*name, *text)).collect();
     // What is wrong with the layout the compiler reports; here only the files it names are of interest.
-    let (named, mut found) = layout::parse(sources, layout);
+    let mut reading = layout::parse(sources, layout);
+    let (named, found) = &mut reading;
     if found.iter().any(|d| d.code == layout::OUTSIDE) {
-        return Err(Failure::Refused(std::mem::take(sources), found));
+        return Err(Failure::Refused(std::mem::take(sources), reading.1));
     }
     let folder = Folder::of(path);
     let mut wrong = Vec::new();
@@ -111,10 +112,10 @@ pub fn texts(
     };
     if !wrong.is_empty() {
         found.extend(wrong);
-        diagnostic::sort(&mut found);
-        return Err(Failure::Refused(std::mem::take(sources), found));
+        diagnostic::sort(found);
+        return Err(Failure::Refused(std::mem::take(sources), reading.1));
     }
-    Ok(Texts { layout, specs, scenario })
+    Ok(Texts { layout: reading, specs, scenario })
 }
 
 /// The scenario of a layout that names none.
