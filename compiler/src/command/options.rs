@@ -85,6 +85,9 @@ pub struct BuildOptions {
     /// How the PLC counts addresses, to find two that overlap
     #[arg(long, value_enum, default_value = "words", requires = "io")]
     pub addresses: Addresses,
+    /// Write the Structured Text as PLCopen XML too, for tools that import it: plc/*/project.xml
+    #[arg(long)]
+    pub plcopen: bool,
     /// Overwrite files that autogen did not write or that were changed since
     #[arg(long)]
     pub force: bool,
