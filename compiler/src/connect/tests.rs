@@ -363,6 +363,7 @@ fn failed_pair_that_nobody_needs() {
     let (_, report) = builder.check();
     assert!(report.is_feasible(), "{}", builder.rendered(&report));
     assert_eq!(report.failures.len(), 2);
+    assert!(report.failures.iter().all(|failure| failure.misses.is_empty()), "nobody asks for them");
 }
 
 /// The arm could be moved to the vehicle, but then it would leave the belt.
