@@ -210,12 +210,12 @@ fn build_never_overwrites_what_is_not_its_own() {
     assert_eq!(status(&build(&["--force"])), 0);
     assert_eq!(first, contents(&folder.join("made")));
 
-    // Robots that are no more leave no file behind.
-    let larger = example("ariac2021/default.json");
+    // Types that are no more leave no file behind.
+    let larger = example("buffer/buffer.json");
     assert_eq!(status(&autogen(&folder, &["build", &larger, "-o", "made"])), 0);
-    assert!(folder.join("made/rust/controllers/src/robots/agv4.rs").exists());
+    assert!(folder.join("made/rust/controllers/src/robots/buffer.rs").exists());
     assert_eq!(status(&build(&[])), 0);
-    assert!(!folder.join("made/rust/controllers/src/robots/agv4.rs").exists());
+    assert!(!folder.join("made/rust/controllers/src/robots/buffer.rs").exists());
     assert_eq!(first, contents(&folder.join("made")));
 }
 

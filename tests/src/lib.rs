@@ -19,7 +19,7 @@ use autogen::diagnostic::{self, Diagnostic};
 use autogen::lower::{Input, Outcome, Project, Setting, compile};
 use autogen::source::{FileId, Sources};
 use autogen::spec::{ast, parser};
-use autogen::{library, scenario};
+use autogen::{layout, library, scenario};
 use std::path::{Path, PathBuf};
 
 /// The project's folder.
@@ -77,6 +77,7 @@ impl Texts {
         let scenario = sources.add("scenario.json", self.scenario.as_deref().unwrap_or(scenario::DEFAULT));
         let files: Vec<_> = self.settings.iter().map(|s| sources.add("--set", s.as_str())).collect();
         let settings = files.into_iter().map(|f| Setting::parse(&sources, f).expect("a setting")).collect();
+        let layout = layout::parse(&sources, layout);
         compile(Input { sources, layout, specs, scenario, settings, order: self.order })
     }
 

@@ -23,9 +23,16 @@ fn with_table(system: &System, sources: &Sources, name: &str) -> Result<Files, S
     let mut tables = Sources::default();
     let file = tables.add(name, text(&format!("tests/fixtures/io/{name}")));
     match io_map::read(&tables, file, &st::points(system), Counting::Words) {
-        Ok(map) => Ok(st::mapped(system, sources, &map).0),
+        Ok(map) => Ok(with_xml(system, sources, &map)),
         Err(found) => Err(render_plain(&tables, &found)),
     }
+}
+
+/// Text and PLCopen XML.
+fn with_xml(system: &System, sources: &Sources, map: &IoMap) -> Files {
+    let (mut files, _) = st::mapped(system, sources, map);
+    files.extend(st::plcopen(system, sources, map));
+    files
 }
 
 /// What differs between two texts, line by line of the second.
@@ -61,7 +68,7 @@ fn wrong_tables_are_explained() {
 #[test]
 fn a_point_of_each_kind_gets_an_address() {
     let (project, sources) = project("default");
-    let before = st::files(&project.system, &sources);
+    let before = with_xml(&project.system, &sources, &IoMap::default());
     let after = with_table(&project.system, &sources, "each_kind.csv").expect("a table without errors");
     let mut shown = text("tests/fixtures/io/each_kind.csv");
     for (path, text) in &after {

@@ -1,6 +1,9 @@
 //! PLCopen XML, read back: it declares what the text declares, and its bodies are the text.
 
 use autogen::backend::{Files, st};
+use autogen::io_map::IoMap;
+use autogen::ir::System;
+use autogen::source::Sources;
 use autogen_tests::wired;
 use autogen_tests::{LAYOUTS, Texts, ariac, own_line};
 use roxmltree::{Document, Node};
@@ -24,15 +27,22 @@ fn examples() -> Vec<(String, Files)> {
     let files = |texts: &Texts| {
         let outcome = texts.compile();
         let project = outcome.project.expect("a layout that can be built");
-        st::files(&project.system, &outcome.sources)
+        mapped(&project.system, &outcome.sources, &IoMap::default())
     };
     let mut all: Vec<_> = lines.chain(own).map(|(name, texts)| (name, files(&texts))).collect();
     let outcome = ariac("default").compile();
     let project = outcome.project.expect("a layout that can be built");
     let points = st::points(&project.system);
     let map = wired::map(&points, &wired::drawn(&points, 1));
-    all.push(("default with addresses".into(), st::mapped(&project.system, &outcome.sources, &map).0));
+    all.push(("default with addresses".into(), mapped(&project.system, &outcome.sources, &map)));
     all
+}
+
+/// Text and XML.
+fn mapped(system: &System, sources: &Sources, map: &IoMap) -> Files {
+    let (mut files, _) = st::mapped(system, sources, map);
+    files.extend(st::plcopen(system, sources, map));
+    files
 }
 
 /// The text without comments that follow declarations.

@@ -3,6 +3,9 @@
 
 use autogen::backend::Files;
 use autogen::backend::{rust, st};
+use autogen::io_map::IoMap;
+use autogen::ir::System;
+use autogen::source::Sources;
 use autogen_st_judge::dead::dead;
 use autogen_st_judge::view::Section;
 use autogen_st_judge::{judge, listed};
@@ -22,13 +25,20 @@ fn fixtures() -> Vec<(String, String)> {
 
 fn of_fixture(name: &str, text: &str) -> Files {
     let (system, sources) = instantiate(&[(name.into(), text.into())]);
-    st::files(&system, &sources)
+    files(&system, &sources)
 }
 
 fn of_layout(layout: &str) -> Files {
     let outcome = ariac(layout).compile();
     let project = outcome.project.expect("a layout that can be built");
-    st::files(&project.system, &outcome.sources)
+    files(&project.system, &outcome.sources)
+}
+
+/// With those that are written on demand.
+fn files(system: &System, sources: &Sources) -> Files {
+    let mut files = st::files(system, sources);
+    files.extend(st::plcopen(system, sources, &IoMap::default()));
+    files
 }
 
 /// The function blocks of types, without what differs between layouts.
@@ -82,11 +92,9 @@ fn a_robot_has_one_number_in_all_texts() {
     for (number, instance) in system.instances.iter().enumerate() {
         let name = &instance.name;
         assert!(alarms.contains(&format!("{number} {name}")), "{alarms}");
-        let text = &rust[&format!("controllers/src/robots/{name}.rs")];
-        assert!(
-            text.starts_with(&format!("//! `{name}`: number {number} in the order of the steps")),
-            "{text}"
-        );
+        let ty = system.automaton_of(number).name.to_lowercase();
+        let text = &rust[&format!("controllers/src/robots/{ty}.rs")];
+        assert!(text.contains(&format!("/// `{name}`: number {number} in the order of the steps")), "{text}");
     }
 }
 

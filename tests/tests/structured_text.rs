@@ -1,12 +1,16 @@
 //! Emitted Structured Text follows the hand-written traces, and the judge finds what is wrong with a text.
 
+#[allow(dead_code)] // The long lines are of another test.
+#[path = "../benches/cost/lines.rs"]
+mod lines;
+
 use autogen::backend::st;
 use autogen::ir::System;
 use autogen::source::Sources;
 use autogen_st_judge::machine::Machine;
 use autogen_st_judge::{faults, judge, listed};
 use autogen_tests::st::{Emitted, StructuredText};
-use autogen_tests::{ariac, root, trace};
+use autogen_tests::{Texts, ariac, root, trace};
 
 fn emitted(system: &System, sources: &Sources) -> Emitted {
     Emitted::of(&st::files(system, sources))
@@ -33,6 +37,26 @@ fn a_state_that_there_is_not_is_a_fault() {
         assert_eq!((machine.get("fault"), machine.get("running")), (1.0, 0.0), "{}", instance.name);
         assert!(machine.branches().iter().any(|b| b.label == "ELSE" && b.entered == 1), "{}", instance.name);
     }
+}
+
+/// Most of its vehicles get to none of most stations: a loop gives that to all, and the others get theirs behind it.
+#[test]
+fn a_long_table_has_all_its_values_after_the_first_scan() {
+    let outcome = Texts::of_layout(lines::copies(4)).compile();
+    let system = outcome.project.expect("a line that is right").system;
+    let text = emitted(&system, &outcome.sources).main;
+    judge(&text).unwrap_or_else(|findings| panic!("{}", listed(&findings, &text)));
+    let mut machine = Machine::new(&text).expect("a clean text");
+    machine.scan().expect("a scan");
+    let wanted: Vec<bool> = system.reaches.iter().flatten().flatten().copied().collect();
+    assert_eq!((wanted.len(), wanted.iter().filter(|holds| **holds).count()), (256, 64));
+    let found = (0..wanted.len()).map(|i| machine.get(&format!("tray_reaches_demand[{i}]")) != 0.0);
+    assert_eq!(found.collect::<Vec<_>>(), wanted);
+    assert_eq!(
+        text.matches("tray_reaches_demand[").count(),
+        64 + 2,
+        "a loop, a use and those that get there"
+    );
 }
 
 /// Where a text differs, it is written to the folder that AUTOGEN_ST names.

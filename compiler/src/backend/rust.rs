@@ -1,7 +1,8 @@
 //! Rust: a crate of controllers without dependencies or heap, and a crate that links them with the simulator.
 //!
 //! Skeletons of files are templates; expressions and statements are printed by code, then the whole is
-//! laid out by `prettyplease`. The values of a layout stand in `robots/` and `line.rs` only.
+//! laid out by `prettyplease`. The values of a layout stand in `robots/` and `line.rs` only: they grow with it and
+//! are printed as they are to look ([`tables`]).
 
 mod adapters;
 mod automaton;
@@ -12,8 +13,10 @@ mod format;
 mod line;
 mod names;
 mod parameters;
+mod robots;
 mod shared;
 mod state;
+mod tables;
 mod update;
 mod walk;
 
@@ -89,9 +92,10 @@ fn crates(system: &System, sources: &Sources) -> Files {
         put(format!("controllers/src/{}.rs", context.own().module), automaton::module(&context));
     }
     put("controllers/src/line.rs".into(), line::line(shared));
-    put("controllers/src/robots.rs".into(), line::robots(shared));
-    for (number, module) in names.robots.iter().enumerate() {
-        put(format!("controllers/src/robots/{module}.rs"), line::robot(shared, number));
+    put("controllers/src/robots.rs".into(), robots::modules(shared));
+    for id in used_types(system) {
+        let module = &names.automata[id.0].module;
+        put(format!("controllers/src/robots/{module}.rs"), robots::of_type(shared, id));
     }
     put("adapters/Cargo.toml".into(), ADAPTERS_MANIFEST.into());
     for (path, text) in ADAPTERS {
@@ -115,6 +119,13 @@ fn without_idle_updates(system: &System) -> System {
         state.transitions.iter_mut().for_each(|t| t.updates.retain(acts));
     }
     system
+}
+
+/// The types of which the line has robots.
+fn used_types(system: &System) -> Vec<AutomatonId> {
+    let mut used = vec![false; system.model.automata.len()];
+    system.instances.iter().for_each(|instance| used[instance.automaton.0] = true);
+    (0..used.len()).filter(|id| used[*id]).map(AutomatonId).collect()
 }
 
 /// The text of a template. Writing to memory does not fail.

@@ -65,11 +65,9 @@ pub fn mapped(system: &System, sources: &Sources, map: &IoMap) -> (Files, Column
     let line = line(shared, &image);
     let mut files = Files::new();
     files.insert("portable/main.st".into(), text::portable(shared, &line));
-    files.insert("portable/project.xml".into(), xml::plcopen(shared, &line));
     for (name, text) in text::codesys(shared, &line) {
         files.insert(format!("codesys/{name}"), text);
     }
-    files.insert("codesys/project.xml".into(), xml::codesys(shared, &line));
     files.insert("io.csv".into(), table::io(shared, map));
     files.insert("alarms.csv".into(), alarms::table(shared));
     files.insert("bounds.txt".into(), figures::report(shared, &line));
@@ -79,6 +77,18 @@ pub fn mapped(system: &System, sources: &Sources, map: &IoMap) -> (Files, Column
         files.insert("names.csv".into(), table::renamed(&renamed));
     }
     (files, columns::columns(shared, &line.globals))
+}
+
+/// The text of [`mapped`] as PLCopen XML, in the two flavours that tools import; files of the folder `plc/`.
+pub fn plcopen(system: &System, sources: &Sources, map: &IoMap) -> Files {
+    let names = names::names(system);
+    let image = image::image(system, &names, map, &mut names.program.inner());
+    let shared = Shared { system, sources, names: &names };
+    let line = line(shared, &image);
+    Files::from([
+        ("portable/project.xml".into(), xml::plcopen(shared, &line)),
+        ("codesys/project.xml".into(), xml::codesys(shared, &line)),
+    ])
 }
 
 /// The units of a line, in the order in which they must be declared.

@@ -80,7 +80,10 @@ pub fn build(options: &BuildOptions) -> Result<Built, Status> {
     }
     // The same input gives the same bytes, from whatever folder it is compiled.
     let sources = shown(&sources, &options.input.layout);
-    let files = files(&project, &sources, &map);
+    let mut files = files(&project, &sources, &map);
+    if !options.no_plcopen {
+        put(&mut files, "plc", st::plcopen(&project.system, &sources, &map));
+    }
     let about = about(&project, &sources);
     let folder = options.output.clone().unwrap_or_else(|| Path::new("out").join(&project.name));
     Ok(Built { project, sources, files, about, folder })
@@ -170,23 +173,20 @@ fn report_gaps(map: &IoMap, points: &[Point]) {
     }
 }
 
-/// All files of the output.
+/// Adds files in a folder.
+fn put(files: &mut Files, folder: &str, more: Files) {
+    files.extend(more.into_iter().map(|(name, text)| (format!("{folder}/{name}"), text)));
+}
+
+/// All files of the output, but for what is written on demand.
 fn files(project: &Project, sources: &Sources, map: &IoMap) -> Files {
     let mut files = Files::new();
-    for (name, text) in files_of_rust(&project.system, sources) {
-        files.insert(format!("rust/{name}"), text);
-    }
+    put(&mut files, "rust", files_of_rust(&project.system, sources));
     let (texts, columns) = st::mapped(&project.system, sources, map);
-    for (name, text) in texts {
-        files.insert(format!("plc/{name}"), text);
-    }
-    for (name, text) in dot::files(&project.system, &project.edges) {
-        files.insert(format!("graph/{name}"), text);
-    }
+    put(&mut files, "plc", texts);
+    put(&mut files, "graph", dot::files(&project.system, &project.edges));
     files.insert("graph/plan.svg".into(), plan::svg(&project.plant, &project.edges));
-    for (name, text) in sdf::files(&project.name, &project.plant) {
-        files.insert(format!("world/{name}"), text);
-    }
+    put(&mut files, "world", sdf::files(&project.name, &project.plant));
     files.insert("rust/commissioning/data/line.txt".into(), project.plant.to_text());
     files.insert("rust/commissioning/data/parameters.txt".into(), rust::parameters_text(&project.system));
     files.insert("rust/commissioning/data/columns.txt".into(), columns.to_text());

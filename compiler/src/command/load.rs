@@ -31,7 +31,7 @@ const MOST_WRONG: usize = 100;
 /// All texts of a compilation.
 pub fn load(options: &InputOptions) -> Result<Input, Failure> {
     let mut sources = Sources::default();
-    let Texts { layout, specs, scenario } =
+    let Texts { layout, specs, scenario, .. } =
         texts(&mut sources, &options.layout, &options.specs, options.scenario.as_deref())?;
     let mut settings = Vec::new();
     let mut diagnostics = Vec::new();
@@ -47,9 +47,10 @@ pub fn load(options: &InputOptions) -> Result<Input, Failure> {
     Ok(Input { sources, layout, specs, scenario, settings, order: options.order })
 }
 
-/// The texts of a line, by their numbers in the sources.
+/// The layout of a line, and its other texts by their numbers in the sources.
 pub struct Texts {
-    pub layout: FileId,
+    pub layout: layout::Reading,
+    pub layout_file: FileId,
     pub specs: Vec<FileId>,
     pub scenario: FileId,
 }
@@ -66,9 +67,10 @@ pub fn texts(
     let mut specs: Vec<FileId> =
         library::FILES.iter().map(|(name, text)| sources.add(*name, *text)).collect();
     // What is wrong with the layout the compiler reports; here only the files it names are of interest.
-    let (named, mut found) = layout::parse(sources, layout);
+    let mut reading = layout::parse(sources, layout);
+    let (named, found) = &mut reading;
     if found.iter().any(|d| d.code == layout::OUTSIDE) {
-        return Err(Failure::Refused(std::mem::take(sources), found));
+        return Err(Failure::Refused(std::mem::take(sources), reading.1));
     }
     let folder = Folder::of(path);
     let mut wrong = Vec::new();
@@ -111,10 +113,10 @@ pub fn texts(
     };
     if !wrong.is_empty() {
         found.extend(wrong);
-        diagnostic::sort(&mut found);
-        return Err(Failure::Refused(std::mem::take(sources), found));
+        diagnostic::sort(found);
+        return Err(Failure::Refused(std::mem::take(sources), reading.1));
     }
-    Ok(Texts { layout, specs, scenario })
+    Ok(Texts { layout: reading, layout_file: layout, specs, scenario })
 }
 
 /// The scenario of a layout that names none.

@@ -123,9 +123,9 @@ pub struct Suggestion {
 pub struct Failure {
     /// Index of the proposal.
     pub proposal: usize,
-    /// All poses that miss, the worst first.
+    /// All poses that miss, the worst first; sought only in a layout that is not connected.
     pub misses: Vec<Miss>,
-    /// Number of poses that were tested.
+    /// Number of all poses, as far as those that miss were sought.
     pub tested: usize,
     /// Sought only in a layout that is not connected.
     pub suggestion: Option<Suggestion>,
@@ -195,28 +195,23 @@ impl Report {
 /// types are bound to machines before.
 pub fn check(line: &Line) -> Report {
     let reachable = poses::Reachable::new(line);
-    let tested: Vec<poses::Test> = line.proposals.iter().map(|p| reachable.test(p)).collect();
-    let stands: Vec<bool> = tested.iter().map(|test| test.margin >= 0.0).collect();
-    let edges = edges(line, &tested);
+    let margins: Vec<Option<f64>> = line.proposals.iter().map(|p| reachable.margin(p)).collect();
+    let stands: Vec<bool> = margins.iter().map(Option::is_some).collect();
+    let edges = edges(line, &margins);
     let flow = flow::Flow::new(line);
     let served = flow.served(&stands);
     // A pair that does not meet matters only where machines are cut off.
     let is_whole = served.connected() == line.nodes.len();
     let sought = if is_whole { 0 } else { most_suggestions(line) };
-    let failures: Vec<Failure> = tested
-        .into_iter()
-        .enumerate()
-        .filter(|(_, test)| test.margin < 0.0)
-        .enumerate()
-        .map(|(number, (proposal, test))| Failure {
-            proposal,
-            suggestion: if number < sought {
-                suggestion::find(line, &flow, &reachable, &stands, proposal)
-            } else {
-                None
-            },
-            misses: test.misses,
-            tested: test.tested,
+    let apart = (0..line.proposals.len()).filter(|proposal| !stands[*proposal]);
+    let failures: Vec<Failure> = (apart.enumerate())
+        .map(|(number, proposal)| {
+            let pair = &line.proposals[proposal];
+            let (misses, tested) = if is_whole { (Vec::new(), 0) } else { reachable.misses(pair) };
+            let suggestion = (number < sought)
+                .then(|| suggestion::find(line, &flow, &reachable, &stands, proposal))
+                .flatten();
+            Failure { proposal, misses, tested, suggestion }
         })
         .collect();
     let diagnostics = verdict::diagnostics(line, &flow, &stands, &failures);
@@ -240,13 +235,15 @@ fn most_suggestions(line: &Line) -> usize {
     (WORK / (line.nodes.len() + line.proposals.len()).max(1)).isqrt().max(8)
 }
 
-fn edges(line: &Line, tested: &[poses::Test]) -> Vec<Edge> {
-    let mut margins: BTreeMap<(usize, usize), f64> = BTreeMap::new();
-    for (proposal, test) in line.proposals.iter().zip(tested).filter(|(_, test)| test.margin >= 0.0) {
-        let margin = margins.entry((proposal.from, proposal.to)).or_insert(test.margin);
-        *margin = margin.max(test.margin);
+fn edges(line: &Line, margins: &[Option<f64>]) -> Vec<Edge> {
+    let mut best: BTreeMap<(usize, usize), f64> = BTreeMap::new();
+    for (proposal, margin) in line.proposals.iter().zip(margins) {
+        if let Some(margin) = *margin {
+            let best = best.entry((proposal.from, proposal.to)).or_insert(margin);
+            *best = best.max(margin);
+        }
     }
-    margins.into_iter().map(|((from, to), margin)| Edge { from, to, margin }).collect()
+    best.into_iter().map(|((from, to), margin)| Edge { from, to, margin }).collect()
 }
 
 impl Proposal {

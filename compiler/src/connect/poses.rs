@@ -6,15 +6,6 @@ use runtime_sim::kinematics::arm::Arm;
 use runtime_sim::point::Point;
 use std::ops::ControlFlow;
 
-/// What the poses of one proposal gave.
-pub struct Test {
-    /// Of the worst pose.
-    pub margin: f64,
-    /// Worst first.
-    pub misses: Vec<Miss>,
-    pub tested: usize,
-}
-
 /// Every pose of the tool, which grips an item on its upper side: each place, with each kind of part,
 /// at contact and above it. `see` gets the place, the kind's name, the stage and the tool's place,
 /// and answers whether to go on.
@@ -60,16 +51,28 @@ impl<'a> Reachable<'a> {
         self.arms[node].as_ref().expect("the active one of a pair is an arm")
     }
 
-    pub fn test(&self, proposal: &Proposal) -> Test {
+    /// How far the arm stays within its reach at the worst pose, m; none if a pose is out of it.
+    pub fn margin(&self, proposal: &Proposal) -> Option<f64> {
         let arm = self.arm(proposal.arm);
-        let mut test = Test { margin: f64::INFINITY, misses: Vec::new(), tested: 0 };
+        let mut worst = f64::INFINITY;
+        let passive = &self.line.nodes[proposal.passive()].placed;
+        let seen = each(self.line, proposal, passive, |_, _, _, tool| {
+            worst = worst.min(arm.margin(tool));
+            if worst < 0.0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        seen.is_continue().then_some(worst)
+    }
+
+    /// The poses that miss, the worst first, and the number of all poses.
+    pub fn misses(&self, proposal: &Proposal) -> (Vec<Miss>, usize) {
+        let arm = self.arm(proposal.arm);
+        let (mut misses, mut tested) = (Vec::new(), 0);
         let passive = &self.line.nodes[proposal.passive()].placed;
         let _ = each(self.line, proposal, passive, |place, kind, stage, tool| {
             let margin = arm.margin(tool);
-            test.tested += 1;
-            test.margin = test.margin.min(margin);
+            tested += 1;
             if margin < 0.0 {
-                test.misses.push(Miss {
+                misses.push(Miss {
                     place: place.name(&self.line.kinds),
                     kind: kind.to_string(),
                     stage,
@@ -79,8 +82,8 @@ impl<'a> Reachable<'a> {
             }
             ControlFlow::Continue(())
         });
-        test.misses.sort_by(|a, b| b.missing_mm.total_cmp(&a.missing_mm));
-        test
+        misses.sort_by(|a, b| b.missing_mm.total_cmp(&a.missing_mm));
+        (misses, tested)
     }
 
     /// By how much the first pose that misses does so with `placed` instead of the one of `node`, m; none if all

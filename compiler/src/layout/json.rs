@@ -5,6 +5,7 @@ mod scalar;
 use crate::diagnostic::Diagnostic;
 use crate::source::{FileId, Span, Spanned};
 use std::collections::HashMap;
+use std::fmt::Display;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Json {
@@ -32,6 +33,8 @@ pub struct Member {
 const DEEPEST: usize = 64;
 /// After so many errors the text is no JSON, and more of them would not help.
 const MOST_ERRORS: usize = 20;
+/// Members of an object whose keys are compared one by one.
+const FEW_MEMBERS: usize = 16;
 /// Values of one text: a line of 10,000 robots has half of it.
 const MOST_VALUES: usize = 500_000;
 
@@ -40,7 +43,7 @@ pub fn parse(text: &str, file: FileId) -> (Option<Json>, Vec<Diagnostic>) {
     let mut reader =
         Reader { text, file, at: 0, depth: 0, values: 0, complete: true, diagnostics: Vec::new() };
     reader.space();
-    let value = reader.value("a value");
+    let value = reader.value(&"a value");
     reader.space();
     if !reader.stopped() && reader.at < text.len() {
         let place = reader.span(reader.at);
@@ -108,7 +111,12 @@ impl Reader<'_> {
 
     fn space(&mut self) {
         loop {
+            let bytes = &self.text.as_bytes()[self.at..];
+            self.at += bytes.iter().take_while(|byte| byte.is_ascii_whitespace()).count();
             let rest = &self.text[self.at..];
+            if !rest.starts_with(['/', '\u{feff}']) {
+                return;
+            }
             if let Some(c) = rest.chars().next().filter(|c| c.is_ascii_whitespace() || *c == '\u{feff}') {
                 self.at += c.len_utf8();
             } else if rest.starts_with("//") || rest.starts_with("/*") {
@@ -127,7 +135,7 @@ impl Reader<'_> {
         }
     }
 
-    fn value(&mut self, wanted: &str) -> Option<Json> {
+    fn value(&mut self, wanted: &dyn Display) -> Option<Json> {
         let start = self.at;
         self.values += 1;
         if self.values > MOST_VALUES {
@@ -187,16 +195,24 @@ impl Reader<'_> {
 
     fn list(&mut self) -> Value {
         let mut items = Vec::new();
-        self.elements(']', |reader| items.extend(reader.value("a value")));
+        self.elements(']', |reader| items.extend(reader.value(&"a value")));
         Value::List(items)
     }
 
     fn object(&mut self) -> Value {
         let mut members: Vec<Member> = Vec::new();
+        // Few keys are looked through: a layout has thousands of small objects.
         let mut places: HashMap<String, Span> = HashMap::new();
         self.elements('}', |reader| {
             let Some(member) = reader.member() else { return };
-            if let Some(&place) = places.get(&member.key.value) {
+            if members.len() == FEW_MEMBERS {
+                places.extend(members.iter().map(|m| (m.key.value.clone(), m.key.span)));
+            }
+            let first = match members.len() < FEW_MEMBERS {
+                true => members.iter().find(|m| m.key.value == member.key.value).map(|m| m.key.span),
+                false => places.get(&member.key.value).copied(),
+            };
+            if let Some(place) = first {
                 let key = &member.key.value;
                 reader.report(
                     Diagnostic::new(
@@ -210,7 +226,9 @@ impl Reader<'_> {
                     .help("remove one of them"),
                 );
             } else {
-                places.insert(member.key.value.clone(), member.key.span);
+                if members.len() >= FEW_MEMBERS {
+                    places.insert(member.key.value.clone(), member.key.span);
+                }
                 members.push(member);
             }
         });
@@ -297,7 +315,7 @@ impl Reader<'_> {
                 word
             }
             _ => {
-                self.expected("a key in double quotes");
+                self.expected(&"a key in double quotes");
                 self.complete = false;
                 if self.peek() != Some(',') {
                     self.skip();
@@ -324,8 +342,7 @@ impl Reader<'_> {
             _ => {}
         }
         self.space();
-        let wanted = format!("a value for \"{}\"", key.value);
-        let value = self.value(&wanted)?;
+        let value = self.value(&format_args!("a value for \"{}\"", key.value))?;
         Some(Member { key, value })
     }
 
@@ -333,7 +350,7 @@ impl Reader<'_> {
         self.report(Diagnostic::new("E0101", place, message).help(help));
     }
 
-    fn expected(&mut self, wanted: &str) {
+    fn expected(&mut self, wanted: &dyn Display) {
         if self.at == self.text.len() {
             return self.ended(wanted);
         }
@@ -346,7 +363,7 @@ impl Reader<'_> {
         self.syntax(place, message, format!("put {wanted} here, or remove {found}"));
     }
 
-    fn ended(&mut self, wanted: &str) {
+    fn ended(&mut self, wanted: &dyn Display) {
         self.complete = false;
         if self.cut_off() {
             return;

@@ -11,7 +11,7 @@ mod read;
 pub use machine::{machine, obstacle};
 pub use object::{Object, Part};
 pub use paths::OUTSIDE;
-pub use read::parse;
+pub use read::{Reading, parse};
 
 use crate::source::{FileId, Span, Spanned};
 

@@ -13,7 +13,10 @@ const SCAN_MS: u32 = 10;
 const MOST_OBJECTS: usize = 12_000;
 
 /// What could be read, to check it further; with any diagnostic there is no sense in building from it.
-pub fn parse(sources: &Sources, file: FileId) -> (Option<Layout>, Vec<Diagnostic>) {
+pub type Reading = (Option<Layout>, Vec<Diagnostic>);
+
+/// Reads a layout as far as it is right.
+pub fn parse(sources: &Sources, file: FileId) -> Reading {
     let source = sources.file(file);
     let (json, diagnostics) = json::parse(&source.text, file);
     let mut decoder = Decoder { diagnostics };

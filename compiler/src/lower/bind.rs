@@ -8,19 +8,19 @@ use runtime_sim::line::Obstacle;
 use std::collections::HashMap;
 
 /// Machines with an automaton, and things without one, both in layout order.
-pub struct Bound {
-    pub robots: Vec<Robot>,
+pub struct Bound<'a> {
+    pub robots: Vec<Robot<'a>>,
     pub obstacles: Vec<Obstacle>,
 }
 
-pub struct Robot {
-    pub object: Object,
+pub struct Robot<'a> {
+    pub object: &'a Object,
     pub automaton: String,
     pub placed: Placed,
     pub numbers: Vec<Number>,
 }
 
-pub fn bind(layout: &Layout, model: &Model, diagnostics: &mut Vec<Diagnostic>) -> Bound {
+pub fn bind<'a>(layout: &'a Layout, model: &Model, diagnostics: &mut Vec<Diagnostic>) -> Bound<'a> {
     let mut bound = Bound { robots: Vec::new(), obstacles: Vec::new() };
     let automata: HashMap<&str, &Automaton> = model.automata.iter().map(|a| (a.name.as_str(), a)).collect();
     for object in &layout.objects {
@@ -28,7 +28,7 @@ pub fn bind(layout: &Layout, model: &Model, diagnostics: &mut Vec<Diagnostic>) -
         match automata.get(name.as_str()) {
             Some(automaton) => match layout::machine(object, &automaton.device) {
                 Ok((placed, numbers)) => {
-                    bound.robots.push(Robot { object: object.clone(), automaton: name, placed, numbers });
+                    bound.robots.push(Robot { object, automaton: name, placed, numbers });
                 }
                 Err(found) => found.into_iter().for_each(|d| collect(diagnostics, d)),
             },

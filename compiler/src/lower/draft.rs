@@ -5,19 +5,20 @@ use super::{Project, Verdict, bind, plant, role};
 use crate::check::{self, Checked};
 use crate::diagnostic::{self, Diagnostic};
 use crate::ir::Model;
-use crate::layout::Layout;
+use crate::layout::{Layout, Reading};
 use crate::scenario::{Number, Scenario};
 use crate::source::{FileId, Sources, Span};
 use crate::spec::{ast, parser};
-use crate::{connect, layout, scenario};
+use crate::{connect, scenario};
 use runtime_sim::collision::Overlap;
 use runtime_sim::random::Random;
+use std::borrow::Cow;
 use std::collections::{BTreeSet, HashMap};
 
-/// The texts of a line, by their numbers in [`Sources`].
-#[derive(Clone, Copy, Debug)]
+/// The layout of a line, and its other texts by their numbers in [`Sources`].
+#[derive(Clone, Debug)]
 pub struct Texts<'a> {
-    pub layout: FileId,
+    pub layout: Reading,
     /// A type of a later one replaces one of the same name of an earlier one.
     pub specs: &'a [FileId],
     pub scenario: FileId,
@@ -54,9 +55,7 @@ pub struct Line {
 impl Draft {
     /// `settings` are all that will ever be made: each has to concern somebody and something.
     pub fn new(sources: &Sources, texts: Texts, settings: &[Setting]) -> Self {
-        let mut diagnostics = Vec::new();
-        let (layout, found) = layout::parse(sources, texts.layout);
-        diagnostics.extend(found);
+        let (layout, mut diagnostics) = texts.layout;
         let mut files = Vec::new();
         let mut syntax_is_right = true;
         let mut left = parser::MOST_TOKENS;
@@ -147,9 +146,9 @@ impl Draft {
 
 impl Parts {
     fn line(&self, found: &mut Line, settings: &[Setting], order: Option<u64>, replication: u32) {
-        let mut layout = self.layout.clone();
+        let mut layout = Cow::Borrowed(&self.layout);
         if let Some(seed) = order {
-            Random::new(seed).shuffle(&mut layout.objects);
+            Random::new(seed).shuffle(&mut layout.to_mut().objects);
         }
         let bound = bind::bind(&layout, &self.model, &mut found.diagnostics);
         let mut scenario = self.scenario.clone();
@@ -194,8 +193,9 @@ impl Parts {
         };
         let plant = plant::line(&system, &line, bound.obstacles, resolved, layout.scan_ms, machines);
         found.diagnostics.extend(overlaps(&layout, &plant));
+        let Layout { name, may_touch, .. } = &*layout;
         found.project =
-            Some(Project { name: layout.name, system, plant, edges, may_touch: layout.may_touch });
+            Some(Project { name: name.clone(), system, plant, edges, may_touch: may_touch.clone() });
     }
 }
 

@@ -13,15 +13,15 @@ pub use draft::{Draft, Line, Texts};
 pub use setting::Setting;
 
 use crate::diagnostic::Diagnostic;
-use crate::layout::MayTouch;
+use crate::layout::{MayTouch, Reading};
 use crate::source::{FileId, Sources};
 use crate::{connect, ir};
 
-/// What is to be compiled; every text is in `sources` already.
+/// What is to be compiled; every text is in `sources` already, and the layout is read.
 #[derive(Clone, Debug)]
 pub struct Input {
     pub sources: Sources,
-    pub layout: FileId,
+    pub layout: Reading,
     /// Files of types; a type of a later one replaces one of the same name of an earlier one.
     pub specs: Vec<FileId>,
     pub scenario: FileId,

@@ -24,7 +24,7 @@ const MOST_FAR: usize = 2000;
 /// The machines of a layout, bound to a model of just their types.
 pub struct Line<'a> {
     pub layout: &'a Layout,
-    pub robots: Vec<Robot>,
+    pub robots: Vec<Robot<'a>>,
     pub model: Model,
     /// The automaton of each robot.
     automata: Vec<AutomatonId>,
@@ -46,7 +46,7 @@ pub struct Line<'a> {
 }
 
 impl<'a> Line<'a> {
-    pub fn new(layout: &'a Layout, robots: Vec<Robot>, model: Model, scenario: &Scenario) -> Self {
+    pub fn new(layout: &'a Layout, robots: Vec<Robot<'a>>, model: Model, scenario: &Scenario) -> Self {
         let kinds: Vec<(String, f64)> =
             scenario.kinds.iter().map(|k| (k.name.value.clone(), k.height)).collect();
         let heights = kinds.iter().map(|k| k.1).collect();

@@ -211,14 +211,15 @@ fn a_file_that_is_gone_is_written_again() {
     let build = |more: &[&str]| autogen(&folder, &[&["build", "default.json"], more].concat());
     assert_eq!(status(&build(&[])), 0);
     let first = contents(&folder.join("out"));
-    fs::remove_file(folder.join("out/default/rust/controllers/src/robots/agv4.rs")).expect("a file");
+    fs::remove_file(folder.join("out/default/rust/controllers/src/robots/agv.rs")).expect("a file");
     fs::remove_dir_all(folder.join("out/default/plc")).expect("a folder");
     assert_eq!(status(&build(&[])), 0);
     assert!(contents(&folder.join("out")) == first);
     // One that would be removed.
-    fs::copy(example("ariac2021/less_agv.json"), folder.join("less.json")).expect("the example");
-    fs::remove_file(folder.join("out/default/rust/controllers/src/robots/agv4.rs")).expect("a file");
-    let output = autogen(&folder, &["build", "less.json", "-o", "out/default"]);
+    let larger = example("buffer/buffer.json");
+    assert_eq!(status(&autogen(&folder, &["build", &larger, "-o", "out/default"])), 0);
+    fs::remove_file(folder.join("out/default/rust/controllers/src/robots/buffer.rs")).expect("a file");
+    let output = build(&["-o", "out/default"]);
     assert_eq!(status(&output), 0, "{}", errors(&output));
 }
 

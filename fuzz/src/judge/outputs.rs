@@ -3,6 +3,7 @@
 use super::{dot, drawing};
 use crate::files::hash;
 use autogen::backend::{Files, dot as dot_files, plan, rust, sdf as sdf_files, st};
+use autogen::io_map::IoMap;
 use autogen::lower::Project;
 use autogen::source::Sources;
 use autogen_tests::sdf;
@@ -20,6 +21,7 @@ pub fn all(project: &Project, sources: &Sources) -> Vec<Files> {
         sdf_files::files(&project.name, &project.plant),
         rust::files(&project.system, sources),
         st::files(&project.system, sources),
+        st::plcopen(&project.system, sources, &IoMap::default()),
     ]
 }
 
@@ -52,6 +54,7 @@ pub fn dear(project: &Project, sources: &Sources) {
     }
     assert!(!rust::parameters_text(&project.system).is_empty());
     structured_text(&st::files(&project.system, sources));
+    structured_text(&st::plcopen(&project.system, sources, &IoMap::default()));
 }
 
 /// The files of the folder `plc/`.

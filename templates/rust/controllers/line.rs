@@ -27,16 +27,13 @@ pub const WIRING: Wiring = Wiring {
     {{ interface.field }}: Rows::new(&{{ interface.constant }}, {{ interface.parameters_type }}::NONE),
     {%- endif %}
     {%- endfor %}
-    {%- for (name, value) in relations %}
-    {{ name }}: {{ value }},
-    {%- endfor %}
-};
+{% for relation in relations %}{{ relation }}{% endfor %}};
 
 /// All robots, in the order in which they step.
 pub const fn robots() -> [Robot<'static>; {{ robots.len() }}] {
     [
         {%- for robot in robots %}
-        Robot::{{ robot.ty }}({{ robot.ty }}::new(&robots::{{ robot.module }}::PARAMETERS)),
+        Robot::{{ robot.ty }}({{ robot.ty }}::new(&robots::{{ robot.module }}::{{ robot.constant }})),
         {%- endfor %}
     ]
 }

@@ -1,4 +1,4 @@
-//! The robots of this line: what the layout fixes for each.
+//! The robots of this line: what the layout fixes for each, by types.
 
 {%- for module in modules %}
 pub mod {{ module }};

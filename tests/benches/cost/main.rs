@@ -1,4 +1,4 @@
-//! What runs, scans and builds cost: `cargo bench`.
+//! What runs, scans and builds cost: `cargo bench -p autogen-tests`.
 //!
 //! No harness that repeats a closure until its mean is firm: the figures are parts of one whole, differences
 //! within one run, and single builds of many seconds.

@@ -98,14 +98,6 @@ impl Shared<'_> {
         if ty.extent == Extent::One { one } else { format!("Array::all({one})") }
     }
 
-    pub fn elements(&self, ty: Type, values: &[Value]) -> String {
-        let all: Vec<String> = values.iter().map(|v| self.value(ty.scalar, *v)).collect();
-        match ty.extent {
-            Extent::One => all.concat(),
-            _ => format!("Array([{}])", all.join(", ")),
-        }
-    }
-
     /// `agv.aut:12`
     pub fn line(&self, place: Span) -> String {
         format!("{}:{}", self.sources.file(place.file).name, self.sources.position(place).0)

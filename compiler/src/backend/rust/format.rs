@@ -20,10 +20,23 @@ pub fn module(text: &str, importable: &Importable) -> String {
     for own in file.items.iter().filter_map(defined) {
         used.0.remove(&own);
     }
+    let names = used.0.iter().map(String::as_str).collect();
+    let (head, rest) = with_imports(text, &names, importable);
+    print(&format!("{head}\n{rest}"))
+}
+
+/// A module that is laid out but for its imports, which are added. Nothing of it is parsed: it may be long.
+pub fn laid_out(text: &str, importable: &Importable) -> String {
+    let (head, rest) = with_imports(text, &words(text), importable);
+    format!("{}\n{}\n", print(&head), rest.trim())
+}
+
+/// The comment of a module with all its imports, and the rest of its text.
+fn with_imports(text: &str, used: &BTreeSet<&str>, importable: &Importable) -> (String, String) {
     let (own, rest): (Vec<&str>, Vec<&str>) = text.lines().partition(|line| line.starts_with("use "));
     let mut imports: Vec<String> = own.into_iter().map(String::from).collect();
     for (module, names) in importable {
-        let names: Vec<&str> = names.iter().map(String::as_str).filter(|n| used.0.contains(*n)).collect();
+        let names: Vec<&str> = names.iter().map(String::as_str).filter(|n| used.contains(n)).collect();
         match names.as_slice() {
             [] => {}
             [one] => imports.push(format!("use {module}::{one};")),
@@ -33,7 +46,14 @@ pub fn module(text: &str, importable: &Importable) -> String {
     imports.sort();
     let head = rest.iter().take_while(|line| line.starts_with("//!") || line.trim().is_empty()).count();
     let (head, rest) = rest.split_at(head);
-    print(&format!("{}\n{}\n{}", head.join("\n"), imports.join("\n"), rest.join("\n")))
+    (format!("{}\n{}", head.join("\n"), imports.join("\n")), rest.join("\n"))
+}
+
+/// All words of code, without those of comments and texts. A text has no escapes.
+fn words(text: &str) -> BTreeSet<&str> {
+    let code = text.lines().filter(|line| !line.trim_start().starts_with("//"));
+    let code = code.flat_map(|line| line.split('"').step_by(2));
+    code.flat_map(|part| part.split(|c: char| !c.is_ascii_alphanumeric() && c != '_')).collect()
 }
 
 /// Lays out a file that is complete.
@@ -139,6 +159,16 @@ impl<'ast> Visit<'ast> for Used {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn imports_are_those_of_the_code() {
+        let importable =
+            [("crate::types".to_string(), vec!["Array".to_string(), "Point".into(), "Rows".into()])];
+        let text = "//! A module.\n\n/// A `Rows`.\npub const A: Point = made(\"Array\");\n";
+        let wanted = "//! A module.\n\nuse crate::types::Point;\n\n/// A `Rows`.\n";
+        let found = laid_out(text, &importable);
+        assert!(found.starts_with(wanted), "{found}");
+    }
 
     #[test]
     #[should_panic(expected = "what was printed is no Rust")]

@@ -1,74 +1,17 @@
 //! The values of a layout, as constants.
 
 use super::context::Shared;
-use super::{format, render};
-use crate::ir::{InterfaceId, Scalar, Value};
+use super::{format, render, tables, used_types};
 use askama::Template;
 
 #[derive(Template)]
-#[template(path = "rust/controllers/robots.rs")]
-struct Robots<'a> {
-    modules: &'a [String],
-}
-
-pub fn robots(shared: Shared) -> String {
-    format::print(&render(&Robots { modules: &shared.names.robots }))
-}
-
-#[derive(Template)]
-#[template(path = "rust/controllers/instance.rs")]
-struct Robot<'a> {
-    name: &'a str,
-    /// As it is published with a fault.
-    number: usize,
-    ty: &'a str,
-    module: &'a str,
-    /// What each role holds, by names.
-    roles: Vec<String>,
-    fields: Vec<(String, String)>,
-}
-
-pub fn robot(shared: Shared, number: usize) -> String {
-    let system = shared.system;
-    let instance = &system.instances[number];
-    let automaton = system.automaton_of(number);
-    let names = &shared.names.automata[instance.automaton.0];
-    let mut fields = Vec::new();
-    for ((parameter, name), values) in
-        automaton.parameters.iter().zip(&names.parameters).zip(&instance.parameters)
-    {
-        fields.push((name.clone(), shared.elements(parameter.ty, values)));
-    }
-    let mut roles = Vec::new();
-    for ((role, name), rows) in automaton.roles.iter().zip(&names.roles).zip(&instance.roles) {
-        let references: Vec<String> =
-            rows.iter().map(|row| reference(shared, role.interface, *row)).collect();
-        fields.push((name.clone(), format!("&[{}]", references.join(", "))));
-        let members: Vec<String> = (rows.iter())
-            .map(|row| format!("`{}`", system.instances[system.members[role.interface.0][*row]].name))
-            .collect();
-        if !members.is_empty() {
-            roles.push(format!("`{name}`: {}", members.join(", ")));
-        }
-    }
-    for ((implements, name), row) in automaton.implements.iter().zip(&names.rows).zip(&instance.rows) {
-        fields.push((name.clone(), reference(shared, implements.interface, *row)));
-    }
-    let view = Robot { name: &instance.name, number, ty: &names.ty, module: &names.module, roles, fields };
-    format::module(&render(&view), &shared.importable("crate"))
-}
-
-fn reference(shared: Shared, interface: InterfaceId, row: usize) -> String {
-    shared.value(Scalar::Ref(interface), Value::Int(row as i32))
-}
-
-#[derive(Template)]
 #[template(path = "rust/controllers/line.rs")]
-struct Line {
+struct Line<'a> {
     scan_ms: i32,
     interfaces: Vec<InterfaceView>,
-    relations: Vec<(String, String)>,
-    robots: Vec<RobotView>,
+    /// Laid out, each with its comma.
+    relations: Vec<String>,
+    robots: Vec<RobotView<'a>>,
     types: Vec<(String, String)>,
     has_cells: bool,
 }
@@ -85,37 +28,45 @@ struct InterfaceView {
     count: usize,
 }
 
-struct RobotView {
-    ty: String,
-    module: String,
+struct RobotView<'a> {
+    ty: &'a str,
+    module: &'a str,
+    constant: &'a str,
 }
 
 pub fn line(shared: Shared) -> String {
     let system = shared.system;
     let interfaces: Vec<InterfaceView> =
         (0..system.model.interfaces.len()).map(|i| interface(shared, i)).collect();
-    let relations = system.reaches.iter().zip(&shared.names.relations).map(|(rows, name)| {
-        let rows: Vec<String> = rows
-            .iter()
-            .map(|row| format!("&[{}]", row.iter().map(bool::to_string).collect::<Vec<_>>().join(", ")))
-            .collect();
-        (name.clone(), format!("Relation(&[{}])", rows.join(", ")))
+    let relations = system.reaches.iter().zip(&shared.names.relations);
+    let robots = system.instances.iter().zip(&shared.names.robots).map(|(instance, constant)| {
+        let names = &shared.names.automata[instance.automaton.0];
+        RobotView { ty: &names.ty, module: &names.module, constant }
     });
-    let robots = system.instances.iter().zip(&shared.names.robots).map(|(instance, module)| RobotView {
-        ty: shared.names.automata[instance.automaton.0].ty.clone(),
-        module: module.clone(),
-    });
-    let is_used = |id: usize| system.instances.iter().any(|i| i.automaton.0 == id);
-    let types = shared.names.automata.iter().enumerate().filter(|(id, _)| is_used(*id));
+    let types = used_types(system).into_iter().map(|id| &shared.names.automata[id.0]);
     let view = Line {
         scan_ms: system.scan_ms,
-        relations: relations.collect(),
+        relations: relations.map(|(rows, name)| relation(rows, name)).collect(),
         robots: robots.collect(),
-        types: types.map(|(_, a)| (a.module.clone(), a.ty.clone())).collect(),
+        types: types.map(|a| (a.module.clone(), a.ty.clone())).collect(),
         has_cells: interfaces.iter().any(|i| i.has_cells),
         interfaces,
     };
-    format::module(&render(&view), &shared.importable("crate"))
+    format::laid_out(&render(&view), &shared.importable("crate"))
+}
+
+/// A row for each member from which items come, and in it a truth for each to which they may get.
+fn relation(rows: &[Vec<bool>], name: &str) -> String {
+    let words = |row: &Vec<bool>| -> Vec<&str> {
+        row.iter().map(|is_reached| if *is_reached { "true" } else { "false" }).collect()
+    };
+    let short: Vec<String> = rows.iter().map(|row| format!("&[{}]", words(row).join(", "))).collect();
+    let whole = tables::list(4, &format!("{name}: Relation(&["), &short, "]),");
+    if whole.lines().count() == 1 {
+        return whole;
+    }
+    let rows: String = rows.iter().map(|row| tables::filled(12, "&[", &words(row), "],")).collect();
+    format!("    {name}: Relation(\n        &[\n{rows}        ],\n    ),\n")
 }
 
 fn interface(shared: Shared, id: usize) -> InterfaceView {
@@ -130,7 +81,8 @@ fn interface(shared: Shared, id: usize) -> InterfaceView {
             return Vec::new();
         };
         let value = |supplied: usize| {
-            format!("robots::{}::PARAMETERS.{}", shared.names.robots[*instance], own.parameters[supplied])
+            let constant = &shared.names.robots[*instance];
+            format!("robots::{}::{constant}.{}", own.module, own.parameters[supplied])
         };
         (names.parameter.iter().zip(&implements.parameters))
             .map(|(name, supplied)| (name.clone(), value(*supplied)))

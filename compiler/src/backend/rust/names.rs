@@ -114,7 +114,7 @@ pub struct Names {
     pub interfaces: Vec<InterfaceNames>,
     pub relations: Vec<String>,
     pub automata: Vec<AutomatonNames>,
-    /// Modules of the robots.
+    /// Constants of the robots, each in the module of its type.
     pub robots: Vec<String>,
 }
 
@@ -169,8 +169,8 @@ pub fn names(system: &System) -> Names {
     let mut modules = Scope::rust(MODULES);
     let automata =
         model.automata.iter().map(|a| automaton_names(a, &interfaces, &mut types, &mut modules)).collect();
-    let mut robots = Scope::rust(MODULES);
-    let robots = system.instances.iter().map(|i| robots.take(snake(&i.name))).collect();
+    let mut robots = Scope::rust(&[]);
+    let robots = system.instances.iter().map(|i| robots.take(screaming(&i.name))).collect();
     Names { enums, interfaces, relations, automata, robots }
 }
 

@@ -148,6 +148,12 @@ fn rows(shared: Shared, interface: InterfaceId, each: Option<usize>) -> String {
     }
 }
 
+/// `0 agv1, 3 agv4`
+fn named_rows(shared: Shared, interface: InterfaceId, rows: &[usize]) -> String {
+    let name = |row: usize| &shared.system.instances[shared.system.members[interface.0][row]].name;
+    rows.iter().map(|row| format!("{row} {}", name(*row))).collect::<Vec<_>>().join(", ")
+}
+
 fn each(shared: Shared, ty: Type) -> Option<usize> {
     (ty.extent != Extent::One).then(|| shared.system.model.elements(ty.extent))
 }
@@ -263,11 +269,9 @@ fn own(shared: Shared, id: AutomatonId) -> Vec<Table> {
         automaton.parameters.iter().enumerate().filter(|(_, p)| p.ty.extent != Extent::One)
     {
         let comments = about(&parameter.doc, meaning(shared, parameter.ty.scalar));
-        let names = robots.iter().map(|r| array_names(shared, *r, number));
-        for (robot, held) in robots.iter().zip(names) {
-            if tables.iter().any(|t: &Table| t.variable.name == held[0]) {
-                continue;
-            }
+        let is_common = !shared.names.automata[id.0].tables[number].is_empty();
+        for robot in robots.iter().take(if is_common { 1 } else { usize::MAX }) {
+            let held = array_names(shared, *robot, number);
             let values = &shared.system.instances[*robot].parameters[number];
             let values: Vec<_> = values.iter().map(|v| shared.constants(parameter.ty.scalar, *v)).collect();
             tables.extend(table(parameter.ty.scalar, held, &values, &comments));
@@ -278,7 +282,7 @@ fn own(shared: Shared, id: AutomatonId) -> Vec<Table> {
         for robot in &robots {
             let list = &shared.system.instances[*robot].roles[number];
             let value = |i: usize| Ex::Int(list.get(i).map_or(0, |row| *row as i32));
-            let comments = about(&role.doc, rows(shared, role.interface, None));
+            let comments = about(&role.doc, named_rows(shared, role.interface, list));
             let variable = Variable::new(&shared.names.robots[*robot].roles[number], Basic::Dint);
             tables.push(Table {
                 variable: Variable { comments, ..variable }.with_elements(Some(most.max(1))),
@@ -296,6 +300,9 @@ pub fn array_names<'a>(shared: Shared<'a>, robot: usize, parameter: usize) -> &'
     if table.is_empty() { &shared.names.robots[robot].parameters[parameter] } else { table }
 }
 
+/// Tables of so many elements get the value of most of them by a loop, then the others theirs.
+const LONG: usize = 16;
+
 /// Statements that give all elements of tables their values: loops where they are alike.
 pub fn fill(tables: &[&Table], counter: &str) -> Vec<Stmt> {
     let mut out = Vec::new();
@@ -303,17 +310,16 @@ pub fn fill(tables: &[&Table], counter: &str) -> Vec<Stmt> {
     let mut single = Vec::new();
     for table in tables {
         let n = table.values.len();
-        let is_alike = n > 2 && table.values.iter().all(|v| *v == table.values[0]);
-        if is_alike {
+        let most = usual(&table.values);
+        if let Some(value) = most {
             let target = Ex::Element(table.variable.name.clone(), Box::new(name(counter)));
-            let store = Stmt::Assign(target, table.values[0].clone());
+            let store = Stmt::Assign(target, value.clone());
             match alike.iter_mut().find(|(size, _)| *size == n) {
                 Some((_, stores)) => stores.push(store),
                 None => alike.push((n, vec![store])),
             }
-            continue;
         }
-        for (i, value) in table.values.iter().enumerate() {
+        for (i, value) in table.values.iter().enumerate().filter(|(_, value)| most != Some(*value)) {
             let target = Ex::Element(table.variable.name.clone(), Box::new(Ex::Int(i as i32)));
             single.push(Stmt::Assign(target, value.clone()));
         }
@@ -326,4 +332,40 @@ pub fn fill(tables: &[&Table], counter: &str) -> Vec<Stmt> {
     }
     out.extend(single);
     out
+}
+
+/// The value of all elements, or of a long table the one that most of them have; none if there is no such value.
+fn usual(values: &[Ex]) -> Option<&Ex> {
+    // The only one that more than half of the elements can have.
+    let (mut candidate, mut lead) = (values.first()?, 0);
+    for value in values {
+        match (value == candidate, lead) {
+            (true, _) => lead += 1,
+            (false, 0) => (candidate, lead) = (value, 1),
+            (false, _) => lead -= 1,
+        }
+    }
+    let count = values.iter().filter(|value| *value == candidate).count();
+    let is_usual = count == values.len() || values.len() >= LONG && 2 * count > values.len();
+    (values.len() > 2 && is_usual).then_some(candidate)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn values(texts: &str) -> Vec<Ex> {
+        texts.chars().map(|c| Ex::Bool(c == '1')).collect()
+    }
+
+    #[test]
+    fn a_loop_gives_what_most_elements_of_a_long_table_have() {
+        assert_eq!(usual(&values("111")), Some(&Ex::Bool(true)));
+        assert_eq!(usual(&values("110")), None, "short");
+        assert_eq!(usual(&values("11")), None, "two assignments are shorter");
+        assert_eq!(usual(&values("0111111111111110")), Some(&Ex::Bool(true)));
+        assert_eq!(usual(&values("1100110011001100")), None, "half of them");
+        assert_eq!(usual(&values("1100110011001000")), Some(&Ex::Bool(false)));
+        assert_eq!(usual(&[]), None);
+    }
 }

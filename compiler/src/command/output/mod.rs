@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
-use transaction::Change;
+use transaction::{Change, NewText};
 
 /// Written by `commission` beside the files of a build.
 pub const RESULTS: &str = "results.json";
@@ -132,9 +132,11 @@ impl Output {
         overwrite: Overwrite,
     ) -> Result<(), Refusal> {
         let manifest = after.to_text();
-        let texts = files.iter().map(|(name, text)| (name, text.as_str()));
+        let manifest_hash = hash(manifest.as_bytes());
         let manifest_name = MANIFEST.to_string();
-        let texts: Vec<(&String, &str)> = texts.chain([(&manifest_name, manifest.as_str())]).collect();
+        let texts = files.iter().map(|(name, text)| (name, NewText { text, hash: &after.files[name] }));
+        let own = (&manifest_name, NewText { text: &manifest, hash: &manifest_hash });
+        let texts: Vec<(&String, NewText)> = texts.chain([own]).collect();
         let found = obstacles(&self.folder, texts.iter().map(|(name, _)| *name).chain(before.files.keys()));
         if !found.is_empty() {
             return Err(Refusal::InTheWay(found));
@@ -142,29 +144,29 @@ impl Output {
         let mut foreign = Vec::new();
         let mut changes = Vec::new();
         for name in before.files.keys().filter(|name| !after.files.contains_key(*name)) {
-            if present(&self.folder, name)?.is(before.files.get(name)) {
-                changes.push(Change { name: name.clone(), existed: true, text: None });
+            if present(&self.folder, name)?.is(before.files.get(name).map(String::as_str)) {
+                changes.push(Change { name, existed: true, text: None });
             }
         }
         for (name, text) in texts {
             let there = present(&self.folder, name)?;
-            if there.is(Some(&hash(text.as_bytes()))) {
+            if there.is(Some(text.hash)) {
                 continue;
             }
             let is_own = match name == MANIFEST {
                 true => before.is_whole,
-                false => there.is(before.files.get(name)),
+                false => there.is(before.files.get(name).map(String::as_str)),
             };
             if there != Present::Nothing && !is_own {
                 foreign.push(self.folder.join(name));
             }
             let existed = there != Present::Nothing;
-            changes.push(Change { name: name.clone(), existed, text: Some(text.into()) });
+            changes.push(Change { name, existed, text: Some(text) });
         }
         if overwrite == Overwrite::Own && !foreign.is_empty() {
             return Err(Refusal::NotOurs(foreign));
         }
-        let inputs = among(&self.inputs, changes.iter().map(|change| self.folder.join(&change.name)));
+        let inputs = among(&self.inputs, changes.iter().map(|change| self.folder.join(change.name)));
         if !inputs.is_empty() {
             return Err(Refusal::Inputs(inputs));
         }

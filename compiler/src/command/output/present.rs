@@ -15,7 +15,7 @@ pub enum Present {
 
 impl Present {
     /// Whether this is a file with that hash.
-    pub fn is(&self, hash: Option<&String>) -> bool {
+    pub fn is(&self, hash: Option<&str>) -> bool {
         matches!((self, hash), (Present::File(own), Some(hash)) if own == hash)
     }
 }

@@ -5,7 +5,7 @@
 //! removed, the new output holds; as long as it is there, the old one does, and whoever opens the folder next
 //! restores it. An error restores it at once.
 
-use super::manifest::{hash, is_within};
+use super::manifest::is_within;
 use super::present::{self, Present, obstacles, present};
 use super::{Refusal, among};
 use crate::command::interrupt::{self, Temporary};
@@ -24,12 +24,18 @@ const OLD: &str = "old";
 const NEW: &str = "new";
 
 /// What happens to a file.
-#[derive(Clone, Debug)]
-pub struct Change {
-    pub name: String,
+#[derive(Clone, Copy, Debug)]
+pub struct Change<'a> {
+    pub name: &'a str,
     pub existed: bool,
     /// `None` removes it.
-    pub text: Option<String>,
+    pub text: Option<NewText<'a>>,
+}
+
+#[derive(Clone, Copy, Debug)]
+pub struct NewText<'a> {
+    pub text: &'a str,
+    pub hash: &'a str,
 }
 
 /// Makes all changes, or none.
@@ -51,7 +57,7 @@ pub fn apply(folder: &Path, changes: &[Change]) -> Result<(), Refusal> {
         }
     }
     if done.is_err() {
-        remove_empty(folder, changes.iter().filter(|c| !c.existed).map(|c| c.name.as_str()));
+        remove_empty(folder, changes.iter().filter(|c| !c.existed).map(|c| c.name));
     }
     done
 }
@@ -101,20 +107,18 @@ fn stage(folder: &Path, staged: &Path, changes: &[Change]) -> Result<(), Refusal
     create(staged)?;
     let mut journal = Vec::new();
     for Change { name, existed, text } in changes {
-        journal.push(
-            json!({ "name": name, "existed": existed, "hash": text.as_ref().map(|t| hash(t.as_bytes())) }),
-        );
+        journal.push(json!({ "name": name, "existed": existed, "hash": text.map(|new| new.hash) }));
         if *existed {
             create_parent(&staged.join(OLD).join(name))?;
         }
-        if let Some(text) = text {
+        if let Some(NewText { text, .. }) = text {
             let path = staged.join(NEW).join(name);
             create_parent(&path)?;
             create_parent(&folder.join(name))?;
             fs::write(&path, text).map_err(|e| Refusal::Io(path, e))?;
         }
     }
-    for name in changes.iter().filter(|c| c.text.is_some()).map(|c| &c.name) {
+    for name in changes.iter().filter(|c| c.text.is_some()).map(|c| c.name) {
         sync(&staged.join(NEW).join(name))?;
     }
     let journal = format!("{:#}\n", Value::from(journal));
@@ -136,14 +140,14 @@ fn exchange(folder: &Path, staged: &Path, changes: &[Change]) -> Result<(), Refu
             rename(&staged.join(NEW).join(name), &place)?;
         }
     }
-    for name in changes.iter().map(|c| &c.name) {
+    for name in changes.iter().map(|c| c.name) {
         if let Some(above) = folder.join(name).parent() {
             sync(above)?;
         }
     }
     let journal = staged.join(JOURNAL);
     fs::remove_file(&journal).map_err(|e| Refusal::Io(journal, e))?;
-    remove_empty(folder, changes.iter().filter(|c| c.text.is_none()).map(|c| c.name.as_str()));
+    remove_empty(folder, changes.iter().filter(|c| c.text.is_none()).map(|c| c.name));
     Ok(())
 }
 
@@ -173,7 +177,7 @@ fn undo(folder: &Path, staged: &Path, inputs: &[PathBuf]) -> Result<(), Refusal>
         let (old, place) = (staged.join(OLD).join(name), folder.join(name));
         let new = entry["hash"].as_str().map(String::from);
         let there = present(folder, name)?;
-        if there != Present::Nothing && !there.is(new.as_ref()) {
+        if there != Present::Nothing && !there.is(new.as_deref()) {
             // The old file, or somebody has changed it since.
             continue;
         }

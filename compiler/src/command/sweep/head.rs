@@ -67,13 +67,13 @@ fn inputs(line: &Line) -> Value {
     let text = |file| line.sources.file(file).text.as_bytes();
     // Each text with its length before it, so that none goes over into the next.
     let mut specs = Vec::new();
-    for &file in &line.texts.specs {
+    for &file in &line.specs {
         specs.extend((text(file).len() as u64).to_le_bytes());
         specs.extend(text(file));
     }
     json!({
-        "layout": output::hash(text(line.texts.layout)),
+        "layout": output::hash(text(line.layout)),
         "specs": output::hash(&specs),
-        "scenario": output::hash(text(line.texts.scenario)),
+        "scenario": output::hash(text(line.scenario)),
     })
 }

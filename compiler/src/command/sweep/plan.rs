@@ -11,7 +11,7 @@ use super::precision::{self, Precision};
 use super::warm_up::WarmUp;
 use autogen::ir::System;
 use autogen::lower::{Draft, Setting, Texts};
-use autogen::source::Sources;
+use autogen::source::{FileId, Sources};
 use runtime_sim::line::IoDelay;
 use runtime_sim::memory::Memory;
 use std::fmt::Display;
@@ -32,7 +32,10 @@ pub struct Plan {
 /// A layout, read and checked as far as values do not matter.
 pub struct Line {
     pub sources: Sources,
-    pub texts: load::Texts,
+    /// Its texts, by their numbers in the sources.
+    pub layout: FileId,
+    pub specs: Vec<FileId>,
+    pub scenario: FileId,
     pub draft: Draft,
     /// For each axis the settings of its values.
     pub settings: Vec<Vec<Setting>>,
@@ -178,14 +181,17 @@ impl Line {
         // Whom and what a setting concerns is the same for all values of an axis.
         let concerned: Vec<Setting> =
             settings.iter().filter_map(|of_axis| of_axis.first().cloned()).collect();
-        let named = Texts { layout: texts.layout, specs: &texts.specs, scenario: texts.scenario };
+        let load::Texts { layout, layout_file, specs, scenario } = texts;
+        let named = Texts { layout, specs: &specs, scenario };
         let draft = Draft::new(&sources, named, &concerned);
         let stem = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
         let shown = build::shown(&sources, path);
         Ok(Self {
             name: draft.name().map_or(stem, String::from),
             sources,
-            texts,
+            layout: layout_file,
+            specs,
+            scenario,
             draft,
             settings,
             shown,

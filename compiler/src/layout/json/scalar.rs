@@ -13,7 +13,10 @@ impl Reader<'_> {
         }
         let mut out = String::new();
         loop {
-            let at = self.at;
+            let plain = |byte: &&u8| matches!(**byte, b' '..=b'~') && !matches!(**byte, b'"' | b'\'' | b'\\');
+            let at = self.at + self.text.as_bytes()[self.at..].iter().take_while(plain).count();
+            out.push_str(&self.text[self.at..at]);
+            self.at = at;
             match self.peek() {
                 Some(c) if c == quote => {
                     self.advance();
@@ -99,6 +102,8 @@ impl Reader<'_> {
 
     pub(super) fn number(&mut self) -> Option<Value> {
         let start = self.at;
+        let in_number = |byte: &&u8| byte.is_ascii_digit() || matches!(**byte, b'+' | b'-' | b'.' | b'e');
+        self.at += self.text.as_bytes()[start..].iter().take_while(in_number).count();
         while self.peek().is_some_and(|c| c.is_alphanumeric() || "+-._".contains(c)) {
             self.advance();
         }
@@ -155,8 +160,9 @@ impl Reader<'_> {
 fn is_json_number(word: &str) -> bool {
     let digits = |s: &str| !s.is_empty() && s.bytes().all(|b| b.is_ascii_digit());
     let unsigned = word.strip_prefix('-').unwrap_or(word);
-    let (mantissa, exponent) = match unsigned.split_once(['e', 'E']) {
-        Some((m, e)) => (m, Some(e.strip_prefix(['+', '-']).unwrap_or(e))),
+    let is_e = |byte: u8| byte == b'e' || byte == b'E';
+    let (mantissa, exponent) = match unsigned.bytes().position(is_e).map(|at| unsigned.split_at(at)) {
+        Some((m, e)) => (m, Some(e[1..].strip_prefix(['+', '-']).unwrap_or(&e[1..]))),
         None => (unsigned, None),
     };
     let (whole, fraction) = match mantissa.split_once('.') {
