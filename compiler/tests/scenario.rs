@@ -3,9 +3,10 @@
 mod fixture;
 
 use autogen::diagnostic::Diagnostic;
-use autogen::scenario::{self, Line, Number, Operated, ResolvedScenario, Takes};
+use autogen::scenario::{self, Line, Number, Panel, ResolvedScenario};
 use autogen::source::{FileId, Sources};
 use fixture::{root, walk};
+use runtime_sim::part::Operated;
 
 const LINE: Line = Line {
     stations: &[("as1", 7), ("as2", 8), ("as3", 9), ("as4", 10)],
@@ -20,9 +21,9 @@ const LINE: Line = Line {
         ("agv4", 5),
         ("gantry", 6),
     ],
-    operated: &[
-        Operated { robot: "desk", part: "start", numbers: [11, 0], takes: Takes::Press },
-        Operated { robot: "desk", part: "speed", numbers: [11, 1], takes: Takes::Number },
+    panels: &[
+        Panel { robot: "desk", part: "start", numbers: [11, 0], operated: Operated::Press },
+        Panel { robot: "desk", part: "speed", numbers: [11, 1], operated: Operated::SetNumber },
     ],
 };
 

@@ -178,7 +178,7 @@ fn put(files: &mut Files, folder: &str, more: Files) {
     files.extend(more.into_iter().map(|(name, text)| (format!("{folder}/{name}"), text)));
 }
 
-/// All files of the output, but for what is written on demand.
+/// All files of the output but PLCopen XML.
 fn files(project: &Project, sources: &Sources, map: &IoMap) -> Files {
     let mut files = Files::new();
     put(&mut files, "rust", files_of_rust(&project.system, sources));

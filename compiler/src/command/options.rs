@@ -87,7 +87,7 @@ pub struct BuildOptions {
     /// How the PLC counts addresses, to find two that overlap
     #[arg(long, value_enum, default_value = "words", requires = "io")]
     pub addresses: Addresses,
-    /// Leave out the Structured Text as PLCopen XML, plc/*/project.xml: two fifths of what a long line writes
+    /// Leave out the Structured Text as PLCopen XML, plc/*/project.xml: a third of what a long line writes
     #[arg(long)]
     pub no_plcopen: bool,
     /// Overwrite files that autogen did not write or that were changed since

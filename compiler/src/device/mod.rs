@@ -14,10 +14,10 @@ mod wires;
 pub use check::{Declared, check};
 pub use placed::{Place, Placed};
 
-use crate::scenario::Takes;
 use crate::source::Span;
 use program::Program;
 use runtime_sim::device::{Direction, Extent, PortType, Stop};
+use runtime_sim::part::Operated;
 use runtime_sim::value::Value;
 use runtime_sim::wiring::Wiring;
 use std::sync::Arc;
@@ -177,16 +177,10 @@ impl Device {
         self.has("grip")
     }
 
-    /// Its buttons and set-points: number and name of the part, and what it takes.
-    pub fn operated(&self) -> impl Iterator<Item = (usize, &str, Takes)> {
-        self.program.parts.iter().enumerate().filter_map(|(number, part)| {
-            let takes = match part.schema.name {
-                "button" => Takes::Press,
-                "setpoint" => Takes::Number,
-                _ => return None,
-            };
-            Some((number, part.name.value.as_str(), takes))
-        })
+    /// What a person operates: number and name of the part, and how.
+    pub fn operated(&self) -> impl Iterator<Item = (usize, &str, Operated)> {
+        let parts = self.program.parts.iter().enumerate();
+        parts.filter_map(|(number, part)| Some((number, part.name.value.as_str(), part.schema.operated?)))
     }
 
     /// Whether one of its parts is of this primitive.

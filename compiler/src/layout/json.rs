@@ -33,6 +33,8 @@ pub struct Member {
 const DEEPEST: usize = 64;
 /// After so many errors the text is no JSON, and more of them would not help.
 const MOST_ERRORS: usize = 20;
+/// Passed over wherever there may be space.
+const BYTE_ORDER_MARK: char = '\u{feff}';
 /// Members of an object whose keys are compared one by one.
 const FEW_MEMBERS: usize = 16;
 /// Values of one text: a line of 10,000 robots has half of it.
@@ -114,11 +116,8 @@ impl Reader<'_> {
             let bytes = &self.text.as_bytes()[self.at..];
             self.at += bytes.iter().take_while(|byte| byte.is_ascii_whitespace()).count();
             let rest = &self.text[self.at..];
-            if !rest.starts_with(['/', '\u{feff}']) {
-                return;
-            }
-            if let Some(c) = rest.chars().next().filter(|c| c.is_ascii_whitespace() || *c == '\u{feff}') {
-                self.at += c.len_utf8();
+            if rest.starts_with(BYTE_ORDER_MARK) {
+                self.at += BYTE_ORDER_MARK.len_utf8();
             } else if rest.starts_with("//") || rest.starts_with("/*") {
                 let start = self.at;
                 let close = if rest.starts_with("//") { "\n" } else { "*/" };

@@ -1,19 +1,18 @@
 //! A line without its values, so that it is read and checked once for many of them.
 
 use super::setting::{self, Setting};
-use super::{Project, Verdict, bind, plant, role};
+use super::{Project, Verdict, bind, overlap, plant, role};
 use crate::check::{self, Checked};
 use crate::diagnostic::{self, Diagnostic};
 use crate::ir::Model;
 use crate::layout::{Layout, Reading};
 use crate::scenario::{Number, Scenario};
-use crate::source::{FileId, Sources, Span};
+use crate::source::{FileId, Sources};
 use crate::spec::{ast, parser};
 use crate::{connect, scenario};
-use runtime_sim::collision::Overlap;
 use runtime_sim::random::Random;
 use std::borrow::Cow;
-use std::collections::{BTreeSet, HashMap};
+use std::collections::BTreeSet;
 
 /// The layout of a line, and its other texts by their numbers in [`Sources`].
 #[derive(Clone, Debug)]
@@ -192,34 +191,11 @@ impl Parts {
             return;
         };
         let plant = plant::line(&system, &line, bound.obstacles, resolved, layout.scan_ms, machines);
-        found.diagnostics.extend(overlaps(&layout, &plant));
+        found.diagnostics.extend(overlap::overlaps(&layout, &plant));
         let Layout { name, may_touch, .. } = &*layout;
         found.project =
             Some(Project { name: name.clone(), system, plant, edges, may_touch: may_touch.clone() });
     }
-}
-
-/// The type of an obstacle that takes what comes off a belt.
-const COLLECTOR: &str = "collector";
-
-/// Machines that stand in one another or in an obstacle.
-fn overlaps(layout: &Layout, plant: &runtime_sim::line::Line) -> Vec<Diagnostic> {
-    let spans: HashMap<&str, Span> =
-        layout.objects.iter().map(|object| (object.name.value.as_str(), object.name.span)).collect();
-    let span = |name: &str| spans.get(name).copied().unwrap_or(Span::new(layout.file, 0, 0));
-    // It stands about the end of a belt.
-    let is_collector = |name: &String| {
-        layout.objects.iter().any(|object| object.name.value == *name && object.kind.value == COLLECTOR)
-    };
-    let overlaps = runtime_sim::collision::overlaps(plant, diagnostic::MOST).into_iter();
-    let overlaps = overlaps.filter(|overlap| !overlap.names.iter().any(is_collector));
-    let diagnostic = |Overlap { names: [a, b], parts: [of_a, of_b] }| {
-        Diagnostic::new("E0409", span(&a), format!("{a} and {b} stand in one another"))
-            .other(span(&b), "the other one")
-            .note(format!("{of_a} of {a} meets {of_b} of {b} before anything moves"))
-            .help("move one of the two, or say under \"may_touch\" why that is no harm")
-    };
-    overlaps.map(diagnostic).collect()
 }
 
 fn kinds(scenario: &Scenario) -> Vec<String> {

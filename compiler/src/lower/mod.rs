@@ -3,6 +3,7 @@
 
 mod bind;
 mod draft;
+mod overlap;
 mod parameter;
 mod plant;
 mod role;

@@ -5,7 +5,7 @@ use crate::diagnostic::Diagnostic;
 use crate::executor::Executor;
 use crate::ir::{Automaton, InterfaceId, RoleKind, System, Value};
 use crate::reads::{self, ReadCell, Reads, Whose};
-use crate::scenario::{self, Number, Operated, ResolvedScenario, Scenario};
+use crate::scenario::{self, Number, Panel, ResolvedScenario, Scenario};
 use runtime_sim::line;
 use runtime_sim::machine::Machine;
 use std::collections::BTreeSet;
@@ -18,11 +18,11 @@ pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec
             .collect()
     };
     let has = |r: usize, primitive: &str| line.automaton(r).device.has(primitive);
-    let operated: Vec<Operated> = (0..line.robots.len())
+    let panels: Vec<Panel> = (0..line.robots.len())
         .flat_map(|r| {
             let robot = line.robots[r].object.name.value.as_str();
             let parts = line.automaton(r).device.operated();
-            parts.map(move |(number, part, takes)| Operated { robot, part, numbers: [r, number], takes })
+            parts.map(move |(number, part, operated)| Panel { robot, part, numbers: [r, number], operated })
         })
         .collect();
     scenario::resolve(
@@ -32,7 +32,7 @@ pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec
             belts: &named(&|r| has(r, "source")),
             arms: &named(&|r| has(r, "grip")),
             commanded: &named(&|r| line.automaton(r).device.is_commanded()),
-            operated: &operated,
+            panels: &panels,
         },
     )
 }

@@ -5,7 +5,7 @@ mod resolve;
 mod supply;
 
 pub use read::parse;
-pub use resolve::{Line, Operated, Takes, resolve};
+pub use resolve::{Line, Panel, resolve};
 
 use crate::source::{FileId, Sources, Span, Spanned};
 

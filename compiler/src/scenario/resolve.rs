@@ -7,6 +7,7 @@ use crate::diagnostic::{Diagnostic, MOST, collect, sort};
 use crate::layout::decode::{instead, listing};
 use crate::source::{Span, Spanned};
 use runtime_sim::device::LAST_COMMAND;
+use runtime_sim::part::Operated;
 use std::borrow::Cow;
 use std::collections::HashMap;
 
@@ -20,23 +21,17 @@ pub struct Line<'a> {
     /// Those that obey commands.
     pub commanded: &'a [(&'a str, usize)],
     /// Those with something that a person operates.
-    pub operated: &'a [Operated<'a>],
+    pub panels: &'a [Panel<'a>],
 }
 
 /// A button or a set-point.
 #[derive(Clone, Copy, Debug)]
-pub struct Operated<'a> {
+pub struct Panel<'a> {
     pub robot: &'a str,
     pub part: &'a str,
     /// Of the machine and of the part.
     pub numbers: [usize; 2],
-    pub takes: Takes,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Takes {
-    Press,
-    Number,
+    pub operated: Operated,
 }
 
 /// More than a plant could bring in the longest time limit.
@@ -109,15 +104,15 @@ impl<'a> Resolver<'a> {
 
     fn operation(&mut self, operation: &Operation<Part>) -> Option<Operation<[usize; 2]>> {
         let Part { robot, part, value } = &operation.part;
-        let all = self.line.operated;
-        if !all.iter().any(|operated| operated.robot == robot.value) {
+        let all = self.line.panels;
+        if !all.iter().any(|panel| panel.robot == robot.value) {
             let mut robots: Vec<(&str, usize)> = all.iter().map(|o| (o.robot, o.numbers[0])).collect();
             robots.dedup();
             self.named(robot, &robots, "robot with a panel")?;
         }
-        let of_robot = || all.iter().filter(|operated| operated.robot == robot.value);
-        let Some(found) = of_robot().find(|operated| operated.part == part.value) else {
-            let names: Vec<&str> = of_robot().map(|operated| operated.part).collect();
+        let of_robot = || all.iter().filter(|panel| panel.robot == robot.value);
+        let Some(found) = of_robot().find(|panel| panel.part == part.value) else {
+            let names: Vec<&str> = of_robot().map(|panel| panel.part).collect();
             let message = format!("nobody operates \"{}\" of {}", part.value, robot.value);
             self.wrong_operation(part.span, message, |d| {
                 d.note(format!("buttons and set-points of it: {}", listing(&names)))
@@ -125,18 +120,18 @@ impl<'a> Resolver<'a> {
             });
             return None;
         };
-        match (found.takes, value) {
-            (Takes::Press, Some(value)) => {
+        match (found.operated, value) {
+            (Operated::Press, Some(value)) => {
                 let message = format!("\"{}\" is a button and takes no number", part.value);
                 self.wrong_operation(*value, message, |d| d.help("remove \"value\""));
                 return None;
             }
-            (Takes::Number, None) => {
+            (Operated::SetNumber, None) => {
                 let message = format!("\"{}\" is a set-point and gets no number", part.value);
                 self.wrong_operation(part.span, message, |d| d.help("add the number: \"value\": 1.5"));
                 return None;
             }
-            (Takes::Press, None) | (Takes::Number, Some(_)) => {}
+            (Operated::Press, None) | (Operated::SetNumber, Some(_)) => {}
         }
         let Operation { at_s, for_s, value, .. } = *operation;
         Some(Operation { part: found.numbers, at_s, for_s, value })

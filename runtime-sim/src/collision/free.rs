@@ -60,8 +60,11 @@ pub fn is_free(
     if let Some(known) = memory.is_free(all) {
         return known;
     }
-    let boxes = [a, b].map(|group| groups[group].boxes(plant, memory));
-    let near = if a == b { vec![[0.0, 1.0]] } else { near_pieces(&boxes) };
+    let near = if a == b {
+        vec![[0.0, 1.0]]
+    } else {
+        near_pieces(&[a, b].map(|group| groups[group].boxes(plant, memory)))
+    };
     if near.is_empty() {
         memory.note_free(all, true);
         return true;

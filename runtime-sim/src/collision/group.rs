@@ -1,16 +1,17 @@
 //! All bodies of one machine or obstacle, and how they move from now on.
 
+mod boxes;
+mod prints;
+
 use super::body::{Ball, Piece};
 use super::bounds::{BoundingBox, Chain, Radii};
 use super::movement::Movement;
-use super::{TOLERANCE, UNCERTAIN};
 use crate::fingerprint::Fingerprint;
 use crate::kinematics::arm::{Arm, Frames, Joints};
 use crate::kinematics::pose::Pose;
 use crate::line::{Line, Obstacle};
 use crate::machine::Machine;
-use crate::memory::Memory;
-use crate::motion::{Motion, Travel};
+use crate::motion::Travel;
 use crate::plant::Plant;
 use crate::point::Point;
 use crate::solid::{Link, Solid};
@@ -73,13 +74,6 @@ pub struct Group {
     /// What contains it on each of [`PIECES`] of the path of an arm, or all the while. Empty until somebody asks.
     boxes: Arc<[BoundingBox]>,
 }
-
-/// Boxes that do not meet are farther apart than this, m: than what is in contact, and than what joints can differ by
-/// that have the same fingerprint.
-const NEAR: f64 = TOLERANCE + UNCERTAIN;
-/// Pieces of the path of an arm, each of which has a box, and places in each of them at which it is looked at.
-const PIECES: usize = 16;
-const PLACES: usize = 4;
 
 #[derive(Clone, Debug)]
 #[expect(clippy::large_enum_variant)] // a dozen of them in all
@@ -183,153 +177,8 @@ impl Group {
         self.boxes = Arc::default();
     }
 
-    /// Of the motion under way; none if it rests, or does not come to rest by itself.
-    pub fn moving(&mut self, plant: &Plant) -> Option<Fingerprint> {
-        if self.moving.is_none() {
-            let motion = match &self.movement {
-                Movement::Still => return None,
-                Movement::Slides { until, .. } if until.is_infinite() => return None,
-                Movement::Slides { velocity, from, until } => {
-                    let begin = self.position(plant) - velocity.scaled((-from).max(0.0));
-                    let end = begin + velocity.scaled(until - from);
-                    near(near(Fingerprint::default(), begin), end)
-                }
-                Movement::Swings { motion, .. } => motion.fingerprint(),
-            };
-            self.moving = Some(motion);
-        }
-        self.moving
-    }
-
-    /// Of where it is; none if it moves.
-    pub fn resting(&mut self, plant: &Plant) -> Option<Fingerprint> {
-        if !matches!(self.movement, Movement::Still) {
-            return None;
-        }
-        if self.resting.is_none() {
-            let place = match &self.kind {
-                Kind::Obstacle => Fingerprint::default(),
-                Kind::Machine { index, .. } => {
-                    near(Fingerprint::default(), plant.position(*index).unwrap_or_default())
-                }
-                Kind::Arm { index, .. } => {
-                    let joints = plant.joints(*index);
-                    joints
-                        .iter()
-                        .flat_map(|joints| joints.iter())
-                        .fold(Fingerprint::default(), |print, joint| print.near(*joint))
-                }
-            };
-            self.resting = Some(place);
-        }
-        self.resting
-    }
-
-    /// Of all items, and of where they are on the machine.
-    pub fn borne(&mut self, plant: &Plant) -> Fingerprint {
-        if let Some(borne) = self.borne {
-            return borne;
-        }
-        let items = self.bodies.iter().flatten().filter_map(|body| self.item(body, plant));
-        let borne = items.fold(Fingerprint::default(), Fingerprint::sum);
-        self.borne = Some(borne);
-        borne
-    }
-
-    /// Of an item, and of where it is on the machine; none for a body of the machine itself.
-    fn item(&self, body: &Body, plant: &Plant) -> Option<Fingerprint> {
-        let place = match body.anchor {
-            Anchor::Lying { item, .. } => plant.place(item).unwrap_or_default() - self.position(plant),
-            Anchor::World | Anchor::Link(_) | Anchor::Route => Point::default(),
-        };
-        Some(near(body.item?, place))
-    }
-
-    /// The machine without items, and each item: what tells it apart, and the numbers of its bodies.
-    pub fn units(&self, plant: &Plant) -> Vec<(Fingerprint, Vec<usize>)> {
-        let mut units = vec![(Fingerprint::default(), Vec::new())];
-        for (number, body) in self.bodies.iter().enumerate() {
-            let Some(body) = body else { continue };
-            match self.item(body, plant) {
-                Some(item) => units.push((item, vec![number])),
-                None => units[0].1.push(number),
-            }
-        }
-        units
-    }
-
     fn position(&self, plant: &Plant) -> Point {
         self.machine().and_then(|index| plant.position(index)).unwrap_or_default()
-    }
-
-    /// What contains it on each piece of its path, or all the while.
-    pub fn boxes(&mut self, plant: &Plant, memory: &mut Memory) -> Arc<[BoundingBox]> {
-        if self.boxes.is_empty() {
-            let moving = self.moving(plant).zip(self.machine());
-            self.boxes = match (&self.movement, moving) {
-                (Movement::Swings { motion, .. }, Some((moving, machine))) => {
-                    memory.boxes(moving.with(machine as u64), || self.swept(motion))
-                }
-                (Movement::Swings { motion, .. }, None) => self.swept(motion),
-                // All that it can ever be in.
-                (Movement::Slides { .. }, _) => [self.around(|body| body.bounds)].into(),
-                (Movement::Still, _) => [self.present(plant)].into(),
-            };
-        }
-        self.boxes.clone()
-    }
-
-    fn around(&self, of: impl Fn(&Body) -> BoundingBox) -> BoundingBox {
-        let boxes = self.bodies.iter().flatten().map(of);
-        boxes.fold(BoundingBox::NOTHING, |all, next| all.with(&next))
-    }
-
-    /// What contains all bodies where they are.
-    fn present(&mut self, plant: &Plant) -> BoundingBox {
-        let mut all = BoundingBox::NOTHING;
-        for number in 0..self.bodies.len() {
-            let Some((anchor, ball)) = self.bodies[number].as_ref().map(|body| (body.anchor, body.ball))
-            else {
-                continue;
-            };
-            let frame = self.frame(anchor, plant, 0.0);
-            let Ball { middle, radius } = ball.within(&frame);
-            all = all.with(&BoundingBox::around(&Ball { middle, radius: radius + NEAR }));
-        }
-        all
-    }
-
-    /// On each piece of a path.
-    fn swept(&self, motion: &Motion) -> Arc<[BoundingBox]> {
-        let Kind::Arm { arm, .. } = &self.kind else { return Arc::default() };
-        let half = 0.5 / (PIECES * PLACES) as f64;
-        let piece = |piece: usize| {
-            (0..PLACES).fold(BoundingBox::NOTHING, |all, place| {
-                let middle = (2 * (piece * PLACES + place) + 1) as f64 * half;
-                let frames = arm.frames(&motion.along(middle));
-                let here = self.around(|body| {
-                    let Anchor::Link(link) = body.anchor else { return body.bounds };
-                    let gone = body.travel.to(middle);
-                    let reach =
-                        (gone - body.travel.to(middle - half)).max(body.travel.to(middle + half) - gone);
-                    let Ball { middle, radius } = body.ball.within(&frames[link]);
-                    BoundingBox::around(&Ball { middle, radius: radius + reach + NEAR })
-                });
-                all.with(&here)
-            })
-        };
-        (0..PIECES).map(piece).collect()
-    }
-
-    /// What contains it for so many seconds from now on.
-    pub fn box_for(&mut self, seconds: f64, plant: &Plant, memory: &mut Memory) -> BoundingBox {
-        let [from, to] = match &self.movement {
-            Movement::Swings { .. } => self.movement.span(0.0, seconds),
-            Movement::Still | Movement::Slides { .. } => [0.0; 2],
-        };
-        let boxes = self.boxes(plant, memory);
-        let at = |place: f64| ((place * PIECES as f64) as usize).min(boxes.len() - 1);
-        boxes[at(from)..=at(to)].iter().fold(BoundingBox::NOTHING, |all, next| all.with(next))
     }
 
     pub fn moves(&self) -> bool {
@@ -501,8 +350,4 @@ fn lying(machine: &Machine, ball: &Ball, place: Point, offset: Point) -> Boundin
         }
         (None, None) => here,
     }
-}
-
-fn near(print: Fingerprint, place: Point) -> Fingerprint {
-    [place.x, place.y, place.z].into_iter().fold(print, Fingerprint::near)
 }

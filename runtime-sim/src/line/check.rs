@@ -116,8 +116,8 @@ impl Line {
         }
         for operation in &scenario.operations {
             let panel = self.machine(operation.machine, "an operation")?;
-            let part = panel.parts.get(operation.part).map(|part| part.schema().name);
-            if !matches!(part, Some("button" | "setpoint")) {
+            let part = panel.parts.get(operation.part);
+            if part.is_none_or(|part| part.schema().operated.is_none()) {
                 return Err(format!("an operation of {}, at what nobody operates", panel.name));
             }
             let times = [operation.at_s, operation.for_s.unwrap_or_default()];

@@ -1,12 +1,13 @@
 //! Push buttons and switches of the operator's panel.
 
-use super::operated::Operations;
+use super::operated::{Operated, Operating};
 use super::settings::{Form, Setting, Settings};
-use super::{Described, Progress, Running, Schema, See, Signal, Start, World};
+use super::{Described, Running, Schema, Signal, Start};
 use crate::device::{Extent, PortType};
 
 pub const SCHEMA: Schema = Schema {
     signals: &[Signal { name: "on", ty: PortType::Bool, extent: Extent::One }],
+    operated: Some(Operated::Press),
     ..Schema::new(
         "button",
         "A push button or a switch. The scenario says when it is pressed or turned on, see `operator`.",
@@ -32,39 +33,7 @@ impl Described for Button {
     }
 
     fn start(&self, start: &mut Start) -> Result<Option<Box<dyn Running>>, String> {
-        let operations = Operations::of(start);
-        Ok(Some(Box::new(Pressed { button: self.clone(), operations, now_ms: 0 })))
-    }
-}
-
-/// A button at work.
-#[derive(Clone, Debug)]
-pub struct Pressed {
-    button: Button,
-    operations: Operations,
-    now_ms: u64,
-}
-
-impl Running for Pressed {
-    fn boxed(&self) -> Box<dyn Running> {
-        Box::new(self.clone())
-    }
-
-    fn advance(&mut self, world: &mut World) -> Progress {
-        self.now_ms = world.next_ms();
-        Progress::Going
-    }
-
-    fn next_change(&self, _see: &See, now_ms: u64) -> f64 {
-        self.operations.next_change(now_ms)
-    }
-
-    fn is_busy(&self, _see: &See) -> bool {
-        self.operations.next_change(self.now_ms).is_finite()
-    }
-
-    fn signal(&self, _signal: usize, _see: &See, out: &mut [f64]) {
-        let is_pressed = self.operations.value(self.now_ms).is_some_and(|value| value != 0.0);
-        out[0] = f64::from(u8::from(is_pressed != self.button.is_normally_closed));
+        let on = |pressed: bool| f64::from(u8::from(pressed != self.is_normally_closed));
+        Ok(Some(Box::new(Operating::new(start, on(false), |value| on(value != 0.0)))))
     }
 }

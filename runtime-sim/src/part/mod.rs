@@ -7,6 +7,7 @@ mod operated;
 mod running;
 mod settings;
 
+pub use operated::Operated;
 pub use running::{Begun, Looks, Progress, Running, See, Start, World};
 pub use settings::{Form, Setting, Settings};
 
@@ -25,6 +26,8 @@ pub struct Schema {
     pub signals: &'static [Signal],
     pub levels: &'static [Level],
     pub actions: &'static [Action],
+    /// What a person does to it, as the scenario says.
+    pub operated: Option<Operated>,
 }
 
 /// What a controller may read of a part.
@@ -52,7 +55,7 @@ pub struct Action {
 impl Schema {
     /// A primitive with settings alone.
     const fn new(name: &'static str, purpose: &'static str, settings: &'static [Setting]) -> Self {
-        Self { name, purpose, settings, frames: &[], signals: &[], levels: &[], actions: &[] }
+        Self { name, purpose, settings, frames: &[], signals: &[], levels: &[], actions: &[], operated: None }
     }
 
     pub fn find(name: &str) -> Option<&'static Schema> {

@@ -1,43 +1,75 @@
 //! What a person operates, as the scenario says.
 
-use super::Start;
 use super::running::milliseconds;
+use super::{Progress, Running, See, Start, World};
+
+/// What a person can do to a part.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Operated {
+    Press,
+    SetNumber,
+}
 
 /// That something is operated between two times, ms from the start of the run.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Operation {
+#[derive(Clone, Copy, Debug)]
+struct Operation {
     from_ms: u64,
     /// None: to the end of the run.
     until_ms: Option<u64>,
     value: f64,
 }
 
-/// Everything that is done to one part, by time.
+/// A part whose only signal is what a person has set.
 #[derive(Clone, Debug)]
-pub struct Operations {
-    all: Vec<Operation>,
+pub struct Operating {
+    operations: Vec<Operation>,
+    /// While nobody operates it.
+    begins: f64,
+    now_ms: u64,
 }
 
-impl Operations {
-    pub fn of(start: &Start) -> Self {
+impl Operating {
+    /// `shown` is the signal for a value of the scenario.
+    pub fn new(start: &Start, begins: f64, shown: impl Fn(f64) -> f64) -> Self {
         let mine = |at: &&crate::line::Operation| at.machine == start.machine && at.part == start.part;
-        let all = start.line.scenario.operations.iter().filter(mine).map(|operation| Operation {
+        let operations = start.line.scenario.operations.iter().filter(mine).map(|operation| Operation {
             from_ms: milliseconds(operation.at_s),
             until_ms: operation.for_s.map(|for_s| milliseconds(operation.at_s + for_s)),
-            value: operation.value,
+            value: shown(operation.value),
         });
-        Self { all: all.collect() }
+        Self { operations: operations.collect(), begins, now_ms: 0 }
     }
 
-    /// The value of the last operation that holds at this time.
-    pub fn value(&self, now_ms: u64) -> Option<f64> {
+    /// That of the last operation that holds.
+    fn value(&self) -> f64 {
+        let now_ms = self.now_ms;
         let holds = |o: &&Operation| o.from_ms <= now_ms && o.until_ms.is_none_or(|until| now_ms < until);
-        self.all.iter().filter(holds).max_by_key(|operation| operation.from_ms).map(|o| o.value)
+        let last = self.operations.iter().filter(holds).max_by_key(|operation| operation.from_ms);
+        last.map_or(self.begins, |operation| operation.value)
+    }
+}
+
+impl Running for Operating {
+    fn boxed(&self) -> Box<dyn Running> {
+        Box::new(self.clone())
     }
 
-    /// When one begins or ends after this time, ms; infinity: never.
-    pub fn next_change(&self, now_ms: u64) -> f64 {
-        let times = self.all.iter().flat_map(|o| [Some(o.from_ms), o.until_ms]).flatten();
+    fn advance(&mut self, world: &mut World) -> Progress {
+        self.now_ms = world.next_ms();
+        Progress::Going
+    }
+
+    /// An operation begins or ends.
+    fn next_change(&self, _see: &See, now_ms: u64) -> f64 {
+        let times = self.operations.iter().flat_map(|o| [Some(o.from_ms), o.until_ms]).flatten();
         times.filter(|time| *time > now_ms).min().map_or(f64::INFINITY, |time| time as f64)
+    }
+
+    fn is_busy(&self, see: &See) -> bool {
+        self.next_change(see, self.now_ms).is_finite()
+    }
+
+    fn signal(&self, _signal: usize, _see: &See, out: &mut [f64]) {
+        out[0] = self.value();
     }
 }

@@ -5,11 +5,10 @@ const WIDTH: usize = 89;
 
 /// `head` and `tail` around the entries: on one line if they fit, else each entry on its own.
 pub fn list(indent: usize, head: &str, entries: &[String], tail: &str) -> String {
-    let space = " ".repeat(indent);
-    let length: usize = entries.iter().map(|entry| entry.len() + 2).sum();
-    if indent + head.len() + length.saturating_sub(2) + tail.len() <= WIDTH {
-        return format!("{space}{head}{}{tail}\n", entries.join(", "));
+    if let Some(line) = on_one_line(indent, head, entries, tail) {
+        return line;
     }
+    let space = " ".repeat(indent);
     let mut out = format!("{space}{head}\n");
     for entry in entries {
         out += &format!("{space}    {entry},\n");
@@ -19,11 +18,10 @@ pub fn list(indent: usize, head: &str, entries: &[String], tail: &str) -> String
 
 /// `head` and `tail` around short entries: on one line if they fit, else as many on each line as there is room for.
 pub fn filled(indent: usize, head: &str, entries: &[&str], tail: &str) -> String {
-    let space = " ".repeat(indent);
-    let length: usize = entries.iter().map(|entry| entry.len() + 2).sum();
-    if indent + head.len() + length.saturating_sub(2) + tail.len() <= WIDTH {
-        return format!("{space}{head}{}{tail}\n", entries.join(", "));
+    if let Some(line) = on_one_line(indent, head, entries, tail) {
+        return line;
     }
+    let space = " ".repeat(indent);
     let mut out = format!("{space}{head}");
     let mut room = 0;
     for entry in entries {
@@ -35,6 +33,16 @@ pub fn filled(indent: usize, head: &str, entries: &[&str], tail: &str) -> String
         room -= entry.len() + 2;
     }
     out + &format!("\n{space}{tail}\n")
+}
+
+/// None if it does not fit.
+fn on_one_line(indent: usize, head: &str, entries: &[impl AsRef<str>], tail: &str) -> Option<String> {
+    let length: usize = entries.iter().map(|entry| entry.as_ref().len() + 2).sum();
+    if indent + head.len() + length.saturating_sub(2) + tail.len() > WIDTH {
+        return None;
+    }
+    let entries: Vec<&str> = entries.iter().map(AsRef::as_ref).collect();
+    Some(format!("{}{head}{}{tail}\n", " ".repeat(indent), entries.join(", ")))
 }
 
 #[cfg(test)]

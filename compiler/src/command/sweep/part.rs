@@ -1,5 +1,6 @@
 //! Which runs of a sweep a part has.
 
+use runtime_sim::random::Random;
 use std::fmt;
 
 /// Most parts of a sweep: a merge has the files of all open at the same time.
@@ -58,11 +59,7 @@ impl fmt::Display for Part {
 /// By how much a lot of as many runs as there are parts is turned before it is dealt out, a run to each part. Were it
 /// not, a part would get the same value of an axis again and again, maybe the slowest.
 fn turn(lot: usize, of: usize) -> usize {
-    // SplitMix64: Steele, Lea and Flood, Fast splittable pseudorandom number generators, OOPSLA (2014).
-    let mut z = (lot as u64).wrapping_add(0x9e37_79b9_7f4a_7c15);
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    ((z ^ (z >> 31)) % of as u64) as usize
+    (Random::new(lot as u64).next_u64() % of as u64) as usize
 }
 
 #[cfg(test)]

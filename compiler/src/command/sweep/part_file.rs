@@ -65,8 +65,7 @@ impl PartFile {
             .help("name files that `autogen sweep --part K/N` wrote")))
     }
 
-    /// What came of the runs of the part, each of which `take` sees; then whether the file is that of the whole part.
-    /// What is wrong is said once.
+    /// Whether all lines are those of the runs of this part, and none is missing. What is wrong is said once.
     pub fn check(&mut self, head: &Head, sources: &mut Sources) -> Result<Result<(), Diagnostic>, Failure> {
         let count = head.design.runs().unwrap_or(0);
         let again = format!("run it again: --part {}", head.part);

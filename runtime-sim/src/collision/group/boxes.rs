@@ -1,0 +1,90 @@
+//! Boxes that contain a group where it is, on each piece of its path, or for a time.
+
+use super::super::body::Ball;
+use super::super::bounds::BoundingBox;
+use super::super::movement::Movement;
+use super::super::{TOLERANCE, UNCERTAIN};
+use super::{Anchor, Body, Group, Kind};
+use crate::memory::Memory;
+use crate::motion::Motion;
+use crate::plant::Plant;
+use std::sync::Arc;
+
+/// Boxes that do not meet are farther apart than this, m: than what is in contact, and than what joints can differ by
+/// that have the same fingerprint.
+const NEAR: f64 = TOLERANCE + UNCERTAIN;
+/// Pieces of the path of an arm, each of which has a box, and places in each of them at which it is looked at.
+const PIECES: usize = 16;
+const PLACES: usize = 4;
+
+impl Group {
+    /// What contains it on each piece of its path, or all the while.
+    pub fn boxes(&mut self, plant: &Plant, memory: &mut Memory) -> Arc<[BoundingBox]> {
+        if self.boxes.is_empty() {
+            let moving = self.moving(plant).zip(self.machine());
+            self.boxes = match (&self.movement, moving) {
+                (Movement::Swings { motion, .. }, Some((moving, machine))) => {
+                    memory.boxes(moving.with(machine as u64), || self.swept(motion))
+                }
+                (Movement::Swings { motion, .. }, None) => self.swept(motion),
+                // All that it can ever be in.
+                (Movement::Slides { .. }, _) => [self.around(|body| body.bounds)].into(),
+                (Movement::Still, _) => [self.present(plant)].into(),
+            };
+        }
+        self.boxes.clone()
+    }
+
+    fn around(&self, of: impl Fn(&Body) -> BoundingBox) -> BoundingBox {
+        let boxes = self.bodies.iter().flatten().map(of);
+        boxes.fold(BoundingBox::NOTHING, |all, next| all.with(&next))
+    }
+
+    /// What contains all bodies where they are.
+    fn present(&mut self, plant: &Plant) -> BoundingBox {
+        let mut all = BoundingBox::NOTHING;
+        for number in 0..self.bodies.len() {
+            let Some((anchor, ball)) = self.bodies[number].as_ref().map(|body| (body.anchor, body.ball))
+            else {
+                continue;
+            };
+            let frame = self.frame(anchor, plant, 0.0);
+            let Ball { middle, radius } = ball.within(&frame);
+            all = all.with(&BoundingBox::around(&Ball { middle, radius: radius + NEAR }));
+        }
+        all
+    }
+
+    /// On each piece of a path.
+    fn swept(&self, motion: &Motion) -> Arc<[BoundingBox]> {
+        let Kind::Arm { arm, .. } = &self.kind else { return Arc::default() };
+        let half = 0.5 / (PIECES * PLACES) as f64;
+        let piece = |piece: usize| {
+            (0..PLACES).fold(BoundingBox::NOTHING, |all, place| {
+                let middle = (2 * (piece * PLACES + place) + 1) as f64 * half;
+                let frames = arm.frames(&motion.along(middle));
+                let here = self.around(|body| {
+                    let Anchor::Link(link) = body.anchor else { return body.bounds };
+                    let gone = body.travel.to(middle);
+                    let reach =
+                        (gone - body.travel.to(middle - half)).max(body.travel.to(middle + half) - gone);
+                    let Ball { middle, radius } = body.ball.within(&frames[link]);
+                    BoundingBox::around(&Ball { middle, radius: radius + reach + NEAR })
+                });
+                all.with(&here)
+            })
+        };
+        (0..PIECES).map(piece).collect()
+    }
+
+    /// What contains it for so many seconds from now on.
+    pub fn box_for(&mut self, seconds: f64, plant: &Plant, memory: &mut Memory) -> BoundingBox {
+        let [from, to] = match &self.movement {
+            Movement::Swings { .. } => self.movement.span(0.0, seconds),
+            Movement::Still | Movement::Slides { .. } => [0.0; 2],
+        };
+        let boxes = self.boxes(plant, memory);
+        let at = |place: f64| ((place * PIECES as f64) as usize).min(boxes.len() - 1);
+        boxes[at(from)..=at(to)].iter().fold(BoundingBox::NOTHING, |all, next| all.with(next))
+    }
+}

@@ -1,0 +1,88 @@
+//! What tells a group apart in the memory of the collision check: its motion, its place, and what it bears.
+
+use super::super::movement::Movement;
+use super::{Anchor, Body, Group, Kind};
+use crate::fingerprint::Fingerprint;
+use crate::plant::Plant;
+use crate::point::Point;
+
+impl Group {
+    /// Of the motion under way; none if it rests, or does not come to rest by itself.
+    pub fn moving(&mut self, plant: &Plant) -> Option<Fingerprint> {
+        if self.moving.is_none() {
+            let motion = match &self.movement {
+                Movement::Still => return None,
+                Movement::Slides { until, .. } if until.is_infinite() => return None,
+                Movement::Slides { velocity, from, until } => {
+                    let begin = self.position(plant) - velocity.scaled((-from).max(0.0));
+                    let end = begin + velocity.scaled(until - from);
+                    near(near(Fingerprint::default(), begin), end)
+                }
+                Movement::Swings { motion, .. } => motion.fingerprint(),
+            };
+            self.moving = Some(motion);
+        }
+        self.moving
+    }
+
+    /// Of where it is; none if it moves.
+    pub fn resting(&mut self, plant: &Plant) -> Option<Fingerprint> {
+        if !matches!(self.movement, Movement::Still) {
+            return None;
+        }
+        if self.resting.is_none() {
+            let place = match &self.kind {
+                Kind::Obstacle => Fingerprint::default(),
+                Kind::Machine { index, .. } => {
+                    near(Fingerprint::default(), plant.position(*index).unwrap_or_default())
+                }
+                Kind::Arm { index, .. } => {
+                    let joints = plant.joints(*index);
+                    joints
+                        .iter()
+                        .flat_map(|joints| joints.iter())
+                        .fold(Fingerprint::default(), |print, joint| print.near(*joint))
+                }
+            };
+            self.resting = Some(place);
+        }
+        self.resting
+    }
+
+    /// Of all items, and of where they are on the machine.
+    pub fn borne(&mut self, plant: &Plant) -> Fingerprint {
+        if let Some(borne) = self.borne {
+            return borne;
+        }
+        let items = self.bodies.iter().flatten().filter_map(|body| self.item(body, plant));
+        let borne = items.fold(Fingerprint::default(), Fingerprint::sum);
+        self.borne = Some(borne);
+        borne
+    }
+
+    /// Of an item, and of where it is on the machine; none for a body of the machine itself.
+    fn item(&self, body: &Body, plant: &Plant) -> Option<Fingerprint> {
+        let place = match body.anchor {
+            Anchor::Lying { item, .. } => plant.place(item).unwrap_or_default() - self.position(plant),
+            Anchor::World | Anchor::Link(_) | Anchor::Route => Point::default(),
+        };
+        Some(near(body.item?, place))
+    }
+
+    /// The machine without items, and each item: what tells it apart, and the numbers of its bodies.
+    pub fn units(&self, plant: &Plant) -> Vec<(Fingerprint, Vec<usize>)> {
+        let mut units = vec![(Fingerprint::default(), Vec::new())];
+        for (number, body) in self.bodies.iter().enumerate() {
+            let Some(body) = body else { continue };
+            match self.item(body, plant) {
+                Some(item) => units.push((item, vec![number])),
+                None => units[0].1.push(number),
+            }
+        }
+        units
+    }
+}
+
+fn near(print: Fingerprint, place: Point) -> Fingerprint {
+    [place.x, place.y, place.z].into_iter().fold(print, Fingerprint::near)
+}
