@@ -21,6 +21,7 @@ const LINE: Line = Line {
         ("agv4", 5),
         ("gantry", 6),
     ],
+    sinks: &[],
     panels: &[
         Panel { robot: "desk", part: "start", numbers: [11, 0], operated: Operated::Press },
         Panel { robot: "desk", part: "speed", numbers: [11, 1], operated: Operated::SetNumber },

@@ -16,7 +16,9 @@ pub enum Carrier {
     Place { machine: usize, part: usize, offset: Point },
     /// On the ground, or on an obstacle.
     Floor { point: Point },
-    /// It left a lane at its end, or lay at a place whose order was made elsewhere.
+    /// It left a lane where that has a sink, `part` of the machine.
+    Sink { machine: usize, part: usize },
+    /// It lay at a place whose order was made elsewhere.
     Collector,
     /// Taken away with an order.
     Shipped { order: usize },
@@ -28,7 +30,11 @@ impl Carrier {
             Carrier::Lane { machine, .. }
             | Carrier::Grip { machine, .. }
             | Carrier::Place { machine, .. } => Some(machine),
-            Carrier::Supply | Carrier::Floor { .. } | Carrier::Collector | Carrier::Shipped { .. } => None,
+            Carrier::Supply
+            | Carrier::Floor { .. }
+            | Carrier::Sink { .. }
+            | Carrier::Collector
+            | Carrier::Shipped { .. } => None,
         }
     }
 
@@ -37,12 +43,16 @@ impl Carrier {
             Carrier::Lane { part, .. } | Carrier::Grip { part, .. } | Carrier::Place { part, .. } => {
                 Some(part)
             }
-            Carrier::Supply | Carrier::Floor { .. } | Carrier::Collector | Carrier::Shipped { .. } => None,
+            Carrier::Supply
+            | Carrier::Floor { .. }
+            | Carrier::Sink { .. }
+            | Carrier::Collector
+            | Carrier::Shipped { .. } => None,
         }
     }
 
     /// Nothing takes an item from there.
     pub fn is_final(&self) -> bool {
-        matches!(self, Carrier::Collector | Carrier::Shipped { .. })
+        matches!(self, Carrier::Sink { .. } | Carrier::Collector | Carrier::Shipped { .. })
     }
 }

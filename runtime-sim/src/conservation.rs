@@ -74,7 +74,7 @@ mod tests {
         };
         Items::new(&Line {
             scan_ms: 10,
-            kinds: vec![Kind { name: "part".into(), height: 0.1, size: [0.1, 0.1] }],
+            kinds: vec![Kind { name: "part".into(), height: 0.1, size: [0.1, 0.1], is: Vec::new() }],
             machines: (0..3).map(machine).collect(),
             obstacles: vec![],
             may_touch: vec![],

@@ -11,6 +11,7 @@ pub mod conservation;
 pub mod device;
 pub mod event;
 mod fingerprint;
+pub mod frame;
 pub mod hash;
 pub mod io_trace;
 pub mod item;

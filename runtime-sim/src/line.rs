@@ -29,6 +29,8 @@ pub struct Kind {
     pub height: f64,
     /// Lengths along x and y as it appears on a belt, in metres.
     pub size: [f64; 2],
+    /// What sensors for it find it to be, such as `metal`.
+    pub is: Vec<String>,
 }
 
 /// Something stationary without an automaton.
@@ -77,12 +79,23 @@ pub struct Scenario {
 }
 
 /// When a run has done what it was for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Goal {
     /// All orders are made.
     AllOrders,
     /// The time limit has come: there are no orders, or more than can be made until then.
     TimeLimit,
+    /// Each of these sinks has collected what it should, and no item of another kind.
+    Collected(Vec<Collected>),
+}
+
+/// What a sink should collect.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Collected {
+    pub machine: usize,
+    pub part: usize,
+    /// Number of items of each kind.
+    pub items: Vec<u32>,
 }
 
 /// Orders of one station open one after another, in the order of [`Scenario::orders`].

@@ -173,6 +173,13 @@ impl Machine {
         })
     }
 
+    pub fn lanes(&self) -> impl Iterator<Item = &Lane> {
+        self.parts.iter().filter_map(|part| match &part.primitive {
+            Primitive::Lane(lane) => Some(lane),
+            _ => None,
+        })
+    }
+
     pub fn places(&self) -> impl Iterator<Item = &Place> {
         self.parts.iter().filter_map(|part| match &part.primitive {
             Primitive::Place(place) => Some(place),

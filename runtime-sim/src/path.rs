@@ -14,6 +14,7 @@ pub use table::{HEAD, table_csv};
 use crate::carrier::Carrier;
 use crate::kinematics::arm::Arm;
 use crate::motion::Motion;
+use crate::plant::conveyed::Conveyed;
 use crate::point::Point;
 
 /// The path of one item, from where it appeared on the line to the end of the run or to where it left.
@@ -43,6 +44,8 @@ pub enum Law {
         from: Point,
         velocity: Point,
     },
+    /// Along an arc of a conveyor.
+    Turns(Conveyed),
     Hangs(Box<Hanging>),
 }
 
@@ -98,6 +101,7 @@ impl Segment {
         match &self.law {
             Law::Rests(point) => *point,
             Law::Slides { from, velocity } => *from + velocity.scaled((ms - self.begin_ms) / 1000.0),
+            Law::Turns(conveyed) => conveyed.point((ms - self.begin_ms) / 1000.0),
             Law::Hangs(hanging) => hanging.place(ms / 1000.0),
         }
     }

@@ -1,6 +1,8 @@
 //! The plant: all machines and items of a line, and how a scan moves them on.
 
 mod command;
+pub(crate) mod conveyed;
+mod conveying;
 mod delay;
 mod fall;
 pub mod trajectory;
@@ -16,6 +18,8 @@ use crate::memory::Memory;
 use crate::part::Looks;
 use crate::part::orders::Desk;
 use crate::point::Point;
+use conveyed::Conveyed;
+use conveying::{Among, Conveying, Falls};
 use trajectory::Trajectory;
 use working::{Shared, Working};
 
@@ -32,6 +36,7 @@ pub struct Plant {
     scan_ms: u64,
     scan: u64,
     machines: Vec<Working>,
+    conveying: Conveying,
     items: Items,
     /// Heights of the kinds.
     heights: Vec<f64>,
@@ -61,6 +66,7 @@ impl Plant {
             scan_ms: u64::from(line.scan_ms),
             scan: 0,
             machines,
+            conveying: Conveying::new(line),
             items,
             heights: line.kinds.iter().map(|kind| kind.height).collect(),
             obstacles: line.obstacles.clone(),
@@ -95,7 +101,7 @@ impl Plant {
         let now_ms = self.now_ms();
         let next = self.machines.iter().map(|machine| machine.next_change(&self.items, &self.desk, now_ms));
         let looks = (0..self.machines.len()).map(|machine| self.next_look(machine, now_ms));
-        let next_ms = next.chain(looks).fold(f64::INFINITY, f64::min);
+        let next_ms = next.chain(looks).fold(self.conveying.next_ms(), f64::min);
         // What is rounded may be early.
         let scan = ((next_ms - EARLY_MS) / self.scan_ms as f64).ceil() as u64;
         next_ms.is_finite().then(|| scan.max(self.scan + 1))
@@ -143,6 +149,11 @@ impl Plant {
     /// happens ([`Self::next_change`]).
     pub(crate) fn proceed_to(&mut self, scan: u64) {
         self.items.scan = scan;
+        while let Some(falls) =
+            self.convey(|conveying, among, scan_ms| conveying.proceed(among, scan * scan_ms))
+        {
+            self.fall(falls);
+        }
         let (machines, mut shared) = self.split(scan);
         machines.iter_mut().for_each(|machine| machine.advance(&mut shared));
         self.slip(scan);
@@ -168,6 +179,20 @@ impl Plant {
                 self.drop_item(item);
             }
         }
+        let now_ms = self.now_ms();
+        while let Some(falls) = self.convey(|conveying, among, _| conveying.look(among, now_ms)) {
+            self.fall(falls);
+        }
+    }
+
+    fn convey<T>(&mut self, work: impl FnOnce(&mut Conveying, &mut Among, u64) -> T) -> T {
+        let mut among = Among { machines: &mut self.machines, items: &mut self.items };
+        work(&mut self.conveying, &mut among, self.scan_ms)
+    }
+
+    fn fall(&mut self, Falls { item, from }: Falls) {
+        let (carrier, point) = fall::fall(self, from);
+        self.items.pass(item, carrier, point);
     }
 
     fn slip(&mut self, scan: u64) {
@@ -217,9 +242,9 @@ impl Plant {
     }
 
     fn drop_item(&mut self, item: usize) {
-        let Some(place) = self.place(item) else { return };
-        let (carrier, point) = fall::fall(self, place);
-        self.items.pass(item, carrier, point);
+        if let Some(from) = self.place(item) {
+            self.fall(Falls { item, from });
+        }
     }
 
     fn write_images(&mut self) {
@@ -241,7 +266,10 @@ impl Plant {
     pub fn place(&self, item: usize) -> Option<Point> {
         match self.items.all().get(item)?.carrier {
             Carrier::Floor { point } => Some(point),
-            carrier => self.machines.get(carrier.machine()?)?.place(&carrier, &self.items, &self.desk),
+            carrier => {
+                let machine = self.machines.get(carrier.machine()?)?;
+                machine.place(item, &carrier, &self.items, &self.desk)
+            }
         }
     }
 
@@ -253,6 +281,13 @@ impl Plant {
     /// The joints of an arm.
     pub(crate) fn joints(&self, machine: usize) -> Option<Joints> {
         self.machines.get(machine)?.joints()
+    }
+
+    /// How an item on a conveyor goes on from now.
+    pub(crate) fn conveyed(&self, item: usize) -> Option<Conveyed> {
+        let carrier = &self.items.all().get(item)?.carrier;
+        let lane = self.machines.get(carrier.machine()?)?.lane(carrier.part()?)?;
+        lane.conveyed(item, carrier)
     }
 
     /// How a machine moves from now on.
@@ -280,11 +315,13 @@ impl Plant {
     pub fn is_busy(&self) -> bool {
         let now_ms = self.now_ms();
         self.machines.iter().any(|machine| machine.is_busy(&self.items, &self.desk, now_ms))
+            || self.conveying.is_busy(&self.machines)
     }
 
     /// Whether a machine moves at the start of this scan.
     pub(crate) fn moves(&self, machine: usize) -> bool {
         self.trajectory(machine).since(self.now_ms() as f64) != Trajectory::Rests
+            || self.machines.get(machine).is_some_and(Working::conveys)
     }
 }
 

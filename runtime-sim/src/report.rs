@@ -114,7 +114,7 @@ impl Report {
                 OrderChange::Refused | OrderChange::Withdrawn => {}
             }
         }
-        let is_endless = line.scenario.goal == Goal::TimeLimit;
+        let is_endless = line.scenario.goal != Goal::AllOrders;
         if is_endless {
             order_times.retain(|times| times.opened_s.is_some());
         }
@@ -242,7 +242,7 @@ pub(crate) fn carrier_text(line: &Line, carrier: Carrier) -> String {
             None => name(machine).clone(),
         },
         Carrier::Floor { .. } => "floor".into(),
-        Carrier::Collector => "collector".into(),
+        Carrier::Sink { .. } | Carrier::Collector => "collector".into(),
         Carrier::Shipped { order } => format!("order {}", order + 1),
     }
 }

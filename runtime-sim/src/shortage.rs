@@ -45,7 +45,7 @@ pub fn shortage(line: &Line, plant: &Plant) -> String {
         let parts = |wanted: fn(&Carrier) -> bool| {
             plant.items().all().iter().filter(|item| item.kind == kind && wanted(&item.carrier)).count()
         };
-        let collected = parts(|carrier| matches!(carrier, Carrier::Collector));
+        let collected = parts(|carrier| matches!(carrier, Carrier::Sink { .. } | Carrier::Collector));
         if collected > 0 {
             facts.push(format!("{collected} {name} in the collector"));
         }
@@ -86,7 +86,7 @@ fn can_come(line: &Line, carrier: &Carrier) -> bool {
     match *carrier {
         Carrier::Supply | Carrier::Lane { .. } | Carrier::Grip { .. } => true,
         Carrier::Place { machine, part, .. } => !line.machines[machine].is_place_of_orders(part),
-        Carrier::Floor { .. } | Carrier::Collector | Carrier::Shipped { .. } => false,
+        Carrier::Floor { .. } | Carrier::Sink { .. } | Carrier::Collector | Carrier::Shipped { .. } => false,
     }
 }
 

@@ -1,5 +1,6 @@
 //! Values of the settings of parts, and their text form.
 
+use crate::frame::Frame;
 use crate::point::{Axis, Point};
 use crate::words::Words;
 use std::fmt::Write;
@@ -10,6 +11,7 @@ pub enum Value {
     Truth(bool),
     Number(f64),
     Point(Point),
+    Frame(Frame),
     Axis(Axis),
     Word(String),
     /// Another part of the same machine, by its number, and one of its frames.
@@ -27,6 +29,9 @@ impl Value {
             Value::Truth(truth) => write!(out, " {truth}"),
             Value::Number(number) => write!(out, " number {number:?}"),
             Value::Point(Point { x, y, z }) => write!(out, " point {x:?} {y:?} {z:?}"),
+            Value::Frame(Frame { position: Point { x, y, z }, yaw }) => {
+                write!(out, " frame {x:?} {y:?} {z:?} {yaw:?}")
+            }
             Value::Axis(Axis::X) => write!(out, " axis x"),
             Value::Axis(Axis::Y) => write!(out, " axis y"),
             Value::Word(word) => write!(out, " word {word}"),
@@ -45,6 +50,10 @@ impl Value {
             "false" => Value::Truth(false),
             "number" => Value::Number(words.real()?),
             "point" => Value::Point(Point::new(words.real()?, words.real()?, words.real()?)),
+            "frame" => {
+                let position = Point::new(words.real()?, words.real()?, words.real()?);
+                Value::Frame(Frame::new(position, words.real()?))
+            }
             "axis" => match words.name()? {
                 "x" => Value::Axis(Axis::X),
                 "y" => Value::Axis(Axis::Y),

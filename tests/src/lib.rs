@@ -133,22 +133,24 @@ pub fn scenes() -> Vec<(String, Texts)> {
     let mut scenes: Vec<String> =
         names.filter_map(|name| name.strip_suffix(".aut").map(String::from)).collect();
     scenes.sort();
-    let texts = |scene: String| {
-        let part = |end: &str| text(&format!("examples/scenes/{scene}{end}"));
-        let (specs, scenario) = (vec![part(".aut")], Some(part(".scenario.json")));
-        let texts = Texts { layout: part(".json"), specs, scenario, ..Texts::default() };
-        (scene, texts)
-    };
-    scenes.into_iter().map(texts).collect()
+    scenes.into_iter().map(|scene| (scene.clone(), side_by_side(&format!("scenes/{scene}")))).collect()
+}
+
+/// A layout of the examples with its types and its scenario beside it, all of one name.
+pub fn side_by_side(path: &str) -> Texts {
+    let part = |end: &str| text(&format!("examples/{path}{end}"));
+    let (specs, scenario) = (vec![part(".aut")], Some(part(".scenario.json")));
+    Texts { layout: part(".json"), specs, scenario, ..Texts::default() }
 }
 
 /// Every line of the examples by name; the prototype at full speed.
 pub fn examples() -> Vec<(String, Texts)> {
     let layouts = LAYOUTS.map(|layout| (layout.to_string(), ariac(layout)));
     let own = ["buffer", "shared_agv"].map(|line| (line.to_string(), own_line(line)));
+    let sorting = ("sorting".to_string(), side_by_side("sorting/sorting"));
     let fast = ["agv.capacity=4", "kitting.speed=1", "gantry.speed=1"];
     let prototype = fast.iter().fold(prototype("default"), |texts, setting| texts.set(setting));
-    layouts.into_iter().chain(own).chain([("prototype".into(), prototype)]).chain(scenes()).collect()
+    layouts.into_iter().chain(own).chain([("prototype".into(), prototype), sorting]).chain(scenes()).collect()
 }
 
 /// Runs `job` for each of the inputs on all processors; results in the order of the inputs.

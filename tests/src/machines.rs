@@ -3,6 +3,7 @@
 
 use autogen::device::Placed;
 use autogen::library;
+use runtime_sim::frame::Frame;
 use runtime_sim::kinematics::arm::Arm;
 use runtime_sim::machine::Machine;
 use runtime_sim::point::{Axis, Point};
@@ -13,7 +14,7 @@ fn placed(device: &str, pose: Point, arguments: Vec<(&str, Value)>) -> Placed {
     let given = |name: &String| arguments.iter().find(|(known, _)| known == name);
     let arguments = device.parameters.iter().filter_map(|parameter| Some(given(&parameter.name)?.1.clone()));
     let arguments = arguments.collect();
-    Placed { device: device.clone(), pose, arguments }
+    Placed { device: device.clone(), pose: Frame::new(pose, 0.0), arguments }
 }
 
 fn range(ends: [f64; 2]) -> Value {

@@ -4,6 +4,7 @@ use autogen::device::{self, Placed};
 use autogen::source::Sources;
 use autogen::spec::parser;
 use autogen_tests::{Texts, devices};
+use runtime_sim::frame::Frame;
 use runtime_sim::point::Point;
 
 const AUTOMATON: &str = "automaton Thing on thing { initial state S { when false -> S {} } }";
@@ -102,7 +103,7 @@ fn an_axis_that_does_not_carry_the_chain_changes_nothing() {
     trees.extend(parser::parse(sources.add("thing.aut", text), text).0.devices);
     let declared = trees.iter().map(|tree| (tree.name.value.as_str(), tree)).collect();
     let device = device::check(trees.last().unwrap(), &declared).unwrap();
-    let placed = Placed { device, pose: Point::new(0.0, 0.0, 1.1), arguments: Vec::new() };
+    let placed = Placed { device, pose: Frame::new(Point::new(0.0, 0.0, 1.1), 0.0), arguments: Vec::new() };
     let machine = placed.machine("m", &[0.1], placed.device.place).unwrap();
     assert!(machine.arm().is_some());
     assert_eq!(placed.arm(), machine.arm());

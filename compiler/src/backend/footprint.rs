@@ -1,13 +1,14 @@
 //! Machines from above.
 
+use runtime_sim::kinematics::pose::Pose;
 use runtime_sim::machine::Machine;
 use runtime_sim::part::axis::Motion;
-use runtime_sim::part::lane::Lane;
+use runtime_sim::part::lane::{Course, Lane};
 use runtime_sim::part::place::Place;
 use runtime_sim::point::{Axis, Point};
 
 /// A part of a machine as it is drawn, in the world's x and y.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
     /// Sides along x and y.
     Rectangle {
@@ -22,12 +23,13 @@ pub enum Shape {
         centre: Point,
         radius: f64,
     },
+    Polygon(Vec<Point>),
 }
 
 /// The shapes of a machine, each with its class for the drawing's style.
 pub fn shapes(machine: &Machine) -> Vec<(Shape, &'static str)> {
-    if let Some(lane) = machine.lane() {
-        return vec![(of_lane(lane), "belt")];
+    if machine.lane().is_some() {
+        return machine.lanes().map(|lane| (of_lane(lane), "belt")).collect();
     }
     if machine.chain().is_some() {
         return of_axes(machine);
@@ -42,12 +44,31 @@ pub fn shapes(machine: &Machine) -> Vec<(Shape, &'static str)> {
 }
 
 fn of_lane(lane: &Lane) -> Shape {
-    let (middle, length) = ((lane.range[0] + lane.range[1]) / 2.0, lane.range[1] - lane.range[0]);
-    let (centre, size) = match lane.along {
-        Axis::X => (Point::new(middle, lane.surface.y, 0.0), (length, lane.outline)),
-        Axis::Y => (Point::new(lane.surface.x, middle, 0.0), (lane.outline, length)),
+    match lane.course {
+        Course::Axis { along, range: [low, high], surface } => {
+            let (middle, length) = ((low + high) / 2.0, high - low);
+            let (centre, size) = match along {
+                Axis::X => (Point::new(middle, surface.y, 0.0), (length, lane.outline)),
+                Axis::Y => (Point::new(surface.x, middle, 0.0), (lane.outline, length)),
+            };
+            Shape::Rectangle { centre, size }
+        }
+        Course::Line { .. } => Shape::Polygon(band(lane, 1)),
+        Course::Arc { .. } => Shape::Polygon(band(lane, ARC_SIDES)),
+    }
+}
+
+/// Straight sides in which an arc is drawn.
+const ARC_SIDES: usize = 24;
+
+/// Both sides of a lane, one after another.
+fn band(lane: &Lane, pieces: usize) -> Vec<Point> {
+    let side = |piece: usize, across: f64| {
+        let place = lane.course.end() + lane.course.length() * piece as f64 / pieces as f64;
+        lane.course.point(place, across * lane.outline / 2.0)
     };
-    Shape::Rectangle { centre, size }
+    let there = (0..=pieces).map(|piece| side(piece, 1.0));
+    there.chain((0..=pieces).rev().map(|piece| side(piece, -1.0))).collect()
 }
 
 /// A place whose origin is at this point.
@@ -92,23 +113,34 @@ fn of_bodies(machine: &Machine) -> Vec<(Shape, &'static str)> {
     use runtime_sim::solid::{Link, Shape as Solid};
     let solids = machine.solids().into_iter().filter(|solid| solid.link == Link::World);
     let boxes = solids.filter_map(|solid| match solid.shape {
-        Solid::Box { size } => {
-            Some((Shape::Rectangle { centre: solid.pose.position, size: (size.x, size.y) }, "station"))
-        }
+        Solid::Box { size } => Some((of_box(&solid.pose, size), "station")),
         Solid::Capsule { .. } => None,
     });
     boxes.collect()
+}
+
+/// A box that stands upright.
+fn of_box(pose: &Pose, size: Point) -> Shape {
+    if pose.rotation == Pose::IDENTITY.rotation {
+        return Shape::Rectangle { centre: pose.position, size: (size.x, size.y) };
+    }
+    let corner = |x: f64, y: f64| pose.point(Point::new(x * size.x / 2.0, y * size.y / 2.0, 0.0));
+    Shape::Polygon(vec![corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)])
 }
 
 /// Where the name of a machine is written.
 pub fn label(machine: &Machine) -> Point {
     let pose = machine.pose;
     if let Some(lane) = machine.lane() {
-        return match lane.along {
-            Axis::X => {
-                Point::new((lane.range[0] + lane.range[1]) / 2.0, pose.y + lane.outline / 2.0 + 0.2, 0.0)
+        return match lane.course {
+            Course::Axis { along: Axis::X, range: [low, high], .. } => {
+                Point::new((low + high) / 2.0, pose.y + lane.outline / 2.0 + 0.2, 0.0)
             }
-            Axis::Y => Point::new(pose.x, lane.range[1] + 0.2, 0.0),
+            Course::Axis { along: Axis::Y, range, .. } => Point::new(pose.x, range[1] + 0.2, 0.0),
+            Course::Line { .. } | Course::Arc { .. } => {
+                let middle = lane.course.end() + lane.course.length() / 2.0;
+                lane.course.point(middle, lane.outline / 2.0 + 0.2)
+            }
         };
     }
     match (machine.axes().first().map(|axis| axis.motion), machine.axes().len()) {

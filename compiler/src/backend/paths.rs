@@ -13,6 +13,7 @@ use askama::Template;
 use panel::{Panel, Tick, View, tenths};
 use runtime_sim::line::Line;
 use runtime_sim::machine::Machine;
+use runtime_sim::part::lane::Course;
 use runtime_sim::part::place::Place;
 use runtime_sim::point::{Axis, Point};
 use track::Track;
@@ -148,11 +149,13 @@ fn extent(line: &Line, tracks: &[Track]) -> (Point, Point) {
     let mut points: Vec<Point> = tracks.iter().flat_map(|track| track.points.iter().copied()).collect();
     for machine in line.machines.iter().filter(|machine| is_visited(machine, tracks)) {
         for (shape, class) in footprint::shapes(machine) {
-            if let (footprint::Shape::Rectangle { centre, size: (x, y) }, "belt" | "vehicle" | "station") =
-                (shape, class)
-            {
-                let half = Point::new(x / 2.0, y / 2.0, 0.0);
-                points.extend([centre - half, centre + half]);
+            match (shape, class) {
+                (footprint::Shape::Rectangle { centre, size: (x, y) }, "belt" | "vehicle" | "station") => {
+                    let half = Point::new(x / 2.0, y / 2.0, 0.0);
+                    points.extend([centre - half, centre + half]);
+                }
+                (footprint::Shape::Polygon(corners), _) => points.extend(corners),
+                _ => {}
             }
         }
     }
@@ -177,10 +180,15 @@ fn supports(machine: &Machine) -> Vec<(Point, Point)> {
         (middle - Point::new(0.0, half, 0.0), middle + Point::new(0.0, half, 0.0))
     };
     if let Some(lane) = machine.lane() {
-        let end = |y: f64| Point { y, ..lane.surface };
-        return match lane.along {
-            Axis::Y => vec![(end(lane.range[0]), end(lane.range[1]))],
-            Axis::X => vec![across(lane.surface, lane.outline / 2.0, 0.0)],
+        return match lane.course {
+            Course::Axis { along: Axis::Y, range: [low, high], surface } => {
+                vec![(Point { y: low, ..surface }, Point { y: high, ..surface })]
+            }
+            Course::Axis { along: Axis::X, surface, .. } => vec![across(surface, lane.outline / 2.0, 0.0)],
+            Course::Line { .. } | Course::Arc { .. } => {
+                let end = |place: f64| lane.course.point(place, 0.0);
+                vec![(end(lane.course.begin()), end(lane.course.end()))]
+            }
         };
     }
     let of_place = |place: &Place| -> Vec<(Point, Point)> {

@@ -67,6 +67,7 @@ impl Drawing {
                 Shape::Rectangle { centre, size } => self.rectangle(centre, size, class),
                 Shape::Line { from, to } => self.line(from, to, class),
                 Shape::Circle { centre, radius } => self.circle(centre, radius, class),
+                Shape::Polygon(corners) => self.polygon(&corners, class),
             }
         }
         self.label(footprint::label(machine), &machine.name, "name");
@@ -87,6 +88,12 @@ impl Drawing {
             width * SCALE,
             height * SCALE
         );
+    }
+
+    fn polygon(&mut self, corners: &[Point], class: &str) {
+        corners.iter().for_each(|corner| self.take(corner.x, corner.y));
+        let points: Vec<String> = corners.iter().map(|c| format!("{:.1},{:.1}", px(c.x), py(c.y))).collect();
+        let _ = writeln!(self.body, "<polygon class=\"{class}\" points=\"{}\"/>", points.join(" "));
     }
 
     fn circle(&mut self, centre: Point, radius: f64, class: &str) {

@@ -1,5 +1,6 @@
 //! From the tree of a device to a [`Device`]: its names, its parts and their settings.
 
+use super::evaluate::Found;
 use super::program::{Part, Program, Scope, Setting, Symbol};
 use super::{Constant, Device, Form, Handover, Parameter, settle};
 use crate::diagnostic::{Diagnostic, suggestion};
@@ -7,6 +8,7 @@ use crate::source::Span;
 use crate::spec::ast::{self, ExprKind, Name, Scalar};
 use runtime_sim::machine::MOST_ELEMENTS;
 use runtime_sim::part::{ALL, Form as SettingForm, Schema};
+use runtime_sim::value::Value;
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
@@ -27,6 +29,9 @@ pub fn check(tree: &ast::Device, declared: &Declared) -> Result<Arc<Device>, Vec
         parameters: Vec::new(),
     };
     checker.parameters(tree);
+    let is_time = |parameter: &(usize, &Parameter)| parameter.1.form == Form::Time;
+    checker.program.times =
+        checker.parameters.iter().enumerate().filter(is_time).map(|(number, _)| number).collect();
     checker.scope(tree, None, HashMap::new(), 0);
     let constants = checker.constants(tree);
     checker.program.places = tree.handovers.clone();
@@ -51,6 +56,7 @@ pub fn check(tree: &ast::Device, declared: &Declared) -> Result<Arc<Device>, Vec
         constants,
         handovers,
         wiring: Arc::new(wiring),
+        can_turn: checker.program.mentions("origin"),
         program: checker.program,
     }))
 }
@@ -80,7 +86,8 @@ impl Checker<'_> {
         }
         for parameter in &tree.parameters {
             if let Some(form) = self.form(parameter) {
-                self.parameters.push(Parameter { name: parameter.name.value.clone(), form });
+                let default = self.default(parameter, &form);
+                self.parameters.push(Parameter { name: parameter.name.value.clone(), form, default });
             }
         }
     }
@@ -96,6 +103,7 @@ impl Checker<'_> {
             (Scalar::Named(name), None) if name.value == "axis" => Some(Form::Axis),
             (Scalar::Named(name), None) if name.value == "range" => Some(Form::Range),
             (Scalar::Real, None) => Some(Form::Real),
+            (Scalar::Time, None) => Some(Form::Time),
             (Scalar::Point, None) => Some(Form::Point),
             (Scalar::Point, Some(size)) if size == count && count > 0 => {
                 Some(Form::Points(parameter.elements.clone()))
@@ -107,10 +115,33 @@ impl Checker<'_> {
                 "E0701",
                 parameter.ty.span,
                 format!("the layout cannot give `{}` this type", parameter.name.value),
-                "types are `axis`, `range`, `real`, `point` and `point[2] of \"first\", \"second\"`",
+                "types are `axis`, `range`, `real`, `time`, `point` and `point[2] of \"first\", \"second\"`",
             );
         }
         form
+    }
+
+    /// What a machine has whose object lacks the key.
+    fn default(&mut self, parameter: &ast::DeviceParameter, form: &Form) -> Option<Value> {
+        let expr = parameter.default.as_ref()?;
+        let nothing = Program { scopes: vec![Scope::default()], ..Program::default() };
+        let found = settle::known(&nothing, expr);
+        let fits = match (form, &found) {
+            (Form::Real, Ok(Found::Value(Value::Number(_))))
+            | (Form::Point, Ok(Found::Value(Value::Point(_)))) => true,
+            (Form::Time, Ok(Found::Duration(ms))) => *ms >= 0,
+            _ => false,
+        };
+        match found {
+            Ok(Found::Value(value)) if fits => Some(value),
+            Ok(Found::Duration(ms)) if fits => Some(Value::Number(ms as f64)),
+            _ => {
+                let message = format!("`{}` cannot have this value by default", parameter.name.value);
+                let help = "only a `real`, a `time` or a `point` has one: a number, a time such as `2 s`, or `point(x, y, z)`";
+                self.report("E0701", expr.span, message, help);
+                None
+            }
+        }
     }
 
     /// The names of a device or an assembly, and its parts; its own number.
@@ -143,7 +174,7 @@ impl Checker<'_> {
     }
 
     fn declare(&mut self, scope: usize, name: &Name, symbol: Symbol) {
-        const BUILT_IN: [&str; 4] = ["pose", "kind_heights", "index", "pi"];
+        const BUILT_IN: [&str; 5] = ["pose", "origin", "kind_heights", "index", "pi"];
         let names = &mut self.program.scopes[scope].names;
         if names.contains_key(&name.value) || BUILT_IN.contains(&name.value.as_str()) {
             let message = format!("`{}` names something here already", name.value);

@@ -4,6 +4,7 @@ use super::program::{Part, Program, Setting as Given, Symbol};
 use crate::diagnostic::{Diagnostic, suggestion};
 use crate::source::Span;
 use crate::spec::ast::{self, ExprKind, Operator};
+use runtime_sim::frame::Frame;
 use runtime_sim::part::{Form, Setting};
 use runtime_sim::point::{Axis, Point};
 use runtime_sim::value::Value;
@@ -22,7 +23,7 @@ pub enum Found {
 pub struct Environment<'a> {
     pub program: &'a Program,
     /// None before there is a machine.
-    pub pose: Option<Point>,
+    pub pose: Option<Frame>,
     /// Of each parameter of the device.
     pub arguments: &'a [Value],
     /// Of the kinds, in their order; none before they are known.
@@ -56,6 +57,11 @@ impl Environment<'_> {
             Found::Duration(_) => Err(wrong(expr.span, "a time cannot stand here")),
             Found::Assembly(_) => Err(wrong(expr.span, "an assembly is no value")),
         }
+    }
+
+    /// The same where a time may stand too.
+    pub fn found(&self, scope: usize, expr: &ast::Expr) -> Result<Found, Wrong> {
+        self.at(scope, expr, 0)
     }
 
     /// What a setting of a part is, in the form that the primitive wants.
@@ -108,6 +114,7 @@ impl Environment<'_> {
             (Form::Truth, Value::Truth(_))
             | (Form::Number, Value::Number(_))
             | (Form::Point, Value::Point(_))
+            | (Form::Frame, Value::Frame(_))
             | (Form::Axis, Value::Axis(_))
             | (Form::Word, Value::Word(_)) => true,
             (Form::Positive, Value::Number(number)) => *number > 0.0 || self.values == Values::Sample,
@@ -155,7 +162,7 @@ impl Environment<'_> {
                 combined(*operator, at(left)?, at(right)?).ok_or_else(|| {
                     let wrong = *wrong(expr.span, "this operator does not join these values");
                     wrong
-                        .note("+ and - join numbers and points, * and / a number with a number")
+                        .note("+ and - join numbers and points, * and / a number with a number, * a frame with what is given in it")
                         .note("a point and a list of points are added element by element; nothing is divided by 0")
                         .into()
                 })
@@ -191,7 +198,11 @@ impl Environment<'_> {
         match here.names.get(name) {
             Some(Symbol::Parameter(number)) => {
                 let argument = self.arguments.get(*number).cloned();
-                argument.map(Found::Value).ok_or_else(|| unknown(name, span, []))
+                let argument = argument.ok_or_else(|| unknown(name, span, []))?;
+                Ok(match (self.program.times.contains(number), &argument) {
+                    (true, Value::Number(ms)) => Found::Duration(*ms as i64),
+                    _ => Found::Value(argument),
+                })
             }
             Some(Symbol::Define(expr)) => self.at(scope, expr, depth + 1),
             Some(Symbol::Argument(expr)) => self.at(here.parent.unwrap_or(0), expr, depth + 1),
@@ -199,7 +210,8 @@ impl Environment<'_> {
             Some(Symbol::Assembly(inner)) => Ok(Found::Assembly(*inner)),
             None => {
                 let built_in = match name {
-                    "pose" => self.pose.map(Value::Point),
+                    "pose" => self.pose.map(|pose| Value::Point(pose.position)),
+                    "origin" => self.pose.map(Value::Frame),
                     "kind_heights" => self.heights.map(|heights| {
                         Value::List(heights.iter().map(|height| Value::Number(*height)).collect())
                     }),
@@ -221,6 +233,11 @@ impl Environment<'_> {
                 "y" => value(Value::Number(point.y)),
                 "z" => value(Value::Number(point.z)),
                 _ => Err(wrong(member.span, "a point has x, y and z")),
+            },
+            Found::Value(Value::Frame(frame)) => match member.value.as_str() {
+                "position" => value(Value::Point(frame.position)),
+                "yaw" => value(Value::Number(frame.yaw)),
+                _ => Err(wrong(member.span, "a frame has position and yaw")),
             },
             Found::Value(Value::Part { part, .. }) => {
                 let found = &self.program.parts[part];
@@ -272,6 +289,7 @@ fn described(form: Form) -> String {
         Form::Number => "a number".into(),
         Form::Positive => "a number over 0".into(),
         Form::Point => "a point".into(),
+        Form::Frame => "a frame".into(),
         Form::Axis => "an axis".into(),
         Form::Word => "a word".into(),
         Form::Part(primitives) => format!("a part that is a {}", primitives.join(" or a ")),
@@ -319,6 +337,9 @@ fn is_finite(value: &Value) -> bool {
     match value {
         Value::Number(number) => number.is_finite(),
         Value::Point(Point { x, y, z }) => [x, y, z].into_iter().all(|c| c.is_finite()),
+        Value::Frame(Frame { position: Point { x, y, z }, yaw }) => {
+            [x, y, z, yaw].into_iter().all(|c| c.is_finite())
+        }
         Value::List(values) => values.iter().all(is_finite),
         _ => true,
     }
@@ -339,9 +360,12 @@ fn joined(operator: Operator, left: &Value, right: &Value) -> Option<Value> {
         (Operator::Or, Value::Truth(a), Value::Truth(b)) => Value::Truth(*a || *b),
         (Add, Value::Point(a), Value::Point(b)) => Value::Point(*a + *b),
         (Subtract, Value::Point(a), Value::Point(b)) => Value::Point(*a - *b),
-        (Add | Subtract, Value::Point(_), Value::List(points)) => {
+        (Multiply, Value::Frame(frame), Value::Point(point)) => Value::Point(frame.point(*point)),
+        (Multiply, Value::Frame(frame), Value::Frame(inner)) => Value::Frame(frame.then(*inner)),
+        (Add | Subtract, Value::Point(_), Value::List(points))
+        | (Multiply, Value::Frame(_), Value::List(points)) => {
             let each = points.iter().map(|point| match point {
-                Value::Point(_) => joined(operator, left, point),
+                Value::Point(_) | Value::Frame(_) => joined(operator, left, point),
                 _ => None,
             });
             Value::List(each.collect::<Option<_>>()?)
@@ -362,6 +386,9 @@ fn call(name: &ast::Name, arguments: &[Found]) -> Evaluated {
     let found = match (name.value.as_str(), &values[..]) {
         ("point", [Value::Number(x), Value::Number(y), Value::Number(z)]) => {
             Value::Point(Point::new(*x, *y, *z))
+        }
+        ("frame", [Value::Number(x), Value::Number(y), Value::Number(z), Value::Number(yaw)]) => {
+            Value::Frame(Frame::new(Point::new(*x, *y, *z), *yaw))
         }
         ("min", [Value::Number(a), Value::Number(b)]) => Value::Number(a.min(*b)),
         ("max", [Value::Number(a), Value::Number(b)]) => Value::Number(a.max(*b)),
@@ -398,8 +425,9 @@ fn call(name: &ast::Name, arguments: &[Found]) -> Evaluated {
             Value::List((0..rows * columns).map(slot).collect())
         }
         (known, _) => {
-            const FUNCTIONS: [(&str, &str); 6] = [
+            const FUNCTIONS: [(&str, &str); 7] = [
                 ("point", "point(x, y, z)"),
+                ("frame", "frame(x, y, z, degrees to the left)"),
                 ("min", "min(a, b)"),
                 ("max", "max(a, b)"),
                 ("by_axis", "by_axis(axis, if it is x, if it is y)"),

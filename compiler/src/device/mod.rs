@@ -37,6 +37,8 @@ pub struct Device {
     pub handovers: Vec<Handover>,
     pub wiring: Arc<Wiring>,
     program: Program,
+    /// Its parts turn with the machine.
+    pub can_turn: bool,
 }
 
 /// What a layout gives each machine: a key of its JSON object.
@@ -44,6 +46,8 @@ pub struct Device {
 pub struct Parameter {
     pub name: String,
     pub form: Form,
+    /// For machines whose object has no such key.
+    pub default: Option<Value>,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -53,6 +57,8 @@ pub enum Form {
     Range,
     /// A coordinate or length, m.
     Real,
+    /// Seconds in the layout, whole milliseconds in the device.
+    Time,
     Point,
     /// So many points, with what each of them is.
     Points(Vec<String>),
@@ -181,6 +187,13 @@ impl Device {
     pub fn operated(&self) -> impl Iterator<Item = (usize, &str, Operated)> {
         let parts = self.program.parts.iter().enumerate();
         parts.filter_map(|(number, part)| Some((number, part.name.value.as_str(), part.schema.operated?)))
+    }
+
+    /// Numbers and names of its parts of one primitive.
+    pub fn parts_called(&self, primitive: &str) -> impl Iterator<Item = (usize, &str)> {
+        let parts = self.program.parts.iter().enumerate();
+        let wanted = parts.filter(move |(_, part)| part.schema.name == primitive);
+        wanted.map(|(number, part)| (number, part.name.value.as_str()))
     }
 
     /// Whether one of its parts is of this primitive.

@@ -6,6 +6,7 @@ use super::{Device, Form, Parameter};
 use crate::diagnostic::{Diagnostic, sort};
 use crate::source::Span;
 use crate::spec::ast;
+use runtime_sim::frame::Frame;
 use runtime_sim::kinematics::arm::Arm;
 use runtime_sim::machine::Machine;
 use runtime_sim::part::axis::Motion;
@@ -18,7 +19,7 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub struct Placed {
     pub device: Arc<Device>,
-    pub pose: Point,
+    pub pose: Frame,
     /// Of each parameter of the device, in its order.
     pub arguments: Vec<Value>,
 }
@@ -77,7 +78,7 @@ impl Placed {
     pub fn machine(&self, name: &str, heights: &[f64], place: Span) -> Result<Machine, Vec<Diagnostic>> {
         let machine = Machine {
             name: name.into(),
-            pose: self.pose,
+            pose: self.pose.position,
             parts: self.parts(heights, place)?,
             wiring: self.device.wiring.clone(),
             states: Vec::new(),
@@ -174,7 +175,8 @@ impl Placed {
                 ast::TextPart::Words(words) => words.clone(),
                 ast::TextPart::Value(expr) => shown(environment.value(0, expr)),
             });
-            let named = |parameter: &&Parameter| mentions(&require.condition, &parameter.name);
+            let named =
+                |parameter: &&Parameter| super::program::mentions(&require.condition, &parameter.name);
             let parameters = self.device.parameters.iter().filter(named).map(|p| p.name.clone());
             unmet.push(Unmet { parameters: parameters.collect(), text: text.collect(), place: require.span });
         }
@@ -203,7 +205,7 @@ impl Placed {
     /// Where it may stand, and where its axes bring it: the lower and the upper end of x and of y.
     pub fn ground(&self) -> [[f64; 2]; 2] {
         let at = |value: f64| [value, value];
-        let mut ground = [at(self.pose.x), at(self.pose.y)];
+        let mut ground = [at(self.pose.position.x), at(self.pose.position.y)];
         for (_, part) in self.parts_of(&["axis", "route"]) {
             match &part.primitive {
                 Primitive::Axis(axis) => {
@@ -272,7 +274,7 @@ impl Placed {
 
     /// Every number by its path among the keys of the JSON object, such as `pose[0]` or `destinations[0][1]`.
     pub fn numbers(&self) -> Vec<(String, f64)> {
-        let Point { x, y, z } = self.pose;
+        let Point { x, y, z } = self.pose.position;
         let pose = [x, y, z].into_iter().enumerate().map(|(i, value)| (format!("pose[{i}]"), value));
         let mut found: Vec<(String, f64)> = pose.collect();
         for (parameter, value) in self.device.parameters.iter().zip(&self.arguments) {
@@ -286,7 +288,7 @@ impl Placed {
     pub fn with_number(&self, number: usize, value: f64) -> Option<Placed> {
         let mut changed = self.clone();
         let mut left = number;
-        let Point { x, y, z } = &mut changed.pose;
+        let Point { x, y, z } = &mut changed.pose.position;
         match [x, y, z].into_iter().nth(number) {
             Some(coordinate) => *coordinate = value,
             None => {
@@ -356,17 +358,5 @@ fn shown(value: Result<Value, Wrong>) -> String {
         Ok(Value::Number(number)) => format!("{number:.3}"),
         Ok(Value::Point(Point { x, y, z })) => format!("({x:.3}, {y:.3}, {z:.3})"),
         _ => "?".into(),
-    }
-}
-
-/// Whether a name stands in an expression.
-fn mentions(expr: &ast::Expr, name: &str) -> bool {
-    use ast::ExprKind as Kind;
-    match &expr.kind {
-        Kind::Name(word) => word == name,
-        Kind::Member(a, _) | Kind::Negate(a) | Kind::Not(a) => mentions(a, name),
-        Kind::Index(a, b) | Kind::Binary(_, a, b) => mentions(a, name) || mentions(b, name),
-        Kind::Call(_, all) | Kind::List(all) => all.iter().any(|part| mentions(part, name)),
-        _ => false,
     }
 }

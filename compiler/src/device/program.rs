@@ -15,6 +15,8 @@ pub struct Program {
     pub parts: Vec<Part>,
     pub places: Vec<ast::Place>,
     pub requires: Vec<ast::Require>,
+    /// The parameters of the device that are times, by their numbers.
+    pub times: Vec<usize>,
 }
 
 #[derive(Debug, Default)]
@@ -54,4 +56,30 @@ pub struct Setting {
     pub value: ast::Expr,
     /// The value, if it is the same for all machines.
     pub known: Option<Value>,
+}
+
+impl Program {
+    /// Whether a name stands in one of its expressions.
+    pub fn mentions(&self, name: &str) -> bool {
+        let symbols = self.scopes.iter().flat_map(|scope| scope.names.values());
+        let defined = symbols.filter_map(|symbol| match symbol {
+            Symbol::Define(expr) | Symbol::Argument(expr) => Some(expr),
+            Symbol::Parameter(_) | Symbol::Part(_) | Symbol::Assembly(_) => None,
+        });
+        let settings = self.parts.iter().flat_map(|part| part.settings.iter().map(|given| &given.value));
+        let places = self.places.iter().flat_map(|place| place.points.iter().map(|(expr, _)| expr));
+        defined.chain(settings).chain(places).any(|expr| mentions(expr, name))
+    }
+}
+
+/// Whether a name stands in an expression.
+pub fn mentions(expr: &ast::Expr, name: &str) -> bool {
+    use ast::ExprKind as Kind;
+    match &expr.kind {
+        Kind::Name(word) => word == name,
+        Kind::Member(a, _) | Kind::Negate(a) | Kind::Not(a) => mentions(a, name),
+        Kind::Index(a, b) | Kind::Binary(_, a, b) => mentions(a, name) || mentions(b, name),
+        Kind::Call(_, all) | Kind::List(all) => all.iter().any(|part| mentions(part, name)),
+        _ => false,
+    }
 }

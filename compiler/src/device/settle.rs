@@ -1,11 +1,12 @@
 //! What of a device can be told before there is a machine: values that are the same for all, and expressions that are
 //! wrong for any.
 
-use super::evaluate::{Environment, Values};
+use super::evaluate::{Environment, Found, Values, Wrong};
 use super::program::{Program, Setting as Given};
 use super::{Constant, Form, Parameter};
 use crate::diagnostic::Diagnostic;
 use crate::spec::ast;
+use runtime_sim::frame::Frame;
 use runtime_sim::part::{Part, Settings};
 use runtime_sim::point::{Axis, Point};
 use runtime_sim::value::Value;
@@ -38,6 +39,11 @@ pub fn settle(program: &mut Program) {
     }
 }
 
+/// The value of an expression in which nothing of a machine stands.
+pub fn known(program: &Program, expr: &ast::Expr) -> Result<Found, Wrong> {
+    nothing(program).found(0, expr)
+}
+
 fn nothing(program: &Program) -> Environment<'_> {
     let values = Values::OfMachine;
     Environment { program, pose: None, arguments: &[], heights: None, index: None, values }
@@ -52,7 +58,7 @@ pub fn wrong(
     let arguments: Vec<Value> = parameters.iter().map(|parameter| sample(&parameter.form)).collect();
     let environment = Environment {
         program,
-        pose: Some(Point::new(0.5, 0.25, 1.0)),
+        pose: Some(Frame::new(Point::new(0.5, 0.25, 1.0), 0.0)),
         arguments: &arguments,
         heights: Some(&[0.1]),
         index: None,
@@ -120,6 +126,7 @@ fn sample(form: &Form) -> Value {
         Form::Axis => Value::Axis(Axis::X),
         Form::Range => Value::List(vec![Value::Number(-3.0), Value::Number(4.0)]),
         Form::Real => Value::Number(1.0),
+        Form::Time => Value::Number(1000.0),
         Form::Point => point(1.0),
         Form::Points(elements) => Value::List((0..elements.len()).map(|i| point(i as f64)).collect()),
     }

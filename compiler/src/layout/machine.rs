@@ -1,6 +1,6 @@
 //! The keys of an object that depend on its device.
 
-use super::decode::{Decoder, instead, listing};
+use super::decode::{Decoder, find, instead, listing};
 use super::json::Json;
 use super::object::COMMON_KEYS;
 use super::{Number, Object, Part};
@@ -10,6 +10,9 @@ use runtime_sim::line::Obstacle;
 use runtime_sim::point::Axis;
 use runtime_sim::value::Value;
 use std::sync::Arc;
+
+/// No time that a machine takes is longer, s.
+const LONGEST_S: f64 = 1e5;
 
 const OBSTACLES: [&str; 6] = ["bin", "station", "assembly_station", "collector", "rail", "box"];
 
@@ -22,6 +25,7 @@ pub fn machine(object: &Object, device: &Arc<Device>) -> Result<(Placed, Vec<Num
     let mut diagnostics = std::mem::take(&mut reader.decoder.diagnostics);
     match arguments.into_iter().collect::<Option<Vec<_>>>().filter(|_| diagnostics.is_empty()) {
         Some(arguments) => {
+            turned(object, device)?;
             let placed = Placed { device: device.clone(), pose: object.pose.value, arguments };
             unmet(object, &placed)?;
             Ok((placed, reader.numbers))
@@ -31,6 +35,19 @@ pub fn machine(object: &Object, device: &Arc<Device>) -> Result<(Placed, Vec<Num
             Err(diagnostics)
         }
     }
+}
+
+/// A machine that is turned has parts that turn with it.
+fn turned(object: &Object, device: &Device) -> Result<(), Vec<Diagnostic>> {
+    if object.pose.value.yaw == 0.0 || device.can_turn {
+        return Ok(());
+    }
+    let message = format!("\"{}\" is turned, and the device {} cannot be", object.name.value, device.name);
+    Err(vec![
+        Diagnostic::new("E0144", object.pose.span, message)
+            .other(device.place, "its parts lie along the axes of the world: none is given from `origin`")
+            .help("leave out the fourth number of the pose, or give the parts of the device from `origin`"),
+    ])
 }
 
 /// What the device requires of the numbers.
@@ -70,7 +87,7 @@ pub fn obstacle(object: &Object) -> Result<Obstacle, Vec<Diagnostic>> {
     match decoder.diagnostics.is_empty() {
         true => Ok(Obstacle {
             name: object.name.value.clone(),
-            pose: object.pose.value,
+            pose: object.pose.value.position,
             size: object.size.as_ref().map(|s| s.value),
         }),
         false => Err(decoder.diagnostics),
@@ -95,6 +112,10 @@ struct Reader<'a> {
 impl<'a> Reader<'a> {
     fn argument(&mut self, parameter: &Parameter) -> Option<Value> {
         let key = parameter.name.as_str();
+        if let (Some(default), None) = (&parameter.default, find(&self.object.members, key)) {
+            // Numbers that stand nowhere are none that could be changed.
+            return Some(default.clone());
+        }
         match &parameter.form {
             Form::Axis => self.axis(key).map(Value::Axis),
             Form::Range => self.range(key).map(|range| Value::List(range.map(Value::Number).to_vec())),
@@ -103,6 +124,11 @@ impl<'a> Reader<'a> {
                 let number = self.decoder.metres(json, key.to_string())?;
                 self.numbers.push(number.clone());
                 Some(Value::Number(number.value))
+            }
+            Form::Time => {
+                let json = self.required(key)?;
+                let seconds = self.decoder.number_in(json, key, 0.0..=LONGEST_S)?;
+                Some(Value::Number((seconds * 1000.0).round()))
             }
             Form::Point => {
                 let json = self.required(key)?;

@@ -2,9 +2,10 @@
 
 use super::Number;
 use super::decode::{Decoder, find, readable};
-use super::json::{Json, Member};
+use super::json::{Json, Member, Value};
 use crate::diagnostic::Diagnostic;
 use crate::source::{Span, Spanned};
+use runtime_sim::frame::Frame;
 use runtime_sim::point::Point;
 
 /// The list of the layout in which an object stands.
@@ -21,7 +22,8 @@ pub struct Object {
     pub kind: Spanned<String>,
     pub part: Part,
     pub span: Span,
-    pub pose: Spanned<Point>,
+    /// Where it stands; the key `pose`.
+    pub pose: Spanned<Frame>,
     pub pose_numbers: Vec<Number>,
     /// The key `box` of a stationary thing: its lengths along x, y and z.
     pub size: Option<Spanned<Point>>,
@@ -69,6 +71,19 @@ impl Decoder {
         Some((Point::new(numbers[0].value, numbers[1].value, numbers[2].value), numbers))
     }
 
+    /// A place, and behind it degrees to the left if it is turned; the numbers are those of the place.
+    fn pose(&mut self, json: &Json) -> Option<(Frame, Vec<Number>)> {
+        let (json, yaw) = match &json.value {
+            Value::List(items) if items.len() == 4 => {
+                let yaw = self.number_in(&items[3], "pose[3]", -360.0..=360.0)?;
+                (&Json { value: Value::List(items[..3].to_vec()), ..*json }, yaw)
+            }
+            _ => (json, 0.0),
+        };
+        let (position, numbers) = self.point(json, "pose")?;
+        Some((Frame::new(position, yaw), numbers))
+    }
+
     pub fn layout_object(&mut self, json: &Json, part: Part) -> Option<Object> {
         let what = match part {
             Part::Robot => "a robot",
@@ -84,7 +99,7 @@ impl Decoder {
         let kind = self.required(members, "type", json.span, &described);
         let kind = kind.and_then(|j| self.text(j, "type"));
         let pose = self.required(members, "pose", json.span, &described);
-        let pose = pose.and_then(|j| Some((j.span, self.point(j, "pose")?)));
+        let pose = pose.and_then(|j| Some((j.span, self.pose(j)?)));
         let parameters = find(members, "parameters").and_then(|j| self.object(j, "parameters"));
         let takes_from = find(members, "takes_from").and_then(|j| self.texts(j, "takes_from"));
         let hands_to = find(members, "hands_to").and_then(|j| self.texts(j, "hands_to"));

@@ -25,6 +25,13 @@ pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec
             parts.map(move |(number, part, operated)| Panel { robot, part, numbers: [r, number], operated })
         })
         .collect();
+    let sinks: Vec<(String, [usize; 2])> = (0..line.robots.len())
+        .flat_map(|r| {
+            let robot = line.robots[r].object.name.value.as_str();
+            let parts = line.automaton(r).device.parts_called("sink");
+            parts.map(move |(number, part)| (format!("{robot}.{part}"), [r, number]))
+        })
+        .collect();
     scenario::resolve(
         scenario,
         &scenario::Line {
@@ -33,6 +40,7 @@ pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec
             arms: &named(&|r| has(r, "grip")),
             commanded: &named(&|r| line.automaton(r).device.is_commanded()),
             panels: &panels,
+            sinks: &sinks,
         },
     )
 }
@@ -54,7 +62,12 @@ pub fn line(
         kinds: scenario
             .kinds
             .iter()
-            .map(|kind| line::Kind { name: kind.name.value.clone(), height: kind.height, size: kind.size })
+            .map(|kind| line::Kind {
+                name: kind.name.value.clone(),
+                height: kind.height,
+                size: kind.size,
+                is: kind.is.iter().map(|word| word.value.clone()).collect(),
+            })
             .collect(),
         machines: machines
             .into_iter()
@@ -68,6 +81,9 @@ pub fn line(
         may_touch: line.layout.may_touch.iter().map(|m| m.pair.each_ref().map(|n| n.value.clone())).collect(),
         scenario: line::Scenario {
             goal: match scenario.number {
+                _ if !scenario.goal.is_empty() => {
+                    line::Goal::Collected(scenario.goal.into_iter().map(collected).collect())
+                }
                 Number::Listed => line::Goal::AllOrders,
                 Number::WithoutEnd | Number::None => line::Goal::TimeLimit,
             },
@@ -107,6 +123,10 @@ pub fn line(
         },
         io_delay: line::IoDelay::Fixed(0),
     }
+}
+
+fn collected(scenario::Collected { sink, items }: scenario::Collected<[usize; 2]>) -> line::Collected {
+    line::Collected { machine: sink[0], part: sink[1], items }
 }
 
 /// The arms that take from or hand to an instance, with the interface for which they come.

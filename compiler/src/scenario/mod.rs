@@ -22,6 +22,15 @@ pub struct Scenario {
     pub time_limit_s: f64,
     pub faults: Faults,
     pub operations: Vec<Operation<Part>>,
+    /// What sinks should collect; empty: nobody asks.
+    pub goal: Vec<Collected<Spanned<String>>>,
+}
+
+/// What a sink should collect: `robot.part`, and the number of items of each kind.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Collected<Sink> {
+    pub sink: Sink,
+    pub items: Vec<u32>,
 }
 
 /// A kind of part.
@@ -32,6 +41,8 @@ pub struct Kind {
     pub height: f64,
     /// Lengths along x and y as it appears on a belt, in metres.
     pub size: [f64; 2],
+    /// What sensors find it to be, such as `metal`.
+    pub is: Vec<Spanned<String>>,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -115,6 +126,19 @@ pub enum Items {
     Belts(Vec<(Spanned<String>, Vec<usize>)>),
 }
 
+impl Items {
+    /// Lists, so many times one after another.
+    fn repeated(self, times: usize) -> Self {
+        match self {
+            Items::Shuffled { .. } => self,
+            Items::OnlyBelt(items) => Items::OnlyBelt(items.repeat(times)),
+            Items::Belts(lists) => {
+                Items::Belts(lists.into_iter().map(|(belt, items)| (belt, items.repeat(times))).collect())
+            }
+        }
+    }
+}
+
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Faults {
     pub slips: Vec<Slip<Spanned<String>>>,
@@ -181,4 +205,6 @@ pub struct ResolvedScenario {
     pub pauses: Vec<Pause>,
     /// By numbers of the machine and of its part.
     pub operations: Vec<Operation<[usize; 2]>>,
+    /// The same of sinks.
+    pub goal: Vec<Collected<[usize; 2]>>,
 }

@@ -1,6 +1,7 @@
 //! From the text of a scenario to its tree.
 
 mod faults;
+mod goal;
 mod kinds;
 mod operator;
 mod orders;
@@ -30,7 +31,7 @@ pub fn parse(sources: &Sources, file: FileId) -> (Option<Scenario>, Vec<Diagnost
 impl Decoder {
     fn scenario(&mut self, json: &Json) -> Option<Scenario> {
         let members = self.object(json, "a scenario")?;
-        let keys = ["kinds", "orders", "supply", "time_limit_s", "faults", "operator"];
+        let keys = ["kinds", "orders", "supply", "time_limit_s", "faults", "operator", "goal"];
         self.unknown_keys(members, &keys, "a scenario");
         // Without orders nothing has to be brought, and nobody has to tell kinds apart.
         let has_parts = ["kinds", "orders", "supply"].iter().any(|key| find(members, key).is_some());
@@ -45,6 +46,14 @@ impl Decoder {
         let operations = find(members, "operator").map_or_else(Vec::new, |j| self.operator(j));
         let kinds = kinds??;
         let names: Vec<&str> = kinds.iter().map(|k| k.name.value.as_str()).collect();
+        let goal = find(members, "goal").map_or_else(Vec::new, |j| self.goal(j, &names));
+        if let (Some(orders), Some(goal)) = (orders, find(members, "goal")) {
+            self.report(
+                Diagnostic::new("E0145", goal.span, "a scenario has orders or a goal, not both")
+                    .other(orders.span, "the orders are here")
+                    .help("remove one of them"),
+            );
+        }
         let orders = match orders {
             Some(orders) => self.orders(orders, &names),
             None => Some(Orders::none(json.span)),
@@ -66,6 +75,7 @@ impl Decoder {
             time_limit_s,
             faults,
             operations,
+            goal,
         })
     }
 

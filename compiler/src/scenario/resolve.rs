@@ -1,7 +1,8 @@
 //! A scenario meets a line: names of machines become indices, and the supply is laid out.
 
 use super::{
-    Faults, Items, Number, Operation, Order, Part, Refusal, ResolvedScenario, Scenario, Slip, supply,
+    Collected, Faults, Items, Number, Operation, Order, Part, Refusal, ResolvedScenario, Scenario, Slip,
+    supply,
 };
 use crate::diagnostic::{Diagnostic, MOST, collect, sort};
 use crate::layout::decode::{instead, listing};
@@ -22,6 +23,8 @@ pub struct Line<'a> {
     pub commanded: &'a [(&'a str, usize)],
     /// Those with something that a person operates.
     pub panels: &'a [Panel<'a>],
+    /// By `robot.part`.
+    pub sinks: &'a [(String, [usize; 2])],
 }
 
 /// A button or a set-point.
@@ -54,6 +57,7 @@ pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec
     let refusals = refusals.collect();
     let operations = scenario.operations.iter().filter_map(|operation| resolver.operation(operation));
     let operations = operations.collect();
+    let goal = scenario.goal.iter().filter_map(|collected| resolver.collected(collected)).collect();
     sort(&mut resolver.diagnostics);
     match (orders, supply) {
         (Some(orders), Some(supply)) if resolver.diagnostics.is_empty() => Ok(ResolvedScenario {
@@ -68,6 +72,7 @@ pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec
             refusals,
             pauses: pauses.clone(),
             operations,
+            goal,
         }),
         _ => Err(resolver.diagnostics),
     }
@@ -135,6 +140,22 @@ impl<'a> Resolver<'a> {
         }
         let Operation { at_s, for_s, value, .. } = *operation;
         Some(Operation { part: found.numbers, at_s, for_s, value })
+    }
+
+    fn collected(&mut self, collected: &Collected<Spanned<String>>) -> Option<Collected<[usize; 2]>> {
+        let Collected { sink, items } = collected;
+        let found = self.line.sinks.iter().find(|(name, _)| *name == sink.value);
+        if found.is_none() {
+            let names: Vec<&str> = self.line.sinks.iter().map(|(name, _)| name.as_str()).collect();
+            let message = format!("the layout has no sink \"{}\"", sink.value);
+            collect(
+                &mut self.diagnostics,
+                Diagnostic::new("E0145", sink.span, message)
+                    .note(format!("robots and their parts that are sinks: {}", listing(&names)))
+                    .help(instead(&sink.value, &names)),
+            );
+        }
+        Some(Collected { sink: found?.1, items: items.clone() })
     }
 
     fn wrong_operation(

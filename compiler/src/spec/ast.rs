@@ -107,6 +107,7 @@ pub struct DeviceParameter {
     pub ty: Type,
     /// What each element of a list is.
     pub elements: Vec<String>,
+    pub default: Option<Expr>,
 }
 
 #[derive(Clone, Debug)]

@@ -220,6 +220,9 @@ impl CollisionCheck {
             pair.expect(index, body);
         }
         let group = &mut self.groups[index];
+        if let Some(yaw) = group.heading(item) {
+            tracked.turn = yaw.to_radians();
+        }
         if let Some(Anchor::Link(link)) = group.remove(body).map(|body| body.anchor) {
             let along = group.link_now(link, plant).then(&tracked.hang).axis(0);
             tracked.turn = libm::atan2(along.y, along.x);

@@ -12,10 +12,16 @@ use crate::kinematics::pose::Pose;
 use crate::line::{Line, Obstacle};
 use crate::machine::Machine;
 use crate::motion::Travel;
+use crate::part::lane::Course;
 use crate::plant::Plant;
+use crate::plant::conveyed::Conveyed;
 use crate::point::Point;
 use crate::solid::{Link, Solid};
+use std::collections::BTreeMap;
 use std::sync::Arc;
+
+/// Places on an arc between which an item is taken for somewhere on a straight line, and beside it.
+const ARC_PIECES: usize = 16;
 
 /// Solids that keep their places to one another.
 #[derive(Clone, Debug)]
@@ -60,6 +66,8 @@ pub struct Group {
     /// Metres that no body has gone more than, from the start of the run to the end of the span.
     pub path: f64,
     movement: Movement,
+    /// How the items on its conveyors go on, by their numbers.
+    conveyed: BTreeMap<usize, Conveyed>,
     /// Of an arm, as last looked at.
     frames: Option<(Joints, Frames)>,
     /// At a place on the path under way, as last looked at.
@@ -81,6 +89,16 @@ pub enum Kind {
     Obstacle,
     Machine { index: usize, machine: Machine },
     Arm { index: usize, arm: Arm, chain: Chain },
+}
+
+impl Body {
+    /// The item that lies on the machine, if it is one.
+    fn lying(&self) -> Option<usize> {
+        match self.anchor {
+            Anchor::Lying { item, .. } => Some(item),
+            Anchor::World | Anchor::Link(_) | Anchor::Route => None,
+        }
+    }
 }
 
 impl Group {
@@ -105,6 +123,7 @@ impl Group {
             bodies: Vec::new(),
             path: 0.0,
             movement: Movement::Still,
+            conveyed: BTreeMap::new(),
             frames: None,
             along: None,
             moving: None,
@@ -146,7 +165,8 @@ impl Group {
             (Anchor::Lying { item, .. }, Kind::Machine { index, machine }) => {
                 let place = plant.place(item).unwrap_or_default();
                 let offset = place - plant.position(*index).unwrap_or_default();
-                self.body(anchor, vec![piece], |ball| lying(machine, ball, place, offset))
+                let conveyed = plant.conveyed(item);
+                self.body(anchor, vec![piece], |ball| lying(machine, ball, place, offset, conveyed))
             }
             _ => self.body(anchor, vec![piece], BoundingBox::around),
         };
@@ -182,7 +202,17 @@ impl Group {
     }
 
     pub fn moves(&self) -> bool {
-        !matches!(self.movement, Movement::Still)
+        !matches!(self.movement, Movement::Still) || self.conveys()
+    }
+
+    /// Of an item that lies along a conveyor, degrees about the vertical.
+    pub fn heading(&self, item: usize) -> Option<f64> {
+        self.conveyed.get(&item)?.yaw(0.0)
+    }
+
+    /// Whether an item moves on one of its conveyors.
+    fn conveys(&self) -> bool {
+        self.conveyed.values().any(Conveyed::moves)
     }
 
     /// Whether [`Self::frame_along`] knows its path from the beginning to the end.
@@ -266,7 +296,11 @@ impl Group {
         let Some(index) = self.machine() else { return };
         let movement = Movement::new(plant.trajectory(index), plant.now_ms() as f64);
         let last = std::mem::replace(&mut self.movement, movement);
-        if matches!((&self.movement, &last), (Movement::Still, Movement::Still)) {
+        let conveyed = std::mem::take(&mut self.conveyed);
+        let lying = self.bodies.iter().flatten().filter_map(Body::lying);
+        self.conveyed = lying.filter_map(|item| Some((item, plant.conveyed(item)?))).collect();
+        let rests = !self.conveys() && !conveyed.values().any(Conveyed::moves);
+        if rests && matches!((&self.movement, &last), (Movement::Still, Movement::Still)) {
             return;
         }
         let goes_on = self.movement.goes_on(&last);
@@ -281,10 +315,9 @@ impl Group {
                 body.travel = body.radii.as_ref().map_or_else(Travel::default, |radii| motion.travel(radii));
             }
         }
-        let span = self.movement.span(0.0, seconds);
         let mut longest = 0.0_f64;
         for body in self.bodies.iter_mut().flatten() {
-            let path = self.movement.path(body, span);
+            let path = path(&self.movement, &self.conveyed, body, [0.0, seconds]);
             body.path += path;
             longest = longest.max(path);
         }
@@ -301,7 +334,7 @@ impl Group {
 
     /// Metres that no point of the body goes more than between two times of the span.
     pub fn path_between(&self, body: &Body, from: f64, to: f64) -> f64 {
-        self.movement.path(body, self.movement.span(from, to))
+        path(&self.movement, &self.conveyed, body, [from, to])
     }
 
     /// The frame of an anchor at a time of the span.
@@ -314,6 +347,10 @@ impl Group {
                 Pose { position: place + self.movement.shift(time), ..Pose::IDENTITY }
             }
             Anchor::Lying { item, turn } => {
+                if let Some(conveyed) = self.conveyed.get(&item) {
+                    let turn = conveyed.yaw(time).map_or(turn, f64::to_radians);
+                    return Pose::turned(conveyed.point(time), turn);
+                }
                 let place = plant.place(item).unwrap_or_default();
                 Pose::turned(place + self.movement.shift(time), turn)
             }
@@ -333,6 +370,14 @@ impl Group {
     }
 }
 
+/// Metres that no point of a body goes more than between two times of the span.
+fn path(movement: &Movement, conveyed: &BTreeMap<usize, Conveyed>, body: &Body, [from, to]: [f64; 2]) -> f64 {
+    match body.lying().and_then(|item| conveyed.get(&item)) {
+        Some(conveyed) => conveyed.speed_within(body.ball.middle.length() + body.ball.radius) * (to - from),
+        None => movement.path(body, movement.span(from, to)),
+    }
+}
+
 /// What a vehicle's body takes at all of its stops and between them.
 fn at_stops(machine: &Machine, ball: &Ball) -> BoundingBox {
     let boxes = machine.stops().iter().map(|stop| BoundingBox::around(&ball.shifted(*stop)));
@@ -340,14 +385,32 @@ fn at_stops(machine: &Machine, ball: &Ball) -> BoundingBox {
 }
 
 /// What an item can take that lies at `place`, at `offset` from the machine's position.
-fn lying(machine: &Machine, ball: &Ball, place: Point, offset: Point) -> BoundingBox {
+fn lying(
+    machine: &Machine,
+    ball: &Ball,
+    place: Point,
+    offset: Point,
+    conveyed: Option<Conveyed>,
+) -> BoundingBox {
     let here = BoundingBox::around(&ball.shifted(place));
-    match (machine.route(), machine.lane()) {
+    match (machine.route(), conveyed) {
         (Some(_), _) => at_stops(machine, &ball.shifted(offset)),
-        (None, Some(lane)) => {
-            let end = place.with_coordinate(lane.along, lane.range[0]);
-            here.with(&BoundingBox::around(&ball.shifted(end)))
-        }
+        (None, Some(conveyed)) => here.with(&on_course(&conveyed, ball)),
         (None, None) => here,
     }
+}
+
+/// What an item can take on the rest of its conveyor.
+fn on_course(conveyed: &Conveyed, ball: &Ball) -> BoundingBox {
+    let Conveyed { course, place, across, .. } = conveyed;
+    let pieces = if matches!(course, Course::Arc { .. }) { ARC_PIECES } else { 1 };
+    let piece = (place - course.end()).max(0.0) / pieces as f64;
+    // No point of an arc is farther from the nearest of these places than half of a piece, and what lies outside the
+    // middle line by so much more.
+    let beside = if pieces > 1 { piece * conveyed.widening() } else { 0.0 };
+    let boxes = (0..=pieces).map(|number| {
+        let Ball { middle, radius } = ball.shifted(course.point(place - piece * number as f64, *across));
+        BoundingBox::around(&Ball { middle, radius: radius + beside })
+    });
+    boxes.fold(BoundingBox::NOTHING, |all, next| all.with(&next))
 }

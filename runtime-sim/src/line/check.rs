@@ -1,6 +1,6 @@
 //! Whether a line can be run at all.
 
-use super::{Line, Obstacle};
+use super::{Collected, Goal, Line, Obstacle};
 use crate::machine::Machine;
 
 /// Scans that a telegram may be late.
@@ -26,6 +26,7 @@ impl Line {
             if !kind.size.iter().all(|length| *length > 0.0 && length.is_finite()) {
                 return Err(format!("a length of {} is no positive number", kind.name));
             }
+            kind.is.iter().try_for_each(|is| check_name("what a kind is", is))?;
         }
         for machine in &self.machines {
             check_name("machine", &machine.name)?;
@@ -100,6 +101,18 @@ impl Line {
             }
             if let Some(kind) = supply.items.iter().find(|&&kind| kind >= self.kinds.len()) {
                 return Err(format!("the supply of {} names kind {kind}, which is not there", belt.name));
+            }
+        }
+        if let Goal::Collected(sinks) = &scenario.goal {
+            for Collected { machine, part, items } in sinks {
+                let machine = self.machine(*machine, "the goal")?;
+                let is_sink = machine.parts.get(*part).is_some_and(|part| part.schema().name == "sink");
+                if !is_sink || items.len() != self.kinds.len() {
+                    return Err(format!(
+                        "the goal asks what is no sink of {}, or not for each kind",
+                        machine.name
+                    ));
+                }
             }
         }
         for slip in &scenario.slips {

@@ -4,7 +4,8 @@ use std::fmt::Write;
 use std::sync::Arc;
 
 use super::{
-    Goal, IoDelay, Kind, Line, Obstacle, Operation, Order, Pause, Refusal, Scenario, Slip, State, Supply,
+    Collected, Goal, IoDelay, Kind, Line, Obstacle, Operation, Order, Pause, Refusal, Scenario, Slip, State,
+    Supply,
 };
 use crate::machine::Machine;
 use crate::part::Part;
@@ -20,7 +21,7 @@ impl Line {
             out.push_str(entry.trim_end());
             out.push('\n');
         };
-        put("line 3".into());
+        put("line 4".into());
         put(format!("scan_ms {}", self.scan_ms));
         put(match self.io_delay {
             IoDelay::Fixed(scans) => format!("io_delay fixed {scans}"),
@@ -29,7 +30,7 @@ impl Line {
         put(format!("kinds {}", self.kinds.len()));
         for kind in &self.kinds {
             let [x, y] = kind.size;
-            put(format!("  {} {:?} {x:?} {y:?}", kind.name, kind.height));
+            put(format!("  {} {:?} {x:?} {y:?} {}", kind.name, kind.height, list(&kind.is)));
         }
         let mut devices: Vec<&Wiring> = Vec::new();
         for machine in &self.machines {
@@ -81,10 +82,16 @@ impl Line {
         put(format!("time_limit_s {:?}", scenario.time_limit_s));
         put(format!("stall_limit_s {:?}", scenario.stall_limit_s));
         put(format!("start_scan {}", scenario.start_scan));
-        put(match scenario.goal {
-            Goal::AllOrders => "goal all_orders".into(),
-            Goal::TimeLimit => "goal time_limit".into(),
-        });
+        match &scenario.goal {
+            Goal::AllOrders => put("goal all_orders".into()),
+            Goal::TimeLimit => put("goal time_limit".into()),
+            Goal::Collected(sinks) => {
+                put(format!("goal collected {}", sinks.len()));
+                for Collected { machine, part, items } in sinks {
+                    put(format!("  {machine} {part} {}", list(items)));
+                }
+            }
+        }
         put(format!("orders {}", scenario.orders.len()));
         for order in &scenario.orders {
             put(format!("  {} {}", list(&order.stations), list(&order.parts)));
@@ -129,7 +136,7 @@ impl Line {
     /// Reads the text form, and leaves what follows it.
     pub fn read(words: &mut Words) -> Result<Line, String> {
         words.expect("line")?;
-        words.expect("3")?;
+        words.expect("4")?;
         words.expect("scan_ms")?;
         let scan_ms = words.int()?;
         words.expect("io_delay")?;
@@ -139,8 +146,10 @@ impl Line {
             other => return Err(words.error(format_args!("`{other}` is no delay"))),
         };
         words.expect("kinds")?;
-        let kinds = words
-            .list(|w| Ok(Kind { name: w.name()?.into(), height: w.real()?, size: [w.real()?, w.real()?] }))?;
+        let kinds = words.list(|w| {
+            let (name, height, size) = (w.name()?.into(), w.real()?, [w.real()?, w.real()?]);
+            Ok(Kind { name, height, size, is: w.list(|w| Ok(w.name()?.into()))? })
+        })?;
         words.expect("devices")?;
         let devices = words.list(|w| Ok(Arc::new(Wiring::read(w)?)))?;
         words.expect("machines")?;
@@ -228,6 +237,10 @@ fn read_scenario(words: &mut Words) -> Result<Scenario, String> {
     let goal = match words.name()? {
         "all_orders" => Goal::AllOrders,
         "time_limit" => Goal::TimeLimit,
+        "collected" => Goal::Collected(
+            words
+                .list(|w| Ok(Collected { machine: w.int()?, part: w.int()?, items: w.list(|w| w.int())? }))?,
+        ),
         other => return Err(format!("`{other}` is no goal")),
     };
     words.expect("orders")?;

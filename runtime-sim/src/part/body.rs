@@ -17,6 +17,7 @@ pub const SCHEMA: Schema = Schema::new(
             "what moves it; without it, it stands",
         )
         .optional(),
+        Setting::new("at", Form::Frame, "m", "frame in which all else is given, in that of its link").optional(),
         Setting::new("low", Form::Point, "m", "lower corner of a box, in the frame of its link").optional(),
         Setting::new("high", Form::Point, "m", "upper corner").optional(),
         Setting::new("middle", Form::Point, "m", "middle of a box").optional(),
@@ -55,6 +56,8 @@ impl Described for Body {
         } else {
             capsule(settings)?
         };
+        let frame = settings.optional("at", Settings::upright)?;
+        let pose = frame.map_or(pose, |frame| frame.pose().then(&pose));
         match shape {
             Shape::Box { size } if size.x <= 0.0 || size.y <= 0.0 || size.z <= 0.0 => {
                 Err("a length of the box is not over 0".into())

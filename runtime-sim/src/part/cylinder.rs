@@ -158,6 +158,17 @@ impl Stroking {
         (self.toward, self.drive, self.since_ms) = (toward, drive, now_ms);
     }
 
+    /// From when on it is at an end, if its valves stay as they are from `now_ms` on, ms; infinity: never.
+    pub fn is_at_from(&self, end: End, now_ms: u64) -> f64 {
+        let mut sent = self.clone();
+        sent.turn(now_ms);
+        match (sent.toward == end, sent.drive) {
+            (false, _) => f64::INFINITY,
+            (true, Drive::Stands) if sent.left > 0.0 => f64::INFINITY,
+            (true, _) => sent.arrives_ms(),
+        }
+    }
+
     fn is_at(&self, end: End) -> bool {
         self.toward == end && self.left(self.now_ms) <= 0.0
     }
@@ -192,6 +203,10 @@ impl Running for Stroking {
 
     fn is_busy(&self, see: &See) -> bool {
         self.next_change(see, self.now_ms).is_finite()
+    }
+
+    fn cylinder(&self) -> Option<&Stroking> {
+        Some(self)
     }
 
     fn signal(&self, signal: usize, _see: &See, out: &mut [f64]) {

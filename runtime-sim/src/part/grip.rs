@@ -182,7 +182,7 @@ impl Running for Gripping {
         self.loses_at_ms.is_some()
     }
 
-    fn place(&self, carrier: &Carrier, see: &See) -> Option<Point> {
+    fn place(&self, _item: usize, carrier: &Carrier, see: &See) -> Option<Point> {
         match *carrier {
             Carrier::Grip { hang, .. } => Some(see.tool(self.grip.chain)?.point(hang)),
             _ => None,

@@ -119,21 +119,25 @@ macro_rules! primitives {
 
 primitives! {
     axis::Axis,
+    beam::Beam,
     body::Body,
     button::Button,
     camera::Camera,
     chain::Chain,
     cylinder::Cylinder,
+    diverter::Diverter,
     grip::Grip,
     lamp::Lamp,
     lane::Lane,
     material::Material,
     orders::Orders,
     place::Place,
+    pusher::Pusher,
     route::Route,
     setpoint::Setpoint,
     sink::Sink,
     source::Source,
+    stopper::Stopper,
     zone::Zone,
 }
 

@@ -106,7 +106,7 @@ impl Running for Bearing {
         meets.then_some((origin.z + floor.z, carrier))
     }
 
-    fn place(&self, carrier: &Carrier, see: &See) -> Option<Point> {
+    fn place(&self, _item: usize, carrier: &Carrier, see: &See) -> Option<Point> {
         match *carrier {
             Carrier::Place { offset, .. } => Some(self.origin(see) + offset),
             _ => None,

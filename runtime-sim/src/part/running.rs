@@ -9,8 +9,8 @@ use crate::line::Line;
 use crate::machine::Machine;
 use crate::memory::Memory;
 use crate::part::Primitive;
-use crate::part::lane;
 use crate::part::orders::Desk;
+use crate::part::{cylinder, lane};
 use crate::plant::trajectory::Trajectory;
 use crate::point::Point;
 
@@ -93,10 +93,6 @@ pub struct World<'a> {
 }
 
 impl<'a> World<'a> {
-    pub fn lane(&self, part: usize) -> Option<&'a lane::Moving> {
-        self.parts.get(part)?.as_deref()?.lane()
-    }
-
     pub fn see(&self) -> See<'_> {
         See { machine: self.machine, parts: self.parts, items: self.items, desk: self.desk }
     }
@@ -132,7 +128,7 @@ impl<'a> See<'a> {
 
     /// Where the underside of an item is that a part of this machine bears.
     pub fn place(&self, part: usize, item: usize) -> Option<Point> {
-        self.part(part)?.place(&self.items.all()[item].carrier, self)
+        self.part(part)?.place(item, &self.items.all()[item].carrier, self)
     }
 
     /// Items that a part of this machine bears, in the order in which they came.
@@ -228,7 +224,7 @@ pub trait Running: std::fmt::Debug + Send + Sync {
     }
 
     /// Where the underside of an item is that it bears.
-    fn place(&self, _carrier: &Carrier, _see: &See) -> Option<Point> {
+    fn place(&self, _item: usize, _carrier: &Carrier, _see: &See) -> Option<Point> {
         None
     }
 
@@ -247,6 +243,19 @@ pub trait Running: std::fmt::Debug + Send + Sync {
     }
 
     fn lane(&self) -> Option<&lane::Moving> {
+        None
+    }
+
+    fn lane_mut(&mut self) -> Option<&mut lane::Moving> {
+        None
+    }
+
+    fn cylinder(&self) -> Option<&cylinder::Stroking> {
+        None
+    }
+
+    /// How many items a source was asked for, if it is asked for each.
+    fn asked(&self) -> Option<u64> {
         None
     }
 

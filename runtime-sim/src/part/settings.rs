@@ -1,5 +1,6 @@
 //! The settings of a part, read by name.
 
+use crate::frame::Frame;
 use crate::point::{Axis, Point};
 use crate::value::Value;
 
@@ -22,6 +23,7 @@ pub enum Form {
     Number,
     Positive,
     Point,
+    Frame,
     Axis,
     Word,
     /// Another part, of one of these primitives.
@@ -104,6 +106,13 @@ impl Settings {
 
     pub fn point(&self, name: &str) -> Result<Point, String> {
         self.read(name, "point within 1000 km", point)
+    }
+
+    pub fn upright(&self, name: &str) -> Result<Frame, String> {
+        self.read(name, "frame within 1000 km", |value| match value {
+            Value::Frame(frame) if frame.is_near() => Some(*frame),
+            _ => None,
+        })
     }
 
     pub fn axis(&self, name: &str) -> Result<Axis, String> {

@@ -2,18 +2,27 @@
 
 use super::running::milliseconds;
 use super::settings::{Form, Setting, Settings};
-use super::{Described, Progress, Running, Schema, See, World, Start};
-use crate::carrier::Carrier;
-use crate::line::Line;
+use super::{Described, Level, Running, Schema, Start};
+use crate::device::PortType;
+use crate::line::{Line, Scenario};
+use crate::wiring::Drives;
 
-pub const SCHEMA: Schema = Schema::new(
-    "source",
-    "Puts the items of the scenario's supply onto a lane, at times counted while the lane moves.",
-    &[
-        Setting::new("on", Form::Part(&["lane"]), "", "the lane"),
-        Setting::new("inset", Form::Number, "m", "from the lane's upper end to where items appear"),
-    ],
-);
+pub const SCHEMA: Schema = Schema {
+    levels: &[Level { name: "release", ty: PortType::Bool }],
+    ..Schema::new(
+        "source",
+        "Puts the items of the scenario's supply onto a lane, as soon as there is room: at times counted while the lane moves, or one at each rising edge of its level `release`, as a magazine does.",
+        &[
+            Setting::new("on", Form::Part(&["lane"]), "", "the lane"),
+            Setting::new(
+                "inset",
+                Form::Number,
+                "m",
+                "from the lane's beginning to where the middles of items appear",
+            ),
+        ],
+    )
+};
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Source {
@@ -27,12 +36,37 @@ impl Described for Source {
     }
 
     fn start(&self, start: &mut Start) -> Result<Option<Box<dyn Running>>, String> {
-        let scenario = &start.line.scenario;
-        let spawn = Spawn {
-            first_ms: milliseconds(scenario.spawn_first_s),
-            every_ms: milliseconds(scenario.spawn_every_s),
-        };
-        Ok(Some(Box::new(Spawning::new(self, spawn, supply(start.line, start.machine)))))
+        let part = start.part;
+        let releases = Drives::Level { part, level: RELEASE };
+        let is_asked = start.machine().wiring.outputs.iter().any(|output| output.drives == releases);
+        Ok(is_asked.then(|| Box::new(Magazine::default()) as Box<dyn Running>))
+    }
+}
+
+/// Number of the level.
+const RELEASE: usize = 0;
+
+/// A source that is asked for each item.
+#[derive(Clone, Debug, Default)]
+struct Magazine {
+    is_on: bool,
+    /// Rising edges.
+    asked: u64,
+}
+
+impl Running for Magazine {
+    fn boxed(&self) -> Box<dyn Running> {
+        Box::new(self.clone())
+    }
+
+    fn level(&mut self, _level: usize, value: &[f64]) {
+        let is_on = value[0] != 0.0;
+        self.asked += u64::from(is_on && !self.is_on);
+        self.is_on = is_on;
+    }
+
+    fn asked(&self) -> Option<u64> {
+        Some(self.asked)
     }
 }
 
@@ -44,63 +78,18 @@ pub struct Spawn {
 }
 
 impl Spawn {
-    fn at_ms(&self, number: u64) -> u64 {
+    pub fn new(scenario: &Scenario) -> Self {
+        let [first_ms, every_ms] = [scenario.spawn_first_s, scenario.spawn_every_s].map(milliseconds);
+        Self { first_ms, every_ms }
+    }
+
+    pub fn at_ms(&self, number: u64) -> u64 {
         self.first_ms.saturating_add(number.saturating_mul(self.every_ms))
     }
 }
 
-/// A source at work.
-#[derive(Clone, Debug)]
-pub struct Spawning {
-    source: Source,
-    spawn: Spawn,
-    /// Items that are still to appear, last one first.
-    supply: Vec<usize>,
-    spawned: u64,
-}
-
-impl Spawning {
-    pub fn new(source: &Source, spawn: Spawn, mut supply: Vec<usize>) -> Self {
-        supply.reverse();
-        Self { source: source.clone(), spawn, supply, spawned: 0 }
-    }
-}
-
-impl Running for Spawning {
-    fn boxed(&self) -> Box<dyn Running> {
-        Box::new(self.clone())
-    }
-
-    fn advance(&mut self, world: &mut World) -> Progress {
-        let part = self.source.lane;
-        let Some(moving) = world.lane(part).filter(|lane| lane.is_moving()) else {
-            return Progress::Going;
-        };
-        while self.spawn.at_ms(self.spawned) <= moving.travel_ms() {
-            let Some(item) = self.supply.pop() else { break };
-            let lane = moving.lane();
-            let at = lane.range[1] - self.source.inset + lane.distance(self.spawn.at_ms(self.spawned));
-            self.spawned += 1;
-            let carrier = Carrier::Lane { machine: world.machine, part, at, across: 0.0 };
-            world.items.pass(item, carrier, moving.rests(at, 0.0));
-        }
-        Progress::Going
-    }
-
-    fn next_change(&self, see: &See, now_ms: u64) -> f64 {
-        let moving = see.lane(self.source.lane).filter(|lane| lane.is_moving() && !self.supply.is_empty());
-        moving.map_or(f64::INFINITY, |lane| {
-            now_ms as f64 + self.spawn.at_ms(self.spawned).saturating_sub(lane.travel_ms()) as f64
-        })
-    }
-
-    fn is_busy(&self, see: &See) -> bool {
-        !self.supply.is_empty() && see.lane(self.source.lane).is_some_and(|lane| lane.is_moving())
-    }
-}
-
 /// Numbers of the items that come to a machine, first one first.
-fn supply(line: &Line, machine: usize) -> Vec<usize> {
+pub fn supply(line: &Line, machine: usize) -> Vec<usize> {
     let mut first = 0;
     let mut supply = Vec::new();
     for other in &line.scenario.supply {

@@ -1,8 +1,7 @@
 //! A field over a lane in which items are seen, with their kinds and places.
 
 use super::settings::{Form, Setting, Settings};
-use super::{Described, Running, Schema, See, Signal, Start};
-use crate::carrier::Carrier;
+use super::{Described, Running, Schema, See, Signal, Start, lane};
 use crate::device::{Extent, PortType};
 use crate::line::Kind;
 use crate::point::Point;
@@ -70,19 +69,25 @@ impl Seeing {
     fn foremost(&self, see: &See) -> Vec<Option<(f64, Point)>> {
         let mut foremost = vec![None; self.farthest.len()];
         let Some(moving) = see.lane(self.zone.lane) else { return foremost };
-        let middle = self.zone.middle.coordinate(moving.lane().along);
-        for item in see.borne_by(self.zone.lane) {
-            let item = &see.items.all()[item];
-            let Carrier::Lane { at, across, .. } = item.carrier else { continue };
-            let along = at - moving.travel();
+        let Some(middle) = self.middle(moving) else { return foremost };
+        for number in see.borne_by(self.zone.lane) {
+            let item = &see.items.all()[number];
+            let Some(along) = moving.place_of(number, &item.carrier) else { continue };
             if (along - middle).abs() > self.farthest[item.kind] {
                 continue;
             }
-            if foremost[item.kind].is_none_or(|(other, _)| along < other) {
-                foremost[item.kind] = Some((along, moving.rests(at, across)));
+            if foremost[item.kind].is_none_or(|(other, _)| along < other)
+                && let Some(place) = see.place(self.zone.lane, number)
+            {
+                foremost[item.kind] = Some((along, place));
             }
         }
         foremost
+    }
+
+    /// Place of the field's middle on the lane.
+    fn middle(&self, moving: &lane::Moving) -> Option<f64> {
+        Some(moving.lane().course.find(self.zone.middle)?.0)
     }
 }
 
@@ -94,16 +99,15 @@ impl Running for Seeing {
     /// An item comes into the field, or leaves it.
     fn next_change(&self, see: &See, now_ms: u64) -> f64 {
         let Some(moving) = see.lane(self.zone.lane) else { return f64::INFINITY };
-        let middle = self.zone.middle.coordinate(moving.lane().along);
-        let ends = see.borne_by(self.zone.lane).flat_map(|item| {
-            let item = &see.items.all()[item];
+        let Some(middle) = self.middle(moving) else { return f64::INFINITY };
+        let times = see.borne_by(self.zone.lane).flat_map(|number| {
+            let item = &see.items.all()[number];
             let far = self.farthest[item.kind];
-            match item.carrier {
-                Carrier::Lane { at, .. } => [at - middle - far, at - middle + far],
-                _ => [f64::NEG_INFINITY; 2],
-            }
+            let motion = moving.motion(number, &item.carrier);
+            let comes_to = |place: f64| motion.map(|motion| moving.comes_to(motion, place, now_ms as f64));
+            [comes_to(middle - far), comes_to(middle + far)].into_iter().flatten()
         });
-        ends.map(|end| moving.reaches(end, now_ms)).fold(f64::INFINITY, f64::min)
+        times.fold(f64::INFINITY, f64::min)
     }
 
     fn signal(&self, signal: usize, see: &See, out: &mut [f64]) {

@@ -38,6 +38,11 @@ fn put(json: &mut Json, line: &Line, segment: &Segment) {
             json.put_text("law", "slides");
             put_point(json, "velocity", *velocity);
         }
+        Law::Turns(conveyed) => {
+            json.put_text("law", "turns");
+            put_point(json, "middle", conveyed.middle());
+            json.put_real("rate", Some(conveyed.rate()));
+        }
         Law::Hangs(hanging) => {
             json.put_text("law", "hangs");
             put_point(json, "hang", hanging.hang);

@@ -6,6 +6,7 @@ use crate::event::Event;
 use crate::kinematics::arm::Arm;
 use crate::line::Line;
 use crate::plant::Plant;
+use crate::plant::conveyed::Conveyed;
 use crate::plant::trajectory::Trajectory;
 use crate::point::Point;
 
@@ -16,6 +17,8 @@ pub struct Recorder {
     arms: Vec<Option<Arm>>,
     /// How each machine moved when it was looked at last.
     trajectories: Vec<Trajectory>,
+    /// How each item went on then, if it was on a conveyor.
+    conveyed: Vec<Option<Conveyed>>,
     /// Events that were looked at.
     read: usize,
     paths: Vec<Path>,
@@ -27,6 +30,7 @@ impl Recorder {
         Self {
             arms: line.machines.iter().map(|machine| machine.arm()).collect(),
             trajectories: vec![Trajectory::Rests; line.machines.len()],
+            conveyed: vec![None; items],
             read: 0,
             paths: vec![Path::default(); items],
         }
@@ -41,6 +45,14 @@ impl Recorder {
             if std::mem::replace(last, trajectory.clone()).since(now_ms) != trajectory {
                 changed.extend(plant.items().borne_by(machine));
             }
+        }
+        for (item, last) in self.conveyed.iter_mut().enumerate() {
+            let conveyed = plant.conveyed(item);
+            let law = |conveyed: &Conveyed| (conveyed.speed, conveyed.stops_at);
+            if last.as_ref().map(law) != conveyed.as_ref().map(law) {
+                changed.push(item);
+            }
+            *last = conveyed;
         }
         for item in changed {
             self.follow(plant, item);
@@ -83,14 +95,36 @@ impl Recorder {
         let carrier = plant.items().all()[item].carrier;
         let Some(place) = plant.place(item) else { return };
         let machine = carrier.machine();
-        let trajectory = machine.map_or(Trajectory::Rests, |machine| self.trajectories[machine].clone());
+        let trajectory = match self.conveyed[item] {
+            Some(conveyed) => return self.convey(item, now_ms, carrier, conveyed),
+            None => machine.map_or(Trajectory::Rests, |machine| self.trajectories[machine].clone()),
+        };
         let arm = machine.and_then(|machine| self.arms[machine]);
+        self.put(item, now_ms, carrier, laws(now_ms, place, carrier, trajectory, arm));
+    }
+
+    fn convey(&mut self, item: usize, now_ms: f64, carrier: Carrier, conveyed: Conveyed) {
+        let rests_s = if conveyed.moves() { conveyed.rests_after() } else { 0.0 };
+        let rests_ms = now_ms + 1000.0 * rests_s;
+        let goes = match conveyed.velocity() {
+            Some(velocity) => Law::Slides { from: conveyed.point(0.0), velocity },
+            None => Law::Turns(conveyed),
+        };
+        let mut laws = vec![(now_ms, rests_ms, goes)];
+        if rests_s.is_finite() {
+            laws.push((rests_ms, f64::INFINITY, Law::Rests(conveyed.point(rests_s))));
+        }
+        self.put(item, now_ms, carrier, laws);
+    }
+
+    /// Begin, end and law of each segment from now on.
+    fn put(&mut self, item: usize, now_ms: f64, carrier: Carrier, laws: Vec<(f64, f64, Law)>) {
         let path = &mut self.paths[item];
         path.cut(now_ms);
         if path.segments.last().is_some_and(|last| last.begin_ms == now_ms && last.carrier == carrier) {
             path.segments.pop();
         }
-        for (begin_ms, end_ms, law) in laws(now_ms, place, carrier, trajectory, arm) {
+        for (begin_ms, end_ms, law) in laws {
             if begin_ms < end_ms {
                 path.push(Segment { begin_ms, end_ms, carrier, law });
             }

@@ -8,6 +8,8 @@ use crate::kinematics::arm::Joints;
 use crate::kinematics::pose::Pose;
 use crate::line::Line;
 use crate::memory::Memory;
+use crate::part::cylinder::Stroking;
+use crate::part::lane::Moving;
 use crate::part::orders::Desk;
 use crate::part::{Begun, Looks, Part, Progress, Running, See, Start, World};
 use crate::plant::trajectory::Trajectory;
@@ -211,6 +213,28 @@ impl Working {
         }
     }
 
+    pub fn lane(&self, part: usize) -> Option<&Moving> {
+        self.parts.get(part)?.as_ref()?.lane()
+    }
+
+    pub fn lane_mut(&mut self, part: usize) -> Option<&mut Moving> {
+        self.parts.get_mut(part)?.as_mut()?.lane_mut()
+    }
+
+    pub fn cylinder(&self, part: usize) -> Option<&Stroking> {
+        self.parts.get(part)?.as_ref()?.cylinder()
+    }
+
+    /// How many items a source was asked for, if it is asked for each.
+    pub fn asked(&self, part: usize) -> Option<u64> {
+        self.parts.get(part)?.as_ref()?.asked()
+    }
+
+    /// Whether one of its surfaces moves.
+    pub fn conveys(&self) -> bool {
+        self.running().any(|part| part.lane().is_some_and(Moving::is_moving))
+    }
+
     /// All grippers that look for an item.
     pub fn looks(&self) -> impl Iterator<Item = Looks> {
         self.running().filter_map(|part| part.looks())
@@ -218,7 +242,9 @@ impl Working {
 
     /// The highest speed of what its parts carry along, m/s.
     pub fn speed(&self, now_ms: u64) -> f64 {
-        self.running().map(|part| part.trajectory(now_ms).speed()).fold(0.0, f64::max)
+        let speed =
+            |part: &dyn Running| part.trajectory(now_ms).speed().max(part.lane().map_or(0.0, Moving::speed));
+        self.running().map(speed).fold(0.0, f64::max)
     }
 
     pub fn tool_goes(&self, chain: usize, from: f64, to: f64) -> f64 {
@@ -298,9 +324,9 @@ impl Working {
         surfaces.reduce(|best, other| if other.0 > best.0 { other } else { best })
     }
 
-    pub fn place(&self, carrier: &Carrier, items: &Items, desk: &Desk) -> Option<Point> {
+    pub fn place(&self, item: usize, carrier: &Carrier, items: &Items, desk: &Desk) -> Option<Point> {
         let part = self.parts.get(carrier.part()?)?.as_ref()?;
-        part.place(carrier, &self.see(items, desk))
+        part.place(item, carrier, &self.see(items, desk))
     }
 
     fn running(&self) -> impl Iterator<Item = &dyn Running> {

@@ -1,12 +1,15 @@
 //! How far a run has come, and for how long nothing has happened.
 
+use crate::carrier::Carrier;
 use crate::event::{Event, OrderChange};
-use crate::line::{Goal, Line};
+use crate::line::{Collected, Goal, Line};
 use crate::plant::Plant;
 use crate::shortage::shortage;
 
 pub struct Progress {
     made: usize,
+    /// Of each sink that has a goal, items of each kind.
+    collected: Vec<Vec<u32>>,
     /// Events that were looked at.
     read: usize,
     /// The last scan in which something happened: an input or a word of the controllers changed, or was about to.
@@ -25,6 +28,10 @@ impl Progress {
         let scenario = &line.scenario;
         Self {
             made: 0,
+            collected: match &scenario.goal {
+                Goal::Collected(sinks) => vec![vec![0; line.kinds.len()]; sinks.len()],
+                Goal::AllOrders | Goal::TimeLimit => Vec::new(),
+            },
             read: 0,
             alive: 0,
             last_event: 0,
@@ -64,23 +71,72 @@ impl Progress {
         let log = plant.items().log();
         let made = |event: &&Event| matches!(event, Event::Order { change: OrderChange::Made, .. });
         self.made += log[self.read..].iter().filter(made).count();
+        let surplus = self.collect(line, plant, &log[self.read..]);
         if self.read < log.len() {
             self.note(scan, true);
         }
         self.read = log.len();
+        if let Some(surplus) = surplus {
+            return Some((false, surplus));
+        }
+        if let Goal::Collected(sinks) = &line.scenario.goal
+            && sinks.iter().zip(&self.collected).all(|(sink, items)| sink.items == *items)
+        {
+            return Some((true, "all items collected".into()));
+        }
         let is_all = self.made == line.scenario.orders.len();
         if is_all && line.scenario.goal == Goal::AllOrders {
             Some((true, "all orders made".into()))
         } else if is_all && !line.scenario.orders.is_empty() {
             Some((false, format!("all {} orders made before the time limit", self.made)))
         } else if scan.saturating_sub(self.alive.saturating_add(1)) >= self.stall {
-            Some((false, format!("deadlock: {}", shortage(line, plant))))
+            Some((false, format!("deadlock: {}", self.lacks(line, plant))))
         } else if scan >= self.limit && line.scenario.goal == Goal::TimeLimit {
             Some((true, "time limit reached".into()))
         } else if scan >= self.limit {
-            Some((false, format!("time limit: {}", shortage(line, plant))))
+            Some((false, format!("time limit: {}", self.lacks(line, plant))))
         } else {
             None
         }
     }
+
+    /// Counts what sinks have collected; what none of them should have.
+    fn collect(&mut self, line: &Line, plant: &Plant, log: &[Event]) -> Option<String> {
+        let Goal::Collected(sinks) = &line.scenario.goal else { return None };
+        for event in log {
+            let Event::Item { item, to: Carrier::Sink { machine, part }, .. } = *event else { continue };
+            let of_goal = sinks.iter().zip(&mut self.collected);
+            let Some((sink, items)) =
+                of_goal.into_iter().find(|(sink, _)| (sink.machine, sink.part) == (machine, part))
+            else {
+                continue;
+            };
+            let kind = plant.items().all()[item].kind;
+            items[kind] += 1;
+            if items[kind] > sink.items[kind] {
+                let [wanted, name] = [sink.items[kind].to_string(), line.kinds[kind].name.clone()];
+                return Some(format!("{} has collected more {name} than {wanted}", title(line, sink)));
+            }
+        }
+        None
+    }
+
+    /// What the goal still lacks.
+    fn lacks(&self, line: &Line, plant: &Plant) -> String {
+        let Goal::Collected(sinks) = &line.scenario.goal else { return shortage(line, plant) };
+        let lacks = sinks.iter().zip(&self.collected).flat_map(|(sink, items)| {
+            let kinds = sink.items.iter().zip(items).zip(&line.kinds);
+            let missing = kinds.filter(|((wanted, found), _)| found < wanted);
+            missing.map(|((wanted, found), kind)| {
+                format!("{} has {found} of {wanted} {}", title(line, sink), kind.name)
+            })
+        });
+        lacks.collect::<Vec<_>>().join("; ")
+    }
+}
+
+/// Such as `sorter.red_bin`.
+fn title(line: &Line, sink: &Collected) -> String {
+    let machine = &line.machines[sink.machine];
+    format!("{}.{}", machine.name, machine.parts[sink.part].name)
 }

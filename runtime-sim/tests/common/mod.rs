@@ -32,8 +32,8 @@ pub fn line() -> Line {
     Line {
         scan_ms: 10,
         kinds: vec![
-            Kind { name: "battery".into(), height: BATTERY_HEIGHT, size: [0.135, 0.06] },
-            Kind { name: "pump".into(), height: PUMP_HEIGHT, size: [0.11, 0.11] },
+            Kind { name: "battery".into(), height: BATTERY_HEIGHT, size: [0.135, 0.06], is: Vec::new() },
+            Kind { name: "pump".into(), height: PUMP_HEIGHT, size: [0.11, 0.11], is: Vec::new() },
         ],
         machines: vec![
             machine("belt", &belt(Point::new(-0.573076, 0.0, 0.0), Axis::Y, [-5.0, 5.0])),

@@ -169,6 +169,14 @@ impl Panel {
                     self.rectangle(centre, size, class);
                     beside = Some((centre, Point::new(size.0 / 2.0, size.1 / 2.0, 0.0), class));
                 }
+                (Shape::Polygon(corners), _) => {
+                    let outline: Vec<String> = corners
+                        .iter()
+                        .map(|corner| self.dot(*corner))
+                        .map(|(x, y)| format!("{x} {y}"))
+                        .collect();
+                    self.background.push(Element { class, d: format!("M{}Z", outline.join("L")) });
+                }
                 (Shape::Line { from, to }, _) => {
                     self.line(from, to, class);
                     if class == "rail" {

@@ -17,7 +17,7 @@ const MOST_KINDS: usize = 16;
 
 /// Of a line in which nobody tells kinds apart.
 pub fn any(span: Span) -> Kind {
-    Kind { name: Spanned { value: "part".into(), span }, height: SIZE[0], size: SIZE }
+    Kind { name: Spanned { value: "part".into(), span }, height: SIZE[0], size: SIZE, is: Vec::new() }
 }
 
 impl Decoder {
@@ -41,7 +41,7 @@ impl Decoder {
     /// With any height if that cannot be read, so that its name is known.
     fn kind(&mut self, json: &Json) -> Option<Kind> {
         let members = self.object(json, "a kind")?;
-        self.unknown_keys(members, &["name", "height", "size"], "a kind");
+        self.unknown_keys(members, &["name", "height", "size", "is"], "a kind");
         let name = self.required(members, "name", json.span, "a kind");
         let name = name.and_then(|j| self.text(j, "name"));
         if let Some(name) = &name {
@@ -50,7 +50,11 @@ impl Decoder {
         let height = self.required(members, "height", json.span, "a kind");
         let height = height.and_then(|j| self.number_in(j, "height", LENGTHS));
         let size = find(members, "size").and_then(|j| self.footprint(j));
-        Some(Kind { name: name?, height: height.unwrap_or_default(), size: size.unwrap_or(SIZE) })
+        let is = find(members, "is").and_then(|j| self.texts(j, "is")).unwrap_or_default();
+        is.iter().for_each(|word| {
+            self.identifier(word, "what a kind is");
+        });
+        Some(Kind { name: name?, height: height.unwrap_or_default(), size: size.unwrap_or(SIZE), is })
     }
 
     fn footprint(&mut self, json: &Json) -> Option<[f64; 2]> {

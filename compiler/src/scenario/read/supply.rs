@@ -6,10 +6,13 @@ use crate::layout::decode::{Decoder, find};
 use crate::layout::json::{Json, Value};
 use crate::scenario::{Items, Supply};
 
+/// Of one list of parts.
+const MOST_TIMES: u32 = 10_000;
+
 impl Decoder {
     pub(super) fn supply(&mut self, json: &Json, kinds: &[&str]) -> Option<Supply> {
         let members = self.object(json, "supply")?;
-        self.unknown_keys(members, &["surplus", "seed", "first_s", "every_s", "items"], "supply");
+        self.unknown_keys(members, &["surplus", "seed", "first_s", "every_s", "items", "times"], "supply");
         let every_s = self.seconds_or(members, "every_s", EVERY_S);
         let first_s = find(members, "first_s").and_then(|j| self.number_in(j, "first_s", 0.0..=LONGEST_S));
         let first_s = first_s.unwrap_or(every_s);
@@ -39,6 +42,8 @@ impl Decoder {
             }
             _ => Items::OnlyBelt(self.items(items, kinds)?),
         };
+        let times = find(members, "times").map_or(Some(1), |j| self.whole(j, "times", 1..=MOST_TIMES))?;
+        let items = items.repeated(times as usize);
         Some(Supply { span: json.span, first_s, every_s, items })
     }
 

@@ -118,7 +118,11 @@ impl Parser {
                 elements.push(self.text("what the next element is")?.value);
             }
         }
-        Some(ast::DeviceParameter { doc, name, ty, elements })
+        let default = match self.maybe_sign(":=") {
+            true => Some(self.parse_expr()),
+            false => None,
+        };
+        Some(ast::DeviceParameter { doc, name, ty, elements, default })
     }
 
     fn text(&mut self, what: &str) -> Option<Spanned<String>> {

@@ -9,6 +9,9 @@ use crate::point::Point;
 impl Group {
     /// Of the motion under way; none if it rests, or does not come to rest by itself.
     pub fn moving(&mut self, plant: &Plant) -> Option<Fingerprint> {
+        if self.conveys() {
+            return None;
+        }
         if self.moving.is_none() {
             let motion = match &self.movement {
                 Movement::Still => return None,
@@ -27,7 +30,7 @@ impl Group {
 
     /// Of where it is; none if it moves.
     pub fn resting(&mut self, plant: &Plant) -> Option<Fingerprint> {
-        if !matches!(self.movement, Movement::Still) {
+        if self.moves() {
             return None;
         }
         if self.resting.is_none() {

@@ -1,0 +1,103 @@
+//! A light beam across a lane, or another switch that items on it actuate.
+
+use super::settings::{Form, Setting, Settings};
+use super::{Described, Running, Schema, See, Signal, Start};
+use crate::device::{Extent, PortType};
+use crate::line::Kind;
+
+pub const SCHEMA: Schema = Schema {
+    signals: &[
+        Signal { name: "sees", ty: PortType::Bool, extent: Extent::One },
+        Signal { name: "sees_kind", ty: PortType::Bool, extent: Extent::PerKind },
+    ],
+    ..Schema::new(
+        "beam",
+        "A light barrier across a lane: `sees` while an item is between its front and its rear edge there, `sees_kind` for the kind of that item. With `over` it looks across at this height and sees taller items only. With `only` it sees kinds alone that are so, such as `metal`: an inductive sensor or one for a colour.",
+        &[
+            Setting::new("across", Form::Part(&["lane"]), "", "the lane"),
+            Setting::new("at", Form::Number, "m", "from the lane's beginning"),
+            Setting::new("over", Form::Number, "m", "height over the surface").optional(),
+            Setting::new("only", Form::Word, "", "what a kind of the scenario has to be").optional(),
+        ],
+    )
+};
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct Beam {
+    pub lane: usize,
+    pub at: f64,
+    pub over: f64,
+    pub only: Option<String>,
+}
+
+impl Described for Beam {
+    fn new(settings: &Settings) -> Result<Self, String> {
+        Ok(Self {
+            lane: settings.part("across")?,
+            at: settings.number("at")?,
+            over: settings.optional("over", Settings::number)?.unwrap_or(0.0),
+            only: settings.optional("only", Settings::word)?.map(Into::into),
+        })
+    }
+
+    fn start(&self, start: &mut Start) -> Result<Option<Box<dyn Running>>, String> {
+        Ok(Some(Box::new(Crossing::new(self, &start.line.kinds))))
+    }
+}
+
+/// A beam at work.
+#[derive(Clone, Debug)]
+pub struct Crossing {
+    beam: Beam,
+    /// Of each kind.
+    is_seen: Vec<bool>,
+}
+
+/// What is less is rounding, m.
+const AT_ONCE: f64 = 1e-9;
+
+impl Crossing {
+    pub fn new(beam: &Beam, kinds: &[Kind]) -> Self {
+        let is_seen = |kind: &Kind| {
+            kind.height > beam.over && beam.only.as_ref().is_none_or(|only| kind.is.contains(only))
+        };
+        Self { beam: beam.clone(), is_seen: kinds.iter().map(is_seen).collect() }
+    }
+
+    /// Kinds of what is in the beam.
+    fn seen(&self, see: &See) -> impl Iterator<Item = usize> {
+        let moving = see.lane(self.beam.lane);
+        let riders = moving.into_iter().flat_map(|moving| {
+            let beam = moving.lane().course.begin() - self.beam.at + AT_ONCE;
+            let places = moving.riders.iter().map(move |rider| (rider, moving.place_now(rider)));
+            places.filter(move |(rider, place)| place - rider.half <= beam && place + rider.half > beam)
+        });
+        let items = see.items;
+        let kinds = riders.map(move |(rider, _)| items.all()[rider.item].kind);
+        kinds.filter(|kind| self.is_seen[*kind])
+    }
+}
+
+impl Running for Crossing {
+    fn boxed(&self) -> Box<dyn Running> {
+        Box::new(self.clone())
+    }
+
+    /// An edge of an item comes to the beam.
+    fn next_change(&self, see: &See, now_ms: u64) -> f64 {
+        let Some(moving) = see.lane(self.beam.lane) else { return f64::INFINITY };
+        let beam = moving.lane().course.begin() - self.beam.at;
+        let edges = moving.riders.iter().flat_map(|rider| {
+            let comes_to = |place| moving.comes_to(rider.motion, place, now_ms as f64);
+            [comes_to(beam + rider.half), comes_to(beam - rider.half)]
+        });
+        edges.fold(f64::INFINITY, f64::min)
+    }
+
+    fn signal(&self, signal: usize, see: &See, out: &mut [f64]) {
+        out.fill(0.0);
+        for kind in self.seen(see) {
+            out[if signal == 0 { 0 } else { kind }] = 1.0;
+        }
+    }
+}

@@ -1,0 +1,34 @@
+//! What leads items from one lane to another.
+
+use super::settings::{Form, Setting, Settings};
+use super::{Described, Schema};
+
+pub const SCHEMA: Schema = Schema::new(
+    "diverter",
+    "Leads an item to the beginning of another lane when its front edge comes to it, while its cylinder is at its outer end. What comes there while it moves, or is at its inner end, goes by.",
+    &[
+        Setting::new("of", Form::Part(&["lane"]), "", "the lane"),
+        Setting::new("at", Form::Number, "m", "from the lane's beginning to where front edges meet it"),
+        Setting::new("by", Form::Part(&["cylinder"]), "", "the cylinder that moves it"),
+        Setting::new("onto", Form::Part(&["lane"]), "", "the other lane"),
+    ],
+);
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct Diverter {
+    pub lane: usize,
+    pub at: f64,
+    pub cylinder: usize,
+    pub onto: usize,
+}
+
+impl Described for Diverter {
+    fn new(settings: &Settings) -> Result<Self, String> {
+        Ok(Self {
+            lane: settings.part("of")?,
+            at: settings.number("at")?,
+            cylinder: settings.part("by")?,
+            onto: settings.part("onto")?,
+        })
+    }
+}

@@ -1,0 +1,194 @@
+//! Items on conveyors: what is in their way, and where they go on.
+//!
+//! Between two events every item goes at one speed, so that nothing is stepped through: the times of the events are
+//! known, and each of them depends on the event before it alone, never on the scans in between.
+
+mod ahead;
+mod branch;
+mod tracks;
+
+use super::working::Working;
+use crate::carrier::Carrier;
+use crate::item::Items;
+use crate::line::Line;
+use crate::part::lane::{Moving, Rider};
+use crate::point::Point;
+use tracks::Track;
+
+/// Places no farther apart are one, m; twice the rounding of the times at which they are reached.
+const SAME: f64 = 2e-9;
+/// Times no farther apart are one, ms.
+const AT_ONCE: f64 = 1e-6;
+
+/// All lanes of a line.
+#[derive(Clone, Debug)]
+pub struct Conveying {
+    tracks: Vec<Track>,
+    /// Of each lane, when it was looked at last.
+    speeds: Vec<f64>,
+    /// When something happens next if no output changes, ms from the start of the run.
+    next_ms: f64,
+}
+
+/// An item that nothing bears any more.
+#[derive(Clone, Copy, Debug)]
+pub struct Falls {
+    pub item: usize,
+    pub from: Point,
+}
+
+/// The plant, as far as lanes have to do with it.
+pub struct Among<'a> {
+    pub machines: &'a mut [Working],
+    pub items: &'a mut Items,
+}
+
+impl Among<'_> {
+    fn lane(&self, track: &Track) -> &Moving {
+        let lane = self.machines[track.machine].lane(track.part);
+        lane.unwrap_or_else(|| unreachable!("a track is of a lane"))
+    }
+
+    fn lane_mut(&mut self, track: &Track) -> &mut Moving {
+        let lane = self.machines[track.machine].lane_mut(track.part);
+        lane.unwrap_or_else(|| unreachable!("a track is of a lane"))
+    }
+
+    fn carrier(&self, item: usize) -> Carrier {
+        self.items.all()[item].carrier
+    }
+}
+
+impl Conveying {
+    pub fn new(line: &Line) -> Self {
+        let tracks = tracks::tracks(line);
+        Self { speeds: vec![f64::NAN; tracks.len()], tracks, next_ms: f64::INFINITY }
+    }
+
+    /// When something happens next, ms; infinity: never.
+    pub fn next_ms(&self) -> f64 {
+        self.next_ms
+    }
+
+    /// Whether items are still to appear on a lane that moves.
+    pub fn is_busy(&self, machines: &[Working]) -> bool {
+        let mut lanes = self.tracks.iter().filter(|track| track.feed.as_ref().is_some_and(|f| f.is_open()));
+        lanes.any(|track| machines[track.machine].lane(track.part).is_some_and(Moving::is_moving))
+    }
+
+    /// Takes note of drives, cylinders and items that have changed by the start of a scan.
+    pub fn look(&mut self, among: &mut Among, now_ms: u64) -> Option<Falls> {
+        let mut has_changed = false;
+        for (track, known) in self.tracks.iter_mut().zip(&mut self.speeds) {
+            let lane = among.lane(track);
+            let borne = among.items.borne_by(track.machine).iter();
+            let borne = borne.filter(|item| among.carrier(**item).part() == Some(track.part)).count();
+            has_changed |= *known != lane.speed() || lane.riders.len() != borne || !track.bears_riders(among);
+            *known = lane.speed();
+            for branch in &mut track.branches {
+                has_changed |= branch.look(&among.machines[track.machine], now_ms);
+            }
+            if let Some(feed) = &mut track.feed {
+                has_changed |= feed.look(&among.machines[track.machine]);
+            }
+        }
+        if has_changed { self.refresh(among, now_ms as f64) } else { None }
+    }
+
+    /// Everything that happens until a time, ms; the first item that falls by then, after which there may be more.
+    pub fn proceed(&mut self, among: &mut Among, until_ms: u64) -> Option<Falls> {
+        while self.next_ms <= until_ms as f64 + AT_ONCE {
+            let falls = self.refresh(among, self.next_ms);
+            if falls.is_some() {
+                return falls;
+            }
+        }
+        None
+    }
+
+    /// What happens at a time, and how all items go from then on.
+    fn refresh(&mut self, among: &mut Among, ms: f64) -> Option<Falls> {
+        for track in &self.tracks {
+            track.adopt(among, ms);
+        }
+        let mut falls = None;
+        while let Some((track, item, goes)) = self.goes_on(among, ms) {
+            self.pass(among, ms, track, item, goes);
+            if let Goes::Falls(from) = goes {
+                falls = Some(Falls { item, from });
+                break;
+            }
+        }
+        for track in &mut self.tracks {
+            track.appear(among, ms);
+        }
+        let next_ms = ahead::move_on(&self.tracks, among, ms);
+        self.next_ms = next_ms.max(ms + AT_ONCE);
+        falls
+    }
+
+    /// The first item that leaves its lane at a time, and where it goes.
+    fn goes_on(&self, among: &Among, ms: f64) -> Option<(usize, usize, Goes)> {
+        for (index, track) in self.tracks.iter().enumerate() {
+            let lane = among.lane(track);
+            for rider in &lane.riders {
+                let place = lane.place_at(rider.motion, ms);
+                let goes = track.leaves(among, rider, place).or_else(|| {
+                    let mut branches = track.branches.iter();
+                    let onto = branches.find_map(|branch| branch.takes(rider, place, ms))?;
+                    self.has_room(among, onto, rider.half, ms).then_some(Goes::Onto(onto))
+                });
+                if let Some(goes) = goes {
+                    return Some((index, rider.item, goes));
+                }
+            }
+        }
+        None
+    }
+
+    /// At the beginning of a lane.
+    fn has_room(&self, among: &Among, track: usize, half: f64, ms: f64) -> bool {
+        let lane = among.lane(&self.tracks[track]);
+        let begin = lane.lane().course.begin();
+        lane.riders.iter().all(|rider| lane.place_at(rider.motion, ms) + rider.half <= begin - half + SAME)
+    }
+
+    fn pass(&self, among: &mut Among, ms: f64, from: usize, item: usize, goes: Goes) {
+        let course = among.lane(&self.tracks[from]).lane().course;
+        let lane = among.lane_mut(&self.tracks[from]);
+        let index = lane.riders.iter().position(|rider| rider.item == item);
+        let Some(rider) = index.map(|index| lane.riders.remove(index)) else { return };
+        let place = lane.place_at(rider.motion, ms);
+        match goes {
+            Goes::Collected { sink } => {
+                let Carrier::Lane { across, .. } = among.carrier(item) else { return };
+                let machine = self.tracks[from].machine;
+                let carrier = Carrier::Sink { machine, part: sink };
+                among.items.pass(item, carrier, course.point(place, across));
+            }
+            Goes::Onto(onto) => {
+                let track = &self.tracks[onto];
+                let lane = among.lane_mut(track);
+                let course = lane.lane().course;
+                let at = course.begin() + lane.travel_at(ms);
+                let half = track.halves[among.items.all()[item].kind];
+                among.lane_mut(track).riders.push(Rider::new(item, half, at));
+                let carrier = Carrier::Lane { machine: track.machine, part: track.part, at, across: 0.0 };
+                among.items.pass(item, carrier, course.point(course.begin(), 0.0));
+            }
+            Goes::Falls(_) => {}
+        }
+    }
+}
+
+/// Where an item goes that leaves its lane.
+#[derive(Clone, Copy, Debug)]
+enum Goes {
+    /// Off the line, by a part of the machine.
+    Collected {
+        sink: usize,
+    },
+    /// The number of a lane, at its beginning.
+    Onto(usize),
+    Falls(Point),
+}

@@ -1,0 +1,197 @@
+//! What is in the way of items, and how fast they go behind it.
+
+use super::tracks::Track;
+use super::{AT_ONCE, Among, SAME};
+use crate::part::lane::{Motion, Moving};
+
+/// One that is farther in another one than this lies on it, m.
+pub const LIES_ON: f64 = 1e-4;
+
+/// An item on a lane, as it goes from a time on.
+struct Entry {
+    track: usize,
+    rider: usize,
+    place: f64,
+    half: f64,
+    /// Of the surface, m/s.
+    surface: f64,
+    speed: f64,
+    /// Where its middle stops, and the entry that moves this place, if one does.
+    limit: Option<Limit>,
+}
+
+#[derive(Clone, Copy)]
+struct Limit {
+    place: f64,
+    behind: Option<usize>,
+}
+
+/// Sets how all items go from a time on; when something happens next, ms.
+pub fn move_on(tracks: &[Track], among: &mut Among, ms: f64) -> f64 {
+    let mut entries = entries(tracks, among, ms);
+    let limits: Vec<Option<Limit>> =
+        (0..entries.len()).map(|at| limit(tracks, among, &entries, at, ms)).collect();
+    for (entry, limit) in entries.iter_mut().zip(limits) {
+        entry.limit = limit;
+    }
+    slow_down(&mut entries);
+    for entry in &entries {
+        let stands = |limit: &Limit| limit.behind.is_none_or(|other| entries[other].speed == 0.0);
+        let stops_at = entry.limit.filter(stands).map_or(f64::NEG_INFINITY, |limit| limit.place);
+        set(tracks, among, entry, stops_at, ms);
+    }
+    next_ms(tracks, among, &entries, ms)
+}
+
+fn entries(tracks: &[Track], among: &Among, ms: f64) -> Vec<Entry> {
+    let mut entries = Vec::new();
+    for (track, of) in tracks.iter().enumerate() {
+        let lane = among.lane(of);
+        for (rider, on) in lane.riders.iter().enumerate() {
+            let surface = lane.speed();
+            entries.push(Entry {
+                track,
+                rider,
+                place: lane.place_at(on.motion, ms),
+                half: on.half,
+                surface,
+                speed: surface,
+                limit: None,
+            });
+        }
+    }
+    entries
+}
+
+/// The nearest thing in the way of an item.
+fn limit(tracks: &[Track], among: &Among, entries: &[Entry], at: usize, ms: f64) -> Option<Limit> {
+    let entry = &entries[at];
+    let track = &tracks[entry.track];
+    let lane = among.lane(track);
+    let rider = &lane.riders[entry.rider];
+    let branches = track.branches.iter().filter_map(|branch| branch.stops(rider, entry.place, ms));
+    let fixed = branches.map(|place| Limit { place, behind: None });
+    let ahead = entries[..at].iter().enumerate().rev().take_while(|(_, other)| other.track == entry.track);
+    // What lies on another one does not stop behind it.
+    let ahead = ahead
+        .map(|(other, of)| Limit { place: of.place + of.half + entry.half, behind: Some(other) })
+        .find(|limit| limit.place <= entry.place + LIES_ON);
+    let is_first = entry.rider == 0;
+    let beyond = track.onto.filter(|_| is_first && track.sink.is_none());
+    let beyond = beyond.and_then(|onto| beyond_end(tracks, among, entries, at, onto));
+    fixed.chain(ahead).chain(beyond).reduce(|a, b| if b.place > a.place { b } else { a })
+}
+
+/// What is in the way of the first item of a lane on the lane after it, or beside it on another one that leads there.
+fn beyond_end(tracks: &[Track], among: &Among, entries: &[Entry], at: usize, onto: usize) -> Option<Limit> {
+    let entry = &entries[at];
+    let end = among.lane(&tracks[entry.track]).lane().course.end();
+    let begin = among.lane(&tracks[onto]).lane().course.begin();
+    let last = entries.iter().enumerate().rev().find(|(_, other)| other.track == onto);
+    let last = last.map(|(number, last)| Limit {
+        place: end + last.place - begin + last.half + entry.half,
+        behind: Some(number),
+    });
+    // One at a time goes from several lanes onto one.
+    let inputs = tracks[onto].inputs.iter().filter(|input| **input != entry.track);
+    let others = inputs.filter_map(|input| {
+        let other = entries.iter().find(|other| other.track == *input)?;
+        let over = among.lane(&tracks[*input]).lane().course.end() - (other.place - other.half);
+        let own_over = end - (entry.place - entry.half);
+        let goes_first = over > SAME || over > -SAME && (own_over < -SAME || *input < entry.track);
+        (goes_first && own_over <= SAME).then_some(Limit { place: end + entry.half, behind: None })
+    });
+    others
+        .chain(last)
+        .filter(|limit| limit.place <= entry.place + LIES_ON || limit.behind.is_none())
+        .reduce(|a, b| if b.place > a.place { b } else { a })
+}
+
+/// Whoever is right behind another item goes no faster than that.
+fn slow_down(entries: &mut [Entry]) {
+    let mut is_settled = false;
+    while !is_settled {
+        is_settled = true;
+        for at in 0..entries.len() {
+            let Some(limit) = entries[at].limit.filter(|limit| entries[at].place <= limit.place + SAME)
+            else {
+                continue;
+            };
+            let most = limit.behind.map_or(0.0, |other| entries[other].speed);
+            if entries[at].speed > most {
+                entries[at].speed = most;
+                is_settled = false;
+            }
+        }
+    }
+}
+
+fn set(tracks: &[Track], among: &mut Among, entry: &Entry, stops_at: f64, ms: f64) {
+    let lane = among.lane_mut(&tracks[entry.track]);
+    let old = lane.riders[entry.rider].motion;
+    let touches = entry.limit.filter(|limit| entry.place <= limit.place + SAME);
+    let place = touches.map_or(entry.place, |limit| limit.place.min(entry.place));
+    let motion = if entry.speed == entry.surface {
+        match old {
+            Motion::Goes { .. } => old,
+            Motion::Stands { .. } | Motion::Follows { .. } => Motion::Goes { at: place + lane.travel_at(ms) },
+        }
+    } else if entry.speed == 0.0 {
+        match old {
+            Motion::Stands { .. } => old,
+            Motion::Goes { .. } | Motion::Follows { .. } => Motion::Stands { place },
+        }
+    } else {
+        match old {
+            Motion::Follows { speed, .. } if speed == entry.speed => old,
+            _ => Motion::Follows { place, since_ms: ms, speed: entry.speed },
+        }
+    };
+    let rider = &mut lane.riders[entry.rider];
+    (rider.motion, rider.stops_at) = (motion, stops_at);
+}
+
+/// When one comes to what is in its way, to a diverter or to the end, a cylinder comes to its end, or an item appears.
+fn next_ms(tracks: &[Track], among: &Among, entries: &[Entry], ms: f64) -> f64 {
+    let mut next = f64::INFINITY;
+    for entry in entries {
+        let track = &tracks[entry.track];
+        let lane = among.lane(track);
+        let rider = &lane.riders[entry.rider];
+        let mut comes_to = |place: f64| {
+            // What is there now has been looked at.
+            if place < entry.place - SAME {
+                next = next.min(lane.comes_to(rider.motion, place, ms));
+            }
+        };
+        comes_to(track.sink.map_or(lane.lane().course.end(), |sink| sink.place));
+        track.branches.iter().filter_map(|branch| branch.awaits(rider)).for_each(&mut comes_to);
+        let shares_joint = |onto: usize| tracks[onto].inputs.len() > 1;
+        if track.onto.is_some_and(shares_joint) {
+            comes_to(lane.lane().course.end() + rider.half);
+        }
+        if let Some(limit) = entry.limit {
+            next = next.min(meets(entry, limit, entries, lane, ms));
+        }
+    }
+    let others = tracks.iter().map(|track| {
+        let branches = track.branches.iter().map(|branch| branch.next_ms(ms));
+        let feed = track.feed_ms(among, ms);
+        branches.fold(if feed > ms + AT_ONCE { feed } else { f64::INFINITY }, f64::min)
+    });
+    others.fold(next, f64::min)
+}
+
+/// When an item meets what is in its way, ms.
+fn meets(entry: &Entry, limit: Limit, entries: &[Entry], lane: &Moving, ms: f64) -> f64 {
+    if entry.place <= limit.place + SAME {
+        return f64::INFINITY;
+    }
+    match limit.behind.map(|other| entries[other].speed) {
+        None | Some(0.0) => lane.comes_to(lane.riders[entry.rider].motion, limit.place, ms),
+        Some(speed) if speed < entry.speed => {
+            ms + 1000.0 * (entry.place - limit.place) / (entry.speed - speed)
+        }
+        Some(_) => f64::INFINITY,
+    }
+}

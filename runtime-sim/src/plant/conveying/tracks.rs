@@ -1,0 +1,253 @@
+//! The lanes of a line: what stands at each, and where they lead.
+
+use super::super::working::Working;
+use super::branch::{Branch, Kind};
+use super::{AT_ONCE, Among, Goes, SAME};
+use crate::carrier::Carrier;
+use crate::line::Line;
+use crate::machine::Machine;
+use crate::part::Primitive;
+use crate::part::lane::{Course, Lane, Rider};
+use crate::part::source::{self, Spawn};
+use crate::point::Axis;
+
+/// A lane with all that stands at it. Places are those of its course.
+#[derive(Clone, Debug)]
+pub struct Track {
+    pub machine: usize,
+    pub part: usize,
+    /// Where the middles of items leave the line.
+    pub sink: Option<Leaves>,
+    pub feed: Option<Feed>,
+    pub branches: Vec<Branch>,
+    /// The lane that begins where this one ends.
+    pub onto: Option<usize>,
+    /// The lanes that end where this one begins, in their order.
+    pub inputs: Vec<usize>,
+    /// Half of the length of an item of each kind, along the lane, m.
+    pub halves: Vec<f64>,
+}
+
+/// A sink: its part of the machine, and the place of the middles of items that leave.
+#[derive(Clone, Copy, Debug)]
+pub struct Leaves {
+    part: usize,
+    pub place: f64,
+}
+
+/// Where items appear.
+#[derive(Clone, Debug)]
+pub struct Feed {
+    /// Of the machine.
+    part: usize,
+    place: f64,
+    /// How many items were asked for, if somebody asks for each.
+    asked: Option<u64>,
+    spawn: Spawn,
+    /// Items that are still to appear, last one first.
+    supply: Vec<usize>,
+    spawned: u64,
+}
+
+impl Feed {
+    /// Items are still to appear.
+    pub fn is_open(&self) -> bool {
+        !self.supply.is_empty()
+    }
+
+    /// Takes note of how many items were asked for; whether that has changed.
+    pub fn look(&mut self, machine: &Working) -> bool {
+        let asked = machine.asked(self.part);
+        std::mem::replace(&mut self.asked, asked) != asked
+    }
+}
+
+/// Lanes of which one begins where the other one ends: m and degrees.
+const JOINED: f64 = 0.005;
+const ALIGNED: f64 = 1.0;
+
+/// All lanes of all machines.
+pub fn tracks(line: &Line) -> Vec<Track> {
+    let lanes = || {
+        line.machines.iter().enumerate().flat_map(|(number, machine)| {
+            let parts = machine.parts.iter().enumerate();
+            parts.filter_map(move |(part, of)| match &of.primitive {
+                Primitive::Lane(lane) => Some((number, part, lane)),
+                _ => None,
+            })
+        })
+    };
+    let places: Vec<(usize, usize)> = lanes().map(|(machine, part, _)| (machine, part)).collect();
+    let courses: Vec<Course> = lanes().map(|(_, _, lane)| lane.course).collect();
+    let leads =
+        |from: usize| (0..courses.len()).find(|to| *to != from && joins(&courses[from], &courses[*to]));
+    let onto: Vec<Option<usize>> = (0..courses.len()).map(leads).collect();
+    let number = |machine: usize, part: usize| places.iter().position(|place| *place == (machine, part));
+    let track = |(index, (machine, part, lane)): (usize, (usize, usize, &Lane))| Track {
+        machine,
+        part,
+        sink: sink(&line.machines[machine], part, lane),
+        feed: feed(line, machine, part, lane),
+        branches: branches(&line.machines[machine], part, lane, &|onto| number(machine, onto)),
+        onto: onto[index],
+        inputs: (0..onto.len()).filter(|other| onto[*other] == Some(index)).collect(),
+        halves: line.kinds.iter().map(|kind| half(lane, kind.size)).collect(),
+    };
+    lanes().enumerate().map(track).collect()
+}
+
+/// Whether a lane goes on as another one.
+fn joins(from: &Course, to: &Course) -> bool {
+    let (end, begin) = (from.frame(from.end()), to.frame(to.begin()));
+    let turn = crate::frame::whole_turn(end.yaw - begin.yaw);
+    (end.position - begin.position).length() <= JOINED && turn.abs() <= ALIGNED
+}
+
+fn half(lane: &Lane, [x, y]: [f64; 2]) -> f64 {
+    match lane.course {
+        Course::Axis { along: Axis::Y, .. } => y / 2.0,
+        Course::Axis { along: Axis::X, .. } | Course::Line { .. } | Course::Arc { .. } => x / 2.0,
+    }
+}
+
+fn sink(machine: &Machine, lane_part: usize, lane: &Lane) -> Option<Leaves> {
+    machine.parts.iter().enumerate().find_map(|(part, other)| match &other.primitive {
+        Primitive::Sink(sink) if sink.lane == lane_part => {
+            Some(Leaves { part, place: lane.course.end() + sink.inset })
+        }
+        _ => None,
+    })
+}
+
+fn feed(line: &Line, machine: usize, lane_part: usize, lane: &Lane) -> Option<Feed> {
+    line.machines[machine].parts.iter().enumerate().find_map(|(part, other)| match &other.primitive {
+        Primitive::Source(source) if source.lane == lane_part => {
+            let mut supply = source::supply(line, machine);
+            supply.reverse();
+            let place = lane.course.begin() - source.inset;
+            let spawn = Spawn::new(&line.scenario);
+            Some(Feed { part, place, asked: None, spawn, supply, spawned: 0 })
+        }
+        _ => None,
+    })
+}
+
+fn branches(
+    machine: &Machine,
+    part: usize,
+    lane: &Lane,
+    number: &dyn Fn(usize) -> Option<usize>,
+) -> Vec<Branch> {
+    let begin = lane.course.begin();
+    let branch = |kind: Kind, at: f64, cylinder: usize| Branch {
+        kind,
+        place: begin - at,
+        cylinder,
+        is_in_ms: f64::NAN,
+        is_out_ms: f64::NAN,
+    };
+    let parts = machine.parts.iter().filter_map(|other| match &other.primitive {
+        Primitive::Stopper(stopper) if stopper.lane == part => {
+            Some(branch(Kind::Stopper, stopper.at, stopper.cylinder))
+        }
+        Primitive::Diverter(diverter) if diverter.lane == part => {
+            let onto = number(diverter.onto)?;
+            Some(branch(Kind::Diverter { onto }, diverter.at, diverter.cylinder))
+        }
+        Primitive::Pusher(pusher) if pusher.lane == part => {
+            let (onto, half) = (number(pusher.onto)?, pusher.width / 2.0);
+            Some(branch(Kind::Pusher { onto, half }, pusher.at, pusher.cylinder))
+        }
+        _ => None,
+    });
+    parts.collect()
+}
+
+impl Track {
+    /// Makes riders of exactly the items that its lane bears, the foremost first.
+    pub fn adopt(&self, among: &mut Among, ms: f64) {
+        let borne = among.items.borne_by(self.machine).iter().copied();
+        let borne: Vec<usize> = borne.filter(|item| among.carrier(*item).part() == Some(self.part)).collect();
+        let come: Vec<Rider> = {
+            let known = &among.lane(self).riders;
+            let new = borne.iter().filter(|item| known.iter().all(|rider| rider.item != **item));
+            new.filter_map(|item| {
+                let Carrier::Lane { at, .. } = among.carrier(*item) else { return None };
+                let half = self.halves[among.items.all()[*item].kind];
+                Some(Rider::new(*item, half, at))
+            })
+            .collect()
+        };
+        let lane = among.lane_mut(self);
+        lane.riders.retain(|rider| borne.contains(&rider.item));
+        lane.riders.extend(come);
+        let mut riders = std::mem::take(&mut lane.riders);
+        riders.sort_by(|a, b| lane.place_at(a.motion, ms).total_cmp(&lane.place_at(b.motion, ms)));
+        lane.riders = riders;
+    }
+
+    /// Whether all riders are still on the lane.
+    pub fn bears_riders(&self, among: &Among) -> bool {
+        let is_here = |rider: &Rider| {
+            let carrier = among.carrier(rider.item);
+            carrier.machine() == Some(self.machine) && carrier.part() == Some(self.part)
+        };
+        among.lane(self).riders.iter().all(is_here)
+    }
+
+    /// Where an item goes that has come to the end of the lane.
+    pub fn leaves(&self, among: &Among, rider: &Rider, place: f64) -> Option<Goes> {
+        let course = among.lane(self).lane().course;
+        let end = self.sink.map_or(course.end(), |sink| sink.place);
+        if place > end + SAME {
+            return None;
+        }
+        Some(match (self.sink, self.onto) {
+            (Some(sink), _) => Goes::Collected { sink: sink.part },
+            (None, Some(onto)) => Goes::Onto(onto),
+            (None, None) => Goes::Falls(course.point(course.end() - rider.half, 0.0)),
+        })
+    }
+
+    /// Items appear whose time has come, as soon as there is room.
+    pub fn appear(&mut self, among: &mut Among, ms: f64) {
+        while self.feed_ms(among, ms) <= ms + AT_ONCE {
+            let lane = among.lane(self);
+            let (course, machine, part) = (lane.lane().course, self.machine, self.part);
+            let Some(feed) = &mut self.feed else { return };
+            let Some(item) = feed.supply.pop() else { return };
+            let due_ms = feed.spawn.at_ms(feed.spawned) as f64;
+            let is_late = feed.asked.is_some() || lane.travel_ms_at(ms) > due_ms + AT_ONCE;
+            let travel = if is_late { lane.travel_at(ms) } else { lane.lane().distance(due_ms) };
+            feed.spawned += 1;
+            let at = feed.place + travel;
+            let point = course.point(at - lane.travel_at(ms), 0.0);
+            among.items.pass(item, Carrier::Lane { machine, part, at, across: 0.0 }, point);
+            self.adopt(among, ms);
+        }
+    }
+
+    /// When the next item appears, if all goes on as it does, ms; infinity: never.
+    pub fn feed_ms(&self, among: &Among, ms: f64) -> f64 {
+        let Some(feed) = &self.feed else { return f64::INFINITY };
+        let Some(next) = feed.supply.last() else { return f64::INFINITY };
+        let lane = among.lane(self);
+        let is_asked_for = feed.asked.is_some_and(|asked| asked > feed.spawned);
+        if !is_asked_for && (feed.asked.is_some() || !lane.is_moving()) {
+            return f64::INFINITY;
+        }
+        let half = self.halves[among.items.all()[*next].kind];
+        let due_ms = match feed.asked {
+            Some(_) => ms,
+            None => ms + (feed.spawn.at_ms(feed.spawned) as f64 - lane.travel_ms_at(ms)).max(0.0),
+        };
+        let is_there =
+            |rider: &&Rider| (lane.place_at(rider.motion, ms) - feed.place).abs() < half + rider.half - SAME;
+        if due_ms > ms + AT_ONCE {
+            return due_ms;
+        }
+        let there = lane.riders.iter().filter(is_there);
+        let away = there.map(|rider| lane.comes_to(rider.motion, feed.place - half - rider.half, ms));
+        away.fold(due_ms, f64::max)
+    }
+}

@@ -1,0 +1,64 @@
+//! Lines of the examples whose figures are known from closed forms.
+
+use autogen::executor::Executor;
+use autogen_tests::{Texts, side_by_side};
+use runtime_sim::carrier::Carrier;
+use runtime_sim::event::Event;
+use runtime_sim::memory::Memory;
+use runtime_sim::report::Report;
+use runtime_sim::run::{Seen, Stepping, run_again};
+
+fn run(texts: Texts, observer: &mut dyn FnMut(&Seen)) -> Report {
+    let outcome = texts.compile();
+    let project = outcome.project.unwrap_or_else(|| panic!("{:?}", outcome.diagnostics));
+    let mut executor = Executor::new(&project.system);
+    let memory = &mut Memory::default();
+    run_again(&project.plant, &mut executor, Stepping::Events, memory, observer).expect("a line that runs")
+}
+
+/// Of the sorting station, s: 0.10 m at 13 s per metre to the stopper, 0.5 s to identify, 0.15 s until the stopper is
+/// down, the rest of the belt, 0.1 s in the chute; then 0.15 s until the stopper is up.
+const SORTED: [f64; 3] = [4.0, 5.95, 8.16];
+const CLOSES: f64 = 0.15;
+
+#[test]
+fn the_sorting_station_takes_the_time_of_its_closed_form() {
+    let pieces = 30.0;
+    let exact = SORTED.iter().sum::<f64>() * 10.0 + (pieces - 1.0) * CLOSES;
+    assert!((exact - 185.45).abs() < 1e-9);
+    for scan_ms in [1_u32, 10] {
+        let mut put = Vec::new();
+        let mut times: Vec<(usize, f64)> = Vec::new();
+        let mut read = 0;
+        let mut observer = |seen: &Seen| {
+            let log = seen.plant.items().log();
+            for event in &log[read..] {
+                let Event::Item { scan, item, from, to, .. } = *event else { continue };
+                let now_s = (scan * u64::from(scan_ms)) as f64 / 1000.0;
+                if from == Carrier::Supply {
+                    put.push(now_s);
+                }
+                if let Carrier::Sink { .. } = to {
+                    times.push((seen.plant.items().all()[item].kind, now_s - put[item]));
+                }
+            }
+            read = log.len();
+        };
+        let mut texts = side_by_side("sorting/sorting");
+        texts.layout = texts.layout.replacen('{', &format!("{{\"scan_ms\": {scan_ms}, "), 1);
+        let report = run(texts, &mut observer);
+        assert_eq!(report.reason, "all items collected");
+        assert!(report.collisions.is_empty());
+        // From the beam to the box: 0.25 m at 0.5 m/s less half a piece. Each of five waits is up to two scans long.
+        let to_box = (0.30 - 0.05) / 0.5;
+        let scan_s = f64::from(scan_ms) / 1000.0;
+        let waits = |pieces: f64| pieces * 5.0 * 2.0 * scan_s;
+        for (kind, time) in &times {
+            let late = time - SORTED[*kind] - to_box;
+            // A piece that is put on at the start of a scan is told of at its end.
+            assert!((-scan_s - 1e-9..=waits(1.0)).contains(&late), "kind {kind}: {time} s, {late} s late");
+        }
+        let late = report.simulated_s - exact - to_box;
+        assert!((-1e-9..=waits(pieces)).contains(&late), "{} s, {late} s late", report.simulated_s);
+    }
+}
