@@ -74,7 +74,13 @@ mod tests {
         };
         Items::new(&Line {
             scan_ms: 10,
-            kinds: vec![Kind { name: "part".into(), height: 0.1, size: [0.1, 0.1], is: Vec::new() }],
+            kinds: vec![Kind {
+                name: "part".into(),
+                height: 0.1,
+                size: [0.1, 0.1],
+                is: Vec::new(),
+                mass: 0.0,
+            }],
             machines: (0..3).map(machine).collect(),
             obstacles: vec![],
             may_touch: vec![],

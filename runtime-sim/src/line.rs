@@ -31,6 +31,8 @@ pub struct Kind {
     pub size: [f64; 2],
     /// What sensors for it find it to be, such as `metal`.
     pub is: Vec<String>,
+    /// kg.
+    pub mass: f64,
 }
 
 /// Something stationary without an automaton.

@@ -16,6 +16,7 @@ use crate::kinematics::arm::Joints;
 use crate::line::{Line, Obstacle};
 use crate::memory::Memory;
 use crate::part::Looks;
+use crate::part::cylinder::Stroking;
 use crate::part::orders::Desk;
 use crate::point::Point;
 use conveyed::Conveyed;
@@ -286,8 +287,16 @@ impl Plant {
     /// How an item on a conveyor goes on from now.
     pub(crate) fn conveyed(&self, item: usize) -> Option<Conveyed> {
         let carrier = &self.items.all().get(item)?.carrier;
-        let lane = self.machines.get(carrier.machine()?)?.lane(carrier.part()?)?;
-        lane.conveyed(item, carrier)
+        let machine = self.machines.get(carrier.machine()?)?;
+        let lane = machine.lane(carrier.part()?)?;
+        let cylinder = lane.lane().on.and_then(|cylinder| machine.cylinder(cylinder));
+        let carried = cylinder.and_then(|cylinder| cylinder.stroking(self.now_ms()));
+        Some(Conveyed { carried, ..lane.conveyed(item, carrier)? })
+    }
+
+    /// How a cylinder of a machine moves what is on it from now on.
+    pub(crate) fn stroking(&self, machine: usize, part: usize) -> Option<Stroking> {
+        self.machines.get(machine)?.cylinder(part)?.stroking(self.now_ms())
     }
 
     /// How a machine moves from now on.
@@ -321,7 +330,7 @@ impl Plant {
     /// Whether a machine moves at the start of this scan.
     pub(crate) fn moves(&self, machine: usize) -> bool {
         self.trajectory(machine).since(self.now_ms() as f64) != Trajectory::Rests
-            || self.machines.get(machine).is_some_and(Working::conveys)
+            || self.machines.get(machine).is_some_and(Working::flows)
     }
 }
 

@@ -28,6 +28,8 @@ pub enum Link {
     World,
     /// Moves along the route; the frame has its origin at the position and the world's axes.
     Route,
+    /// Moves with a cylinder, a part of the machine; the frame is the world's at its inner end.
+    Cylinder(usize),
     /// Moves with the link behind joint number so and so of the arm:
     /// an index into [`crate::kinematics::arm::Arm::frames`].
     Joint(usize),
@@ -55,6 +57,7 @@ impl Machine {
                 None => (Link::World, body.pose),
                 Some((other, frame)) => match (&self.parts[other].primitive, &arm) {
                     (Primitive::Route(_), _) => (Link::Route, body.pose),
+                    (Primitive::Cylinder(_), _) => (Link::Cylinder(other), body.pose),
                     // The base is a part of what carries it.
                     (Primitive::Chain(_), Some(arm)) if frame == 0 => {
                         (Link::Joint(axes - 1), arm.mount().then(&body.pose))

@@ -201,10 +201,10 @@ fn what_nobody_takes_ends_in_the_collector() {
     rig.step(4614);
     assert!(rig.plant.place(0).is_some());
     rig.step(1);
-    assert_eq!(rig.plant.items().all()[0].carrier, Carrier::Collector);
+    assert_eq!(rig.plant.items().all()[0].carrier, Carrier::Sink { machine: 0, part: 2 });
     assert!(rig.plant.is_busy());
     rig.step(200);
-    assert_eq!(rig.plant.items().all()[1].carrier, Carrier::Collector);
+    assert_eq!(rig.plant.items().all()[1].carrier, Carrier::Sink { machine: 0, part: 2 });
     assert!(!rig.plant.is_busy(), "nothing more to come");
 }
 

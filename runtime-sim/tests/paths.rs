@@ -13,6 +13,9 @@ use runtime_sim::point::Point;
 use runtime_sim::report::Report;
 use runtime_sim::run::{Seen, Stepping, record, run};
 
+/// Where the belt of these tests ends.
+const SINK: Carrier = Carrier::Sink { machine: 0, part: 2 };
+
 /// Where every item was at the start of every scan, by the plant: carrier and place.
 type Places = Vec<Vec<(Carrier, Option<Point>)>>;
 
@@ -143,9 +146,9 @@ fn a_belt_brings_its_parts_to_the_end() {
     steps.push(Step::Command(BELT, DRIVE, None));
     let (_, paths) = agree(&line, steps);
     let last = |path: &Path| path.segments.last().map(|segment| segment.carrier);
-    assert_eq!(last(&paths[0]), Some(Carrier::Collector));
+    assert_eq!(last(&paths[0]), Some(SINK));
     assert!(
-        paths.last().is_some_and(|path| path.segments.is_empty() || last(path) != Some(Carrier::Collector))
+        paths.last().is_some_and(|path| path.segments.is_empty() || last(path) != Some(SINK))
     );
 }
 
@@ -181,7 +184,7 @@ fn paths_follow_what_goes_wrong() {
     assert!(matches!(paths[0].segments[drop + 1].law, Law::Slides { .. }));
     let hung = paths[0].segments.iter().filter(|segment| matches!(segment.law, Law::Hangs(_))).count();
     assert!(hung > 6, "{hung}");
-    assert_eq!(carriers.last(), Some(&Carrier::Collector));
+    assert_eq!(carriers.last(), Some(&SINK));
 }
 
 /// Picks the battery and takes it past corners, held now and then, to where it is let go.

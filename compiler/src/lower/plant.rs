@@ -66,6 +66,7 @@ pub fn line(
                 name: kind.name.value.clone(),
                 height: kind.height,
                 size: kind.size,
+                mass: kind.mass,
                 is: kind.is.iter().map(|word| word.value.clone()).collect(),
             })
             .collect(),

@@ -43,6 +43,8 @@ pub struct Kind {
     pub size: [f64; 2],
     /// What sensors find it to be, such as `metal`.
     pub is: Vec<Spanned<String>>,
+    /// kg.
+    pub mass: f64,
 }
 
 #[derive(Clone, Debug, PartialEq)]

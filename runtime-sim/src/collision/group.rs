@@ -12,6 +12,8 @@ use crate::kinematics::pose::Pose;
 use crate::line::{Line, Obstacle};
 use crate::machine::Machine;
 use crate::motion::Travel;
+use crate::part::Primitive;
+use crate::part::cylinder::Stroking;
 use crate::part::lane::Course;
 use crate::plant::Plant;
 use crate::plant::conveyed::Conveyed;
@@ -50,6 +52,8 @@ pub enum Anchor {
     Link(usize),
     /// Along the route.
     Route,
+    /// On a cylinder, a part of the machine.
+    Cylinder(usize),
     /// Lies on the machine; the frame has its origin at the underside of the item and is turned by so many radians.
     Lying {
         item: usize,
@@ -68,6 +72,8 @@ pub struct Group {
     movement: Movement,
     /// How the items on its conveyors go on, by their numbers.
     conveyed: BTreeMap<usize, Conveyed>,
+    /// How its cylinders go on, by their parts.
+    strokes: BTreeMap<usize, Stroking>,
     /// Of an arm, as last looked at.
     frames: Option<(Joints, Frames)>,
     /// At a place on the path under way, as last looked at.
@@ -96,7 +102,7 @@ impl Body {
     fn lying(&self) -> Option<usize> {
         match self.anchor {
             Anchor::Lying { item, .. } => Some(item),
-            Anchor::World | Anchor::Link(_) | Anchor::Route => None,
+            Anchor::World | Anchor::Link(_) | Anchor::Route | Anchor::Cylinder(_) => None,
         }
     }
 }
@@ -124,6 +130,7 @@ impl Group {
             path: 0.0,
             movement: Movement::Still,
             conveyed: BTreeMap::new(),
+            strokes: BTreeMap::new(),
             frames: None,
             along: None,
             moving: None,
@@ -136,6 +143,7 @@ impl Group {
                 Link::World => Anchor::World,
                 Link::Joint(link) => Anchor::Link(link),
                 Link::Route => Anchor::Route,
+                Link::Cylinder(part) => Anchor::Cylinder(part),
             };
             let pieces =
                 solids.iter().map(|solid| Piece::new(solid.name.clone(), &solid.pose, solid.shape)).collect();
@@ -152,6 +160,9 @@ impl Group {
                 (Some(chain.radii(link, &ball)), chain.bounds(link, &ball))
             }
             (Anchor::Route, Kind::Machine { machine, .. }) => (None, at_stops(machine, &ball)),
+            (Anchor::Cylinder(part), Kind::Machine { machine, .. }) => {
+                (None, on_cylinder(machine, part, &ball))
+            }
             _ => (None, still(&ball)),
         };
         let travel = self.travel(radii.as_ref());
@@ -202,7 +213,7 @@ impl Group {
     }
 
     pub fn moves(&self) -> bool {
-        !matches!(self.movement, Movement::Still) || self.conveys()
+        !matches!(self.movement, Movement::Still) || self.moves_parts()
     }
 
     /// Of an item that lies along a conveyor, degrees about the vertical.
@@ -210,9 +221,9 @@ impl Group {
         self.conveyed.get(&item)?.yaw(0.0)
     }
 
-    /// Whether an item moves on one of its conveyors.
-    fn conveys(&self) -> bool {
-        self.conveyed.values().any(Conveyed::moves)
+    /// Whether something moves on it, but not it as a whole.
+    fn moves_parts(&self) -> bool {
+        self.conveyed.values().any(Conveyed::moves) || self.strokes.values().any(Stroking::moves)
     }
 
     /// Whether [`Self::frame_along`] knows its path from the beginning to the end.
@@ -267,7 +278,7 @@ impl Group {
         let number = |body: &Body| match body.anchor {
             Anchor::World => Some(0),
             Anchor::Link(link) => Some(link + 1),
-            Anchor::Route | Anchor::Lying { .. } => None,
+            Anchor::Route | Anchor::Cylinder(_) | Anchor::Lying { .. } => None,
         };
         let (Some(a), Some(b)) = (number(a), number(b)) else { return true };
         // Neighbours and their neighbours always touch.
@@ -299,7 +310,16 @@ impl Group {
         let conveyed = std::mem::take(&mut self.conveyed);
         let lying = self.bodies.iter().flatten().filter_map(Body::lying);
         self.conveyed = lying.filter_map(|item| Some((item, plant.conveyed(item)?))).collect();
-        let rests = !self.conveys() && !conveyed.values().any(Conveyed::moves);
+        let moved = conveyed.values().any(Conveyed::moves) || self.strokes.values().any(Stroking::moves);
+        let cylinders = self.bodies.iter().flatten().filter_map(|body| match body.anchor {
+            Anchor::Cylinder(part) => Some(part),
+            _ => None,
+        });
+        self.strokes = cylinders.filter_map(|part| Some((part, plant.stroking(index, part)?))).collect();
+        if moved {
+            self.resting = None;
+        }
+        let rests = !moved && !self.moves_parts();
         if rests && matches!((&self.movement, &last), (Movement::Still, Movement::Still)) {
             return;
         }
@@ -317,7 +337,7 @@ impl Group {
         }
         let mut longest = 0.0_f64;
         for body in self.bodies.iter_mut().flatten() {
-            let path = path(&self.movement, &self.conveyed, body, [0.0, seconds]);
+            let path = path(&self.movement, &self.conveyed, &self.strokes, body, [0.0, seconds]);
             body.path += path;
             longest = longest.max(path);
         }
@@ -334,7 +354,7 @@ impl Group {
 
     /// Metres that no point of the body goes more than between two times of the span.
     pub fn path_between(&self, body: &Body, from: f64, to: f64) -> f64 {
-        path(&self.movement, &self.conveyed, body, [from, to])
+        path(&self.movement, &self.conveyed, &self.strokes, body, [from, to])
     }
 
     /// The frame of an anchor at a time of the span.
@@ -345,6 +365,12 @@ impl Group {
             Anchor::Route => {
                 let place = self.machine().and_then(|index| plant.position(index)).unwrap_or_default();
                 Pose { position: place + self.movement.shift(time), ..Pose::IDENTITY }
+            }
+            Anchor::Cylinder(part) => {
+                let stroking = self.strokes.get(&part).copied();
+                let index = self.machine();
+                let stroking = stroking.or_else(|| plant.stroking(index?, part));
+                stroking.map_or(Pose::IDENTITY, |stroking| stroking.frame(time).pose())
             }
             Anchor::Lying { item, turn } => {
                 if let Some(conveyed) = self.conveyed.get(&item) {
@@ -371,7 +397,18 @@ impl Group {
 }
 
 /// Metres that no point of a body goes more than between two times of the span.
-fn path(movement: &Movement, conveyed: &BTreeMap<usize, Conveyed>, body: &Body, [from, to]: [f64; 2]) -> f64 {
+fn path(
+    movement: &Movement,
+    conveyed: &BTreeMap<usize, Conveyed>,
+    strokes: &BTreeMap<usize, Stroking>,
+    body: &Body,
+    [from, to]: [f64; 2],
+) -> f64 {
+    if let Anchor::Cylinder(part) = body.anchor {
+        let Some(stroking) = strokes.get(&part) else { return 0.0 };
+        let part = (stroking.out(to) - stroking.out(from)).abs();
+        return stroking.stroke.path(body.ball.middle, body.ball.radius, part);
+    }
     match body.lying().and_then(|item| conveyed.get(&item)) {
         Some(conveyed) => conveyed.speed_within(body.ball.middle.length() + body.ball.radius) * (to - from),
         None => movement.path(body, movement.span(from, to)),
@@ -382,6 +419,22 @@ fn path(movement: &Movement, conveyed: &BTreeMap<usize, Conveyed>, body: &Body, 
 fn at_stops(machine: &Machine, ball: &Ball) -> BoundingBox {
     let boxes = machine.stops().iter().map(|stop| BoundingBox::around(&ball.shifted(*stop)));
     boxes.reduce(|a, b| a.with(&b)).unwrap_or(BoundingBox::around(ball))
+}
+
+/// What a body can take on a cylinder.
+fn on_cylinder(machine: &Machine, part: usize, ball: &Ball) -> BoundingBox {
+    let stroke = match &machine.parts[part].primitive {
+        Primitive::Cylinder(cylinder) => cylinder.stroke,
+        _ => None,
+    };
+    let Some(stroke) = stroke else { return BoundingBox::around(ball) };
+    let piece = 1.0 / ARC_PIECES as f64;
+    let beside = stroke.path(ball.middle, ball.radius, piece);
+    let boxes = (0..=ARC_PIECES).map(|number| {
+        let middle = stroke.frame(number as f64 * piece).point(ball.middle);
+        BoundingBox::around(&Ball { middle, radius: ball.radius + beside })
+    });
+    boxes.fold(BoundingBox::NOTHING, |all, next| all.with(&next))
 }
 
 /// What an item can take that lies at `place`, at `offset` from the machine's position.

@@ -2,8 +2,11 @@
 
 use super::body::{Piece, Placed};
 use super::bounds::BoundingBox;
+use crate::frame::Frame;
 use crate::kinematics::pose::Pose;
 use crate::line::Line;
+use crate::machine::Machine;
+use crate::part::Primitive;
 use crate::point::Axis;
 use crate::solid::{Link, Solid};
 
@@ -32,6 +35,10 @@ pub fn overlaps(line: &Line, most: usize) -> Vec<Overlap> {
                 let position = solid.pose.position + start;
                 Some(Solid { pose: Pose { position, ..solid.pose }, ..solid })
             }
+            Link::Cylinder(part) => {
+                let frame = at_begin(machine, part);
+                Some(Solid { pose: frame.pose().then(&solid.pose), ..solid })
+            }
             Link::Joint(_) => None,
         });
         thing(&machine.name, true, solids)
@@ -55,6 +62,14 @@ pub fn overlaps(line: &Line, most: usize) -> Vec<Overlap> {
         }
     }
     found
+}
+
+/// What is on a cylinder when a run begins.
+fn at_begin(machine: &Machine, part: usize) -> Frame {
+    match &machine.parts[part].primitive {
+        Primitive::Cylinder(cylinder) => cylinder.begin(),
+        _ => Frame::default(),
+    }
 }
 
 fn thing(name: &str, is_machine: bool, solids: impl Iterator<Item = Solid>) -> Thing<'_> {

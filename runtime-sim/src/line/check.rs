@@ -26,6 +26,9 @@ impl Line {
             if !kind.size.iter().all(|length| *length > 0.0 && length.is_finite()) {
                 return Err(format!("a length of {} is no positive number", kind.name));
             }
+            if !(kind.mass >= 0.0 && kind.mass.is_finite()) {
+                return Err(format!("the mass of {} is no number from 0 on", kind.name));
+            }
             kind.is.iter().try_for_each(|is| check_name("what a kind is", is))?;
         }
         for machine in &self.machines {

@@ -30,7 +30,8 @@ impl Line {
         put(format!("kinds {}", self.kinds.len()));
         for kind in &self.kinds {
             let [x, y] = kind.size;
-            put(format!("  {} {:?} {x:?} {y:?} {}", kind.name, kind.height, list(&kind.is)));
+            let is = list(&kind.is);
+            put(format!("  {} {:?} {x:?} {y:?} {is} {:?}", kind.name, kind.height, kind.mass));
         }
         let mut devices: Vec<&Wiring> = Vec::new();
         for machine in &self.machines {
@@ -148,7 +149,8 @@ impl Line {
         words.expect("kinds")?;
         let kinds = words.list(|w| {
             let (name, height, size) = (w.name()?.into(), w.real()?, [w.real()?, w.real()?]);
-            Ok(Kind { name, height, size, is: w.list(|w| Ok(w.name()?.into()))? })
+            let is = w.list(|w| Ok(w.name()?.into()))?;
+            Ok(Kind { name, height, size, is, mass: w.real()? })
         })?;
         words.expect("devices")?;
         let devices = words.list(|w| Ok(Arc::new(Wiring::read(w)?)))?;

@@ -65,7 +65,7 @@ impl Crossing {
     }
 
     /// Kinds of what is in the beam.
-    fn seen(&self, see: &See) -> impl Iterator<Item = usize> {
+    pub fn seen(&self, see: &See) -> impl Iterator<Item = usize> {
         let moving = see.lane(self.beam.lane);
         let riders = moving.into_iter().flat_map(|moving| {
             let beam = moving.lane().course.begin() - self.beam.at + AT_ONCE;

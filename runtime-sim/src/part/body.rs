@@ -12,7 +12,7 @@ pub const SCHEMA: Schema = Schema::new(
     &[
         Setting::new(
             "on",
-            Form::Part(&["route", "axis", "chain"]),
+            Form::Part(&["route", "axis", "chain", "cylinder"]),
             "",
             "what moves it; without it, it stands",
         )

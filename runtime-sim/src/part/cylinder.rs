@@ -1,8 +1,13 @@
-//! What goes from one end to the other and back: cylinder, door, clamp, stopper, lock.
+//! What goes from one end to the other and back: cylinder, door, clamp, lift, turntable.
+
+mod stroke;
+
+pub use stroke::{Stroke, Stroking};
 
 use super::settings::{Form, Setting, Settings};
 use super::{Described, Level, Progress, Running, Schema, See, Signal, Start, World};
 use crate::device::{Extent, PortType};
+use crate::frame::Frame;
 use crate::wiring::Drives;
 
 pub const SCHEMA: Schema = Schema {
@@ -27,6 +32,9 @@ pub const SCHEMA: Schema = Schema {
                 "with two valves, none or both of them on: it stands; without this it goes on to where it was sent last",
             )
             .optional(),
+            Setting::new("slides", Form::Point, "m", "how far what is on it goes from the inner end to the outer one, in the world").optional(),
+            Setting::new("turns", Form::Number, "deg", "how far to the left what is on it turns instead, about the vertical").optional(),
+            Setting::new("pivot", Form::Point, "m", "about which it turns").optional(),
             Setting::new("begins_out", Form::Truth, "", "it starts at the outer end; without it at the inner one")
                 .optional(),
         ],
@@ -39,6 +47,8 @@ pub struct Cylinder {
     pub retract_ms: u64,
     pub has_closed_centre: bool,
     pub begins: End,
+    /// None: nothing is on it.
+    pub stroke: Option<Stroke>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,7 +66,7 @@ impl Described for Cylinder {
         let begins_out = settings.optional("begins_out", Settings::truth)?.unwrap_or(false);
         let has_closed_centre = settings.optional("closed_centre", Settings::truth)?.unwrap_or(false);
         let begins = if begins_out { End::Out } else { End::In };
-        Ok(Self { extend_ms, retract_ms, has_closed_centre, begins })
+        Ok(Self { extend_ms, retract_ms, has_closed_centre, begins, stroke: Stroke::new(settings)? })
     }
 
     fn start(&self, start: &mut Start) -> Result<Option<Box<dyn Running>>, String> {
@@ -64,7 +74,15 @@ impl Described for Cylinder {
         let mut outputs = start.machine().wiring.outputs.iter();
         let retracts = Drives::Level { part, level: RETRACT };
         let valves = if outputs.any(|output| output.drives == retracts) { Valves::Two } else { Valves::One };
-        Ok(Some(Box::new(Stroking::new(self, valves))))
+        Ok(Some(Box::new(Working::new(self, valves))))
+    }
+}
+
+impl Cylinder {
+    /// What is on it when a run begins, from where it is at the inner end.
+    pub fn begin(&self) -> Frame {
+        let out = if self.begins == End::Out { 1.0 } else { 0.0 };
+        self.stroke.map_or(Frame::default(), |stroke| stroke.frame(out))
     }
 }
 
@@ -83,7 +101,7 @@ pub enum Valves {
 
 /// A cylinder at work.
 #[derive(Clone, Debug)]
-pub struct Stroking {
+pub struct Working {
     cylinder: Cylinder,
     valves: Valves,
     /// What the levels say.
@@ -103,7 +121,7 @@ enum Drive {
     Stands,
 }
 
-impl Stroking {
+impl Working {
     pub fn new(cylinder: &Cylinder, valves: Valves) -> Self {
         Self {
             cylinder: cylinder.clone(),
@@ -169,12 +187,31 @@ impl Stroking {
         }
     }
 
+    /// How it moves what is on it from now on, if its valves stay as they are; none if nothing is on it.
+    pub fn stroking(&self, now_ms: u64) -> Option<Stroking> {
+        let stroke = self.cylinder.stroke?;
+        let mut sent = self.clone();
+        sent.turn(now_ms);
+        let left = sent.left(now_ms);
+        let moves = sent.drive == Drive::Moves && left > 0.0;
+        let (out, way_ms) = match sent.toward {
+            End::Out => (1.0 - left, self.cylinder.extend_ms as f64),
+            End::In => (left, -(self.cylinder.retract_ms as f64)),
+        };
+        Some(Stroking { stroke, out, rate: if moves { 1000.0 / way_ms } else { 0.0 } })
+    }
+
+    /// What is on it now, from where it is at the inner end.
+    pub fn frame(&self) -> Frame {
+        self.stroking(self.now_ms).map_or(Frame::default(), |stroking| stroking.frame(0.0))
+    }
+
     fn is_at(&self, end: End) -> bool {
         self.toward == end && self.left(self.now_ms) <= 0.0
     }
 }
 
-impl Running for Stroking {
+impl Running for Working {
     fn boxed(&self) -> Box<dyn Running> {
         Box::new(self.clone())
     }
@@ -205,7 +242,7 @@ impl Running for Stroking {
         self.next_change(see, self.now_ms).is_finite()
     }
 
-    fn cylinder(&self) -> Option<&Stroking> {
+    fn cylinder(&self) -> Option<&Working> {
         Some(self)
     }
 
@@ -227,15 +264,15 @@ mod tests {
         levels: impl Fn(u64) -> [bool; 2],
     ) -> Vec<[bool; 2]> {
         let cylinder =
-            Cylinder { extend_ms: 40, retract_ms: 20, has_closed_centre, begins: End::In };
-        let mut stroking = Stroking::new(&cylinder, valves);
+            Cylinder { extend_ms: 40, retract_ms: 20, has_closed_centre, begins: End::In, stroke: None };
+        let mut working = Working::new(&cylinder, valves);
         let step = |step: u64| {
             let [extend, retract] = levels(step * 10);
-            stroking.level(EXTEND, &[f64::from(u8::from(extend))]);
-            stroking.level(RETRACT, &[f64::from(u8::from(retract))]);
-            stroking.turn(step * 10);
-            stroking.now_ms = (step + 1) * 10;
-            [stroking.is_at(End::In), stroking.is_at(End::Out)]
+            working.level(EXTEND, &[f64::from(u8::from(extend))]);
+            working.level(RETRACT, &[f64::from(u8::from(retract))]);
+            working.turn(step * 10);
+            working.now_ms = (step + 1) * 10;
+            [working.is_at(End::In), working.is_at(End::Out)]
         };
         (0..steps).map(step).collect()
     }

@@ -19,6 +19,7 @@ pub const SCHEMA: Schema = Schema {
         "lane",
         "A conveyor. It runs while its level `run` is on, or after its command `run` until `rest`; with neither it always runs, as a chute does. Given by `from` and `length` it lies at any angle, straight or as an arc; given by `along`, `range` and `surface` it lies along an axis of the world, from the upper to the lower end of its range.",
         &[
+            Setting::new("on", Form::Part(&["cylinder"]), "", "what carries it; `from` is where it is at the inner end").optional(),
             Setting::new("from", Form::Frame, "m", "where it begins, on its surface; x leads along it").optional(),
             Setting::new("length", Form::Positive, "m", "along its middle line").optional(),
             Setting::new("turn", Form::Number, "deg", "to the left over its length; without it, it is straight")
@@ -37,6 +38,9 @@ pub const SCHEMA: Schema = Schema {
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lane {
+    /// The cylinder that carries it.
+    pub on: Option<usize>,
+    /// At the inner end of what carries it.
     pub course: Course,
     pub width: f64,
     pub outline: f64,
@@ -50,8 +54,13 @@ pub const RUN: usize = 0;
 impl Described for Lane {
     fn new(settings: &Settings) -> Result<Self, String> {
         let width = settings.positive("width")?;
+        let (on, course) = (settings.optional("on", Settings::part)?, Course::new(settings)?);
+        if on.is_some() && !course.turns_items() {
+            return Err("a lane on a cylinder is given by from and length".into());
+        }
         Ok(Self {
-            course: Course::new(settings)?,
+            on,
+            course,
             width,
             outline: settings.optional("outline", Settings::positive)?.unwrap_or(width),
             speed: settings.positive("speed")?,

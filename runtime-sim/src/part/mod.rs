@@ -126,6 +126,7 @@ primitives! {
     chain::Chain,
     cylinder::Cylinder,
     diverter::Diverter,
+    gauge::Gauge,
     grip::Grip,
     lamp::Lamp,
     lane::Lane,
@@ -138,6 +139,7 @@ primitives! {
     sink::Sink,
     source::Source,
     stopper::Stopper,
+    tank::Tank,
     zone::Zone,
 }
 

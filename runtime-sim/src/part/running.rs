@@ -112,6 +112,10 @@ impl<'a> See<'a> {
         self.part(part)?.lane()
     }
 
+    pub fn cylinder(&self, part: usize) -> Option<&'a cylinder::Working> {
+        self.part(part)?.cylinder()
+    }
+
     /// Where the origin is of what this part carries.
     pub fn position(&self, part: usize) -> Option<Point> {
         self.part(part)?.position()
@@ -208,6 +212,11 @@ pub trait Running: std::fmt::Debug + Send + Sync {
         f64::INFINITY
     }
 
+    /// A number that it shows changes all the while.
+    fn flows(&self) -> bool {
+        false
+    }
+
     /// How what it carries is going to move.
     fn trajectory(&self, _now_ms: u64) -> Trajectory {
         Trajectory::Rests
@@ -250,7 +259,7 @@ pub trait Running: std::fmt::Debug + Send + Sync {
         None
     }
 
-    fn cylinder(&self) -> Option<&cylinder::Stroking> {
+    fn cylinder(&self) -> Option<&cylinder::Working> {
         None
     }
 

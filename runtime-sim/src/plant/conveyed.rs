@@ -1,5 +1,6 @@
 //! How an item on a conveyor goes on.
 
+use crate::part::cylinder::Stroking;
 use crate::part::lane::Course;
 use crate::point::{Axis, Point};
 
@@ -14,11 +15,13 @@ pub struct Conveyed {
     pub speed: f64,
     /// It goes no farther; negative infinity: nothing that stands is in its way.
     pub stops_at: f64,
+    /// How the conveyor itself moves; the course is where it is at the inner end.
+    pub carried: Option<Stroking>,
 }
 
 impl Conveyed {
     pub fn moves(&self) -> bool {
-        self.speed > 0.0
+        self.speed > 0.0 || self.carried.is_some_and(|carried| carried.moves())
     }
 
     fn place_after(&self, seconds: f64) -> f64 {
@@ -27,13 +30,15 @@ impl Conveyed {
 
     /// Where its underside is after so many seconds.
     pub fn point(&self, seconds: f64) -> Point {
-        self.course.point(self.place_after(seconds), self.across)
+        let point = self.course.point(self.place_after(seconds), self.across);
+        self.carried.map_or(point, |carried| carried.frame(seconds).point(point))
     }
 
     /// Degrees about the vertical; none if it keeps the heading with which it came.
     pub fn yaw(&self, seconds: f64) -> Option<f64> {
         let turns = self.course.turns_items();
-        turns.then(|| self.course.frame(self.place_after(seconds)).yaw)
+        let carried = self.carried.map_or(0.0, |carried| carried.frame(seconds).yaw);
+        turns.then(|| self.course.frame(self.place_after(seconds)).yaw + carried)
     }
 
     /// Seconds until something that stands stops it.
@@ -51,7 +56,11 @@ impl Conveyed {
             Course::Axis { .. } => 0.0,
             Course::Line { length, rise, .. } | Course::Arc { length, rise, .. } => rise / length,
         };
-        self.speed * (libm::hypot(1.0, climbs) + turns)
+        let carried = self.carried.map_or(0.0, |carried| {
+            let place = self.course.point(self.place, self.across);
+            carried.stroke.path(place, reach + self.course.length(), carried.rate.abs())
+        });
+        self.speed * (libm::hypot(1.0, climbs) + turns) + carried
     }
 
     /// The middle of its arc, at the height of its beginning; of a straight course, where it is.

@@ -85,8 +85,9 @@ impl Conveying {
             let borne = borne.filter(|item| among.carrier(**item).part() == Some(track.part)).count();
             has_changed |= *known != lane.speed() || lane.riders.len() != borne || !track.bears_riders(among);
             *known = lane.speed();
-            for branch in &mut track.branches {
-                has_changed |= branch.look(&among.machines[track.machine], now_ms);
+            let branches = track.branches.iter_mut().map(|branch| &mut branch.ends);
+            for ends in branches.chain(&mut track.carried) {
+                has_changed |= ends.look(&among.machines[track.machine], now_ms);
             }
             if let Some(feed) = &mut track.feed {
                 has_changed |= feed.look(&among.machines[track.machine]);
@@ -111,6 +112,7 @@ impl Conveying {
         for track in &self.tracks {
             track.adopt(among, ms);
         }
+        tracks::join(&mut self.tracks, ms);
         let mut falls = None;
         while let Some((track, item, goes)) = self.goes_on(among, ms) {
             self.pass(among, ms, track, item, goes);

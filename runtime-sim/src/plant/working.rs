@@ -8,7 +8,7 @@ use crate::kinematics::arm::Joints;
 use crate::kinematics::pose::Pose;
 use crate::line::Line;
 use crate::memory::Memory;
-use crate::part::cylinder::Stroking;
+use crate::part::cylinder::Working as Cylinder;
 use crate::part::lane::Moving;
 use crate::part::orders::Desk;
 use crate::part::{Begun, Looks, Part, Progress, Running, See, Start, World};
@@ -221,7 +221,7 @@ impl Working {
         self.parts.get_mut(part)?.as_mut()?.lane_mut()
     }
 
-    pub fn cylinder(&self, part: usize) -> Option<&Stroking> {
+    pub fn cylinder(&self, part: usize) -> Option<&Cylinder> {
         self.parts.get(part)?.as_ref()?.cylinder()
     }
 
@@ -230,9 +230,9 @@ impl Working {
         self.parts.get(part)?.as_ref()?.asked()
     }
 
-    /// Whether one of its surfaces moves.
-    pub fn conveys(&self) -> bool {
-        self.running().any(|part| part.lane().is_some_and(Moving::is_moving))
+    /// Whether one of its surfaces moves, or a number that it shows changes all the while.
+    pub fn flows(&self) -> bool {
+        self.running().any(|part| part.flows() || part.lane().is_some_and(Moving::is_moving))
     }
 
     /// All grippers that look for an item.

@@ -12,12 +12,23 @@ const LENGTHS: RangeInclusive<f64> = 0.001..=1.0;
 /// Of a kind that does not say how long and wide its parts are, m: they fit side by side on a tray.
 const SIZE: [f64; 2] = [0.1, 0.1];
 
+/// Of a part, kg.
+const MASSES: RangeInclusive<f64> = 0.001..=1000.0;
+/// Of a kind that does not say, kg.
+const MASS: f64 = 0.1;
+
 /// Most kinds of part that a line has; a briefcase of the library has a place for each.
 const MOST_KINDS: usize = 16;
 
 /// Of a line in which nobody tells kinds apart.
 pub fn any(span: Span) -> Kind {
-    Kind { name: Spanned { value: "part".into(), span }, height: SIZE[0], size: SIZE, is: Vec::new() }
+    Kind {
+        name: Spanned { value: "part".into(), span },
+        height: SIZE[0],
+        size: SIZE,
+        is: Vec::new(),
+        mass: MASS,
+    }
 }
 
 impl Decoder {
@@ -41,7 +52,7 @@ impl Decoder {
     /// With any height if that cannot be read, so that its name is known.
     fn kind(&mut self, json: &Json) -> Option<Kind> {
         let members = self.object(json, "a kind")?;
-        self.unknown_keys(members, &["name", "height", "size", "is"], "a kind");
+        self.unknown_keys(members, &["name", "height", "size", "is", "mass"], "a kind");
         let name = self.required(members, "name", json.span, "a kind");
         let name = name.and_then(|j| self.text(j, "name"));
         if let Some(name) = &name {
@@ -50,11 +61,12 @@ impl Decoder {
         let height = self.required(members, "height", json.span, "a kind");
         let height = height.and_then(|j| self.number_in(j, "height", LENGTHS));
         let size = find(members, "size").and_then(|j| self.footprint(j));
+        let mass = find(members, "mass").and_then(|j| self.number_in(j, "mass", MASSES)).unwrap_or(MASS);
         let is = find(members, "is").and_then(|j| self.texts(j, "is")).unwrap_or_default();
         is.iter().for_each(|word| {
             self.identifier(word, "what a kind is");
         });
-        Some(Kind { name: name?, height: height.unwrap_or_default(), size: size.unwrap_or(SIZE), is })
+        Some(Kind { name: name?, height: height.unwrap_or_default(), size: size.unwrap_or(SIZE), is, mass })
     }
 
     fn footprint(&mut self, json: &Json) -> Option<[f64; 2]> {

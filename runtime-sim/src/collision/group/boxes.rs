@@ -29,7 +29,7 @@ impl Group {
                 (Movement::Swings { motion, .. }, None) => self.swept(motion),
                 // All that it can ever be in.
                 (Movement::Slides { .. }, _) => [self.around(|body| body.bounds)].into(),
-                (Movement::Still, _) if self.conveys() => [self.around(|body| body.bounds)].into(),
+                (Movement::Still, _) if self.moves_parts() => [self.around(|body| body.bounds)].into(),
                 (Movement::Still, _) => [self.present(plant)].into(),
             };
         }

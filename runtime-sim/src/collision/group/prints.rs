@@ -9,7 +9,7 @@ use crate::point::Point;
 impl Group {
     /// Of the motion under way; none if it rests, or does not come to rest by itself.
     pub fn moving(&mut self, plant: &Plant) -> Option<Fingerprint> {
-        if self.conveys() {
+        if self.moves_parts() {
             return None;
         }
         if self.moving.is_none() {
@@ -47,7 +47,8 @@ impl Group {
                         .fold(Fingerprint::default(), |print, joint| print.near(*joint))
                 }
             };
-            self.resting = Some(place);
+            let strokes = self.strokes.values().fold(place, |print, stroking| print.near(stroking.out));
+            self.resting = Some(strokes);
         }
         self.resting
     }
@@ -67,7 +68,7 @@ impl Group {
     fn item(&self, body: &Body, plant: &Plant) -> Option<Fingerprint> {
         let place = match body.anchor {
             Anchor::Lying { item, .. } => plant.place(item).unwrap_or_default() - self.position(plant),
-            Anchor::World | Anchor::Link(_) | Anchor::Route => Point::default(),
+            Anchor::World | Anchor::Link(_) | Anchor::Route | Anchor::Cylinder(_) => Point::default(),
         };
         Some(near(body.item?, place))
     }

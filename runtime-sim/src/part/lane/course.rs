@@ -48,6 +48,17 @@ impl Course {
         }
     }
 
+    /// The same where this frame puts it that was given in the world.
+    pub fn moved(self, by: Frame) -> Self {
+        match self {
+            Self::Axis { .. } => self,
+            Self::Line { from, length, rise } => Self::Line { from: by.then(from), length, rise },
+            Self::Arc { from, length, rise, radius } => {
+                Self::Arc { from: by.then(from), length, rise, radius }
+            }
+        }
+    }
+
     /// Place of its end.
     pub fn end(&self) -> f64 {
         match self {

@@ -1,6 +1,6 @@
 //! A conveyor at work.
 
-use super::Lane;
+use super::{Course, Lane};
 use crate::carrier::Carrier;
 use crate::device::error;
 use crate::part::{Begun, Progress, Running, See, World};
@@ -72,6 +72,12 @@ impl Moving {
 
     pub fn lane(&self) -> &Lane {
         &self.lane
+    }
+
+    /// Where it is now.
+    fn course(&self, see: &See) -> Course {
+        let carried = self.lane.on.and_then(|cylinder| see.cylinder(cylinder));
+        carried.map_or(self.lane.course, |cylinder| self.lane.course.moved(cylinder.frame()))
     }
 
     /// Metres that the surface has moved since the start of the run.
@@ -146,6 +152,7 @@ impl Moving {
             across,
             speed: self.speed_of(motion),
             stops_at: rider.map_or(f64::NEG_INFINITY, |rider| rider.stops_at),
+            carried: None,
         })
     }
 
@@ -200,16 +207,17 @@ impl Running for Moving {
     }
 
     fn below(&self, point: Point, see: &See) -> Option<(f64, Carrier)> {
-        let (place, across) = self.lane.course.find(point)?;
-        let height = self.lane.course.point(place, across).z;
+        let course = self.course(see);
+        let (place, across) = course.find(point)?;
+        let height = course.point(place, across).z;
         let at = place + self.travel();
         let carrier = Carrier::Lane { machine: see.machine, part: self.part, at, across };
         (across.abs() <= self.lane.width / 2.0).then_some((height, carrier))
     }
 
-    fn place(&self, item: usize, carrier: &Carrier, _see: &See) -> Option<Point> {
+    fn place(&self, item: usize, carrier: &Carrier, see: &See) -> Option<Point> {
         let Carrier::Lane { across, .. } = *carrier else { return None };
-        Some(self.lane.course.point(self.place_of(item, carrier)?, across))
+        Some(self.course(see).point(self.place_of(item, carrier)?, across))
     }
 
     fn lane(&self) -> Option<&Moving> {

@@ -1,12 +1,13 @@
 //! The lanes of a line: what stands at each, and where they lead.
 
 use super::super::working::Working;
-use super::branch::{Branch, Kind};
+use super::branch::{Branch, Ends, Kind};
 use super::{AT_ONCE, Among, Goes, SAME};
 use crate::carrier::Carrier;
 use crate::line::Line;
 use crate::machine::Machine;
 use crate::part::Primitive;
+use crate::part::cylinder::End;
 use crate::part::lane::{Course, Lane, Rider};
 use crate::part::source::{self, Spawn};
 use crate::point::Axis;
@@ -20,12 +21,24 @@ pub struct Track {
     pub sink: Option<Leaves>,
     pub feed: Option<Feed>,
     pub branches: Vec<Branch>,
-    /// The lane that begins where this one ends.
+    /// Where its cylinder is, if it is on one.
+    pub carried: Option<Ends>,
+    /// The lanes that begin where this one ends, at an end of the cylinder of either.
+    joints: Vec<Joint>,
+    /// The one that does so now.
     pub onto: Option<usize>,
-    /// The lanes that end where this one begins, in their order.
+    /// The lanes that end where this one begins now, in their order.
     pub inputs: Vec<usize>,
     /// Half of the length of an item of each kind, along the lane, m.
     pub halves: Vec<f64>,
+}
+
+/// A lane that begins where another one ends.
+#[derive(Clone, Copy, Debug)]
+struct Joint {
+    onto: usize,
+    /// Where the cylinder of the first lane is then, and that of the second.
+    when: [Option<End>; 2],
 }
 
 /// A sink: its part of the machine, and the place of the middles of items that leave.
@@ -78,10 +91,8 @@ pub fn tracks(line: &Line) -> Vec<Track> {
         })
     };
     let places: Vec<(usize, usize)> = lanes().map(|(machine, part, _)| (machine, part)).collect();
-    let courses: Vec<Course> = lanes().map(|(_, _, lane)| lane.course).collect();
-    let leads =
-        |from: usize| (0..courses.len()).find(|to| *to != from && joins(&courses[from], &courses[*to]));
-    let onto: Vec<Option<usize>> = (0..courses.len()).map(leads).collect();
+    let courses: Vec<Vec<(Option<End>, Course)>> =
+        lanes().map(|(machine, _, lane)| courses(&line.machines[machine], lane)).collect();
     let number = |machine: usize, part: usize| places.iter().position(|place| *place == (machine, part));
     let track = |(index, (machine, part, lane)): (usize, (usize, usize, &Lane))| Track {
         machine,
@@ -89,11 +100,52 @@ pub fn tracks(line: &Line) -> Vec<Track> {
         sink: sink(&line.machines[machine], part, lane),
         feed: feed(line, machine, part, lane),
         branches: branches(&line.machines[machine], part, lane, &|onto| number(machine, onto)),
-        onto: onto[index],
-        inputs: (0..onto.len()).filter(|other| onto[*other] == Some(index)).collect(),
+        carried: lane.on.map(Ends::new),
+        joints: joints(&courses, index),
+        onto: None,
+        inputs: Vec::new(),
         halves: line.kinds.iter().map(|kind| half(lane, kind.size)).collect(),
     };
     lanes().enumerate().map(track).collect()
+}
+
+/// Where a lane lies: at both ends of its cylinder, if it is on one.
+fn courses(machine: &Machine, lane: &Lane) -> Vec<(Option<End>, Course)> {
+    let cylinder = lane.on.map(|part| &machine.parts[part].primitive);
+    let Some(Primitive::Cylinder(cylinder)) = cylinder else { return vec![(None, lane.course)] };
+    let moved = |out: f64| cylinder.stroke.map_or(lane.course, |stroke| lane.course.moved(stroke.frame(out)));
+    vec![(Some(End::In), moved(0.0)), (Some(End::Out), moved(1.0))]
+}
+
+/// The lanes on which a lane goes on.
+fn joints(courses: &[Vec<(Option<End>, Course)>], index: usize) -> Vec<Joint> {
+    let mut joints = Vec::new();
+    for (own, from) in &courses[index] {
+        for (onto, others) in courses.iter().enumerate().filter(|(onto, _)| *onto != index) {
+            let joined = others.iter().filter(|(_, to)| joins(from, to));
+            joints.extend(joined.map(|(other, _)| Joint { onto, when: [*own, *other] }));
+        }
+    }
+    joints
+}
+
+/// Settles which lane goes on as which one at a time.
+pub fn join(tracks: &mut [Track], ms: f64) {
+    let is_at = |track: &Track, end: Option<End>| {
+        end.is_none_or(|end| track.carried.as_ref().is_some_and(|ends| ends.is_at(end, ms)))
+    };
+    let onto: Vec<Option<usize>> = tracks
+        .iter()
+        .map(|track| {
+            let holds =
+                |joint: &&Joint| is_at(track, joint.when[0]) && is_at(&tracks[joint.onto], joint.when[1]);
+            track.joints.iter().find(holds).map(|joint| joint.onto)
+        })
+        .collect();
+    for (index, track) in tracks.iter_mut().enumerate() {
+        track.onto = onto[index];
+        track.inputs = (0..onto.len()).filter(|other| onto[*other] == Some(index)).collect();
+    }
 }
 
 /// Whether a lane goes on as another one.
@@ -139,13 +191,8 @@ fn branches(
     number: &dyn Fn(usize) -> Option<usize>,
 ) -> Vec<Branch> {
     let begin = lane.course.begin();
-    let branch = |kind: Kind, at: f64, cylinder: usize| Branch {
-        kind,
-        place: begin - at,
-        cylinder,
-        is_in_ms: f64::NAN,
-        is_out_ms: f64::NAN,
-    };
+    let branch =
+        |kind: Kind, at: f64, cylinder: usize| Branch { kind, place: begin - at, ends: Ends::new(cylinder) };
     let parts = machine.parts.iter().filter_map(|other| match &other.primitive {
         Primitive::Stopper(stopper) if stopper.lane == part => {
             Some(branch(Kind::Stopper, stopper.at, stopper.cylinder))
@@ -205,7 +252,14 @@ impl Track {
         Some(match (self.sink, self.onto) {
             (Some(sink), _) => Goes::Collected { sink: sink.part },
             (None, Some(onto)) => Goes::Onto(onto),
-            (None, None) => Goes::Falls(course.point(course.end() - rider.half, 0.0)),
+            (None, None) => {
+                let cylinder = self
+                    .carried
+                    .as_ref()
+                    .and_then(|ends| among.machines[self.machine].cylinder(ends.cylinder));
+                let course = cylinder.map_or(course, |cylinder| course.moved(cylinder.frame()));
+                Goes::Falls(course.point(course.end() - rider.half, 0.0))
+            }
         })
     }
 

@@ -1,0 +1,63 @@
+//! What measures the item at a place of a lane.
+
+use super::beam::{Beam, Crossing};
+use super::settings::{Form, Setting, Settings};
+use super::{Described, Running, Schema, See, Signal, Start};
+use crate::device::{Extent, PortType};
+
+pub const SCHEMA: Schema = Schema {
+    signals: &[
+        Signal { name: "height", ty: PortType::Real, extent: Extent::One },
+        Signal { name: "mass", ty: PortType::Real, extent: Extent::One },
+    ],
+    ..Schema::new(
+        "gauge",
+        "Measures the item that is at a place of a lane between its front and its rear edge: its height in m, its mass in kg. 0 without an item; of several the greatest.",
+        &[
+            Setting::new("across", Form::Part(&["lane"]), "", "the lane"),
+            Setting::new("at", Form::Number, "m", "from the lane's beginning"),
+        ],
+    )
+};
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct Gauge {
+    pub lane: usize,
+    pub at: f64,
+}
+
+impl Described for Gauge {
+    fn new(settings: &Settings) -> Result<Self, String> {
+        Ok(Self { lane: settings.part("across")?, at: settings.number("at")? })
+    }
+
+    fn start(&self, start: &mut Start) -> Result<Option<Box<dyn Running>>, String> {
+        let kinds = &start.line.kinds;
+        let beam = Beam { lane: self.lane, at: self.at, over: 0.0, only: None };
+        let measures = kinds.iter().map(|kind| [kind.height, kind.mass]).collect();
+        Ok(Some(Box::new(Measuring { crossing: Crossing::new(&beam, kinds), measures })))
+    }
+}
+
+/// A gauge at work.
+#[derive(Clone, Debug)]
+struct Measuring {
+    crossing: Crossing,
+    /// Of each kind: height and mass.
+    measures: Vec<[f64; 2]>,
+}
+
+impl Running for Measuring {
+    fn boxed(&self) -> Box<dyn Running> {
+        Box::new(self.clone())
+    }
+
+    fn next_change(&self, see: &See, now_ms: u64) -> f64 {
+        self.crossing.next_change(see, now_ms)
+    }
+
+    fn signal(&self, signal: usize, see: &See, out: &mut [f64]) {
+        let measures = self.crossing.seen(see).map(|kind| self.measures[kind][signal]);
+        out[0] = measures.fold(0.0, f64::max);
+    }
+}
