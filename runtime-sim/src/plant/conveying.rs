@@ -5,6 +5,8 @@
 
 mod ahead;
 mod branch;
+#[cfg(test)]
+mod tests;
 mod tracks;
 
 use super::working::Working;
@@ -174,7 +176,8 @@ impl Conveying {
                 let course = lane.lane().course;
                 let at = course.begin() + lane.travel_at(ms);
                 let half = track.halves[among.items.all()[item].kind];
-                among.lane_mut(track).riders.push(Rider::new(item, half, at));
+                let rider = Rider { from: Some(from), ..Rider::new(item, half, at) };
+                among.lane_mut(track).riders.push(rider);
                 let carrier = Carrier::Lane { machine: track.machine, part: track.part, at, across: 0.0 };
                 among.items.pass(item, carrier, course.point(course.begin(), 0.0));
             }

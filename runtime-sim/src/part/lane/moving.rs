@@ -31,6 +31,8 @@ pub struct Rider {
     /// Half of its length along the conveyor, m.
     pub half: f64,
     pub motion: Motion,
+    /// The lane from which it has come here, by its number among those of the line.
+    pub from: Option<usize>,
     /// Place of something that stands in its way; negative infinity: nothing does.
     pub stops_at: f64,
 }
@@ -38,7 +40,7 @@ pub struct Rider {
 impl Rider {
     /// It goes with the surface.
     pub fn new(item: usize, half: f64, at: f64) -> Self {
-        Self { item, half, motion: Motion::Goes { at }, stops_at: f64::NEG_INFINITY }
+        Self { item, half, motion: Motion::Goes { at }, from: None, stops_at: f64::NEG_INFINITY }
     }
 }
 

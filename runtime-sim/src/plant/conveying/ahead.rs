@@ -16,10 +16,11 @@ struct Entry {
     /// Of the surface, m/s.
     surface: f64,
     speed: f64,
-    /// Where its middle stops, and the entry that moves this place, if one does.
-    limit: Option<Limit>,
+    /// What is in its way: behind what is near and goes may be something that stands.
+    limits: Vec<Limit>,
 }
 
+/// Where the middle of an item stops, and the entry that moves this place, if one does.
 #[derive(Clone, Copy)]
 struct Limit {
     place: f64,
@@ -29,16 +30,15 @@ struct Limit {
 /// Sets how all items go from a time on; when something happens next, ms.
 pub fn move_on(tracks: &[Track], among: &mut Among, ms: f64) -> f64 {
     let mut entries = entries(tracks, among, ms);
-    let limits: Vec<Option<Limit>> =
-        (0..entries.len()).map(|at| limit(tracks, among, &entries, at, ms)).collect();
-    for (entry, limit) in entries.iter_mut().zip(limits) {
-        entry.limit = limit;
+    let all: Vec<Vec<Limit>> = (0..entries.len()).map(|at| limits(tracks, among, &entries, at, ms)).collect();
+    for (entry, limits) in entries.iter_mut().zip(all) {
+        entry.limits = limits;
     }
     slow_down(&mut entries);
     for entry in &entries {
-        let stands = |limit: &Limit| limit.behind.is_none_or(|other| entries[other].speed == 0.0);
-        let stops_at = entry.limit.filter(stands).map_or(f64::NEG_INFINITY, |limit| limit.place);
-        set(tracks, among, entry, stops_at, ms);
+        let stands = |limit: &&Limit| limit.behind.is_none_or(|other| entries[other].speed == 0.0);
+        let standing = entry.limits.iter().filter(stands).map(|limit| limit.place);
+        set(tracks, among, entry, standing.fold(f64::NEG_INFINITY, f64::max), ms);
     }
     next_ms(tracks, among, &entries, ms)
 }
@@ -56,41 +56,48 @@ fn entries(tracks: &[Track], among: &Among, ms: f64) -> Vec<Entry> {
                 half: on.half,
                 surface,
                 speed: surface,
-                limit: None,
+                limits: Vec::new(),
             });
         }
     }
     entries
 }
 
-/// The nearest thing in the way of an item.
-fn limit(tracks: &[Track], among: &Among, entries: &[Entry], at: usize, ms: f64) -> Option<Limit> {
+/// All that is in the way of an item.
+fn limits(tracks: &[Track], among: &Among, entries: &[Entry], at: usize, ms: f64) -> Vec<Limit> {
     let entry = &entries[at];
     let track = &tracks[entry.track];
-    let lane = among.lane(track);
-    let rider = &lane.riders[entry.rider];
-    let branches = track.branches.iter().filter_map(|branch| branch.stops(rider, entry.place, ms));
-    let fixed = branches.map(|place| Limit { place, behind: None });
+    let rider = &among.lane(track).riders[entry.rider];
+    let stops = track.branches.iter().filter_map(|branch| branch.stops(rider, entry.place, ms));
+    let mut limits: Vec<Limit> = stops.map(|place| Limit { place, behind: None }).collect();
     let ahead = entries[..at].iter().enumerate().rev().take_while(|(_, other)| other.track == entry.track);
     // What lies on another one does not stop behind it.
-    let ahead = ahead
-        .map(|(other, of)| Limit { place: of.place + of.half + entry.half, behind: Some(other) })
-        .find(|limit| limit.place <= entry.place + LIES_ON);
-    let is_first = entry.rider == 0;
-    let beyond = track.onto.filter(|_| is_first && track.sink.is_none());
-    let beyond = beyond.and_then(|onto| beyond_end(tracks, among, entries, at, onto));
-    fixed.chain(ahead).chain(beyond).reduce(|a, b| if b.place > a.place { b } else { a })
+    limits.extend(
+        ahead
+            .map(|(other, of)| Limit { place: of.place + of.half + entry.half, behind: Some(other) })
+            .find(|limit| limit.place <= entry.place + LIES_ON),
+    );
+    if let Some(onto) = track.onto.filter(|_| entry.rider == 0 && track.sink.is_none()) {
+        limits.extend(beyond_end(tracks, among, entries, at, onto));
+    }
+    limits
 }
 
 /// What is in the way of the first item of a lane on the lane after it, or beside it on another one that leads there.
-fn beyond_end(tracks: &[Track], among: &Among, entries: &[Entry], at: usize, onto: usize) -> Option<Limit> {
+fn beyond_end(tracks: &[Track], among: &Among, entries: &[Entry], at: usize, onto: usize) -> Vec<Limit> {
     let entry = &entries[at];
     let end = among.lane(&tracks[entry.track]).lane().course.end();
     let begin = among.lane(&tracks[onto]).lane().course.begin();
     let last = entries.iter().enumerate().rev().find(|(_, other)| other.track == onto);
-    let last = last.map(|(number, last)| Limit {
-        place: end + last.place - begin + last.half + entry.half,
-        behind: Some(number),
+    let last = last.map(|(number, last)| {
+        let rear = last.place + last.half;
+        // On its way over from another lane it is in nobody's way before the joint.
+        let comes_along = among.lane(&tracks[onto]).riders[last.rider].from == Some(entry.track);
+        if comes_along || rear <= begin + SAME {
+            Limit { place: end + rear - begin + entry.half, behind: Some(number) }
+        } else {
+            Limit { place: end + entry.half, behind: None }
+        }
     });
     // One at a time goes from several lanes onto one.
     let inputs = tracks[onto].inputs.iter().filter(|input| **input != entry.track);
@@ -101,10 +108,8 @@ fn beyond_end(tracks: &[Track], among: &Among, entries: &[Entry], at: usize, ont
         let goes_first = over > SAME || over > -SAME && (own_over < -SAME || *input < entry.track);
         (goes_first && own_over <= SAME).then_some(Limit { place: end + entry.half, behind: None })
     });
-    others
-        .chain(last)
-        .filter(|limit| limit.place <= entry.place + LIES_ON || limit.behind.is_none())
-        .reduce(|a, b| if b.place > a.place { b } else { a })
+    let last = last.filter(|limit| limit.place <= entry.place + LIES_ON || limit.behind.is_none());
+    others.chain(last).collect()
 }
 
 /// Whoever is right behind another item goes no faster than that.
@@ -113,11 +118,9 @@ fn slow_down(entries: &mut [Entry]) {
     while !is_settled {
         is_settled = true;
         for at in 0..entries.len() {
-            let Some(limit) = entries[at].limit.filter(|limit| entries[at].place <= limit.place + SAME)
-            else {
-                continue;
-            };
-            let most = limit.behind.map_or(0.0, |other| entries[other].speed);
+            let touching = entries[at].touching();
+            let speeds = touching.map(|limit| limit.behind.map_or(0.0, |other| entries[other].speed));
+            let most = speeds.fold(f64::INFINITY, f64::min);
             if entries[at].speed > most {
                 entries[at].speed = most;
                 is_settled = false;
@@ -126,11 +129,17 @@ fn slow_down(entries: &mut [Entry]) {
     }
 }
 
+impl Entry {
+    /// What it has come up to.
+    fn touching(&self) -> impl Iterator<Item = &Limit> {
+        self.limits.iter().filter(|limit| self.place <= limit.place + SAME)
+    }
+}
+
 fn set(tracks: &[Track], among: &mut Among, entry: &Entry, stops_at: f64, ms: f64) {
     let lane = among.lane_mut(&tracks[entry.track]);
     let old = lane.riders[entry.rider].motion;
-    let touches = entry.limit.filter(|limit| entry.place <= limit.place + SAME);
-    let place = touches.map_or(entry.place, |limit| limit.place.min(entry.place));
+    let place = entry.touching().fold(entry.place, |place, limit| place.min(limit.place));
     let motion = if entry.speed == entry.surface {
         match old {
             Motion::Goes { .. } => old,
@@ -167,11 +176,14 @@ fn next_ms(tracks: &[Track], among: &Among, entries: &[Entry], ms: f64) -> f64 {
         comes_to(track.sink.map_or(lane.lane().course.end(), |sink| sink.place));
         track.branches.iter().filter_map(|branch| branch.awaits(rider)).for_each(&mut comes_to);
         let shares_joint = |onto: usize| tracks[onto].inputs.len() > 1;
+        if shares_joint(entry.track) {
+            comes_to(lane.lane().course.begin() - rider.half);
+        }
         if track.onto.is_some_and(shares_joint) {
             comes_to(lane.lane().course.end() + rider.half);
         }
-        if let Some(limit) = entry.limit {
-            next = next.min(meets(entry, limit, entries, lane, ms));
+        for limit in &entry.limits {
+            next = next.min(meets(entry, *limit, entries, lane, ms));
         }
     }
     let others = tracks.iter().map(|track| {
