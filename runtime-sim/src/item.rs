@@ -32,6 +32,8 @@ pub struct Items {
     pub(crate) borne: Vec<Vec<usize>>,
     log: Vec<Event>,
     pub(crate) scan: u64,
+    /// What broke a machine, and which.
+    crash: Option<(usize, String)>,
 }
 
 impl Items {
@@ -43,6 +45,7 @@ impl Items {
             borne: vec![Vec::new(); line.machines.len()],
             log: Vec::new(),
             scan: 0,
+            crash: None,
         }
     }
 
@@ -73,6 +76,20 @@ impl Items {
             self.borne[machine].push(item);
         }
         self.log.push(Event::Item { scan: self.scan, item, from, to, point });
+    }
+
+    /// An item becomes one of another kind.
+    pub(crate) fn remake(&mut self, item: usize, kind: usize) {
+        self.list[item].kind = kind;
+    }
+
+    /// Only the first counts.
+    pub(crate) fn crash(&mut self, machine: usize, reason: String) {
+        self.crash.get_or_insert((machine, reason));
+    }
+
+    pub fn crashed(&self) -> Option<(usize, &str)> {
+        self.crash.as_ref().map(|(machine, reason)| (*machine, reason.as_str()))
     }
 
     pub(crate) fn note_order(&mut self, machine: usize, order: usize, change: OrderChange) {

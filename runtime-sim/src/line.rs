@@ -78,6 +78,8 @@ pub struct Scenario {
     pub refusals: Vec<Refusal>,
     pub pauses: Vec<Pause>,
     pub operations: Vec<Operation>,
+    /// Of all times that are drawn.
+    pub seed: u64,
 }
 
 /// When a run has done what it was for.
@@ -182,6 +184,7 @@ impl Default for Scenario {
             refusals: Vec::new(),
             pauses: Vec::new(),
             operations: Vec::new(),
+            seed: 1,
         }
     }
 }

@@ -59,6 +59,9 @@ impl Machine {
                     (Primitive::Route(_), _) => (Link::Route, body.pose),
                     (Primitive::Cylinder(_), _) => (Link::Cylinder(other), body.pose),
                     // The base is a part of what carries it.
+                    (Primitive::Chain(_), Some(arm)) if frame == 0 && axes == 0 => {
+                        (Link::World, arm.mount().then(&body.pose))
+                    }
                     (Primitive::Chain(_), Some(arm)) if frame == 0 => {
                         (Link::Joint(axes - 1), arm.mount().then(&body.pose))
                     }

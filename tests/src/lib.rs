@@ -147,10 +147,17 @@ pub fn side_by_side(path: &str) -> Texts {
 pub fn examples() -> Vec<(String, Texts)> {
     let layouts = LAYOUTS.map(|layout| (layout.to_string(), ariac(layout)));
     let own = ["buffer", "shared_agv"].map(|line| (line.to_string(), own_line(line)));
-    let sorting = ("sorting".to_string(), side_by_side("sorting/sorting"));
+    let lines =
+        ["sorting", "tending"].map(|line| (line.to_string(), side_by_side(&format!("{line}/{line}"))));
     let fast = ["agv.capacity=4", "kitting.speed=1", "gantry.speed=1"];
     let prototype = fast.iter().fold(prototype("default"), |texts, setting| texts.set(setting));
-    layouts.into_iter().chain(own).chain([("prototype".into(), prototype), sorting]).chain(scenes()).collect()
+    layouts
+        .into_iter()
+        .chain(own)
+        .chain([("prototype".into(), prototype)])
+        .chain(lines)
+        .chain(scenes())
+        .collect()
 }
 
 /// Runs `job` for each of the inputs on all processors; results in the order of the inputs.

@@ -62,3 +62,60 @@ fn the_sorting_station_takes_the_time_of_its_closed_form() {
         assert!((-1e-9..=waits(pieces)).contains(&late), "{} s, {late} s late", report.simulated_s);
     }
 }
+
+/// Of the tending cell, s: 90 of cutting, 2 x 4 of the door, 17.656 of moves, 2 x 0.25 of grips, 2 x 0.2 of releases,
+/// 2 x 1 of the vise. Moves: closed forms of a second program, from the maker's lengths.
+const TENDED: f64 = 90.0 + 8.0 + 17.656 + 0.5 + 0.4 + 2.0;
+
+#[test]
+fn the_tending_cell_takes_the_time_of_its_closed_form() {
+    let mut collected = Vec::new();
+    let mut read = 0;
+    let mut observer = |seen: &Seen| {
+        let log = seen.plant.items().log();
+        for event in &log[read..] {
+            if let Event::Item { scan, to: Carrier::Sink { .. }, .. } = *event {
+                collected.push(scan as f64 / 100.0);
+            }
+        }
+        read = log.len();
+    };
+    let report = run(side_by_side("tending/tending"), &mut observer);
+    assert_eq!(report.reason, "all items collected");
+    assert!(report.collisions.is_empty());
+    let cycles: Vec<f64> = collected.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    assert_eq!(cycles.len(), 39);
+    for cycle in &cycles {
+        println!("{cycle}");
+        // Each of 24 waits is up to two scans of 10 ms long.
+        assert!((TENDED - 0.01..=TENDED + 0.49).contains(cycle), "{cycle} s");
+    }
+}
+
+/// A mill 0.4 m further away is out of reach; what is suggested brings it back, and a millimetre less does not.
+#[test]
+fn a_mill_too_far_away_is_brought_back_by_217_mm() {
+    let with_mill_at = |x: &str| {
+        let mut texts = side_by_side("tending/tending");
+        texts.layout = texts.layout.replace("[1.50, 0, 0, 90]", &format!("[{x}, 0, 0, 90]"));
+        texts.compile()
+    };
+    let apart = with_mill_at("1.90");
+    let verdict = apart.verdict.expect("a verdict");
+    assert!(!verdict.feasible);
+    let pair = verdict.apart.iter().find(|pair| pair.from == "mill").expect("the mill and the arm");
+    let (robot, path, present, new) = pair.suggestion.clone().expect("a suggestion");
+    assert_eq!((robot.as_str(), path.as_str(), present), ("mill", "pose[0]", 1.9));
+    assert!((new - 1.683).abs() < 1e-9, "{new}");
+    assert!(with_mill_at("1.683").verdict.expect("a verdict").feasible);
+    assert!(!with_mill_at("1.684").verdict.expect("a verdict").feasible);
+}
+
+#[test]
+fn a_mill_that_is_started_with_its_door_open_ends_the_run() {
+    let mut texts = side_by_side("tending/tending");
+    texts.specs[0] = texts.specs[0].replace("when door_closed -> Cutting", "when true -> Cutting");
+    let report = run(texts, &mut |_: &Seen| {});
+    assert!(!report.finished);
+    assert_eq!(report.reason, "interlock of mill: a process was started without what has to be in");
+}

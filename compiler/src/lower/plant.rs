@@ -97,6 +97,7 @@ pub fn line(
             spawn_first_s: scenario.spawn_first_s,
             spawn_every_s: scenario.spawn_every_s,
             time_limit_s: scenario.time_limit_s,
+            seed: u64::from(scenario.seed),
             // A line of which nothing is asked may wait as long as it likes.
             stall_limit_s: match scenario.number {
                 Number::None => scenario.time_limit_s,

@@ -380,14 +380,25 @@ impl<'a> Line<'a> {
         self.diagnostics.is_empty().then_some(system)
     }
 
-    /// An arm that gives to and takes from the same place would move its parts in a circle.
+    /// Whether a machine names another one in its `takes_from` and in its `hands_to`.
+    fn names_both(&self, arm: &str, place: &str) -> bool {
+        let arm = self.robots.iter().find(|robot| robot.object.name.value == arm);
+        let names =
+            |list: &Option<Vec<Spanned<String>>>| list.iter().flatten().any(|name| name.value == place);
+        arm.is_some_and(|arm| names(&arm.object.takes_from) && names(&arm.object.hands_to))
+    }
+
+    /// An arm that gives to and takes from the same place would move its parts in a circle, unless the layout says that it
+    /// does both, as at a mill.
     fn round_trips(&mut self, line: &connect::Line, connected: &Connected) {
         let given: HashSet<(usize, usize)> =
             line.proposals.iter().filter(|p| p.arm == p.from).map(|p| (p.from, p.to)).collect();
         let edges: HashSet<(usize, usize)> = connected.edges().iter().map(|e| (e.from, e.to)).collect();
         for edge in connected.edges() {
             let is_both = given.contains(&(edge.from, edge.to)) && edges.contains(&(edge.to, edge.from));
-            if is_both {
+            if is_both
+                && !self.names_both(line.nodes[edge.from].name.as_str(), line.nodes[edge.to].name.as_str())
+            {
                 let (arm, place) = (&line.nodes[edge.from], &line.nodes[edge.to]);
                 collect(
                     &mut self.diagnostics,

@@ -20,6 +20,8 @@ pub struct Scenario {
     pub orders: Orders,
     pub supply: Supply,
     pub time_limit_s: f64,
+    /// Of all times that are drawn.
+    pub seed: u32,
     pub faults: Faults,
     pub operations: Vec<Operation<Part>>,
     /// What sinks should collect; empty: nobody asks.
@@ -105,9 +107,10 @@ impl Scenario {
         sources.file(self.file).text == DEFAULT
     }
 
-    /// The same with another seed of the supply: so many more. A supply that is a list stays as it is.
+    /// The same with other seeds: so many more. A supply that is a list stays as it is.
     pub fn replication(&self, number: u32) -> Self {
         let mut scenario = self.clone();
+        scenario.seed = scenario.seed.wrapping_add(number);
         if let Items::Shuffled { seed, .. } = &mut scenario.supply.items {
             *seed = seed.wrapping_add(number);
         }
@@ -202,6 +205,7 @@ pub struct ResolvedScenario {
     pub spawn_first_s: f64,
     pub spawn_every_s: f64,
     pub time_limit_s: f64,
+    pub seed: u32,
     pub slips: Vec<Slip<usize>>,
     pub refusals: Vec<Refusal<usize>>,
     pub pauses: Vec<Pause>,

@@ -67,8 +67,13 @@ impl Decoder {
                 items: Items::Shuffled { surplus: SURPLUS, seed: SEED },
             }),
         };
+        let seed = match &supply {
+            Some(Supply { items: Items::Shuffled { seed, .. }, .. }) => *seed,
+            _ => SEED,
+        };
         Some(Scenario {
             file: json.span.file,
+            seed,
             kinds,
             orders: orders?,
             supply: supply?,

@@ -68,6 +68,7 @@ pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec
             spawn_first_s: scenario.supply.first_s,
             spawn_every_s: scenario.supply.every_s,
             time_limit_s: scenario.time_limit_s,
+            seed: scenario.seed,
             slips,
             refusals,
             pauses: pauses.clone(),

@@ -1,5 +1,6 @@
 //! Both robots alike: joints, reach, limits.
 
+use super::fixed::FixedArm;
 use super::gantry::{self, Gantry, Stance};
 use super::pose::Pose;
 use super::rail_arm::{self, RailArm};
@@ -58,6 +59,8 @@ pub struct Arm {
 /// The inverse kinematics, in closed form.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Solver {
+    /// Upright where it is.
+    Fixed(FixedArm),
     /// Upright on one rail.
     Rail(RailArm),
     /// Sideways at a torso that turns, on two rails that cross.
@@ -134,8 +137,9 @@ impl Limits {
 impl Arm {
     /// `axes` carry the chain, the first one first. None if there is no closed form for it.
     pub fn new(axes: &[&Axis], chain: &Chain) -> Option<Self> {
-        let at = axes.first()?.at?;
+        let at = axes.first().and_then(|axis| axis.at).unwrap_or_default();
         let solver = match axes.iter().map(|axis| axis.motion).collect::<Vec<_>>()[..] {
+            [] => Solver::Fixed(FixedArm::new(chain.base?, chain.lengths?)),
             [Motion::Slides { along, range }] => Solver::Rail(RailArm::new(at, along, range)),
             [
                 Motion::Slides { along: point::Axis::X, range: x },
@@ -156,13 +160,14 @@ impl Arm {
     pub fn gantry(&self) -> Option<&Gantry> {
         match &self.solver {
             Solver::Gantry(gantry) => Some(gantry),
-            Solver::Rail(_) => None,
+            Solver::Fixed(_) | Solver::Rail(_) => None,
         }
     }
 
     /// The frame of the chain's base in that of the axis that carries it.
     pub fn mount(&self) -> Pose {
         match self.solver {
+            Solver::Fixed(arm) => arm.base(),
             Solver::Rail(_) => Pose::IDENTITY,
             Solver::Gantry(_) => gantry::MOUNT,
         }
@@ -171,6 +176,7 @@ impl Arm {
     /// How far the wrist stays within its reach when the tool, pointing down, is at a place; negative out of reach, m.
     pub fn margin(&self, tool: Point) -> f64 {
         match &self.solver {
+            Solver::Fixed(arm) => arm.margin(tool),
             Solver::Rail(arm) => arm.margin(tool),
             Solver::Gantry(arm) => arm.margin(tool),
         }
@@ -180,6 +186,7 @@ impl Arm {
     /// A part on the tool keeps its direction: the last joint turns back what the others turn.
     pub fn solve(&self, tool: Point, from: &Joints) -> Option<Joints> {
         let joints = match &self.solver {
+            Solver::Fixed(arm) => return arm.solve(tool, &from.array()).map(|joints| Joints::new(&joints)),
             Solver::Rail(arm) => arm.solve(tool, &from.array()).map(|joints| Joints::new(&joints)),
             Solver::Gantry(arm) => arm.solve(tool, &from.array()).map(|joints| Joints::new(&joints)),
         }?;
@@ -240,7 +247,7 @@ impl Arm {
     /// forbid it, and for a robot without a torso.
     pub fn solve_stance(&self, tool: Point, stance: &Stance, from: &Joints) -> Option<Joints> {
         match &self.solver {
-            Solver::Rail(_) => None,
+            Solver::Fixed(_) | Solver::Rail(_) => None,
             Solver::Gantry(arm) => {
                 let joints = Joints::new(&arm.solve_stance(tool, stance, &from.array())?);
                 Some(Self::within_limits(self.with_direction_of(from, joints)))
@@ -264,7 +271,7 @@ impl Arm {
     /// reach forbids it, and for a robot without a torso.
     pub fn solve_standing(&self, tool: Point, from: &Joints) -> Option<Joints> {
         match &self.solver {
-            Solver::Rail(_) => None,
+            Solver::Fixed(_) | Solver::Rail(_) => None,
             Solver::Gantry(arm) => arm.solve_standing(tool, &from.array()).map(|joints| Joints::new(&joints)),
         }
     }
@@ -273,7 +280,7 @@ impl Arm {
     /// none where the limits forbid it, and for a robot without a torso.
     pub fn solve_turned(&self, tool: Point, turn: f64, from: &Joints) -> Option<Joints> {
         match &self.solver {
-            Solver::Rail(_) => None,
+            Solver::Fixed(_) | Solver::Rail(_) => None,
             Solver::Gantry(arm) => arm.solve_turned(tool, turn, &from.array()).map(|j| Joints::new(&j)),
         }
     }
@@ -284,6 +291,7 @@ impl Arm {
 
     pub fn tool_pose(&self, joints: &Joints) -> Pose {
         match &self.solver {
+            Solver::Fixed(arm) => arm.tool_pose(&joints.array()),
             Solver::Rail(arm) => arm.tool_pose(&joints.array::<{ rail_arm::JOINTS }>()),
             Solver::Gantry(arm) => arm.tool_pose(&joints.array::<{ gantry::JOINTS }>()),
         }
@@ -292,6 +300,7 @@ impl Arm {
     /// Pose of the link behind each joint, world frame, in the order of the joints; the last is the tool's.
     pub fn frames(&self, joints: &Joints) -> Frames {
         match &self.solver {
+            Solver::Fixed(arm) => Frames::new(&arm.frames(&joints.array())),
             Solver::Rail(arm) => Frames::new(&arm.frames(&joints.array())),
             Solver::Gantry(arm) => Frames::new(&arm.frames(&joints.array())),
         }
@@ -304,6 +313,7 @@ impl Arm {
     /// Joints to start from, the tool pointing down.
     pub fn start(&self) -> Joints {
         match &self.solver {
+            Solver::Fixed(arm) => Joints::new(&arm.start()),
             Solver::Rail(arm) => Joints::new(&arm.start()),
             Solver::Gantry(arm) => Joints::new(&arm.start()),
         }

@@ -4,10 +4,12 @@
 //! every build computes the same bits.
 
 pub mod arm;
+pub mod fixed;
 pub mod gantry;
 mod planar;
 pub mod pose;
 pub mod rail_arm;
+pub mod ur;
 pub mod ur10;
 
 #[cfg(test)]

@@ -68,7 +68,7 @@ fn rail_arm_at(place: f64, rail: Axis, tool: Point) -> bool {
         Axis::X => Point::new(place, KITTING.y, KITTING.z - D1),
         Axis::Y => Point::new(KITTING.x, place, KITTING.z - D1),
     };
-    !ur10::inverse(&down(tool - base)).is_empty()
+    !ur10::LENGTHS.inverse(&down(tool - base)).is_empty()
 }
 
 /// The same with the torso fixed and turned so that the arm's plane at pan 0 holds the tool.
@@ -80,7 +80,7 @@ fn gantry_at(x: f64, y: f64, tool: Point) -> bool {
         position: Point::new(tool.z - ABOVE.z, -ur10::D4, ahead2.max(0.0).sqrt() - 0.51),
     };
     let level = |q: &[f64; 6]| q[0].abs() < 1e-6 || PI - q[0].abs() < 1e-6;
-    ahead2 >= 0.0 && ur10::inverse(&pose).iter().any(level)
+    ahead2 >= 0.0 && ur10::LENGTHS.inverse(&pose).iter().any(level)
 }
 
 /// A place for which `margin` is `aim`, between one in reach and one out of reach.
@@ -350,7 +350,9 @@ fn axis(at: Point, motion: Motion) -> crate::part::axis::Axis {
 fn chain() -> Chain {
     let (numbers, names) = (vec![1.0; 6], vec![String::new(); 6]);
     Chain {
-        on: 0,
+        on: Some(0),
+        base: None,
+        lengths: None,
         rest: Point::default(),
         speeds: numbers.clone(),
         acceleration: 1.0,

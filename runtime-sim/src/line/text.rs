@@ -118,6 +118,7 @@ impl Line {
             let until = for_s.map_or("on".into(), |for_s| format!("for {for_s:?}"));
             put(format!("  {machine} {part} {at_s:?} {until} {value:?}"));
         }
+        put(format!("seed {}", scenario.seed));
         put("end".into());
         out
     }
@@ -257,6 +258,8 @@ fn read_scenario(words: &mut Words) -> Result<Scenario, String> {
     let pauses = words.list(|w| Ok(Pause { at_scan: w.int()?, scans: w.int()? }))?;
     words.expect("operations")?;
     let operations = words.list(read_operation)?;
+    words.expect("seed")?;
+    let seed = words.int()?;
     Ok(Scenario {
         goal,
         orders,
@@ -270,6 +273,7 @@ fn read_scenario(words: &mut Words) -> Result<Scenario, String> {
         refusals,
         pauses,
         operations,
+        seed,
     })
 }
 

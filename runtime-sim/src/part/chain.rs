@@ -4,7 +4,9 @@ use super::settings::{Form, Setting, Settings};
 use super::{Described, Action, Begun, Progress, Running, Schema, See, Signal, World, Start, Primitive};
 use crate::device::{Extent, PortType, error};
 use crate::kinematics::arm::Joints;
+use crate::frame::Frame;
 use crate::kinematics::pose::Pose;
+use crate::kinematics::ur::Lengths;
 use crate::part::axis::Axis;
 use crate::plant::trajectory::Trajectory;
 use crate::point::Point;
@@ -24,12 +26,18 @@ pub const SCHEMA: Schema = Schema {
         Action { name: "past", arguments: &[PortType::Point, PortType::Point] },
         Action { name: "around", arguments: &[PortType::Point, PortType::Point] },
         Action { name: "onto", arguments: &[PortType::Point, PortType::Point] },
+        Action { name: "direct", arguments: &[PortType::Point] },
     ],
     ..Schema::new(
         "chain",
-        "Six joints of the Universal Robots kind behind the axes that carry them, the tool pointing down.",
+        "Six joints of the Universal Robots kind, the tool pointing down: behind the axes that carry them, with the lengths of the UR10; or fixed at `from`, with the lengths given.",
         &[
-            Setting::new("on", Form::Part(&["axis"]), "", "the last of the axes that carry it"),
+            Setting::new("on", Form::Part(&["axis"]), "", "the last of the axes that carry it").optional(),
+            Setting::new("from", Form::Frame, "m", "where its base stands, if no axis carries it").optional(),
+            Setting::new("lengths", Form::Numbers, "m", "d1, a2, a3, d4, d5, d6 of the maker, of a fixed one")
+                .optional(),
+            Setting::new("tool_length", Form::Number, "m", "from the flange to the tool centre point, of a fixed one")
+                .optional(),
             Setting::new("rest", Form::Point, "m", "where the tool is at the start"),
             Setting::new("speeds", Form::Numbers, "rad/s", "greatest velocity of each joint"),
             Setting::new("acceleration", Form::Positive, "rad/s2", "greatest of each joint at first"),
@@ -61,7 +69,11 @@ const JOINTS: usize = 6;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chain {
     /// The last of the axes that carry it.
-    pub on: usize,
+    pub on: Option<usize>,
+    /// Where its base stands, if none does.
+    pub base: Option<Frame>,
+    /// Of a fixed one.
+    pub lengths: Option<Lengths>,
     pub rest: Point,
     pub speeds: Vec<f64>,
     pub acceleration: f64,
@@ -103,8 +115,16 @@ impl Described for Chain {
             [half, height] => Some([half, height]),
             _ => return Err("the setting envelope has neither two numbers nor none".into()),
         };
+        let on = settings.optional("on", Settings::part)?;
+        let base = settings.optional("from", Settings::upright)?;
+        let lengths = lengths(settings)?;
+        if on.is_some() == base.is_some() || base.is_some() != lengths.is_some() {
+            return Err("a chain is on an axis, or it has from, lengths and tool_length".into());
+        }
         Ok(Self {
-            on: settings.part("on")?,
+            on,
+            base,
+            lengths,
             rest: settings.point("rest")?,
             speeds,
             acceleration: settings.positive("acceleration")?,
@@ -131,11 +151,22 @@ impl Described for Chain {
     }
 }
 
+fn lengths(settings: &Settings) -> Result<Option<Lengths>, String> {
+    let numbers = settings.optional("lengths", Settings::numbers)?;
+    match (numbers.as_deref(), settings.optional("tool_length", Settings::number)?) {
+        (None, None) => Ok(None),
+        (Some(&[d1, a2, a3, d4, d5, d6]), Some(tool)) if a2 != 0.0 && a3 != 0.0 => {
+            Ok(Some(Lengths { d1, a2, a3, d4, d5, tool: d6 + tool }))
+        }
+        _ => Err("the settings lengths and tool_length are d1, a2, a3, d4, d5, d6, of which a2 and a3 are not 0, and a length".into()),
+    }
+}
+
 impl Chain {
     /// The axes that carry it, the first one first, with the numbers of their parts. `axis` finds one by its number.
     pub fn carriers<'a>(&self, axis: impl Fn(usize) -> Option<&'a Axis>) -> Vec<(usize, &'a Axis)> {
         let mut carriers = Vec::new();
-        let mut next = Some(self.on);
+        let mut next = self.on;
         while let Some((part, found)) = next.and_then(|part| Some((part, axis(part)?))) {
             carriers.push((part, found));
             next = found.on.filter(|before| *before < part);
@@ -186,6 +217,7 @@ impl Running for Swinging {
         let now = seconds(world.now_ms);
         match (action, arguments) {
             (0, &[x, y, z]) => self.start(Target::Place(Point::new(x, y, z)), now),
+            (6, &[x, y, z]) => self.start(Target::Direct(Point::new(x, y, z)), now),
             (1, &[speed, acceleration]) => self.limit(speed, acceleration),
             (2, &[x, y, z, turn]) if self.drive.has_torso() => {
                 self.start(Target::Turned(Point::new(x, y, z), turn), now)

@@ -1,28 +1,35 @@
-//! A vacuum gripper.
+//! A gripper: vacuum or fingers.
 
 use super::running::milliseconds;
 use super::settings::{Form, Setting, Settings};
-use super::{Described, Level, Looks, Running, Schema, See, Signal, Start};
+use super::{Described, Level, Looks, Progress, Running, Schema, See, Signal, Start, World};
 use crate::carrier::Carrier;
 use crate::device::{Extent, PortType};
 use crate::kinematics::pose::Pose;
 use crate::point::Point;
 
 pub const SCHEMA: Schema = Schema {
-    signals: &[Signal { name: "holds", ty: PortType::Bool, extent: Extent::One }],
+    signals: &[
+        Signal { name: "holds", ty: PortType::Bool, extent: Extent::One },
+        Signal { name: "is_open", ty: PortType::Bool, extent: Extent::One },
+    ],
     levels: &[Level { name: "close", ty: PortType::Bool }],
     ..Schema::new(
         "grip",
-        "A vacuum gripper at the tool of a chain. It attaches an item after some looks in a row with contact.",
+        "A gripper at the tool of a chain. With `period` and `looks` it is a vacuum gripper: it attaches an item after so many looks in a row with contact. With `closes`, `opens` and `sure_after` it has fingers: so long after they begin to close they hold what is between them, and it is known that they do; when they begin to open they let it go.",
         &[
             Setting::new("on", Form::Part(&["chain"]), "", "the chain whose tool it is"),
-            Setting::new("period", Form::Positive, "ms", "how often it looks for contact"),
+            Setting::new("period", Form::Positive, "ms", "how often it looks for contact").optional(),
             Setting::new(
                 "looks",
                 Form::Positive,
                 "",
                 "looks in a row with contact before an item is attached",
-            ),
+            )
+            .optional(),
+            Setting::new("closes", Form::Positive, "ms", "from open fingers to an item between them").optional(),
+            Setting::new("opens", Form::Positive, "ms", "the way back").optional(),
+            Setting::new("sure_after", Form::Number, "ms", "from an item between them until it is known").optional(),
             Setting::new(
                 "near",
                 Form::Positive,
@@ -36,24 +43,41 @@ pub const SCHEMA: Schema = Schema {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grip {
     pub chain: usize,
-    pub period_ms: u64,
-    pub looks: u32,
+    pub kind: Kind,
     pub near: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Kind {
+    Vacuum {
+        period_ms: u64,
+        looks: u32,
+    },
+    /// From the beginning until it is known that an item is held, and until they are open.
+    Fingers {
+        closes_ms: u64,
+        opens_ms: u64,
+    },
 }
 
 impl Described for Grip {
     fn new(settings: &Settings) -> Result<Self, String> {
-        let period_ms = settings.milliseconds("period")?;
-        let looks = settings.positive("looks")?;
-        if period_ms == 0 || looks.fract() != 0.0 {
-            return Err("the settings period and looks are whole numbers over 0".into());
-        }
-        Ok(Self {
-            chain: settings.part("on")?,
-            period_ms,
-            looks: looks as u32,
-            near: settings.positive("near")?,
-        })
+        let given = |names: &[&str]| names.iter().filter(|name| settings.has(name)).count();
+        let kind = match (given(&["period", "looks"]), given(&["closes", "opens", "sure_after"])) {
+            (2, 0) => {
+                let (period_ms, looks) = (settings.milliseconds("period")?, settings.positive("looks")?);
+                if period_ms == 0 || looks.fract() != 0.0 {
+                    return Err("the settings period and looks are whole numbers over 0".into());
+                }
+                Kind::Vacuum { period_ms, looks: looks as u32 }
+            }
+            (0, 3) => Kind::Fingers {
+                closes_ms: settings.milliseconds("closes")? + settings.milliseconds("sure_after")?,
+                opens_ms: settings.milliseconds("opens")?,
+            },
+            _ => return Err("a gripper has period and looks, or closes, opens and sure_after".into()),
+        };
+        Ok(Self { chain: settings.part("on")?, kind, near: settings.positive("near")? })
     }
 
     fn start(&self, start: &mut Start) -> Result<Option<Box<dyn Running>>, String> {
@@ -67,7 +91,10 @@ impl Described for Grip {
 #[derive(Clone, Debug)]
 pub struct Gripping {
     grip: Grip,
-    vacuum: Vacuum,
+    close: Close,
+    /// Since when it is on or off, and what it was when that was noted.
+    since: (u64, Close),
+    now_ms: u64,
     looks: u32,
     held: Option<usize>,
     let_go: Option<usize>,
@@ -85,7 +112,7 @@ pub struct Slip {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Vacuum {
+enum Close {
     On,
     Off,
 }
@@ -94,7 +121,9 @@ impl Gripping {
     pub fn new(grip: &Grip, slips: Vec<Slip>) -> Self {
         Self {
             grip: grip.clone(),
-            vacuum: Vacuum::Off,
+            close: Close::Off,
+            since: (0, Close::Off),
+            now_ms: 0,
             looks: 0,
             held: None,
             let_go: None,
@@ -102,6 +131,14 @@ impl Gripping {
             slips,
             loses_at_ms: None,
         }
+    }
+
+    fn is_open(&self) -> bool {
+        let opens_ms = match self.grip.kind {
+            Kind::Vacuum { .. } => 0,
+            Kind::Fingers { opens_ms, .. } => opens_ms,
+        };
+        self.since.1 == Close::Off && (self.since.0 == 0 || self.now_ms >= self.since.0 + opens_ms)
     }
 
     fn lose(&mut self) -> Option<usize> {
@@ -117,9 +154,9 @@ impl Running for Gripping {
 
     fn level(&mut self, _level: usize, value: &[f64]) {
         if value[0] != 0.0 {
-            self.vacuum = Vacuum::On;
+            self.close = Close::On;
         } else {
-            self.vacuum = Vacuum::Off;
+            self.close = Close::Off;
             self.looks = 0;
             self.let_go = self.lose();
         }
@@ -137,9 +174,23 @@ impl Running for Gripping {
         self.lose()
     }
 
+    fn advance(&mut self, world: &mut World) -> Progress {
+        if self.since.1 != self.close {
+            self.since = (world.now_ms, self.close);
+        }
+        self.now_ms = world.next_ms();
+        Progress::Going
+    }
+
     fn seeks(&self, see: &See, now_ms: u64, next_ms: u64) -> Option<(Pose, f64)> {
-        let period = self.grip.period_ms;
-        let looks = self.vacuum == Vacuum::On && self.held.is_none() && now_ms / period != next_ms / period;
+        let looks = self.close == Close::On
+            && self.held.is_none()
+            && match self.grip.kind {
+                Kind::Vacuum { period_ms, .. } => now_ms / period_ms != next_ms / period_ms,
+                Kind::Fingers { closes_ms, .. } => {
+                    (now_ms + 1..=next_ms).contains(&(self.since.0 + closes_ms))
+                }
+            };
         looks.then(|| Some((see.tool(self.grip.chain)?, self.grip.near))).flatten()
     }
 
@@ -148,11 +199,12 @@ impl Running for Gripping {
             self.looks = 0;
             return None;
         };
-        let period = self.grip.period_ms;
-        let looks = next_ms / period - now_ms / period;
-        self.looks = self.looks.saturating_add(u32::try_from(looks).unwrap_or(self.grip.looks));
-        if self.looks < self.grip.looks {
-            return None;
+        if let Kind::Vacuum { period_ms, looks } = self.grip.kind {
+            let more = next_ms / period_ms - now_ms / period_ms;
+            self.looks = self.looks.saturating_add(u32::try_from(more).unwrap_or(looks));
+            if self.looks < looks {
+                return None;
+            }
         }
         self.looks = 0;
         self.held = Some(item);
@@ -163,23 +215,31 @@ impl Running for Gripping {
     }
 
     /// It loses an item.
-    fn next_change(&self, _see: &See, _now_ms: u64) -> f64 {
-        self.loses_at_ms.map_or(f64::INFINITY, |ms| ms as f64)
+    fn next_change(&self, _see: &See, now_ms: u64) -> f64 {
+        let loses = self.loses_at_ms.map_or(f64::INFINITY, |ms| ms as f64);
+        let Kind::Fingers { closes_ms, opens_ms } = self.grip.kind else { return loses };
+        if self.since.1 != self.close {
+            return now_ms as f64;
+        }
+        let ends_ms = self.since.0 + if self.close == Close::On { closes_ms } else { opens_ms };
+        if ends_ms > now_ms { loses.min(ends_ms as f64) } else { loses }
     }
 
     fn looks(&self) -> Option<Looks> {
-        let Grip { chain, period_ms, near, .. } = self.grip;
+        let Grip { chain, near, .. } = self.grip;
+        let Kind::Vacuum { period_ms, .. } = self.grip.kind else { return None };
         let looks = Looks { chain, period_ms, near, has_found: self.looks > 0 };
-        (self.vacuum == Vacuum::On && self.held.is_none()).then_some(looks)
+        (self.close == Close::On && self.held.is_none()).then_some(looks)
     }
 
-    fn signal(&self, _signal: usize, _see: &See, out: &mut [f64]) {
-        out[0] = f64::from(u8::from(self.held.is_some()));
+    fn signal(&self, signal: usize, _see: &See, out: &mut [f64]) {
+        let shown = if signal == 0 { self.held.is_some() } else { self.is_open() };
+        out[0] = f64::from(u8::from(shown));
     }
 
-    /// What it holds is going to slip.
-    fn is_busy(&self, _see: &See) -> bool {
-        self.loses_at_ms.is_some()
+    /// What it holds is going to slip, or its fingers move.
+    fn is_busy(&self, see: &See) -> bool {
+        self.next_change(see, self.now_ms).is_finite()
     }
 
     fn place(&self, _item: usize, carrier: &Carrier, see: &See) -> Option<Point> {

@@ -133,6 +133,7 @@ primitives! {
     material::Material,
     orders::Orders,
     place::Place,
+    process::Process,
     pusher::Pusher,
     route::Route,
     setpoint::Setpoint,

@@ -97,6 +97,11 @@ impl<'a> World<'a> {
         See { machine: self.machine, parts: self.parts, items: self.items, desk: self.desk }
     }
 
+    /// The machine did what would break it: the run ends.
+    pub fn crash(&mut self, reason: String) {
+        self.items.crash(self.machine, reason);
+    }
+
     /// End of the scan, from the start of the run.
     pub fn next_ms(&self) -> u64 {
         self.now_ms + self.dt_ms
@@ -110,6 +115,13 @@ impl<'a> See<'a> {
 
     pub fn lane(&self, part: usize) -> Option<&'a lane::Moving> {
         self.part(part)?.lane()
+    }
+
+    /// Writes a signal of another part; nothing if it does nothing.
+    pub fn read(&self, part: usize, signal: usize, out: &mut [f64]) {
+        if let Some(part) = self.part(part) {
+            part.signal(signal, self, out);
+        }
     }
 
     pub fn cylinder(&self, part: usize) -> Option<&'a cylinder::Working> {

@@ -76,6 +76,10 @@ impl Progress {
             self.note(scan, true);
         }
         self.read = log.len();
+        if let Some((machine, reason)) = plant.items().crashed() {
+            let name = &line.machines[machine].name;
+            return Some((false, format!("interlock of {name}: {reason}")));
+        }
         if let Some(surplus) = surplus {
             return Some((false, surplus));
         }

@@ -23,6 +23,8 @@ pub struct Drive {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Target {
     Place(Point),
+    /// The same, each joint by the same part of its way at a time.
+    Direct(Point),
     /// A place, with the torso at exactly this turn, rad.
     Turned(Point, f64),
     /// The second place, past the first one without a stop.

@@ -46,6 +46,10 @@ impl Question {
                 point(goal);
                 0
             }
+            Target::Direct(goal) => {
+                point(goal);
+                7
+            }
             Target::Turned(goal, turn) => {
                 point(goal);
                 words.push(turn.to_bits());
@@ -97,6 +101,7 @@ impl Motions {
     fn computed(&self, from: &Joints, target: &Target, limits: &Limits) -> Option<Motion> {
         let knots = match target {
             Target::Place(goal) => self.arm.line_to(*goal, from)?.into_iter().map(Knot::new).collect(),
+            Target::Direct(goal) => vec![Knot::new(self.arm.solve(*goal, from)?)],
             Target::Turned(goal, turn) => vec![Knot::new(self.arm.solve_turned(*goal, *turn, from)?)],
             Target::Past(via, goal) => {
                 let via = self.arm.solve(*via, from)?;

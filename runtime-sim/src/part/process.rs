@@ -1,0 +1,212 @@
+//! What takes its time with an item at a place: milling, welding, testing.
+
+use super::settings::{Form, Setting, Settings};
+use super::{Described, Level, Progress, Running, Schema, See, Signal, Start, World};
+use crate::device::{Extent, PortType};
+use crate::line::Kind;
+use crate::random::Random;
+
+pub const SCHEMA: Schema = Schema {
+    signals: &[
+        Signal { name: "runs", ty: PortType::Bool, extent: Extent::One },
+        Signal { name: "ended", ty: PortType::Bool, extent: Extent::One },
+    ],
+    levels: &[Level { name: "start", ty: PortType::Bool }],
+    ..Schema::new(
+        "process",
+        "Works on the item at a place from a rising edge of `start` on: for `time`, or for a time drawn from the triangle of `shortest`, `time` and `longest`. `ended` stays until the next start. Started without an item, or without what it needs, it ends the run: on the machine that would be a crash.",
+        &[
+            Setting::new("on", Form::Part(&["place"]), "", "where the item lies"),
+            Setting::new("time", Form::Positive, "ms", "how long it takes; of a triangle the likeliest"),
+            Setting::new("shortest", Form::Positive, "ms", "of a triangle").optional(),
+            Setting::new("longest", Form::Positive, "ms", "of a triangle").optional(),
+            Setting::new("needs_in", Form::Part(&["cylinder"]), "", "has to be at its inner end when it starts").optional(),
+            Setting::new("needs_out", Form::Part(&["cylinder"]), "", "has to be at its outer end when it starts").optional(),
+            Setting::new("makes", Form::Words, "", "a kind and what becomes of it, another kind and what becomes of that; all others stay what they are").optional(),
+        ],
+    )
+};
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct Process {
+    pub place: usize,
+    /// Shortest, likeliest and longest.
+    pub times_ms: [u64; 3],
+    pub needs_in: Option<usize>,
+    pub needs_out: Option<usize>,
+    /// Names of kinds: what it was, and what it becomes.
+    pub makes: Vec<[String; 2]>,
+}
+
+impl Described for Process {
+    fn new(settings: &Settings) -> Result<Self, String> {
+        let time = settings.milliseconds("time")?;
+        let shortest = settings.optional("shortest", Settings::milliseconds)?.unwrap_or(time);
+        let longest = settings.optional("longest", Settings::milliseconds)?.unwrap_or(time);
+        if shortest == 0 || shortest > time || time > longest {
+            return Err("its times are not in order: shortest, time, longest".into());
+        }
+        let words = settings.optional("makes", Settings::words)?.unwrap_or_default();
+        if words.len() % 2 != 0 {
+            return Err("the setting makes names a kind without what becomes of it".into());
+        }
+        let makes = words.chunks_exact(2).map(|pair| [pair[0].clone(), pair[1].clone()]);
+        Ok(Self {
+            place: settings.part("on")?,
+            times_ms: [shortest, time, longest],
+            needs_in: settings.optional("needs_in", Settings::part)?,
+            needs_out: settings.optional("needs_out", Settings::part)?,
+            makes: makes.collect(),
+        })
+    }
+
+    fn start(&self, start: &mut Start) -> Result<Option<Box<dyn Running>>, String> {
+        let place = [start.machine as u64, start.part as u64];
+        Ok(Some(Box::new(Cycle::new(self, &start.line.kinds, start.line.scenario.seed, place))))
+    }
+}
+
+/// A process at work.
+#[derive(Clone, Debug)]
+pub struct Cycle {
+    process: Process,
+    /// What becomes of each kind.
+    becomes: Vec<usize>,
+    random: Random,
+    is_on: bool,
+    /// An edge of `start` that has not been looked at yet.
+    is_asked: bool,
+    /// The item, and when it is ready.
+    works: Option<(usize, u64)>,
+    has_ended: bool,
+}
+
+impl Cycle {
+    /// `place` is the number of the machine and of the part: each draws times of its own.
+    pub fn new(process: &Process, kinds: &[Kind], seed: u64, place: [u64; 2]) -> Self {
+        let number = |name: &String| kinds.iter().position(|kind| kind.name == *name);
+        let becomes = |kind: usize| {
+            let rule = process.makes.iter().find(|[from, _]| *from == kinds[kind].name);
+            rule.and_then(|[_, to]| number(to)).unwrap_or(kind)
+        };
+        Self {
+            process: process.clone(),
+            becomes: (0..kinds.len()).map(becomes).collect(),
+            random: Random::at(seed, place),
+            is_on: false,
+            is_asked: false,
+            works: None,
+            has_ended: false,
+        }
+    }
+
+    /// The next time, whole milliseconds.
+    fn time_ms(&mut self) -> u64 {
+        let [low, mode, high] = self.process.times_ms.map(|ms| ms as f64);
+        if low == high {
+            return self.process.times_ms[1];
+        }
+        // By the inverse of the distribution function.
+        let drawn = self.random.next_u64() as f64 / u64::MAX as f64;
+        let (rise, fall) = ((mode - low) * (high - low), (high - mode) * (high - low));
+        let time = if drawn * (high - low) < mode - low {
+            low + (drawn * rise).sqrt()
+        } else {
+            high - ((1.0 - drawn) * fall).sqrt()
+        };
+        libm::round(time) as u64
+    }
+
+    /// What is missing for a start; empty if nothing is.
+    fn lacks(&self, item: Option<usize>, world: &World) -> String {
+        let see = world.see();
+        let is_at = |part: Option<usize>, signal: usize| {
+            part.is_none_or(|part| {
+                let mut word = [0.0];
+                see.read(part, signal, &mut word);
+                word[0] != 0.0
+            })
+        };
+        let mut lacks = Vec::new();
+        if item.is_none() {
+            lacks.push("an item");
+        }
+        if !is_at(self.process.needs_in, 0) {
+            lacks.push("what has to be in");
+        }
+        if !is_at(self.process.needs_out, 1) {
+            lacks.push("what has to be out");
+        }
+        lacks.join(" and ")
+    }
+}
+
+impl Running for Cycle {
+    fn boxed(&self) -> Box<dyn Running> {
+        Box::new(self.clone())
+    }
+
+    fn level(&mut self, _level: usize, value: &[f64]) {
+        let is_on = value[0] != 0.0;
+        self.is_asked |= is_on && !self.is_on;
+        self.is_on = is_on;
+    }
+
+    fn advance(&mut self, world: &mut World) -> Progress {
+        if std::mem::take(&mut self.is_asked) && self.works.is_none() {
+            let item = world.see().borne_by(self.process.place).next();
+            let lacks = self.lacks(item, world);
+            match item.filter(|_| lacks.is_empty()) {
+                Some(item) => {
+                    self.has_ended = false;
+                    self.works = Some((item, world.now_ms + self.time_ms()));
+                }
+                None => world.crash(format!("a process was started without {lacks}")),
+            }
+        }
+        if let Some((item, ready_ms)) = self.works
+            && ready_ms <= world.next_ms()
+        {
+            (self.works, self.has_ended) = (None, true);
+            let kind = world.items.all()[item].kind;
+            world.items.remake(item, self.becomes[kind]);
+        }
+        Progress::Going
+    }
+
+    fn next_change(&self, _see: &See, now_ms: u64) -> f64 {
+        let ready = self.works.map_or(f64::INFINITY, |(_, ready_ms)| ready_ms as f64);
+        if self.is_asked { now_ms as f64 } else { ready }
+    }
+
+    fn is_busy(&self, _see: &See) -> bool {
+        self.is_asked || self.works.is_some()
+    }
+
+    fn signal(&self, signal: usize, _see: &See, out: &mut [f64]) {
+        let shown = if signal == 0 { self.works.is_some() } else { self.has_ended };
+        out[0] = f64::from(u8::from(shown));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Mean of a triangle: a third of the sum. Its variance: (a2 + b2 + c2 - ab - ac - bc) / 18.
+    #[test]
+    fn times_of_a_triangle_have_its_mean_and_its_spread() {
+        let times_ms = [85_000, 90_000, 100_000];
+        let process = Process { place: 0, times_ms, needs_in: None, needs_out: None, makes: Vec::new() };
+        let mut cycle = Cycle::new(&process, &[], 7, [1, 2]);
+        let count = 200_000;
+        let times: Vec<f64> = (0..count).map(|_| cycle.time_ms() as f64 / 1000.0).collect();
+        assert!(times.iter().all(|time| (85.0..=100.0).contains(time)));
+        let mean = times.iter().sum::<f64>() / f64::from(count);
+        let spread = times.iter().map(|time| (time - mean) * (time - mean)).sum::<f64>() / f64::from(count);
+        let (a, b, c) = (85.0_f64, 90.0, 100.0);
+        let expected = (a * a + b * b + c * c - a * b - a * c - b * c) / 18.0;
+        assert!((mean - (a + b + c) / 3.0).abs() < 0.03, "{mean}");
+        assert!((spread - expected).abs() < 0.1, "{spread} {expected}");
+    }
+}
