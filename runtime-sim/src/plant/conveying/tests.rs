@@ -253,6 +253,14 @@ impl Steps<'_> {
         self.design.lengths[self.kinds[item]] / 2.0
     }
 
+    fn switch(&mut self, output: usize, value: bool) {
+        let changes = std::mem::replace(&mut self.on[output], value) != value;
+        let is_at_joint =
+            |(lane, place): (usize, f64)| place < CLOSE || self.design.lanes[lane].length - place < CLOSE;
+        let is_lane = output < self.design.lanes.len();
+        self.is_close |= changes && is_lane && self.items.iter().flatten().any(|at| is_at_joint(*at));
+    }
+
     fn step(&mut self) {
         for (pin, out) in self.design.stoppers.iter().zip(0..) {
             let was_in = self.out[out] <= 0.0;
@@ -410,7 +418,7 @@ fn events_are_those_of_every_scan_and_of_small_steps() {
                 continue;
             }
             for (_, output, value) in design.script.iter().filter(|(at, _, _)| *at == scan) {
-                steps.on[*output] = *value;
+                steps.switch(*output, *value);
             }
             (0..SCAN_MS * STEPS).for_each(|_| steps.step());
             if steps.is_close {
