@@ -147,9 +147,7 @@ fn a_belt_brings_its_parts_to_the_end() {
     let (_, paths) = agree(&line, steps);
     let last = |path: &Path| path.segments.last().map(|segment| segment.carrier);
     assert_eq!(last(&paths[0]), Some(SINK));
-    assert!(
-        paths.last().is_some_and(|path| path.segments.is_empty() || last(path) != Some(SINK))
-    );
+    assert!(paths.last().is_some_and(|path| path.segments.is_empty() || last(path) != Some(SINK)));
 }
 
 /// Commands that come while others are under offset, refused ones, and a part that is let go in between: it falls

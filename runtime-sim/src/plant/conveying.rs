@@ -35,6 +35,8 @@ pub struct Conveying {
 pub struct Falls {
     pub item: usize,
     pub from: Point,
+    /// When, from the start of the run.
+    pub ms: f64,
 }
 
 /// The plant, as far as lanes have to do with it.
@@ -117,7 +119,7 @@ impl Conveying {
         while let Some((track, item, goes)) = self.goes_on(among, ms) {
             self.pass(among, ms, track, item, goes);
             if let Goes::Falls(from) = goes {
-                falls = Some(Falls { item, from });
+                falls = Some(Falls { item, from, ms });
                 break;
             }
         }
@@ -125,7 +127,8 @@ impl Conveying {
             track.appear(among, ms);
         }
         let next_ms = ahead::move_on(&self.tracks, among, ms);
-        self.next_ms = next_ms.max(ms + AT_ONCE);
+        // Where it lands is looked at next, at the same time.
+        self.next_ms = if falls.is_some() { ms } else { next_ms.max(ms + AT_ONCE) };
         falls
     }
 
@@ -135,7 +138,7 @@ impl Conveying {
             let lane = among.lane(track);
             for rider in &lane.riders {
                 let place = lane.place_at(rider.motion, ms);
-                let goes = track.leaves(among, rider, place).or_else(|| {
+                let goes = track.leaves(among, rider, place, ms).or_else(|| {
                     let mut branches = track.branches.iter();
                     let onto = branches.find_map(|branch| branch.takes(rider, place, ms))?;
                     self.has_room(among, onto, rider.half, ms).then_some(Goes::Onto(onto))
@@ -156,7 +159,7 @@ impl Conveying {
     }
 
     fn pass(&self, among: &mut Among, ms: f64, from: usize, item: usize, goes: Goes) {
-        let course = among.lane(&self.tracks[from]).lane().course;
+        let course = self.tracks[from].course(among, ms);
         let lane = among.lane_mut(&self.tracks[from]);
         let index = lane.riders.iter().position(|rider| rider.item == item);
         let Some(rider) = index.map(|index| lane.riders.remove(index)) else { return };
@@ -170,8 +173,8 @@ impl Conveying {
             }
             Goes::Onto(onto) => {
                 let track = &self.tracks[onto];
+                let course = track.course(among, ms);
                 let lane = among.lane_mut(track);
-                let course = lane.lane().course;
                 let at = course.begin() + lane.travel_at(ms);
                 let half = track.halves[among.items.all()[item].kind];
                 among.lane_mut(track).riders.push(Rider::new(item, half, at));
