@@ -66,6 +66,37 @@ fn what_falls_on_a_conveyor_goes_on_with_it_at_once() {
     }
 }
 
+/// An item comes from one place only, and nothing is seen or stopped where there is no conveyor.
+#[test]
+fn devices_whose_parts_cannot_be_there_are_refused() {
+    let refused = |part: &str| {
+        let mut texts = with_gap(0.0, 0.0);
+        texts.specs[0] = texts.specs[0].replacen("out run:", &format!("{part} out run:"), 1);
+        let outcome = texts.compile();
+        assert!(outcome.project.is_none(), "{part}");
+        outcome.diagnostics.iter().map(|found| found.message.clone()).collect::<Vec<_>>().join("; ")
+    };
+    let pin = "part pin = cylinder { extend: 100 ms; retract: 100 ms; };";
+    for (part, message) in [
+        ("part other = source { on: second_lane; inset: 0.2; };", "two parts are a source"),
+        (
+            "part eye = beam { across: first_lane; at: 1.2; };",
+            "eye is 1.200 m from the beginning of a lane of 1.000 m",
+        ),
+        (
+            "part scale = gauge { across: first_lane; at: -0.1; };",
+            "scale is -0.100 m from the beginning of a lane of 1.000 m",
+        ),
+        (
+            &format!("{pin} part gate = stopper {{ of: second_lane; at: 1.01; by: pin; }};"),
+            "gate is 1.010 m from the beginning of a lane of 1.000 m",
+        ),
+    ] {
+        let found = refused(part);
+        assert_eq!(found, format!("`gap` cannot be built from its device: {message}"));
+    }
+}
+
 /// The numbers with a decimal point and the times of a text, some of them by up to a third greater or less.
 fn shaken(text: &str, random: &mut Random, one_in: u32) -> String {
     let mut shaken = String::new();
