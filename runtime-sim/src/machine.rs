@@ -30,6 +30,9 @@ pub struct Machine {
 /// Elements of a port or a constant.
 pub const MOST_ELEMENTS: usize = 1024;
 
+/// What is rounded in a length, m.
+const ROUNDED: f64 = 1e-6;
+
 impl Machine {
     /// The first thing that is wrong with its parts or its wiring.
     pub fn check(&self) -> Result<(), String> {
@@ -42,8 +45,9 @@ impl Machine {
                 return Err(format!("two parts {}", part.name));
             }
             self.check_references(index, part)?;
+            self.check_on_lane(part)?;
         }
-        for primitive in ["chain", "route"] {
+        for primitive in ["chain", "route", "source"] {
             if self.parts.iter().filter(|part| part.schema().name == primitive).count() > 1 {
                 return Err(format!("two parts are a {primitive}"));
             }
@@ -86,6 +90,26 @@ impl Machine {
             if !primitives.contains(&schema.name) || *frame >= schema.frames.len().max(1) {
                 return Err(format!("the part {} cannot refer to {}", part.name, other.name));
             }
+        }
+        Ok(())
+    }
+
+    /// Whether what stands at a place of a lane stands beside it.
+    fn check_on_lane(&self, part: &Part) -> Result<(), String> {
+        let (lane, at) = match &part.primitive {
+            Primitive::Beam(beam) => (beam.lane, beam.at),
+            Primitive::Gauge(gauge) => (gauge.lane, gauge.at),
+            Primitive::Stopper(stopper) => (stopper.lane, stopper.at),
+            Primitive::Diverter(diverter) => (diverter.lane, diverter.at),
+            Primitive::Pusher(pusher) => (pusher.lane, pusher.at),
+            _ => return Ok(()),
+        };
+        let Some(Primitive::Lane(lane)) = self.parts.get(lane).map(|part| &part.primitive) else {
+            return Ok(());
+        };
+        let length = lane.course.begin() - lane.course.end();
+        if !(-ROUNDED..=length + ROUNDED).contains(&at) {
+            return Err(format!("{} is {at:.3} m from the beginning of a lane of {length:.3} m", part.name));
         }
         Ok(())
     }

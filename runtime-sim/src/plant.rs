@@ -177,7 +177,7 @@ impl Plant {
             let (machines, mut shared) = self.split(self.scan + 1);
             machines[index].obey(outputs, &mut shared);
             while let Some(item) = self.machines[index].let_go() {
-                self.drop_item(item);
+                self.drop_item(item, self.now_ms());
             }
         }
         let now_ms = self.now_ms();
@@ -191,8 +191,8 @@ impl Plant {
         work(&mut self.conveying, &mut among, self.scan_ms)
     }
 
-    fn fall(&mut self, Falls { item, from }: Falls) {
-        let (carrier, point) = fall::fall(self, from);
+    fn fall(&mut self, Falls { item, from, ms }: Falls) {
+        let (carrier, point) = fall::fall(self, from, ms);
         self.items.pass(item, carrier, point);
     }
 
@@ -200,7 +200,7 @@ impl Plant {
         let next_ms = scan * self.scan_ms;
         for index in 0..self.machines.len() {
             while let Some(item) = self.machines[index].slip(next_ms) {
-                self.drop_item(item);
+                self.drop_item(item, next_ms);
             }
         }
     }
@@ -242,9 +242,9 @@ impl Plant {
         nearest.map(|(_, item)| item)
     }
 
-    fn drop_item(&mut self, item: usize) {
+    fn drop_item(&mut self, item: usize, now_ms: u64) {
         if let Some(from) = self.place(item) {
-            self.fall(Falls { item, from });
+            self.fall(Falls { item, from, ms: now_ms as f64 });
         }
     }
 

@@ -85,7 +85,8 @@ fn the_text_follows_the_trace_of_every_example() {
     for ((name, _), driven) in examples.iter().zip(on_all_processors(&examples, driven)) {
         println!("{name}: {} scans, {} values compared", driven.scans, driven.values);
         assert_eq!(driven.difference, None, "{name}");
-        assert!(driven.scans > 1000, "{name}");
+        // A controller of a process may scan once a second.
+        assert!(driven.scans > 300, "{name}");
         for (global, first) in &driven.silent {
             let now = driven.machine.get(global).to_bits();
             assert_eq!(now, *first, "{name}: `{global}` changes and has no column");

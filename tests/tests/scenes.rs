@@ -36,9 +36,12 @@ impl<'a> Story<'a> {
             |i: &usize| !self.names[*i].ends_with(".elapsed") && self.last.get(*i) != Some(&row[*i]);
         let changed: Vec<String> = (0..row.len())
             .filter(is_told)
-            .map(|i| match self.names[i].strip_suffix(".state") {
-                Some(machine) => format!("{machine} -> {}", self.state(machine, &row[i])),
-                None => format!("{} {}", self.names[i], row[i]),
+            .map(|i| {
+                if is_state(&self.names[i]) {
+                    self.state(i, &row[i])
+                } else {
+                    format!("{} {}", self.names[i], row[i])
+                }
             })
             .collect();
         if !changed.is_empty() {
@@ -48,10 +51,18 @@ impl<'a> Story<'a> {
         self.last = row;
     }
 
-    fn state(&self, machine: &str, number: &str) -> &'a str {
-        let machine = self.line.machines.iter().find(|m| m.name == machine).expect("a machine of the layout");
-        &machine.states[number.parse::<usize>().expect("the number of a state")].name
+    /// The columns of the states are in the order of the machines. Their names are not always the machines' own: `left` is
+    /// a function of Structured Text.
+    fn state(&self, column: usize, number: &str) -> String {
+        let machine = self.names[..column].iter().filter(|name| is_state(name)).count();
+        let machine = &self.line.machines[machine];
+        let number: usize = number.parse().expect("the number of a state");
+        format!("{} -> {}", machine.name, machine.states[number].name)
     }
+}
+
+fn is_state(column: &str) -> bool {
+    column.ends_with(".state")
 }
 
 #[test]

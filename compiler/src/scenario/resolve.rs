@@ -114,7 +114,7 @@ impl<'a> Resolver<'a> {
         if !all.iter().any(|panel| panel.robot == robot.value) {
             let mut robots: Vec<(&str, usize)> = all.iter().map(|o| (o.robot, o.numbers[0])).collect();
             robots.dedup();
-            self.named(robot, &robots, "robot with a panel")?;
+            self.named(robot, &robots, "robot with a button or a set-point")?;
         }
         let of_robot = || all.iter().filter(|panel| panel.robot == robot.value);
         let Some(found) = of_robot().find(|panel| panel.part == part.value) else {

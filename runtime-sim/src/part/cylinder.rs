@@ -201,9 +201,10 @@ impl Working {
         Some(Stroking { stroke, out, rate: if moves { 1000.0 / way_ms } else { 0.0 } })
     }
 
-    /// What is on it now, from where it is at the inner end.
-    pub fn frame(&self) -> Frame {
-        self.stroking(self.now_ms).map_or(Frame::default(), |stroking| stroking.frame(0.0))
+    /// What is on it at a time from the start of this span on, ms, from where it is at the inner end.
+    pub fn frame(&self, ms: f64) -> Frame {
+        let seconds = (ms - self.now_ms as f64) / 1000.0;
+        self.stroking(self.now_ms).map_or(Frame::default(), |stroking| stroking.frame(seconds))
     }
 
     fn is_at(&self, end: End) -> bool {

@@ -92,7 +92,7 @@ impl Running for Bearing {
         Box::new(self.clone())
     }
 
-    fn below(&self, point: Point, see: &See) -> Option<(f64, Carrier)> {
+    fn below(&self, point: Point, _ms: f64, see: &See) -> Option<(f64, Carrier)> {
         if self.orders.is_some_and(|orders| !see.is_open(orders)) {
             return None;
         }

@@ -239,8 +239,8 @@ pub trait Running: std::fmt::Debug + Send + Sync {
         false
     }
 
-    /// The height of its surface and what becomes of an item that comes down at this place, if it meets that.
-    fn below(&self, _point: Point, _see: &See) -> Option<(f64, Carrier)> {
+    /// The height of its surface and what becomes of an item that comes down at this place and time, ms, if it meets that.
+    fn below(&self, _point: Point, _ms: f64, _see: &See) -> Option<(f64, Carrier)> {
         None
     }
 

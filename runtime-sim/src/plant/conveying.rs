@@ -37,6 +37,8 @@ pub struct Conveying {
 pub struct Falls {
     pub item: usize,
     pub from: Point,
+    /// When, from the start of the run.
+    pub ms: f64,
 }
 
 /// The plant, as far as lanes have to do with it.
@@ -119,7 +121,7 @@ impl Conveying {
         while let Some((track, item, goes)) = self.goes_on(among, ms) {
             self.pass(among, ms, track, item, goes);
             if let Goes::Falls(from) = goes {
-                falls = Some(Falls { item, from });
+                falls = Some(Falls { item, from, ms });
                 break;
             }
         }
@@ -127,7 +129,8 @@ impl Conveying {
             track.appear(among, ms);
         }
         let next_ms = ahead::move_on(&self.tracks, among, ms);
-        self.next_ms = next_ms.max(ms + AT_ONCE);
+        // Where it lands is looked at next, at the same time.
+        self.next_ms = if falls.is_some() { ms } else { next_ms.max(ms + AT_ONCE) };
         falls
     }
 
@@ -137,7 +140,7 @@ impl Conveying {
             let lane = among.lane(track);
             for rider in &lane.riders {
                 let place = lane.place_at(rider.motion, ms);
-                let goes = track.leaves(among, rider, place).or_else(|| {
+                let goes = track.leaves(among, rider, place, ms).or_else(|| {
                     let mut branches = track.branches.iter();
                     let onto = branches.find_map(|branch| branch.takes(rider, place, ms))?;
                     self.has_room(among, onto, rider.half, ms).then_some(Goes::Onto(onto))
@@ -158,7 +161,7 @@ impl Conveying {
     }
 
     fn pass(&self, among: &mut Among, ms: f64, from: usize, item: usize, goes: Goes) {
-        let course = among.lane(&self.tracks[from]).lane().course;
+        let course = self.tracks[from].course(among, ms);
         let lane = among.lane_mut(&self.tracks[from]);
         let index = lane.riders.iter().position(|rider| rider.item == item);
         let Some(rider) = index.map(|index| lane.riders.remove(index)) else { return };
@@ -172,8 +175,8 @@ impl Conveying {
             }
             Goes::Onto(onto) => {
                 let track = &self.tracks[onto];
+                let course = track.course(among, ms);
                 let lane = among.lane_mut(track);
-                let course = lane.lane().course;
                 let at = course.begin() + lane.travel_at(ms);
                 let half = track.halves[among.items.all()[item].kind];
                 let rider = Rider { from: Some(from), ..Rider::new(item, half, at) };

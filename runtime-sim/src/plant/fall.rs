@@ -9,10 +9,10 @@ const SINK: f64 = 0.01;
 
 /// The highest surface under `point`, the top of an obstacle or the floor, and where the item then rests. It stays there however
 /// deep it fell. Items do not lie on one another.
-pub fn fall(plant: &Plant, point: Point) -> (Carrier, Point) {
+pub fn fall(plant: &Plant, point: Point, ms: f64) -> (Carrier, Point) {
     let mut lands: Option<(f64, Carrier)> = None;
     for machine in &plant.machines {
-        let Some((height, carrier)) = machine.below(point, &plant.items, &plant.desk) else { continue };
+        let Some((height, carrier)) = machine.below(point, ms, &plant.items, &plant.desk) else { continue };
         if height <= point.z + SINK && lands.is_none_or(|(highest, _)| height > highest) {
             lands = Some((height, carrier));
         }

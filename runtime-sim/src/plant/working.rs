@@ -318,9 +318,9 @@ impl Working {
         }
     }
 
-    pub fn below(&self, point: Point, items: &Items, desk: &Desk) -> Option<(f64, Carrier)> {
+    pub fn below(&self, point: Point, ms: f64, items: &Items, desk: &Desk) -> Option<(f64, Carrier)> {
         let see = self.see(items, desk);
-        let surfaces = self.parts.iter().flatten().filter_map(|part| part.below(point, &see));
+        let surfaces = self.parts.iter().flatten().filter_map(|part| part.below(point, ms, &see));
         surfaces.reduce(|best, other| if other.0 > best.0 { other } else { best })
     }
 

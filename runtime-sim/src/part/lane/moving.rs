@@ -76,10 +76,10 @@ impl Moving {
         &self.lane
     }
 
-    /// Where it is now.
-    fn course(&self, see: &See) -> Course {
+    /// Where it is at a time from the start of this span on, ms.
+    fn course(&self, see: &See, ms: f64) -> Course {
         let carried = self.lane.on.and_then(|cylinder| see.cylinder(cylinder));
-        carried.map_or(self.lane.course, |cylinder| self.lane.course.moved(cylinder.frame()))
+        carried.map_or(self.lane.course, |cylinder| self.lane.course.moved(cylinder.frame(ms)))
     }
 
     /// Metres that the surface has moved since the start of the run.
@@ -208,18 +208,18 @@ impl Running for Moving {
             || self.riders.iter().any(goes)
     }
 
-    fn below(&self, point: Point, see: &See) -> Option<(f64, Carrier)> {
-        let course = self.course(see);
+    fn below(&self, point: Point, ms: f64, see: &See) -> Option<(f64, Carrier)> {
+        let course = self.course(see, ms);
         let (place, across) = course.find(point)?;
         let height = course.point(place, across).z;
-        let at = place + self.travel();
+        let at = place + self.travel_at(ms);
         let carrier = Carrier::Lane { machine: see.machine, part: self.part, at, across };
         (across.abs() <= self.lane.width / 2.0).then_some((height, carrier))
     }
 
     fn place(&self, item: usize, carrier: &Carrier, see: &See) -> Option<Point> {
         let Carrier::Lane { across, .. } = *carrier else { return None };
-        Some(self.course(see).point(self.place_of(item, carrier)?, across))
+        Some(self.course(see, self.now_ms as f64).point(self.place_of(item, carrier)?, across))
     }
 
     fn lane(&self) -> Option<&Moving> {

@@ -242,8 +242,16 @@ impl Track {
         among.lane(self).riders.iter().all(is_here)
     }
 
+    /// Where the lane is at a time.
+    pub fn course(&self, among: &Among, ms: f64) -> Course {
+        let course = among.lane(self).lane().course;
+        let carried = self.carried.as_ref();
+        let cylinder = carried.and_then(|ends| among.machines[self.machine].cylinder(ends.cylinder));
+        cylinder.map_or(course, |cylinder| course.moved(cylinder.frame(ms)))
+    }
+
     /// Where an item goes that has come to the end of the lane.
-    pub fn leaves(&self, among: &Among, rider: &Rider, place: f64) -> Option<Goes> {
+    pub fn leaves(&self, among: &Among, rider: &Rider, place: f64, ms: f64) -> Option<Goes> {
         let course = among.lane(self).lane().course;
         let end = self.sink.map_or(course.end(), |sink| sink.place);
         if place > end + SAME {
@@ -253,11 +261,7 @@ impl Track {
             (Some(sink), _) => Goes::Collected { sink: sink.part },
             (None, Some(onto)) => Goes::Onto(onto),
             (None, None) => {
-                let cylinder = self
-                    .carried
-                    .as_ref()
-                    .and_then(|ends| among.machines[self.machine].cylinder(ends.cylinder));
-                let course = cylinder.map_or(course, |cylinder| course.moved(cylinder.frame()));
+                let course = self.course(among, ms);
                 Goes::Falls(course.point(course.end() - rider.half, 0.0))
             }
         })
