@@ -1,9 +1,33 @@
-//! What OpenPLC's runtime v3 asks of the portable text beside the language: its script moves files by name.
+//! What OpenPLC's runtime v3 asks of the portable text beside the language: its script moves files by name, and
+//! the C that its matiec makes of the text meets the macros of C headers.
 
-use autogen::backend::st;
+use autogen::backend::{Files, st};
 use autogen::io_map::IoMap;
+use autogen_st_judge::{judge, listed};
 use autogen_tests::ariac;
+use autogen_tests::instances::instantiate;
 use roxmltree::Document;
+use std::collections::BTreeSet;
+
+/// An automaton with these locals.
+fn with_locals(names: &[&str]) -> Files {
+    let locals: String = names.iter().map(|name| format!("    local {name}: bool := false;\n")).collect();
+    let updates: String = names.iter().map(|name| format!(" {name} := not {name};")).collect();
+    let text = format!(
+        "automaton Lamp on vehicle {{\n{locals}    initial -> Blinking {{}}\n    \
+         state Blinking {{ when after 1 s -> Blinking {{{updates} }} }}\n}}\n"
+    );
+    let (system, sources) = instantiate(&[("lamp.aut".into(), text)]);
+    st::files(&system, &sources)
+}
+
+/// All names that a text declares, in small letters.
+fn declared(text: &str) -> BTreeSet<String> {
+    let checked = judge(text).unwrap_or_else(|findings| panic!("{}", listed(&findings, text)));
+    let own = checked.text.units.iter().flat_map(|unit| &unit.variables);
+    let globals = checked.text.configurations.iter().flat_map(|configuration| &configuration.globals);
+    own.chain(globals).map(|variable| variable.name.text.to_lowercase()).collect()
+}
 
 /// The script moves Config0.c, Config0.h and Res0.c, which matiec names after the configuration and the resource.
 #[test]
@@ -22,3 +46,26 @@ fn the_script_finds_the_files_that_it_moves() {
 }
 
 const NAMESPACE: &str = "http://www.plcopen.org/xml/tc6_0201";
+
+#[test]
+fn no_name_is_a_macro_of_the_c_below() {
+    let macros = [
+        "x_ok",
+        "r_ok",
+        "w_ok",
+        "l_set",
+        "lock_ex",
+        "f_lock",
+        "o_sync",
+        "map_type",
+        "ms_sync",
+        "nzero",
+        "time_utc",
+        "rotary_switch",
+    ];
+    let declared = declared(&with_locals(&macros)["portable/main.st"]);
+    for name in macros {
+        assert!(!declared.contains(name), "{name}: {declared:?}");
+        assert!(declared.contains(&format!("{name}_v")), "{name}: {declared:?}");
+    }
+}
