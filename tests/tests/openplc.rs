@@ -1,5 +1,5 @@
-//! What OpenPLC's runtime v3 asks of the portable text beside the language: its script moves files by name, and
-//! the C that its matiec makes of the text meets the macros of C headers.
+//! What OpenPLC's runtime v3 asks of the portable text beside the language: its script moves files by name, its
+//! matiec finds keywords inside of words, and the C that it makes of the text meets the macros of C headers.
 
 use autogen::backend::{Files, st};
 use autogen::io_map::IoMap;
@@ -46,6 +46,24 @@ fn the_script_finds_the_files_that_it_moves() {
 }
 
 const NAMESPACE: &str = "http://www.plcopen.org/xml/tc6_0201";
+
+#[test]
+fn no_name_has_a_keyword_inside() {
+    let names =
+        ["blend_program", "bend_function_block", "Send_Configuration", "lend_action", "mend_transition"];
+    let files = with_locals(&[&names[..], &["initial_steps", "blend_program_v", "blend_v_program"]].concat());
+    let declared = declared(&files["portable/main.st"]);
+    let found: Vec<_> = ["end_program", "end_function", "end_configuration", "end_action", "end_transition"]
+        .into_iter()
+        .flat_map(|keyword| declared.iter().filter(move |name| name.contains(keyword)))
+        .chain(declared.iter().filter(|name| name.starts_with("initial_step")))
+        .collect();
+    assert!(found.is_empty(), "{found:?}");
+    for name in ["blend_v_program", "bend_v_function_block", "initial_v_steps", "blend_v_program_v"] {
+        assert!(declared.contains(name), "{name}: {declared:?}");
+    }
+    assert!(files["names.csv"].contains("blend_program,blend_v_program,a keyword within the name"));
+}
 
 #[test]
 fn no_name_is_a_macro_of_the_c_below() {

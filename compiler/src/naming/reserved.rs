@@ -51,6 +51,12 @@ const TYPES: &str = "
 /// Macros in capitals of the C headers below the text, with their source in the lines of `#`.
 const MACROS_OF_C: &str = include_str!("macros_of_c.txt");
 
+/// What matiec finds inside of words too: it looks for the end of a unit before it knows words, and for the
+/// first step of a chart at the beginning of a body.
+const FOUND_INSIDE: [&str; 5] =
+    ["end_program", "end_function", "end_configuration", "end_action", "end_transition"];
+const FOUND_IN_FRONT: &str = "initial_step";
+
 /// Whether a compiler refuses the whole word.
 pub fn is_reserved(name: &str) -> bool {
     static LISTED: LazyLock<[BTreeSet<&str>; 3]> = LazyLock::new(|| {
@@ -64,4 +70,13 @@ pub fn is_reserved(name: &str) -> bool {
     words.contains(name.as_str())
         || name.split_once('_').is_some_and(|(function, of)| typed.contains(function) && are_types(of))
         || name.split_once("_to_").is_some_and(|(from, to)| are_types(from) && are_types(to))
+}
+
+/// Where matiec would take a part of a name for a keyword: the place of the underscore within that keyword.
+pub fn keyword_inside(name: &str) -> Option<usize> {
+    let name = name.to_ascii_lowercase();
+    let inside = FOUND_INSIDE.iter().filter_map(|keyword| Some((name.find(keyword)?, *keyword)));
+    let in_front = name.starts_with(FOUND_IN_FRONT).then_some((0, FOUND_IN_FRONT));
+    let (at, keyword) = inside.chain(in_front).min()?;
+    Some(at + keyword.find('_')?)
 }

@@ -1,6 +1,6 @@
 //! Identifiers of Structured Text. Case does not count; no underscore stands at an end or beside another one.
 
-use super::reserved::is_reserved;
+use super::reserved::{is_reserved, keyword_inside};
 use std::collections::BTreeSet;
 
 /// Longest identifier; old tools take no longer ones.
@@ -36,12 +36,17 @@ impl Scope {
         self.take_all(wanted, &[""]).concat()
     }
 
-    /// One identifier for each suffix, with the same beginning: the wanted one, cut if it is too long, with
-    /// `_v` behind it if it is reserved, with a number behind it if it was given away before.
+    /// One identifier for each suffix, with the same beginning: the wanted one, with `_v` in a keyword that some
+    /// compiler finds inside of words, cut if it is too long, with `_v` behind it if it is reserved, with a number
+    /// behind it if it was given away before.
     pub fn take_all(&mut self, wanted: &str, suffixes: &[&str]) -> Vec<String> {
         let longest = LONGEST - suffixes.iter().map(|s| s.len()).max().unwrap_or(0);
         let mut stem = plain(wanted);
         let mut reason = if stem == wanted { "" } else { "an underscore at an end or beside another one" };
+        while let Some(at) = keyword_inside(&stem) {
+            stem.insert_str(at, "_v");
+            reason = "a keyword within the name";
+        }
         if stem.len() > longest {
             stem = cut(&stem, longest);
             reason = "longer than 32 characters";
@@ -113,5 +118,8 @@ mod tests {
         assert_eq!(scope.take_all("at", &["_x", "_y", "_z"]), ["at_x", "at_y", "at_z"]);
         let given: Vec<_> = ["max_time", "Dint_to_LReal", "nan", "max_speed"].map(|n| scope.take(n)).into();
         assert_eq!(given, ["max_time_v", "Dint_to_LReal_v", "nan_v", "max_speed"]);
+        let given: Vec<_> =
+            ["blend_Program", "bend_function_end_action", "initial_steps"].map(|n| scope.take(n)).into();
+        assert_eq!(given, ["blend_v_Program", "bend_v_function_end_v_action", "initial_v_steps"]);
     }
 }
