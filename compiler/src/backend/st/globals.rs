@@ -105,6 +105,11 @@ fn system(shared: Shared) -> Vec<Variable> {
             Ex::Int(-1),
             "output: number of the robot in the order of the calls, the first is 0; -1 without a fault",
         ),
+        variable(
+            "fault_cleared",
+            Ex::Bool(false),
+            "a reset has cleared the fault in this scan: the time in each state begins anew",
+        ),
         variable("init_done", Ex::Bool(false), "false in the first scan"),
         variable("dt_ms", Ex::Int(shared.system.scan_ms), "length of a scan, ms: the INTERVAL of the task"),
     ]

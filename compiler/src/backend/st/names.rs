@@ -44,6 +44,7 @@ const TAKEN: &[&str] = &[
     "fault",
     "fault_code",
     "fault_robot",
+    "fault_cleared",
     "init_done",
     "dt_ms",
 ];

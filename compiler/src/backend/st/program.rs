@@ -94,7 +94,11 @@ fn status() -> Vec<Stmt> {
             "Running: from a rising edge of start, as long as there are permit and no fault.".into(),
         ),
         assign("had_fault", has_fault()),
-        when(edge("reset"), vec![assign("fault_code", Ex::Int(0)), assign("fault_robot", Ex::Int(-1))]),
+        assign("fault_cleared", and(vec![name("had_fault"), name("reset"), not(name("reset_before"))])),
+        when(
+            name("fault_cleared"),
+            vec![assign("fault_code", Ex::Int(0)), assign("fault_robot", Ex::Int(-1))],
+        ),
         Stmt::If(
             vec![
                 arm(or(vec![not(name("run_permit")), has_fault()]), vec![assign("running", Ex::Bool(false))]),
