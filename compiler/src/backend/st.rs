@@ -9,6 +9,7 @@
 //! the blocks behind it find `fault_code` set and do nothing.
 
 mod alarms;
+mod attributes;
 mod block;
 mod bounds;
 mod code;

@@ -1,6 +1,7 @@
 //! Files of Structured Text.
 
 use super::Line;
+use super::attributes;
 use super::context::Shared;
 use super::declaration::{Unit, globals};
 use super::print::{Dialect, harmless};
@@ -56,6 +57,7 @@ pub fn portable(shared: Shared, line: &Line) -> String {
 #[template(path = "plc/enumeration.st")]
 struct Enumeration {
     made_from: String,
+    pragmas: String,
     name: String,
     members: String,
 }
@@ -74,8 +76,12 @@ pub fn codesys(shared: Shared, line: &Line) -> Files {
     let mut files = Files::new();
     for (name, members) in enumerations(shared, line) {
         let members: Vec<_> = members.iter().enumerate().map(|(i, m)| format!("    {m} := {i}")).collect();
-        let text =
-            Enumeration { made_from: made_from(shared), name: name.clone(), members: members.join(",\n") };
+        let text = Enumeration {
+            made_from: made_from(shared),
+            pragmas: attributes::pragmas(attributes::OF_ENUMERATIONS),
+            name: name.clone(),
+            members: members.join(",\n"),
+        };
         files.insert(format!("{name}.st"), render(&text));
     }
     for function in &line.functions {

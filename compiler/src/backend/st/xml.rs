@@ -1,12 +1,13 @@
 //! PLCopen XML, in the two flavours that tools import: bodies are the same text as in the files of Structured Text.
 
 use super::Line;
+use super::attributes;
 use super::context::Shared;
 use super::declaration::{Unit, Variable};
 use super::functions::Function;
 use super::print::Dialect;
 use super::text::{enumerations, made_from, render};
-use crate::plain;
+use crate::{plain, version};
 use askama::Template;
 use std::fmt::Write;
 
@@ -14,6 +15,8 @@ use std::fmt::Write;
 #[template(path = "plc/plcopen.xml")]
 struct Plcopen {
     made_from: String,
+    version: &'static str,
+    day: &'static str,
     pous: Vec<Pou>,
     scan_ms: i32,
     globals: String,
@@ -23,6 +26,8 @@ struct Plcopen {
 #[template(path = "plc/codesys.xml")]
 struct Codesys {
     made_from: String,
+    version: &'static str,
+    day: &'static str,
     enumerations: Vec<Enumeration>,
     pous: Vec<Pou>,
     lists: Vec<List>,
@@ -38,6 +43,7 @@ struct Pou {
 struct Enumeration {
     name: String,
     members: String,
+    attributes: String,
 }
 
 struct List {
@@ -50,6 +56,8 @@ pub fn plcopen(shared: Shared, line: &Line) -> String {
     let globals: String = line.globals.all().map(|v| variable(v, Dialect::Portable, None, 10)).collect();
     render(&Plcopen {
         made_from: escaped(&made_from(shared)),
+        version: version::NUMBER,
+        day: version::DAY,
         pous: pous(line, Dialect::Portable),
         scan_ms: shared.system.scan_ms,
         globals,
@@ -65,6 +73,7 @@ pub fn codesys(shared: Shared, line: &Line) -> String {
         .map(|(name, members)| Enumeration {
             name: name.clone(),
             members: members.iter().enumerate().map(value).collect(),
+            attributes: attributes::additional_data(attributes::OF_ENUMERATIONS, 8),
         })
         .collect();
     let lists = (line.globals.lists().into_iter())
@@ -75,6 +84,8 @@ pub fn codesys(shared: Shared, line: &Line) -> String {
         .collect();
     render(&Codesys {
         made_from: escaped(&made_from(shared)),
+        version: version::NUMBER,
+        day: version::DAY,
         enumerations,
         pous: pous(line, Dialect::Codesys),
         lists,
