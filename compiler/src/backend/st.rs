@@ -1,7 +1,7 @@
 //! Structured Text: the same automata for a PLC.
 //!
 //! The intermediate representation becomes units of statements ([`code`], [`declaration`]), once; one printer
-//! writes them in two dialects. `portable/main.st` keeps to what every compiler takes and runs alike: no enumeration,
+//! writes them in two dialects. `portable/main.st` keeps to what common compilers take and run alike: no enumeration,
 //! no timer of the standard, no reliance on short circuit or on initial values.
 //!
 //! A type is a function block, a robot an instance of it that the program calls with the robot's ports and

@@ -126,10 +126,16 @@ impl Variable {
         self
     }
 
+    /// The number of an array's last element. A second one that nothing uses stands behind a single one: IronPLC
+    /// takes no array of one element.
+    pub fn last(&self) -> Option<usize> {
+        self.elements.map(|n| n.max(2) - 1)
+    }
+
     pub fn ty(&self) -> String {
-        match self.elements {
+        match self.last() {
             None => self.basic.name().into(),
-            Some(n) => format!("ARRAY[0..{}] OF {}", n.max(1) - 1, self.basic.name()),
+            Some(last) => format!("ARRAY[0..{last}] OF {}", self.basic.name()),
         }
     }
 

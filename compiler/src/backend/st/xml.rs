@@ -160,13 +160,12 @@ fn section(name: &str, variables: Vec<String>) -> String {
 
 fn variable(variable: &Variable, dialect: Dialect, derived: Option<&str>, indent: usize) -> String {
     let basic = variable.basic.name();
-    let ty = match (derived, variable.elements) {
+    let ty = match (derived, variable.last()) {
         (Some(name), _) => format!("<derived name=\"{name}\"/>"),
         (None, None) => format!("<{basic}/>"),
-        (None, Some(n)) => format!(
-            "<array><dimension lower=\"0\" upper=\"{}\"/><baseType><{basic}/></baseType></array>",
-            n.max(1) - 1
-        ),
+        (None, Some(last)) => {
+            format!("<array><dimension lower=\"0\" upper=\"{last}\"/><baseType><{basic}/></baseType></array>")
+        }
     };
     let initial = variable.initial.as_ref().map(|e| {
         format!("<initialValue><simpleValue value=\"{}\"/></initialValue>", escaped(&dialect.expression(e)))
