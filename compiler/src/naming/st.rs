@@ -9,6 +9,7 @@ const LONGEST: usize = 32;
 /// A name that could not stay as the specification has it.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Renamed {
+    /// As the specification has it: `at.x` is a coordinate of `at`, `at_x` has that name itself.
     pub wanted: String,
     pub name: String,
     pub reason: &'static str,
@@ -71,7 +72,7 @@ impl Scope {
                 let name = format!("{found}{suffix}");
                 if !reason.is_empty() {
                     self.renamed.push(Renamed {
-                        wanted: format!("{wanted}{suffix}"),
+                        wanted: of_specification(wanted, suffix),
                         name: name.clone(),
                         reason,
                     });
@@ -88,6 +89,14 @@ impl Scope {
 
 fn lower(stem: &str, suffix: &str) -> String {
     format!("{stem}{suffix}").to_ascii_lowercase()
+}
+
+fn of_specification(wanted: &str, suffix: &str) -> String {
+    match suffix {
+        "_x" | "_y" | "_z" => format!("{wanted}.{}", &suffix[1..]),
+        "_count" => format!("count({wanted})"),
+        _ => format!("{wanted}{suffix}"),
+    }
 }
 
 /// Without underscores at the ends or beside each other.
@@ -116,6 +125,10 @@ mod tests {
         );
         assert_eq!(scope.take(long), "a_name_that_is_longer_than_old_2");
         assert_eq!(scope.take_all("at", &["_x", "_y", "_z"]), ["at_x", "at_y", "at_z"]);
+        assert_eq!(scope.take("at_x"), "at_x_2");
+        assert_eq!(scope.take_all("at", &["_x", "_y", "_z"]), ["at_2_x", "at_2_y", "at_2_z"]);
+        let wanted: Vec<_> = scope.renamed().iter().rev().take(4).map(|r| r.wanted.as_str()).collect();
+        assert_eq!(wanted, ["at.z", "at.y", "at.x", "at_x"]);
         let given: Vec<_> = ["max_time", "Dint_to_LReal", "nan", "max_speed"].map(|n| scope.take(n)).into();
         assert_eq!(given, ["max_time_v", "Dint_to_LReal_v", "nan_v", "max_speed"]);
         let given: Vec<_> =
