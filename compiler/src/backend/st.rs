@@ -29,6 +29,7 @@ mod print;
 mod program;
 mod role;
 mod state;
+mod states;
 mod table;
 mod text;
 mod update;
@@ -71,6 +72,7 @@ pub fn mapped(system: &System, sources: &Sources, map: &IoMap) -> (Files, Column
     }
     files.insert("io.csv".into(), table::io(shared, map));
     files.insert("alarms.csv".into(), alarms::table(shared));
+    files.insert("states.csv".into(), states::table(shared));
     files.insert("bounds.txt".into(), figures::report(shared, &line));
     let raw = program.renamed().iter().map(|renamed| ("globals".to_string(), renamed.clone()));
     let renamed: Vec<_> = names.renamed.iter().cloned().chain(raw).collect();
