@@ -261,6 +261,17 @@ fn the_header_has_the_number_and_the_day_of_the_tool() {
     }
 }
 
+/// What a screen shows is exported, and nothing can be written from there: not the permit, not an output.
+#[test]
+fn symbols_can_be_read_and_not_written() {
+    for (name, files) in examples() {
+        for list in ["GVL_System", "GVL_Ports", "GVL_Cells", "MAIN"] {
+            let Some(text) = files.get(&format!("codesys/{list}.st")) else { continue };
+            assert_eq!(pragmas(text), [("symbol".to_string(), "read".to_string())], "{name}: {list}");
+        }
+    }
+}
+
 /// Name and value of the attributes in pragmas of a text.
 fn pragmas(text: &str) -> Vec<(String, String)> {
     let pragmas = text.lines().filter_map(|line| line.strip_prefix("{attribute '")?.strip_suffix("'}"));
@@ -279,8 +290,9 @@ fn objects_in_xml_have_the_attributes_of_the_text() {
         let mut qualified = 0;
         for object in objects {
             let own = object.attribute("name").expect("a name");
-            let added =
-                object.children().filter(|n| n.has_tag_name("addData") || n.tag_name().name() == "addData");
+            // A program has them at its interface.
+            let holder = object.children().find(|n| n.tag_name().name() == "interface").unwrap_or(object);
+            let added = holder.children().filter(|n| n.tag_name().name() == "addData");
             let data = added.flat_map(|added| added.children()).filter(|data| {
                 data.attribute("name") == Some("http://www.3s-software.com/plcopenxml/attributes")
             });

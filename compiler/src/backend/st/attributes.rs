@@ -11,6 +11,9 @@ pub struct Attribute {
 pub const OF_ENUMERATIONS: &[Attribute] =
     &[Attribute { name: "qualified_only", value: "" }, Attribute { name: "strict", value: "" }];
 
+/// What a symbol configuration exports, for OPC UA among others: to be read, never to be written.
+pub const OF_WHAT_IS_SHOWN: &[Attribute] = &[Attribute { name: "symbol", value: "read" }];
+
 /// A line for each.
 pub fn pragmas(attributes: &[Attribute]) -> String {
     attributes.iter().fold(String::new(), |mut text, Attribute { name, value }| {
@@ -24,6 +27,9 @@ pub fn pragmas(attributes: &[Attribute]) -> String {
 
 /// As CODESYS exports them.
 pub fn additional_data(attributes: &[Attribute], indent: usize) -> String {
+    if attributes.is_empty() {
+        return String::new();
+    }
     let space = " ".repeat(indent);
     let mut text = format!(
         "{space}<addData>\n\

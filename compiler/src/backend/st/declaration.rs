@@ -1,5 +1,6 @@
 //! Variables, and the units that declare them.
 
+use super::attributes::{Attribute, OF_WHAT_IS_SHOWN};
 use super::code::{Ex, Stmt};
 use super::print::{Dialect, comment};
 use crate::io_map::Raw;
@@ -163,6 +164,13 @@ impl Variable {
 }
 
 impl Unit {
+    pub fn attributes(&self, dialect: Dialect) -> &'static [Attribute] {
+        match (dialect, self.name == "MAIN") {
+            (Dialect::Codesys, true) => OF_WHAT_IS_SHOWN,
+            _ => &[],
+        }
+    }
+
     /// All sections of declarations.
     pub fn declarations(&self, dialect: Dialect) -> String {
         let state = self.state.as_ref().filter(|_| dialect == Dialect::Codesys);

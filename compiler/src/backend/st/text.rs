@@ -21,6 +21,7 @@ struct Header {
 #[derive(Template)]
 #[template(path = "plc/unit.st")]
 struct UnitText {
+    pragmas: String,
     keyword: &'static str,
     name: String,
     comments: Vec<String>,
@@ -66,6 +67,7 @@ struct Enumeration {
 #[template(path = "plc/global_list.st")]
 struct GlobalList {
     made_from: String,
+    pragmas: String,
     name: String,
     about: String,
     globals: String,
@@ -94,6 +96,7 @@ pub fn codesys(shared: Shared, line: &Line) -> Files {
     for list in line.globals.lists() {
         let text = GlobalList {
             made_from: made_from(shared),
+            pragmas: attributes::pragmas(list.attributes),
             name: list.name.into(),
             about: list.about.into(),
             globals: globals(&list.variables, Dialect::Codesys),
@@ -114,6 +117,7 @@ pub fn enumerations<'a>(shared: Shared<'a>, line: &Line) -> Vec<(&'a String, &'a
 
 pub fn unit(shared: Shared, unit: &Unit, dialect: Dialect) -> String {
     render(&UnitText {
+        pragmas: attributes::pragmas(unit.attributes(dialect)),
         keyword: if unit.name == "MAIN" { "PROGRAM" } else { "FUNCTION_BLOCK" },
         name: unit.name.clone(),
         comments: unit.comments.iter().map(|line| harmless(line.trim())).collect(),

@@ -49,6 +49,7 @@ struct Enumeration {
 struct List {
     name: &'static str,
     variables: String,
+    attributes: String,
 }
 
 /// For Beremiz, OpenPLC and other tools that keep to the standard.
@@ -80,6 +81,7 @@ pub fn codesys(shared: Shared, line: &Line) -> String {
         .map(|list| List {
             name: list.name,
             variables: list.variables.iter().map(|v| variable(v, Dialect::Codesys, None, 8)).collect(),
+            attributes: attributes::additional_data(list.attributes, 8),
         })
         .collect();
     render(&Codesys {
@@ -113,6 +115,7 @@ fn pou(unit: &Unit, dialect: Dialect) -> Pou {
     if dialect == Dialect::Portable {
         interface += &section("externalVars", unit.externals.iter().map(of).collect());
     }
+    interface += &attributes::additional_data(unit.attributes(dialect), 10);
     Pou {
         name: unit.name.clone(),
         kind: if unit.name == "MAIN" { "program" } else { "functionBlock" },
