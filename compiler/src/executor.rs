@@ -149,8 +149,8 @@ impl Controllers for Executor<'_> {
         self.latch(inputs);
         let status = &mut self.status;
         let faulted_before = status.fault.is_some();
-        if system.reset && !status.reset_before {
-            status.fault = None;
+        if system.reset && !status.reset_before && status.fault.take().is_some() {
+            self.robots.iter_mut().for_each(|robot| robot.elapsed = 0);
         }
         let start = system.start && !status.start_before;
         status.start_before = system.start;

@@ -25,3 +25,4 @@ pub mod scenario;
 pub mod simulator;
 pub mod source;
 pub mod spec;
+pub mod version;

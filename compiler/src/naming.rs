@@ -1,5 +1,6 @@
 //! Identifiers of generated code, made from the names of a specification.
 
+mod reserved;
 pub mod st;
 
 use std::collections::BTreeSet;

@@ -143,12 +143,14 @@ pub fn side_by_side(path: &str) -> Texts {
     Texts { layout: part(".json"), specs, scenario, ..Texts::default() }
 }
 
-/// Every line of the examples by name; the prototype at full speed.
+/// Every line of the examples by name; the prototype at full speed, the tending cell for three parts.
 pub fn examples() -> Vec<(String, Texts)> {
     let layouts = LAYOUTS.map(|layout| (layout.to_string(), ariac(layout)));
     let own = ["buffer", "shared_agv"].map(|line| (line.to_string(), own_line(line)));
-    let lines =
-        ["sorting", "tending"].map(|line| (line.to_string(), side_by_side(&format!("{line}/{line}"))));
+    let sorting = side_by_side("sorting/sorting");
+    let mut tending = side_by_side("tending/tending");
+    tending.scenario = tending.scenario.map(|text| text.replace("41", "3"));
+    let lines = [("sorting".to_string(), sorting), ("tending".to_string(), tending)];
     let fast = ["agv.capacity=4", "kitting.speed=1", "gantry.speed=1"];
     let prototype = fast.iter().fold(prototype("default"), |texts, setting| texts.set(setting));
     layouts

@@ -23,14 +23,14 @@ impl Emitted {
         Self { main: text("portable/main.st"), names: text("names.csv") }
     }
 
-    /// The name that a unit has for a wanted one.
-    fn name<'n>(&'n self, unit: &str, wanted: &'n str) -> &'n str {
+    /// The name that a unit has for a wanted one. A coordinate is wanted as `at.x`.
+    fn name(&self, unit: &str, wanted: &str) -> String {
         let rows = self.names.lines().skip(1).filter_map(|row| {
             let mut fields = row.split(',');
             Some((fields.next()?, fields.next()?, fields.next()?))
         });
         let mut found = rows.filter(|row| (row.0, row.1) == (unit, wanted));
-        found.next().map_or(wanted, |row| row.2)
+        found.next().map_or_else(|| wanted.replace('.', "_"), |row| row.2.into())
     }
 }
 
@@ -114,7 +114,7 @@ impl Finder<'_> {
 
     /// The variables of a unit that hold a value: point by coordinate, element by element.
     fn variables(&self, unit: &str, name: &str, is_point: bool, extent: Extent, first: usize) -> Vec<String> {
-        let parts: &[&str] = if is_point { &["_x", "_y", "_z"] } else { &[""] };
+        let parts: &[&str] = if is_point { &[".x", ".y", ".z"] } else { &[""] };
         let mut variables = Vec::new();
         for element in first..first + self.system.model.elements(extent) {
             let index = if extent == Extent::One { String::new() } else { format!("[{element}]") };
@@ -128,7 +128,7 @@ impl Finder<'_> {
 
     /// The instance of a robot's block in the program.
     fn instance(&self, index: usize) -> String {
-        self.emitted.name("MAIN", &self.system.instances[index].name).to_string()
+        self.emitted.name("MAIN", &self.system.instances[index].name)
     }
 
     /// Inputs and outputs of a robot in the order of its image. Inputs that no automaton reads may be left out.

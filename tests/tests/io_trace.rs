@@ -5,7 +5,7 @@ use autogen::backend::st;
 use autogen::executor::Executor;
 use autogen::io_map::IoMap;
 use autogen_st_judge::machine::{Machine, Place};
-use autogen_tests::{Texts, examples, on_all_processors};
+use autogen_tests::{Texts, examples, on_all_processors, text};
 use runtime_sim::run::{Seen, Stepping, run};
 
 /// A text that follows a trace row by row.
@@ -17,6 +17,8 @@ struct Driven {
     /// Globals without a column, with what they were after the first scan.
     silent: Vec<(String, u64)>,
     scans: u64,
+    /// Of the whole trace.
+    bytes: usize,
     values: u64,
     difference: Option<String>,
 }
@@ -36,12 +38,23 @@ impl Driven {
             .collect();
         let place = |name: &String| machine.place(name).unwrap_or_else(|| panic!("no `{name}` in the text"));
         let places = names.iter().map(place).collect();
-        Self { machine, names, places, is_input, silent: Vec::new(), scans: 0, values: 0, difference: None }
+        Self {
+            machine,
+            names,
+            places,
+            is_input,
+            silent: Vec::new(),
+            scans: 0,
+            bytes: header.len(),
+            values: 0,
+            difference: None,
+        }
     }
 
     fn follow(&mut self, row: &str) {
         let values: Vec<f64> = row.trim_end().split(',').map(|v| v.parse().expect("a number")).collect();
         assert_eq!(values.len(), self.names.len());
+        self.bytes += row.len();
         for (i, value) in values.iter().enumerate().filter(|(i, _)| self.is_input[*i]) {
             self.machine.write(self.places[i], *value);
         }
@@ -87,6 +100,12 @@ fn the_text_follows_the_trace_of_every_example() {
         assert_eq!(driven.difference, None, "{name}");
         // A controller of a process may scan once a second.
         assert!(driven.scans > 300, "{name}");
+        if name == "default" {
+            let (thousands, rest, megabytes) =
+                (driven.scans / 1000, driven.scans % 1000, driven.bytes / 1_000_000);
+            let size = format!("{thousands},{rest:03} of them and {megabytes} MB for the default line");
+            assert!(text("docs/io-trace.md").contains(&size), "docs/io-trace.md: {size}");
+        }
         for (global, first) in &driven.silent {
             let now = driven.machine.get(global).to_bits();
             assert_eq!(now, *first, "{name}: `{global}` changes and has no column");

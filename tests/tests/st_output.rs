@@ -83,6 +83,21 @@ fn alarms_say_who_raises_them_and_where() {
     insta::assert_snapshot!("alarms_csv", alarms.join("\n"));
 }
 
+/// The numbers are those of the text, which has them in comments.
+#[test]
+fn states_have_their_numbers_in_a_table() {
+    let files = of_layout("default");
+    for row in files["states.csv"].lines().skip(1) {
+        let fields: Vec<&str> = row.split(',').collect();
+        let [ty, _, number, state, ..] = fields[..] else { panic!("{row}") };
+        let block = &files[&format!("codesys/FB_{ty}.st")];
+        assert!(block.contains(&format!("(* {number} {state}")), "{row}\n{block}");
+        let members = &files[&format!("codesys/E_{ty}State.st")];
+        assert!(members.contains(&format!(" {} := {number}", state.replace('.', "_"))), "{row}\n{members}");
+    }
+    insta::assert_snapshot!("states_csv", files["states.csv"]);
+}
+
 #[test]
 fn a_robot_has_one_number_in_all_texts() {
     let outcome = ariac("default").compile();

@@ -10,7 +10,7 @@ use autogen::source::Sources;
 use autogen_st_judge::machine::Machine;
 use autogen_st_judge::{faults, judge, listed};
 use autogen_tests::st::{Emitted, StructuredText};
-use autogen_tests::{Texts, ariac, root, trace};
+use autogen_tests::{Texts, ariac, root, text, trace};
 
 fn emitted(system: &System, sources: &Sources) -> Emitted {
     Emitted::of(&st::files(system, sources))
@@ -91,6 +91,16 @@ fn hand_written_traces_are_followed() {
     }
     println!("{} traces, {} wrong\n{}", paths.len(), wrong.len(), wrong.join("\n"));
     assert!(differ.is_empty(), "{}", wrong.join("\n\n"));
+}
+
+/// A controller may be set to stop at an operation that IEEE 754 calls invalid. The fault is to come instead.
+#[test]
+fn what_is_not_finite_is_found_without_an_invalid_operation() {
+    let fixture = trace::load(&text("tests/fixtures/trace/finite_numbers.trace")).expect("a trace");
+    let emitted = emitted(&fixture.system, &fixture.sources);
+    let mut engine = StructuredText::new(&fixture.system, &emitted).expect("a clean text");
+    trace::compare(&fixture, &mut engine).expect("the trace");
+    assert_eq!(engine.machine.invalid_operations(), 0, "{}", emitted.main);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Structured Text: the same automata for a PLC.
 //!
 //! The intermediate representation becomes units of statements ([`code`], [`declaration`]), once; one printer
-//! writes them in two dialects. `portable/main.st` keeps to what every compiler takes and runs alike: no enumeration,
+//! writes them in two dialects. `portable/main.st` keeps to what common compilers take and run alike: no enumeration,
 //! no timer of the standard, no reliance on short circuit or on initial values.
 //!
 //! A type is a function block, a robot an instance of it that the program calls with the robot's ports and
@@ -9,6 +9,7 @@
 //! the blocks behind it find `fault_code` set and do nothing.
 
 mod alarms;
+mod attributes;
 mod block;
 mod bounds;
 mod code;
@@ -28,6 +29,7 @@ mod print;
 mod program;
 mod role;
 mod state;
+mod states;
 mod table;
 mod text;
 mod update;
@@ -70,6 +72,7 @@ pub fn mapped(system: &System, sources: &Sources, map: &IoMap) -> (Files, Column
     }
     files.insert("io.csv".into(), table::io(shared, map));
     files.insert("alarms.csv".into(), alarms::table(shared));
+    files.insert("states.csv".into(), states::table(shared));
     files.insert("bounds.txt".into(), figures::report(shared, &line));
     let raw = program.renamed().iter().map(|renamed| ("globals".to_string(), renamed.clone()));
     let renamed: Vec<_> = names.renamed.iter().cloned().chain(raw).collect();

@@ -217,13 +217,35 @@ impl Context<'_, '_> {
             .iter()
             .map(|c| c.name.as_str())
             .chain(shown.parameters.iter().map(|p| p.name.as_str()));
-        let help = suggestion(&member.value, known).map_or(
-            "a neighbour shows the cells and parameters of its interface, never its ports or locals".into(),
-            |n| format!("is `{n}` meant?"),
-        );
+        let help = suggestion(&member.value, known)
+            .map(|n| format!("is `{n}` meant?"))
+            .or_else(|| self.joined(interface, &member.value))
+            .unwrap_or_else(|| {
+                "a neighbour shows the cells and parameters of its interface, never its ports or locals"
+                    .into()
+            });
         let message = format!("`{}` shows no `{}`", shown.name, member.value);
         self.report(Diagnostic::new("E0311", member.span, message).help(help));
         None
+    }
+
+    /// Help if a role joins the interface with one that shows the name.
+    fn joined(&self, interface: ir::InterfaceId, name: &str) -> Option<String> {
+        let interfaces = &self.checker.model.interfaces;
+        let shows = |i: &&ir::InterfaceId| {
+            let other = &interfaces[i.0];
+            let mut cells = other.cells.iter().map(|c| &c.name);
+            cells.any(|n| n == name) || other.parameters.iter().any(|p| p.name == name)
+        };
+        let roles = self.automaton.roles.iter().filter(|role| role.interface == interface);
+        let mut found = roles.filter_map(|role| Some((role, role.also.iter().find(shows)?)));
+        let (role, other) = found.next()?;
+        let joined = role.also.iter().map(|i| format!(" and {}", interfaces[i.0].name)).collect::<String>();
+        let (first, other) = (&interfaces[interface.0].name, &interfaces[other.0].name);
+        Some(format!(
+            "in `{}: ({first}{joined})` only what `{first}` shows is seen; begin with `{other}` to see what that shows",
+            role.name
+        ))
     }
 
     fn index(&mut self, base: &ast::Expr, index: &ast::Expr) -> Option<Path> {

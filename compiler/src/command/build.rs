@@ -13,6 +13,7 @@ use autogen::lower::{Outcome, Project, compile};
 use autogen::plain;
 use autogen::simulator;
 use autogen::source::{FileId, Sources};
+use autogen::version;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -213,7 +214,7 @@ fn about(project: &Project, sources: &Sources) -> Map<String, Value> {
         .collect();
     let order: Vec<&String> = project.system.instances.iter().map(|i| &i.name).collect();
     let about = [
-        ("tool", json!(format!("autogen {}", env!("CARGO_PKG_VERSION")))),
+        ("tool", json!(format!("autogen {}", version::NUMBER))),
         ("layout", json!(project.name)),
         ("step_order", json!(order)),
         ("inputs", inputs.into()),

@@ -23,6 +23,8 @@ pub enum Unusable {
     NotAutomata,
     /// No object of JSON.
     NoObject,
+    /// The path goes through a file as if it were a folder.
+    ThroughFile,
 }
 
 impl fmt::Display for Unusable {
@@ -35,6 +37,7 @@ impl fmt::Display for Unusable {
             Unusable::LeadsOut => "this leads out of the folder of the layout",
             Unusable::NoAutomata => "this folder holds no *.aut file",
             Unusable::NotAutomata => "this is neither a folder nor a *.aut file",
+            Unusable::ThroughFile => "a part of this path is a file, not a folder",
             Unusable::NoObject => "this file does not begin with `{`, so it is no scenario",
         })
     }
@@ -42,7 +45,10 @@ impl fmt::Display for Unusable {
 
 impl From<io::Error> for Unusable {
     fn from(error: io::Error) -> Self {
-        Unusable::Unread(Unread::Io(error))
+        match error.kind() {
+            io::ErrorKind::NotADirectory => Unusable::ThroughFile,
+            _ => Unusable::Unread(Unread::Io(error)),
+        }
     }
 }
 

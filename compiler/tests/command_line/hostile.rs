@@ -103,11 +103,14 @@ fn what_is_no_object_is_not_shown() {
 
 #[test]
 fn a_missing_file_is_reported_at_its_place_in_the_layout() {
-    let folder =
-        layout_with("missing", "\"specs\": [\"nowhere\", \"line.json\"], \"scenario\": \"none.json\"");
+    let folder = layout_with(
+        "missing",
+        "\"specs\": [\"nowhere\", \"line.json\", \"line.json/types\"], \"scenario\": \"none.json\"",
+    );
     let (status, said) = checked(&folder, &[]);
     assert_eq!(status, 1);
-    assert_eq!(said.matches("E0141").count(), 3, "{said}");
+    assert_eq!(said.matches("E0141").count(), 4, "{said}");
+    assert!(said.contains("a part of this path is a file, not a folder"), "{said}");
     assert!(said.contains("No such file"), "{said}");
     assert!(said.contains("this is neither a folder nor a *.aut file"), "{said}");
 }

@@ -67,6 +67,15 @@ impl Robot<'_> {
         }
     }
 
+    /// The time in the present state begins anew.
+    pub fn stay_anew(&mut self) {
+        match self {
+            {%- for robot in robots %}
+            Self::{{ robot.ty }}(robot) => robot.elapsed = 0,
+            {%- endfor %}
+        }
+    }
+
     /// Number of the state it is in.
     pub fn state(&self) -> usize {
         match self {

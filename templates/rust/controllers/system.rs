@@ -14,7 +14,7 @@ pub struct SystemInputs {
     pub run_permit: bool,
     /// Acts on its rising edge.
     pub start: bool,
-    /// Clears a fault on its rising edge; all values are kept.
+    /// Clears a fault on its rising edge; all values are kept, and the time in each state begins anew.
     pub reset: bool,
 }
 
@@ -65,8 +65,8 @@ impl System {
         }
         {%- endif %}
         let faulted_before = self.fault.is_some();
-        if inputs.reset && !self.reset_before {
-            self.fault = None;
+        if inputs.reset && !self.reset_before && self.fault.take().is_some() {
+            robots.iter_mut().for_each(Robot::stay_anew);
         }
         let start = inputs.start && !self.start_before;
         self.start_before = inputs.start;

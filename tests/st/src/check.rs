@@ -113,8 +113,8 @@ impl<'t> Checker<'t> {
             crate::view::ExpressionKind::Int(text) => crate::literal::int(text).ok(),
             _ => None,
         };
-        let (Some(0), Some(upper_value @ 0..)) = (bound(lower), bound(upper)) else {
-            self.report("array-bounds", lower.span, "an array goes from the literal 0 to a literal");
+        let (Some(0), Some(upper_value @ 1..)) = (bound(lower), bound(upper)) else {
+            self.report("array-bounds", lower.span, "an array goes from the literal 0 to a greater one");
             return None;
         };
         match self.type_of_name(element)? {

@@ -45,6 +45,7 @@ struct Counters {
     /// For each unit, the most statements that one call has executed.
     most: Vec<u64>,
     executed: u64,
+    invalid: u64,
     scans: u64,
 }
 
@@ -90,6 +91,7 @@ impl Machine {
             conditions: vec![0; code.conditions.len()],
             most: vec![0; code.units.len()],
             executed: 0,
+            invalid: 0,
             scans: 0,
         };
         let units = checked.text.units.iter().map(|unit| (unit.name.text.clone(), unit.span)).collect();
@@ -204,6 +206,12 @@ impl Machine {
     /// How many statements have been executed since power-up; a round of a loop counts one more.
     pub fn executed(&self) -> u64 {
         self.counters.executed
+    }
+
+    /// How many operations on reals have been executed since power-up that IEEE 754 calls invalid: those that make
+    /// a NaN of numbers, and comparisons by order with a NaN. A controller may be set to stop at them.
+    pub fn invalid_operations(&self) -> u64 {
+        self.counters.invalid
     }
 
     /// The period of the first task, ms.

@@ -4,6 +4,13 @@ pub fn is_reserved(name: &str) -> bool {
     WORDS.binary_search(&name.to_ascii_lowercase().as_str()).is_ok()
 }
 
+/// One compiler ends a unit where it finds such a word, in the middle of a name too.
+pub fn keyword_inside(name: &str) -> Option<&'static str> {
+    let name = name.to_ascii_lowercase();
+    let ends = ["end_program", "end_function", "end_configuration", "end_action", "end_transition"];
+    ends.into_iter().find(|keyword| name.contains(keyword))
+}
+
 #[rustfmt::skip]
 const WORDS: &[&str] = &[
     "abs", "abs_", "abstract", "acos", "action", "add", "adr", "and", "andn", "any", "any_bit", "any_char",
@@ -19,7 +26,7 @@ const WORDS: &[&str] = &[
     "find", "floor", "for", "from", "function", "function_block", "ge", "gt", "if", "implements",
     "initial_step", "insert", "int", "interface", "internal", "interval", "jmp", "jmpc", "jmpcn", "ldate",
     "ldt", "le", "left", "len", "limit", "lint", "ln", "log", "lreal", "lt", "ltime", "ltod", "lword",
-    "max", "method", "mid", "min", "mod", "move", "mul", "mux", "namespace", "ne", "non_retain",
+    "max", "method", "mid", "min", "mod", "move", "mul", "mux", "namespace", "ne", "new", "non_retain",
     "not", "not_", "null", "of", "on", "or", "orn", "overlap", "override", "pointer", "priority", "private",
     "program", "property", "protected", "public", "r_edge", "r_trig", "read_only", "read_write", "real",
     "ref", "ref_to", "repeat", "replace", "resource", "ret", "retain", "retc", "retcn", "return", "right",

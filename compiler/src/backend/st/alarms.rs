@@ -26,7 +26,7 @@ pub fn table(shared: Shared) -> String {
                 "Look at the values that it names; set them right before reset, or the fault returns."
             }
             FaultKind::TooLong => {
-                "Look for what the state waits for: the answer of the device, or another robot. reset keeps the time in the state: after start the fault comes back in the same scan unless the state can be left in it."
+                "Look for what the state waits for: the answer of the device, or another robot. After reset and start the state has its whole time again."
             }
         };
         let about = format!("{} ({})", site.text, shared.line(site.place));

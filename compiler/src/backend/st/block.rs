@@ -54,7 +54,8 @@ pub fn steps(shared: Shared, id: AutomatonId, globals: &Globals) -> Block {
     let state = name("state");
     let unknown = Member { value: NO_SUCH_STATE, note: "no such state".into(), qualified: None };
     let otherwise = vec![assign("fault_code", Ex::Member(unknown)), assign("fault_robot", name("robot"))];
-    let mut body = vec![when(stopped(), vec![Stmt::Return])];
+    let anew = when(name("fault_cleared"), vec![assign("elapsed", Ex::Int(0))]);
+    let mut body = vec![when(stopped(), vec![anew, Stmt::Return])];
     body.push(elapse());
     let case = vec![Stmt::Case { selector: state, branches, otherwise }];
     let mut case = dead::without_unread(case, &made(&lowering));

@@ -182,6 +182,16 @@ impl Ex {
     }
 }
 
+/// A whole number as a real one. Inside of a call without names truST takes none with names.
+pub fn real(whole: Ex) -> Ex {
+    let mut called = Vec::new();
+    whole.functions(&mut called);
+    match called.iter().any(|function| function.starts_with("F_")) {
+        true => Ex::Call("F_real", vec![("value", whole)]),
+        false => Ex::Call("DINT_TO_LREAL", vec![("", whole)]),
+    }
+}
+
 /// Calls `visit` with every expression, and with those inside statements that stand in others.
 pub fn expressions<'a>(statements: &'a [Stmt], visit: &mut impl FnMut(&'a Ex)) {
     for statement in statements {

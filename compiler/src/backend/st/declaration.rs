@@ -1,5 +1,6 @@
 //! Variables, and the units that declare them.
 
+use super::attributes::{Attribute, OF_WHAT_IS_SHOWN};
 use super::code::{Ex, Stmt};
 use super::print::{Dialect, comment};
 use crate::io_map::Raw;
@@ -126,10 +127,16 @@ impl Variable {
         self
     }
 
+    /// The number of an array's last element. A second one that nothing uses stands behind a single one: IronPLC
+    /// takes no array of one element.
+    pub fn last(&self) -> Option<usize> {
+        self.elements.map(|n| n.max(2) - 1)
+    }
+
     pub fn ty(&self) -> String {
-        match self.elements {
+        match self.last() {
             None => self.basic.name().into(),
-            Some(n) => format!("ARRAY[0..{}] OF {}", n.max(1) - 1, self.basic.name()),
+            Some(last) => format!("ARRAY[0..{last}] OF {}", self.basic.name()),
         }
     }
 
@@ -157,6 +164,13 @@ impl Variable {
 }
 
 impl Unit {
+    pub fn attributes(&self, dialect: Dialect) -> &'static [Attribute] {
+        match (dialect, self.name == "MAIN") {
+            (Dialect::Codesys, true) => OF_WHAT_IS_SHOWN,
+            _ => &[],
+        }
+    }
+
     /// All sections of declarations.
     pub fn declarations(&self, dialect: Dialect) -> String {
         let state = self.state.as_ref().filter(|_| dialect == Dialect::Codesys);

@@ -1,6 +1,6 @@
 //! Expressions: those with loops become statements that come first.
 
-use super::code::{Ex, Stmt, advance, and, assign, binary, name, not, or, sum, times, when};
+use super::code::{Ex, Stmt, advance, and, assign, binary, name, not, or, real, sum, times, when};
 use super::context::{Lowering, Phase};
 use super::declaration::Basic;
 use super::role::Members;
@@ -86,7 +86,7 @@ impl Lowering<'_> {
             }
             ExprKind::ToReal(inner) => match self.value(inner, before) {
                 Ex::Int(i) => Ex::Real(f64::from(i)),
-                value => Ex::Call("DINT_TO_LREAL", vec![("", value)]),
+                value => real(value),
             },
             ExprKind::Coordinate(inner, axis) => self.coordinates(inner, before)[*axis].clone(),
             ExprKind::SquaredDistance(a, b) => {

@@ -30,6 +30,7 @@ const FUNCTIONS: &[Function] = &[
     function!("F_greater_real", &[], 2),
     function!("F_absolute", &[], 2),
     function!("F_magnitude", &[], 2),
+    function!("F_real", &[], 1),
     function!("F_is_finite", &[], 1),
     function!("F_is_finite_point", &["F_is_finite"], 4),
     function!("F_squared_distance", &[], 4),

@@ -4,6 +4,7 @@
 //! short as `t.open` of the specification, and nothing is copied into blocks and back. The comment at its
 //! declaration says which robot has which element. Elements of arrays follow each other row by row.
 
+use super::attributes::{Attribute, OF_WHAT_IS_SHOWN};
 use super::code::{Ex, Stmt, advance, binary, name};
 use super::context::Shared;
 use super::declaration::{Basic, Variable, constants};
@@ -33,6 +34,7 @@ pub struct Globals {
 pub struct List {
     pub name: &'static str,
     pub about: &'static str,
+    pub attributes: &'static [Attribute],
     pub variables: Vec<Variable>,
 }
 
@@ -61,16 +63,13 @@ impl Globals {
     /// The globals as lists that have a name.
     pub fn lists(&self) -> Vec<List> {
         let tables = |tables: &[Table]| tables.iter().map(|t| t.variable.clone()).collect::<Vec<_>>();
+        let list = |name, about, attributes, variables| List { name, about, attributes, variables };
         let lists = [
-            List {
-                name: "GVL_System",
-                about: "inputs and outputs of the line",
-                variables: self.system.clone(),
-            },
-            List { name: "GVL_Ports", about: "ports of the robots", variables: self.ports.concat() },
-            List { name: "GVL_Raw", about: "raw values of the process image", variables: self.raw.clone() },
-            List { name: "GVL_Cells", about: "shared cells", variables: tables(&self.cells) },
-            List { name: "GVL_Parameters", about: "parameters", variables: tables(&self.parameters) },
+            list("GVL_System", "inputs and outputs of the line", OF_WHAT_IS_SHOWN, self.system.clone()),
+            list("GVL_Ports", "ports of the robots", OF_WHAT_IS_SHOWN, self.ports.concat()),
+            list("GVL_Raw", "raw values of the process image", &[], self.raw.clone()),
+            list("GVL_Cells", "shared cells", OF_WHAT_IS_SHOWN, tables(&self.cells)),
+            list("GVL_Parameters", "parameters", &[], tables(&self.parameters)),
         ];
         lists.into_iter().filter(|list| !list.variables.is_empty()).collect()
     }
@@ -104,6 +103,11 @@ fn system(shared: Shared) -> Vec<Variable> {
             "fault_robot",
             Ex::Int(-1),
             "output: number of the robot in the order of the calls, the first is 0; -1 without a fault",
+        ),
+        variable(
+            "fault_cleared",
+            Ex::Bool(false),
+            "a reset has cleared the fault in this scan: the time in each state begins anew",
         ),
         variable("init_done", Ex::Bool(false), "false in the first scan"),
         variable("dt_ms", Ex::Int(shared.system.scan_ms), "length of a scan, ms: the INTERVAL of the task"),

@@ -3,9 +3,9 @@
 //! A scalar whose raw value is its value stands at the address itself. Every other point has a raw variable
 //! beside it; the program converts inputs before everything else and outputs behind everything else.
 
-use super::code::{Ex, Stmt, binary, name, not};
+use super::code::{Ex, Stmt, assign, binary, name, not, real};
 use super::declaration::{Basic, Variable};
-use super::names::Names;
+use super::names::{Names, ROUNDED};
 use super::points::{Terminal, terminals};
 use crate::io_map::{Conversion, IoMap, Kind, Raw, Wire};
 use crate::ir::System;
@@ -38,9 +38,7 @@ pub fn image(system: &System, names: &Names, map: &IoMap, program: &mut Scope) -
             Direction::Input => {
                 image.inputs.push(Stmt::Assign(terminal.place(), value(terminal, wire, &raw)))
             }
-            Direction::Output => {
-                image.outputs.push(Stmt::Assign(name(&raw), raw_value(wire, terminal.place())))
-            }
+            Direction::Output => image.outputs.extend(store(wire, terminal.place(), &raw)),
         }
     }
     image
@@ -118,7 +116,7 @@ fn value(terminal: &Terminal, wire: &Wire, raw: &str) -> Ex {
             shifted(read, offset)
         }
         (Conversion::Scaled { scale, offset }, _) => {
-            let mut value = Ex::Call("DINT_TO_LREAL", vec![("", read)]);
+            let mut value = real(read);
             if scale != 1.0 {
                 value = binary("*", value, Ex::Real(scale));
             }
@@ -131,12 +129,24 @@ fn value(terminal: &Terminal, wire: &Wire, raw: &str) -> Ex {
     }
 }
 
-/// The raw value of an output.
+/// Stores an output in its raw variable.
+fn store(wire: &Wire, value: Ex, raw: &str) -> Vec<Stmt> {
+    let value = raw_value(wire, value);
+    match (wire.conversion, wire.raw) {
+        (Conversion::Inverted, _) | (_, Raw::Bool | Raw::Dint) => vec![assign(raw, value)],
+        (Conversion::Scaled { .. }, _) => {
+            vec![assign(ROUNDED, value), assign(raw, narrowed(wire.raw, name(ROUNDED)))]
+        }
+        _ => vec![assign(raw, narrowed(wire.raw, value))],
+    }
+}
+
+/// The raw value of an output, as BOOL or DINT.
 fn raw_value(wire: &Wire, value: Ex) -> Ex {
     match wire.conversion {
-        Conversion::None => narrowed(wire.raw, value),
+        Conversion::None => value,
         Conversion::Inverted => not(value),
-        Conversion::Shifted(offset) => narrowed(wire.raw, shifted(value, offset.saturating_neg())),
+        Conversion::Shifted(offset) => shifted(value, offset.saturating_neg()),
         Conversion::Scaled { scale, offset } => {
             let mut value = value;
             if offset != 0.0 {
@@ -148,7 +158,7 @@ fn raw_value(wire: &Wire, value: Ex) -> Ex {
             }
             let (low, high) = wire.raw.bounds();
             let rounded = vec![("low", Ex::Int(low)), ("value", value), ("high", Ex::Int(high))];
-            narrowed(wire.raw, Ex::Call("F_rounded", rounded))
+            Ex::Call("F_rounded", rounded)
         }
     }
 }

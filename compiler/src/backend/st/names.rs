@@ -26,6 +26,7 @@ const TAKEN: &[&str] = &[
     "F_absolute",
     "F_squared_distance",
     "F_rounded",
+    "F_real",
     "MAIN",
     "FB_Layout",
     "GVL_System",
@@ -33,8 +34,8 @@ const TAKEN: &[&str] = &[
     "GVL_Raw",
     "GVL_Cells",
     "GVL_Parameters",
-    "Line",
-    "Controller",
+    "Config0",
+    "Res0",
     "Scan",
     "Main_program",
     "run_permit",
@@ -44,13 +45,16 @@ const TAKEN: &[&str] = &[
     "fault",
     "fault_code",
     "fault_robot",
+    "fault_cleared",
     "init_done",
     "dt_ms",
 ];
 /// The counter over the elements of an array.
 pub const ELEMENT: &str = "element_no";
 const LOCAL: &[&str] = &["robot", "state", "elapsed", "done", "failed", "found", ELEMENT];
-const PROGRAM: &[&str] = &["start_before", "reset_before", "had_fault", "layout"];
+const PROGRAM: &[&str] = &["start_before", "reset_before", "had_fault", "layout", ROUNDED];
+/// A raw value before it becomes one of its narrow type.
+pub const ROUNDED: &str = "rounded";
 
 pub struct Names {
     pub enums: Vec<EnumNames>,

@@ -5,7 +5,7 @@ use crate::plain;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dialect {
-    /// What every compiler takes: numbers for members and states, globals declared where they are used.
+    /// What common compilers take: numbers for members and states, globals declared where they are used.
     Portable,
     /// CODESYS and TwinCAT: enumerations, global variable lists.
     Codesys,

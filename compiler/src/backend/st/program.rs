@@ -6,7 +6,7 @@ use super::context::Shared;
 use super::declaration::{Basic, Instance, Unit, Variable, constants};
 use super::globals::{Globals, fill};
 use super::image::Image;
-use super::names::ELEMENT;
+use super::names::{ELEMENT, ROUNDED};
 use super::value::{first_value, stop_value};
 use runtime_sim::device::Direction;
 
@@ -65,14 +65,19 @@ pub fn program(shared: Shared, blocks: &[Option<Blocks>], globals: &Globals, ima
         name: "MAIN".into(),
         comments: vec!["One scan: every robot steps once, in layout order.".into()],
         externals: globals.all().filter(|v| used.contains(&v.name)).map(Variable::uncommented).collect(),
-        variables: vec![
+        variables: [
             Variable::new("start_before", Basic::Bool)
                 .with_initial(Ex::Bool(true))
                 .with_comment("no edge at power-up"),
             Variable::new("reset_before", Basic::Bool).with_initial(Ex::Bool(true)),
             Variable::new("had_fault", Basic::Bool)
                 .with_comment("there was a fault at the beginning of the scan"),
-        ],
+            Variable::new(ROUNDED, Basic::Dint)
+                .with_comment("a raw value before it becomes one of its narrow type"),
+        ]
+        .into_iter()
+        .filter(|variable| used.contains(&variable.name))
+        .collect(),
         instances,
         body,
         ..Unit::default()
@@ -94,7 +99,11 @@ fn status() -> Vec<Stmt> {
             "Running: from a rising edge of start, as long as there are permit and no fault.".into(),
         ),
         assign("had_fault", has_fault()),
-        when(edge("reset"), vec![assign("fault_code", Ex::Int(0)), assign("fault_robot", Ex::Int(-1))]),
+        assign("fault_cleared", and(vec![name("had_fault"), name("reset"), not(name("reset_before"))])),
+        when(
+            name("fault_cleared"),
+            vec![assign("fault_code", Ex::Int(0)), assign("fault_robot", Ex::Int(-1))],
+        ),
         Stmt::If(
             vec![
                 arm(or(vec![not(name("run_permit")), has_fault()]), vec![assign("running", Ex::Bool(false))]),

@@ -1,6 +1,7 @@
 //! Files of Structured Text.
 
 use super::Line;
+use super::attributes;
 use super::context::Shared;
 use super::declaration::{Unit, globals};
 use super::print::{Dialect, harmless};
@@ -20,6 +21,7 @@ struct Header {
 #[derive(Template)]
 #[template(path = "plc/unit.st")]
 struct UnitText {
+    pragmas: String,
     keyword: &'static str,
     name: String,
     comments: Vec<String>,
@@ -56,6 +58,7 @@ pub fn portable(shared: Shared, line: &Line) -> String {
 #[template(path = "plc/enumeration.st")]
 struct Enumeration {
     made_from: String,
+    pragmas: String,
     name: String,
     members: String,
 }
@@ -64,6 +67,7 @@ struct Enumeration {
 #[template(path = "plc/global_list.st")]
 struct GlobalList {
     made_from: String,
+    pragmas: String,
     name: String,
     about: String,
     globals: String,
@@ -74,8 +78,12 @@ pub fn codesys(shared: Shared, line: &Line) -> Files {
     let mut files = Files::new();
     for (name, members) in enumerations(shared, line) {
         let members: Vec<_> = members.iter().enumerate().map(|(i, m)| format!("    {m} := {i}")).collect();
-        let text =
-            Enumeration { made_from: made_from(shared), name: name.clone(), members: members.join(",\n") };
+        let text = Enumeration {
+            made_from: made_from(shared),
+            pragmas: attributes::pragmas(attributes::OF_ENUMERATIONS),
+            name: name.clone(),
+            members: members.join(",\n"),
+        };
         files.insert(format!("{name}.st"), render(&text));
     }
     for function in &line.functions {
@@ -88,6 +96,7 @@ pub fn codesys(shared: Shared, line: &Line) -> Files {
     for list in line.globals.lists() {
         let text = GlobalList {
             made_from: made_from(shared),
+            pragmas: attributes::pragmas(list.attributes),
             name: list.name.into(),
             about: list.about.into(),
             globals: globals(&list.variables, Dialect::Codesys),
@@ -108,6 +117,7 @@ pub fn enumerations<'a>(shared: Shared<'a>, line: &Line) -> Vec<(&'a String, &'a
 
 pub fn unit(shared: Shared, unit: &Unit, dialect: Dialect) -> String {
     render(&UnitText {
+        pragmas: attributes::pragmas(unit.attributes(dialect)),
         keyword: if unit.name == "MAIN" { "PROGRAM" } else { "FUNCTION_BLOCK" },
         name: unit.name.clone(),
         comments: unit.comments.iter().map(|line| harmless(line.trim())).collect(),

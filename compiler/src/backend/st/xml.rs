@@ -1,12 +1,13 @@
 //! PLCopen XML, in the two flavours that tools import: bodies are the same text as in the files of Structured Text.
 
 use super::Line;
+use super::attributes;
 use super::context::Shared;
 use super::declaration::{Unit, Variable};
 use super::functions::Function;
 use super::print::Dialect;
 use super::text::{enumerations, made_from, render};
-use crate::plain;
+use crate::{plain, version};
 use askama::Template;
 use std::fmt::Write;
 
@@ -14,6 +15,8 @@ use std::fmt::Write;
 #[template(path = "plc/plcopen.xml")]
 struct Plcopen {
     made_from: String,
+    version: &'static str,
+    day: &'static str,
     pous: Vec<Pou>,
     scan_ms: i32,
     globals: String,
@@ -23,6 +26,8 @@ struct Plcopen {
 #[template(path = "plc/codesys.xml")]
 struct Codesys {
     made_from: String,
+    version: &'static str,
+    day: &'static str,
     enumerations: Vec<Enumeration>,
     pous: Vec<Pou>,
     lists: Vec<List>,
@@ -38,11 +43,13 @@ struct Pou {
 struct Enumeration {
     name: String,
     members: String,
+    attributes: String,
 }
 
 struct List {
     name: &'static str,
     variables: String,
+    attributes: String,
 }
 
 /// For Beremiz, OpenPLC and other tools that keep to the standard.
@@ -50,6 +57,8 @@ pub fn plcopen(shared: Shared, line: &Line) -> String {
     let globals: String = line.globals.all().map(|v| variable(v, Dialect::Portable, None, 10)).collect();
     render(&Plcopen {
         made_from: escaped(&made_from(shared)),
+        version: version::NUMBER,
+        day: version::DAY,
         pous: pous(line, Dialect::Portable),
         scan_ms: shared.system.scan_ms,
         globals,
@@ -65,16 +74,20 @@ pub fn codesys(shared: Shared, line: &Line) -> String {
         .map(|(name, members)| Enumeration {
             name: name.clone(),
             members: members.iter().enumerate().map(value).collect(),
+            attributes: attributes::additional_data(attributes::OF_ENUMERATIONS, 8),
         })
         .collect();
     let lists = (line.globals.lists().into_iter())
         .map(|list| List {
             name: list.name,
             variables: list.variables.iter().map(|v| variable(v, Dialect::Codesys, None, 8)).collect(),
+            attributes: attributes::additional_data(list.attributes, 8),
         })
         .collect();
     render(&Codesys {
         made_from: escaped(&made_from(shared)),
+        version: version::NUMBER,
+        day: version::DAY,
         enumerations,
         pous: pous(line, Dialect::Codesys),
         lists,
@@ -102,6 +115,7 @@ fn pou(unit: &Unit, dialect: Dialect) -> Pou {
     if dialect == Dialect::Portable {
         interface += &section("externalVars", unit.externals.iter().map(of).collect());
     }
+    interface += &attributes::additional_data(unit.attributes(dialect), 10);
     Pou {
         name: unit.name.clone(),
         kind: if unit.name == "MAIN" { "program" } else { "functionBlock" },
@@ -149,13 +163,12 @@ fn section(name: &str, variables: Vec<String>) -> String {
 
 fn variable(variable: &Variable, dialect: Dialect, derived: Option<&str>, indent: usize) -> String {
     let basic = variable.basic.name();
-    let ty = match (derived, variable.elements) {
+    let ty = match (derived, variable.last()) {
         (Some(name), _) => format!("<derived name=\"{name}\"/>"),
         (None, None) => format!("<{basic}/>"),
-        (None, Some(n)) => format!(
-            "<array><dimension lower=\"0\" upper=\"{}\"/><baseType><{basic}/></baseType></array>",
-            n.max(1) - 1
-        ),
+        (None, Some(last)) => {
+            format!("<array><dimension lower=\"0\" upper=\"{last}\"/><baseType><{basic}/></baseType></array>")
+        }
     };
     let initial = variable.initial.as_ref().map(|e| {
         format!("<initialValue><simpleValue value=\"{}\"/></initialValue>", escaped(&dialect.expression(e)))

@@ -11,6 +11,7 @@ use autogen::backend::Files;
 use autogen::backend::rust;
 use autogen::ir::System;
 use autogen::source::Sources;
+use autogen::version;
 use cache::Entry;
 use std::env::consts::{ARCH, OS};
 use std::path::Path;
@@ -50,7 +51,7 @@ pub fn compiled(system: &System, sources: &Sources, notice: Notice) -> Result<Sh
 /// What tells compiled controllers from others.
 fn key(files: &Files) -> String {
     let texts = files.iter().filter(|(name, _)| !is_of_layout(name));
-    let mut all = format!("{} {ARCH} {OS}\n", env!("CARGO_PKG_VERSION"));
+    let mut all = format!("{} {ARCH} {OS}\n", version::NUMBER);
     for (name, text) in texts {
         all += &format!("{name} {}\n{text}\n", text.len());
     }

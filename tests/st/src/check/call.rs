@@ -4,8 +4,19 @@ use super::{Checker, Scope};
 use crate::finding::Span;
 use crate::standard;
 use crate::types::Type;
-use crate::view::{Call, ExpressionKind, Section, Unit, UnitKind, Variable};
+use crate::view::{Call, Expression, ExpressionKind, Section, Unit, UnitKind, Variable, each_part};
 use std::collections::HashSet;
+
+/// Whether an expression calls a function with the names of its inputs.
+fn has_named_call(expression: &Expression) -> bool {
+    let mut found = false;
+    each_part(expression, &mut |part| {
+        if let ExpressionKind::Call(call) = &part.kind {
+            found |= call.arguments.iter().any(|argument| argument.name.is_some());
+        }
+    });
+    found
+}
 
 impl Checker<'_> {
     pub(super) fn function(&mut self, scope: &Scope, call: &Call) -> Option<Type> {
@@ -42,6 +53,10 @@ impl Checker<'_> {
                     argument.span,
                     "arguments of standard functions are given by position",
                 );
+            }
+            if has_named_call(&argument.value) {
+                let text = "a call with names inside of one without: not every compiler takes it";
+                self.report("argument", argument.span, text);
             }
             types.push(self.expression(scope, &argument.value));
         }

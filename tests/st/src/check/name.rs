@@ -1,7 +1,7 @@
 //! What may be a name, and that no two things share one.
 
 use super::Checker;
-use crate::reserved::is_reserved;
+use crate::reserved::{is_reserved, keyword_inside};
 use crate::standard::is_standard;
 use crate::view::{Name, UnitKind};
 use std::collections::HashSet;
@@ -50,6 +50,9 @@ impl Checker<'_> {
         let text = &name.text;
         if is_reserved(text) || is_standard(text) {
             self.report("reserved", name.span, format!("`{text}` is a reserved word"));
+        }
+        if let Some(keyword) = keyword_inside(text) {
+            self.report("keyword-inside", name.span, format!("`{text}` has `{keyword}` inside"));
         }
         if text.contains("__") || text.ends_with('_') {
             self.report("underscore", name.span, format!("`{text}` has a double or trailing underscore"));

@@ -17,11 +17,13 @@ pub(super) const FAULTS: &[Entry] = &[
     }),
     ("double underscore", |s| renamed(s, |name| vec![format!("{name}__b"), format!("a__{name}")])),
     ("trailing underscore", |s| renamed(s, |name| vec![format!("{name}_")])),
+    ("keyword within a name", |s| renamed(s, |name| vec![format!("{name}_send_program")])),
     ("name too long", |s| renamed(s, |name| vec![format!("{name}{}", "x".repeat(65))])),
     ("type outside of the core", |s| {
         types(s, |_| vec!["INT".into(), "REAL".into(), "TIME".into(), "STRING".into()])
     }),
     ("array that begins at 1", |s| types(s, array_from_one)),
+    ("array of one element", |s| types(s, array_of_one)),
     ("initial value of an array", |s| arrays(s, " := [1]")),
     ("CONSTANT", |s| sections(s, "VAR CONSTANT")),
     ("RETAIN", |s| sections(s, "VAR RETAIN")),
@@ -53,6 +55,11 @@ fn unknown_type(survey: &Survey) -> Vec<Mutation> {
 fn array_from_one(ty: &str) -> Vec<String> {
     let text = ty.replace("[0..", "[1..");
     if text == ty { vec![] } else { vec![text] }
+}
+
+fn array_of_one(ty: &str) -> Vec<String> {
+    let parts = ty.split_once("..").and_then(|(front, rest)| Some((front, rest.split_once(']')?.1)));
+    parts.map(|(front, rest)| format!("{front}..0]{rest}")).into_iter().collect()
 }
 
 fn declared_again(survey: &Survey, name: fn(&str) -> String) -> Vec<Mutation> {

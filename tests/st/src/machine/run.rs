@@ -206,7 +206,9 @@ impl Runner<'_> {
                 number::compare(*operator, self.whole(&both.0, base)?, self.whole(&both.1, base)?)
             }
             Truth::Reals(operator, both) => {
-                number::compare(*operator, self.real(&both.0, base)?, self.real(&both.1, base)?)
+                let (left, right) = (self.real(&both.0, base)?, self.real(&both.1, base)?);
+                self.counters.invalid += u64::from(number::is_invalid_comparison(*operator, left, right));
+                number::compare(*operator, left, right)
             }
             Truth::Select(parts) => {
                 let gate = self.truth(&parts.0, base)?;

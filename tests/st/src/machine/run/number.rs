@@ -17,6 +17,11 @@ pub(super) fn compare<T: PartialOrd>(operator: Binary, left: T, right: T) -> boo
     }
 }
 
+/// Tests for equality may be made with a NaN, comparisons by order not.
+pub(super) fn is_invalid_comparison(operator: Binary, left: f64, right: f64) -> bool {
+    !matches!(operator, Binary::Equal | Binary::Unequal) && (left.is_nan() || right.is_nan())
+}
+
 fn arithmetic(operator: Binary, left: i32, right: i32) -> Result<i32, TrapKind> {
     let result = match operator {
         Binary::Add => left.checked_add(right),
@@ -111,7 +116,7 @@ impl Runner<'_> {
             Real::Minus(operand) => -self.real(operand, base)?,
             Real::Binary(operator, both, at) => {
                 let (left, right) = (self.real(&both.0, base)?, self.real(&both.1, base)?);
-                match operator {
+                let result = match operator {
                     Binary::Add => left + right,
                     Binary::Subtract => left - right,
                     Binary::Multiply => left * right,
@@ -120,7 +125,10 @@ impl Runner<'_> {
                     }
                     Binary::Divide => left / right,
                     _ => unreachable!("the check wants arithmetic"),
-                }
+                };
+                let is_invalid = result.is_nan() && !left.is_nan() && !right.is_nan();
+                self.counters.invalid += u64::from(is_invalid);
+                result
             }
             Real::Function(name, operand, at) => {
                 let value = self.real(operand, base)?;

@@ -1,0 +1,24 @@
+//! What the numbers of states mean, for who shows them on a screen.
+
+use super::context::Shared;
+use super::table::row;
+use crate::ir::AutomatonId;
+
+/// `states.csv`: a row for each state of each type that has robots, with its number in the output `state`.
+pub fn table(shared: Shared) -> String {
+    let mut text = row(&["type", "robots", "number", "state", "meaning"]);
+    for (id, automaton) in shared.system.model.automata.iter().enumerate() {
+        let robots: Vec<&str> = (shared.instances(AutomatonId(id)).iter())
+            .map(|r| shared.system.instances[*r].name.as_str())
+            .collect();
+        if robots.is_empty() {
+            continue;
+        }
+        for (number, state) in automaton.states.iter().enumerate() {
+            let meaning = if number == 0 { "nothing was done yet".into() } else { state.doc.join(" ") };
+            text +=
+                &row(&[&automaton.name, &robots.join(" "), &number.to_string(), &state.name, meaning.trim()]);
+        }
+    }
+    text
+}
