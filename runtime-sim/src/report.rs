@@ -114,7 +114,7 @@ impl Report {
                 OrderChange::Refused | OrderChange::Withdrawn => {}
             }
         }
-        let is_endless = line.scenario.goal != Goal::AllOrders;
+        let is_endless = line.scenario.goal == Goal::TimeLimit;
         if is_endless {
             order_times.retain(|times| times.opened_s.is_some());
         }

@@ -10,7 +10,7 @@ use autogen_tests::instances::instantiate;
 use autogen_tests::lots::Lots;
 use autogen_tests::replay::{Recording, bits, difference, record, replay, run, silent};
 use autogen_tests::workspace::Workspace;
-use autogen_tests::{ariac, root};
+use autogen_tests::{ariac, many, root};
 use runtime_sim::device::Direction;
 use runtime_sim::run::{Seen, Stepping, run as simulate};
 use std::io::{BufRead, BufReader};
@@ -77,13 +77,32 @@ fn executed(system: &System, scans: usize, seed: u64) -> Recording {
     recording
 }
 
+/// Each by itself: in the line of all of them some robot faults in nearly every scan, and no time passes.
+#[test]
+fn each_fixture_runs_as_on_the_executor() {
+    let systems: Vec<_> =
+        fixtures().into_iter().map(|fixture| (instantiate(&[fixture.clone()]), fixture.0)).collect();
+    let parts: Vec<_> = systems.iter().map(|((system, sources), _)| (system, sources)).collect();
+    let workspace = many::workspace("each_fixture", &parts);
+    workspace.cargo(&["build", "--quiet", "-p", "replays"]);
+    for (number, ((system, _), name)) in systems.iter().enumerate() {
+        let recording = executed(system, 30_000, 2);
+        let arguments = [number.to_string(), many::parameters(number)];
+        let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+        let program = workspace.debug_program("replays");
+        let found = run(&program, &arguments, &workspace.folder, &recording.inputs);
+        assert_eq!(difference(system, &recording.answers, &found), None, "{name}");
+    }
+}
+
+/// All in one line, with odd names.
 #[test]
 fn fixtures_run_as_on_the_executor() {
     let (system, sources) = together();
     let workspace = Workspace::write("fixtures", &system, &sources);
     workspace.cargo(&["clippy", "--quiet", "--all-targets", "--", "-D", "warnings"]);
     workspace.cargo(&["build", "--quiet", "--release", "-p", "commissioning", "--bins", "--examples"]);
-    let recording = executed(&system, 30_000, 1);
+    let recording = record(&mut Executor::new(&system), &system, 30_000, Lots::new(&system, 1));
 
     let found = replay(&workspace.program("commissioning"), &workspace, "parameters.txt", &recording);
     assert_eq!(difference(&system, &recording.answers, &found), None);

@@ -53,6 +53,7 @@ pub fn line(
     scan_ms: u32,
     machines: Vec<Machine>,
 ) -> line::Line {
+    let asks_nothing = scenario.number == Number::None && scenario.goal.is_empty();
     let scans = |seconds: f64| (seconds * 1000.0 / f64::from(scan_ms)).round() as u64;
     let arms = arms(system);
     let mut executor = Executor::new(system);
@@ -99,9 +100,10 @@ pub fn line(
             time_limit_s: scenario.time_limit_s,
             seed: u64::from(scenario.seed),
             // A line of which nothing is asked may wait as long as it likes.
-            stall_limit_s: match scenario.number {
-                Number::None => scenario.time_limit_s,
-                Number::Listed | Number::WithoutEnd => line::Scenario::default().stall_limit_s,
+            stall_limit_s: if asks_nothing {
+                scenario.time_limit_s
+            } else {
+                line::Scenario::default().stall_limit_s
             },
             slips: (scenario.slips.iter())
                 .map(|s| line::Slip { machine: s.robot, pick: s.pick, after_s: s.after_s })
