@@ -84,6 +84,14 @@ pub fn obstacle(object: &Object) -> Result<Obstacle, Vec<Diagnostic>> {
                 }),
         );
     }
+    if object.pose.value.yaw != 0.0 {
+        let message = format!("\"{}\" is turned, and an obstacle cannot be", object.name.value);
+        decoder.report(
+            Diagnostic::new("E0144", object.pose.span, message)
+                .note("the boxes of obstacles lie along the axes of the world")
+                .help("leave out the fourth number of the pose, or write a device with a body `at` a turned frame"),
+        );
+    }
     match decoder.diagnostics.is_empty() {
         true => Ok(Obstacle {
             name: object.name.value.clone(),

@@ -99,7 +99,7 @@ impl Draft {
     ) -> Option<Model> {
         let is_right = self.diagnostics.is_empty();
         let bound = bind::bind(layout, checked.model(), &mut self.diagnostics);
-        setting::check(settings, &bound, checked.model(), scenario, &mut self.diagnostics);
+        setting::check(settings, &bound, checked.model(), &mut self.diagnostics);
         if !is_right || bound.robots.len() + bound.obstacles.len() != layout.objects.len() {
             return None;
         }

@@ -64,16 +64,12 @@ impl Decoder {
                 span: json.span,
                 first_s: EVERY_S,
                 every_s: EVERY_S,
-                items: Items::Shuffled { surplus: SURPLUS, seed: SEED },
+                seed: SEED,
+                items: Items::Shuffled { surplus: SURPLUS },
             }),
-        };
-        let seed = match &supply {
-            Some(Supply { items: Items::Shuffled { seed, .. }, .. }) => *seed,
-            _ => SEED,
         };
         Some(Scenario {
             file: json.span.file,
-            seed,
             kinds,
             orders: orders?,
             supply: supply?,
