@@ -17,6 +17,7 @@ pub mod io_map;
 pub mod ir;
 pub mod layout;
 pub mod library;
+pub mod lint;
 pub mod lower;
 pub mod naming;
 pub mod plain;

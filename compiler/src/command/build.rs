@@ -61,7 +61,7 @@ pub fn build(options: &BuildOptions) -> Result<Built, Status> {
     let mut input = load::load(&options.input).map_err(failed)?;
     let table = options.io.as_ref().map(|path| load::add(&mut input.sources, path));
     let table = table.transpose().map_err(failed)?;
-    let Outcome { sources, diagnostics, verdict, project } = compile(input);
+    let Outcome { sources, diagnostics, verdict, project, .. } = compile(input);
     let wrong = |diagnostics: &[Diagnostic]| {
         match options.input.format {
             Format::Json => {

@@ -19,7 +19,7 @@ const STATUS: &str = "Exit status: 0 done; 1 the input has errors; 2 wrong comma
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Read everything, check specifications and connectivity, print the verdict
-    Check(InputOptions),
+    Check(CheckOptions),
     /// Check, then write the controllers and what belongs to them
     Build(BuildOptions),
     /// Build, link the controllers with the simulator, run the scenario
@@ -56,6 +56,20 @@ pub struct InputOptions {
     /// Print errors only
     #[arg(short, long)]
     pub quiet: bool,
+}
+
+#[derive(Args, Debug)]
+pub struct CheckOptions {
+    #[command(flatten)]
+    pub input: InputOptions,
+    /// What is to end with exit status 1, as errors do
+    #[arg(long, value_enum, value_name = "WHAT")]
+    pub deny: Option<Denied>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Denied {
+    Warnings,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
