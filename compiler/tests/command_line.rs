@@ -1,5 +1,7 @@
 //! The program as a user runs it.
 
+#[path = "command_line/checked_in.rs"]
+mod checked_in;
 #[cfg(unix)]
 #[path = "command_line/hostile.rs"]
 mod hostile;

@@ -20,6 +20,8 @@ pub mod check;
 pub mod commission;
 pub mod contact;
 pub mod controllers;
+pub mod diff;
+pub mod differences;
 pub mod explain;
 pub mod fault;
 pub mod graph;

@@ -13,7 +13,8 @@ pub struct Cli {
     pub command: Command,
 }
 
-const STATUS: &str = "Exit status: 0 done; 1 the input has errors; 2 wrong command line; \
+const STATUS: &str = "Exit status: 0 done; 1 the input has errors, or --check found a difference; \
+2 wrong command line; \
 3 the run did not reach its goal; 70 a bug in autogen.";
 
 #[derive(Debug, Subcommand)]
@@ -21,7 +22,7 @@ pub enum Command {
     /// Read everything, check specifications and connectivity, print the verdict
     Check(InputOptions),
     /// Check, then write the controllers and what belongs to them
-    Build(BuildOptions),
+    Build(BuildCommandOptions),
     /// Build, link the controllers with the simulator, run the scenario
     Commission(CommissionOptions),
     /// Run every layout with every combination of values, and print a table
@@ -93,6 +94,15 @@ pub struct BuildOptions {
     /// Overwrite files that autogen did not write or that were changed since
     #[arg(long)]
     pub force: bool,
+}
+
+#[derive(Args, Debug)]
+pub struct BuildCommandOptions {
+    #[command(flatten)]
+    pub build: BuildOptions,
+    /// Write nothing; say which files of the folder differ from what would be written, and end with 1 if any does
+    #[arg(long, conflicts_with = "force")]
+    pub check: bool,
 }
 
 impl BuildOptions {
