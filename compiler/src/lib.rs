@@ -26,3 +26,4 @@ pub mod simulator;
 pub mod source;
 pub mod spec;
 pub mod version;
+pub mod why;

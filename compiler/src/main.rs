@@ -46,6 +46,7 @@ fn main() -> ExitCode {
         Command::Merge(options) => command::sweep::merge::run(options),
         Command::Graph(options) => command::graph::run(options),
         Command::Explain(options) => command::explain::run(options),
+        Command::Why(options) => command::why::run(options),
     });
     ExitCode::from(status.unwrap_or(Status::Bug) as u8)
 }

@@ -34,6 +34,8 @@ pub enum Command {
     Graph(GraphOptions),
     /// Print the long text of a diagnostic
     Explain(ExplainOptions),
+    /// Say what each machine waits for at a time of the run, and who waits for whom
+    Why(WhyOptions),
 }
 
 #[derive(Args, Debug)]
@@ -246,4 +248,22 @@ pub struct GraphOptions {
 pub struct ExplainOptions {
     /// Such as E0401
     pub code: String,
+}
+
+#[derive(Args, Debug)]
+pub struct WhyOptions {
+    #[command(flatten)]
+    pub input: InputOptions,
+    /// Seconds of the run; default: its end
+    #[arg(long, value_name = "SECONDS")]
+    pub at: Option<String>,
+    /// This machine only; may be given several times
+    #[arg(long, value_name = "NAME")]
+    pub robot: Vec<String>,
+    /// Also say when the clauses became true after that time, and when the machines left their states
+    #[arg(long, requires = "at")]
+    pub until: bool,
+    /// How many scans late devices answer: a number, or `random` or `random:SEED` for 0 to 5
+    #[arg(long, value_name = "N", default_value = "0")]
+    pub io_delay: String,
 }

@@ -6,6 +6,7 @@ use crate::command::commission::io_delay;
 use crate::command::options::{Cli, Command, InputOptions, SweepOptions};
 use crate::command::sweep::axis::Axis;
 use crate::command::trajectories::milliseconds;
+use crate::command::why;
 use crate::judge;
 use autogen::diagnostic;
 use autogen::lower::Setting;
@@ -39,6 +40,12 @@ pub fn answer(input: &[u8], effort: Effort) {
         Command::Graph(options) => of_line(&options.input, input, effort),
         Command::Explain(options) => {
             diagnostic::explain(&options.code);
+        }
+        Command::Why(options) => {
+            delay(&options.io_delay);
+            let scan = options.at.as_deref().and_then(|at| why::scan(at, 10));
+            assert!(scan.is_none_or(|scan| scan <= 100_000_000_000), "{scan:?}");
+            of_line(&options.input, input, effort);
         }
     }
 }
