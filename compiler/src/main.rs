@@ -47,6 +47,9 @@ fn main() -> ExitCode {
         Command::Graph(options) => command::graph::run(options),
         Command::Explain(options) => command::explain::run(options),
         Command::Why(options) => command::why::run(options),
+        Command::Compare(options) => command::compare::run(options),
+        Command::Fmt(options) => command::fmt::run(options),
+        Command::Completions(options) => command::completions::run(options),
     });
     ExitCode::from(status.unwrap_or(Status::Bug) as u8)
 }

@@ -2,7 +2,7 @@
 
 use super::options::{Addresses, BuildCommandOptions, BuildOptions, Format};
 use super::output::{self, Output, Refusal};
-use super::{differences, load, print, read};
+use super::{differences, io_error, load, print, read};
 use crate::Status;
 use autogen::backend::{Files, dot, plan, rust, sdf, st};
 use autogen::diagnostic::Diagnostic;
@@ -246,7 +246,7 @@ pub fn refused(options: &BuildOptions, refusal: &Refusal) -> Status {
             "not written: these files were read, and would be written over:\n  {}\nChoose another folder with -o.",
             list(paths)
         ),
-        Refusal::Io(path, error) => format!("{}: {error}", path.display()),
+        Refusal::Io(path, error) => format!("{}: {}", path.display(), io_error::text(error)),
     };
     match options.input.format {
         Format::Json => say!("{}", json!({ "finished": false, "reason": text, "diagnostics": [] })),

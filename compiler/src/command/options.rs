@@ -1,5 +1,9 @@
 //! The options of the command line.
 
+mod tools;
+
+pub use tools::{CompareOptions, CompletionsOptions, FmtOptions, WhyOptions};
+
 use super::output::Overwrite;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::num::{NonZeroU32, NonZeroUsize};
@@ -13,9 +17,9 @@ pub struct Cli {
     pub command: Command,
 }
 
-const STATUS: &str = "Exit status: 0 done; 1 the input has errors, or --check found a difference; \
+const STATUS: &str = "Exit status: 0 done; 1 the input has errors, or a --check found a difference; \
 2 wrong command line; \
-3 the run did not reach its goal; 70 a bug in autogen.";
+3 the run did not reach its goal, or compare found a difference; 70 a bug in autogen.";
 
 #[derive(Debug, Subcommand)]
 pub enum Command {
@@ -36,6 +40,14 @@ pub enum Command {
     Explain(ExplainOptions),
     /// Say what each machine waits for at a time of the run, and who waits for whom
     Why(WhyOptions),
+    /// Compare two results, or the runs of two layouts: what differs, and where first
+    #[command(after_help = COMPARE_STATUS)]
+    Compare(CompareOptions),
+    /// Format files of automata
+    #[command(after_help = FMT_STATUS)]
+    Fmt(FmtOptions),
+    /// Print the completions of the command line for a shell
+    Completions(CompletionsOptions),
 }
 
 #[derive(Args, Debug)]
@@ -220,6 +232,12 @@ pub struct MergeOptions {
     pub table: TableOptions,
 }
 
+const COMPARE_STATUS: &str =
+    "Exit status: 0 the same; 1 the input has errors; 2 wrong command line; 3 different.";
+
+const FMT_STATUS: &str = "Exit status: 0 done, or all are formatted; 1 a file has errors, and none was changed, \
+or `--check` found one that is not formatted; 2 wrong command line.";
+
 const SWEEP_STATUS: &str = "A point that is refused, faults or runs out of time is a row with its reason.
 
 Exit status: 0 all points made all their orders; 1 every layout has errors that no value removes; \
@@ -248,22 +266,4 @@ pub struct GraphOptions {
 pub struct ExplainOptions {
     /// Such as E0401
     pub code: String,
-}
-
-#[derive(Args, Debug)]
-pub struct WhyOptions {
-    #[command(flatten)]
-    pub input: InputOptions,
-    /// Seconds of the run; default: its end
-    #[arg(long, value_name = "SECONDS")]
-    pub at: Option<String>,
-    /// This machine only; may be given several times
-    #[arg(long, value_name = "NAME")]
-    pub robot: Vec<String>,
-    /// Also say when the clauses became true after that time, and when the machines left their states
-    #[arg(long, requires = "at")]
-    pub until: bool,
-    /// How many scans late devices answer: a number, or `random` or `random:SEED` for 0 to 5
-    #[arg(long, value_name = "N", default_value = "0")]
-    pub io_delay: String,
 }

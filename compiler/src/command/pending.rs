@@ -2,6 +2,7 @@
 //! is something else.
 
 use super::interrupt::{self, Temporary};
+use super::io_error;
 use super::lock;
 use super::output::Overwrite;
 use autogen::backend::paths::MARK;
@@ -69,7 +70,7 @@ pub struct Pending {
 impl Pending {
     /// An error says what is in the way.
     pub fn new(path: &Path, content: Content, overwrite: Overwrite) -> Result<Self, String> {
-        let failed = |e: io::Error| format!("{}: {e}", path.display());
+        let failed = |e: io::Error| format!("{}: {}", path.display(), io_error::text(&e));
         let name = path.file_name().ok_or_else(|| format!("{}: this is no file", path.display()))?;
         if path.metadata().is_ok_and(|there| !there.is_file()) {
             return Err(format!("{}: this is no file", path.display()));
@@ -99,13 +100,15 @@ impl Pending {
     }
 
     pub fn write(&self, text: &str) -> Result<(), String> {
-        (&self.file).write_all(text.as_bytes()).map_err(|e| format!("{}: {e}", self.path.display()))
+        (&self.file)
+            .write_all(text.as_bytes())
+            .map_err(|e| format!("{}: {}", self.path.display(), io_error::text(&e)))
     }
 
     /// What was written is whole.
     pub fn keep(self) -> Result<(), String> {
         let kept = self.file.sync_all().and_then(|()| fs::rename(self.partial.path(), &self.path));
-        kept.map_err(|e| format!("{}: {e}", self.path.display()))
+        kept.map_err(|e| format!("{}: {}", self.path.display(), io_error::text(&e)))
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::commission::io_delay;
 use super::options::{Format, WhyOptions};
+use super::progress::Progress;
 use super::{load, print};
 use crate::Status;
 use autogen::ir::FaultKind;
@@ -10,8 +11,9 @@ use autogen::source::Sources;
 use autogen::why::{self, Await, Later, Node, Picture, Read, Verdict, Waits, Watch};
 use runtime_sim::line::IoDelay;
 use runtime_sim::report::Report;
-use runtime_sim::run::{Stepping, run as simulate};
+use runtime_sim::run::{Seen as SeenScan, Stepping, run as simulate};
 use serde_json::{Value, json};
+use std::io::{self, IsTerminal};
 
 pub fn run(options: &WhyOptions) -> Status {
     let input = match load::load(&options.input) {
@@ -22,8 +24,9 @@ pub fn run(options: &WhyOptions) -> Status {
     let Some(project) = outcome.project else {
         return print::refused(&options.input, &outcome.sources, &outcome.diagnostics);
     };
+    let is_shown = !options.input.quiet && options.input.format == Format::Text && io::stderr().is_terminal();
     let seen = match question(options, &project) {
-        Ok(question) => look(&project, question),
+        Ok(question) => look(&project, question, Progress::new(is_shown)),
         Err(why) => Err(why),
     };
     match seen {
@@ -94,7 +97,7 @@ fn question(options: &WhyOptions, project: &Project) -> Result<Question, String>
     Ok(Question { at: at.transpose()?, machines, is_until: options.until, delay })
 }
 
-fn look(project: &Project, question: Question) -> Result<Seen, String> {
+fn look(project: &Project, question: Question, mut progress: Progress) -> Result<Seen, String> {
     let Question { at, machines, is_until, delay } = question;
     let mut line = project.plant.clone();
     line.io_delay = delay;
@@ -105,7 +108,9 @@ fn look(project: &Project, question: Question) -> Result<Seen, String> {
         let limit_s = (at + 1) as f64 * f64::from(line.scan_ms) / 1000.0;
         line.scenario.time_limit_s = line.scenario.time_limit_s.min(limit_s);
     }
-    let report = simulate(&line, &mut watch, Stepping::Events, &mut |_| {})?;
+    let mut observe = |seen: &SeenScan| progress.show(seen.scan * u64::from(line.scan_ms) / 1000);
+    let report = simulate(&line, &mut watch, Stepping::Events, &mut observe)?;
+    progress.end();
     let is_end = at.is_none_or(|at| at + 1 >= report.scans);
     let (picture, later) = watch.finish(report.scans);
     Ok(Seen { picture, machines, later, report, is_end })
@@ -122,7 +127,11 @@ pub fn at_the_end(project: &Project, delay: IoDelay, report: &Value) -> Result<O
     if report["finished"] == true || !(is_late || is_long) {
         return Ok(None);
     }
-    let seen = look(project, Question { at: None, machines: Vec::new(), is_until: false, delay })?;
+    let seen = look(
+        project,
+        Question { at: None, machines: Vec::new(), is_until: false, delay },
+        Progress::new(false),
+    )?;
     let waits = seen.waits();
     let faulted = report["fault"]["robot"].as_str().filter(|_| is_long);
     let faulted =

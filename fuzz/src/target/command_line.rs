@@ -36,11 +36,12 @@ pub fn answer(input: &[u8], effort: Effort) {
             of_line(&options.build.input, input, effort);
         }
         Command::Sweep(options) => of_sweep(options, input, effort),
-        Command::Merge(_) => {}
+        Command::Merge(_) | Command::Fmt(_) | Command::Completions(_) => {}
         Command::Graph(options) => of_line(&options.input, input, effort),
         Command::Explain(options) => {
             diagnostic::explain(&options.code);
         }
+        Command::Compare(options) => of_line(&options.input(&options.first), input, effort),
         Command::Why(options) => {
             delay(&options.io_delay);
             let scan = options.at.as_deref().and_then(|at| why::scan(at, 10));
