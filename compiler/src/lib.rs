@@ -22,6 +22,7 @@ pub mod naming;
 pub mod plain;
 pub mod reads;
 pub mod scenario;
+pub mod schema;
 pub mod simulator;
 pub mod source;
 pub mod spec;

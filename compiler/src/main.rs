@@ -49,6 +49,7 @@ fn main() -> ExitCode {
         Command::Why(options) => command::why::run(options),
         Command::Compare(options) => command::compare::run(options),
         Command::Fmt(options) => command::fmt::run(options),
+        Command::Schema(options) => command::schema::run(options),
         Command::Completions(options) => command::completions::run(options),
     });
     ExitCode::from(status.unwrap_or(Status::Bug) as u8)

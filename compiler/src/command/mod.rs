@@ -40,6 +40,7 @@ pub mod pending;
 pub mod print;
 pub mod progress;
 pub mod read;
+pub mod schema;
 pub mod sweep;
 pub mod trajectories;
 pub mod why;

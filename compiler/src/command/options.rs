@@ -2,7 +2,7 @@
 
 mod tools;
 
-pub use tools::{CompareOptions, CompletionsOptions, FmtOptions, WhyOptions};
+pub use tools::{CompareOptions, CompletionsOptions, FmtOptions, SchemaOf, SchemaOptions, WhyOptions};
 
 use super::output::Overwrite;
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -46,6 +46,8 @@ pub enum Command {
     /// Format files of automata
     #[command(after_help = FMT_STATUS)]
     Fmt(FmtOptions),
+    /// Print the JSON Schema of layouts or scenarios, for editors
+    Schema(SchemaOptions),
     /// Print the completions of the command line for a shell
     Completions(CompletionsOptions),
 }

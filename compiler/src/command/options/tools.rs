@@ -1,7 +1,7 @@
 //! The options of the commands that help while a line is made.
 
 use super::{Format, InputOptions};
-use clap::Args;
+use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 
 #[derive(Args, Debug)]
@@ -78,4 +78,22 @@ pub struct FmtOptions {
 pub struct CompletionsOptions {
     /// The shell that completes
     pub shell: clap_complete::Shell,
+}
+
+#[derive(Args, Debug)]
+pub struct SchemaOptions {
+    #[arg(value_enum, value_name = "WHAT")]
+    pub of: SchemaOf,
+    /// Of layouts: a folder of automata (*.aut), or one such file, whose types the schema knows beside the library's
+    #[arg(long, value_name = "PATH")]
+    pub specs: Vec<PathBuf>,
+    /// Of layouts: the scenario whose kinds of part the schema knows
+    #[arg(long, value_name = "FILE")]
+    pub scenario: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum SchemaOf {
+    Layout,
+    Scenario,
 }
