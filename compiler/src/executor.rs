@@ -18,6 +18,8 @@ pub struct Executor<'a> {
     /// For each automaton, state and transition: how often it has fired.
     fired: Vec<Vec<Vec<u64>>>,
     journal: Option<Vec<Entry>>,
+    /// The only instance that steps, if not all do.
+    only: Option<usize>,
 }
 
 /// What happened in a scan.
@@ -99,7 +101,7 @@ impl<'a> Executor<'a> {
             .map(|a| a.states.iter().map(|s| vec![0; s.transitions.len()]).collect())
             .collect();
         let status = Status { running: false, fault: None, start_before: true, reset_before: true };
-        Self { system, robots, cells, status, fired, journal: None }
+        Self { system, robots, cells, status, fired, journal: None, only: None }
     }
 
     /// Keeps what happens, until [`Self::take_journal`].
@@ -115,6 +117,22 @@ impl<'a> Executor<'a> {
     fn note(&mut self, entry: Entry) {
         if let Some(journal) = &mut self.journal {
             journal.push(entry);
+        }
+    }
+
+    /// From now on no other instance makes steps: somebody else plays the others.
+    pub fn step_only(&mut self, robot: usize) {
+        self.only = Some(robot);
+    }
+
+    /// Writes a value as another instance does.
+    pub fn set(&mut self, element: Element, value: Value) {
+        match element {
+            Element::Local { robot, local, index } => self.robots[robot].locals[local][index] = value,
+            Element::Cell { interface, row, cell, index } => {
+                self.cells[interface.0][row][cell][index] = value
+            }
+            Element::Port { robot, port, index } => self.robots[robot].ports[port][index] = value,
         }
     }
 
@@ -199,10 +217,12 @@ impl<'a> Executor<'a> {
     }
 
     fn run_scan(&mut self) -> Result<(), (FaultId, usize)> {
-        for index in 0..self.robots.len() {
+        let only = self.only;
+        let stepping = move |index: &usize| only.is_none_or(|only| only == *index);
+        for index in (0..self.robots.len()).filter(stepping) {
             self.step(index).map_err(|fault| (fault, index))?;
         }
-        for index in 0..self.robots.len() {
+        for index in (0..self.robots.len()).filter(stepping) {
             for invariant in &self.system.automaton_of(index).invariants {
                 if !self.holds(index, &invariant.condition) {
                     return Err((invariant.fault, index));

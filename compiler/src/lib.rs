@@ -26,5 +26,6 @@ pub mod schema;
 pub mod simulator;
 pub mod source;
 pub mod spec;
+pub mod testing;
 pub mod version;
 pub mod why;

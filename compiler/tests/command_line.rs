@@ -26,6 +26,8 @@ mod replications;
 mod side_by_side;
 #[path = "command_line/sweep.rs"]
 mod sweep;
+#[path = "command_line/tests_of_users.rs"]
+mod tests_of_users;
 #[path = "command_line/why.rs"]
 mod why;
 

@@ -2,7 +2,10 @@
 
 mod tools;
 
-pub use tools::{CompareOptions, CompletionsOptions, FmtOptions, SchemaOf, SchemaOptions, WhyOptions};
+pub use tools::{
+    CompareOptions, CompletionsOptions, FmtOptions, NewOptions, SchemaOf, SchemaOptions, TestEngine,
+    TestOptions, WhyOptions,
+};
 
 use super::output::Overwrite;
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -19,10 +22,12 @@ pub struct Cli {
 
 const STATUS: &str = "Exit status: 0 done; 1 the input has errors, or a --check found a difference; \
 2 wrong command line; \
-3 the run did not reach its goal, or compare found a difference; 70 a bug in autogen.";
+3 the run did not reach its goal, compare found a difference, or a test failed; 70 a bug in autogen.";
 
 #[derive(Debug, Subcommand)]
 pub enum Command {
+    /// Write a small line to begin with, with a type of its own, a scenario and tests
+    New(NewOptions),
     /// Read everything, check specifications and connectivity, print the verdict
     Check(InputOptions),
     /// Check, then write the controllers and what belongs to them
@@ -43,6 +48,9 @@ pub enum Command {
     /// Compare two results, or the runs of two layouts: what differs, and where first
     #[command(after_help = COMPARE_STATUS)]
     Compare(CompareOptions),
+    /// Run the tests that stand beside specifications
+    #[command(after_help = TEST_STATUS)]
+    Test(TestOptions),
     /// Format files of automata
     #[command(after_help = FMT_STATUS)]
     Fmt(FmtOptions),
@@ -236,6 +244,9 @@ pub struct MergeOptions {
 
 const COMPARE_STATUS: &str =
     "Exit status: 0 the same; 1 the input has errors; 2 wrong command line; 3 different.";
+
+const TEST_STATUS: &str = "Exit status: 0 all tests passed; 1 a test, or a line that it names, has errors; \
+2 wrong command line; 3 a test failed.";
 
 const FMT_STATUS: &str = "Exit status: 0 done, or all are formatted; 1 a file has errors, and none was changed, \
 or `--check` found one that is not formatted; 2 wrong command line.";

@@ -5,6 +5,7 @@ use super::interrupt::{self, Temporary};
 use super::io_error;
 use super::lock;
 use super::output::Overwrite;
+use super::test::junit;
 use autogen::backend::paths::MARK;
 use runtime_sim::path::{FORMAT, HEAD};
 use std::fs::{self, File};
@@ -19,6 +20,7 @@ pub enum Content {
     PathTable,
     PathSegments,
     PathDrawing,
+    JUnit,
 }
 
 impl Content {
@@ -29,6 +31,7 @@ impl Content {
             Content::PathTable => "table of paths",
             Content::PathSegments => "list of segments",
             Content::PathDrawing => "drawing of paths",
+            Content::JUnit => "list of test results",
         }
     }
 
@@ -46,6 +49,7 @@ impl Content {
             Content::PathTable => bytes.starts_with(HEAD.as_bytes()),
             Content::PathSegments => bytes.starts_with(format!("{{\"format\":\"{FORMAT}\"").as_bytes()),
             Content::PathDrawing => String::from_utf8_lossy(bytes).contains(MARK),
+            Content::JUnit => bytes.starts_with(junit::HEAD.as_bytes()),
         }
     }
 }
@@ -170,6 +174,7 @@ mod tests {
             (Content::PathTable, HEAD),
             (Content::PathSegments, &format!("{{\"format\":\"{FORMAT}\"}}")),
             (Content::PathDrawing, &format!("<svg>\n{MARK}: -->\n</svg>")),
+            (Content::JUnit, &format!("{}>\n</testsuites>\n", junit::HEAD)),
         ];
         for (content, text) in texts {
             fs::write(&path, "{}").unwrap();

@@ -36,7 +36,12 @@ pub fn answer(input: &[u8], effort: Effort) {
             of_line(&options.build.input, input, effort);
         }
         Command::Sweep(options) => of_sweep(options, input, effort),
-        Command::Merge(_) | Command::Fmt(_) | Command::Schema(_) | Command::Completions(_) => {}
+        Command::Merge(_)
+        | Command::New(_)
+        | Command::Test(_)
+        | Command::Fmt(_)
+        | Command::Schema(_)
+        | Command::Completions(_) => {}
         Command::Graph(options) => of_line(&options.input, input, effort),
         Command::Explain(options) => {
             diagnostic::explain(&options.code);

@@ -97,3 +97,39 @@ pub enum SchemaOf {
     Layout,
     Scenario,
 }
+
+#[derive(Args, Debug)]
+pub struct TestOptions {
+    /// Files of tests (*.test), or folders in which they are looked for, at any depth up to 8
+    #[arg(required = true, value_name = "PATH")]
+    pub paths: Vec<PathBuf>,
+    /// What runs the controllers: the reference executor, the compiled Rust, or one after the other
+    #[arg(long, value_enum, default_value = "executor")]
+    pub on: TestEngine,
+    /// A folder of automata (*.aut), or one such file: adds to the library and replaces types of the same name
+    #[arg(long, value_name = "PATH")]
+    pub specs: Vec<PathBuf>,
+    /// Also write the results to this file, as XML in the form of JUnit
+    #[arg(long, value_name = "FILE")]
+    pub junit: Option<PathBuf>,
+    /// Print failures only
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum TestEngine {
+    Executor,
+    Rust,
+    Both,
+}
+
+#[derive(Args, Debug)]
+pub struct NewOptions {
+    /// The folder, which is made; it may be there if it is empty
+    #[arg(value_name = "DIR")]
+    pub folder: PathBuf,
+    /// Print errors only
+    #[arg(short, long)]
+    pub quiet: bool,
+}
