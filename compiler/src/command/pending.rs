@@ -2,8 +2,10 @@
 //! is something else.
 
 use super::interrupt::{self, Temporary};
+use super::io_error;
 use super::lock;
 use super::output::Overwrite;
+use super::test::junit;
 use autogen::backend::paths::MARK;
 use runtime_sim::path::{FORMAT, HEAD};
 use std::fs::{self, File};
@@ -18,6 +20,7 @@ pub enum Content {
     PathTable,
     PathSegments,
     PathDrawing,
+    JUnit,
 }
 
 impl Content {
@@ -28,6 +31,7 @@ impl Content {
             Content::PathTable => "table of paths",
             Content::PathSegments => "list of segments",
             Content::PathDrawing => "drawing of paths",
+            Content::JUnit => "list of test results",
         }
     }
 
@@ -45,6 +49,7 @@ impl Content {
             Content::PathTable => bytes.starts_with(HEAD.as_bytes()),
             Content::PathSegments => bytes.starts_with(format!("{{\"format\":\"{FORMAT}\"").as_bytes()),
             Content::PathDrawing => String::from_utf8_lossy(bytes).contains(MARK),
+            Content::JUnit => bytes.starts_with(junit::HEAD.as_bytes()),
         }
     }
 }
@@ -69,7 +74,7 @@ pub struct Pending {
 impl Pending {
     /// An error says what is in the way.
     pub fn new(path: &Path, content: Content, overwrite: Overwrite) -> Result<Self, String> {
-        let failed = |e: io::Error| format!("{}: {e}", path.display());
+        let failed = |e: io::Error| format!("{}: {}", path.display(), io_error::text(&e));
         let name = path.file_name().ok_or_else(|| format!("{}: this is no file", path.display()))?;
         if path.metadata().is_ok_and(|there| !there.is_file()) {
             return Err(format!("{}: this is no file", path.display()));
@@ -99,13 +104,15 @@ impl Pending {
     }
 
     pub fn write(&self, text: &str) -> Result<(), String> {
-        (&self.file).write_all(text.as_bytes()).map_err(|e| format!("{}: {e}", self.path.display()))
+        (&self.file)
+            .write_all(text.as_bytes())
+            .map_err(|e| format!("{}: {}", self.path.display(), io_error::text(&e)))
     }
 
     /// What was written is whole.
     pub fn keep(self) -> Result<(), String> {
         let kept = self.file.sync_all().and_then(|()| fs::rename(self.partial.path(), &self.path));
-        kept.map_err(|e| format!("{}: {e}", self.path.display()))
+        kept.map_err(|e| format!("{}: {}", self.path.display(), io_error::text(&e)))
     }
 }
 
@@ -167,6 +174,7 @@ mod tests {
             (Content::PathTable, HEAD),
             (Content::PathSegments, &format!("{{\"format\":\"{FORMAT}\"}}")),
             (Content::PathDrawing, &format!("<svg>\n{MARK}: -->\n</svg>")),
+            (Content::JUnit, &format!("{}>\n</testsuites>\n", junit::HEAD)),
         ];
         for (content, text) in texts {
             fs::write(&path, "{}").unwrap();

@@ -102,6 +102,30 @@ pub fn failure_in(format: Format, failure: &Failure) -> Status {
     }
 }
 
+/// What a command is refused for that needs a line without errors.
+pub fn refused(options: &InputOptions, sources: &Sources, found: &[Diagnostic]) -> Status {
+    match options.format {
+        Format::Text => diagnostics(sources, found),
+        Format::Json => {
+            let reason = "the input has errors";
+            say!(
+                "{}",
+                json!({ "finished": false, "reason": reason, "diagnostics": diagnostics_json(sources, found) })
+            );
+        }
+    }
+    Status::WrongInput
+}
+
+/// What is wrong with the command line.
+pub fn unusable(options: &InputOptions, why: &str) -> Status {
+    match options.format {
+        Format::Text => complain!("autogen: {why}"),
+        Format::Json => say!("{}", json!({ "finished": false, "reason": why, "diagnostics": [] })),
+    }
+    Status::WrongCommand
+}
+
 pub fn verdict_json(verdict: Option<&Verdict>, sources: &Sources, found: &[Diagnostic]) -> Value {
     let empty = Verdict::default();
     let v = verdict.unwrap_or(&empty);

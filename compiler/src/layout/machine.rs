@@ -12,9 +12,9 @@ use runtime_sim::value::Value;
 use std::sync::Arc;
 
 /// No time that a machine takes is longer, s.
-const LONGEST_S: f64 = 1e5;
+pub const LONGEST_S: f64 = 1e5;
 
-const OBSTACLES: [&str; 6] = ["bin", "station", "assembly_station", "collector", "rail", "box"];
+pub const OBSTACLES: [&str; 6] = ["bin", "station", "assembly_station", "collector", "rail", "box"];
 
 /// A machine whose type is bound to a device, and all numbers of its object, those of the pose first.
 pub fn machine(object: &Object, device: &Arc<Device>) -> Result<(Placed, Vec<Number>), Vec<Diagnostic>> {

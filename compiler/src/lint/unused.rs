@@ -33,7 +33,9 @@ pub fn check(model: &Model, files: &[(FileId, ast::File)], found: &mut Vec<Diagn
         all.read.append(&mut uses.read);
         all.written.append(&mut uses.written);
     }
-    for (id, interface) in model.interfaces.iter().enumerate() {
+    // What nobody shows to others is not in use at all, as an interface of the library may be beside types of one's own.
+    let is_shown = |id: usize| model.automata.iter().any(|a| a.implementing(InterfaceId(id)).is_some());
+    for (id, interface) in model.interfaces.iter().enumerate().filter(|(id, _)| is_shown(*id)) {
         for (number, cell) in interface.cells.iter().enumerate() {
             let own = place(files, &interface.name, |a| &a.cells, |cell| &cell.name, &cell.name);
             let interfaces = files.iter().flat_map(|(_, file)| &file.interfaces);

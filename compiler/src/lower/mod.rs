@@ -1,7 +1,7 @@
 //! From texts to a system: types bound to the machines of a layout, parameters,
 //! connectivity, roles. The hinge between what knows source text and what does not.
 
-mod bind;
+pub(crate) mod bind;
 mod draft;
 mod overlap;
 mod parameter;

@@ -1,6 +1,6 @@
 //! The scenario: which orders are to be made of which parts, and what the belts bring.
 
-mod read;
+pub(crate) mod read;
 mod resolve;
 mod supply;
 

@@ -6,8 +6,10 @@ use crate::layout::decode::{Decoder, find};
 use crate::layout::json::{Json, Value};
 use crate::scenario::{Items, MOST_PARTS, Supply};
 
+/// Numerator and denominator of its surplus.
+pub const MOST_SURPLUS: u32 = 100;
 /// Of one list of parts.
-const MOST_TIMES: u32 = 10_000;
+pub const MOST_TIMES: u32 = 10_000;
 
 impl Decoder {
     pub(super) fn supply(&mut self, json: &Json, kinds: &[&str]) -> Option<Supply> {
@@ -68,8 +70,8 @@ impl Decoder {
 
     fn fraction(&mut self, json: &Json) -> Option<[u32; 2]> {
         let items = self.exactly(json, "surplus", &["numerator", "denominator"])?;
-        let numerator = self.whole(&items[0], "surplus[0]", 0..=100);
-        let denominator = self.whole(&items[1], "surplus[1]", 1..=100);
+        let numerator = self.whole(&items[0], "surplus[0]", 0..=MOST_SURPLUS);
+        let denominator = self.whole(&items[1], "surplus[1]", 1..=MOST_SURPLUS);
         Some([numerator?, denominator?])
     }
 }
