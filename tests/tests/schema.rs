@@ -6,7 +6,7 @@ use autogen::diagnostic::Diagnostic;
 use autogen::schema;
 use autogen::source::{FileId, Sources};
 use autogen::spec::parser;
-use autogen::{layout, library, scenario};
+use autogen::{library, scenario};
 use autogen_tests::{Texts, examples, json_schema, root, text};
 use serde_json::{Map, Value, json};
 use std::collections::BTreeSet;

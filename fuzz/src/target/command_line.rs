@@ -27,7 +27,7 @@ pub fn answer(input: &[u8], effort: Effort) {
         }
     };
     match &cli.command {
-        Command::Check(options) => of_line(options, input, effort),
+        Command::Check(options) => of_line(&options.input, input, effort),
         Command::Build(options) => of_line(&options.build.input, input, effort),
         Command::Commission(options) => {
             delay(&options.io_delay);
