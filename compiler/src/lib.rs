@@ -25,4 +25,5 @@ pub mod scenario;
 pub mod simulator;
 pub mod source;
 pub mod spec;
+pub mod verify;
 pub mod version;

@@ -36,3 +36,4 @@ pub mod progress;
 pub mod read;
 pub mod sweep;
 pub mod trajectories;
+pub mod verify;

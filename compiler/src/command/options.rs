@@ -29,6 +29,8 @@ pub enum Command {
     Sweep(SweepOptions),
     /// Put the parts of a sweep together: the table that the whole sweep would print
     Merge(MergeOptions),
+    /// Look at every course of events: answers that come late, commands that fail, items that are lost
+    Verify(VerifyOptions),
     /// Print the connectivity graph or an automaton as DOT, or the layout from above as SVG
     Graph(GraphOptions),
     /// Print the long text of a diagnostic
@@ -221,6 +223,21 @@ pub enum TableFormat {
     Csv,
     /// An object for each row, a line each
     Jsonl,
+}
+
+#[derive(Args, Debug)]
+pub struct VerifyOptions {
+    #[command(flatten)]
+    pub input: InputOptions,
+    /// At most so many devices answer in one scan
+    #[arg(long, value_name = "K")]
+    pub answers: Option<usize>,
+    /// No command fails and no item is lost
+    #[arg(long)]
+    pub no_faults: bool,
+    /// Look for all violations
+    #[arg(long)]
+    pub all: bool,
 }
 
 #[derive(Args, Debug)]
