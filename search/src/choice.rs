@@ -21,6 +21,11 @@ impl Choices {
         chosen
     }
 
+    /// How many have come up in this execution.
+    pub fn count(&self) -> usize {
+        self.next
+    }
+
     /// Before the first execution.
     pub fn clear(&mut self) {
         self.made.clear();

@@ -34,8 +34,9 @@ impl Scan<'_> {
                 let (a, b) = (self.int(&pair[0]), self.int(&pair[1]));
                 arithmetic(*operator, a, b)
             }
-            Int::And(pair) => i32::from(self.holds(&pair[0]) && self.holds(&pair[1])),
-            Int::Or(pair) => i32::from(self.holds(&pair[0]) || self.holds(&pair[1])),
+            Int::And(all) => i32::from(all.iter().all(|part| self.holds(part))),
+            Int::Or(all) => i32::from(all.iter().any(|part| self.holds(part))),
+            Int::Total(all) => all.iter().fold(0, |sum, part| sum.wrapping_add(self.int(part))),
             Int::Min(pair) => self.int(&pair[0]).min(self.int(&pair[1])),
             Int::Max(pair) => self.int(&pair[0]).max(self.int(&pair[1])),
             Int::CompareReals(operator, pair) => {

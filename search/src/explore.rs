@@ -79,6 +79,7 @@ pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -
     let mut known: HashSet<Violation> = HashSet::new();
     let mut covered = Covered::default();
     store.add(&model.initial, 0);
+    let mut restless = vec![u64::MAX];
     let (mut next, mut end_of_depth) = (0, 1);
     let end = loop {
         if next == store.len() {
@@ -89,11 +90,14 @@ pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -
             end_of_depth = store.len();
         }
         let state = store.state(next).to_vec();
-        expander.expand(&state, &mut |way| {
+        expander.expand(&state, restless[next], &mut |way| {
             covered.transitions += 1;
             match way.result {
                 Ok(()) => {
-                    let (number, _) = store.add(way.state, next);
+                    let (number, is_new) = store.add(way.state, next);
+                    if is_new {
+                        restless.push(way.restless);
+                    }
                     if way.events.len() <= 1 && number != next {
                         edges.add(next, number);
                     }
@@ -112,7 +116,7 @@ pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -
         }
         if next % 256 == 0 {
             covered.time = begin.elapsed();
-            covered.memory = store.size() + edges.size();
+            covered.memory = store.size() + 8 * restless.capacity() + edges.size();
             covered.states = store.len();
             if bounds.time.is_some_and(|time| covered.time > time) {
                 break End::TimeIsUp;
@@ -129,7 +133,7 @@ pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -
         }
     };
     covered.states = store.len();
-    covered.memory = store.size() + edges.size();
+    covered.memory = store.size() + 8 * restless.capacity() + edges.size();
     let mut violations: Vec<(Violation, Course)> = found
         .into_iter()
         .map(|found| {

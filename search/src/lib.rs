@@ -7,6 +7,7 @@ mod choice;
 mod evaluate;
 pub mod event;
 pub mod explore;
+mod hazard;
 pub mod model;
 pub mod plant;
 mod possible;

@@ -19,6 +19,8 @@ pub struct Scan<'a> {
     /// Instances that have fired.
     pub(crate) fired: u64,
     pub(crate) moved: bool,
+    /// Instances that may do something in the next scan even if no device does.
+    pub(crate) restless: u64,
     pub(crate) story: Option<&'a mut Vec<Fired>>,
 }
 
@@ -49,7 +51,15 @@ impl Scan<'_> {
                 }
             }
         }
-        self.act(touched)
+        self.act(touched)?;
+        self.restless |= self.fired;
+        for (instance, program) in model.instances.iter().enumerate() {
+            let state = program.state.load(self.bytes) as usize;
+            if self.written & program.states[state].reads != 0 {
+                self.restless |= bit(instance);
+            }
+        }
+        Ok(())
     }
 
     pub(crate) fn step_if_due(&mut self, instance: usize, touched: u64) -> Result<(), Violation> {
@@ -58,7 +68,12 @@ impl Scan<'_> {
         if touched & bit(instance) == 0 && self.written & program.states[state].reads == 0 {
             return Ok(());
         }
-        self.step(instance, state).map_err(|Fault(fault)| Violation::Fault { instance, fault })
+        let made = self.choices.count();
+        let result = self.step(instance, state);
+        if self.choices.count() != made {
+            self.restless |= bit(instance);
+        }
+        result.map_err(|Fault(fault)| Violation::Fault { instance, fault })
     }
 
     fn step(&mut self, instance: usize, number: usize) -> Result<(), Fault> {

@@ -63,7 +63,7 @@ impl Expander<'_> {
     fn way(&mut self, before: &[u8], wanted: impl Fn(&crate::successor::Way) -> bool) -> Option<Happened> {
         let mut best: Option<Happened> = None;
         self.tell = true;
-        self.expand(before, &mut |way| {
+        self.expand(before, u64::MAX, &mut |way| {
             let is_better = best.as_ref().is_none_or(|best| way.events.len() < best.events.len());
             if is_better && wanted(&way) {
                 best = Some(Happened {

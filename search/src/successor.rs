@@ -43,6 +43,8 @@ pub(crate) struct Way<'a> {
     pub state: &'a [u8],
     pub events: &'a [Event],
     pub result: Result<(), Violation>,
+    /// Instances that may do something in the next scan even if no device does.
+    pub restless: u64,
     /// The transitions that have fired, if they were asked for.
     pub fired: &'a [Fired],
 }
@@ -68,8 +70,9 @@ impl<'a> Expander<'a> {
     }
 
     /// Calls `emit` with every way on; a state may come several times.
-    pub fn expand(&mut self, state: &[u8], emit: &mut impl FnMut(Way)) {
-        self.restless = self.restless_in(state);
+    /// `restless` are the instances that may do something even if no device does.
+    pub fn expand(&mut self, state: &[u8], restless: u64, emit: &mut impl FnMut(Way)) {
+        self.restless = self.restless_in(state, restless);
         let sources = event::sources(self.model);
         let mut options: Vec<Vec<Event>> = std::mem::take(&mut self.options);
         options.truncate(sources);
@@ -90,9 +93,9 @@ impl<'a> Expander<'a> {
     }
 
     /// Instances that would do something even if no device did.
-    fn restless_in(&mut self, state: &[u8]) -> u64 {
+    fn restless_in(&mut self, state: &[u8], candidates: u64) -> u64 {
         let mut restless = 0;
-        for instance in 0..self.model.instances.len() {
+        for instance in (0..self.model.instances.len()).filter(|instance| candidates & bit(*instance) != 0) {
             self.choices.clear();
             self.work.copy_from_slice(state);
             let mut scan = Scan {
@@ -104,6 +107,7 @@ impl<'a> Expander<'a> {
                 written: 0,
                 fired: 0,
                 moved: false,
+                restless: 0,
                 story: None,
             };
             let result = scan.step_if_due(instance, u64::MAX);
@@ -150,10 +154,12 @@ impl<'a> Expander<'a> {
                 written: 0,
                 fired: 0,
                 moved: false,
+                restless: 0,
                 story: self.tell.then_some(&mut self.fired),
             };
             let result = scan.run(&self.order, touched);
-            emit(Way { state: &self.work, events: &self.chosen, result, fired: &self.fired });
+            let restless = scan.restless;
+            emit(Way { state: &self.work, events: &self.chosen, result, restless, fired: &self.fired });
             if !self.choices.advance() {
                 return;
             }

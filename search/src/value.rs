@@ -43,6 +43,8 @@ pub struct Values {
     is_full: bool,
     /// Whether an arm can bring its tool to a point, where that was asked.
     reached: HashMap<(usize, i32), bool>,
+    /// Of each point that was asked for the sites that it is at, see [`crate::hazard`].
+    pub(crate) sites: Vec<Option<Box<[usize]>>>,
 }
 
 impl Default for Values {
@@ -54,6 +56,7 @@ impl Default for Values {
             real_numbers: HashMap::new(),
             is_full: false,
             reached: HashMap::new(),
+            sites: Vec::new(),
         };
         values.number_of_point([0.0; 3]);
         values.number_of_real(0.0);
@@ -109,6 +112,18 @@ impl Values {
     pub fn is_reached(&mut self, machine: usize, number: i32, ask: impl FnOnce(Point) -> bool) -> bool {
         let point = self.point(number);
         *self.reached.entry((machine, number)).or_insert_with(|| ask(point))
+    }
+
+    pub(crate) fn note_sites(&mut self, number: i32, sites: Vec<usize>) {
+        let number = number as usize;
+        if self.sites.len() <= number {
+            self.sites.resize(number + 1, None);
+        }
+        self.sites[number] = Some(sites.into());
+    }
+
+    pub(crate) fn sites_of(&self, number: i32) -> &[usize] {
+        self.sites.get(number as usize).and_then(Option::as_deref).unwrap_or(&[])
     }
 
     pub fn points(&self) -> &[Point] {

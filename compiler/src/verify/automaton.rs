@@ -44,6 +44,9 @@ pub struct Instance<'a> {
     /// Of the state whose expressions are read, ms, ascending.
     times: Vec<i32>,
     defines: HashMap<usize, Arc<Int>>,
+    /// Variables of quantifiers that stand for one value each, and how many copies of an expression that makes.
+    pub fixed_variables: HashMap<usize, i32>,
+    pub copies: usize,
     /// Names of inputs of which nothing is known that could be searched.
     pub refused: Vec<String>,
 }
@@ -51,7 +54,16 @@ pub struct Instance<'a> {
 impl<'a> Instance<'a> {
     pub fn new(line: &'a Line<'a>, number: usize) -> Self {
         let automaton = line.system.automaton_of(number);
-        Self { line, number, automaton, times: Vec::new(), defines: HashMap::new(), refused: Vec::new() }
+        Self {
+            line,
+            number,
+            automaton,
+            times: Vec::new(),
+            defines: HashMap::new(),
+            fixed_variables: HashMap::new(),
+            copies: 1,
+            refused: Vec::new(),
+        }
     }
 
     pub fn instance(&self) -> &'a ir::Instance {
@@ -75,7 +87,9 @@ impl<'a> Instance<'a> {
             return Int::Shared(known.clone());
         }
         let value = &self.automaton.defines[define].value;
+        let copies = std::mem::replace(&mut self.copies, 1);
         let value = Arc::new(self.int(value));
+        self.copies = copies;
         self.defines.insert(define, value.clone());
         Int::Shared(value)
     }
@@ -136,7 +150,7 @@ impl<'a> Instance<'a> {
         let invariants = automaton.invariants.iter().map(|invariant| Invariant {
             condition: self.int(&invariant.condition),
             fault: invariant.fault.0,
-            reads: u64::MAX,
+            reads: self.cells_of(&invariant.condition),
         });
         let invariants = invariants.collect();
         autogen_search::program::Instance {
@@ -146,6 +160,19 @@ impl<'a> Instance<'a> {
             invariants,
             variables: automaton.variables.len(),
         }
+    }
+
+    /// Whose cells an expression reads, a bit for each instance.
+    fn cells_of(&self, expr: &Expr) -> u64 {
+        let own = match &expr.kind {
+            ir::ExprKind::Define(define) => self.cells_of(&self.automaton.defines[*define].value),
+            ir::ExprKind::Read(Place::Cell { of: None, .. }) => bit(self.number),
+            ir::ExprKind::Read(Place::Cell { interface, .. }) => {
+                self.line.system.members[interface.0].iter().fold(0, |bits, member| bits | bit(*member))
+            }
+            _ => 0,
+        };
+        expr.parts().into_iter().fold(own, |bits, part| bits | self.cells_of(part))
     }
 
     fn state(&mut self, state: &ir::State, live: &BTreeSet<usize>) -> State {

@@ -22,7 +22,10 @@ impl Instance<'_> {
         match &expr.kind {
             ExprKind::Constant(value) => Int::Constant(whole(*value)),
             ExprKind::Read(place) => self.read_int(place),
-            ExprKind::Variable(variable) => Int::Variable(variable.0),
+            ExprKind::Variable(variable) => match self.fixed_variables.get(&variable.0) {
+                Some(value) => Int::Constant(*value),
+                None => Int::Variable(variable.0),
+            },
             ExprKind::Define(define) => self.define(*define),
             ExprKind::Own(interface) => Int::Constant(self.own_row(*interface) as i32),
             ExprKind::After(time) => self.after(time),
@@ -33,25 +36,29 @@ impl Instance<'_> {
             ExprKind::Absolute(a) => Int::Absolute(Box::new(self.int(a))),
             ExprKind::Min(a, b) => Int::Min(pair(self, a, b)),
             ExprKind::Max(a, b) => Int::Max(pair(self, a, b)),
-            ExprKind::Binary(Operator::And, a, b) => Int::And(pair(self, a, b)),
-            ExprKind::Binary(Operator::Or, a, b) => Int::Or(pair(self, a, b)),
+            ExprKind::Binary(Operator::And, a, b) => all(vec![self.int(a), self.int(b)]),
+            ExprKind::Binary(Operator::Or, a, b) => any(vec![self.int(a), self.int(b)]),
             ExprKind::Binary(operator, a, b) => match a.ty {
                 Scalar::Real => Int::CompareReals(op(*operator), Box::new([self.real(a), self.real(b)])),
                 Scalar::Point => Int::ComparePoints(op(*operator), Box::new([self.point(a), self.point(b)])),
-                _ => Int::Binary(op(*operator), pair(self, a, b)),
+                _ => binary(op(*operator), self.int(a), self.int(b)),
             },
-            ExprKind::Exists { variable, domain, body } => {
-                Int::Exists(self.each(variable.0, domain, |this| this.int(body)))
-            }
-            ExprKind::Forall { variable, domain, body } => {
-                Int::ForAll(self.each(variable.0, domain, |this| this.int(body)))
-            }
-            ExprKind::Count { variable, domain, body } => {
-                Int::Count(self.each(variable.0, domain, |this| this.int(body)))
-            }
-            ExprKind::Sum { variable, domain, body } => {
-                Int::Sum(self.each(variable.0, domain, |this| this.int(body)))
-            }
+            ExprKind::Exists { variable, domain, body } => match self.unrolled(variable.0, domain, body) {
+                Some(parts) => any(parts),
+                None => Int::Exists(self.each(variable.0, domain, |this| this.int(body))),
+            },
+            ExprKind::Forall { variable, domain, body } => match self.unrolled(variable.0, domain, body) {
+                Some(parts) => all(parts),
+                None => Int::ForAll(self.each(variable.0, domain, |this| this.int(body))),
+            },
+            ExprKind::Count { variable, domain, body } => match self.unrolled(variable.0, domain, body) {
+                Some(parts) => Int::Total(parts.into()),
+                None => Int::Count(self.each(variable.0, domain, |this| this.int(body))),
+            },
+            ExprKind::Sum { variable, domain, body } => match self.unrolled(variable.0, domain, body) {
+                Some(parts) => Int::Total(parts.into()),
+                None => Int::Sum(self.each(variable.0, domain, |this| this.int(body))),
+            },
             ExprKind::Members(role) => Int::Constant(self.role(*role).len() as i32),
             ExprKind::IsMember(value, role) => {
                 let members = self.role(*role).iter().map(|row| *row as i32).collect();
@@ -62,7 +69,10 @@ impl Instance<'_> {
                 let width = table.first().map_or(0, Vec::len);
                 let flat: Arc<[i32]> = table.iter().flatten().map(|reaches| i32::from(*reaches)).collect();
                 let (from, to) = (self.int(from), self.int(to));
-                Int::Table(flat, Box::new(at(from, width, to)))
+                match at(from, width, to) {
+                    Int::Constant(index) => Int::Constant(flat[index as usize]),
+                    index => Int::Table(flat, Box::new(index)),
+                }
             }
             ExprKind::MakePoint(_)
             | ExprKind::Coordinate(..)
@@ -154,6 +164,30 @@ impl Instance<'_> {
     ) -> Box<Each<T>> {
         let domain = self.domain(domain);
         Box::new(Each { variable, domain, body: body(self) })
+    }
+
+    /// The body for each value of a domain that the layout fixes, unless that is too much text.
+    fn unrolled(&mut self, variable: usize, domain: &Domain, body: &Expr) -> Option<Vec<Int>> {
+        let values: Vec<i32> = match self.domain(domain) {
+            Values::List(values) => values.to_vec(),
+            Values::Range(ends) => match *ends {
+                [Int::Constant(low), Int::Constant(high)] => (low..=high).take(MOST_PARTS + 1).collect(),
+                _ => return None,
+            },
+        };
+        if values.len() * self.copies > MOST_PARTS {
+            return None;
+        }
+        let copies = self.copies;
+        self.copies *= values.len().max(1);
+        let parts = values.into_iter().map(|value| {
+            self.fixed_variables.insert(variable, value);
+            self.int(body)
+        });
+        let parts = parts.collect();
+        self.fixed_variables.remove(&variable);
+        self.copies = copies;
+        Some(parts)
     }
 
     pub fn domain(&mut self, domain: &Domain) -> Values {
@@ -261,6 +295,59 @@ impl Instance<'_> {
 
     pub fn element(&mut self, index: &Option<Box<Expr>>) -> Int {
         index.as_ref().map_or(Int::Constant(0), |index| self.int(index))
+    }
+}
+
+/// Copies of an expression that stand for one with a variable, at most.
+const MOST_PARTS: usize = 256;
+
+fn all(parts: Vec<Int>) -> Int {
+    let mut kept = Vec::new();
+    for part in parts {
+        match part {
+            Int::Constant(0) => return Int::Constant(0),
+            Int::Constant(_) => {}
+            Int::And(inner) => kept.extend(inner),
+            part => kept.push(part),
+        }
+    }
+    match kept.len() {
+        0 => Int::Constant(1),
+        1 => kept.remove(0),
+        _ => Int::And(kept.into()),
+    }
+}
+
+fn any(parts: Vec<Int>) -> Int {
+    let mut kept = Vec::new();
+    for part in parts {
+        match part {
+            Int::Constant(0) => {}
+            // What stands before it has no effect.
+            Int::Constant(_) => return Int::Constant(1),
+            Int::Or(inner) => kept.extend(inner),
+            part => kept.push(part),
+        }
+    }
+    match kept.len() {
+        0 => Int::Constant(0),
+        1 => kept.remove(0),
+        _ => Int::Or(kept.into()),
+    }
+}
+
+fn binary(operator: Op, a: Int, b: Int) -> Int {
+    match (operator, &a, &b) {
+        (Op::Equal, Int::Constant(a), Int::Constant(b)) => Int::Constant(i32::from(a == b)),
+        (Op::NotEqual, Int::Constant(a), Int::Constant(b)) => Int::Constant(i32::from(a != b)),
+        (Op::Add, Int::Constant(a), Int::Constant(b)) => Int::Constant(a.wrapping_add(*b)),
+        (Op::Subtract, Int::Constant(a), Int::Constant(b)) => Int::Constant(a.wrapping_sub(*b)),
+        // A number as the state holds it.
+        (Op::Equal | Op::NotEqual, Int::Load(var, low), Int::Constant(value)) => {
+            let pair = Box::new([Int::Load(*var, 0), Int::Constant(value.wrapping_sub(*low))]);
+            Int::Binary(operator, pair)
+        }
+        _ => Int::Binary(operator, Box::new([a, b])),
     }
 }
 
