@@ -7,6 +7,7 @@ mod choice;
 mod evaluate;
 pub mod event;
 pub mod explore;
+mod order;
 mod hazard;
 pub mod model;
 pub mod plant;
@@ -20,4 +21,4 @@ mod surface;
 pub mod value;
 pub mod violation;
 
-pub use scan::Fired;
+pub use scan::{Fired, Told};

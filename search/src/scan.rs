@@ -21,7 +21,7 @@ pub struct Scan<'a> {
     pub(crate) moved: bool,
     /// Instances that may do something in the next scan even if no device does.
     pub(crate) restless: u64,
-    pub(crate) story: Option<&'a mut Vec<Fired>>,
+    pub(crate) story: Option<&'a mut Told>,
 }
 
 /// A transition that has fired.
@@ -32,6 +32,15 @@ pub struct Fired {
     pub transition: usize,
 }
 
+/// What is told of a scan.
+#[derive(Clone, Debug, Default)]
+pub struct Told {
+    /// In the order of the steps.
+    pub fired: Vec<Fired>,
+    /// Inputs that change by themselves, and what was chosen for them.
+    pub read: Vec<(usize, i32)>,
+}
+
 /// A step ends here.
 pub(crate) struct Fault(pub usize);
 
@@ -39,10 +48,15 @@ impl Scan<'_> {
     /// All instances in this order; those alone that can do anything: `touched` are those whose inputs have changed or
     /// that were not at rest.
     pub fn run(&mut self, order: &[usize], touched: u64) -> Result<(), Violation> {
-        let model = self.model;
         for &instance in order {
             self.step_if_due(instance, touched)?;
         }
+        self.finish(touched)
+    }
+
+    /// What comes after the steps.
+    pub(crate) fn finish(&mut self, touched: u64) -> Result<(), Violation> {
+        let model = self.model;
         for (instance, program) in model.instances.iter().enumerate() {
             for invariant in &program.invariants {
                 let is_due = (touched | self.fired) & bit(instance) != 0 || self.written & invariant.reads != 0;
@@ -96,7 +110,7 @@ impl Scan<'_> {
         let program = &self.model.instances[instance];
         self.fired |= bit(instance);
         if let Some(story) = &mut self.story {
-            story.push(Fired { instance, state, transition: index });
+            story.fired.push(Fired { instance, state, transition: index });
         }
         for update in &transition.updates {
             self.update(instance, update)?;
@@ -276,6 +290,9 @@ impl Scan<'_> {
         }
         let value = self.choices.take(input.values) as i32;
         input.var.store(self.bytes, value + 1);
+        if let Some(story) = &mut self.story {
+            story.read.push((number, value + input.low));
+        }
         value + input.low
     }
 }

@@ -1,7 +1,7 @@
 //! A course of events from the start.
 
 use crate::event::Event;
-use crate::scan::Fired;
+use crate::scan::Told;
 use crate::store::Store;
 use crate::successor::Expander;
 use crate::violation::Violation;
@@ -17,7 +17,7 @@ pub struct Course {
 pub struct Happened {
     pub before: Vec<u8>,
     pub events: Vec<Event>,
-    pub fired: Vec<Fired>,
+    pub told: Told,
     /// In a scan with a violation: as far as it came.
     pub after: Vec<u8>,
 }
@@ -69,7 +69,7 @@ impl Expander<'_> {
                 best = Some(Happened {
                     before: before.to_vec(),
                     events: way.events.to_vec(),
-                    fired: way.fired.to_vec(),
+                    told: way.told.clone(),
                     after: way.state.to_vec(),
                 });
             }

@@ -4,7 +4,7 @@ use crate::choice::Choices;
 use crate::event::{self, Event};
 use crate::model::Model;
 use crate::program::bit;
-use crate::scan::{Fired, Scan};
+use crate::scan::{Scan, Told};
 use crate::value::Values;
 use crate::violation::Violation;
 
@@ -24,18 +24,18 @@ pub(crate) struct Expander<'a> {
     pub answers: usize,
     pub orders: Orders,
     order: Vec<usize>,
-    choices: Choices,
-    variables: Vec<i32>,
+    pub(crate) choices: Choices,
+    pub(crate) variables: Vec<i32>,
     /// Of each source that may do anything what that is.
     options: Vec<Vec<Event>>,
     /// The state after the events chosen so far, by their number.
-    levels: Vec<Vec<u8>>,
+    pub(crate) levels: Vec<Vec<u8>>,
     work: Vec<u8>,
-    chosen: Vec<Event>,
+    pub(crate) chosen: Vec<Event>,
     restless: u64,
     /// Whether ways are to say what has fired.
     pub tell: bool,
-    fired: Vec<Fired>,
+    pub(crate) told: Told,
 }
 
 /// A way on from a state.
@@ -45,8 +45,8 @@ pub(crate) struct Way<'a> {
     pub result: Result<(), Violation>,
     /// Instances that may do something in the next scan even if no device does.
     pub restless: u64,
-    /// The transitions that have fired, if they were asked for.
-    pub fired: &'a [Fired],
+    /// What is told of it, if that was asked for.
+    pub told: &'a Told,
 }
 
 impl<'a> Expander<'a> {
@@ -65,7 +65,7 @@ impl<'a> Expander<'a> {
             chosen: Vec::new(),
             restless: 0,
             tell: false,
-            fired: Vec::new(),
+            told: Told::default(),
         }
     }
 
@@ -141,10 +141,14 @@ impl<'a> Expander<'a> {
 
     /// Every way that one scan may go.
     fn scan(&mut self, level: usize, touched: u64, emit: &mut impl FnMut(Way)) {
+        if self.orders == Orders::All {
+            return self.scan_in_any_order(level, touched, emit);
+        }
         self.choices.clear();
         loop {
             self.work.copy_from_slice(&self.levels[level]);
-            self.fired.clear();
+            self.told.fired.clear();
+            self.told.read.clear();
             let mut scan = Scan {
                 model: self.model,
                 bytes: &mut self.work,
@@ -155,11 +159,11 @@ impl<'a> Expander<'a> {
                 fired: 0,
                 moved: false,
                 restless: 0,
-                story: self.tell.then_some(&mut self.fired),
+                story: self.tell.then_some(&mut self.told),
             };
             let result = scan.run(&self.order, touched);
             let restless = scan.restless;
-            emit(Way { state: &self.work, events: &self.chosen, result, restless, fired: &self.fired });
+            emit(Way { state: &self.work, events: &self.chosen, result, restless, told: &self.told });
             if !self.choices.advance() {
                 return;
             }

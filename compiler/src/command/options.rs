@@ -14,7 +14,7 @@ pub struct Cli {
 }
 
 const STATUS: &str = "Exit status: 0 done; 1 the input has errors; 2 wrong command line; \
-3 the run did not reach its goal; 70 a bug in autogen.";
+3 the run did not reach its goal, or a violation was found; 4 undecided: a limit came first; 70 a bug in autogen.";
 
 #[derive(Debug, Subcommand)]
 pub enum Command {
@@ -229,15 +229,41 @@ pub enum TableFormat {
 pub struct VerifyOptions {
     #[command(flatten)]
     pub input: InputOptions,
-    /// At most so many devices answer in one scan
+    /// At most so many devices answer in one scan; default: one, and if nothing is found any number
     #[arg(long, value_name = "K")]
     pub answers: Option<usize>,
     /// No command fails and no item is lost
     #[arg(long)]
     pub no_faults: bool,
-    /// Look for all violations
+    /// In which orders the machines step
+    #[arg(long, value_enum, default_value = "one")]
+    pub orders: StepOrders,
+    /// Where to stop, such as 90s, 10min, 500MB or 2GB; may be given twice. Default: 10min and 2GB
+    #[arg(long, value_name = "LIMIT")]
+    pub limit: Vec<String>,
+    /// Go on after a violation, and tell of each that is different
     #[arg(long)]
     pub all: bool,
+    /// Write the scenario that shows the first violation in `commission` to this file
+    #[arg(long, value_name = "FILE")]
+    pub counterexample: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum StepOrders {
+    /// That of the line
+    One,
+    /// Any, another one in each scan
+    All,
+}
+
+impl From<StepOrders> for autogen_search::successor::Orders {
+    fn from(orders: StepOrders) -> Self {
+        match orders {
+            StepOrders::One => Self::One,
+            StepOrders::All => Self::All,
+        }
+    }
 }
 
 #[derive(Args, Debug)]

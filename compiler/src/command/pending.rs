@@ -18,6 +18,7 @@ pub enum Content {
     PathTable,
     PathSegments,
     PathDrawing,
+    Scenario,
 }
 
 impl Content {
@@ -28,6 +29,7 @@ impl Content {
             Content::PathTable => "table of paths",
             Content::PathSegments => "list of segments",
             Content::PathDrawing => "drawing of paths",
+            Content::Scenario => "scenario",
         }
     }
 
@@ -44,6 +46,8 @@ impl Content {
             }
             Content::PathTable => bytes.starts_with(HEAD.as_bytes()),
             Content::PathSegments => bytes.starts_with(format!("{{\"format\":\"{FORMAT}\"").as_bytes()),
+            // As `verify` writes it.
+            Content::Scenario => bytes.starts_with(b"{\n  \"kinds\": ["),
             Content::PathDrawing => String::from_utf8_lossy(bytes).contains(MARK),
         }
     }

@@ -6,6 +6,8 @@ mod live;
 mod memory;
 mod model;
 mod plant;
+pub mod replay;
+pub mod scenario;
 pub mod story;
 
 pub use model::model;

@@ -49,7 +49,7 @@ impl Teller<'_> {
             for event in &happened.events {
                 let _ = writeln!(out, "{:>4}  {}", number + 1, self.event(happened, event));
             }
-            for fired in &happened.fired {
+            for fired in &happened.told.fired {
                 let _ = writeln!(out, "{:>4}    {}", number + 1, self.fired(fired));
             }
         }
