@@ -1,6 +1,6 @@
 //! A line as it is searched: automata, plant, and what a state consists of.
 
-use crate::plant::{Faults, Input, Machine, Order};
+use crate::plant::{Faults, Watch, Input, Machine, Order};
 use crate::program::Instance;
 use crate::value::{Point, Values, Var};
 use std::fmt;
@@ -21,6 +21,7 @@ pub struct Model {
     /// Heights of the kinds, m.
     pub heights: Vec<f64>,
     pub faults: Faults,
+    pub watch: Watch,
     pub reach: Reach,
     /// Those of the first state.
     pub values: Values,

@@ -183,6 +183,14 @@ pub struct Order {
     pub made: Var,
 }
 
+/// What is a violation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Watch {
+    Everything,
+    /// Faults at run time: the search goes on behind everything else.
+    Faults,
+}
+
 /// What may go wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Faults {

@@ -6,20 +6,15 @@ use super::plant::plant;
 use crate::diagnostic::Diagnostic;
 use crate::ir::{Automaton, Expr, ExprKind, Place, Scalar, System, Type, UpdateKind, Value};
 use crate::lower::Project;
-use crate::scenario::Number;
 use autogen_search::model::{Model, Reach};
-use autogen_search::plant::{Faults, Order};
+use autogen_search::plant::{Faults, Order, Watch};
 use runtime_sim::device::{Direction, PortType};
 use runtime_sim::point::Point;
 use std::sync::Arc;
 
-/// Instances that a line may have to be searched: far fewer can be searched to the end.
-const MOST_INSTANCES: usize = 1000;
-
 /// A line as it is searched; or why it cannot be.
 pub fn model(project: &Project, faults: Faults) -> Result<Model, Vec<Diagnostic>> {
     let Project { system, plant: line, .. } = project;
-    let _ = (Number::Listed, MOST_INSTANCES);
     let mut memory = Memory::default();
     let mut inputs = Vec::new();
     let mut whole = Line {
@@ -134,6 +129,7 @@ pub fn model(project: &Project, faults: Faults) -> Result<Model, Vec<Diagnostic>
         orders,
         heights: line.kinds.iter().map(|kind| kind.height).collect(),
         faults,
+        watch: Watch::Everything,
         reach,
         values,
         variables,

@@ -84,7 +84,7 @@ impl<'a> Director<'a> {
             for event in &happened.events {
                 let machine = event.machine;
                 if let What::Ends(ending) = event.what {
-                    let then = command_at(model, project, machine, &happened.before);
+                    let then = command_at(model, machine, &happened.before);
                     let error = match ending {
                         Ending::Well | Ending::WithItem => None,
                         Ending::InVain => then,
@@ -174,6 +174,17 @@ impl<'a> Director<'a> {
                 self.line.scenario.answers = late;
                 return Ok(Some((scan * scan_ms) as f64 / 1000.0));
             };
+            // Nobody is told that a command has ended before all that are under way have: what is to happen in one scan
+            // can happen then.
+            let has_ended = |machine: usize| {
+                let ack = words[machine].head.map_or(0.0, |[_, ack, _]| plant.images()[machine][ack]);
+                words[machine].head.is_none() || given[machine] == ack
+            };
+            let is_awaited = |machine: usize| match due[machine].front().map(|due| due.what) {
+                Some(What::Loses(From::Tool | From::OnTheWay)) | None => false,
+                Some(_) => given[machine] != 0.0,
+            };
+            let all_ended = (0..count).all(|machine| !is_awaited(machine) || has_ended(machine));
             for machine in 0..count {
                 let image = &plant.images()[machine];
                 let before = inputs[machine].clone();
@@ -199,13 +210,13 @@ impl<'a> Director<'a> {
                             if at.holds.is_some_and(|holds| image[holds] == 0.0) {
                                 due[machine].pop_front();
                             }
-                        } else if self.is_there(machine, from, ended[machine].is_some(), scan, begun[machine]) {
+                        } else if self.is_there(from, ended[machine].is_some(), scan, begun[machine]) {
                             let after_s = ((scan + 1 - since) * scan_ms) as f64 / 1000.0;
                             self.line.scenario.slips.push(Slip { machine, pick, after_s });
                             return Ok(None);
                         }
                     }
-                    Some(Due { what: What::Ends(_), .. }) if is_new => {
+                    Some(Due { what: What::Ends(_), .. }) if is_new && all_ended => {
                         due[machine].pop_front();
                         let late_s = ((scan - ended[machine].unwrap_or(scan)) * scan_ms) as f64 / 1000.0;
                         let command = seen[machine].1;
@@ -263,7 +274,7 @@ impl<'a> Director<'a> {
     }
 
     /// Whether an arm is where it is to lose its item.
-    fn is_there(&self, _machine: usize, from: From, has_ended: bool, scan: u64, begun: u64) -> bool {
+    fn is_there(&self, from: From, has_ended: bool, scan: u64, begun: u64) -> bool {
         match from {
             From::Tool => true,
             From::Goal | From::Via => has_ended,
@@ -273,7 +284,7 @@ impl<'a> Director<'a> {
 }
 
 /// The error in which the command under way ends if what it awaits does not come.
-fn command_at(model: &Model, _project: &Project, machine: usize, state: &[u8]) -> Option<i32> {
+fn command_at(model: &Model, machine: usize, state: &[u8]) -> Option<i32> {
     let head = model.machines[machine].head.as_ref()?;
     let asked = head.commands.get(head.command.load(state) as usize)?;
     asked.awaits.map(|awaits| awaits.error)

@@ -5,7 +5,6 @@ use crate::source::{Sources, Span};
 use autogen_search::Fired;
 use autogen_search::event::{Ending, Event, From, What};
 use autogen_search::model::Model;
-use autogen_search::plant::phase;
 use autogen_search::story::{Course, Happened};
 use autogen_search::violation::Violation;
 use std::fmt::Write;
@@ -126,7 +125,6 @@ impl Teller<'_> {
             What::Opens => format!("{name}: the next order opens"),
             What::IsGone => {
                 let order = plant.desk.as_ref().map_or(0, |desk| desk.order.load(&happened.before));
-                let _ = phase::GONE;
                 format!("{name}: order {} has been taken away", order + 1)
             }
             What::TimeComes => format!("{name}: a time of its state has come"),
