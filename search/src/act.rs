@@ -42,9 +42,11 @@ impl Scan<'_> {
     fn aim(&mut self, machine: usize, via: i32, goal: Point) {
         if let Some(arm) = &self.model.machines[machine].arm {
             let goal = self.values.number_of_point(goal);
-            let mut is_reached =
-                |number| self.values.is_reached(machine, number, |point| (self.model.reach.0)(machine, point));
-            let (via, goal) = if is_reached(goal) && (via == 0 || is_reached(via)) { (via, goal) } else { (0, 0) };
+            let mut is_reached = |number| {
+                self.values.is_reached(machine, number, |point| (self.model.reach.0)(machine, point))
+            };
+            let (via, goal) =
+                if is_reached(goal) && (via == 0 || is_reached(via)) { (via, goal) } else { (0, 0) };
             arm.via.store(self.bytes, via);
             arm.goal.store(self.bytes, goal);
         }

@@ -152,13 +152,7 @@ fn found_at_goal(model: &Model, values: &Values, state: &[u8], arm: &Arm) -> Opt
 }
 
 /// What the gripper may take without a command that waits for it.
-fn takes(
-    model: &Model,
-    values: &Values,
-    state: &[u8],
-    plant: &Machine,
-    arm: &Arm,
-) -> Option<surface::Found> {
+fn takes(model: &Model, values: &Values, state: &[u8], plant: &Machine, arm: &Arm) -> Option<surface::Found> {
     if !is_closed(arm, state) {
         return None;
     }
@@ -180,9 +174,7 @@ pub(crate) fn losses(
     arm: &Arm,
     kind: usize,
 ) -> Vec<(From, Landing)> {
-    let at = |from, number: i32| {
-        (from, surface::landing(model, values, state, values.point(number), kind))
-    };
+    let at = |from, number: i32| (from, surface::landing(model, values, state, values.point(number), kind));
     let mut all = vec![at(From::Tool, arm.tool.load(state))];
     let (via, goal) = (arm.via.load(state), arm.goal.load(state));
     if via != 0 {
@@ -295,7 +287,13 @@ fn take(model: &Model, state: &mut [u8], arm: &Arm, found: surface::Found) {
             let item = place.items[slot];
             let held = item.load(state);
             // Of too many there are still too many.
-            let left = if !place.by_kind { 0 } else if held == place.most { held } else { held - 1 };
+            let left = if !place.by_kind {
+                0
+            } else if held == place.most {
+                held
+            } else {
+                held - 1
+            };
             item.store(state, left);
         }
         Landing::Zone { machine, zone } => forget(model, state, machine, zone, found.kind),

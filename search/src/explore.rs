@@ -137,7 +137,8 @@ pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -
     let mut violations: Vec<(Violation, Course)> = found
         .into_iter()
         .map(|found| {
-            let course = story::to_violation(&store, &mut expander, found.from, &found.violation, &found.events);
+            let course =
+                story::to_violation(&store, &mut expander, found.from, &found.violation, &found.events);
             (found.violation, course)
         })
         .collect();

@@ -49,7 +49,9 @@ fn sites_at(scan: &Scan, number: i32) -> Vec<usize> {
             }
         }
         let zones = plant.lane.iter().flat_map(|lane| &lane.zones);
-        all.extend(zones.map(|zone| surface::is_in(zone, point) && point[2] <= zone.surface + tallest + 0.001));
+        all.extend(
+            zones.map(|zone| surface::is_in(zone, point) && point[2] <= zone.surface + tallest + 0.001),
+        );
     }
     all.iter().enumerate().filter(|(_, is_at)| **is_at).map(|(site, _)| site).collect()
 }

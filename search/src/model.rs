@@ -1,6 +1,6 @@
 //! A line as it is searched: automata, plant, and what a state consists of.
 
-use crate::plant::{Faults, Watch, Input, Machine, Order};
+use crate::plant::{Faults, Input, Machine, Order, Watch};
 use crate::program::Instance;
 use crate::value::{Point, Values, Var};
 use std::fmt;

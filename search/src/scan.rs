@@ -59,7 +59,8 @@ impl Scan<'_> {
         let model = self.model;
         for (instance, program) in model.instances.iter().enumerate() {
             for invariant in &program.invariants {
-                let is_due = (touched | self.fired) & bit(instance) != 0 || self.written & invariant.reads != 0;
+                let is_due =
+                    (touched | self.fired) & bit(instance) != 0 || self.written & invariant.reads != 0;
                 if is_due && !self.holds(&invariant.condition) {
                     return Err(Violation::Fault { instance, fault: invariant.fault });
                 }
@@ -230,7 +231,9 @@ impl Scan<'_> {
         }
         for (update, value) in updates.iter().zip(read) {
             match (update, value) {
-                (Update::Int(target, _, bounds), Read::Int(value)) => self.store_int(target, value, bounds)?,
+                (Update::Int(target, _, bounds), Read::Int(value)) => {
+                    self.store_int(target, value, bounds)?
+                }
                 (Update::Real(target, ..), Read::Real(value)) => {
                     let number = self.values.number_of_real(value);
                     self.store(target, number);
@@ -277,7 +280,12 @@ impl Scan<'_> {
             }
         }
         let before = self.model.machines[instance].head.as_ref().map(|head| head.status.load(self.bytes));
-        self.begin(instance, command.command, &points[..command.points.len().min(2)], before == Some(status::UNDER_WAY));
+        self.begin(
+            instance,
+            command.command,
+            &points[..command.points.len().min(2)],
+            before == Some(status::UNDER_WAY),
+        );
         Ok(())
     }
 

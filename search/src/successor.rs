@@ -118,13 +118,7 @@ impl<'a> Expander<'a> {
         restless
     }
 
-    fn answer(
-        &mut self,
-        options: &[Vec<Event>],
-        level: usize,
-        touched: u64,
-        emit: &mut impl FnMut(Way),
-    ) {
+    fn answer(&mut self, options: &[Vec<Event>], level: usize, touched: u64, emit: &mut impl FnMut(Way)) {
         let Some((events, rest)) = options.split_first().filter(|_| self.chosen.len() < self.answers) else {
             return self.scan(level, touched | self.restless, emit);
         };

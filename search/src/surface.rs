@@ -75,7 +75,10 @@ pub fn landing(model: &Model, values: &Values, state: &[u8], tool: Point, kind: 
         for (number, place) in plant.places.iter().enumerate() {
             let origin = origin(model, values, state, machine, place);
             let height = origin[2] + place.floor[2];
-            if height <= highest.0 || !is_over(place, origin, under) || !is_there(model, state, machine, number) {
+            if height <= highest.0
+                || !is_over(place, origin, under)
+                || !is_there(model, state, machine, number)
+            {
                 continue;
             }
             let slot = if place.by_kind { Some(kind) } else { slot_at(place, origin, under) };

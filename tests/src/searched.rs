@@ -42,8 +42,7 @@ impl<'a> Common<'a> {
                 cells.iter().for_each(|cell| take(&cell.name, cell.ty));
             }
             let outputs = automaton.device.ports.iter();
-            let outputs =
-                outputs.filter(|port| port.direction == runtime_sim::device::Direction::Output);
+            let outputs = outputs.filter(|port| port.direction == runtime_sim::device::Direction::Output);
             at += outputs.map(|port| port.words(system.kinds())).sum::<usize>();
         }
         Self { model, words }
@@ -61,7 +60,9 @@ impl<'a> Common<'a> {
             let program = &self.model.instances[*instance];
             if variable.var == program.state {
                 state = *value as usize;
-            } else if let Some((_, dead)) = program.states[state].dead.iter().find(|(var, _)| *var == variable.var) {
+            } else if let Some((_, dead)) =
+                program.states[state].dead.iter().find(|(var, _)| *var == variable.var)
+            {
                 *value = dead + low;
             }
         }
@@ -77,8 +78,9 @@ impl<'a> Common<'a> {
         let apart = |other: &Vec<i32>| found.iter().zip(other).filter(|(a, b)| a != b).count();
         let Some(nearest) = all.iter().min_by_key(|other| apart(other)) else { return "no state".into() };
         let differing = self.words.iter().zip(found.iter().zip(nearest)).filter(|(_, (a, b))| a != b);
-        let texts: Vec<String> =
-            differing.map(|((_, variable, ..), (a, b))| format!("{} is {a}, not {b}", variable.name)).collect();
+        let texts: Vec<String> = differing
+            .map(|((_, variable, ..), (a, b))| format!("{} is {a}, not {b}", variable.name))
+            .collect();
         texts.join(", ")
     }
 }

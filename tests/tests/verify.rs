@@ -62,7 +62,9 @@ fn a_table_without_its_lock_has_two_arms_over_it_in_the_simulator_too() {
     let project = changed("held := true;", "").project();
     let model = model_of(&project, Faults::None);
     let outcome = search(&model, &BOUNDS);
-    let [(violation, course)] = &outcome.violations[..] else { panic!("{} violations", outcome.violations.len()) };
+    let [(violation, course)] = &outcome.violations[..] else {
+        panic!("{} violations", outcome.violations.len())
+    };
     assert!(matches!(violation, Violation::TwoArms { .. }), "{violation:?}");
     let replay = replay(&project, &model, course).expect("a run");
     assert!(replay.result.is_ok(), "{:?}", replay.result);
@@ -86,7 +88,8 @@ fn orders_that_can_never_be_made_are_found() {
 
 #[test]
 fn a_fault_is_found_and_its_course_is_the_shortest() {
-    let project = changed("local next: int 0..11 := 0;", "local next: int 0..11 := 0; invariant not offer;").project();
+    let project =
+        changed("local next: int 0..11 := 0;", "local next: int 0..11 := 0; invariant not offer;").project();
     let model = model_of(&project, Faults::None);
     let outcome = search(&model, &BOUNDS);
     let [(Violation::Fault { .. }, course)] = &outcome.violations[..] else {
@@ -159,7 +162,8 @@ fn simulated_runs_stay_within_the_states() {
             let mut line = project.plant.clone();
             let machines = line.machines.len() as u32;
             let scenario = &mut line.scenario;
-            let arms: Vec<usize> = (0..machines as usize).filter(|m| project.plant.machines[*m].has("grip")).collect();
+            let arms: Vec<usize> =
+                (0..machines as usize).filter(|m| project.plant.machines[*m].has("grip")).collect();
             for pick in 1..4 {
                 for machine in &arms {
                     if random.up_to(2) == 0 {

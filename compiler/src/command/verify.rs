@@ -52,7 +52,10 @@ pub fn run(options: &VerifyOptions) -> Status {
         match options.input.format {
             Format::Text => print::diagnostics(&outcome.sources, found),
             Format::Json => {
-                say!("{}", serde_json::json!({ "diagnostics": print::diagnostics_json(&outcome.sources, found) }));
+                say!(
+                    "{}",
+                    serde_json::json!({ "diagnostics": print::diagnostics_json(&outcome.sources, found) })
+                );
             }
         }
         Status::WrongInput
@@ -96,7 +99,11 @@ pub fn run(options: &VerifyOptions) -> Status {
 
 /// Without a number of answers first with one in a scan, which finds most and takes a tenth of the time; then with any
 /// number. The second result is how many of the last search.
-fn search(options: &VerifyOptions, model: &Model, (time, memory): (Duration, usize)) -> (Outcome, Option<usize>) {
+fn search(
+    options: &VerifyOptions,
+    model: &Model,
+    (time, memory): (Duration, usize),
+) -> (Outcome, Option<usize>) {
     let begin = Instant::now();
     let is_shown = !options.input.quiet && options.input.format == Format::Text && io::stderr().is_terminal();
     let mut last = Instant::now();
@@ -146,7 +153,9 @@ fn limits(texts: &[String]) -> Result<(Duration, usize), String> {
             (Some(n), "MB") => memory = (n as usize).saturating_mul(1_000_000),
             (Some(n), "GB") => memory = (n as usize).saturating_mul(1_000_000_000),
             _ => {
-                return Err("--limit takes a time or an amount of memory, such as 90s, 10min, 500MB or 2GB".into());
+                return Err(
+                    "--limit takes a time or an amount of memory, such as 90s, 10min, 500MB or 2GB".into()
+                );
             }
         }
     }

@@ -1,8 +1,8 @@
 //! A scenario meets a line: names of machines become indices, and the supply is laid out.
 
 use super::{
-    Answer, Collected, Faults, Items, Number, Operation, Order, Part, Refusal, ResolvedScenario, Scenario, Slip,
-    supply,
+    Answer, Collected, Faults, Items, Number, Operation, Order, Part, Refusal, ResolvedScenario, Scenario,
+    Slip, supply,
 };
 use crate::diagnostic::{Diagnostic, MOST, collect, sort};
 use crate::layout::decode::{instead, listing};

@@ -4,9 +4,7 @@ use super::expression::Stored;
 use super::live::live;
 use super::plant::{Plant, Signal};
 use crate::executor::Executor;
-use crate::ir::{
-    self, Automaton, Expr, InterfaceId, Place, RoleId, Scalar, System, UpdateKind, Value,
-};
+use crate::ir::{self, Automaton, Expr, InterfaceId, Place, RoleId, Scalar, System, UpdateKind, Value};
 use crate::reads::{Reads, Whose, is_fixed};
 use autogen_search::plant::Machine;
 use autogen_search::program::{
@@ -127,10 +125,7 @@ impl<'a> Instance<'a> {
         let (Ok(rank), Some(come)) = (self.times.binary_search(&ms), self.line.states[self.number].1) else {
             return Int::Chance;
         };
-        Int::Binary(
-            Operator::GreaterEqual,
-            Box::new([Int::Load(come, 0), Int::Constant(rank as i32 + 1)]),
-        )
+        Int::Binary(Operator::GreaterEqual, Box::new([Int::Load(come, 0), Int::Constant(rank as i32 + 1)]))
     }
 
     fn fixed(&self, time: &Expr) -> Option<i32> {
@@ -146,7 +141,8 @@ impl<'a> Instance<'a> {
         let (state, times_come) = self.line.states[self.number];
         let automaton = self.automaton;
         let live = live(automaton);
-        let states = automaton.states.iter().zip(&live).map(|(state, live)| self.state(state, live)).collect();
+        let states =
+            automaton.states.iter().zip(&live).map(|(state, live)| self.state(state, live)).collect();
         let invariants = automaton.invariants.iter().map(|invariant| Invariant {
             condition: self.int(&invariant.condition),
             fault: invariant.fault.0,
@@ -248,10 +244,8 @@ impl<'a> Instance<'a> {
                 let elements = self.line.system.model.elements(target.ty.extent);
                 let updates = (0..elements).map(|element| {
                     let place = Target { vars: vars.clone(), index: offset(&begin, element) };
-                    let value = Expr {
-                        ty: target.ty.scalar,
-                        kind: ir::ExprKind::Read(with_index(source, element)),
-                    };
+                    let value =
+                        Expr { ty: target.ty.scalar, kind: ir::ExprKind::Read(with_index(source, element)) };
                     self.store(place, target.ty.scalar, &value, low, check.map(|fault| fault.0))
                 });
                 Some(Update::Copy(updates.collect()))
@@ -260,14 +254,7 @@ impl<'a> Instance<'a> {
         }
     }
 
-    fn store(
-        &mut self,
-        target: Target,
-        ty: Scalar,
-        value: &Expr,
-        base: i32,
-        fault: Option<usize>,
-    ) -> Update {
+    fn store(&mut self, target: Target, ty: Scalar, value: &Expr, base: i32, fault: Option<usize>) -> Update {
         match ty {
             Scalar::Real => Update::Real(target, self.real(value), fault),
             Scalar::Point => Update::Point(target, self.point(value), fault),
@@ -320,9 +307,7 @@ impl<'a> Instance<'a> {
 fn offset(begin: &Int, element: usize) -> Int {
     match begin {
         Int::Constant(begin) => Int::Constant(begin + element as i32),
-        begin => {
-            Int::Binary(Operator::Add, Box::new([begin.clone(), Int::Constant(element as i32)]))
-        }
+        begin => Int::Binary(Operator::Add, Box::new([begin.clone(), Int::Constant(element as i32)])),
     }
 }
 

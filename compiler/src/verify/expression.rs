@@ -4,8 +4,8 @@ use super::automaton::Instance;
 use super::plant::Signal;
 use crate::ir::{self, Domain, Expr, ExprKind, Operator, Place, Scalar, Value};
 use autogen_search::plant::{phase, status};
-use autogen_search::program::{Each, Elements, Int, PointValue, Real};
 use autogen_search::program::{Domain as Values, Operator as Op};
+use autogen_search::program::{Each, Elements, Int, PointValue, Real};
 use autogen_search::value::Var;
 use std::sync::Arc;
 
@@ -203,7 +203,9 @@ impl Instance<'_> {
     fn read_int(&mut self, place: &Place) -> Int {
         match self.stored(place) {
             (Stored::Vars(vars, low), Int::Constant(index)) => Int::Load(vars[index as usize], low),
-            (Stored::Vars(vars, low), index) => Int::Element(Arc::new(Elements { vars, low }), Box::new(index)),
+            (Stored::Vars(vars, low), index) => {
+                Int::Element(Arc::new(Elements { vars, low }), Box::new(index))
+            }
             (Stored::Fixed(values), Int::Constant(index)) => Int::Constant(whole(values[index as usize])),
             (Stored::Fixed(values), index) => {
                 Int::Table(values.into_iter().map(whole).collect(), Box::new(index))
@@ -285,7 +287,8 @@ impl Instance<'_> {
             Place::Shown { interface, parameter, of, index } => {
                 let system = self.line.system;
                 let rows = 0..system.members[interface.0].len();
-                let values: Vec<&[Value]> = rows.map(|row| system.shown(*interface, row, *parameter)).collect();
+                let values: Vec<&[Value]> =
+                    rows.map(|row| system.shown(*interface, row, *parameter)).collect();
                 let elements = values.first().map_or(1, |values| values.len());
                 let row = self.int(of);
                 (Stored::Fixed(values.concat()), at(row, elements, self.element(index)))

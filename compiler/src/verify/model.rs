@@ -48,9 +48,10 @@ pub fn model(project: &Project, faults: Faults) -> Result<Model, Vec<Diagnostic>
         let automaton = system.automaton_of(number);
         let name = &instance.name;
         let state = memory.number(number, format!("{name}.(state)"), automaton.states.len(), 0);
-        let waits = automaton.states.iter().any(|state| {
-            crate::reads::Reads::of_guards(automaton, state).timers.iter().next().is_some()
-        });
+        let waits = automaton
+            .states
+            .iter()
+            .any(|state| crate::reads::Reads::of_guards(automaton, state).timers.iter().next().is_some());
         let times = waits.then(|| memory.number(number, format!("{name}.(times)"), 255, 0));
         whole.states.push((state, times));
         let locals = automaton.locals.iter().map(|local| {

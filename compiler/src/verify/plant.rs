@@ -5,6 +5,10 @@
 
 use super::memory::Memory;
 use crate::device::Port;
+use autogen_search::plant::{
+    Action, Arm, Asked, Awaits, Desk, Head, Input, Lane, Place, Route, Zone, motion, phase, status,
+};
+use autogen_search::value::Var;
 use runtime_sim::device::error;
 use runtime_sim::line::Line;
 use runtime_sim::machine::Machine;
@@ -13,10 +17,6 @@ use runtime_sim::part::lane::Lane as Conveyor;
 use runtime_sim::part::zone::Zone as Field;
 use runtime_sim::point::Point;
 use runtime_sim::wiring::{Command, Drives, Source};
-use autogen_search::plant::{
-    Action, Arm, Asked, Awaits, Desk, Head, Input, Lane, Place, Route, Zone, motion, phase, status,
-};
-use autogen_search::value::Var;
 
 /// What stands for an input of a machine.
 #[derive(Clone, Debug)]
@@ -156,24 +156,24 @@ pub fn plant(
                 });
             }
             Primitive::Lane(lane) if machine.wiring.commands.iter().any(|command| command.part == part) => {
-                let zones = machine.parts.iter().enumerate().filter_map(|(of, other)| match &other.primitive {
-                    Primitive::Zone(field) if field.lane == part => {
-                        Some(zone(line, number, of, lane, field, memory, inputs))
-                    }
-                    _ => None,
-                });
+                let zones =
+                    machine.parts.iter().enumerate().filter_map(|(of, other)| match &other.primitive {
+                        Primitive::Zone(field) if field.lane == part => {
+                            Some(zone(line, number, of, lane, field, memory, inputs))
+                        }
+                        _ => None,
+                    });
                 let zones = zones.flatten().collect();
-                found.lane = Some(Lane {
-                    motion: memory.number(number, name("(motion)"), 3, motion::STANDS),
-                    zones,
-                });
+                found.lane =
+                    Some(Lane { motion: memory.number(number, name("(motion)"), 3, motion::STANDS), zones });
             }
             Primitive::Place(place) => {
                 let count = if place.by_kind { line.kinds.len() } else { place.slots.len() };
                 let asked = line.scenario.orders.iter().flat_map(|order| &order.parts);
                 let more = asked.copied().max().unwrap_or(0) as usize + 1;
                 let most = if place.by_kind { more } else { line.kinds.len() };
-                let items = (0..count).map(|n| memory.number(number, format!("{}.(item)[{n}]", machine.name), most, 0));
+                let items = (0..count)
+                    .map(|n| memory.number(number, format!("{}.(item)[{n}]", machine.name), most, 0));
                 found.places.push(Place {
                     stands: place.route.is_none().then_some(coordinates(place.at)),
                     floor: coordinates(place.floor),
@@ -190,8 +190,10 @@ pub fn plant(
                 let before: Vec<usize> = (0..orders.place).collect();
                 let place = before.iter().filter(is_place).count();
                 let here = line.scenario.orders.iter().enumerate();
-                let here: Vec<usize> =
-                    here.filter(|(_, order)| order.stations.contains(&number)).map(|(order, _)| order).collect();
+                let here: Vec<usize> = here
+                    .filter(|(_, order)| order.stations.contains(&number))
+                    .map(|(order, _)| order)
+                    .collect();
                 let first = here.first().copied();
                 let is_open = first.is_some();
                 found.desk = Some(Desk {
@@ -201,7 +203,12 @@ pub fn plant(
                         4,
                         if is_open { phase::OPEN } else { phase::BARE },
                     ),
-                    order: memory.number(number, name("(order)"), line.scenario.orders.len(), first.unwrap_or(0) as i32),
+                    order: memory.number(
+                        number,
+                        name("(order)"),
+                        line.scenario.orders.len(),
+                        first.unwrap_or(0) as i32,
+                    ),
                     next: memory.number(number, name("(orders begun)"), here.len(), i32::from(is_open)),
                     complete: level(part, "complete"),
                     place,
@@ -215,9 +222,7 @@ pub fn plant(
         Source::Ready => Signal::Fixed(1),
         Source::Error => Signal::Error,
         Source::Got | Source::Ack => Signal::Unbounded,
-        Source::Signal { part, signal } => {
-            self::signal(line, number, part, signal, &found, memory, inputs)
-        }
+        Source::Signal { part, signal } => self::signal(line, number, part, signal, &found, memory, inputs),
     });
     Plant { inputs: signals.collect(), machine: found, outputs: levels }
 }
@@ -229,7 +234,10 @@ fn levels(machine: &Machine, number: usize, ports: &[Port], memory: &mut Memory)
     let levels = outputs.zip(&machine.wiring.outputs).map(|(port, output)| match output.drives {
         Drives::Level { part, level } => {
             let schema = machine.parts[part].schema();
-            let is_read = matches!((schema.name, schema.levels[level].name), ("grip", "close") | ("orders", "complete"));
+            let is_read = matches!(
+                (schema.name, schema.levels[level].name),
+                ("grip", "close") | ("orders", "complete")
+            );
             is_read.then(|| memory.number(number, format!("{}.{}", machine.name, port.name), 1, 0))
         }
         _ => None,

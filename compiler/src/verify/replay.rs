@@ -103,7 +103,8 @@ impl<'a> Director<'a> {
                 let machine = model.inputs[*input].machine;
                 let Some(lane) = &model.machines[machine].lane else { continue };
                 let moves = lane.motion.load(&happened.before) != motion::STANDS;
-                let kind = lane.zones.iter().find_map(|zone| zone.sees.iter().position(|s| *s == Some(*input)));
+                let kind =
+                    lane.zones.iter().find_map(|zone| zone.sees.iter().position(|s| *s == Some(*input)));
                 if let Some(kind) = kind.filter(|_| moves && *value == 1) {
                     supply[machine].push(kind);
                 }
@@ -232,7 +233,8 @@ impl<'a> Director<'a> {
                 inputs[machine][ack] = before[ack];
                 inputs[machine][error] = before[error];
             }
-            let system = SystemInputs { run_permit: true, start: scan >= self.line.scenario.start_scan, reset: false };
+            let system =
+                SystemInputs { run_permit: true, start: scan >= self.line.scenario.start_scan, reset: false };
             let answer = executor.scan(system, &inputs, &mut outputs);
             for machine in 0..count {
                 if let Some([cmd, ..]) = words[machine].head
@@ -244,7 +246,8 @@ impl<'a> Director<'a> {
                     ended[machine] = None;
                 }
                 let now = (executor.state(machine), seen[machine].1);
-                if now == seen[machine] && marks[machine].front().is_none_or(|m| (m.state, m.commands) != now) {
+                if now == seen[machine] && marks[machine].front().is_none_or(|m| (m.state, m.commands) != now)
+                {
                     continue;
                 }
                 seen[machine].0 = now.0;

@@ -96,7 +96,8 @@ impl Teller<'_> {
             What::Ends(ending) => {
                 let command = plant.head.as_ref().map_or(0, |head| head.command.load(&happened.before));
                 let device = &self.project.system.automaton_of(event.machine).device;
-                let number = self.project.plant.machines[event.machine].wiring.commands[command as usize].number;
+                let number =
+                    self.project.plant.machines[event.machine].wiring.commands[command as usize].number;
                 let verb = device.verbs.iter().find(|verb| verb.number == number);
                 let verb = verb.map_or("command", |verb| verb.name.as_str());
                 match ending {

@@ -87,8 +87,12 @@ fn faults(u: &mut Unstructured) -> Result<String> {
         object(u, &members)
     })?;
     let answers = list(u, 2, |u| {
-        let members =
-            [("robot", name(u)?), ("command", whole(u, 9)?), ("late_s", seconds(u)?), ("error", whole(u, 4)?)];
+        let members = [
+            ("robot", name(u)?),
+            ("command", whole(u, 9)?),
+            ("late_s", seconds(u)?),
+            ("error", whole(u, 4)?),
+        ];
         object(u, &members)
     })?;
     let pauses = list(u, 2, |u| {

@@ -4,8 +4,8 @@ use std::fmt::Write;
 use std::sync::Arc;
 
 use super::{
-    Answer, Collected, Goal, IoDelay, Kind, Line, Obstacle, Operation, Order, Pause, Refusal, Scenario, Slip, State,
-    Supply,
+    Answer, Collected, Goal, IoDelay, Kind, Line, Obstacle, Operation, Order, Pause, Refusal, Scenario, Slip,
+    State, Supply,
 };
 use crate::machine::Machine;
 use crate::part::Part;

@@ -11,7 +11,7 @@ use crate::memory::Memory;
 use crate::part::cylinder::Working as Cylinder;
 use crate::part::lane::Moving;
 use crate::part::orders::Desk;
-use crate::part::{Begun, Looks, milliseconds, Part, Progress, Running, See, Start, World};
+use crate::part::{Begun, Looks, Part, Progress, Running, See, Start, World, milliseconds};
 use crate::plant::trajectory::Trajectory;
 use crate::point::Point;
 use crate::wiring::{Drives, Source, Wiring};

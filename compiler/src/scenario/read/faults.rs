@@ -57,7 +57,8 @@ impl Decoder {
         self.unknown_keys(members, &["robot", "command", "late_s", "error"], "an answer");
         let robot = self.robot(members, json, "an answer");
         let command = self.count(members, json, "command", "an answer");
-        let late_s = find(members, "late_s").map_or(Some(0.0), |j| self.number_in(j, "late_s", 0.0..=LONGEST_S));
+        let late_s =
+            find(members, "late_s").map_or(Some(0.0), |j| self.number_in(j, "late_s", 0.0..=LONGEST_S));
         let error = match find(members, "error") {
             Some(j) => Some(self.whole(j, "error", 1..=255)? as i32),
             None => None,
