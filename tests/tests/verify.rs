@@ -118,9 +118,14 @@ fn verdict(outcome: &Outcome) -> (End, Vec<String>) {
 
 #[test]
 fn forgetting_what_is_of_no_use_changes_no_verdict() {
-    for texts in [buffer(ONE_PART), changed("slot[next] := Free;", "")] {
+    let lines = [
+        (buffer(ONE_PART), Faults::All),
+        (changed("held := true;", ""), Faults::None),
+        (changed("slot[next] := Free;", ""), Faults::None),
+    ];
+    for (texts, faults) in lines {
         let texts = Texts { scenario: Some(ONE_PART.into()), ..texts };
-        let model = model_of(&texts.project(), Faults::All);
+        let model = model_of(&texts.project(), faults);
         let mut whole = model.clone();
         for state in whole.instances.iter_mut().flat_map(|instance| &mut instance.states) {
             state.dead.clear();

@@ -51,7 +51,7 @@ pub fn model(project: &Project, faults: Faults) -> Result<Model, Vec<Diagnostic>
         let waits = automaton
             .states
             .iter()
-            .any(|state| crate::reads::Reads::of_guards(automaton, state).timers.iter().next().is_some());
+            .any(|state| !crate::reads::Reads::of_guards(automaton, state).timers.is_empty());
         let times = waits.then(|| memory.number(number, format!("{name}.(times)"), 255, 0));
         whole.states.push((state, times));
         let locals = automaton.locals.iter().map(|local| {

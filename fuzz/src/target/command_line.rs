@@ -36,6 +36,7 @@ pub fn answer(input: &[u8], effort: Effort) {
         }
         Command::Sweep(options) => of_sweep(options, input, effort),
         Command::Merge(_) => {}
+        Command::Verify(options) => of_line(&options.input, input, effort),
         Command::Graph(options) => of_line(&options.input, input, effort),
         Command::Explain(options) => {
             diagnostic::explain(&options.code);
