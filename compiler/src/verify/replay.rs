@@ -10,13 +10,15 @@ use autogen_search::plant::motion;
 use autogen_search::story::Course;
 use runtime_sim::line::{Answer, Line, Slip, Supply};
 use runtime_sim::plant::{self, Plant};
-use runtime_sim::run::{Stepping, run};
+use runtime_sim::run::{Seen, Stepping, run};
 use runtime_sim::scan::{Controllers, SystemInputs};
 use runtime_sim::wiring::{Drives, Source};
 use std::collections::VecDeque;
 
 /// Seconds of a belt at full speed between two items: no two of them lie in a field at once.
 const APART_S: f64 = 8.0;
+/// The answer to a command that is replaced comes so long after that, s: never.
+const REPLACED_S: f64 = 1.0;
 /// Longest simulated time, s.
 const LONGEST_S: f64 = 1800.0;
 /// Slips are found one after another, each in a run of its own.
@@ -60,10 +62,56 @@ struct Director<'a> {
 pub fn replay(project: &Project, model: &Model, course: &Course) -> Result<Replay, String> {
     let mut director = Director::new(project, model, course);
     let result = director.direct();
-    let line = director.line;
+    let line = director.line.clone();
     let mut executor = Executor::new(&project.system);
-    let report = run(&line, &mut executor, Stepping::Events, &mut |_| {})?;
+    let mut follower = Follower::new(&line, executor.stays(), &director.marks);
+    let report = run(&line, &mut executor, Stepping::Events, &mut |seen| follower.look(seen))?;
+    let result = result.and_then(|seconds| {
+        let left = follower.marks.iter().position(|marks| !marks.is_empty());
+        match left.filter(|_| report.fault.is_none()) {
+            Some(machine) => {
+                let name = &project.system.instances[machine].name;
+                Err(format!("with these delays {name} does something else"))
+            }
+            None => Ok(seconds),
+        }
+    });
     Ok(Replay { line, reason: report.reason, result })
+}
+
+/// Whether a run does what the course says, machine by machine.
+struct Follower {
+    marks: Vec<VecDeque<Mark>>,
+    /// Where the state of each machine stands in the trace, and its number of the last command among its outputs.
+    words: Vec<(usize, Option<usize>)>,
+    last: Vec<(usize, u32, f64)>,
+}
+
+impl Follower {
+    fn new(line: &Line, stays: Vec<usize>, marks: &[Vec<Mark>]) -> Self {
+        let kinds = line.kinds.len();
+        let words = line.machines.iter().zip(stays);
+        Self {
+            marks: marks.iter().map(|marks| marks.iter().copied().collect()).collect(),
+            words: words
+                .map(|(machine, stay)| (stay - 1, machine.wiring.output_at(Drives::Command, kinds)))
+                .collect(),
+            last: vec![(0, 0, 0.0); marks.len()],
+        }
+    }
+
+    fn look(&mut self, seen: &Seen) {
+        for (machine, (state, cmd)) in self.words.iter().enumerate() {
+            let (_, commands, before) = self.last[machine];
+            let number = cmd.map_or(0.0, |cmd| seen.outputs[machine][cmd]);
+            let now = (seen.trace[*state] as usize, commands + u32::from(number != before), number);
+            let is_next = |mark: &&Mark| (mark.state, mark.commands) == (now.0, now.1);
+            if self.last[machine] != now && self.marks[machine].front().filter(is_next).is_some() {
+                self.marks[machine].pop_front();
+            }
+            self.last[machine] = now;
+        }
+    }
 }
 
 impl<'a> Director<'a> {
@@ -241,6 +289,12 @@ impl<'a> Director<'a> {
                     && outputs[machine][cmd] != given[machine]
                 {
                     given[machine] = outputs[machine][cmd];
+                    // A command that is replaced before its answer comes.
+                    if let Some(end) = ended[machine] {
+                        let late_s = ((scan - end) * scan_ms) as f64 / 1000.0 + REPLACED_S;
+                        let command = seen[machine].1;
+                        late.push(Answer { machine, command, late_s, error: None });
+                    }
                     seen[machine].1 += 1;
                     begun[machine] = scan;
                     ended[machine] = None;

@@ -132,7 +132,7 @@ impl Report<'_> {
 fn replayed(replay: &Result<Replay, String>) -> String {
     match replay {
         Ok(Replay { result: Ok(seconds), reason, .. }) => {
-            format!("all of this has happened at {seconds:.2} s; the run ends: {reason}")
+            format!("the same transitions have fired by {seconds:.2} s; the run ends: {reason}")
         }
         Ok(Replay { result: Err(why), .. }) | Err(why) => format!("not brought about: {why}"),
     }
