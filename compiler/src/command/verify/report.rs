@@ -134,6 +134,7 @@ fn replayed(replay: &Result<Replay, String>) -> String {
         Ok(Replay { result: Ok(seconds), reason, .. }) => {
             format!("the same transitions have fired by {seconds:.2} s; the run ends: {reason}")
         }
-        Ok(Replay { result: Err(why), .. }) | Err(why) => format!("not brought about: {why}"),
+        Ok(Replay { result: Err(why), reason, .. }) => format!("{why}; the run ends: {reason}"),
+        Err(why) => format!("there is no run: {why}"),
     }
 }
