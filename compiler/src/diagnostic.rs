@@ -7,10 +7,10 @@ pub use rendered::{render, render_plain, render_styled};
 use crate::plain::shortened;
 use crate::source::Span;
 
-/// Something wrong with the input. All are errors: a line that may run is right, one that may not is not.
+/// Something wrong with the input: an error, with which nothing is made of it, or a warning.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnostic {
-    /// Stable, such as `E0104`; every code stands in `docs/errors.md`.
+    /// Stable, such as `E0104`, or `W0101` of a warning; every code stands in `docs/errors.md`.
     pub code: &'static str,
     /// What is wrong, in one line that stands alone.
     pub message: String,
@@ -36,6 +36,11 @@ impl Diagnostic {
             notes: Vec::new(),
             help: String::new(),
         }
+    }
+
+    /// A line that has warnings can be built and run.
+    pub fn is_warning(&self) -> bool {
+        self.code.starts_with('W')
     }
 
     pub fn label(mut self, text: impl Into<String>) -> Self {

@@ -3,7 +3,7 @@
 mod evaluate;
 mod step;
 
-use crate::ir::{FaultId, System, Type, Value};
+use crate::ir::{FaultId, InterfaceId, System, Type, Value, VariableId};
 use runtime_sim::device::{Direction, PortType, Stop};
 use runtime_sim::scan::{Controllers, SystemInputs, SystemOutputs};
 
@@ -17,6 +17,26 @@ pub struct Executor<'a> {
     status: Status,
     /// For each automaton, state and transition: how often it has fired.
     fired: Vec<Vec<Vec<u64>>>,
+    journal: Option<Vec<Entry>>,
+    /// The only instance that steps, if not all do.
+    only: Option<usize>,
+}
+
+/// What happened in a scan.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Entry {
+    /// An instance, or its device for an input, has changed a value.
+    Changed { robot: usize, what: Element },
+    /// A transition of the state in which the instance was, by its number.
+    Fired { robot: usize, transition: usize },
+}
+
+/// One value that the controllers remember.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Element {
+    Local { robot: usize, local: usize, index: usize },
+    Cell { interface: InterfaceId, row: usize, cell: usize, index: usize },
+    Port { robot: usize, port: usize, index: usize },
 }
 
 #[derive(Clone, Debug)]
@@ -81,7 +101,56 @@ impl<'a> Executor<'a> {
             .map(|a| a.states.iter().map(|s| vec![0; s.transitions.len()]).collect())
             .collect();
         let status = Status { running: false, fault: None, start_before: true, reset_before: true };
-        Self { system, robots, cells, status, fired }
+        Self { system, robots, cells, status, fired, journal: None, only: None }
+    }
+
+    /// Keeps what happens, until [`Self::take_journal`].
+    pub fn keep_journal(&mut self) {
+        self.journal = Some(Vec::new());
+    }
+
+    /// What has happened since the last time, in order.
+    pub fn take_journal(&mut self) -> Vec<Entry> {
+        self.journal.as_mut().map(std::mem::take).unwrap_or_default()
+    }
+
+    fn note(&mut self, entry: Entry) {
+        if let Some(journal) = &mut self.journal {
+            journal.push(entry);
+        }
+    }
+
+    /// From now on no other instance makes steps: somebody else plays the others.
+    pub fn step_only(&mut self, robot: usize) {
+        self.only = Some(robot);
+    }
+
+    /// Writes a value as another instance does.
+    pub fn set(&mut self, element: Element, value: Value) {
+        match element {
+            Element::Local { robot, local, index } => self.robots[robot].locals[local][index] = value,
+            Element::Cell { interface, row, cell, index } => {
+                self.cells[interface.0][row][cell][index] = value
+            }
+            Element::Port { robot, port, index } => self.robots[robot].ports[port][index] = value,
+        }
+    }
+
+    pub fn is_running(&self) -> bool {
+        self.status.running
+    }
+
+    /// Time of an instance in its present state, ms.
+    pub fn elapsed(&self, robot: usize) -> i32 {
+        self.robots[robot].elapsed
+    }
+
+    pub fn element(&self, element: Element) -> Value {
+        match element {
+            Element::Local { robot, local, index } => self.robots[robot].locals[local][index],
+            Element::Cell { interface, row, cell, index } => self.cells[interface.0][row][cell][index],
+            Element::Port { robot, port, index } => self.robots[robot].ports[port][index],
+        }
     }
 
     /// How often each transition has fired: `[automaton][state][transition]`.
@@ -89,21 +158,39 @@ impl<'a> Executor<'a> {
         &self.fired
     }
 
+    /// The variables of binders and quantifiers of an instance, for [`Self::restore`].
+    pub(crate) fn variables(&self, robot: usize) -> Vec<Value> {
+        self.robots[robot].variables.clone()
+    }
+
+    pub(crate) fn restore(&mut self, robot: usize, variables: Vec<Value>) {
+        self.robots[robot].variables = variables;
+    }
+
+    pub(crate) fn bind(&mut self, robot: usize, variable: VariableId, value: Value) {
+        self.robots[robot].variables[variable.0] = value;
+    }
+
     fn latch(&mut self, inputs: &[Vec<f64>]) {
         let kinds = self.system.kinds();
-        for (index, robot) in self.robots.iter_mut().enumerate() {
-            let mut words = inputs[index].iter().copied();
-            let ports = self.system.automaton_of(index).device.ports.iter();
-            for (port, values) in ports.zip(&mut robot.ports).filter(|(p, _)| p.direction == Direction::Input)
-            {
-                for value in values.iter_mut().take(port.extent.elements(kinds)) {
+        for (robot, words) in inputs.iter().enumerate().take(self.robots.len()) {
+            let mut words = words.iter().copied();
+            let ports = self.system.automaton_of(robot).device.ports.iter().enumerate();
+            for (number, port) in ports.filter(|(_, port)| port.direction == Direction::Input) {
+                for index in 0..port.extent.elements(kinds) {
                     let mut word = || words.next().unwrap_or(0.0);
-                    *value = match port.ty {
+                    let latched = match port.ty {
                         PortType::Bool => Value::Bool(word() != 0.0),
                         PortType::Int { lo, hi } => Value::Int((word() as i32).clamp(lo, hi)),
                         PortType::Real => Value::Real(word()),
                         PortType::Point => Value::Point([word(), word(), word()]),
                     };
+                    let value = &mut self.robots[robot].ports[number][index];
+                    if *value != latched {
+                        *value = latched;
+                        let what = Element::Port { robot, port: number, index };
+                        self.note(Entry::Changed { robot, what });
+                    }
                 }
             }
         }
@@ -130,10 +217,12 @@ impl<'a> Executor<'a> {
     }
 
     fn run_scan(&mut self) -> Result<(), (FaultId, usize)> {
-        for index in 0..self.robots.len() {
+        let only = self.only;
+        let stepping = move |index: &usize| only.is_none_or(|only| only == *index);
+        for index in (0..self.robots.len()).filter(stepping) {
             self.step(index).map_err(|fault| (fault, index))?;
         }
-        for index in 0..self.robots.len() {
+        for index in (0..self.robots.len()).filter(stepping) {
             for invariant in &self.system.automaton_of(index).invariants {
                 if !self.holds(index, &invariant.condition) {
                     return Err((invariant.fault, index));

@@ -15,6 +15,7 @@
 
 use crate::device::Device;
 use crate::source::Span;
+use crate::spec::ast::Side;
 use runtime_sim::device::{self, PortType};
 use std::sync::Arc;
 
@@ -95,6 +96,20 @@ pub struct Cell {
     pub doc: Vec<String>,
     pub ty: Type,
     pub initial: Value,
+    pub rule: Rule,
+}
+
+/// Who may write a cell.
+#[derive(Clone, Debug)]
+pub enum Rule {
+    Owner,
+    Handshake,
+    Lock,
+    Counter,
+    /// Who may write, for each ordinal of the cell's enumeration.
+    Token(Vec<Side>),
+    /// As cell number so-and-so of the same interface.
+    With(usize),
 }
 
 /// `from reaches to`: whether items can get from a member of one interface to one of the other.
@@ -497,6 +512,8 @@ pub struct Invariant {
     pub text: String,
     pub condition: Expr,
     pub fault: FaultId,
+    /// The type has a text for the operator: a stop that is meant.
+    pub asks_operator: bool,
 }
 
 #[derive(Clone, Debug)]
@@ -588,6 +605,23 @@ impl System {
 
     pub fn kinds(&self) -> usize {
         self.model.enums[KIND.0].members.len()
+    }
+
+    /// A value for people: seconds with `s`, points in metres, members and robots by name.
+    pub fn shown_value(&self, ty: Scalar, value: Value) -> String {
+        match (value, ty) {
+            (Value::Bool(b), _) => b.to_string(),
+            (Value::Int(ms), Scalar::Time) => format!("{} s", f64::from(ms) / 1000.0),
+            (Value::Int(ordinal), Scalar::Enum(id)) => {
+                self.model.enums[id.0].members[ordinal as usize].clone()
+            }
+            (Value::Int(row), Scalar::Ref(id)) => {
+                self.instances[self.members[id.0][row as usize]].name.clone()
+            }
+            (Value::Int(i), _) => i.to_string(),
+            (Value::Real(r), _) => r.to_string(),
+            (Value::Point([x, y, z]), _) => format!("({x}, {y}, {z})"),
+        }
     }
 }
 

@@ -41,6 +41,7 @@ fn main() -> ExitCode {
     };
     command::interrupt::install();
     let status = std::panic::catch_unwind(|| match &cli.command {
+        Command::New(options) => command::new::run(options),
         Command::Check(options) => command::check::run(options),
         Command::Build(options) => command::build::run(options),
         Command::Commission(options) => command::commission::run(options),
@@ -49,6 +50,12 @@ fn main() -> ExitCode {
         Command::Verify(options) => command::verify::run(options),
         Command::Graph(options) => command::graph::run(options),
         Command::Explain(options) => command::explain::run(options),
+        Command::Why(options) => command::why::run(options),
+        Command::Compare(options) => command::compare::run(options),
+        Command::Test(options) => command::test::run(options),
+        Command::Fmt(options) => command::fmt::run(options),
+        Command::Schema(options) => command::schema::run(options),
+        Command::Completions(options) => command::completions::run(options),
     });
     ExitCode::from(status.unwrap_or(Status::Bug) as u8)
 }

@@ -1,5 +1,9 @@
 //! The program as a user runs it.
 
+#[path = "command_line/checked_in.rs"]
+mod checked_in;
+#[path = "command_line/daily.rs"]
+mod daily;
 #[cfg(unix)]
 #[path = "command_line/hostile.rs"]
 mod hostile;
@@ -22,6 +26,10 @@ mod replications;
 mod side_by_side;
 #[path = "command_line/sweep.rs"]
 mod sweep;
+#[path = "command_line/tests_of_users.rs"]
+mod tests_of_users;
+#[path = "command_line/why.rs"]
+mod why;
 
 use runtime_sim::kinematics::arm::Joints;
 use runtime_sim::point::{Axis, Point};
@@ -283,6 +291,10 @@ fn a_run_that_misses_its_goal_is_status_3_and_names_part_and_place() {
     assert_eq!(answer["finished"], false);
     let reason = answer["reason"].as_str().expect("a reason");
     assert!(reason.contains("battery (item 0) lies on "), "{reason}");
+    let waits: Vec<&str> =
+        answer["waits"].as_array().expect("a list").iter().filter_map(Value::as_str).collect();
+    assert!(waits.iter().any(|line| line.starts_with("as1 (Filling) waits for gantry: ")), "{waits:#?}");
+    assert!(waits.iter().any(|line| line.starts_with("kitting (Waiting) waits for ")), "{waits:#?}");
 }
 
 #[test]

@@ -151,6 +151,7 @@ impl Machine {
         if wiring.is_commanded() && !(has(Drives::Command) && has(Drives::Verb) && has(Drives::Hold)) {
             return Err("a machine with commands lacks the outputs for them".into());
         }
+        self.check_lanes()?;
         for command in &wiring.commands {
             let action = schema(command.part).and_then(|schema| schema.actions.get(command.action));
             let action = action.ok_or("a command asks for an action that is not there")?;
@@ -170,6 +171,24 @@ impl Machine {
             }
         }
         Ok(())
+    }
+
+    /// A lane that runs by its level and by commands would obey whoever came last.
+    fn check_lanes(&self) -> Result<(), String> {
+        let wiring = &self.wiring;
+        let drives = |part: usize| {
+            let is_driven =
+                |output: &Output| matches!(output.drives, Drives::Level { part: p, .. } if p == part);
+            wiring.outputs.iter().any(is_driven) && wiring.commands.iter().any(|c| c.part == part)
+        };
+        let lanes = self.parts.iter().enumerate();
+        let mut lanes = lanes.filter(|(_, part)| matches!(part.primitive, Primitive::Lane(_)));
+        match lanes.find(|(number, _)| drives(*number)) {
+            Some((_, lane)) => {
+                Err(format!("{} is run by an output and by commands: take one of them", lane.name))
+            }
+            None => Ok(()),
+        }
     }
 
     fn first<T>(&self, take: impl Fn(&Primitive) -> Option<&T>) -> Option<&T> {

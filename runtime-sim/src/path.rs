@@ -44,8 +44,8 @@ pub enum Law {
         from: Point,
         velocity: Point,
     },
-    /// Along an arc of a conveyor.
-    Turns(Conveyed),
+    /// On an arc of a conveyor, or on a conveyor that is turned.
+    Conveyed(Conveyed),
     Hangs(Box<Hanging>),
 }
 
@@ -101,7 +101,7 @@ impl Segment {
         match &self.law {
             Law::Rests(point) => *point,
             Law::Slides { from, velocity } => *from + velocity.scaled((ms - self.begin_ms) / 1000.0),
-            Law::Turns(conveyed) => conveyed.point((ms - self.begin_ms) / 1000.0),
+            Law::Conveyed(conveyed) => conveyed.point((ms - self.begin_ms) / 1000.0),
             Law::Hangs(hanging) => hanging.place(ms / 1000.0),
         }
     }

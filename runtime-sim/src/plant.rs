@@ -294,6 +294,16 @@ impl Plant {
         Some(Conveyed { carried, ..lane.conveyed(item, carrier)? })
     }
 
+    /// Whether two items lie on conveyors of which one leads onto the other.
+    pub(crate) fn are_in_line(&self, items: [usize; 2]) -> bool {
+        let lane = |item: usize| match self.items.all()[item].carrier {
+            Carrier::Lane { machine, part, .. } => Some((machine, part)),
+            _ => None,
+        };
+        let [Some(a), Some(b)] = items.map(lane) else { return false };
+        self.conveying.are_joined([a, b])
+    }
+
     /// How a cylinder of a machine moves what is on it from now on.
     pub(crate) fn stroking(&self, machine: usize, part: usize) -> Option<Stroking> {
         self.machines.get(machine)?.cylinder(part)?.stroking(self.now_ms())

@@ -29,6 +29,8 @@ pub struct Bounds {
 pub struct Covered {
     pub states: usize,
     pub transitions: u64,
+    /// Of these, how many end in a stop for an operator.
+    pub stops: u64,
     /// Scans from the start to the farthest state that has been looked at.
     pub depth: usize,
     /// Bytes of memory.
@@ -101,6 +103,10 @@ pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -
                     if way.events.len() <= 1 && number != next {
                         edges.add(next, number);
                     }
+                }
+                Err(Violation::Stop) => {
+                    edges.lead_out(next);
+                    covered.stops += 1;
                 }
                 Err(violation) => {
                     edges.lead_out(next);

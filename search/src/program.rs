@@ -191,6 +191,8 @@ pub struct Instance {
 pub struct Invariant {
     pub condition: Int,
     pub fault: usize,
+    /// A stop that is meant: somebody has to come.
+    pub asks_operator: bool,
     pub reads: u64,
 }
 

@@ -62,7 +62,10 @@ impl Scan<'_> {
                 let is_due =
                     (touched | self.fired) & bit(instance) != 0 || self.written & invariant.reads != 0;
                 if is_due && !self.holds(&invariant.condition) {
-                    return Err(Violation::Fault { instance, fault: invariant.fault });
+                    return Err(match invariant.asks_operator {
+                        true => Violation::Stop,
+                        false => Violation::Fault { instance, fault: invariant.fault },
+                    });
                 }
             }
         }

@@ -4,6 +4,7 @@ pub mod constructs;
 pub mod coverage;
 pub mod generate;
 pub mod instances;
+pub mod json_schema;
 pub mod lots;
 pub mod machines;
 pub mod many;

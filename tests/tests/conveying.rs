@@ -6,7 +6,7 @@ use autogen_tests::{Texts, is_full_campaign, on_all_processors, scenes};
 use runtime_sim::memory::Memory;
 use runtime_sim::random::Random;
 use runtime_sim::report::Report;
-use runtime_sim::run::{Stepping, run_again};
+use runtime_sim::run::{Seen, Stepping, record, run_again};
 
 /// The report of a run, which is the same however it is stepped; none if the texts are no line.
 fn run(texts: &Texts) -> Option<Result<Report, String>> {
@@ -151,4 +151,78 @@ fn scenes_that_are_built_wrong_are_stepped_right() {
     });
     let wrong: Vec<String> = wrong.into_iter().flatten().collect();
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// A lane on a table that turns while it conveys: a line, or an arc.
+fn turned(arc: f64, moves: &str) -> Texts {
+    let device = format!(
+        "device table {{
+            part rotor = cylinder {{ {moves} extend: 3 s; retract: 2 s; }};
+            part bed = lane {{
+                on: rotor; from: origin * frame(0, 0, 0.7, 0); length: 2.0; width: 0.4; turn: {arc:?}; rise: 0.2; speed: 0.5;
+            }};
+            part entry = source {{ on: bed; inset: 0.3; }};
+            part end = sink {{ of: bed; inset: 0; }};
+            out run: bool = bed.run;
+            out out: bool = rotor.extend;
+        }}
+        automaton Table on table {{
+            initial -> Running {{ run := true; }}
+            state Running {{ when after 3 s -> Turning {{ out := true; }} }}
+            state Turning {{ when after 1 s -> Halting {{ run := false; }} }}
+            state Halting {{ when after 1 s -> Back {{ run := true; }} }}
+            state Back {{ when after 500 ms -> Returning {{ out := false; }} }}
+            state Returning {{ when after 3 s -> Running {{}} }}
+        }}"
+    );
+    Texts {
+        layout: r#"{"robots": [{"name": "table", "type": "table", "pose": [1, 2, 0, 30]}]}"#.into(),
+        specs: vec![device],
+        scenario: Some(
+            r#"{
+                "kinds": [{"name": "box", "height": 0.2, "size": [0.1, 0.1]}],
+                "supply": {"items": ["box", "box", "box"], "every_s": 3},
+                "goal": {"table.end": {"box": 3}}
+            }"#
+            .into(),
+        ),
+        ..Texts::default()
+    }
+}
+
+/// At the start of each scan the recorded paths are where the simulator has the items.
+#[test]
+fn recorded_paths_are_where_the_items_are() {
+    let slides = "slides: point(0.3, 0.1, 0.4);";
+    let turns = "turns: 90; pivot: origin * point(1, 0, 0);";
+    let mut lines = Vec::new();
+    for arc in [0.0, 120.0] {
+        lines.extend([slides, turns].map(|moves| (format!("{arc} {moves}"), turned(arc, moves))));
+    }
+    lines.extend(scenes());
+    for (name, texts) in lines {
+        let outcome = texts.compile();
+        let project = outcome.project.unwrap_or_else(|| panic!("{name}: {:?}", outcome.diagnostics));
+        let mut seen = Vec::new();
+        let mut observe = |scan: &Seen| {
+            let items = scan.plant.items().all();
+            let places: Vec<_> =
+                items.iter().enumerate().map(|(i, item)| (item.carrier, scan.plant.place(i))).collect();
+            seen.push((scan.scan * u64::from(project.plant.scan_ms), places));
+        };
+        let mut executor = Executor::new(&project.system);
+        let (_, paths) = record(&project.plant, &mut executor, Stepping::EveryScan, &mut observe).unwrap();
+        let mut compared = 0;
+        for (ms, places) in seen {
+            for (path, (carrier, place)) in paths.iter().zip(places) {
+                let Some(place) = place else { continue };
+                let at = path.at(ms as f64).find(|segment| segment.carrier == carrier);
+                let at = at.unwrap_or_else(|| panic!("{name}: nothing on {carrier:?} at {ms} ms: {path:?}"));
+                let off = (at.place(ms as f64) - place).length();
+                assert!(off < 1e-8, "{name}: {off} m off at {ms} ms: {at:?}, {place:?}");
+                compared += 1;
+            }
+        }
+        assert!(compared > 1000 || paths.is_empty(), "{name}: {compared} places");
+    }
 }

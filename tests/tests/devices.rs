@@ -44,6 +44,21 @@ fn a_limit_that_the_layout_breaks_is_told() {
 }
 
 #[test]
+fn a_lane_that_two_run_is_told() {
+    let device = "device thing {
+        part belt = lane { from: origin; length: 2.0; width: 0.5; speed: 0.2; };
+        out run: bool = belt.run;
+        in moves: bool = belt.moves;
+        command 1 go() = belt.run();
+    }";
+    let told = told(device, "");
+    assert!(
+        told.iter().any(|(code, text)| *code == "E0711" && text.contains("take one of them")),
+        "{told:?}"
+    );
+}
+
+#[test]
 fn a_constant_for_each_kind_has_enough_elements() {
     let device = "device thing {
         part lamp = lamp { at: pose; colour: red; };

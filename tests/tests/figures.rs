@@ -86,7 +86,6 @@ fn the_tending_cell_takes_the_time_of_its_closed_form() {
     let cycles: Vec<f64> = collected.windows(2).map(|pair| pair[1] - pair[0]).collect();
     assert_eq!(cycles.len(), 39);
     for cycle in &cycles {
-        println!("{cycle}");
         // Each of 24 waits is up to two scans of 10 ms long.
         assert!((TENDED - 0.01..=TENDED + 0.49).contains(cycle), "{cycle} s");
     }
@@ -117,5 +116,28 @@ fn a_mill_that_is_started_with_its_door_open_ends_the_run() {
     texts.specs[0] = texts.specs[0].replace("when door_closed -> Cutting", "when true -> Cutting");
     let report = run(texts, &mut |_: &Seen| {});
     assert!(!report.finished);
-    assert_eq!(report.reason, "interlock of mill: a process was started without what has to be in");
+    assert_eq!(report.reason, "interlock of mill: a process was started without its door in");
+}
+
+/// Twenty modules in a loop with a feed and two exits: nothing is stuck, nothing touches, and items go round that find
+/// no room at their exit.
+#[test]
+fn a_loop_of_twenty_modules_brings_all_items_to_their_exits() {
+    let texts = side_by_side("loop/loop");
+    let project = texts.compile().project.expect("a line without errors");
+    let last = project.plant.machines.iter().position(|machine| machine.name == "c4").expect("a module");
+    let (mut rounds, mut read) = (0, 0);
+    let mut observe = |seen: &Seen| {
+        let log = seen.plant.items().log();
+        for event in &log[read..] {
+            let Event::Item { to, .. } = *event else { continue };
+            let is_back = to.machine().is_some_and(|machine| machine == last);
+            rounds += usize::from(is_back);
+        }
+        read = log.len();
+    };
+    let report = run(texts, &mut observe);
+    assert_eq!(report.reason, "all items collected");
+    assert!(report.collisions.is_empty(), "{:?}", report.collisions);
+    assert!(rounds >= 5, "{rounds} rounds");
 }

@@ -58,7 +58,7 @@ fn campaign(short: usize, full: usize) -> usize {
 fn every_layout_works_with_every_capacity_and_touches_nothing() {
     let mut inputs = Vec::new();
     for layout in LAYOUTS {
-        for capacity in 1..=12 {
+        for capacity in (1..=12).step_by(campaign(4, 1)) {
             inputs.push((layout, capacity));
         }
     }
@@ -78,7 +78,7 @@ fn every_layout_works_with_every_capacity_and_touches_nothing() {
 fn parts_in_another_order_make_no_difference() {
     let mut inputs = Vec::new();
     for layout in LAYOUTS {
-        for seed in 2..campaign(4, 14) {
+        for seed in 2..campaign(3, 14) {
             for capacity in [2, 4, 8] {
                 inputs.push((layout, seed, capacity));
             }
@@ -103,7 +103,7 @@ fn parts_in_another_order_make_no_difference() {
 fn lines_of_the_users_own_make_their_orders() {
     let mut inputs = Vec::new();
     for folder in ["buffer", "rack", "shared_agv"] {
-        for seed in 0..campaign(4, 100) as u64 {
+        for seed in 0..campaign(2, 100) as u64 {
             inputs.push((folder, seed));
         }
     }
@@ -142,7 +142,7 @@ fn one_order_and_five_orders() {
 
 #[test]
 fn no_controller_depends_on_the_order_of_the_steps() {
-    let seeds: Vec<u64> = (0..campaign(12, 100) as u64).collect();
+    let seeds: Vec<u64> = (0..campaign(4, 100) as u64).collect();
     for layout in LAYOUTS {
         assert_all_made(
             &seeds,
@@ -160,7 +160,7 @@ fn no_controller_depends_on_the_order_of_the_steps() {
 #[test]
 fn devices_may_answer_late() {
     let mut inputs = vec![IoDelay::Fixed(0), IoDelay::Fixed(1), IoDelay::Fixed(5)];
-    inputs.extend((0..campaign(3, 20) as u64).map(|seed| IoDelay::Random { max: 5, seed }));
+    inputs.extend((0..campaign(1, 20) as u64).map(|seed| IoDelay::Random { max: 5, seed }));
     for layout in LAYOUTS {
         assert_all_made(
             &inputs,
@@ -177,7 +177,7 @@ fn devices_may_answer_late() {
 #[test]
 fn the_line_may_be_stopped_at_any_moment() {
     let mut random = Random::new(7);
-    let scans: Vec<u64> = (0..campaign(12, 100)).map(|_| u64::from(random.up_to(59_000)) + 3).collect();
+    let scans: Vec<u64> = (0..campaign(6, 100)).map(|_| u64::from(random.up_to(59_000)) + 3).collect();
     let project = ariac("default").project();
     on_all_processors(&scans, |scan| {
         let mut plant = project.plant.clone();
@@ -201,35 +201,38 @@ fn the_line_may_be_stopped_at_any_moment() {
     println!("{} stops, nothing changed and nothing was lost", scans.len());
 }
 
+/// A part falls at some moment of its transport: all orders are made, or the line stops and says what somebody has to
+/// do. Nothing is touched, and no order is left that could not be made any more.
 #[test]
 fn a_part_that_slips_is_made_up_for() {
-    let mut inputs = Vec::new();
-    for robot in ["kitting", "gantry"] {
-        for pick in [1, 7, 32] {
-            for after_s in [0.3, 2.0, 4.0, 8.0] {
-                inputs.push((robot, pick, after_s));
-            }
-        }
-    }
-    let reports = on_all_processors(&inputs, |(robot, pick, after_s)| {
+    let mut random = Random::new(3);
+    let slips: Vec<_> = (0..campaign(16, 500))
+        .map(|_| {
+            let (robot, pick) = (["kitting", "gantry"][random.up_to(1) as usize], 1 + random.up_to(30));
+            (robot, u64::from(pick), f64::from(random.up_to(1000)) / 100.0)
+        })
+        .collect();
+    let reports = on_all_processors(&slips, |(robot, pick, after_s)| {
         let mut project = ariac("default").project();
         let machine =
             project.plant.machines.iter().position(|m| m.name == *robot).expect("a robot of the layout");
-        project.plant.scenario.slips = vec![Slip { machine, pick: *pick, after_s: *after_s }];
+        project.plant.scenario.slips = vec![Slip { machine, pick: *pick as _, after_s: *after_s }];
         execute(&project)
     });
-    for (input, report) in inputs.iter().zip(reports) {
-        let names_part_and_place =
-            ["battery", "sensor", "regulator", "pump"].iter().any(|k| report.reason.contains(k));
-        println!("{input:?}: {}", report.reason);
-        assert!(
-            report.finished || names_part_and_place,
-            "{input:?}: {} of {} orders, {}",
-            report.orders_done,
-            report.orders,
-            report.reason
-        );
+    let mut stopped = 0;
+    let mut wrong = Vec::new();
+    for (slip, report) in slips.iter().zip(&reports) {
+        let is_told = report.fault.is_some();
+        stopped += usize::from(is_told);
+        if !report.finished && !is_told {
+            wrong.push(format!(
+                "{slip:?}: {} of {} orders, {}",
+                report.orders_done, report.orders, report.reason
+            ));
+        }
     }
+    println!("{} slips, {stopped} of them with a stop", slips.len());
+    assert!(wrong.is_empty(), "{} of {}:\n{}", wrong.len(), slips.len(), wrong.join("\n"));
 }
 
 /// Tools lower than this over a tray and within its rectangle are at work on it, m.

@@ -80,8 +80,10 @@ fn executed(system: &System, scans: usize, seed: u64) -> Recording {
 /// Each by itself: in the line of all of them some robot faults in nearly every scan, and no time passes.
 #[test]
 fn each_fixture_runs_as_on_the_executor() {
-    let systems: Vec<_> =
-        fixtures().into_iter().map(|fixture| (instantiate(&[fixture.clone()]), fixture.0)).collect();
+    let systems: Vec<_> = fixtures()
+        .into_iter()
+        .map(|fixture| (instantiate(std::slice::from_ref(&fixture)), fixture.0))
+        .collect();
     let parts: Vec<_> = systems.iter().map(|((system, sources), _)| (system, sources)).collect();
     let workspace = many::workspace("each_fixture", &parts);
     workspace.cargo(&["build", "--quiet", "-p", "replays"]);

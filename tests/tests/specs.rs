@@ -7,21 +7,25 @@
 use autogen::diagnostic::Diagnostic;
 use autogen::library;
 use autogen::source::Sources;
-use autogen::{check, spec};
-use autogen_tests::{devices, plain, root};
+use autogen::{check, lint, spec};
+use autogen_tests::{devices, examples, own_line, plain, prototype, root};
 use std::collections::BTreeSet;
 
-/// What is wrong with a file: of the check only if the syntax is right, as the compiler does it.
-fn diagnostics(sources: &mut Sources, name: &str, text: &str) -> Vec<Diagnostic> {
+/// What is wrong with a file, of the check only if the syntax is right, as the compiler does it; or its warnings.
+fn read(sources: &mut Sources, name: &str, text: &str) -> Result<Vec<Diagnostic>, Vec<Diagnostic>> {
     let file = sources.add(name, text);
     let (tree, found) = spec::parser::parse(file, text);
     let mut trees = devices(sources);
     trees.push((file, tree));
     let checked = check::check(sources, &trees, &["part".to_string()]);
     if !found.is_empty() {
-        return found;
+        return Err(found);
     }
-    checked.err().unwrap_or_default()
+    Ok(lint::warnings(checked?.model(), &trees))
+}
+
+fn diagnostics(sources: &mut Sources, name: &str, text: &str) -> Vec<Diagnostic> {
+    read(sources, name, text).err().unwrap_or_default()
 }
 
 /// Line, code, a part of the message and a part of the help.
@@ -43,15 +47,56 @@ const ELSEWHERE: [&str; 2] = ["E0211", "E0711"];
 
 #[test]
 fn diagnostics_stand_where_they_are_expected() {
+    let (cases, codes) = compare("spec", diagnostics);
+    assert!(cases >= 60, "{cases} cases");
+    expected_of(&["E02", "E03", "E07"], &codes);
+}
+
+#[test]
+fn warnings_stand_where_they_are_expected() {
+    let (_, codes) =
+        compare("warnings", |sources, name, text| read(sources, name, text).unwrap_or_else(|errors| errors));
+    expected_of(&["W"], &codes);
+}
+
+/// The library's types, and all that is shown how to write: nothing in them is hardly meant.
+#[test]
+fn the_library_and_the_examples_have_no_warnings() {
+    let mut all = examples();
+    all.extend(["buffer", "rack", "shared_agv"].map(|folder| (folder.into(), own_line(folder))));
+    for (name, texts) in all.into_iter().filter(|(name, _)| name != "prototype") {
+        let outcome = texts.compile();
+        assert_eq!(outcome.warnings, [], "{name}: {}", plain(&outcome.sources, &outcome.warnings));
+    }
+    let prototype = prototype("default").compile();
+    let unhandled = prototype.warnings.iter().filter(|warning| warning.code == "W0106").count();
+    assert_eq!(unhandled, 4, "{}", plain(&prototype.sources, &prototype.warnings));
+}
+
+/// There is a fixture for each code that begins so.
+fn expected_of(begins: &[&str], codes: &BTreeSet<String>) {
+    let text = autogen_tests::text("docs/errors.md");
+    let headings = text.lines().filter_map(|l| l.strip_prefix("## ")).map(str::trim);
+    let meant = headings.filter(|code| begins.iter().any(|begin| code.starts_with(begin)));
+    let missing: Vec<&str> = meant.filter(|c| !codes.contains(*c) && !ELSEWHERE.contains(c)).collect();
+    assert!(missing.is_empty(), "no fixture for {missing:?}");
+}
+
+/// What is told of the fixtures of a folder is what they expect: how many, and their codes.
+fn compare(
+    folder: &str,
+    told: impl Fn(&mut Sources, &str, &str) -> Vec<Diagnostic>,
+) -> (usize, BTreeSet<String>) {
     let mut wrong = Vec::new();
     let mut codes = BTreeSet::new();
     let mut cases = 0;
-    for entry in std::fs::read_dir(root().join("tests/fixtures/spec")).expect("the folder of fixtures") {
+    for entry in
+        std::fs::read_dir(root().join("tests/fixtures").join(folder)).expect("the folder of fixtures")
+    {
         let path = entry.expect("an entry").path();
         let text = std::fs::read_to_string(&path).expect("a text");
         let mut sources = Sources::default();
-        let mut found =
-            diagnostics(&mut sources, &path.file_name().expect("a name").to_string_lossy(), &text);
+        let mut found = told(&mut sources, &path.file_name().expect("a name").to_string_lossy(), &text);
         for (line, code, part, help) in expectations(&text) {
             cases += 1;
             codes.insert(code.clone());
@@ -77,12 +122,7 @@ fn diagnostics_stand_where_they_are_expected() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
-    assert!(cases >= 60, "{cases} cases");
-    let text = autogen_tests::text("docs/errors.md");
-    let headings = text.lines().filter_map(|l| l.strip_prefix("## ")).map(str::trim);
-    let language = headings.filter(|c| ["E02", "E03", "E07"].iter().any(|begin| c.starts_with(begin)));
-    let missing: Vec<&str> = language.filter(|c| !codes.contains(*c) && !ELSEWHERE.contains(c)).collect();
-    assert!(missing.is_empty(), "no fixture for {missing:?}");
+    (cases, codes)
 }
 
 /// Parses and checks; that it ends is what is tested.

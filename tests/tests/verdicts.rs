@@ -140,7 +140,7 @@ const PLANNED: [f64; 3] = [6.0, 7.0, 8.0];
 
 #[test]
 fn no_feasible_layout_fails_for_reach() {
-    let count = if std::env::var("AUTOGEN_CAMPAIGN").is_ok_and(|v| v == "full") { 1000 } else { 24 };
+    let count = if std::env::var("AUTOGEN_CAMPAIGN").is_ok_and(|v| v == "full") { 1000 } else { 8 };
     let seeds: Vec<u64> = (0..count).collect();
     let results = on_all_processors(&seeds, |seed| {
         let outcome = Texts::of_layout(drawn(*seed)).set("agv.capacity=12").compile();

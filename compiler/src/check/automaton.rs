@@ -59,15 +59,18 @@ pub(super) fn check(checker: &mut Checker, tree: &ast::Automaton) {
     }
     state::check(&mut context, tree);
     for invariant in &tree.invariants {
-        if let Some(condition) = context.typed(&invariant.value, Scalar::Bool) {
-            let words: Vec<_> = context.checker.sources.text(invariant.span).split_whitespace().collect();
+        if let Some(condition) = context.typed(&invariant.condition, Scalar::Bool) {
+            let place = invariant.condition.span;
+            let words: Vec<_> = context.checker.sources.text(place).split_whitespace().collect();
             let text = plain::line(&words.join(" "));
-            let fault = context.fault(ir::FaultKind::InvariantFails, invariant.span, format!("not: {text}"));
+            let told = invariant.text.as_ref().map_or(format!("not: {text}"), |told| plain::line(told));
+            let fault = context.fault(ir::FaultKind::InvariantFails, place, told);
             context.automaton.invariants.push(ir::Invariant {
-                place: invariant.span,
+                place,
                 text,
                 condition,
                 fault,
+                asks_operator: invariant.text.is_some(),
             });
         }
     }

@@ -17,7 +17,7 @@ pub use used::used;
 
 use crate::device::{self, Device};
 use crate::diagnostic::{Diagnostic, collect, suggestion};
-use crate::ir;
+use crate::ir::{self, Rule};
 use crate::source::{FileId, Sources, Span};
 use crate::spec::ast;
 use std::collections::{BTreeMap, BTreeSet};
@@ -53,7 +53,6 @@ pub fn check(
         diagnostics,
         declarations,
         model: empty_model(kinds),
-        rules: Vec::new(),
         broken: BTreeSet::new(),
         devices: Vec::new(),
     };
@@ -158,26 +157,11 @@ fn replace(declarations: &mut Declarations, name: &str) {
     declarations.automata.retain(|a| a.name.value != name);
 }
 
-/// Who may write a cell, resolved.
-#[derive(Clone, Debug)]
-enum Rule {
-    Owner,
-    Handshake,
-    Lock,
-    Counter,
-    /// Who may write, for each ordinal of the cell's enumeration.
-    Token(Vec<ast::Side>),
-    /// As cell number so-and-so of the same interface.
-    With(usize),
-}
-
 struct Checker<'a> {
     sources: &'a Sources,
     diagnostics: Vec<Diagnostic>,
     declarations: Declarations,
     model: ir::Model,
-    /// For each interface the rules of its cells.
-    rules: Vec<Vec<Rule>>,
     /// Members of interfaces whose declarations have errors; something stands for them in the model.
     broken: BTreeSet<(ir::InterfaceId, String)>,
     /// Devices by name, in the order of their declarations; none for one with errors.
@@ -283,12 +267,15 @@ impl Checker<'_> {
                     let name = tree.name.value.clone();
                     self.broken.insert((ir::InterfaceId(index), name.clone()));
                     let ty = ir::Type { scalar: ir::Scalar::Bool, extent: ir::Extent::One };
-                    ir::Cell { name, doc: Vec::new(), ty, initial: ir::Value::Bool(false) }
+                    let initial = ir::Value::Bool(false);
+                    ir::Cell { name, doc: Vec::new(), ty, initial, rule: Rule::Owner }
                 });
                 self.model.interfaces[index].cells.push(cell);
             }
-            let rules = tree.cells.iter().map(|cell| self.rule(cell, tree, index)).collect();
-            self.rules.push(rules);
+            for (number, cell) in tree.cells.iter().enumerate() {
+                let rule = self.rule(cell, tree, index);
+                self.model.interfaces[index].cells[number].rule = rule;
+            }
         }
     }
 
@@ -313,7 +300,8 @@ impl Checker<'_> {
     fn cell(&mut self, tree: &ast::Cell) -> Option<ir::Cell> {
         let ty = self.resolve_type(&tree.ty)?;
         let initial = self.initial(ty, tree.initial.as_ref())?;
-        Some(ir::Cell { name: tree.name.value.clone(), doc: tree.doc.clone(), ty, initial })
+        let rule = Rule::Owner;
+        Some(ir::Cell { name: tree.name.value.clone(), doc: tree.doc.clone(), ty, initial, rule })
     }
 
     fn rule(&mut self, cell: &ast::Cell, interface: &ast::Interface, index: usize) -> Rule {

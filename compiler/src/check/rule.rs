@@ -1,10 +1,9 @@
 //! Rules of writing: what a write of a shared cell may do, as far as it can be decided.
 
-use super::Rule;
 use super::context::Context;
 use super::facts::Interval;
 use crate::diagnostic::Diagnostic;
-use crate::ir::{self, Expr, ExprKind, Place, Value};
+use crate::ir::{self, Expr, ExprKind, Place, Rule, Value};
 use crate::source::Span;
 use crate::spec::ast::{Assign, Side};
 
@@ -12,7 +11,7 @@ impl Context<'_, '_> {
     /// `None` has been reported.
     pub(super) fn check_rule(&mut self, place: &Place, how: Assign, value: &Expr, span: Span) -> Option<()> {
         let Place::Cell { interface, cell, of, .. } = place else { return Some(()) };
-        let rule = self.checker.rules[interface.0][*cell].clone();
+        let rule = self.checker.model.interfaces[interface.0].cells[*cell].rule.clone();
         let side = if of.is_none() { Side::Owner } else { Side::Others };
         let name = self.checker.model.interfaces[interface.0].cells[*cell].name.clone();
         let wrong = |message: String, help: &str| Some(Diagnostic::new("E0333", span, message).help(help));
@@ -55,7 +54,7 @@ impl Context<'_, '_> {
                     *cell = token;
                 }
                 let known = self.known(&of_token);
-                match self.checker.rules[interface.0][token].clone() {
+                match self.checker.model.interfaces[interface.0].cells[token].rule.clone() {
                     Rule::Token(sides) => self.token_holder(&sides, known, side, &name, span, &of_token),
                     _ => None,
                 }

@@ -74,7 +74,7 @@ fn of_text(automaton: &ast::Automaton, names: &mut Vec<String>) {
             }
         }
     }
-    automaton.invariants.iter().for_each(|i| of_expr(&i.value, names));
+    automaton.invariants.iter().for_each(|i| of_expr(&i.condition, names));
     automaton.initial.iter().for_each(|i| of_updates(&i.updates, names));
     automaton.any.iter().for_each(|a| of_transitions(&a.transitions, names));
     for state in &automaton.states {

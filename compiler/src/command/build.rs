@@ -1,8 +1,8 @@
 //! `autogen build`.
 
-use super::options::{Addresses, BuildOptions, Format};
+use super::options::{Addresses, BuildCommandOptions, BuildOptions, Format};
 use super::output::{self, Output, Refusal};
-use super::{load, print, read};
+use super::{differences, io_error, load, print, read};
 use crate::Status;
 use autogen::backend::{Files, dot, plan, rust, sdf, st};
 use autogen::diagnostic::Diagnostic;
@@ -29,7 +29,11 @@ pub struct Built {
     pub folder: PathBuf,
 }
 
-pub fn run(options: &BuildOptions) -> Status {
+pub fn run(options: &BuildCommandOptions) -> Status {
+    let BuildCommandOptions { build: options, check } = options;
+    if *check {
+        return build(options).map_or_else(|status| status, |built| differences::run(options, &built));
+    }
     let done = build(options).and_then(|built| {
         let output = open(options, &built).map_err(|refusal| refused(options, &refusal))?;
         write(options, &built, &output).map_err(|refusal| refused(options, &refusal))?;
@@ -61,7 +65,7 @@ pub fn build(options: &BuildOptions) -> Result<Built, Status> {
     let mut input = load::load(&options.input).map_err(failed)?;
     let table = options.io.as_ref().map(|path| load::add(&mut input.sources, path));
     let table = table.transpose().map_err(failed)?;
-    let Outcome { sources, diagnostics, verdict, project } = compile(input);
+    let Outcome { sources, diagnostics, verdict, project, .. } = compile(input);
     let wrong = |diagnostics: &[Diagnostic]| {
         match options.input.format {
             Format::Json => {
@@ -90,18 +94,20 @@ pub fn build(options: &BuildOptions) -> Result<Built, Status> {
     Ok(Built { project, sources, files, about, folder })
 }
 
-/// The output folder, once no other process writes to it.
-pub fn open(options: &BuildOptions, built: &Built) -> Result<Output, Refusal> {
-    // A folder that nobody has named may have come with the layout, and lead anywhere.
+/// A folder that nobody has named may have come with the layout: it must not lead anywhere else.
+pub fn is_where_it_seems(options: &BuildOptions, built: &Built) -> Result<(), Refusal> {
     let unnamed = match options.output {
         Some(_) => None,
         None => Some([Path::new("out"), &built.folder]),
     };
     let is_link = |path: &&Path| path.symlink_metadata().is_ok_and(|there| there.is_symlink());
     let links: Vec<PathBuf> = unnamed.into_iter().flatten().filter(is_link).map(PathBuf::from).collect();
-    if !links.is_empty() {
-        return Err(Refusal::InTheWay(links));
-    }
+    if links.is_empty() { Ok(()) } else { Err(Refusal::InTheWay(links)) }
+}
+
+/// The output folder, once no other process writes to it.
+pub fn open(options: &BuildOptions, built: &Built) -> Result<Output, Refusal> {
+    is_where_it_seems(options, built)?;
     let says = options.input.format == Format::Text && !options.input.quiet;
     Output::open(&built.folder, read::files(), || {
         if says {
@@ -240,7 +246,7 @@ pub fn refused(options: &BuildOptions, refusal: &Refusal) -> Status {
             "not written: these files were read, and would be written over:\n  {}\nChoose another folder with -o.",
             list(paths)
         ),
-        Refusal::Io(path, error) => format!("{}: {error}", path.display()),
+        Refusal::Io(path, error) => format!("{}: {}", path.display(), io_error::text(error)),
     };
     match options.input.format {
         Format::Json => say!("{}", json!({ "finished": false, "reason": text, "diagnostics": [] })),

@@ -1,11 +1,12 @@
 //! `autogen check`.
 
-use super::options::{Format, InputOptions};
+use super::options::{CheckOptions, Denied, Format, InputOptions};
 use super::{load, print};
 use crate::Status;
 use autogen::lower::{Outcome, compile};
 
-pub fn run(options: &InputOptions) -> Status {
+pub fn run(options: &CheckOptions) -> Status {
+    let CheckOptions { input: options, deny } = options;
     let input = match load::load(options) {
         Ok(input) => input,
         Err(failure) => return print::failure(options, &failure),
@@ -13,22 +14,24 @@ pub fn run(options: &InputOptions) -> Status {
     let outcome = compile(input);
     show(options, &outcome);
     match outcome.project {
-        Some(_) => Status::Done,
-        None => Status::WrongInput,
+        Some(_) if outcome.warnings.is_empty() || *deny != Some(Denied::Warnings) => Status::Done,
+        Some(_) | None => Status::WrongInput,
     }
 }
 
 fn show(options: &InputOptions, outcome: &Outcome) {
-    let Outcome { sources, diagnostics, verdict, project } = outcome;
+    let Outcome { sources, diagnostics, warnings, verdict, project } = outcome;
+    let warnings = warnings.iter().filter(|_| !options.quiet);
+    let found: Vec<_> = diagnostics.iter().chain(warnings).cloned().collect();
     match options.format {
-        Format::Json => say!("{}", print::verdict_json(verdict.as_ref(), sources, diagnostics)),
+        Format::Json => say!("{}", print::verdict_json(verdict.as_ref(), sources, &found)),
         Format::Text => {
             // What the geometry says is of use only where nothing else is wrong.
             let is_geometry = diagnostics.iter().all(|d| d.code.starts_with("E04"));
             if let Some(verdict) = verdict.as_ref().filter(|_| !options.quiet && is_geometry) {
                 say_part!("{}", print::verdict(verdict));
             }
-            print::diagnostics(sources, diagnostics);
+            print::diagnostics(sources, &found);
             if !options.quiet {
                 say!(
                     "{}",

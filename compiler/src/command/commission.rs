@@ -11,6 +11,7 @@ use super::pending::{Content, Pending};
 use super::progress::Progress;
 use super::read;
 use super::trajectories::Request;
+use super::why;
 use crate::Status;
 use autogen::backend::rust::parameters_text;
 use runtime_sim::line::IoDelay;
@@ -78,9 +79,12 @@ fn commission(options: &CommissionOptions) -> Result<Status, End> {
     build::write(&options.build, &built, &output).map_err(refused)?;
     output.may_write_results(overwrite).map_err(refused)?;
 
-    let mut report = report(options, &built, delay, files)?;
+    let mut report = report(options, &built, delay.clone(), files)?;
     fault::name(&mut report, &built.project.system, &built.sources);
     contact::name_reasons(&mut report, &built.project.may_touch);
+    if let Some(waits) = why::at_the_end(&built.project, delay, &report)? {
+        report["waits"] = json!(waits);
+    }
     report["layout"] = json!(built.project.name);
     report["settings"] = json!(options.build.input.settings);
     report["order_seed"] = json!(options.build.input.order);
@@ -258,5 +262,9 @@ fn text(report: &Value, wall: f64, output: &Output) -> String {
         out += &format!("items              {} ({})\n", items.len(), places.join(", "));
     }
     out += &format!("written to         {}\n", output.folder().display());
+    if let Some(waits) = report["waits"].as_array() {
+        out += "\nwho waits for whom at the end (more with `autogen why`)\n";
+        waits.iter().filter_map(Value::as_str).for_each(|line| out += &format!("  {line}\n"));
+    }
     out
 }

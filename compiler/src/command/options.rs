@@ -1,5 +1,12 @@
 //! The options of the command line.
 
+mod tools;
+
+pub use tools::{
+    CompareOptions, CompletionsOptions, FmtOptions, NewOptions, SchemaOf, SchemaOptions, TestEngine,
+    TestOptions, WhyOptions,
+};
+
 use super::output::Overwrite;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::num::{NonZeroU32, NonZeroUsize};
@@ -13,15 +20,19 @@ pub struct Cli {
     pub command: Command,
 }
 
-const STATUS: &str = "Exit status: 0 done; 1 the input has errors; 2 wrong command line; \
-3 the run did not reach its goal, or a violation was found; 4 undecided: a limit came first; 70 a bug in autogen.";
+const STATUS: &str = "Exit status: 0 done; 1 the input has errors, or a --check found a difference; \
+2 wrong command line; \
+3 the run did not reach its goal, compare found a difference, a test failed, or verify found a violation; \
+4 undecided: a limit of verify came first; 70 a bug in autogen.";
 
 #[derive(Debug, Subcommand)]
 pub enum Command {
+    /// Write a small line to begin with, with a type of its own, a scenario and tests
+    New(NewOptions),
     /// Read everything, check specifications and connectivity, print the verdict
-    Check(InputOptions),
+    Check(CheckOptions),
     /// Check, then write the controllers and what belongs to them
-    Build(BuildOptions),
+    Build(BuildCommandOptions),
     /// Build, link the controllers with the simulator, run the scenario
     Commission(CommissionOptions),
     /// Run every layout with every combination of values, and print a table
@@ -35,6 +46,21 @@ pub enum Command {
     Graph(GraphOptions),
     /// Print the long text of a diagnostic
     Explain(ExplainOptions),
+    /// Say what each machine waits for at a time of the run, and who waits for whom
+    Why(WhyOptions),
+    /// Compare two results, or the runs of two layouts: what differs, and where first
+    #[command(after_help = COMPARE_STATUS)]
+    Compare(CompareOptions),
+    /// Run the tests that stand beside specifications
+    #[command(after_help = TEST_STATUS)]
+    Test(TestOptions),
+    /// Format files of automata
+    #[command(after_help = FMT_STATUS)]
+    Fmt(FmtOptions),
+    /// Print the JSON Schema of layouts or scenarios, for editors
+    Schema(SchemaOptions),
+    /// Print the completions of the command line for a shell
+    Completions(CompletionsOptions),
 }
 
 #[derive(Args, Debug)]
@@ -58,6 +84,20 @@ pub struct InputOptions {
     /// Print errors only
     #[arg(short, long)]
     pub quiet: bool,
+}
+
+#[derive(Args, Debug)]
+pub struct CheckOptions {
+    #[command(flatten)]
+    pub input: InputOptions,
+    /// What is to end with exit status 1, as errors do
+    #[arg(long, value_enum, value_name = "WHAT")]
+    pub deny: Option<Denied>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Denied {
+    Warnings,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -95,6 +135,15 @@ pub struct BuildOptions {
     /// Overwrite files that autogen did not write or that were changed since
     #[arg(long)]
     pub force: bool,
+}
+
+#[derive(Args, Debug)]
+pub struct BuildCommandOptions {
+    #[command(flatten)]
+    pub build: BuildOptions,
+    /// Write nothing; say which files of the folder differ from what would be written, and end with 1 if any does
+    #[arg(long, conflicts_with = "force")]
+    pub check: bool,
 }
 
 impl BuildOptions {
@@ -209,6 +258,15 @@ pub struct MergeOptions {
     #[command(flatten)]
     pub table: TableOptions,
 }
+
+const COMPARE_STATUS: &str =
+    "Exit status: 0 the same; 1 the input has errors; 2 wrong command line; 3 different.";
+
+const TEST_STATUS: &str = "Exit status: 0 all tests passed; 1 a test, or a line that it names, has errors; \
+2 wrong command line; 3 a test failed.";
+
+const FMT_STATUS: &str = "Exit status: 0 done, or all are formatted; 1 a file has errors, and none was changed, \
+or `--check` found one that is not formatted; 2 wrong command line.";
 
 const SWEEP_STATUS: &str = "A point that is refused, faults or runs out of time is a row with its reason.
 

@@ -2,8 +2,10 @@
 //! is something else.
 
 use super::interrupt::{self, Temporary};
+use super::io_error;
 use super::lock;
 use super::output::Overwrite;
+use super::test::junit;
 use autogen::backend::paths::MARK;
 use runtime_sim::path::{FORMAT, HEAD};
 use std::fs::{self, File};
@@ -19,6 +21,7 @@ pub enum Content {
     PathSegments,
     PathDrawing,
     Scenario,
+    JUnit,
 }
 
 impl Content {
@@ -30,6 +33,7 @@ impl Content {
             Content::PathSegments => "list of segments",
             Content::PathDrawing => "drawing of paths",
             Content::Scenario => "scenario",
+            Content::JUnit => "list of test results",
         }
     }
 
@@ -49,6 +53,7 @@ impl Content {
             // As `verify` writes it.
             Content::Scenario => bytes.starts_with(b"{\n  \"kinds\": ["),
             Content::PathDrawing => String::from_utf8_lossy(bytes).contains(MARK),
+            Content::JUnit => bytes.starts_with(junit::HEAD.as_bytes()),
         }
     }
 }
@@ -73,7 +78,7 @@ pub struct Pending {
 impl Pending {
     /// An error says what is in the way.
     pub fn new(path: &Path, content: Content, overwrite: Overwrite) -> Result<Self, String> {
-        let failed = |e: io::Error| format!("{}: {e}", path.display());
+        let failed = |e: io::Error| format!("{}: {}", path.display(), io_error::text(&e));
         let name = path.file_name().ok_or_else(|| format!("{}: this is no file", path.display()))?;
         if path.metadata().is_ok_and(|there| !there.is_file()) {
             return Err(format!("{}: this is no file", path.display()));
@@ -103,13 +108,15 @@ impl Pending {
     }
 
     pub fn write(&self, text: &str) -> Result<(), String> {
-        (&self.file).write_all(text.as_bytes()).map_err(|e| format!("{}: {e}", self.path.display()))
+        (&self.file)
+            .write_all(text.as_bytes())
+            .map_err(|e| format!("{}: {}", self.path.display(), io_error::text(&e)))
     }
 
     /// What was written is whole.
     pub fn keep(self) -> Result<(), String> {
         let kept = self.file.sync_all().and_then(|()| fs::rename(self.partial.path(), &self.path));
-        kept.map_err(|e| format!("{}: {e}", self.path.display()))
+        kept.map_err(|e| format!("{}: {}", self.path.display(), io_error::text(&e)))
     }
 }
 
@@ -171,6 +178,7 @@ mod tests {
             (Content::PathTable, HEAD),
             (Content::PathSegments, &format!("{{\"format\":\"{FORMAT}\"}}")),
             (Content::PathDrawing, &format!("<svg>\n{MARK}: -->\n</svg>")),
+            (Content::JUnit, &format!("{}>\n</testsuites>\n", junit::HEAD)),
         ];
         for (content, text) in texts {
             fs::write(&path, "{}").unwrap();

@@ -51,10 +51,13 @@ pub fn diagnostics(sources: &Sources, found: &[Diagnostic]) {
     if shown.len() < found.len() {
         complain!("and {} more, with `--format json`", found.len() - shown.len());
     }
-    match found.len() {
-        0 => {}
-        1 => complain!("1 error"),
-        n => complain!("{n} errors"),
+    let warnings = found.iter().filter(|found| found.is_warning()).count();
+    for (count, what) in [(found.len() - warnings, "error"), (warnings, "warning")] {
+        match count {
+            0 => {}
+            1 => complain!("1 {what}"),
+            n => complain!("{n} {what}s"),
+        }
     }
 }
 
@@ -64,7 +67,7 @@ pub fn diagnostics_json(sources: &Sources, found: &[Diagnostic]) -> Value {
         .map(|d| {
             let (line, column) = sources.position(d.place);
             json!({
-                "code": d.code, "severity": "error", "message": d.message, "file": sources.file(d.place.file).name,
+                "code": d.code, "severity": if d.is_warning() { "warning" } else { "error" }, "message": d.message, "file": sources.file(d.place.file).name,
                 "line": line, "column": column, "help": d.help, "notes": d.notes,
             })
         })
@@ -99,11 +102,35 @@ pub fn failure_in(format: Format, failure: &Failure) -> Status {
     }
 }
 
+/// What a command is refused for that needs a line without errors.
+pub fn refused(options: &InputOptions, sources: &Sources, found: &[Diagnostic]) -> Status {
+    match options.format {
+        Format::Text => diagnostics(sources, found),
+        Format::Json => {
+            let reason = "the input has errors";
+            say!(
+                "{}",
+                json!({ "finished": false, "reason": reason, "diagnostics": diagnostics_json(sources, found) })
+            );
+        }
+    }
+    Status::WrongInput
+}
+
+/// What is wrong with the command line.
+pub fn unusable(options: &InputOptions, why: &str) -> Status {
+    match options.format {
+        Format::Text => complain!("autogen: {why}"),
+        Format::Json => say!("{}", json!({ "finished": false, "reason": why, "diagnostics": [] })),
+    }
+    Status::WrongCommand
+}
+
 pub fn verdict_json(verdict: Option<&Verdict>, sources: &Sources, found: &[Diagnostic]) -> Value {
     let empty = Verdict::default();
     let v = verdict.unwrap_or(&empty);
     json!({
-        "feasible": v.feasible && found.is_empty(),
+        "feasible": v.feasible && found.iter().all(Diagnostic::is_warning),
         "robots": v.robots,
         "edges": v.edges.iter().map(|(a, b, m)| json!([a, b, m])).collect::<Vec<_>>(),
         "sources": v.sources,

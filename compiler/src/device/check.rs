@@ -87,7 +87,8 @@ impl Checker<'_> {
         for parameter in &tree.parameters {
             if let Some(form) = self.form(parameter) {
                 let default = self.default(parameter, &form);
-                self.parameters.push(Parameter { name: parameter.name.value.clone(), form, default });
+                let (name, meaning) = (parameter.name.value.clone(), parameter.doc.join(" "));
+                self.parameters.push(Parameter { name, meaning, form, default });
             }
         }
     }

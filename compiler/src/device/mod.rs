@@ -45,6 +45,7 @@ pub struct Device {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameter {
     pub name: String,
+    pub meaning: String,
     pub form: Form,
     /// For machines whose object has no such key.
     pub default: Option<Value>,

@@ -50,8 +50,9 @@ fn rendered(sources: &Sources, diagnostic: &Diagnostic, renderer: &Renderer) -> 
             false => shown.extend(own.into_iter().map(|place| vec![place])),
         }
     }
+    let level = if diagnostic.is_warning() { Level::WARNING } else { Level::ERROR };
     let mut group =
-        Group::with_title(Level::ERROR.primary_title(plain::lines(&diagnostic.message)).id(diagnostic.code));
+        Group::with_title(level.primary_title(plain::lines(&diagnostic.message)).id(diagnostic.code));
     for places in &shown {
         let lines = lines_of(sources, places);
         let file = sources.file(places[0].1.file);

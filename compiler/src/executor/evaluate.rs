@@ -45,8 +45,8 @@ impl Executor<'_> {
                 Value::Int(position.map_or(0, |p| self.system.instances[robot].rows[p]) as i32)
             }
             ExprKind::After(time) => Value::Bool(self.robots[robot].elapsed >= self.int(robot, time)),
-            ExprKind::Done => Value::Bool(self.answered(robot) && self.port(robot, "error") == 0),
-            ExprKind::Failed => Value::Bool(self.answered(robot) && self.port(robot, "error") != 0),
+            ExprKind::Done => Value::Bool(self.answered(robot) && self.port_of(robot, "error") == 0),
+            ExprKind::Failed => Value::Bool(self.answered(robot) && self.port_of(robot, "error") != 0),
             ExprKind::Not(inner) => Value::Bool(!self.holds(robot, inner)),
             ExprKind::Negate(inner) => match self.value(robot, inner) {
                 Value::Int(i) => Value::Int(-i),
@@ -80,23 +80,26 @@ impl Executor<'_> {
                 Value::Real(dx * dx + dy * dy + dz * dz)
             }
             ExprKind::Exists { variable, domain, body } => Value::Bool(
-                self.domain(robot, domain)
+                self.candidates(robot, domain)
+                    .into_iter()
                     .any(|v| self.bound(robot, *variable, v, body) == Value::Bool(true)),
             ),
             ExprKind::Forall { variable, domain, body } => Value::Bool(
-                self.domain(robot, domain)
+                self.candidates(robot, domain)
+                    .into_iter()
                     .all(|v| self.bound(robot, *variable, v, body) == Value::Bool(true)),
             ),
             ExprKind::Count { variable, domain, body } => {
                 let found = self
-                    .domain(robot, domain)
+                    .candidates(robot, domain)
+                    .into_iter()
                     .filter(|v| self.bound(robot, *variable, *v, body) == Value::Bool(true));
                 Value::Int(found.count() as i32)
             }
             ExprKind::Sum { variable, domain, body } => {
                 let is_real = expr.ty == crate::ir::Scalar::Real;
                 let (mut whole, mut real) = (0, 0.0);
-                for v in self.domain(robot, domain) {
+                for v in self.candidates(robot, domain) {
                     match self.bound(robot, *variable, v, body) {
                         Value::Int(i) => whole += i,
                         Value::Real(r) => real += r,
@@ -123,8 +126,8 @@ impl Executor<'_> {
     }
 
     /// The values of a domain in order.
-    pub(super) fn domain(&mut self, robot: usize, domain: &Domain) -> std::vec::IntoIter<Value> {
-        let values: Vec<Value> = match domain {
+    pub(crate) fn candidates(&mut self, robot: usize, domain: &Domain) -> Vec<Value> {
+        match domain {
             Domain::Role(role) => {
                 self.system.instances[robot].roles[role.0].iter().map(|row| Value::Int(*row as i32)).collect()
             }
@@ -135,8 +138,7 @@ impl Executor<'_> {
                 let (low, high) = (self.int(robot, low), self.int(robot, high));
                 (low..=high).map(Value::Int).collect()
             }
-        };
-        values.into_iter()
+        }
     }
 
     fn binary(&mut self, robot: usize, operator: Operator, left: &Expr, right: &Expr) -> Value {
@@ -160,32 +162,32 @@ impl Executor<'_> {
     pub(super) fn read(&mut self, robot: usize, place: &Place) -> Value {
         match place {
             Place::Local { local, index } => {
-                let index = self.element(robot, index);
+                let index = self.element_of(robot, index);
                 self.robots[robot].locals[*local][index]
             }
             Place::Port { port, index } => {
-                let index = self.element(robot, index);
+                let index = self.element_of(robot, index);
                 self.robots[robot].ports[*port][index]
             }
             Place::Parameter { parameter, index } => {
-                let index = self.element(robot, index);
+                let index = self.element_of(robot, index);
                 self.system.instances[robot].parameters[*parameter][index]
             }
             Place::Cell { interface, cell, of, index } => {
-                let row = self.row(robot, *interface, of);
-                let index = self.element(robot, index);
+                let row = self.row_of(robot, *interface, of);
+                let index = self.element_of(robot, index);
                 self.cells[interface.0][row][*cell][index]
             }
             Place::Shown { interface, parameter, of, index } => {
                 let row = self.int(robot, of) as usize;
-                let index = self.element(robot, index);
+                let index = self.element_of(robot, index);
                 self.system.shown(*interface, row, *parameter)[index]
             }
         }
     }
 
     /// The row of the instance that `of` refers to: this one if there is none.
-    pub(super) fn row(
+    pub(crate) fn row_of(
         &mut self,
         robot: usize,
         interface: crate::ir::InterfaceId,
@@ -200,17 +202,17 @@ impl Executor<'_> {
         }
     }
 
-    pub(super) fn element(&mut self, robot: usize, index: &Option<Box<Expr>>) -> usize {
+    pub(crate) fn element_of(&mut self, robot: usize, index: &Option<Box<Expr>>) -> usize {
         index.as_ref().map_or(0, |e| self.int(robot, e) as usize)
     }
 
     /// The device has ended the last command.
     fn answered(&self, robot: usize) -> bool {
-        let command = self.port(robot, "cmd");
-        command != 0 && self.port(robot, "ack") == command
+        let command = self.port_of(robot, "cmd");
+        command != 0 && self.port_of(robot, "ack") == command
     }
 
-    pub(super) fn port(&self, robot: usize, name: &str) -> i32 {
+    pub(crate) fn port_of(&self, robot: usize, name: &str) -> i32 {
         let ports = &self.system.automaton_of(robot).device.ports;
         match ports.iter().position(|p| p.name == name).map(|p| self.robots[robot].ports[p][0]) {
             Some(Value::Int(i)) => i,

@@ -1,7 +1,7 @@
 //! One step of one instance.
 
-use super::Executor;
 use super::evaluate::less;
+use super::{Element, Entry, Executor};
 use crate::ir::{Binder, Clause, FaultId, Place, Scalar, Type, Update, UpdateKind, Value};
 use runtime_sim::device::LAST_COMMAND;
 
@@ -13,10 +13,11 @@ impl Executor<'_> {
         let number = self.robots[robot].state;
         let state = &automaton.states[number];
         for (index, transition) in state.transitions.iter().enumerate() {
-            if !self.choose(robot, &transition.clauses) {
+            if !self.guard_holds(robot, &transition.clauses) {
                 continue;
             }
             self.fired[system.instances[robot].automaton.0][number][index] += 1;
+            self.note(Entry::Fired { robot, transition: index });
             for update in &transition.updates {
                 self.update(robot, update)?;
             }
@@ -37,11 +38,11 @@ impl Executor<'_> {
     }
 
     /// Whether the clauses hold together; leaves the variables of their binders as chosen.
-    fn choose(&mut self, robot: usize, clauses: &[Clause]) -> bool {
+    pub(crate) fn guard_holds(&mut self, robot: usize, clauses: &[Clause]) -> bool {
         match clauses.split_first() {
             None => true,
             Some((Clause::Condition(condition), rest)) => {
-                self.holds(robot, condition) && self.choose(robot, rest)
+                self.holds(robot, condition) && self.guard_holds(robot, rest)
             }
             Some((Clause::Bind(binder), rest)) => self.choose_candidate(robot, binder, rest),
         }
@@ -49,7 +50,7 @@ impl Executor<'_> {
 
     fn choose_candidate(&mut self, robot: usize, binder: &Binder, rest: &[Clause]) -> bool {
         let mut best: Option<(Value, Vec<Value>)> = None;
-        for candidate in self.domain(robot, &binder.domain) {
+        for candidate in self.candidates(robot, &binder.domain) {
             self.robots[robot].variables[binder.variable.0] = candidate;
             if let Some(condition) = &binder.condition
                 && !self.holds(robot, condition)
@@ -57,7 +58,7 @@ impl Executor<'_> {
                 continue;
             }
             let Some(key) = &binder.key else {
-                if self.choose(robot, rest) {
+                if self.guard_holds(robot, rest) {
                     return true;
                 }
                 continue;
@@ -66,7 +67,7 @@ impl Executor<'_> {
             if best.as_ref().is_some_and(|(least, _)| !less(key, *least)) {
                 continue;
             }
-            if self.choose(robot, rest) {
+            if self.guard_holds(robot, rest) {
                 best = Some((key, self.robots[robot].variables.clone()));
             }
         }
@@ -121,10 +122,10 @@ impl Executor<'_> {
 
     /// The number after the last one that the device does not show at present: 1 follows the highest.
     fn next_command(&self, robot: usize) -> i32 {
-        let mut number = self.port(robot, "cmd");
+        let mut number = self.port_of(robot, "cmd");
         loop {
             number = if number >= LAST_COMMAND { 1 } else { number + 1 };
-            if number != self.port(robot, "got") && number != self.port(robot, "ack") {
+            if number != self.port_of(robot, "got") && number != self.port_of(robot, "ack") {
                 return number;
             }
         }
@@ -134,6 +135,7 @@ impl Executor<'_> {
         let ports = &self.system.automaton_of(robot).device.ports;
         if let Some(port) = ports.iter().position(|p| p.name == name) {
             self.robots[robot].ports[port][0] = Value::Int(value);
+            self.note(Entry::Changed { robot, what: Element::Port { robot, port, index: 0 } });
         }
     }
 
@@ -144,7 +146,7 @@ impl Executor<'_> {
     /// The row whose cell is written; of no meaning for other places.
     fn target_row(&mut self, robot: usize, place: &Place) -> usize {
         match place {
-            Place::Cell { interface, of, .. } => self.row(robot, *interface, of),
+            Place::Cell { interface, of, .. } => self.row_of(robot, *interface, of),
             _ => 0,
         }
     }
@@ -152,7 +154,7 @@ impl Executor<'_> {
     fn target_index(&mut self, robot: usize, place: &Place) -> usize {
         match place {
             Place::Local { index, .. } | Place::Cell { index, .. } | Place::Port { index, .. } => {
-                self.element(robot, index)
+                self.element_of(robot, index)
             }
             Place::Parameter { .. } | Place::Shown { .. } => 0,
         }
@@ -164,11 +166,11 @@ impl Executor<'_> {
             Place::Port { port, .. } => self.robots[robot].ports[*port][index],
             Place::Parameter { parameter, .. } => self.system.instances[robot].parameters[*parameter][index],
             Place::Cell { interface, cell, of, .. } => {
-                let row = self.row(robot, *interface, of);
+                let row = self.row_of(robot, *interface, of);
                 self.cells[interface.0][row][*cell][index]
             }
             Place::Shown { interface, parameter, of, .. } => {
-                let row = self.row(robot, *interface, &Some(of.clone()));
+                let row = self.row_of(robot, *interface, &Some(of.clone()));
                 self.system.shown(*interface, row, *parameter)[index]
             }
         }
@@ -185,18 +187,31 @@ impl Executor<'_> {
         check: Option<FaultId>,
     ) -> Result<(), FaultId> {
         let (kept, fits) = fitted(ty, value);
-        if let Some(kept) = kept {
-            match place {
-                Place::Local { local, .. } => self.robots[robot].locals[*local][index] = kept,
-                Place::Port { port, .. } => self.robots[robot].ports[*port][index] = kept,
-                Place::Cell { interface, cell, .. } => self.cells[interface.0][row][*cell][index] = kept,
-                Place::Parameter { .. } | Place::Shown { .. } => {}
+        if let (Some(kept), Some(what)) = (kept, element(robot, place, (row, index))) {
+            let value = match what {
+                Element::Local { local, .. } => &mut self.robots[robot].locals[local][index],
+                Element::Port { port, .. } => &mut self.robots[robot].ports[port][index],
+                Element::Cell { interface, cell, .. } => &mut self.cells[interface.0][row][cell][index],
+            };
+            if *value != kept {
+                *value = kept;
+                self.note(Entry::Changed { robot, what });
             }
         }
         match check {
             Some(fault) if !fits => Err(fault),
             _ => Ok(()),
         }
+    }
+}
+
+/// Where a place of an instance is kept; none for what the layout fixes.
+fn element(robot: usize, place: &Place, (row, index): (usize, usize)) -> Option<Element> {
+    match *place {
+        Place::Local { local, .. } => Some(Element::Local { robot, local, index }),
+        Place::Port { port, .. } => Some(Element::Port { robot, port, index }),
+        Place::Cell { interface, cell, .. } => Some(Element::Cell { interface, row, cell, index }),
+        Place::Parameter { .. } | Place::Shown { .. } => None,
     }
 }
 

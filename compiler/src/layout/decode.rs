@@ -31,6 +31,9 @@ pub fn find<'a>(members: &'a [Member], key: &str) -> Option<&'a Json> {
     members.iter().find(|m| m.key.value == key).map(|m| &m.value)
 }
 
+/// A key of a file that is for editors.
+pub const SCHEMA: &str = "$schema";
+
 /// Names that one message lists.
 const MOST_LISTED: usize = 100;
 
@@ -212,8 +215,25 @@ impl Decoder {
         found
     }
 
+    /// The keys of a whole file, which may name its schema for an editor.
+    pub fn unknown_keys_of_file(&mut self, members: &[Member], known: &[&str], what: &str) {
+        if let Some(schema) = find(members, SCHEMA) {
+            self.text(schema, SCHEMA);
+        }
+        self.unknown_among(members.iter().map(|m| &m.key).filter(|k| k.value != SCHEMA), known, what);
+    }
+
     pub fn unknown_keys(&mut self, members: &[Member], known: &[&str], what: &str) {
-        for key in members.iter().map(|m| &m.key).filter(|k| !known.contains(&k.value.as_str())) {
+        self.unknown_among(members.iter().map(|m| &m.key), known, what);
+    }
+
+    fn unknown_among<'a>(
+        &mut self,
+        keys: impl Iterator<Item = &'a Spanned<String>>,
+        known: &[&str],
+        what: &str,
+    ) {
+        for key in keys.filter(|k| !known.contains(&k.value.as_str())) {
             if self.is_full() {
                 return;
             }

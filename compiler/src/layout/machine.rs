@@ -12,9 +12,9 @@ use runtime_sim::value::Value;
 use std::sync::Arc;
 
 /// No time that a machine takes is longer, s.
-const LONGEST_S: f64 = 1e5;
+pub const LONGEST_S: f64 = 1e5;
 
-const OBSTACLES: [&str; 6] = ["bin", "station", "assembly_station", "collector", "rail", "box"];
+pub const OBSTACLES: [&str; 6] = ["bin", "station", "assembly_station", "collector", "rail", "box"];
 
 /// A machine whose type is bound to a device, and all numbers of its object, those of the pose first.
 pub fn machine(object: &Object, device: &Arc<Device>) -> Result<(Placed, Vec<Number>), Vec<Diagnostic>> {
@@ -82,6 +82,14 @@ pub fn obstacle(object: &Object) -> Result<Obstacle, Vec<Diagnostic>> {
                     Part::Stationary => instead(kind, &OBSTACLES),
                     Part::Robot => format!("write an automaton for \"{kind}\", or correct the type"),
                 }),
+        );
+    }
+    if object.pose.value.yaw != 0.0 {
+        let message = format!("\"{}\" is turned, and an obstacle cannot be", object.name.value);
+        decoder.report(
+            Diagnostic::new("E0144", object.pose.span, message)
+                .note("the boxes of obstacles lie along the axes of the world")
+                .help("leave out the fourth number of the pose, or write a device with a body `at` a turned frame"),
         );
     }
     match decoder.diagnostics.is_empty() {

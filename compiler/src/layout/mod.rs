@@ -2,11 +2,11 @@
 
 pub mod decode;
 pub mod json;
-mod machine;
+pub(crate) mod machine;
 mod may_touch;
-mod object;
+pub(crate) mod object;
 mod paths;
-mod read;
+pub(crate) mod read;
 
 pub use machine::{machine, obstacle};
 pub use object::{Object, Part};

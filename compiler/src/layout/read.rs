@@ -6,11 +6,13 @@ use super::{Layout, Object, Part};
 use crate::diagnostic::{Diagnostic, sort};
 use crate::source::{FileId, Sources, Spanned};
 use std::collections::HashSet;
+use std::ops::RangeInclusive;
 
-const KEYS: [&str; 7] = ["robots", "stationary", "name", "specs", "scenario", "scan_ms", "may_touch"];
+pub const KEYS: [&str; 7] = ["robots", "stationary", "name", "specs", "scenario", "scan_ms", "may_touch"];
 const SCAN_MS: u32 = 10;
+pub const SCANS_MS: RangeInclusive<u32> = 1..=1000;
 /// The longest line that is measured has 10,040.
-const MOST_OBJECTS: usize = 12_000;
+pub const MOST_OBJECTS: usize = 12_000;
 
 /// What could be read, to check it further; with any diagnostic there is no sense in building from it.
 pub type Reading = (Option<Layout>, Vec<Diagnostic>);
@@ -28,7 +30,7 @@ pub fn parse(sources: &Sources, file: FileId) -> Reading {
 impl Decoder {
     fn layout(&mut self, json: &Json, file_name: &str) -> Option<Layout> {
         let members = self.object(json, "a layout")?;
-        self.unknown_keys(members, &KEYS, "a layout");
+        self.unknown_keys_of_file(members, &KEYS, "a layout");
         let robots = self.required(members, "robots", json.span, "the layout");
         let mut objects = self.layout_objects(robots, "robots", Part::Robot);
         objects.extend(self.layout_objects(find(members, "stationary"), "stationary", Part::Stationary));
@@ -47,7 +49,7 @@ impl Decoder {
         let scenario = find(members, "scenario").and_then(|j| self.text(j, "scenario"));
         specs.iter().flatten().for_each(|path| self.stays_within("specs", path));
         scenario.iter().for_each(|path| self.stays_within("scenario", path));
-        let scan_ms = find(members, "scan_ms").and_then(|j| self.whole(j, "scan_ms", 1..=1000));
+        let scan_ms = find(members, "scan_ms").and_then(|j| self.whole(j, "scan_ms", SCANS_MS));
         let may_touch = find(members, "may_touch").map(|j| self.may_touch(j, &names(members)));
         Some(Layout {
             name: name.map_or_else(|| make_identifier(stem(file_name), "layout"), |n| n.value),

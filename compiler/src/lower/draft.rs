@@ -9,7 +9,7 @@ use crate::layout::{Layout, Reading};
 use crate::scenario::{Number, Scenario};
 use crate::source::{FileId, Sources};
 use crate::spec::{ast, parser};
-use crate::{connect, scenario};
+use crate::{connect, lint, scenario};
 use runtime_sim::random::Random;
 use std::borrow::Cow;
 use std::collections::BTreeSet;
@@ -28,6 +28,8 @@ pub struct Texts<'a> {
 pub struct Draft {
     /// What is wrong whatever the values are.
     diagnostics: Vec<Diagnostic>,
+    /// What is hardly meant; of types that have no errors.
+    warnings: Vec<Diagnostic>,
     name: Option<String>,
     orders: Option<usize>,
     parts: Option<Parts>,
@@ -73,8 +75,9 @@ impl Draft {
         let listed = scenario.as_ref().filter(|s| s.orders.number == Number::Listed);
         let orders = listed.map(|s| s.orders.list.len());
         let name = layout.as_ref().map(|l| l.name.clone());
-        let mut draft = Self { diagnostics, name, orders, parts: None };
+        let mut draft = Self { diagnostics, warnings: Vec::new(), name, orders, parts: None };
         if let (Some(layout), Some(checked), Some(scenario)) = (layout, checked, scenario) {
+            draft.warnings = lint::warnings(checked.model(), &files);
             let model = draft.bind(sources, &layout, &files, &checked, &scenario, settings);
             draft.parts = model.map(|model| {
                 let makes = model.automata.iter().any(|a| a.device.has("orders") || a.device.has("source"));
@@ -99,7 +102,7 @@ impl Draft {
     ) -> Option<Model> {
         let is_right = self.diagnostics.is_empty();
         let bound = bind::bind(layout, checked.model(), &mut self.diagnostics);
-        setting::check(settings, &bound, checked.model(), scenario, &mut self.diagnostics);
+        setting::check(settings, &bound, checked.model(), &mut self.diagnostics);
         if !is_right || bound.robots.len() + bound.obstacles.len() != layout.objects.len() {
             return None;
         }
@@ -116,6 +119,11 @@ impl Draft {
     /// What is wrong whatever the values are.
     pub fn diagnostics(&self) -> &[Diagnostic] {
         &self.diagnostics
+    }
+
+    /// What is hardly meant, of all types; empty if they have errors.
+    pub fn warnings(&self) -> &[Diagnostic] {
+        &self.warnings
     }
 
     /// The layout's name, if that can be read.

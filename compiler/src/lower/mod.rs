@@ -1,7 +1,7 @@
 //! From texts to a system: types bound to the machines of a layout, parameters,
 //! connectivity, roles. The hinge between what knows source text and what does not.
 
-mod bind;
+pub(crate) mod bind;
 mod draft;
 mod overlap;
 mod parameter;
@@ -79,6 +79,8 @@ pub struct Apart {
 pub struct Outcome {
     pub sources: Sources,
     pub diagnostics: Vec<Diagnostic>,
+    /// What is hardly meant and stops nothing.
+    pub warnings: Vec<Diagnostic>,
     /// There as soon as the check of connectivity could be made.
     pub verdict: Option<Verdict>,
     pub project: Option<Project>,
@@ -89,5 +91,6 @@ pub fn compile(input: Input) -> Outcome {
     let Input { sources, layout, specs, scenario, settings, order } = input;
     let draft = Draft::new(&sources, Texts { layout, specs: &specs, scenario }, &settings);
     let Line { diagnostics, verdict, project } = draft.line(&settings, order, 0);
-    Outcome { sources, diagnostics, verdict, project }
+    let warnings = draft.warnings().to_vec();
+    Outcome { sources, diagnostics, warnings, verdict, project }
 }

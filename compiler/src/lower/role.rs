@@ -6,8 +6,8 @@ use crate::connect::{self, Connected, Ground, Node, Proposal, Site};
 use crate::diagnostic::{Diagnostic, collect};
 use crate::executor::Executor;
 use crate::ir::{
-    self, Automaton, AutomatonId, Direction, Expr, Handover, Instance, InterfaceId, Model, Role, RoleKind,
-    Scalar, System, TextPart, Value,
+    self, Automaton, AutomatonId, Direction, Handover, Instance, InterfaceId, Model, Role, RoleKind, System,
+    TextPart, Value,
 };
 use crate::layout::Layout;
 use crate::scenario::{Number, Scenario};
@@ -475,7 +475,7 @@ impl<'a> Line<'a> {
                 if !executor.holds(robot, &require.condition) {
                     let text = require.text.iter().map(|part| match part {
                         TextPart::Words(words) => words.clone(),
-                        TextPart::Value(value) => shown(system, &mut executor, robot, value),
+                        TextPart::Value(expr) => system.shown_value(expr.ty, executor.value(robot, expr)),
                     });
                     let text: String = text.collect();
                     let object = &self.robots[robot].object;
@@ -492,21 +492,5 @@ impl<'a> Line<'a> {
                 }
             }
         }
-    }
-}
-
-/// A value of a requirement's text, for people: seconds with `s`, points in metres, members and robots by name.
-fn shown(system: &System, executor: &mut Executor, robot: usize, expr: &Expr) -> String {
-    let value = executor.value(robot, expr);
-    match (value, expr.ty) {
-        (Value::Bool(b), _) => b.to_string(),
-        (Value::Int(ms), Scalar::Time) => format!("{} s", f64::from(ms) / 1000.0),
-        (Value::Int(ordinal), Scalar::Enum(id)) => system.model.enums[id.0].members[ordinal as usize].clone(),
-        (Value::Int(row), Scalar::Ref(id)) => {
-            system.instances[system.members[id.0][row as usize]].name.clone()
-        }
-        (Value::Int(i), _) => i.to_string(),
-        (Value::Real(r), _) => r.to_string(),
-        (Value::Point([x, y, z]), _) => format!("({x}, {y}, {z})"),
     }
 }

@@ -4,7 +4,7 @@ use super::bind::{Bound, Robot};
 use crate::diagnostic::{Diagnostic, suggestion};
 use crate::ir::Model;
 use crate::layout::json::{self, Json};
-use crate::scenario::{Items, Scenario};
+use crate::scenario::Scenario;
 use crate::source::{FileId, Sources, Span};
 
 /// A parameter set on the command line.
@@ -73,10 +73,9 @@ pub fn apply(
     diagnostics: &mut Vec<Diagnostic>,
 ) {
     for setting in settings.iter().filter(|setting| is_of_supply(setting, bound)) {
-        let Items::Shuffled { seed, .. } = &mut scenario.supply.items else { continue };
         match &setting.value.value {
             json::Value::Number(n) if n.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(n) => {
-                *seed = *n as u32;
+                scenario.supply.seed = *n as u32;
             }
             _ => diagnostics.push(
                 Diagnostic::new("E0503", setting.value.span, format!("this is no value for `{SEED}`"))
@@ -87,34 +86,21 @@ pub fn apply(
 }
 
 /// What is wrong with a setting of the supply, if anything is.
-fn check_of_supply(setting: &Setting, scenario: &Scenario) -> Option<Diagnostic> {
+fn check_of_supply(setting: &Setting) -> Option<Diagnostic> {
     if setting.parameter != SEED {
         let message = format!("`{SUPPLY}` has no parameter `{}`", setting.parameter);
         return Some(
             Diagnostic::new("E0511", setting.span, message).help(format!("its parameter is `{SEED}`")),
         );
     }
-    match scenario.supply.items {
-        Items::Shuffled { .. } => None,
-        Items::OnlyBelt(_) | Items::Belts(_) => Some(
-            Diagnostic::new("E0511", setting.span, format!("`{SUPPLY}` has no `{SEED}` in this scenario"))
-                .other(scenario.supply.span, "these parts are brought as they stand")
-                .help("take a scenario whose supply has no \"items\", or leave the setting out"),
-        ),
-    }
+    None
 }
 
 /// Each setting has to concern somebody and something.
-pub fn check(
-    settings: &[Setting],
-    bound: &Bound,
-    model: &Model,
-    scenario: &Scenario,
-    diagnostics: &mut Vec<Diagnostic>,
-) {
+pub fn check(settings: &[Setting], bound: &Bound, model: &Model, diagnostics: &mut Vec<Diagnostic>) {
     for setting in settings {
         if is_of_supply(setting, bound) {
-            diagnostics.extend(check_of_supply(setting, scenario));
+            diagnostics.extend(check_of_supply(setting));
             continue;
         }
         let meant: Vec<&Robot> = bound.robots.iter().filter(|r| setting.applies_to(r)).collect();

@@ -1,6 +1,6 @@
 //! The scenario: which orders are to be made of which parts, and what the belts bring.
 
-mod read;
+pub(crate) mod read;
 mod resolve;
 mod supply;
 
@@ -8,6 +8,9 @@ pub use read::parse;
 pub use resolve::{Line, Panel, resolve};
 
 use crate::source::{FileId, Sources, Span, Spanned};
+
+/// Parts that the belts bring: more than a plant could bring in the longest time limit.
+const MOST_PARTS: u64 = 1_000_000;
 
 /// For a layout that names no scenario and has none beside it.
 pub const DEFAULT: &str = include_str!("default.json");
@@ -20,8 +23,6 @@ pub struct Scenario {
     pub orders: Orders,
     pub supply: Supply,
     pub time_limit_s: f64,
-    /// Of all times that are drawn.
-    pub seed: u32,
     pub faults: Faults,
     pub operations: Vec<Operation<Part>>,
     /// What sinks should collect; empty: nobody asks.
@@ -86,6 +87,8 @@ pub struct Supply {
     pub first_s: f64,
     /// Time between two parts on one belt.
     pub every_s: f64,
+    /// Of a supply that is shuffled and of everything else that is drawn in a run.
+    pub seed: u32,
     pub items: Items,
 }
 
@@ -107,13 +110,10 @@ impl Scenario {
         sources.file(self.file).text == DEFAULT
     }
 
-    /// The same with other seeds: so many more. A supply that is a list stays as it is.
+    /// The same with another seed: so much more. A supply that is a list stays as it is.
     pub fn replication(&self, number: u32) -> Self {
         let mut scenario = self.clone();
-        scenario.seed = scenario.seed.wrapping_add(number);
-        if let Items::Shuffled { seed, .. } = &mut scenario.supply.items {
-            *seed = seed.wrapping_add(number);
-        }
+        scenario.supply.seed = scenario.supply.seed.wrapping_add(number);
         scenario
     }
 }
@@ -124,7 +124,6 @@ pub enum Items {
     /// What the orders need and a fraction more, shuffled lot by lot.
     Shuffled {
         surplus: [u32; 2],
-        seed: u32,
     },
     /// On the only belt.
     OnlyBelt(Vec<usize>),
@@ -132,6 +131,15 @@ pub enum Items {
 }
 
 impl Items {
+    /// The parts of the lists.
+    fn count(&self) -> usize {
+        match self {
+            Items::Shuffled { .. } => 0,
+            Items::OnlyBelt(items) => items.len(),
+            Items::Belts(lists) => lists.iter().map(|(_, items)| items.len()).sum(),
+        }
+    }
+
     /// Lists, so many times one after another.
     fn repeated(self, times: usize) -> Self {
         match self {

@@ -1,11 +1,11 @@
 //! From the text of a scenario to its tree.
 
-mod faults;
-mod goal;
-mod kinds;
-mod operator;
-mod orders;
-mod supply;
+pub mod faults;
+pub mod goal;
+pub mod kinds;
+pub mod operator;
+pub mod orders;
+pub mod supply;
 
 use super::{Items, Orders, Scenario, Supply};
 use crate::diagnostic::{Diagnostic, sort};
@@ -13,7 +13,8 @@ use crate::layout::decode::{Decoder, find};
 use crate::layout::json::{self, Json, Member};
 use crate::source::{FileId, Sources};
 
-const LONGEST_S: f64 = 1e6;
+pub const KEYS: [&str; 7] = ["kinds", "orders", "supply", "time_limit_s", "faults", "operator", "goal"];
+pub const LONGEST_S: f64 = 1e6;
 const TIME_LIMIT_S: f64 = 3600.0;
 const EVERY_S: f64 = 2.0;
 const SURPLUS: [u32; 2] = [1, 3];
@@ -31,8 +32,7 @@ pub fn parse(sources: &Sources, file: FileId) -> (Option<Scenario>, Vec<Diagnost
 impl Decoder {
     fn scenario(&mut self, json: &Json) -> Option<Scenario> {
         let members = self.object(json, "a scenario")?;
-        let keys = ["kinds", "orders", "supply", "time_limit_s", "faults", "operator", "goal"];
-        self.unknown_keys(members, &keys, "a scenario");
+        self.unknown_keys_of_file(members, &KEYS, "a scenario");
         // Without orders nothing has to be brought, and nobody has to tell kinds apart.
         let has_parts = ["kinds", "orders", "supply"].iter().any(|key| find(members, key).is_some());
         let kinds = if has_parts {
@@ -64,16 +64,12 @@ impl Decoder {
                 span: json.span,
                 first_s: EVERY_S,
                 every_s: EVERY_S,
-                items: Items::Shuffled { surplus: SURPLUS, seed: SEED },
+                seed: SEED,
+                items: Items::Shuffled { surplus: SURPLUS },
             }),
-        };
-        let seed = match &supply {
-            Some(Supply { items: Items::Shuffled { seed, .. }, .. }) => *seed,
-            _ => SEED,
         };
         Some(Scenario {
             file: json.span.file,
-            seed,
             kinds,
             orders: orders?,
             supply: supply?,

@@ -1,8 +1,8 @@
 //! A scenario meets a line: names of machines become indices, and the supply is laid out.
 
 use super::{
-    Answer, Collected, Faults, Items, Number, Operation, Order, Part, Refusal, ResolvedScenario, Scenario,
-    Slip, supply,
+    Answer, Collected, Faults, Items, MOST_PARTS, Number, Operation, Order, Part, Refusal, ResolvedScenario,
+    Scenario, Slip, supply,
 };
 use crate::diagnostic::{Diagnostic, MOST, collect, sort};
 use crate::layout::decode::{instead, listing};
@@ -37,9 +37,6 @@ pub struct Panel<'a> {
     pub operated: Operated,
 }
 
-/// More than a plant could bring in the longest time limit.
-const MOST_PARTS: u64 = 1_000_000;
-
 pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec<Diagnostic>> {
     let mut resolver = Resolver { scenario, line, by_name: HashMap::new(), diagnostics: Vec::new() };
     let orders = resolver.orders();
@@ -73,7 +70,7 @@ pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec
             spawn_first_s: scenario.supply.first_s,
             spawn_every_s: scenario.supply.every_s,
             time_limit_s: scenario.time_limit_s,
-            seed: scenario.seed,
+            seed: scenario.supply.seed,
             slips,
             refusals,
             answers,
@@ -235,7 +232,7 @@ impl<'a> Resolver<'a> {
         let span = self.scenario.supply.span;
         let belts: Vec<usize> = self.line.belts.iter().map(|(_, index)| *index).collect();
         let supply = match &self.scenario.supply.items {
-            Items::Shuffled { surplus, seed } => return self.shuffled(*surplus, *seed, &belts),
+            Items::Shuffled { surplus } => return self.shuffled(*surplus, &belts),
             Items::OnlyBelt(items) => match belts[..] {
                 [belt] => vec![(belt, items.clone())],
                 [] if items.is_empty() => Vec::new(),
@@ -266,12 +263,7 @@ impl<'a> Resolver<'a> {
         Some(supply)
     }
 
-    fn shuffled(
-        &mut self,
-        surplus: [u32; 2],
-        seed: u32,
-        belts: &[usize],
-    ) -> Option<Vec<(usize, Vec<usize>)>> {
+    fn shuffled(&mut self, surplus: [u32; 2], belts: &[usize]) -> Option<Vec<(usize, Vec<usize>)>> {
         let span = self.scenario.supply.span;
         let list = self.list();
         let orders: Vec<&[u32]> = list.iter().map(|o| o.parts.as_slice()).collect();
@@ -292,7 +284,8 @@ impl<'a> Resolver<'a> {
         }
         let mut supply: Vec<(usize, Vec<usize>)> = belts.iter().map(|belt| (*belt, Vec::new())).collect();
         if !supply.is_empty() {
-            for (i, lot) in supply::lots(&orders, surplus, seed).into_iter().enumerate() {
+            for (i, lot) in supply::lots(&orders, surplus, self.scenario.supply.seed).into_iter().enumerate()
+            {
                 let belt = i % belts.len();
                 supply[belt].1.extend(lot);
             }

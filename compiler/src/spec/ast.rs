@@ -188,7 +188,7 @@ pub struct Automaton {
     pub locals: Vec<Local>,
     pub defines: Vec<Define>,
     pub requires: Vec<Require>,
-    pub invariants: Vec<Spanned<Expr>>,
+    pub invariants: Vec<Invariant>,
     pub initial: Option<Initial>,
     pub any: Vec<AnyState>,
     pub states: Vec<State>,
@@ -249,6 +249,13 @@ pub struct Define {
     pub doc: Vec<String>,
     pub name: Name,
     pub value: Expr,
+}
+
+#[derive(Clone, Debug)]
+pub struct Invariant {
+    pub condition: Expr,
+    /// What the operator is told when it does not hold.
+    pub text: Option<String>,
 }
 
 #[derive(Clone, Debug)]

@@ -146,6 +146,7 @@ impl<'a> Instance<'a> {
         let invariants = automaton.invariants.iter().map(|invariant| Invariant {
             condition: self.int(&invariant.condition),
             fault: invariant.fault.0,
+            asks_operator: invariant.asks_operator,
             reads: self.cells_of(&invariant.condition),
         });
         let invariants = invariants.collect();

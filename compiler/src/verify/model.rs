@@ -141,7 +141,7 @@ fn unbounded(system: &System, number: usize, port: &str) -> Diagnostic {
     let automaton = system.automaton_of(number);
     let name = &system.instances[number].name;
     Diagnostic::new(
-        "E0901",
+        "E1001",
         automaton.place,
         format!("`{name}` cannot be searched: it reads the input `{port}`, of which no contract says what it may be"),
     )

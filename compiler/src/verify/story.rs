@@ -25,6 +25,7 @@ impl Teller<'_> {
                 let site = &self.project.system.model.faults[fault];
                 format!("fault of {}: {} ({})", name(instance), site.text, self.place(site.place))
             }
+            Violation::Stop => "the line stops until an operator has come".into(),
             Violation::NeverMade => "from here the orders cannot be made any more".into(),
             Violation::TwoArms { arms: [a, b], machine } => {
                 format!("two arms over one place: {} and {} over {}", name(a), name(b), name(machine))

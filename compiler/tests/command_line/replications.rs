@@ -178,9 +178,6 @@ fn the_seed_of_the_supply_is_set_for_any_command() {
     let folder = folder("supply_seed");
     put(&folder, "one.json", &scenario(7));
     put(&folder, "two.json", &scenario(8));
-    let items = r#"{"kinds": [{"name": "battery", "height": 0.053}],
-        "orders": [{"parts": {"battery": 1}}], "supply": {"items": ["battery"]}}"#;
-    put(&folder, "items.json", items);
     let layout = example("ariac2021/default.json");
     let hash = |more: &[&str]| {
         let output =
@@ -195,7 +192,6 @@ fn the_seed_of_the_supply_is_set_for_any_command() {
         ("one.json", "supply.seed=4294967296", "E0503"),
         ("one.json", "supply.seed=many", "E0503"),
         ("one.json", "supply.surplus=1", "`supply` has no parameter `surplus`"),
-        ("items.json", "supply.seed=1", "`supply` has no `seed` in this scenario"),
     ] {
         let output = autogen(&folder, &["check", &layout, "--scenario", scenario, "--set", setting]);
         assert_eq!(status(&output), 1, "{setting}: {}", errors(&output));

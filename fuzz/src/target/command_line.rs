@@ -6,6 +6,7 @@ use crate::command::commission::io_delay;
 use crate::command::options::{Cli, Command, InputOptions, SweepOptions};
 use crate::command::sweep::axis::Axis;
 use crate::command::trajectories::milliseconds;
+use crate::command::why;
 use crate::judge;
 use autogen::diagnostic;
 use autogen::lower::Setting;
@@ -26,8 +27,8 @@ pub fn answer(input: &[u8], effort: Effort) {
         }
     };
     match &cli.command {
-        Command::Check(options) => of_line(options, input, effort),
-        Command::Build(options) => of_line(&options.input, input, effort),
+        Command::Check(options) => of_line(&options.input, input, effort),
+        Command::Build(options) => of_line(&options.build.input, input, effort),
         Command::Commission(options) => {
             delay(&options.io_delay);
             let every = milliseconds(&options.trajectories.every);
@@ -35,11 +36,23 @@ pub fn answer(input: &[u8], effort: Effort) {
             of_line(&options.build.input, input, effort);
         }
         Command::Sweep(options) => of_sweep(options, input, effort),
-        Command::Merge(_) => {}
         Command::Verify(options) => of_line(&options.input, input, effort),
+        Command::Merge(_)
+        | Command::New(_)
+        | Command::Test(_)
+        | Command::Fmt(_)
+        | Command::Schema(_)
+        | Command::Completions(_) => {}
         Command::Graph(options) => of_line(&options.input, input, effort),
         Command::Explain(options) => {
             diagnostic::explain(&options.code);
+        }
+        Command::Compare(options) => of_line(&options.input(&options.first), input, effort),
+        Command::Why(options) => {
+            delay(&options.io_delay);
+            let scan = options.at.as_deref().and_then(|at| why::scan(at, 10));
+            assert!(scan.is_none_or(|scan| scan <= 100_000_000_000), "{scan:?}");
+            of_line(&options.input, input, effort);
         }
     }
 }

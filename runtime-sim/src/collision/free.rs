@@ -86,7 +86,8 @@ pub fn is_free(
                 None => asked.push(key),
             }
             let pairs = of_a.iter().flat_map(|i| of_b.iter().map(move |j| [*i, *j]));
-            let pairs = pairs.filter(|[i, j]| (a != b || i < j) && can_meet(groups, [(a, *i), (b, *j)]));
+            let pairs =
+                pairs.filter(|[i, j]| (a != b || i < j) && can_meet(groups, [(a, *i), (b, *j)], plant));
             open.extend(pairs.map(|bodies| Two { bodies, asked: asked.len() - 1 }));
         }
     }
@@ -111,13 +112,18 @@ fn near_pieces([a, b]: &[Arc<[BoundingBox]>; 2]) -> Vec<[f64; 2]> {
 }
 
 /// Whether two bodies can ever come into contact.
-pub fn can_meet(groups: &[Group], two: [(usize, usize); 2]) -> bool {
+pub fn can_meet(groups: &[Group], two: [(usize, usize); 2], plant: &Plant) -> bool {
     let [Some(a), Some(b)] = two.map(|(group, body)| groups[group].bodies[body].as_ref()) else {
         return false;
     };
     let stand = a.anchor == Anchor::World && b.anchor == Anchor::World;
     let own = two[0].0 == two[1].0 && !groups[two[0].0].is_free_of(a, b);
-    !stand && !own && !a.bounds.is_apart(&b.bounds)
+    // They stop behind one another without a gap.
+    let follow = match (a.anchor, b.anchor) {
+        (Anchor::Lying { item: a, .. }, Anchor::Lying { item: b, .. }) => plant.are_in_line([a, b]),
+        _ => false,
+    };
+    !stand && !own && !follow && !a.bounds.is_apart(&b.bounds)
 }
 
 /// Two bodies by their numbers in both groups, and the number of what was asked for them.

@@ -135,7 +135,7 @@ impl Pair {
                     continue;
                 }
                 let clear = &mut self.bodies[i][j];
-                if *clear == f64::NEG_INFINITY && !can_meet(span.groups, two) {
+                if *clear == f64::NEG_INFINITY && !can_meet(span.groups, two, span.plant) {
                     *clear = f64::INFINITY;
                 }
                 if paths > *clear {

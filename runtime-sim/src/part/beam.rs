@@ -1,5 +1,6 @@
 //! A light beam across a lane, or another switch that items on it actuate.
 
+use super::lane::AT_ONCE;
 use super::settings::{Form, Setting, Settings};
 use super::{Described, Running, Schema, See, Signal, Start};
 use crate::device::{Extent, PortType};
@@ -52,9 +53,6 @@ pub struct Crossing {
     /// Of each kind.
     is_seen: Vec<bool>,
 }
-
-/// What is less is rounding, m.
-const AT_ONCE: f64 = 1e-9;
 
 impl Crossing {
     pub fn new(beam: &Beam, kinds: &[Kind]) -> Self {

@@ -57,6 +57,16 @@ pub enum End {
     Out,
 }
 
+impl End {
+    /// Number of the signal that tells that it is there.
+    pub fn signal(self) -> usize {
+        match self {
+            End::In => 0,
+            End::Out => 1,
+        }
+    }
+}
+
 impl Described for Cylinder {
     fn new(settings: &Settings) -> Result<Self, String> {
         let [extend_ms, retract_ms] = [settings.milliseconds("extend")?, settings.milliseconds("retract")?];

@@ -4,7 +4,7 @@ mod course;
 mod moving;
 
 pub use course::Course;
-pub use moving::{Motion, Moving, Rider};
+pub use moving::{AT_ONCE, Motion, Moving, Rider};
 
 use super::settings::{Form, Setting, Settings};
 use super::{Action, Described, Level, Running, Schema, Signal, Start};

@@ -1,5 +1,6 @@
 //! What takes its time with an item at a place: milling, welding, testing.
 
+use super::cylinder::End;
 use super::settings::{Form, Setting, Settings};
 use super::{Described, Level, Progress, Running, Schema, See, Signal, Start, World};
 use crate::device::{Extent, PortType};
@@ -62,7 +63,12 @@ impl Described for Process {
 
     fn start(&self, start: &mut Start) -> Result<Option<Box<dyn Running>>, String> {
         let place = [start.machine as u64, start.part as u64];
-        Ok(Some(Box::new(Cycle::new(self, &start.line.kinds, start.line.scenario.seed, place))))
+        let mut cycle = Cycle::new(self, &start.line.kinds, start.line.scenario.seed, place);
+        let parts = &start.machine().parts;
+        let need = |part: Option<usize>, end: End| part.map(|part| (part, end, parts[part].name.clone()));
+        let needs = [need(self.needs_in, End::In), need(self.needs_out, End::Out)];
+        cycle.needs = needs.into_iter().flatten().collect();
+        Ok(Some(Box::new(cycle)))
     }
 }
 
@@ -70,6 +76,8 @@ impl Described for Process {
 #[derive(Clone, Debug)]
 pub struct Cycle {
     process: Process,
+    /// Cylinders, the ends at which they have to be, and their names.
+    needs: Vec<(usize, End, String)>,
     /// What becomes of each kind.
     becomes: Vec<usize>,
     random: Random,
@@ -91,6 +99,7 @@ impl Cycle {
         };
         Self {
             process: process.clone(),
+            needs: Vec::new(),
             becomes: (0..kinds.len()).map(becomes).collect(),
             random: Random::at(seed, place),
             is_on: false,
@@ -120,22 +129,16 @@ impl Cycle {
     /// What is missing for a start; empty if nothing is.
     fn lacks(&self, item: Option<usize>, world: &World) -> String {
         let see = world.see();
-        let is_at = |part: Option<usize>, signal: usize| {
-            part.is_none_or(|part| {
-                let mut word = [0.0];
-                see.read(part, signal, &mut word);
-                word[0] != 0.0
-            })
-        };
         let mut lacks = Vec::new();
         if item.is_none() {
-            lacks.push("an item");
+            lacks.push("an item".to_string());
         }
-        if !is_at(self.process.needs_in, 0) {
-            lacks.push("what has to be in");
-        }
-        if !is_at(self.process.needs_out, 1) {
-            lacks.push("what has to be out");
+        for (cylinder, end, name) in &self.needs {
+            let mut is_there = [0.0];
+            see.read(*cylinder, end.signal(), &mut is_there);
+            if is_there[0] == 0.0 {
+                lacks.push(format!("its {name} {}", if *end == End::In { "in" } else { "out" }));
+            }
         }
         lacks.join(" and ")
     }

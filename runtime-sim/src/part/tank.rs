@@ -62,15 +62,13 @@ impl Described for Tank {
 /// Numbers of the levels.
 const FILL: usize = 0;
 const DRAIN: usize = 1;
-const FILL_BY: usize = 2;
 
 /// A tank at work.
 #[derive(Clone, Debug)]
 pub struct Filling {
     tank: Tank,
-    /// Parts by which the valves are open: both of those that are one are wired to the same tank by whoever likes.
-    open: [f64; 2],
-    part_open: [f64; 2],
+    /// Part by which each level opens its valve. Of the two levels of a valve the one that opens it farther holds.
+    open: [f64; 4],
     /// m/s.
     rate: f64,
     level: f64,
@@ -82,8 +80,7 @@ impl Filling {
     pub fn new(tank: &Tank) -> Self {
         Self {
             tank: tank.clone(),
-            open: [0.0; 2],
-            part_open: [0.0; 2],
+            open: [0.0; 4],
             rate: 0.0,
             level: tank.begins,
             since_ms: 0,
@@ -92,8 +89,8 @@ impl Filling {
     }
 
     fn asked_rate(&self) -> f64 {
-        let by = |valve: usize| self.open[valve].max(self.part_open[valve]);
-        (by(0) * self.tank.inflow - by(1) * self.tank.outflow) / self.tank.area
+        let [fill, drain, fill_by, drain_by] = self.open;
+        (fill.max(fill_by) * self.tank.inflow - drain.max(drain_by) * self.tank.outflow) / self.tank.area
     }
 
     fn level_at(&self, ms: u64) -> f64 {
@@ -113,13 +110,12 @@ impl Running for Filling {
     }
 
     fn level(&mut self, level: usize, value: &[f64]) {
-        match level {
-            FILL | DRAIN => self.open[level] = f64::from(u8::from(value[0] != 0.0)),
-            _ => {
-                let asked = value[0];
-                self.part_open[level - FILL_BY] = if asked.is_nan() { 0.0 } else { asked.clamp(0.0, 1.0) };
-            }
-        }
+        let asked = value[0];
+        self.open[level] = match level {
+            FILL | DRAIN => f64::from(u8::from(asked != 0.0)),
+            _ if asked.is_nan() => 0.0,
+            _ => asked.clamp(0.0, 1.0),
+        };
     }
 
     fn advance(&mut self, world: &mut World) -> Progress {
@@ -162,13 +158,15 @@ impl Running for Filling {
 mod tests {
     use super::*;
 
+    const DRAIN_BY: usize = 3;
+
     #[test]
     fn it_fills_and_drains_at_its_rates() {
         let tank = Tank { area: 0.5, height: 1.0, inflow: 0.05, outflow: 0.1, begins: 0.2 };
         let mut filling = Filling::new(&tank);
         let level_after = |filling: &mut Filling, fill: f64, drain: f64, ms: u64| {
             filling.level(FILL, &[fill]);
-            filling.level(DRAIN + 2, &[drain]);
+            filling.level(DRAIN_BY, &[drain]);
             filling.level = filling.level_at(filling.now_ms);
             (filling.rate, filling.since_ms) = (filling.asked_rate(), filling.now_ms);
             filling.now_ms += ms;

@@ -5,6 +5,7 @@ use crate::item;
 use crate::json::Json;
 use crate::line::Line;
 use crate::motion::Piece;
+use crate::plant::conveyed::{Along, Carry};
 use crate::point::Point;
 use crate::report::carrier_text;
 
@@ -38,10 +39,27 @@ fn put(json: &mut Json, line: &Line, segment: &Segment) {
             json.put_text("law", "slides");
             put_point(json, "velocity", *velocity);
         }
-        Law::Turns(conveyed) => {
-            json.put_text("law", "turns");
-            put_point(json, "middle", conveyed.middle());
-            json.put_real("rate", Some(conveyed.rate()));
+        Law::Conveyed(conveyed) => {
+            match conveyed.along() {
+                Along::Straight(velocity) => {
+                    json.put_text("law", "slides");
+                    put_point(json, "velocity", velocity);
+                }
+                Along::Arc { middle, rate, climb } => {
+                    json.put_text("law", "turns");
+                    put_point(json, "middle", middle);
+                    json.put_real("rate", Some(rate));
+                    json.put_real("climb", Some(climb));
+                }
+            }
+            match conveyed.carry() {
+                None => {}
+                Some(Carry::Slides(velocity)) => put_point(json, "carried", velocity),
+                Some(Carry::Turns { pivot, rate }) => {
+                    put_point(json, "pivot", pivot);
+                    json.put_real("pivot_rate", Some(rate));
+                }
+            }
         }
         Law::Hangs(hanging) => {
             json.put_text("law", "hangs");

@@ -6,7 +6,7 @@ use crate::event::Event;
 use crate::kinematics::arm::Arm;
 use crate::line::Line;
 use crate::plant::Plant;
-use crate::plant::conveyed::Conveyed;
+use crate::plant::conveyed::{Along, Carry, Conveyed};
 use crate::plant::trajectory::Trajectory;
 use crate::point::Point;
 
@@ -48,8 +48,11 @@ impl Recorder {
         }
         for (item, last) in self.conveyed.iter_mut().enumerate() {
             let conveyed = plant.conveyed(item);
-            let law = |conveyed: &Conveyed| (conveyed.speed, conveyed.stops_at);
-            if last.as_ref().map(law) != conveyed.as_ref().map(law) {
+            let is_as_before = match (last.as_ref(), conveyed.as_ref()) {
+                (Some(last), Some(conveyed)) => last.goes_on_as(conveyed),
+                (last, conveyed) => last.is_none() && conveyed.is_none(),
+            };
+            if !is_as_before {
                 changed.push(item);
             }
             *last = conveyed;
@@ -104,17 +107,18 @@ impl Recorder {
     }
 
     fn convey(&mut self, item: usize, now_ms: f64, carrier: Carrier, conveyed: Conveyed) {
-        let rests_s = if conveyed.moves() { conveyed.rests_after() } else { 0.0 };
-        let rests_ms = now_ms + 1000.0 * rests_s;
-        let goes = match conveyed.velocity() {
-            Some(velocity) => Law::Slides { from: conveyed.point(0.0), velocity },
-            None => Law::Turns(conveyed),
-        };
-        let mut laws = vec![(now_ms, rests_ms, goes)];
-        if rests_s.is_finite() {
-            laws.push((rests_ms, f64::INFINITY, Law::Rests(conveyed.point(rests_s))));
-        }
-        self.put(item, now_ms, carrier, laws);
+        let laws = conveyed.pieces().into_iter().map(|(begin_s, end_s, goes)| {
+            let law = match (goes.along(), goes.carry()) {
+                _ if !goes.moves() => Law::Rests(goes.point(0.0)),
+                (Along::Straight(velocity), None) => Law::Slides { from: goes.point(0.0), velocity },
+                (Along::Straight(velocity), Some(Carry::Slides(carried))) => {
+                    Law::Slides { from: goes.point(0.0), velocity: velocity + carried }
+                }
+                _ => Law::Conveyed(goes),
+            };
+            (now_ms + 1000.0 * begin_s, now_ms + 1000.0 * end_s, law)
+        });
+        self.put(item, now_ms, carrier, laws.collect());
     }
 
     /// Begin, end and law of each segment from now on.

@@ -1,6 +1,7 @@
 //! How an item on a conveyor goes on.
 
-use crate::part::cylinder::Stroking;
+use crate::frame::Frame;
+use crate::part::cylinder::{Stroke, Stroking};
 use crate::part::lane::Course;
 use crate::point::{Axis, Point};
 
@@ -17,6 +18,20 @@ pub struct Conveyed {
     pub stops_at: f64,
     /// How the conveyor itself moves; the course is where it is at the inner end.
     pub carried: Option<Stroking>,
+}
+
+/// In the world at the beginning; metres and radians a second, turns to the left about the vertical.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Along {
+    Straight(Point),
+    Arc { middle: Point, rate: f64, climb: f64 },
+}
+
+/// In the world; metres and radians a second, turns to the left about the vertical.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Carry {
+    Slides(Point),
+    Turns { pivot: Point, rate: f64 },
 }
 
 impl Conveyed {
@@ -42,8 +57,35 @@ impl Conveyed {
     }
 
     /// Seconds until something that stands stops it.
-    pub fn rests_after(&self) -> f64 {
-        ((self.place - self.stops_at) / self.speed).max(0.0)
+    fn rests_after(&self) -> f64 {
+        if self.speed > 0.0 { ((self.place - self.stops_at) / self.speed).max(0.0) } else { f64::INFINITY }
+    }
+
+    /// How it goes on then.
+    fn after(&self, seconds: f64) -> Self {
+        let speed = if seconds < self.rests_after() { self.speed } else { 0.0 };
+        let carried = self.carried.map(|carried| carried.after(seconds));
+        Self { place: self.place_after(seconds), speed, carried, ..*self }
+    }
+
+    /// Begin and end of each piece in which neither the conveyor stops it nor a cylinder comes to its end, seconds
+    /// from now, and how it goes on at the begin.
+    pub fn pieces(&self) -> Vec<(f64, f64, Self)> {
+        let carried = self.carried.map_or(f64::INFINITY, |carried| carried.rests_after());
+        let mut ends = [self.rests_after(), carried, f64::INFINITY];
+        ends.sort_by(f64::total_cmp);
+        let begins = [0.0, ends[0], ends[1]];
+        let pieces = begins.into_iter().zip(ends).filter(|(begin, end)| begin < end);
+        pieces.map(|(begin, end)| (begin, end, self.after(begin))).collect()
+    }
+
+    /// Whether what is decided of it is the same at two times: where it is may differ.
+    pub fn goes_on_as(&self, other: &Self) -> bool {
+        let law = |conveyed: &Self| {
+            let carried = conveyed.carried.map(|carried| (carried.stroke, carried.rate));
+            (conveyed.speed, conveyed.stops_at, carried)
+        };
+        law(self) == law(other)
     }
 
     /// Metres per second that no point of it goes faster than which is so far from its middle line.
@@ -63,20 +105,33 @@ impl Conveyed {
         self.speed * (libm::hypot(1.0, climbs) + turns) + carried
     }
 
-    /// The middle of its arc, at the height of its beginning; of a straight course, where it is.
-    pub fn middle(&self) -> Point {
-        match self.course {
-            Course::Arc { from, radius, .. } => from.point(Point::new(0.0, radius, 0.0)),
-            Course::Axis { .. } | Course::Line { .. } => self.point(0.0),
-        }
+    /// How it moves along its course, as seen from what the conveyor is on.
+    pub fn along(&self) -> Along {
+        let now = self.carried.map_or(Frame::default(), |carried| carried.frame(0.0));
+        let ahead = match self.course {
+            Course::Axis { along: Axis::X, .. } => Point::new(-1.0, 0.0, 0.0),
+            Course::Axis { along: Axis::Y, .. } => Point::new(0.0, -1.0, 0.0),
+            Course::Line { from, length, rise } => from.direction(Point::new(1.0, 0.0, rise / length)),
+            Course::Arc { from, radius, length, rise } => {
+                return Along::Arc {
+                    middle: now.point(from.point(Point::new(0.0, radius, 0.0))),
+                    rate: self.speed / radius,
+                    climb: self.speed * rise / length,
+                };
+            }
+        };
+        Along::Straight(now.direction(ahead.scaled(self.speed)))
     }
 
-    /// To the left about the middle of its arc, rad/s.
-    pub fn rate(&self) -> f64 {
-        match self.course {
-            Course::Arc { radius, .. } => self.speed / radius,
-            Course::Axis { .. } | Course::Line { .. } => 0.0,
-        }
+    /// How that moves itself.
+    pub fn carry(&self) -> Option<Carry> {
+        let carried = self.carried.filter(|carried| carried.moves())?;
+        Some(match carried.stroke {
+            Stroke::Slides(far) => Carry::Slides(far.scaled(carried.rate)),
+            Stroke::Turns { pivot, degrees } => {
+                Carry::Turns { pivot, rate: degrees.to_radians() * carried.rate }
+            }
+        })
     }
 
     /// How much longer its own course is than the middle line, as a factor: 1 and more.
@@ -85,16 +140,5 @@ impl Conveyed {
             Course::Arc { radius, .. } => 1.0 + self.across.abs() / radius.abs(),
             Course::Axis { .. } | Course::Line { .. } => 1.0,
         }
-    }
-
-    /// On a straight course, m/s in the world.
-    pub fn velocity(&self) -> Option<Point> {
-        let ahead = match self.course {
-            Course::Axis { along: Axis::X, .. } => Point::new(-1.0, 0.0, 0.0),
-            Course::Axis { along: Axis::Y, .. } => Point::new(0.0, -1.0, 0.0),
-            Course::Line { from, length, rise } => from.direction(Point::new(1.0, 0.0, rise / length)),
-            Course::Arc { .. } => return None,
-        };
-        Some(ahead.scaled(self.speed))
     }
 }

@@ -69,6 +69,13 @@ impl Conveying {
         Self { speeds: vec![f64::NAN; tracks.len()], tracks, next_ms: f64::INFINITY }
     }
 
+    /// Whether one of two lanes leads onto the other; each by the numbers of its machine and of its part.
+    pub fn are_joined(&self, lanes: [(usize, usize); 2]) -> bool {
+        let track = |lane| self.tracks.iter().position(|track| (track.machine, track.part) == lane);
+        let [Some(a), Some(b)] = lanes.map(track) else { return false };
+        self.tracks[a].leads_onto(b) || self.tracks[b].leads_onto(a)
+    }
+
     /// When something happens next, ms; infinity: never.
     pub fn next_ms(&self) -> f64 {
         self.next_ms

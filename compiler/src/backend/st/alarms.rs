@@ -23,7 +23,7 @@ pub fn table(shared: Shared) -> String {
                 "The old value was kept. Look at the inputs and parameters from which it is computed; after reset and start the step is made again from its beginning."
             }
             FaultKind::InvariantFails => {
-                "Look at the values that it names; set them right before reset, or the fault returns."
+                "Do what the text says. If it is a condition, look at the values that it names, and set them right before reset, or the fault returns."
             }
             FaultKind::TooLong => {
                 "Look for what the state waits for: the answer of the device, or another robot. After reset and start the state has its whole time again."

@@ -1,6 +1,7 @@
 //! Where compiled controllers are kept: the user's cache, a folder for each set of types.
 
 use super::super::interrupt::{self, Temporary};
+use super::super::io_error;
 use super::super::lock::Lock;
 use super::super::output::hash;
 use super::Notice;
@@ -25,7 +26,7 @@ impl Entry {
     /// What processes that were killed have left there is removed.
     pub fn open(key: &str, notice: Notice) -> Result<Self, String> {
         let folder = own(&cache()?)?.join(FORMAT).join(key);
-        let failed = |e: io::Error| format!("{}: {e}", folder.display());
+        let failed = |e: io::Error| format!("{}: {}", folder.display(), io_error::text(&e));
         fs::create_dir_all(&folder).map_err(failed)?;
         let waits = || notice.say("waiting for another autogen that compiles the same controllers ...");
         let lock = Lock::folder(&folder, waits).map_err(failed)?;
@@ -53,7 +54,7 @@ impl Entry {
 
     /// Keeps what `make` has made in a folder of its own, which is removed.
     pub fn fill(&self, make: impl FnOnce(&Path) -> Result<PathBuf, String>) -> Result<PathBuf, String> {
-        let failed = |e: io::Error| format!("{}: {e}", self.folder.display());
+        let failed = |e: io::Error| format!("{}: {}", self.folder.display(), io_error::text(&e));
         let workspace = Temporary::new(self.folder.join("workspace"));
         fs::create_dir(workspace.path()).map_err(failed)?;
         let made = make(workspace.path())?;
@@ -81,7 +82,7 @@ fn cache() -> Result<PathBuf, String> {
 /// The tool's folder in it, which nobody else can write: what is in it is run.
 fn own(cache: &Path) -> Result<PathBuf, String> {
     let folder = cache.join("autogen");
-    let failed = |e: io::Error| format!("{}: {e}", folder.display());
+    let failed = |e: io::Error| format!("{}: {}", folder.display(), io_error::text(&e));
     fs::create_dir_all(cache).map_err(failed)?;
     let mut builder = DirBuilder::new();
     #[cfg(unix)]
@@ -97,7 +98,7 @@ fn own(cache: &Path) -> Result<PathBuf, String> {
 #[cfg(unix)]
 fn close_to_others(folder: &Path) -> Result<(), String> {
     use std::os::unix::fs::{MetadataExt, PermissionsExt};
-    let failed = |e: io::Error| format!("{}: {e}", folder.display());
+    let failed = |e: io::Error| format!("{}: {}", folder.display(), io_error::text(&e));
     let metadata = folder.symlink_metadata().map_err(failed)?;
     if !metadata.is_dir() || metadata.uid() != rustix::process::geteuid().as_raw() {
         return Err(format!(

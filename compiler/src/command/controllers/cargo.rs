@@ -1,6 +1,7 @@
 //! Cargo, run where nothing but the user's own configuration is found.
 
 use super::super::interrupt;
+use super::super::io_error;
 use autogen::backend::Files;
 use autogen::simulator::TARGET;
 use serde_json::Value;
@@ -13,7 +14,7 @@ use std::process::{Command, Stdio};
 /// Compiles the adapters' shared library in a folder, and returns its path. Cargo and rustup look for their
 /// configuration in the working directory and above it, so that is the root.
 pub fn compile(folder: &Path, files: &Files) -> Result<PathBuf, String> {
-    put(folder, files).map_err(|e| format!("{}: {e}", folder.display()))?;
+    put(folder, files).map_err(|e| format!("{}: {}", folder.display(), io_error::text(&e)))?;
     let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     cargo
         .current_dir(folder.ancestors().last().unwrap_or(folder))
@@ -27,8 +28,12 @@ pub fn compile(folder: &Path, files: &Files) -> Result<PathBuf, String> {
         .stdin(Stdio::null())
         .stdout(Stdio::piped())
         .stderr(Stdio::piped());
-    let output = interrupt::output(interrupt::in_group(&mut cargo))
-        .map_err(|e| format!("cargo cannot be started, and the controllers need it to be compiled: {e}"))?;
+    let output = interrupt::output(interrupt::in_group(&mut cargo)).map_err(|e| {
+        format!(
+            "cargo cannot be started, and the controllers need it to be compiled: {e}; \
+                 install Rust from https://rustup.rs, or set CARGO to the path of cargo"
+        )
+    })?;
     if !output.status.success() {
         let errors = String::from_utf8_lossy(&output.stderr);
         return Err(format!("the controllers could not be compiled:\n{errors}"));

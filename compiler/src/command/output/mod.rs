@@ -84,16 +84,8 @@ impl Output {
         overwrite: Overwrite,
     ) -> Result<(), Refusal> {
         let before = Manifest::read(&self.folder);
-        let mut hashes: BTreeMap<String, String> =
-            files.iter().map(|(name, text)| (name.clone(), hash(text.as_bytes()))).collect();
-        let same = |name: &String, hash: &String| before.files.get(name) == Some(hash);
-        if about == before.about
-            && hashes.iter().all(|(name, hash)| same(name, hash))
-            && let Some(results) = before.files.get(RESULTS)
-        {
-            hashes.insert(RESULTS.into(), results.clone());
-        }
-        self.replace(files, &before, Manifest::new(about, hashes), overwrite)
+        let after = after(files, about, &before);
+        self.replace(files, &before, after, overwrite)
     }
 
     /// Writes the results of the controllers that are in the folder.
@@ -172,6 +164,74 @@ impl Output {
         }
         transaction::apply(&self.folder, &changes)
     }
+}
+
+/// The manifest that a build writes over another one.
+fn after(files: &Files, about: Map<String, Value>, before: &Manifest) -> Manifest {
+    let mut hashes: BTreeMap<String, String> =
+        files.iter().map(|(name, text)| (name.clone(), hash(text.as_bytes()))).collect();
+    let same = |name: &String, hash: &String| before.files.get(name) == Some(hash);
+    if about == before.about
+        && hashes.iter().all(|(name, hash)| same(name, hash))
+        && let Some(results) = before.files.get(RESULTS)
+    {
+        hashes.insert(RESULTS.into(), results.clone());
+    }
+    Manifest::new(about, hashes)
+}
+
+/// A file of a folder that a build would change.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Difference {
+    pub name: String,
+    pub kind: Kind,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Kind {
+    Missing,
+    /// With the text that would be written.
+    Changed(String),
+    /// A build would remove it.
+    Left,
+}
+
+/// What [`Output::write`] would change in a folder, which may be one that cannot be written to. Its manifest
+/// stands last.
+pub fn differences(
+    folder: &Path,
+    files: &Files,
+    about: Map<String, Value>,
+) -> Result<Vec<Difference>, Refusal> {
+    let before = Manifest::read(folder);
+    let after = after(files, about, &before);
+    let manifest = (MANIFEST.to_string(), after.to_text());
+    let all = || files.iter().chain([(&manifest.0, &manifest.1)]);
+    let found = obstacles(folder, all().map(|(name, _)| name).chain(before.files.keys()));
+    if !found.is_empty() {
+        return Err(Refusal::InTheWay(found));
+    }
+    let mut differences = Vec::new();
+    for (name, text) in files.iter() {
+        differences.extend(difference(folder, name, text)?);
+    }
+    for name in before.files.keys().filter(|name| !after.files.contains_key(*name)) {
+        if present(folder, name)?.is(before.files.get(name).map(String::as_str)) {
+            differences.push(Difference { name: name.clone(), kind: Kind::Left });
+        }
+    }
+    differences.sort_by(|a, b| a.name.cmp(&b.name));
+    differences.extend(difference(folder, &manifest.0, &manifest.1)?);
+    Ok(differences)
+}
+
+fn difference(folder: &Path, name: &str, text: &str) -> Result<Option<Difference>, Refusal> {
+    let kind = match present(folder, name)? {
+        Present::Nothing => Kind::Missing,
+        there if there.is(Some(&hash(text.as_bytes()))) => return Ok(None),
+        Present::File(_) => Kind::Changed(text.into()),
+    };
+    Ok(Some(Difference { name: name.into(), kind }))
 }
 
 /// Those of the paths that are one of `inputs`.

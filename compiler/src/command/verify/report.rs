@@ -68,6 +68,12 @@ impl Report<'_> {
             "belts bring parts of every kind, without end; times come in any scan, none is too long".into(),
             "the system runs: no pauses, no operator".into(),
         ];
+        if self.outcome.covered.stops > 0 {
+            bounds.push(format!(
+                "{} transitions end in a stop whose text calls the operator: what follows is not searched",
+                self.outcome.covered.stops
+            ));
+        }
         if plant.scenario.orders.is_empty() {
             bounds.push("nothing is ordered: whether anything can be made is not asked".into());
         }
@@ -122,6 +128,7 @@ impl Report<'_> {
             "violations": violations,
             "states": covered.states,
             "transitions": covered.transitions,
+            "stops": covered.stops,
             "depth": covered.depth,
             "time_s": covered.time.as_secs_f64(),
             "memory_bytes": covered.memory,

@@ -6,6 +6,9 @@ use crate::layout::json::{Json, Member};
 use crate::scenario::{Answer, Faults, Pause, Refusal, Slip};
 use crate::source::Spanned;
 
+/// The highest number of a pick or of a command.
+pub const LAST: u32 = 1_000_000;
+
 impl Decoder {
     pub(super) fn faults(&mut self, json: &Json) -> Option<Faults> {
         let members = self.object(json, "faults")?;
@@ -31,7 +34,7 @@ impl Decoder {
     /// Number of one of many events, counted from 1.
     fn count(&mut self, members: &[Member], json: &Json, key: &str, what: &str) -> Option<u32> {
         let number = self.required(members, key, json.span, what);
-        number.and_then(|j| self.whole(j, key, 1..=1_000_000))
+        number.and_then(|j| self.whole(j, key, 1..=LAST))
     }
 
     fn slip(&mut self, json: &Json) -> Option<Slip<Spanned<String>>> {

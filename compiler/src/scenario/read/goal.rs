@@ -7,7 +7,7 @@ use crate::scenario::Collected;
 use crate::source::Spanned;
 
 /// Of each kind.
-const MOST_ITEMS: u32 = 1_000_000;
+pub const MOST_ITEMS: u32 = 1_000_000;
 
 impl Decoder {
     pub(super) fn goal(&mut self, json: &Json, kinds: &[&str]) -> Vec<Collected<Spanned<String>>> {

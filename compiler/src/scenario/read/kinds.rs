@@ -8,17 +8,17 @@ use crate::source::{Span, Spanned};
 use std::ops::RangeInclusive;
 
 /// Of height, length and width of a part, m.
-const LENGTHS: RangeInclusive<f64> = 0.001..=1.0;
+pub const LENGTHS: RangeInclusive<f64> = 0.001..=1.0;
 /// Of a kind that does not say how long and wide its parts are, m: they fit side by side on a tray.
 const SIZE: [f64; 2] = [0.1, 0.1];
 
 /// Of a part, kg.
-const MASSES: RangeInclusive<f64> = 0.001..=1000.0;
+pub const MASSES: RangeInclusive<f64> = 0.001..=1000.0;
 /// Of a kind that does not say, kg.
 const MASS: f64 = 0.1;
 
 /// Most kinds of part that a line has; a briefcase of the library has a place for each.
-const MOST_KINDS: usize = 16;
+pub const MOST_KINDS: usize = 16;
 
 /// Of a line in which nobody tells kinds apart.
 pub fn any(span: Span) -> Kind {

@@ -6,7 +6,7 @@ use crate::layout::json::Json;
 use crate::scenario::{Operation, Part};
 
 /// Of the numbers that may be set.
-const MOST: f64 = 1e6;
+pub const MOST: f64 = 1e6;
 
 impl Decoder {
     pub(super) fn operator(&mut self, json: &Json) -> Vec<Operation<Part>> {

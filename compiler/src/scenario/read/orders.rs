@@ -7,11 +7,11 @@ use crate::scenario::{Number, Order, Orders};
 use crate::source::{Span, Spanned};
 use std::collections::HashMap;
 
-const MOST_ORDERS: u32 = 10_000;
+pub const MOST_ORDERS: u32 = 10_000;
 /// The `count` of orders that go on until the time limit.
-const WITHOUT_END: &str = "without end";
+pub const WITHOUT_END: &str = "without end";
 /// Highest value of the port `order_parts` of a station.
-const MOST_OF_A_KIND: u32 = 12;
+pub const MOST_OF_A_KIND: u32 = 12;
 
 impl Decoder {
     pub(super) fn orders(&mut self, json: &Json, kinds: &[&str]) -> Option<Orders> {

@@ -4,10 +4,12 @@ use super::{EVERY_S, LONGEST_S, SEED, SURPLUS};
 use crate::diagnostic::Diagnostic;
 use crate::layout::decode::{Decoder, find};
 use crate::layout::json::{Json, Value};
-use crate::scenario::{Items, Supply};
+use crate::scenario::{Items, MOST_PARTS, Supply};
 
+/// Numerator and denominator of its surplus.
+pub const MOST_SURPLUS: u32 = 100;
 /// Of one list of parts.
-const MOST_TIMES: u32 = 10_000;
+pub const MOST_TIMES: u32 = 10_000;
 
 impl Decoder {
     pub(super) fn supply(&mut self, json: &Json, kinds: &[&str]) -> Option<Supply> {
@@ -16,22 +18,23 @@ impl Decoder {
         let every_s = self.seconds_or(members, "every_s", EVERY_S);
         let first_s = find(members, "first_s").and_then(|j| self.number_in(j, "first_s", 0.0..=LONGEST_S));
         let first_s = first_s.unwrap_or(every_s);
+        let seed = find(members, "seed").and_then(|j| self.whole(j, "seed", 0..=u32::MAX)).unwrap_or(SEED);
         let Some(items) = find(members, "items") else {
             let surplus = find(members, "surplus").and_then(|j| self.fraction(j)).unwrap_or(SURPLUS);
-            let seed = find(members, "seed").and_then(|j| self.whole(j, "seed", 0..=u32::MAX));
-            let items = Items::Shuffled { surplus, seed: seed.unwrap_or(SEED) };
-            return Some(Supply { span: json.span, first_s, every_s, items });
+            return Some(Supply {
+                span: json.span,
+                first_s,
+                every_s,
+                seed,
+                items: Items::Shuffled { surplus },
+            });
         };
-        for key in members.iter().map(|m| &m.key).filter(|k| k.value == "surplus" || k.value == "seed") {
+        if let Some(surplus) = members.iter().find(|m| m.key.value == "surplus") {
             self.report(
-                Diagnostic::new(
-                    "E0133",
-                    key.span,
-                    format!("\"{}\" has no effect beside \"items\"", key.value),
-                )
-                .other(items.span, "these parts are brought as they stand")
-                .note("surplus and seed make a list of parts where none is given")
-                .help(format!("remove \"{}\" or \"items\"", key.value)),
+                Diagnostic::new("E0133", surplus.key.span, "\"surplus\" has no effect beside \"items\"")
+                    .other(items.span, "these parts are brought as they stand")
+                    .note("it makes a list of parts where none is given")
+                    .help("remove \"surplus\" or \"items\""),
             );
         }
         let items = match &items.value {
@@ -43,8 +46,20 @@ impl Decoder {
             _ => Items::OnlyBelt(self.items(items, kinds)?),
         };
         let times = find(members, "times").map_or(Some(1), |j| self.whole(j, "times", 1..=MOST_TIMES))?;
+        let brought = items.count() as u64 * u64::from(times);
+        if brought > MOST_PARTS {
+            self.report(
+                Diagnostic::new("E0137", json.span, format!("the belts would have to bring {brought} parts"))
+                    .note(format!(
+                        "{} parts, {times} times; a scenario brings at most {MOST_PARTS}",
+                        items.count()
+                    ))
+                    .help("bring fewer parts, or fewer times"),
+            );
+            return None;
+        }
         let items = items.repeated(times as usize);
-        Some(Supply { span: json.span, first_s, every_s, items })
+        Some(Supply { span: json.span, first_s, every_s, seed, items })
     }
 
     fn items(&mut self, json: &Json, kinds: &[&str]) -> Option<Vec<usize>> {
@@ -55,8 +70,8 @@ impl Decoder {
 
     fn fraction(&mut self, json: &Json) -> Option<[u32; 2]> {
         let items = self.exactly(json, "surplus", &["numerator", "denominator"])?;
-        let numerator = self.whole(&items[0], "surplus[0]", 0..=100);
-        let denominator = self.whole(&items[1], "surplus[1]", 1..=100);
+        let numerator = self.whole(&items[0], "surplus[0]", 0..=MOST_SURPLUS);
+        let denominator = self.whole(&items[1], "surplus[1]", 1..=MOST_SURPLUS);
         Some([numerator?, denominator?])
     }
 }

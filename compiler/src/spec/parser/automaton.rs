@@ -128,11 +128,9 @@ impl Parser {
                 automaton.requires.extend(require);
             }
             Some("invariant") => {
-                self.next();
-                let errors = self.errors;
-                let value = self.parse_expr();
-                automaton.invariants.push(crate::source::Spanned { span: value.span, value });
-                self.end_of_declaration(self.errors == errors);
+                let invariant = self.invariant();
+                self.end_of_declaration(invariant.is_some());
+                automaton.invariants.extend(invariant);
             }
             Some("initial") if *self.peek_second() == Token::Sign("->") => {
                 let span = self.span();
@@ -218,6 +216,29 @@ impl Parser {
         self.next();
         let text = self.shown_text(&text, start as usize);
         Some(ast::Require { span: span.to(self.last_span()), condition, text })
+    }
+
+    fn invariant(&mut self) -> Option<ast::Invariant> {
+        self.next();
+        let errors = self.errors;
+        let condition = self.parse_expr();
+        if self.errors > errors {
+            return None;
+        }
+        if self.word() != Some("else") {
+            return Some(ast::Invariant { condition, text: None });
+        }
+        self.next();
+        let Token::Text(text) = self.peek().clone() else {
+            self.error(
+                "E0205",
+                "the text of the invariant is missing".into(),
+                "write what to tell the operator as a text after `else`, or leave `else` out",
+            );
+            return None;
+        };
+        self.next();
+        Some(ast::Invariant { condition, text: Some(text) })
     }
 
     fn role(

@@ -75,4 +75,16 @@ impl Stroking {
     pub fn frame(&self, seconds: f64) -> Frame {
         self.stroke.frame(self.out(seconds))
     }
+
+    /// Seconds until it comes to the end; infinity if it is at rest.
+    pub fn rests_after(&self) -> f64 {
+        let left = if self.rate > 0.0 { 1.0 - self.out } else { self.out };
+        if self.moves() { left / self.rate.abs() } else { f64::INFINITY }
+    }
+
+    /// How it goes on then.
+    pub fn after(&self, seconds: f64) -> Self {
+        let rate = if seconds < self.rests_after() { self.rate } else { 0.0 };
+        Self { out: self.out(seconds), rate, ..*self }
+    }
 }

@@ -8,7 +8,7 @@ use crate::plant::conveyed::Conveyed;
 use crate::point::Point;
 
 /// What is less is rounding, m.
-const AT_ONCE: f64 = 1e-9;
+pub const AT_ONCE: f64 = 1e-9;
 
 #[derive(Clone, Debug)]
 pub struct Moving {

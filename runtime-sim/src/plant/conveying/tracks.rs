@@ -33,6 +33,13 @@ pub struct Track {
     pub halves: Vec<f64>,
 }
 
+impl Track {
+    /// Whether that one begins where this one ends, at some end of their cylinders.
+    pub fn leads_onto(&self, other: usize) -> bool {
+        self.joints.iter().any(|joint| joint.onto == other)
+    }
+}
+
 /// A lane that begins where another one ends.
 #[derive(Clone, Copy, Debug)]
 struct Joint {

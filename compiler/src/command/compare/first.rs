@@ -1,0 +1,293 @@
+//! Where two runs differ first. Both go on side by side, so that nothing has to be kept of either.
+
+use super::super::progress::Progress;
+use autogen::executor::{Element, Entry, Executor};
+use autogen::ir::{Extent, Scalar, System, Type};
+use autogen::lower::Project;
+use runtime_sim::device::Direction;
+use runtime_sim::run::{Seen, Stepping, run as simulate};
+use runtime_sim::scan::{Controllers, SystemInputs, SystemOutputs};
+use serde_json::{Value, json};
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::thread;
+
+/// Scans that one run may be ahead.
+const AHEAD: usize = 1000;
+
+/// The first scan after which values differ.
+pub struct First {
+    pub scan: u64,
+    pub at_ms: u64,
+    /// What is called so, in the first run and in the second one.
+    pub values: Vec<(String, String, String)>,
+}
+
+pub struct Found {
+    pub reports: [Value; 2],
+    pub first: Option<First>,
+    pub only: [Vec<String>; 2],
+}
+
+/// What has changed in a scan, by name.
+struct Changes {
+    scan: u64,
+    at_ms: u64,
+    values: BTreeMap<String, String>,
+}
+
+/// A word that controllers remember, with its name.
+struct Named {
+    name: String,
+    element: Element,
+    ty: Scalar,
+}
+
+pub fn find(projects: [&Project; 2], progress: Progress) -> Result<Found, String> {
+    let names = projects.map(|project| all(&project.system));
+    let sets =
+        names.each_ref().map(|names| -> BTreeSet<&str> { names.iter().map(|n| n.name.as_str()).collect() });
+    let states = projects.map(|project| -> BTreeSet<String> {
+        project.system.instances.iter().map(|instance| format!("{}, in state", instance.name)).collect()
+    });
+    let only = |own: usize, other: usize| -> Vec<String> {
+        let machines = states[own].difference(&states[other]).map(|name| name.replace(", in state", ""));
+        let values = sets[own].difference(&sets[other]).map(|name| name.to_string());
+        machines.chain(values).collect()
+    };
+    let only = [only(0, 1), only(1, 0)];
+    let common: BTreeSet<String> = sets[0].intersection(&sets[1]).map(|name| name.to_string()).collect();
+    let machines: BTreeSet<String> = states[0].intersection(&states[1]).cloned().collect();
+    let common = common.union(&machines).cloned().collect::<BTreeSet<_>>();
+    thread::scope(|scope| {
+        let (to_a, from_a) = sync_channel(AHEAD);
+        let (to_b, from_b) = sync_channel(AHEAD);
+        let [names_a, names_b] = &names;
+        let common = &common;
+        let a = scope.spawn(move || run(projects[0], names_a, common, to_a, progress));
+        let b = scope.spawn(move || run(projects[1], names_b, common, to_b, Progress::new(false)));
+        let first = difference(from_a, from_b);
+        let joined = |run: thread::ScopedJoinHandle<'_, Result<Value, String>>| {
+            run.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+        };
+        Ok(Found { reports: [joined(a)?, joined(b)?], first, only })
+    })
+}
+
+/// Ends both channels with the first difference; the runs go on without them.
+fn difference(a: Receiver<Changes>, b: Receiver<Changes>) -> Option<First> {
+    loop {
+        match (a.recv().ok(), b.recv().ok()) {
+            (None, None) => return None,
+            (Some(changes), None) => return Some(one_sided(changes, true)),
+            (None, Some(changes)) => return Some(one_sided(changes, false)),
+            (Some(a), Some(b)) if a.at_ms < b.at_ms => return Some(one_sided(a, true)),
+            (Some(a), Some(b)) if b.at_ms < a.at_ms => return Some(one_sided(b, false)),
+            (Some(a), Some(b)) if a.values != b.values => return Some(both(&a, &b)),
+            _ => {}
+        }
+    }
+}
+
+const UNCHANGED: &str = "unchanged";
+
+fn one_sided(changes: Changes, is_first: bool) -> First {
+    let values = changes.values.into_iter().map(|(name, value)| match is_first {
+        true => (name, value, UNCHANGED.to_string()),
+        false => (name, UNCHANGED.to_string(), value),
+    });
+    First { scan: changes.scan, at_ms: changes.at_ms, values: values.collect() }
+}
+
+fn both(a: &Changes, b: &Changes) -> First {
+    let names: BTreeSet<&String> = a.values.keys().chain(b.values.keys()).collect();
+    let of = |changes: &Changes, name: &String| changes.values.get(name).map_or(UNCHANGED, |v| v).to_string();
+    let values = names.into_iter().map(|name| (name.clone(), of(a, name), of(b, name)));
+    First { scan: a.scan, at_ms: a.at_ms, values: values.filter(|(_, a, b)| a != b).collect() }
+}
+
+/// Names of states come first: `agv1, in state`.
+fn run(
+    project: &Project,
+    names: &[Named],
+    common: &BTreeSet<String>,
+    to: SyncSender<Changes>,
+    mut progress: Progress,
+) -> Result<Value, String> {
+    let mut executor = Executor::new(&project.system);
+    executor.keep_journal();
+    let mut side = Side {
+        system: &project.system,
+        executor,
+        named: names.iter().filter(|n| common.contains(&n.name)).map(|n| (key(n.element), n)).collect(),
+        machines: project
+            .system
+            .instances
+            .iter()
+            .map(|i| common.contains(&format!("{}, in state", i.name)))
+            .collect(),
+        scan: None,
+        skipped: 0,
+        states: vec![usize::MAX; project.system.instances.len()],
+        to: Some(to),
+    };
+    let mut observe = |seen: &Seen| progress.show(seen.scan * u64::from(project.plant.scan_ms) / 1000);
+    let report = simulate(&project.plant, &mut side, Stepping::Events, &mut observe)?;
+    progress.end();
+    serde_json::from_str(&report.to_json()).map_err(|e| format!("the report is no JSON: {e}"))
+}
+
+type Key = (u8, usize, usize, usize, usize);
+
+fn key(element: Element) -> Key {
+    match element {
+        Element::Local { robot, local, index } => (0, robot, local, index, 0),
+        Element::Cell { interface, row, cell, index } => (1, interface.0, row, cell, index),
+        Element::Port { robot, port, index } => (2, robot, port, index, 0),
+    }
+}
+
+struct Side<'a> {
+    system: &'a System,
+    executor: Executor<'a>,
+    named: BTreeMap<Key, &'a Named>,
+    machines: Vec<bool>,
+    scan: Option<u64>,
+    skipped: u64,
+    states: Vec<usize>,
+    /// None, once nobody asks any more.
+    to: Option<SyncSender<Changes>>,
+}
+
+impl Side<'_> {
+    fn tell(&mut self, scan: u64) {
+        let mut values = BTreeMap::new();
+        for entry in self.executor.take_journal() {
+            let Entry::Changed { what, .. } = entry else { continue };
+            if let Some(Named { name, element, ty }) = self.named.get(&key(what)) {
+                values.insert(name.clone(), self.system.shown_value(*ty, self.executor.element(*element)));
+            }
+        }
+        for (machine, before) in
+            self.states.iter_mut().enumerate().filter(|(machine, _)| self.machines[*machine])
+        {
+            let state = self.executor.state(machine);
+            if *before != state {
+                *before = state;
+                let name = format!("{}, in state", self.system.instances[machine].name);
+                values.insert(name, self.system.automaton_of(machine).states[state].name.clone());
+            }
+        }
+        let at_ms = scan * self.system.scan_ms as u64;
+        if !values.is_empty()
+            && let Some(to) = &self.to
+            && to.send(Changes { scan, at_ms, values }).is_err()
+        {
+            self.to = None;
+        }
+    }
+}
+
+impl Controllers for Side<'_> {
+    fn scan(&mut self, system: SystemInputs, inputs: &[Vec<f64>], outputs: &mut [Vec<f64>]) -> SystemOutputs {
+        let scan = self.scan.map_or(0, |scan| scan + 1) + std::mem::take(&mut self.skipped);
+        self.scan = Some(scan);
+        let answer = self.executor.scan(system, inputs, outputs);
+        match self.to {
+            Some(_) => self.tell(scan),
+            None => drop(self.executor.take_journal()),
+        }
+        answer
+    }
+
+    fn state(&self, machine: usize) -> usize {
+        self.executor.state(machine)
+    }
+
+    fn trace(&self, out: &mut Vec<f64>) {
+        self.executor.trace(out);
+    }
+
+    fn stays(&self) -> Vec<usize> {
+        self.executor.stays()
+    }
+
+    fn skip(&mut self, scans: u64) {
+        self.skipped = scans;
+        self.executor.skip(scans);
+    }
+}
+
+/// Locals, cells and outputs of all machines.
+fn all(system: &System) -> Vec<Named> {
+    let mut found = Vec::new();
+    for (robot, instance) in system.instances.iter().enumerate() {
+        let automaton = system.automaton_of(robot);
+        for (local, declared) in automaton.locals.iter().enumerate() {
+            let element = |index| Element::Local { robot, local, index };
+            put(system, &instance.name, &declared.name, declared.ty, element, &mut found);
+        }
+        for (implements, row) in automaton.implements.iter().zip(&instance.rows) {
+            let interface = implements.interface;
+            for (cell, declared) in system.model.interface(interface).cells.iter().enumerate() {
+                let element = |index| Element::Cell { interface, row: *row, cell, index };
+                put(system, &instance.name, &declared.name, declared.ty, element, &mut found);
+            }
+        }
+        for (port, declared) in automaton.device.ports.iter().enumerate() {
+            if declared.direction == Direction::Output {
+                let ty = Type { scalar: declared.ty.into(), extent: declared.extent.into() };
+                let element = |index| Element::Port { robot, port, index };
+                put(system, &instance.name, &declared.name, ty, element, &mut found);
+            }
+        }
+    }
+    found
+}
+
+fn put(
+    system: &System,
+    machine: &str,
+    name: &str,
+    ty: Type,
+    element: impl Fn(usize) -> Element,
+    found: &mut Vec<Named>,
+) {
+    for index in 0..system.model.elements(ty.extent) {
+        let name = match ty.extent {
+            Extent::One => format!("{machine}.{name}"),
+            Extent::Count(_) => format!("{machine}.{name}[{index}]"),
+            Extent::By(id) => format!("{machine}.{name}[{}]", system.model.enums[id.0].members[index]),
+        };
+        found.push(Named { name, element: element(index), ty: ty.scalar });
+    }
+}
+
+/// Values that are shown.
+const MOST_SHOWN: usize = 20;
+
+impl First {
+    pub fn text(&self) -> String {
+        let mut out = format!(
+            "first difference at {:.2} s, in scan {}: first, second\n",
+            self.at_ms as f64 / 1000.0,
+            self.scan
+        );
+        for (name, a, b) in self.values.iter().take(MOST_SHOWN) {
+            out += &format!("  {name}: {a}, {b}\n");
+        }
+        match self.values.len().saturating_sub(MOST_SHOWN) {
+            0 => out,
+            more => out + &format!("  and {more} more\n"),
+        }
+    }
+
+    pub fn json(&self) -> Value {
+        let values = self.values.iter().map(|(name, a, b)| {
+            let (machine, value) =
+                name.split_once(", in ").or_else(|| name.split_once('.')).unwrap_or((name, ""));
+            json!({ "machine": machine, "value": value, "first": a, "second": b })
+        });
+        json!({ "scan": self.scan, "at_s": self.at_ms as f64 / 1000.0, "values": values.collect::<Vec<_>>() })
+    }
+}

@@ -1,0 +1,135 @@
+//! The options of the commands that help while a line is made.
+
+use super::{Format, InputOptions};
+use clap::{Args, ValueEnum};
+use std::path::{Path, PathBuf};
+
+#[derive(Args, Debug)]
+pub struct WhyOptions {
+    #[command(flatten)]
+    pub input: InputOptions,
+    /// Seconds of the run; default: its end
+    #[arg(long, value_name = "SECONDS")]
+    pub at: Option<String>,
+    /// This machine only; may be given several times
+    #[arg(long, value_name = "NAME")]
+    pub robot: Vec<String>,
+    /// Also say when the clauses became true after that time, and when the machines left their states
+    #[arg(long, requires = "at")]
+    pub until: bool,
+    /// How many scans late devices answer: a number, or `random` or `random:SEED` for 0 to 5
+    #[arg(long, value_name = "N", default_value = "0")]
+    pub io_delay: String,
+}
+
+#[derive(Args, Debug)]
+pub struct CompareOptions {
+    /// A layout, a `results.json`, or a folder that holds one
+    #[arg(value_name = "A")]
+    pub first: PathBuf,
+    /// What it is compared with: another one of the same kind
+    #[arg(value_name = "B")]
+    pub second: PathBuf,
+    /// Of layouts: a folder of automata (*.aut), or one such file, for both
+    #[arg(long, value_name = "PATH")]
+    pub specs: Vec<PathBuf>,
+    /// Of layouts: the scenario of both; default: the one of each
+    #[arg(long, value_name = "FILE")]
+    pub scenario: Option<PathBuf>,
+    /// Of layouts: sets a parameter in both, such as agv.capacity=4
+    #[arg(long = "set", value_name = "NAME.PARAM=VALUE")]
+    pub settings: Vec<String>,
+    #[arg(long, value_enum, default_value = "text")]
+    pub format: Format,
+    /// Print errors only
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+impl CompareOptions {
+    /// What one of the two layouts is run with.
+    pub fn input(&self, layout: &Path) -> InputOptions {
+        InputOptions {
+            layout: layout.into(),
+            specs: self.specs.clone(),
+            scenario: self.scenario.clone(),
+            settings: self.settings.clone(),
+            order: None,
+            format: self.format,
+            quiet: self.quiet,
+        }
+    }
+}
+
+#[derive(Args, Debug)]
+pub struct FmtOptions {
+    /// Files of automata, or folders of them (*.aut)
+    #[arg(required = true, value_name = "PATH")]
+    pub paths: Vec<PathBuf>,
+    /// Change nothing; name the files that are not formatted, and end with 1 if there are any
+    #[arg(long)]
+    pub check: bool,
+    /// Print errors only
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+#[derive(Args, Debug)]
+pub struct CompletionsOptions {
+    /// The shell that completes
+    pub shell: clap_complete::Shell,
+}
+
+#[derive(Args, Debug)]
+pub struct SchemaOptions {
+    #[arg(value_enum, value_name = "WHAT")]
+    pub of: SchemaOf,
+    /// Of layouts: a folder of automata (*.aut), or one such file, whose types the schema knows beside the library's
+    #[arg(long, value_name = "PATH")]
+    pub specs: Vec<PathBuf>,
+    /// Of layouts: the scenario whose kinds of part the schema knows
+    #[arg(long, value_name = "FILE")]
+    pub scenario: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum SchemaOf {
+    Layout,
+    Scenario,
+}
+
+#[derive(Args, Debug)]
+pub struct TestOptions {
+    /// Files of tests (*.test), or folders in which they are looked for, at any depth up to 8
+    #[arg(required = true, value_name = "PATH")]
+    pub paths: Vec<PathBuf>,
+    /// What runs the controllers: the reference executor, the compiled Rust, or one after the other
+    #[arg(long, value_enum, default_value = "executor")]
+    pub on: TestEngine,
+    /// A folder of automata (*.aut), or one such file: adds to the library and replaces types of the same name
+    #[arg(long, value_name = "PATH")]
+    pub specs: Vec<PathBuf>,
+    /// Also write the results to this file, as XML in the form of JUnit
+    #[arg(long, value_name = "FILE")]
+    pub junit: Option<PathBuf>,
+    /// Print failures only
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum TestEngine {
+    Executor,
+    Rust,
+    Both,
+}
+
+#[derive(Args, Debug)]
+pub struct NewOptions {
+    /// The folder, which is made; it may be there if it is empty
+    #[arg(value_name = "DIR")]
+    pub folder: PathBuf,
+    /// Print errors only
+    #[arg(short, long)]
+    pub quiet: bool,
+}

@@ -1,0 +1,115 @@
+//! `autogen test`: tests that stand beside the specifications.
+
+mod files;
+pub mod junit;
+mod run;
+
+use super::options::{TestEngine, TestOptions};
+use super::output::Overwrite;
+use super::pending::{Content, Pending};
+use super::print;
+use crate::Status;
+use autogen::source::Sources;
+use autogen::testing::Failure;
+
+/// What came of one test on one engine.
+pub struct Result {
+    pub title: String,
+    pub engine: TestEngine,
+    pub outcome: Outcome,
+}
+
+pub enum Outcome {
+    Passed,
+    Failed(Vec<Failure>),
+    /// This engine cannot run it, and why.
+    Skipped(&'static str),
+}
+
+/// The results of a file, with the sources that their places are in.
+pub struct OfFile {
+    pub name: String,
+    pub sources: Sources,
+    pub results: Vec<Result>,
+}
+
+pub fn run(options: &TestOptions) -> Status {
+    let refused = |why: String| {
+        complain!("autogen: {why}");
+        Status::WrongCommand
+    };
+    let junit =
+        options.junit.as_ref().map(|path| Pending::new(path, Content::JUnit, Overwrite::Own)).transpose();
+    let junit = match junit {
+        Ok(junit) => junit,
+        Err(why) => return refused(why),
+    };
+    let paths = match files::find(&options.paths) {
+        Ok(paths) => paths,
+        Err(why) => return refused(why),
+    };
+    let mut all = Vec::new();
+    let mut is_wrong = false;
+    for path in &paths {
+        match run::file(options, path) {
+            Ok(of_file) => {
+                say_file(options, &of_file);
+                all.push(of_file);
+            }
+            Err(run::End::Wrong(sources, found)) => {
+                print::diagnostics(&sources, &found);
+                is_wrong = true;
+            }
+            Err(run::End::Failed(why)) => return refused(why),
+        }
+    }
+    if let Some(junit_file) = junit {
+        let kept = junit_file.write(&junit::text(&all)).and_then(|()| junit_file.keep());
+        if let Err(why) = kept {
+            return refused(why);
+        }
+    }
+    let count = |wanted: fn(&Outcome) -> bool| -> usize {
+        all.iter().flat_map(|file| &file.results).filter(|result| wanted(&result.outcome)).count()
+    };
+    let failed = count(|outcome| matches!(outcome, Outcome::Failed(_)));
+    if !options.quiet {
+        let (passed, skipped) =
+            (count(|o| matches!(o, Outcome::Passed)), count(|o| matches!(o, Outcome::Skipped(_))));
+        let skipped = if skipped == 0 { String::new() } else { format!(", {skipped} skipped") };
+        say!("{passed} passed, {failed} failed{skipped}");
+    }
+    match (is_wrong, failed) {
+        (true, _) => Status::WrongInput,
+        (false, 0) => Status::Done,
+        (false, _) => Status::NotReached,
+    }
+}
+
+fn say_file(options: &TestOptions, file: &OfFile) {
+    if !options.quiet {
+        say!("{}", file.name);
+    }
+    for Result { title, engine, outcome } in &file.results {
+        let on = if *engine == TestEngine::Rust { " (compiled Rust)" } else { "" };
+        match outcome {
+            Outcome::Passed if options.quiet => {}
+            Outcome::Passed => say!("  ok    {title}{on}"),
+            Outcome::Skipped(_) if options.quiet => {}
+            Outcome::Skipped(why) => say!("  skip  {title}{on}: {why}"),
+            Outcome::Failed(failures) => {
+                say!("  FAIL  {title}{on}");
+                for failure in failures {
+                    let line = file.sources.position(failure.place).0;
+                    say!("    {}:{line}: {}", file.name, place_text(file, failure));
+                    say_part!("{}", failure.text());
+                }
+            }
+        }
+    }
+}
+
+/// The row or the expectation that failed, on one line.
+fn place_text(file: &OfFile, failure: &Failure) -> String {
+    file.sources.text(failure.place).split_whitespace().collect::<Vec<_>>().join(" ")
+}

@@ -1,0 +1,69 @@
+//! Results as XML in the form of JUnit, as servers for continuous integration read it.
+
+use super::super::options::TestEngine;
+use super::{OfFile, Outcome, Result, place_text};
+use autogen::plain;
+use std::fmt::Write;
+
+/// How such a file begins.
+pub const HEAD: &str = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites";
+
+/// No times: the same results are the same bytes.
+pub fn text(files: &[OfFile]) -> String {
+    let count = |file: &OfFile, wanted: fn(&Outcome) -> bool| {
+        file.results.iter().filter(|result| wanted(&result.outcome)).count()
+    };
+    let mut out = format!("{HEAD}>\n");
+    for file in files {
+        let name = escaped(&file.name);
+        let failed = count(file, |outcome| matches!(outcome, Outcome::Failed(_)));
+        let skipped = count(file, |outcome| matches!(outcome, Outcome::Skipped(_)));
+        let tests = file.results.len();
+        let _ = writeln!(
+            out,
+            "  <testsuite name=\"{name}\" tests=\"{tests}\" failures=\"{failed}\" skipped=\"{skipped}\">"
+        );
+        for Result { title, engine, outcome } in &file.results {
+            let on = if *engine == TestEngine::Rust { " (compiled Rust)" } else { "" };
+            let _ = write!(
+                out,
+                "    <testcase classname=\"{name}\" name=\"{}\"",
+                escaped(&format!("{title}{on}"))
+            );
+            match outcome {
+                Outcome::Passed => out += "/>\n",
+                Outcome::Skipped(why) => {
+                    let _ = writeln!(out, "><skipped message=\"{}\"/></testcase>", escaped(why));
+                }
+                Outcome::Failed(failures) => {
+                    out += ">\n";
+                    for failure in failures {
+                        let line = file.sources.position(failure.place).0;
+                        let message =
+                            escaped(&format!("{}:{line}: {}", file.name, place_text(file, failure)));
+                        let text = escaped(&failure.text());
+                        let _ = writeln!(out, "      <failure message=\"{message}\">{text}</failure>");
+                    }
+                    out += "    </testcase>\n";
+                }
+            }
+        }
+        out += "  </testsuite>\n";
+    }
+    out + "</testsuites>\n"
+}
+
+/// As it may stand in XML, in attributes too.
+fn escaped(text: &str) -> String {
+    let mut out = String::new();
+    for c in plain::lines(text).chars() {
+        match c {
+            '&' => out += "&amp;",
+            '<' => out += "&lt;",
+            '>' => out += "&gt;",
+            '"' => out += "&quot;",
+            c => out.push(c),
+        }
+    }
+    out
+}

@@ -1,0 +1,208 @@
+//! The tests of one file, each on the engines that are asked for.
+
+use super::super::controllers::{self, Notice};
+use super::super::load::{self, Failure as LoadFailure};
+use super::super::named::Folder;
+use super::super::options::{Format, InputOptions, TestEngine, TestOptions};
+use super::super::read;
+use super::{OfFile, Outcome, Result as TestResult};
+use autogen::backend::rust::parameters_text;
+use autogen::diagnostic::{Diagnostic, sort};
+use autogen::executor::Executor;
+use autogen::lower::{Project, compile};
+use autogen::source::{Sources, Spanned};
+use autogen::testing::{self, Body, Engine, Played, Setup, Test, Watched};
+use runtime_sim::report::Report;
+use runtime_sim::run::{Stepping, run as simulate};
+use std::path::{Path, PathBuf};
+
+/// Why the tests of a file were not run.
+pub enum End {
+    /// The file, or a line that it names, has errors.
+    Wrong(Sources, Vec<Diagnostic>),
+    Failed(String),
+}
+
+/// A line that tests of a file have in common.
+struct Compiled {
+    key: (PathBuf, Option<PathBuf>, Vec<String>),
+    project: Project,
+    sources: Sources,
+}
+
+pub fn file(options: &TestOptions, path: &Path) -> Result<OfFile, End> {
+    let text = read::text(path).map_err(|why| End::Failed(format!("{}: {why}", path.display())))?;
+    let mut sources = Sources::default();
+    let id = sources.add(path.display().to_string(), text.as_str());
+    let tests = match testing::read(id, &text) {
+        Ok(tests) => tests,
+        Err(found) => return Err(End::Wrong(sources, found)),
+    };
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let engines: &[TestEngine] = match options.on {
+        TestEngine::Executor => &[TestEngine::Executor],
+        TestEngine::Rust => &[TestEngine::Rust],
+        TestEngine::Both => &[TestEngine::Executor, TestEngine::Rust],
+    };
+    let mut compiled: Vec<Compiled> = Vec::new();
+    let (mut results, mut wrong) = (Vec::new(), Vec::new());
+    for test in &tests.tests {
+        let number = match line(options, folder, &tests.set, test, &mut compiled) {
+            Ok(number) => number,
+            Err(LineEnd::Test(diagnostic)) => {
+                wrong.push(*diagnostic);
+                continue;
+            }
+            Err(LineEnd::End(end)) => return Err(end),
+        };
+        for engine in engines {
+            match one(options, &compiled[number], test, *engine).map_err(End::Failed)? {
+                Ok(outcome) => {
+                    results.push(TestResult { title: test.title.value.clone(), engine: *engine, outcome });
+                }
+                Err(found) => wrong.extend(found),
+            }
+        }
+    }
+    if !wrong.is_empty() {
+        sort(&mut wrong);
+        return Err(End::Wrong(sources, wrong));
+    }
+    Ok(OfFile { name: path.display().to_string(), sources, results })
+}
+
+fn no_layout(title: &Spanned<String>) -> Diagnostic {
+    Diagnostic::new("E0902", title.span, "no layout is named for this test")
+        .help("write `layout \"line.json\";` at the beginning of the file, or in the test")
+}
+
+enum LineEnd {
+    /// The test names no line that can be used.
+    Test(Box<Diagnostic>),
+    End(End),
+}
+
+/// What a test names stands below its own folder, as what a layout names does.
+fn named(folder: &Path, key: &str, name: &Spanned<String>) -> Result<PathBuf, LineEnd> {
+    match Folder(folder.into()).object(&name.value) {
+        Ok((path, _)) => Ok(path.into()),
+        Err(why) => {
+            let message = format!("`{key}` names \"{}\", which cannot be used", name.value);
+            let help = "name a file of the folder in which the tests are, or of one below";
+            Err(LineEnd::Test(Box::new(
+                Diagnostic::new("E0902", name.span, message).label(why.to_string()).help(help),
+            )))
+        }
+    }
+}
+
+/// The line of a test by its number among those that are compiled already.
+fn line(
+    options: &TestOptions,
+    folder: &Path,
+    of_file: &Setup,
+    test: &Test,
+    compiled: &mut Vec<Compiled>,
+) -> Result<usize, LineEnd> {
+    let one = |own: &Option<Spanned<String>>, other: &Option<Spanned<String>>, key: &str| {
+        let name = own.clone().or_else(|| other.clone());
+        name.map(|name| named(folder, key, &name)).transpose()
+    };
+    let layout = one(&test.set.layout, &of_file.layout, "layout")?;
+    let layout = layout.ok_or_else(|| LineEnd::Test(Box::new(no_layout(&test.title))))?;
+    let scenario = one(&test.set.scenario, &of_file.scenario, "scenario")?;
+    let settings = of_file.settings.iter().chain(&test.set.settings).map(|setting| setting.value.clone());
+    let key = (layout, scenario, settings.collect::<Vec<_>>());
+    if let Some(known) = compiled.iter().position(|line| line.key == key) {
+        return Ok(known);
+    }
+    let input = InputOptions {
+        layout: key.0.clone(),
+        specs: options.specs.clone(),
+        scenario: key.1.clone(),
+        settings: key.2.clone(),
+        order: None,
+        format: Format::Text,
+        quiet: true,
+    };
+    let input = load::load(&input).map_err(|failure| {
+        LineEnd::End(match failure {
+            LoadFailure::Unreadable(why) => End::Failed(why),
+            LoadFailure::Wrong(sources, found) | LoadFailure::Refused(sources, found) => {
+                End::Wrong(sources, found)
+            }
+        })
+    })?;
+    let outcome = compile(input);
+    match outcome.project {
+        Some(project) => {
+            compiled.push(Compiled { key, project, sources: outcome.sources });
+            Ok(compiled.len() - 1)
+        }
+        None => Err(LineEnd::End(End::Wrong(outcome.sources, outcome.diagnostics))),
+    }
+}
+
+/// One test on one engine. Inner errors are those of the test, outer ones those of the engine.
+fn one(
+    options: &TestOptions,
+    line: &Compiled,
+    test: &Test,
+    engine: TestEngine,
+) -> Result<Result<Outcome, Vec<Diagnostic>>, String> {
+    let system = &line.project.system;
+    match &test.body {
+        Body::Machine { name, rows } => {
+            let machine = match machine(&line.project, name) {
+                Ok(machine) => machine,
+                Err(found) => return Ok(Err(found)),
+            };
+            let played = if engine == TestEngine::Rust {
+                if !testing::is_for_any_engine(system, machine, rows) {
+                    let why = "it plays other machines, which only the executor leaves to it";
+                    return Ok(Ok(Outcome::Skipped(why)));
+                }
+                let library = controllers::compiled(system, &line.sources, notice(options))?;
+                let mut controllers = library.controllers(&line.project.plant, &parameters_text(system))?;
+                testing::play(system, machine, rows, Engine::Other(&mut controllers))
+            } else {
+                let mut executor = Executor::new(system);
+                testing::play(system, machine, rows, Engine::Executor(&mut executor))
+            };
+            Ok(match played {
+                Played::Passed => Ok(Outcome::Passed),
+                Played::Failed(failure) => Ok(Outcome::Failed(vec![failure])),
+                Played::Wrong(found) => Err(found),
+            })
+        }
+        Body::Line(expected) => {
+            let run = |watched: &mut Watched| -> Result<Report, String> {
+                simulate(&line.project.plant, watched, Stepping::Events, &mut |_| {})
+            };
+            let judged = if engine == TestEngine::Rust {
+                let library = controllers::compiled(system, &line.sources, notice(options))?;
+                let mut controllers = library.controllers(&line.project.plant, &parameters_text(system))?;
+                let mut watched = Watched::new(&mut controllers, system);
+                let report = run(&mut watched)?;
+                testing::judge(system, &report, &watched, expected)
+            } else {
+                let mut executor = Executor::new(system);
+                let mut watched = Watched::new(&mut executor, system);
+                let report = run(&mut watched)?;
+                testing::judge(system, &report, &watched, expected)
+            };
+            Ok(judged.map(|failures| match failures.is_empty() {
+                true => Outcome::Passed,
+                false => Outcome::Failed(failures),
+            }))
+        }
+    }
+}
+
+fn notice(options: &TestOptions) -> Notice {
+    if options.quiet { Notice::None } else { Notice::Compiling }
+}
+
+fn machine(project: &Project, name: &Spanned<String>) -> Result<usize, Vec<Diagnostic>> {
+    testing::instance(&project.system, &name.value, name.span).map_err(|wrong| vec![*wrong])
+}

@@ -1,0 +1,254 @@
+//! `autogen why`: what each machine waits for at a time of a run of the reference executor.
+
+use super::commission::io_delay;
+use super::options::{Format, WhyOptions};
+use super::progress::Progress;
+use super::{load, print};
+use crate::Status;
+use autogen::ir::FaultKind;
+use autogen::lower::{Project, compile};
+use autogen::source::Sources;
+use autogen::why::{self, Await, Later, Node, Picture, Read, Verdict, Waits, Watch};
+use runtime_sim::line::IoDelay;
+use runtime_sim::report::Report;
+use runtime_sim::run::{Seen as SeenScan, Stepping, run as simulate};
+use serde_json::{Value, json};
+use std::io::{self, IsTerminal};
+
+pub fn run(options: &WhyOptions) -> Status {
+    let input = match load::load(&options.input) {
+        Ok(input) => input,
+        Err(failure) => return print::failure(&options.input, &failure),
+    };
+    let outcome = compile(input);
+    let Some(project) = outcome.project else {
+        return print::refused(&options.input, &outcome.sources, &outcome.diagnostics);
+    };
+    let is_shown = !options.input.quiet && options.input.format == Format::Text && io::stderr().is_terminal();
+    let seen = match question(options, &project) {
+        Ok(question) => look(&project, question, Progress::new(is_shown)),
+        Err(why) => Err(why),
+    };
+    match seen {
+        Ok(seen) => {
+            match options.input.format {
+                Format::Text => say_text(options, &seen, &outcome.sources),
+                Format::Json => say!("{}", json_of(&seen, &outcome.sources)),
+            }
+            Status::Done
+        }
+        Err(why) => print::unusable(&options.input, &why),
+    }
+}
+
+/// What is asked of a run.
+struct Question {
+    at: Option<u64>,
+    /// All, if none is named.
+    machines: Vec<usize>,
+    is_until: bool,
+    delay: IoDelay,
+}
+
+struct Seen {
+    picture: Picture,
+    machines: Vec<usize>,
+    later: Option<Later>,
+    report: Report,
+    /// The picture is that of the end of the run.
+    is_end: bool,
+}
+
+impl Seen {
+    fn waits(&self) -> Waits<'_> {
+        Waits::new(&self.picture, self.is_end && is_stalled(&self.report))
+    }
+}
+
+fn is_stalled(report: &Report) -> bool {
+    report.reason.starts_with("deadlock: ")
+}
+
+/// The scan in which this time lies.
+pub fn scan(seconds: &str, scan_ms: u32) -> Option<u64> {
+    let seconds = seconds.parse::<f64>().ok().filter(|s| (0.0..=1e9).contains(s))?;
+    // What is a whole number of scans may be a little less as a number.
+    Some((seconds * 1000.0 / f64::from(scan_ms) + 1e-6).floor() as u64)
+}
+
+fn question(options: &WhyOptions, project: &Project) -> Result<Question, String> {
+    let delay =
+        io_delay(&options.io_delay).ok_or("--io-delay takes a number of scans, `random` or `random:SEED`")?;
+    let at = options.at.as_ref().map(|text| {
+        scan(text, project.plant.scan_ms)
+            .ok_or_else(|| format!("--at {text}: it takes seconds of the run, such as 120.5"))
+    });
+    let instances = &project.system.instances;
+    let machines = options.robot.iter().map(|name| {
+        let found = instances.iter().position(|instance| instance.name == *name);
+        found.ok_or_else(|| {
+            let known: Vec<&str> =
+                instances.iter().take(100).map(|instance| instance.name.as_str()).collect();
+            format!("--robot {name}: there is no such machine; there are {}", known.join(", "))
+        })
+    });
+    let machines = machines.collect::<Result<Vec<_>, _>>()?;
+    let machines = if machines.is_empty() { (0..instances.len()).collect() } else { machines };
+    Ok(Question { at: at.transpose()?, machines, is_until: options.until, delay })
+}
+
+fn look(project: &Project, question: Question, mut progress: Progress) -> Result<Seen, String> {
+    let Question { at, machines, is_until, delay } = question;
+    let mut line = project.plant.clone();
+    line.io_delay = delay;
+    let mut watch = Watch::new(&project.system, at.unwrap_or(u64::MAX));
+    if is_until {
+        watch = watch.until_left(machines.clone());
+    } else if let Some(at) = at {
+        let limit_s = (at + 1) as f64 * f64::from(line.scan_ms) / 1000.0;
+        line.scenario.time_limit_s = line.scenario.time_limit_s.min(limit_s);
+    }
+    let mut observe = |seen: &SeenScan| progress.show(seen.scan * u64::from(line.scan_ms) / 1000);
+    let report = simulate(&line, &mut watch, Stepping::Events, &mut observe)?;
+    progress.end();
+    let is_end = at.is_none_or(|at| at + 1 >= report.scans);
+    let (picture, later) = watch.finish(report.scans);
+    Ok(Seen { picture, machines, later, report, is_end })
+}
+
+/// For the report of a run that ended otherwise than well: who waited for whom at its end, as lines. The same run once
+/// more, on the reference executor. None for an end that nobody waited for: a collision, a value out of bounds.
+pub fn at_the_end(project: &Project, delay: IoDelay, report: &Value) -> Result<Option<Vec<String>>, String> {
+    let reason = report["reason"].as_str().unwrap_or("");
+    let is_late = ["deadlock: ", "time limit: "].iter().any(|begin| reason.starts_with(begin));
+    let fault =
+        report["fault"]["code"].as_u64().and_then(|code| project.system.model.faults.get(code as usize - 1));
+    let is_long = fault.is_some_and(|site| site.kind == FaultKind::TooLong);
+    if report["finished"] == true || !(is_late || is_long) {
+        return Ok(None);
+    }
+    let seen = look(
+        project,
+        Question { at: None, machines: Vec::new(), is_until: false, delay },
+        Progress::new(false),
+    )?;
+    let waits = seen.waits();
+    let faulted = report["fault"]["robot"].as_str().filter(|_| is_long);
+    let faulted =
+        faulted.and_then(|name| seen.picture.machines.iter().position(|machine| machine.name == name));
+    let text = match faulted {
+        Some(machine) => why::chain_of(&seen.picture, &waits, machine),
+        None => why::chains(&seen.picture, &waits),
+    };
+    Ok(Some(text.lines().map(String::from).collect()))
+}
+
+fn say_text(options: &WhyOptions, seen: &Seen, sources: &Sources) {
+    let Seen { picture, machines, later, report, is_end } = seen;
+    let waits = seen.waits();
+    say!("at {:.2} s", picture.at_ms as f64 / 1000.0);
+    if *is_end && (options.at.is_none() || picture.at_ms + 1000 < asked_ms(options)) {
+        say!("the run ends here: {}", report.reason);
+    }
+    if !picture.is_running {
+        say!("the line does not run: no transition is tested until it is started");
+    }
+    for machine in machines {
+        say!("\n{}", why::machine(&picture.machines[*machine], sources).trim_end());
+    }
+    say!("");
+    match options.robot.is_empty() {
+        true => say_part!("{}", why::chains(picture, &waits)),
+        false => {
+            machines.iter().for_each(|machine| say_part!("{}", why::chain_of(picture, &waits, *machine)))
+        }
+    }
+    if let Some(later) = later {
+        say_part!("\n{}", why::later(picture, later));
+    }
+}
+
+fn asked_ms(options: &WhyOptions) -> u64 {
+    options.at.as_ref().and_then(|at| scan(at, 1)).unwrap_or(0)
+}
+
+fn json_of(seen: &Seen, sources: &Sources) -> Value {
+    let Seen { picture, machines, later, report, is_end } = seen;
+    let waits = seen.waits();
+    let name = |machine: usize| &picture.machines[machine].name;
+    let shown = machines.iter().map(|machine| {
+        let seen = &picture.machines[*machine];
+        let transitions = seen.transitions.iter().map(|tested| {
+            let place = format!("{}:{}", sources.file(tested.place.file).name, sources.position(tested.place).0);
+            let clauses: Vec<Value> = tested.clauses.iter().map(node_json).collect();
+            json!({ "guard": tested.title, "target": tested.target, "place": place, "holds": tested.holds, "clauses": clauses })
+        });
+        let chain = waits.chain(*machine);
+        let chain: Vec<&String> = chain.iter().map(|(machine, _)| name(*machine)).collect();
+        json!({
+            "name": seen.name, "state": seen.state, "stay_s": seen.stay_ms as f64 / 1000.0,
+            "transitions": transitions.collect::<Vec<_>>(),
+            "waits_for": seen.awaits.iter().map(|awaited| await_json(picture, awaited)).collect::<Vec<_>>(),
+            "chain": chain,
+        })
+    });
+    let circles = waits.circles().into_iter();
+    let circles = circles.map(|circle| circle.into_iter().map(name).collect::<Vec<_>>());
+    let mut answer = json!({
+        "at_s": picture.at_ms as f64 / 1000.0, "running": picture.is_running,
+        "ended": is_end.then_some(&report.reason), "machines": shown.collect::<Vec<_>>(),
+        "deadlocks": circles.collect::<Vec<_>>(), "diagnostics": [],
+    });
+    if let Some(later) = later {
+        answer["until"] = later.machines.iter().map(|became| later_json(picture, became)).collect();
+    }
+    answer
+}
+
+fn later_json(picture: &Picture, became: &why::Became) -> Value {
+    let seconds = |ms: u64| ms as f64 / 1000.0;
+    let transitions = became.transitions.iter().map(|(title, clauses)| {
+        let clauses: Vec<Value> = clauses
+            .iter()
+            .map(|(text, since)| json!({ "text": text, "true_s": since.map(seconds) }))
+            .collect();
+        json!({ "guard": title, "clauses": clauses })
+    });
+    json!({
+        "name": picture.machines[became.machine].name,
+        "left_s": became.left.as_ref().map(|left| seconds(left.0)),
+        "to": became.left.as_ref().map(|left| &left.2),
+        "transitions": transitions.collect::<Vec<_>>(),
+    })
+}
+
+fn node_json(node: &Node) -> Value {
+    let holds = match node.verdict {
+        Verdict::Holds => json!(true),
+        Verdict::Fails => json!(false),
+        Verdict::NotTested => Value::Null,
+    };
+    let reads: Vec<Value> = node.reads.iter().map(read_json).collect();
+    let parts: Vec<Value> = node.parts.iter().map(node_json).collect();
+    json!({ "text": node.text, "holds": holds, "reads": reads, "parts": parts })
+}
+
+fn read_json(read: &Read) -> Value {
+    json!({
+        "name": read.name, "value": read.value, "writers": read.writers,
+        "changed_s": read.changed.as_ref().map(|changed| changed.at_ms as f64 / 1000.0),
+        "changed_by": read.changed.as_ref().map(|changed| &changed.by),
+    })
+}
+
+fn await_json(picture: &Picture, awaited: &Await) -> Value {
+    match awaited {
+        Await::Machine(other, read) => {
+            json!({ "machine": picture.machines[*other].name, "reads": read_json(read) })
+        }
+        Await::Command { text } => json!({ "command": text }),
+        Await::Time { text, left_ms } => json!({ "time": text, "left_s": *left_ms as f64 / 1000.0 }),
+        Await::Input(read) => json!({ "input": read_json(read) }),
+        Await::Own(read) => json!({ "own": read_json(read) }),
+    }
+}

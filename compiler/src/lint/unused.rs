@@ -1,0 +1,161 @@
+//! Cells and locals that are written and never read, or read and never written.
+
+use crate::diagnostic::Diagnostic;
+use crate::ir::{
+    Automaton, Binder, Clause, Domain, Expr, ExprKind, InterfaceId, Model, Place, TextPart, UpdateKind,
+};
+use crate::source::{FileId, Span};
+use crate::spec::ast;
+use std::collections::BTreeSet;
+
+/// A local of the automaton at hand, or a cell of any.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Variable {
+    Local(usize),
+    Cell(InterfaceId, usize),
+}
+
+#[derive(Default)]
+struct Uses {
+    read: BTreeSet<Variable>,
+    written: BTreeSet<Variable>,
+}
+
+pub fn check(model: &Model, files: &[(FileId, ast::File)], found: &mut Vec<Diagnostic>) {
+    let mut all = Uses::default();
+    for automaton in &model.automata {
+        let mut uses = Uses::default();
+        uses.automaton(automaton);
+        for (number, local) in automaton.locals.iter().enumerate() {
+            let place = place(files, &automaton.name, |a| &a.locals, |local| &local.name, &local.name);
+            found.extend(uses.warning("W0105", "local", &local.name, Variable::Local(number), place));
+        }
+        all.read.append(&mut uses.read);
+        all.written.append(&mut uses.written);
+    }
+    // What nobody shows to others is not in use at all, as an interface of the library may be beside types of one's own.
+    let is_shown = |id: usize| model.automata.iter().any(|a| a.implementing(InterfaceId(id)).is_some());
+    for (id, interface) in model.interfaces.iter().enumerate().filter(|(id, _)| is_shown(*id)) {
+        for (number, cell) in interface.cells.iter().enumerate() {
+            let own = place(files, &interface.name, |a| &a.cells, |cell| &cell.name, &cell.name);
+            let interfaces = files.iter().flat_map(|(_, file)| &file.interfaces);
+            let declared = interfaces.filter(|i| i.name.value == interface.name).flat_map(|i| &i.cells);
+            let declared = declared.filter(|c| c.name.value == cell.name).map(|c| c.name.span).next_back();
+            let variable = Variable::Cell(InterfaceId(id), number);
+            found.extend(all.warning("W0104", "cell", &cell.name, variable, own.or(declared)));
+        }
+    }
+}
+
+/// Where something of an automaton is declared; none if it stands in no text.
+fn place<T>(
+    files: &[(FileId, ast::File)],
+    automaton: &str,
+    list: fn(&ast::Automaton) -> &Vec<T>,
+    name: fn(&T) -> &ast::Name,
+    wanted: &str,
+) -> Option<Span> {
+    let automata = files.iter().flat_map(|(_, file)| &file.automata);
+    let declared = automata.filter(|a| a.name.value == automaton).flat_map(|a| list(a).iter().map(name));
+    declared.filter(|name| name.value == wanted).map(|name| name.span).last()
+}
+
+impl Uses {
+    fn warning(
+        &self,
+        code: &'static str,
+        what: &str,
+        name: &str,
+        variable: Variable,
+        place: Option<Span>,
+    ) -> Option<Diagnostic> {
+        let missing = match (self.read.contains(&variable), self.written.contains(&variable)) {
+            (true, true) => return None,
+            (true, false) => "written: it keeps its first value",
+            (false, true) => "read",
+            (false, false) => "used",
+        };
+        let message = format!("the {what} `{name}` is never {missing}");
+        Some(Diagnostic::new(code, place?, message).help("remove it, or use it"))
+    }
+
+    fn automaton(&mut self, automaton: &Automaton) {
+        automaton.defines.iter().for_each(|define| self.expr(&define.value));
+        automaton.invariants.iter().for_each(|invariant| self.expr(&invariant.condition));
+        for require in &automaton.requires {
+            self.expr(&require.condition);
+            for part in &require.text {
+                if let TextPart::Value(value) = part {
+                    self.expr(value);
+                }
+            }
+        }
+        for state in &automaton.states {
+            state.within.iter().for_each(|(longest, _)| self.expr(longest));
+            for transition in &state.transitions {
+                transition.clauses.iter().for_each(|clause| self.clause(clause));
+                transition.updates.iter().for_each(|update| self.update(&update.kind));
+            }
+        }
+    }
+
+    fn clause(&mut self, clause: &Clause) {
+        match clause {
+            Clause::Condition(condition) => self.expr(condition),
+            Clause::Bind(Binder { domain, condition, key, .. }) => {
+                if let Domain::Range(low, high) = domain {
+                    self.expr(low);
+                    self.expr(high);
+                }
+                condition.iter().chain(key).for_each(|expr| self.expr(expr));
+            }
+        }
+    }
+
+    fn update(&mut self, update: &UpdateKind) {
+        match update {
+            UpdateKind::Assign { target, value, .. } | UpdateKind::Fill { target, value, .. } => {
+                self.write(&target.place);
+                self.value(value, &target.place);
+            }
+            UpdateKind::Copy { target, source, .. } => {
+                self.write(&target.place);
+                self.read(source);
+            }
+            UpdateKind::Command { arguments, .. } => arguments.iter().for_each(|a| self.expr(&a.value)),
+        }
+    }
+
+    /// What is counted up or down is not read by that.
+    fn value(&mut self, value: &Expr, target: &Place) {
+        match &value.kind {
+            ExprKind::Binary(_, old, by) if old.kind == ExprKind::Read(target.clone()) => self.expr(by),
+            _ => self.expr(value),
+        }
+    }
+
+    fn expr(&mut self, expr: &Expr) {
+        if let ExprKind::Read(place) = &expr.kind {
+            self.read.extend(variable(place));
+        }
+        expr.parts().into_iter().for_each(|part| self.expr(part));
+    }
+
+    fn read(&mut self, place: &Place) {
+        self.read.extend(variable(place));
+        place.parts().into_iter().for_each(|part| self.expr(part));
+    }
+
+    fn write(&mut self, place: &Place) {
+        self.written.extend(variable(place));
+        place.parts().into_iter().for_each(|part| self.expr(part));
+    }
+}
+
+fn variable(place: &Place) -> Option<Variable> {
+    match place {
+        Place::Local { local, .. } => Some(Variable::Local(*local)),
+        Place::Cell { interface, cell, .. } => Some(Variable::Cell(*interface, *cell)),
+        Place::Port { .. } | Place::Parameter { .. } | Place::Shown { .. } => None,
+    }
+}

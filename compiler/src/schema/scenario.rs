@@ -1,0 +1,164 @@
+//! The schema of scenarios.
+
+use super::{Property, file, list, name, number, object, property, text, tuple, whole};
+use crate::scenario::read::{self, LONGEST_S, faults, goal, kinds, operator, orders, supply};
+use serde_json::{Value, json};
+
+/// The least time, s.
+const SHORTEST_S: f64 = 0.001;
+
+pub fn scenario() -> Value {
+    let all = vec![
+        property(
+            "kinds",
+            json!({ "type": "array", "items": kind(), "minItems": 1, "maxItems": kinds::MOST_KINDS }),
+            "The kinds of part: members of the enumeration Kind, in this order. Needed with orders or supply",
+        ),
+        property("orders", orders(), "What is to be made: a list, or many orders of the same kind"),
+        property("supply", supply(), "What the belts bring"),
+        property("time_limit_s", seconds(), "Simulated time after which the run ends, s. Without it: 3600"),
+        property("faults", faults(), "What is to go wrong"),
+        property("operator", list(operation()), "What a person does at buttons and set-points"),
+        property(
+            "goal",
+            json!({ "type": "object", "additionalProperties": parts(goal::MOST_ITEMS), "minProperties": 1 }),
+            "What sinks should collect, by machine.part: the number of items of each kind",
+        ),
+    ];
+    debug_assert!(all.iter().map(|(key, _)| key.as_str()).eq(read::KEYS));
+    let mut schema = file("Scenario of autogen", all, &[]);
+    schema["dependencies"] = json!({ "orders": ["kinds"], "supply": ["kinds"] });
+    schema["not"] = json!({ "required": ["orders", "goal"] });
+    schema
+}
+
+fn seconds() -> Value {
+    number(SHORTEST_S, LONGEST_S)
+}
+
+fn seconds_from_0() -> Value {
+    number(0.0, LONGEST_S)
+}
+
+/// The number of parts of each kind.
+fn parts(most: u32) -> Value {
+    json!({ "type": "object", "additionalProperties": whole(0, most) })
+}
+
+fn kind() -> Value {
+    let (lengths, masses) = (kinds::LENGTHS, kinds::MASSES);
+    let length = || number(*lengths.start(), *lengths.end());
+    let all = vec![
+        property("name", name(), "Its name"),
+        property("height", length(), "Height over what it lies on, m"),
+        property(
+            "size",
+            tuple(&[length(), length()]),
+            "Lengths along x and y as it appears on a belt, m. Without it: 0.1 each",
+        ),
+        property("is", list(text()), "What sensors find it to be, such as metal"),
+        property("mass", number(*masses.start(), *masses.end()), "kg. Without it: 0.1"),
+    ];
+    object(all, &["name", "height"])
+}
+
+fn orders() -> Value {
+    let count = json!({ "anyOf": [whole(0, orders::MOST_ORDERS), { "const": orders::WITHOUT_END }] });
+    let stations = json!({ "anyOf": [{ "const": "in turn" }, several()] });
+    let parts = || parts(orders::MOST_OF_A_KIND);
+    let of_each = "How many parts of each kind one order has";
+    let many = object(
+        vec![
+            property("count", count, "Number of orders, all alike, or without end"),
+            property("parts", parts(), of_each),
+            property("stations", stations, "The stations that get them in turn. Without it: all"),
+        ],
+        &["count", "parts"],
+    );
+    let station = json!({ "anyOf": [text(), several()] });
+    let one = object(
+        vec![
+            property(
+                "station",
+                station,
+                "Where it opens: one station, or several. Without it: the next one in turn",
+            ),
+            property("parts", parts(), of_each),
+        ],
+        &["parts"],
+    );
+    let listed = json!({ "type": "array", "items": one, "maxItems": orders::MOST_ORDERS });
+    json!({ "anyOf": [many, listed] })
+}
+
+/// Names of stations.
+fn several() -> Value {
+    json!({ "type": "array", "items": text(), "minItems": 1 })
+}
+
+fn supply() -> Value {
+    let items =
+        json!({ "anyOf": [list(text()), { "type": "object", "additionalProperties": list(text()) }] });
+    let all = vec![
+        property(
+            "surplus",
+            tuple(&[whole(0, supply::MOST_SURPLUS), whole(1, supply::MOST_SURPLUS)]),
+            "A fraction: so many parts more of each kind, rounded up. Without it: [1, 3]",
+        ),
+        property("seed", whole(0, u32::MAX), "How the parts are shuffled. Without it: 1"),
+        property(
+            "first_s",
+            seconds_from_0(),
+            "Time until the first part on each belt, s. Without it: every_s",
+        ),
+        property("every_s", seconds(), "Time between two parts on one belt, s. Without it: 2"),
+        property("items", items, "The parts themselves: kinds for the only belt, or a list for each belt"),
+        property("times", whole(1, supply::MOST_TIMES), "With items: how often a list comes. Without it: 1"),
+    ];
+    let mut schema = object(all, &[]);
+    let both = |key: &str| json!({ "required": ["items", key] });
+    schema["not"] = json!({ "anyOf": [both("surplus"), both("seed")] });
+    schema
+}
+
+fn robot() -> Property {
+    property("robot", text(), "The machine")
+}
+
+fn faults() -> Value {
+    let nth = || whole(1, faults::LAST);
+    let slip = object(
+        vec![
+            robot(),
+            property("pick", nth(), "At which pick of this arm, from 1"),
+            property("after_s", seconds_from_0(), "How long after it, s"),
+        ],
+        &["robot", "pick", "after_s"],
+    );
+    let command = property("command", nth(), "Which command of this machine, from 1");
+    let refusal = object(vec![robot(), command], &["robot", "command"]);
+    let pause = object(
+        vec![
+            property("at_s", seconds_from_0(), "When the permit to run is taken away, s"),
+            property("for_s", seconds(), "For how long, s"),
+        ],
+        &["at_s", "for_s"],
+    );
+    let all = vec![
+        property("slips", list(slip), "Parts that fall off a gripper"),
+        property("refusals", list(refusal), "Commands that a machine refuses"),
+        property("pauses", list(pause), "The permit to run is taken away, then the line is started again"),
+    ];
+    object(all, &[])
+}
+
+fn operation() -> Value {
+    let all = vec![
+        robot(),
+        property("part", text(), "The name of a button or a set-point in its device"),
+        property("at_s", seconds_from_0(), "When, s from the start of the run"),
+        property("for_s", seconds(), "For how long, s. Without it: to the end of the run"),
+        property("value", number(-operator::MOST, operator::MOST), "The number that is set at a set-point"),
+    ];
+    object(all, &["robot", "part", "at_s"])
+}

@@ -1,0 +1,192 @@
+//! A picture as text.
+
+use super::reads::{COMMAND, STAY};
+use super::{Await, Changed, Later, Machine, Node, Picture, Read, Tested, Verdict, Waits};
+use crate::source::{Sources, Span};
+use std::fmt::Write;
+
+fn seconds(ms: u64) -> String {
+    format!("{:.2} s", ms as f64 / 1000.0)
+}
+
+fn place(sources: &Sources, span: Span) -> String {
+    format!("{}:{}", sources.file(span.file).name, sources.position(span).0)
+}
+
+/// A machine with every transition of its state, and every clause of them.
+pub fn machine(machine: &Machine, sources: &Sources) -> String {
+    let Machine { name, state, stay_ms, transitions, is_final, .. } = machine;
+    let mut out = format!("{name} is in {state}, for {}\n", seconds(*stay_ms));
+    if *is_final {
+        out += "  a final state: nothing leads on from here\n";
+    }
+    for tested in transitions {
+        let Tested { title, target, place: span, holds, clauses } = tested;
+        let target = target.as_ref().map_or("stays".to_string(), |target| format!("-> {target}"));
+        let verdict = if *holds { "fires next" } else { "does not hold" };
+        let _ = writeln!(out, "  {title} {target}: {verdict} ({})", place(sources, *span));
+        clauses.iter().for_each(|clause| node(clause, 2, &mut out));
+    }
+    out
+}
+
+fn node(part: &Node, depth: usize, out: &mut String) {
+    let Node { text, verdict, reads, parts } = part;
+    let verdict = match verdict {
+        Verdict::Holds => "ok   ",
+        Verdict::Fails => "FAILS",
+        Verdict::NotTested => "-    ",
+    };
+    let indent = "  ".repeat(depth);
+    let _ = writeln!(out, "{indent}{verdict}  {text}");
+    for read in reads {
+        let _ = writeln!(out, "{indent}         {}", read_text(read));
+    }
+    parts.iter().for_each(|part| node(part, depth + 1, out));
+}
+
+/// `agv2.held is true, by gantry at 118.30 s; gantry writes it`
+fn read_text(read: &Read) -> String {
+    let writers = match read.writers.as_slice() {
+        [] => String::new(),
+        [one] => format!("; {one} writes it"),
+        many => format!("; {} write it", many.join(", ")),
+    };
+    value_text(read) + &writers
+}
+
+/// `agv2.held is true, by gantry at 118.30 s`
+fn value_text(read: &Read) -> String {
+    let Read { name, value, changed, .. } = read;
+    match (name.as_str(), changed) {
+        (COMMAND, Some(Changed { at_ms, .. })) => format!("{name}: {value}, at {}", seconds(*at_ms)),
+        (COMMAND, None) => format!("{name}: {value}"),
+        (_, Some(Changed { at_ms, by })) => format!("{name} is {value}, by {by} at {}", seconds(*at_ms)),
+        (STAY, None) => format!("{name} is {value}"),
+        (_, None) => format!("{name} is {value}, as from the beginning"),
+    }
+}
+
+/// What a machine waits for that waits for no other machine.
+fn alone(machine: &Machine) -> String {
+    if let Some(tested) = machine.transitions.iter().find(|tested| tested.holds) {
+        let target = tested.target.as_ref().map_or(String::new(), |target| format!(" to {target}"));
+        return format!("goes on{target} in its next step: {} holds", tested.title);
+    }
+    if machine.is_final {
+        return format!("waits for nobody: {} is a final state", machine.state);
+    }
+    let mut awaited: Vec<String> = Vec::new();
+    let mut inputs: Vec<String> = Vec::new();
+    for one in &machine.awaits {
+        match one {
+            Await::Machine(..) => {}
+            Await::Command { text } => awaited.push(text.clone()),
+            Await::Time { text, left_ms } => awaited.push(format!("`{text}`, in {}", seconds(*left_ms))),
+            Await::Own(read) => awaited.push(format!("itself: {}", value_text(read))),
+            Await::Input(read) => inputs.push(value_text(read)),
+        }
+    }
+    inputs.truncate(MOST_NAMED);
+    awaited.truncate(MOST_NAMED);
+    if !inputs.is_empty() {
+        awaited.push(format!("its device: {}", inputs.join("; ")));
+    }
+    match awaited.is_empty() {
+        true => "waits for nobody, and nothing can bring it on".into(),
+        false => format!("waits for no other machine, but for {}", awaited.join("; for ")),
+    }
+}
+
+/// Things that one line names.
+const MOST_NAMED: usize = 3;
+
+/// Who waits for whom, from one machine on.
+pub fn chain_of(picture: &Picture, waits: &Waits, machine: usize) -> String {
+    let mut out = String::new();
+    let chain = waits.chain(machine);
+    for (number, (at, awaited)) in chain.iter().enumerate() {
+        let Machine { name, state, .. } = &picture.machines[*at];
+        let _ = match awaited {
+            Some(Await::Machine(other, read)) => {
+                let other = &picture.machines[*other].name;
+                writeln!(out, "{name} ({state}) waits for {other}: {}", value_text(read))
+            }
+            _ if chain[..number].iter().any(|(before, _)| before == at) => {
+                writeln!(out, "and {name} waits, as above: a circle")
+            }
+            _ => writeln!(out, "{name} ({state}) {}", alone(&picture.machines[*at])),
+        };
+    }
+    out
+}
+
+/// Lines about all machines; there may be thousands.
+const MOST_LINES: usize = 30;
+
+/// The circles first, then who waits for whom, each machine once. One in a final state, for which nobody waits, is left
+/// out.
+pub fn chains(picture: &Picture, waits: &Waits) -> String {
+    let mut out = String::new();
+    for machines in waits.circles() {
+        let mut names: Vec<&str> = machines.iter().map(|m| picture.machines[*m].name.as_str()).collect();
+        names.push(names[0]);
+        let _ = writeln!(out, "deadlock: {} wait for each other", names.join(" -> "));
+    }
+    let mut told: Vec<usize> = Vec::new();
+    let mut lines = 0;
+    for machine in waits.beginnings() {
+        for (at, awaited) in waits.chain(machine) {
+            if told.contains(&at) {
+                continue;
+            }
+            told.push(at);
+            let Machine { name, state, is_final, .. } = &picture.machines[at];
+            if *is_final && at == machine {
+                continue;
+            }
+            lines += 1;
+            if lines > MOST_LINES {
+                continue;
+            }
+            let _ = match awaited {
+                Some(Await::Machine(other, read)) => {
+                    let other = &picture.machines[*other].name;
+                    writeln!(out, "{name} ({state}) waits for {other}: {}", value_text(read))
+                }
+                _ => writeln!(out, "{name} ({state}) {}", alone(&picture.machines[at])),
+            };
+        }
+    }
+    if lines > MOST_LINES {
+        let _ = writeln!(out, "and {} more machines", lines - MOST_LINES);
+    }
+    out
+}
+
+/// When the clauses of the states became true.
+pub fn later(picture: &Picture, later: &Later) -> String {
+    let mut out = String::new();
+    for became in &later.machines {
+        let Machine { name, state, .. } = &picture.machines[became.machine];
+        let _ = match &became.left {
+            Some((ms, by, to)) => {
+                let title = &became.transitions[*by].0;
+                writeln!(out, "{name} leaves {state} at {} for {to}: {title}", seconds(*ms))
+            }
+            None => writeln!(out, "{name} stays in {state} to the end of the run"),
+        };
+        for (title, clauses) in &became.transitions {
+            let _ = writeln!(out, "  {title}");
+            for (text, since) in clauses {
+                let since = match since {
+                    Some(ms) if *ms == picture.at_ms => "true already".into(),
+                    Some(ms) => format!("true at {}", seconds(*ms)),
+                    None => "never true".to_string(),
+                };
+                let _ = writeln!(out, "    {since:18}  {text}");
+            }
+        }
+    }
+    out
+}

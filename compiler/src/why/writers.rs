@@ -1,0 +1,133 @@
+//! Who may write a cell, from the text of the types, the rule of the cell and its present value.
+
+use super::Watch;
+use crate::executor::Element;
+use crate::ir::{Automaton, Expr, ExprKind, InterfaceId, Place, Rule, System, UpdateKind, Value};
+use crate::spec::ast::Side;
+use std::collections::BTreeSet;
+
+/// A cell that an automaton writes somewhere.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Written {
+    interface: InterfaceId,
+    cell: usize,
+    of: Whose,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Whose {
+    Own,
+    /// Of members of its roles.
+    Roles,
+    /// Of whomever it was told of.
+    Anyone,
+}
+
+/// For each automaton the cells that it writes.
+pub struct Writers(Vec<BTreeSet<Written>>);
+
+impl Writers {
+    pub fn new(system: &System) -> Self {
+        Self(system.model.automata.iter().map(written).collect())
+    }
+
+    fn writes(&self, system: &System, instance: usize, written: Written) -> bool {
+        self.0[system.instances[instance].automaton.0].contains(&written)
+    }
+
+    /// The instances other than the owner that may write a cell of this row.
+    fn others(&self, system: &System, interface: InterfaceId, row: usize, cell: usize) -> Vec<usize> {
+        let owner = system.members[interface.0][row];
+        let knows = |instance: usize| {
+            let mut roles = system.automaton_of(instance).roles.iter().zip(&system.instances[instance].roles);
+            roles.any(|(role, rows)| role.interface == interface && rows.contains(&row))
+        };
+        let writes =
+            |instance: usize, of: Whose| self.writes(system, instance, Written { interface, cell, of });
+        (0..system.instances.len())
+            .filter(|i| *i != owner && (writes(*i, Whose::Anyone) || writes(*i, Whose::Roles) && knows(*i)))
+            .collect()
+    }
+
+    /// The instances that may change an element of a cell as it is now. Of a lock that is taken, and of a token
+    /// that is with others, the one that wrote it last.
+    pub fn of_now(&self, watch: &Watch, element: Element) -> Vec<usize> {
+        let Element::Cell { interface, row, cell, index } = element else { return Vec::new() };
+        let system = watch.system;
+        let own = system.members[interface.0][row];
+        let owner = || -> Vec<usize> {
+            let writes = self.writes(system, own, Written { interface, cell, of: Whose::Own });
+            writes.then_some(own).into_iter().collect()
+        };
+        let others = || self.others(system, interface, row, cell);
+        let last = |element: Element| watch.last.get(&element).map(|change| change.robot);
+        let rules = &system.model.interface(interface).cells;
+        let token = |sides: &[Side], cell: usize| {
+            let element = Element::Cell { interface, row, cell, index };
+            let Value::Int(value) = watch.executor.element(element) else { return Vec::new() };
+            match (sides.get(value as usize), last(element)) {
+                (Some(Side::Owner), _) => owner(),
+                (Some(Side::Others), Some(robot)) if robot != own => vec![robot],
+                _ => others(),
+            }
+        };
+        let is_true = watch.executor.element(element) == Value::Bool(true);
+        match &rules[cell].rule {
+            Rule::Owner => owner(),
+            Rule::Handshake if is_true => owner(),
+            Rule::Handshake => others(),
+            Rule::Lock if is_true => last(element).map_or_else(others, |robot| vec![robot]),
+            // Whoever wants it takes it: nobody has to be waited for.
+            Rule::Lock => Vec::new(),
+            Rule::Counter => owner().into_iter().chain(others()).collect(),
+            Rule::Token(sides) => token(sides, cell),
+            Rule::With(other) => match &rules[*other].rule {
+                Rule::Token(sides) => token(sides, *other),
+                _ => Vec::new(),
+            },
+        }
+    }
+}
+
+fn written(automaton: &Automaton) -> BTreeSet<Written> {
+    let cells = targets(automaton).filter_map(|(place, _)| match place {
+        Place::Cell { interface, cell, of, .. } => {
+            let of = of.as_ref().map_or(Whose::Own, |of| whose(automaton, of));
+            Some(Written { interface: *interface, cell: *cell, of })
+        }
+        _ => None,
+    });
+    cells.collect()
+}
+
+/// What is written, with the value if it is one expression.
+fn targets(automaton: &Automaton) -> impl Iterator<Item = (&Place, Option<&Expr>)> {
+    let transitions = automaton.states.iter().flat_map(|state| &state.transitions);
+    transitions.flat_map(|transition| &transition.updates).filter_map(|update| match &update.kind {
+        UpdateKind::Assign { target, value, .. } | UpdateKind::Fill { target, value, .. } => {
+            Some((&target.place, Some(value)))
+        }
+        UpdateKind::Copy { target, .. } => Some((&target.place, None)),
+        UpdateKind::Command { .. } => None,
+    })
+}
+
+/// To whom a reference leads: a variable of a guard to a member of a role, as does a local that holds nothing else.
+fn whose(automaton: &Automaton, reference: &Expr) -> Whose {
+    let is_of_role = |expr: &Expr| matches!(expr.kind, ExprKind::Variable(_));
+    match &reference.kind {
+        ExprKind::Own(_) => Whose::Own,
+        ExprKind::Variable(_) => Whose::Roles,
+        ExprKind::Read(Place::Local { local, .. }) => {
+            let mut values = targets(automaton).filter_map(|(place, value)| match place {
+                Place::Local { local: written, .. } if written == local => Some(value),
+                _ => None,
+            });
+            match values.all(|value| value.is_some_and(is_of_role)) {
+                true => Whose::Roles,
+                false => Whose::Anyone,
+            }
+        }
+        _ => Whose::Anyone,
+    }
+}

@@ -1,0 +1,132 @@
+//! `compare`, `fmt` and `completions`.
+
+use super::*;
+
+fn said(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stdout).into_owned()
+}
+
+#[test]
+fn a_change_of_a_specification_is_found_where_it_acts_first() {
+    let folder = folder("compare");
+    let layout = example("scenes/lifting_table.json");
+    for name in ["lifting_table.aut", "lifting_table.json", "lifting_table.scenario.json"] {
+        fs::copy(example(&format!("scenes/{name}")), folder.join(name)).expect("the example");
+    }
+    let output = autogen(&folder, &["compare", &layout, "lifting_table.json"]);
+    assert_eq!(status(&output), 0, "{}{}", said(&output), errors(&output));
+    assert!(said(&output).starts_with("the same\n"), "{}", said(&output));
+
+    let text = fs::read_to_string(folder.join("lifting_table.aut")).expect("the example");
+    let slower = text.replace("warning_time: time := 1 s", "warning_time: time := 1500 ms");
+    fs::write(folder.join("lifting_table.aut"), slower).expect("a file");
+    let output = autogen(&folder, &["compare", &layout, "lifting_table.json"]);
+    assert_eq!(status(&output), 3, "{}", errors(&output));
+    let text = said(&output);
+    assert!(
+        text.starts_with("different\n\nfirst difference at 3.00 s, in scan 300: first, second\n"),
+        "{text}"
+    );
+    assert!(text.contains("  table, in state: Lifting, unchanged\n"), "{text}");
+    let output = autogen(&folder, &["compare", &layout, "lifting_table.json", "--format", "json"]);
+    let answer = json(&output);
+    assert_eq!(answer["same"], false);
+    assert_eq!(answer["first_difference"]["scan"], 300);
+    assert_eq!(answer["first_difference"]["values"][0]["machine"], "table");
+
+    let output = autogen(&folder, &["compare", &layout, &example("scenes/from_a_to_b.json")]);
+    assert_eq!(status(&output), 3);
+    assert!(said(&output).contains("only the second has belt"), "{}", said(&output));
+}
+
+#[test]
+fn results_are_compared_row_by_row() {
+    let folder = folder("compare_results");
+    let results = |name: &str, per_order: f64, hash: &str| {
+        fs::create_dir_all(folder.join(name)).expect("a folder");
+        let text = format!(
+            r#"{{"finished": true, "reason": "all orders made", "orders": 1, "orders_done": 1, "simulated_s": 83.0,
+            "seconds_per_order": {per_order}, "trace_hash": "{hash}", "robots": {{"agv1": {{"moving_s": 2.0}}}},
+            "order_times": [{{"order": 1, "made_s": {per_order}}}], "wall_s": {per_order}}}"#
+        );
+        fs::write(folder.join(name).join("results.json"), text).expect("a file");
+    };
+    results("a", 83.0, "00");
+    results("b", 84.5, "01");
+    results("c", 83.0, "01");
+    assert_eq!(status(&autogen(&folder, &["compare", "a", "a/results.json"])), 0);
+    let output = autogen(&folder, &["compare", "a", "b"]);
+    assert_eq!(status(&output), 3);
+    let text = said(&output);
+    let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split_whitespace().collect()).collect();
+    assert!(rows.contains(&vec!["seconds_per_order", "83", "84.5", "+1.50"]), "{text}");
+    assert!(rows.contains(&vec!["order", "1", "made_s", "83", "84.5", "+1.50"]), "{text}");
+    assert!(!text.contains("agv1"), "{text}");
+    let output = autogen(&folder, &["compare", "a", "c"]);
+    assert_eq!(status(&output), 3, "another trace with the same figures");
+    assert!(said(&output).contains("the hashes of the traces differ"), "{}", said(&output));
+
+    let layout = example("scenes/lifting_table.json");
+    for (a, b, why) in [
+        ("a", layout.as_str(), "name two of a kind"),
+        ("nothing", "a", "nothing: "),
+        (".", "a", "`commission` writes the results"),
+    ] {
+        let output = autogen(&folder, &["compare", a, b]);
+        assert_eq!(status(&output), 2, "{a} {b}");
+        assert!(errors(&output).contains(why), "{}", errors(&output));
+    }
+    fs::write(folder.join("a/results.json"), "{}").expect("a file");
+    assert_eq!(status(&autogen(&folder, &["compare", "a", "b"])), 2);
+}
+
+#[test]
+fn files_are_formatted_all_or_none() {
+    let folder = folder("fmt");
+    let write = |name: &str, text: &str| fs::write(folder.join(name), text).expect("a file");
+    write("a.aut", "enum A{B,C}\n");
+    write("b.aut", "enum B { D }\n");
+    write("c.aut", "enum {\n");
+    let before = contents(&folder);
+    let output = autogen(&folder, &["fmt", "."]);
+    assert_eq!(status(&output), 1);
+    assert!(errors(&output).contains("nothing was changed"), "{}", errors(&output));
+    assert_eq!(before, contents(&folder));
+
+    fs::remove_file(folder.join("c.aut")).expect("a file");
+    let output = autogen(&folder, &["fmt", "--check", "."]);
+    assert_eq!(status(&output), 1);
+    let text = said(&output);
+    assert!(
+        text.contains("a.aut is not formatted") && text.contains("-enum A{B,C}\n+enum A { B, C }"),
+        "{text}"
+    );
+    assert!(!text.contains("b.aut"), "{text}");
+
+    assert_eq!(status(&autogen(&folder, &["fmt", "a.aut", "b.aut"])), 0);
+    assert_eq!(fs::read_to_string(folder.join("a.aut")).expect("a file"), "enum A { B, C }\n");
+    assert_eq!(status(&autogen(&folder, &["fmt", "--check", "."])), 0);
+    assert_eq!(contents(&folder).len(), 2, "no file is left behind");
+    assert_eq!(status(&autogen(&folder, &["fmt", "no_such_file.aut"])), 2);
+    assert_eq!(status(&autogen(&folder, &["fmt"])), 2);
+}
+
+#[test]
+fn every_command_is_completed() {
+    let folder = folder("completions");
+    let help = said(&autogen(&folder, &["--help"]));
+    let commands =
+        help.lines().skip_while(|line| *line != "Commands:").skip(1).take_while(|line| !line.is_empty());
+    let commands: Vec<&str> = commands
+        .filter(|line| line.starts_with("  ") && !line.starts_with("   "))
+        .filter_map(|line| line.split_whitespace().next())
+        .collect();
+    assert!(commands.len() > 8, "{help}");
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        let output = autogen(&folder, &["completions", shell]);
+        assert_eq!(status(&output), 0);
+        let text = said(&output);
+        assert!(commands.iter().all(|command| text.contains(command)), "{shell}");
+    }
+    assert_eq!(status(&autogen(&folder, &["completions", "csh"])), 2);
+}

@@ -1,0 +1,164 @@
+//! `new`, `test` and `schema`.
+
+use super::*;
+
+fn said(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stdout).into_owned()
+}
+
+#[test]
+fn a_new_line_passes_its_tests_and_nothing_is_written_over() {
+    let folder = folder("new");
+    let output = autogen(&folder, &["new", "my line"]);
+    assert_eq!(status(&output), 0, "{}", errors(&output));
+    assert_eq!(said(&output).lines().filter(|line| line.starts_with("  autogen ")).count(), 3);
+    assert!(said(&output).contains("  autogen commission 'my line/line.json'\n"), "{}", said(&output));
+    assert!(fs::read_to_string(folder.join("my line/README.md")).expect("a text").starts_with("# my line\n"));
+    let readme = fs::read_to_string(folder.join("my line/README.md")).expect("a text");
+    assert!(readme.lines().count() <= 12, "{readme}");
+    let output = autogen(&folder, &["test", "my line"]);
+    assert_eq!(status(&output), 0, "{}{}", said(&output), errors(&output));
+    assert!(said(&output).contains("4 passed, 0 failed"), "{}", said(&output));
+    assert_eq!(status(&autogen(&folder, &["check", "my line/line.json"])), 0);
+    assert_eq!(
+        status(&autogen(&folder, &["fmt", "--check", "my line/specs"])),
+        0,
+        "what is written is formatted"
+    );
+
+    let before = contents(&folder);
+    for name in ["my line", "my line/line.json"] {
+        let output = autogen(&folder, &["new", name]);
+        assert_eq!(status(&output), 2, "{name}");
+        assert!(errors(&output).contains("choose another name"), "{}", errors(&output));
+    }
+    assert_eq!(before, contents(&folder));
+    fs::create_dir(folder.join("empty")).expect("a folder");
+    assert_eq!(status(&autogen(&folder, &["new", "empty"])), 0, "an empty folder is free");
+}
+
+#[test]
+fn the_library_passes_its_tests() {
+    let output = autogen(&folder("library_tests"), &["test", &example("ariac2021"), "--quiet"]);
+    assert_eq!(status(&output), 0, "{}{}", said(&output), errors(&output));
+}
+
+/// The tests of a new line with one text in place of another one.
+fn changed(name: &str, file: &str, from: &str, to: &str) -> PathBuf {
+    let folder = folder(name);
+    assert_eq!(status(&autogen(&folder, &["new", "line", "-q"])), 0);
+    let path = folder.join("line").join(file);
+    let text = fs::read_to_string(&path).expect("a text");
+    assert!(text.contains(from), "{from}");
+    fs::write(path, text.replace(from, to)).expect("a file");
+    folder
+}
+
+#[test]
+fn a_failure_is_shown_on_a_time_line_and_in_the_form_of_junit() {
+    let folder =
+        changed("test_fails", "specs/stamp.aut", "hold_time: time := 500 ms", "hold_time: time := 700 ms");
+    let line = folder.join("line/line.json");
+    let text =
+        fs::read_to_string(&line).expect("a text").replace(r#", "parameters": {"hold_time": 0.5}"#, "");
+    fs::write(line, text).expect("a file");
+    let output = autogen(&folder, &["test", "line", "--junit", "results.xml"]);
+    assert_eq!(status(&output), 3, "{}{}", said(&output), errors(&output));
+    let text = said(&output);
+    assert!(text.contains("  FAIL  a box is stamped and goes on\n"), "{text}");
+    assert!(text.contains("station.test:10: within 600 ms: -> Lifting, press = false;\n"), "{text}");
+    assert!(text.contains("       2.400 s  Holding\n"), "{text}");
+    assert!(
+        text.contains("  -    3.000 s  Lifting\n") && text.contains("  +    3.000 s  Holding\n"),
+        "{text}"
+    );
+    assert!(text.contains("3 passed, 1 failed"), "{text}");
+    let xml = fs::read_to_string(folder.join("results.xml")).expect("a file");
+    assert!(xml.contains(r#"tests="4" failures="1" skipped="0""#), "{xml}");
+    assert!(xml.contains("within 600 ms: -&gt; Lifting"), "{xml}");
+    assert_eq!(status(&autogen(&folder, &["test", "line", "--junit", "results.xml"])), 3, "its own file");
+    fs::write(folder.join("results.xml"), "mine").expect("a file");
+    assert_eq!(status(&autogen(&folder, &["test", "line", "--junit", "results.xml"])), 2);
+    assert_eq!(fs::read_to_string(folder.join("results.xml")).expect("a file"), "mine");
+}
+
+#[test]
+fn what_a_run_lacks_is_said() {
+    let folder = changed(
+        "test_lacks",
+        "station.test",
+        "expect contacts = 0;",
+        "expect not finished; expect orders > 2; expect never station in Holding; expect fault \"no such\" of station; expect station in Stamping before 1 s; expect reason \"deadlock\";",
+    );
+    let output = autogen(&folder, &["test", "line"]);
+    assert_eq!(status(&output), 3, "{}{}", said(&output), errors(&output));
+    let text = said(&output);
+    for line in [
+        "the run does not reach its goal",
+        "orders = 0",
+        "station never in Holding",
+        "no fault",
+        "station in Stamping before 1 s",
+        "reason all items collected",
+    ] {
+        assert!(text.contains(line), "{line}: {text}");
+    }
+}
+
+#[test]
+fn wrong_tests_are_refused_with_their_places() {
+    for (from, to, code, said) in [
+        ("-> Stopped;", "-> Stoped;", "E0902", "is `Stopped` meant?"),
+        ("at_stamp = true ->", "at_stmp = true ->", "E0902", "is `at_stamp` meant?"),
+        ("put = true;", "put = 1;", "E0903", "write `true` or `false`"),
+        ("100 ms: start", "105 ms: start", "E0903", "every 10 ms"),
+        ("100 ms: start", "0 s: start", "E0903", "not later"),
+        ("100 ms: start", "100: start", "E0901", "`ms`, `s` or `min`"),
+        ("start_button = true -> Loading", "run = true -> Loading", "E0902", "the automaton itself writes"),
+        ("of station", "of staton", "E0902", "is `station` meant?"),
+        ("expect finished;", "expect finish;", "E0901", "`in`"),
+        ("layout \"line.json\";", "", "E0902", "layout \"line.json\""),
+        ("layout \"line.json\";", "layout \"../line.json\";", "E0902", "leads out of the folder"),
+        ("layout \"line.json\";", "layout \"no.json\";", "E0902", "names \"no.json\""),
+        ("stamped = 1", "stamped[0] = 1", "E0903", "no array"),
+        ("is_up = true -> Stopped", "done -> Stopped", "E0902", "obeys no commands"),
+    ] {
+        let folder = changed("test_wrong", "station.test", from, to);
+        fs::copy(folder.join("line/line.json"), folder.join("line.json")).expect("a file");
+        let output = autogen(&folder, &["test", "line"]);
+        assert_eq!(status(&output), 1, "{to}: {}{}", self::said(&output), errors(&output));
+        let text = errors(&output);
+        assert!(text.contains(code) && text.contains(said) && text.contains("station.test:"), "{to}: {text}");
+    }
+    let folder = folder("test_none");
+    for arguments in [&["test", "."][..], &["test", "none.test"], &["test"]] {
+        assert_eq!(status(&autogen(&folder, arguments)), 2, "{arguments:?}");
+    }
+}
+
+#[test]
+fn the_compiled_controllers_pass_the_same_tests() {
+    let folder = folder("test_rust");
+    assert_eq!(status(&autogen(&folder, &["new", "line", "-q"])), 0);
+    let output = autogen(&folder, &["test", "line", "--on", "both"]);
+    assert_eq!(status(&output), 0, "{}{}", said(&output), errors(&output));
+    assert!(said(&output).contains("8 passed, 0 failed\n"), "{}", said(&output));
+}
+
+#[test]
+fn schemas_are_json_and_know_types_of_ones_own() {
+    let folder = folder("schema");
+    let of = |arguments: &[&str]| {
+        let output = autogen(&folder, &[&["schema"], arguments].concat());
+        assert_eq!(status(&output), 0, "{}", errors(&output));
+        json(&output)
+    };
+    assert!(of(&["scenario"])["properties"]["kinds"].is_object());
+    let text = of(&["layout"]).to_string();
+    assert!(text.contains("orient_range") && !text.contains("lifting_table"));
+    let text = of(&["layout", "--specs", &example("scenes/lifting_table.aut")]).to_string();
+    assert!(text.contains("lifting_table") && text.contains("warning_time"));
+    assert_eq!(status(&autogen(&folder, &["schema", "layout", "--specs", "none"])), 2);
+    fs::write(folder.join("a.aut"), "automaton").expect("a file");
+    assert_eq!(status(&autogen(&folder, &["schema", "layout", "--specs", "a.aut"])), 1);
+}

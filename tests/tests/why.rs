@@ -1,0 +1,111 @@
+//! `autogen why`: lines of `fixtures/why` that were made to stand, each as it is at 20 s. A line is a layout with
+//! the types of its name; all of them are made of the devices there.
+
+use autogen::lower::Project;
+use autogen::why::{self, Node, Picture, Verdict, Waits, Watch};
+use autogen_tests::{Texts, ariac, root, side_by_side, text};
+use runtime_sim::run::{Stepping, run};
+
+/// The lines by name.
+fn lines() -> Vec<String> {
+    let folder = std::fs::read_dir(root().join("tests/fixtures/why")).expect("a folder");
+    let names = folder.map(|entry| entry.expect("an entry").file_name().into_string().expect("a name"));
+    let mut lines: Vec<String> = names.filter_map(|name| Some(name.strip_suffix(".json")?.into())).collect();
+    lines.sort();
+    lines
+}
+
+fn texts(line: &str) -> Texts {
+    let part = |name: &str| text(&format!("tests/fixtures/why/{name}"));
+    Texts {
+        layout: part(&format!("{line}.json")),
+        specs: vec![part("devices.aut"), part(&format!("{line}.aut"))],
+        scenario: Some(r#"{"time_limit_s": 30}"#.into()),
+        ..Texts::default()
+    }
+}
+
+#[test]
+fn lines_that_stand_say_why() {
+    for line in lines() {
+        let outcome = texts(&line).compile();
+        let found = autogen_tests::plain(&outcome.sources, &outcome.diagnostics);
+        let project = outcome.project.unwrap_or_else(|| panic!("{found}"));
+        let mut watch = Watch::new(&project.system, 2000);
+        let report =
+            run(&project.plant, &mut watch, Stepping::Events, &mut |_| {}).expect("a line that runs");
+        let (picture, _) = watch.finish(report.scans);
+        let machines: String =
+            picture.machines.iter().map(|machine| why::machine(machine, &outcome.sources) + "\n").collect();
+        let chains = why::chains(&picture, &Waits::new(&picture, false));
+        insta::assert_snapshot!(line, format!("{machines}{chains}"));
+    }
+}
+
+fn picture(project: &Project, at: u64, stepping: Stepping) -> Picture {
+    let mut line = project.plant.clone();
+    line.scenario.time_limit_s = (at + 1) as f64 * f64::from(line.scan_ms) / 1000.0;
+    let mut watch = Watch::new(&project.system, at);
+    let report = run(&line, &mut watch, stepping, &mut |_| {}).expect("a line that runs");
+    watch.finish(report.scans).0
+}
+
+/// A part fails exactly if one of its parts does, down to those that read something.
+fn is_sound(node: &Node) -> bool {
+    let fails = |node: &Node| node.verdict == Verdict::Fails;
+    node.parts.iter().all(is_sound) && (node.parts.is_empty() || fails(node) && node.parts.iter().any(fails))
+}
+
+#[test]
+fn guards_are_taken_apart_as_they_are_tested() {
+    for (name, texts) in [("default", ariac("default")), ("tending", side_by_side("tending/tending"))] {
+        let project = texts.project();
+        let (mut held, mut failed) = (0, 0);
+        for at in [1, 2, 3, 77, 1500, 3333, 6001, 9876] {
+            let picture = picture(&project, at, Stepping::Events);
+            for machine in &picture.machines {
+                for tested in &machine.transitions {
+                    let fails = tested.clauses.iter().any(|clause| clause.verdict == Verdict::Fails);
+                    assert_eq!(tested.holds, !fails, "{name}, {at}: {tested:#?}");
+                    assert!(tested.clauses.iter().all(is_sound), "{name}, {at}: {tested:#?}");
+                    held += usize::from(tested.holds);
+                    failed += usize::from(fails);
+                }
+            }
+        }
+        assert!(held > 3 && failed > 20, "{name}: {held}, {failed}");
+    }
+}
+
+#[test]
+fn scans_that_are_left_out_change_no_picture() {
+    let project = ariac("default").project();
+    for at in [2, 60, 4711, 5000] {
+        let [events, every] =
+            [Stepping::Events, Stepping::EveryScan].map(|stepping| picture(&project, at, stepping));
+        let states = |picture: &Picture| -> Vec<(String, u64, Vec<bool>)> {
+            let machines = picture.machines.iter();
+            let shown = machines.map(|machine| {
+                let holds = machine.transitions.iter().map(|tested| tested.holds).collect();
+                (machine.state.clone(), machine.stay_ms, holds)
+            });
+            shown.collect()
+        };
+        assert_eq!(states(&events), states(&every), "{at}");
+    }
+}
+
+#[test]
+fn clauses_become_true_no_later_than_their_transition_fires() {
+    let project = ariac("default").project();
+    let agv = project.system.instances.iter().position(|i| i.name == "agv2").expect("a vehicle");
+    let mut watch = Watch::new(&project.system, 12_000).until_left(vec![agv]);
+    let report = run(&project.plant, &mut watch, Stepping::Events, &mut |_| {}).expect("a line that runs");
+    let (picture, later) = watch.finish(report.scans);
+    let later = later.expect("it was asked for");
+    insta::assert_snapshot!("until", why::later(&picture, &later));
+    let became = &later.machines[0];
+    let (left, by, _) = became.left.clone().expect("it leaves its state");
+    assert!(became.transitions[by].1.iter().all(|(_, since)| since.is_some_and(|since| since <= left)));
+    assert!(left > picture.at_ms);
+}
