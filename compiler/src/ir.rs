@@ -512,6 +512,8 @@ pub struct Invariant {
     pub text: String,
     pub condition: Expr,
     pub fault: FaultId,
+    /// The type has a text for the operator: a stop that is meant.
+    pub asks_operator: bool,
 }
 
 #[derive(Clone, Debug)]

@@ -28,5 +28,6 @@ pub mod simulator;
 pub mod source;
 pub mod spec;
 pub mod testing;
+pub mod verify;
 pub mod version;
 pub mod why;

@@ -20,6 +20,8 @@ pub enum Status {
     WrongCommand = 2,
     /// The run did not reach its goal.
     NotReached = 3,
+    /// A limit of time or memory came first.
+    Undecided = 4,
     /// A bug in autogen.
     Bug = 70,
 }
@@ -45,6 +47,7 @@ fn main() -> ExitCode {
         Command::Commission(options) => command::commission::run(options),
         Command::Sweep(options) => command::sweep::run(options),
         Command::Merge(options) => command::sweep::merge::run(options),
+        Command::Verify(options) => command::verify::run(options),
         Command::Graph(options) => command::graph::run(options),
         Command::Explain(options) => command::explain::run(options),
         Command::Why(options) => command::why::run(options),

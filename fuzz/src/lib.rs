@@ -27,5 +27,6 @@ enum Status {
     WrongInput = 1,
     WrongCommand = 2,
     NotReached = 3,
+    Undecided = 4,
     Bug = 70,
 }

@@ -76,6 +76,7 @@ pub struct Scenario {
     pub start_scan: u64,
     pub slips: Vec<Slip>,
     pub refusals: Vec<Refusal>,
+    pub answers: Vec<Answer>,
     pub pauses: Vec<Pause>,
     pub operations: Vec<Operation>,
     /// Of all times that are drawn.
@@ -137,6 +138,19 @@ pub struct Refusal {
     pub command: u32,
 }
 
+/// How a device answers one of its commands.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Answer {
+    pub machine: usize,
+    /// The how manieth command that this device has accepted, from 1.
+    pub command: u32,
+    /// So long after it has ended.
+    pub late_s: f64,
+    /// It ends in this error: if it is the one of a signal that the command awaits, that does not come; with any other
+    /// nothing moves.
+    pub error: Option<i32>,
+}
+
 /// `run_permit` is taken away; when it is back, an edge of `start` is given.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pause {
@@ -182,6 +196,7 @@ impl Default for Scenario {
             start_scan: 2,
             slips: Vec::new(),
             refusals: Vec::new(),
+            answers: Vec::new(),
             pauses: Vec::new(),
             operations: Vec::new(),
             seed: 1,

@@ -161,7 +161,7 @@ impl Plant {
         self.grip(scan);
         let (machines, mut shared) = self.split(scan);
         for machine in machines.iter_mut() {
-            machine.settle(shared.items, shared.desk);
+            machine.settle(&mut shared);
             machine.serve(&mut shared);
         }
         machines.iter_mut().for_each(|machine| machine.withdraw(&mut shared));

@@ -3,7 +3,7 @@
 mod common;
 
 use common::*;
-use runtime_sim::line::{IoDelay, Line, Obstacle, Pause, Refusal, Slip};
+use runtime_sim::line::{Answer, IoDelay, Line, Obstacle, Pause, Refusal, Slip};
 use runtime_sim::point::Point;
 
 fn rich_line() -> Line {
@@ -14,6 +14,7 @@ fn rich_line() -> Line {
     line.obstacles = vec![obstacle("post", Some(Point::new(0.2, 1.0 / 3.0, 1e-3))), obstacle("mark", None)];
     line.scenario.slips = vec![Slip { machine: GANTRY, pick: 2, after_s: 5e-324 }];
     line.scenario.refusals = vec![Refusal { machine: AGV, command: 3 }];
+    line.scenario.answers = vec![Answer { machine: AGV, command: 4, late_s: 0.5, error: Some(1) }];
     line.scenario.pauses = vec![Pause { at_scan: 17, scans: u64::MAX }];
     line.io_delay = IoDelay::Random { max: 5, seed: u64::MAX };
     line

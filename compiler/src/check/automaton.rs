@@ -65,7 +65,13 @@ pub(super) fn check(checker: &mut Checker, tree: &ast::Automaton) {
             let text = plain::line(&words.join(" "));
             let told = invariant.text.as_ref().map_or(format!("not: {text}"), |told| plain::line(told));
             let fault = context.fault(ir::FaultKind::InvariantFails, place, told);
-            context.automaton.invariants.push(ir::Invariant { place, text, condition, fault });
+            context.automaton.invariants.push(ir::Invariant {
+                place,
+                text,
+                condition,
+                fault,
+                asks_operator: invariant.text.is_some(),
+            });
         }
     }
     context.bounded_work();

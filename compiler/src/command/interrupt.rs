@@ -5,11 +5,15 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::Duration;
 
 static BEGUN: Mutex<Begun> = Mutex::new(Begun { paths: Vec::new(), processes: Vec::new() });
+/// The first SIGINT only asks; the next one ends the program.
+static ASKS_FIRST: AtomicBool = AtomicBool::new(false);
+static ASKED: AtomicBool = AtomicBool::new(false);
 static WRITING: Mutex<()> = Mutex::new(());
 
 struct Begun {
@@ -20,6 +24,26 @@ struct Begun {
 
 fn begun() -> MutexGuard<'static, Begun> {
     BEGUN.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// While this lives, the first SIGINT asks to come to an end.
+pub struct Asks(());
+
+pub fn asks_first() -> Asks {
+    ASKS_FIRST.store(true, Ordering::SeqCst);
+    Asks(())
+}
+
+impl Asks {
+    pub fn asked(&self) -> bool {
+        ASKED.load(Ordering::SeqCst)
+    }
+}
+
+impl Drop for Asks {
+    fn drop(&mut self) {
+        ASKS_FIRST.store(false, Ordering::SeqCst);
+    }
 }
 
 /// While this is held a signal waits. It is for short sections, and none within another.
@@ -136,7 +160,10 @@ pub fn install() {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
     let Ok(mut signals) = signal_hook::iterator::Signals::new([SIGHUP, SIGINT, SIGTERM]) else { return };
     thread::spawn(move || {
-        if let Some(signal) = signals.forever().next() {
+        for signal in signals.forever() {
+            if signal == SIGINT && ASKS_FIRST.load(Ordering::SeqCst) && !ASKED.swap(true, Ordering::SeqCst) {
+                continue;
+            }
             abandon();
             let _ = signal_hook::low_level::emulate_default_handler(signal);
         }

@@ -45,4 +45,5 @@ pub mod schema;
 pub mod sweep;
 pub mod test;
 pub mod trajectories;
+pub mod verify;
 pub mod why;

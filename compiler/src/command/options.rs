@@ -22,7 +22,8 @@ pub struct Cli {
 
 const STATUS: &str = "Exit status: 0 done; 1 the input has errors, or a --check found a difference; \
 2 wrong command line; \
-3 the run did not reach its goal, compare found a difference, or a test failed; 70 a bug in autogen.";
+3 the run did not reach its goal, compare found a difference, a test failed, or verify found a violation; \
+4 undecided: a limit of verify came first; 70 a bug in autogen.";
 
 #[derive(Debug, Subcommand)]
 pub enum Command {
@@ -39,6 +40,8 @@ pub enum Command {
     Sweep(SweepOptions),
     /// Put the parts of a sweep together: the table that the whole sweep would print
     Merge(MergeOptions),
+    /// Look at every course of events: answers that come late, commands that fail, items that are lost
+    Verify(VerifyOptions),
     /// Print the connectivity graph or an automaton as DOT, or the layout from above as SVG
     Graph(GraphOptions),
     /// Print the long text of a diagnostic
@@ -278,6 +281,47 @@ pub enum TableFormat {
     Csv,
     /// An object for each row, a line each
     Jsonl,
+}
+
+#[derive(Args, Debug)]
+pub struct VerifyOptions {
+    #[command(flatten)]
+    pub input: InputOptions,
+    /// At most so many devices answer in one scan; default: one, and if nothing is found any number
+    #[arg(long, value_name = "K")]
+    pub answers: Option<usize>,
+    /// No command fails and no item is lost
+    #[arg(long)]
+    pub no_faults: bool,
+    /// In which orders the machines step
+    #[arg(long, value_enum, default_value = "one")]
+    pub orders: StepOrders,
+    /// Where to stop, such as 90s, 10min, 500MB or 2GB; may be given twice. Default: 10min and 2GB
+    #[arg(long, value_name = "LIMIT")]
+    pub limit: Vec<String>,
+    /// Go on after a violation, and tell of each that is different
+    #[arg(long)]
+    pub all: bool,
+    /// Write the scenario that shows the first violation in `commission` to this file
+    #[arg(long, value_name = "FILE")]
+    pub counterexample: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum StepOrders {
+    /// That of the line
+    One,
+    /// Any, another one in each scan
+    All,
+}
+
+impl From<StepOrders> for autogen_search::successor::Orders {
+    fn from(orders: StepOrders) -> Self {
+        match orders {
+            StepOrders::One => Self::One,
+            StepOrders::All => Self::All,
+        }
+    }
 }
 
 #[derive(Args, Debug)]

@@ -20,6 +20,7 @@ pub enum Content {
     PathTable,
     PathSegments,
     PathDrawing,
+    Scenario,
     JUnit,
 }
 
@@ -31,6 +32,7 @@ impl Content {
             Content::PathTable => "table of paths",
             Content::PathSegments => "list of segments",
             Content::PathDrawing => "drawing of paths",
+            Content::Scenario => "scenario",
             Content::JUnit => "list of test results",
         }
     }
@@ -48,6 +50,8 @@ impl Content {
             }
             Content::PathTable => bytes.starts_with(HEAD.as_bytes()),
             Content::PathSegments => bytes.starts_with(format!("{{\"format\":\"{FORMAT}\"").as_bytes()),
+            // As `verify` writes it.
+            Content::Scenario => bytes.starts_with(b"{\n  \"kinds\": ["),
             Content::PathDrawing => String::from_utf8_lossy(bytes).contains(MARK),
             Content::JUnit => bytes.starts_with(junit::HEAD.as_bytes()),
         }

@@ -111,6 +111,14 @@ pub fn line(
             refusals: (scenario.refusals.iter())
                 .map(|r| line::Refusal { machine: r.robot, command: r.command })
                 .collect(),
+            answers: (scenario.answers.iter())
+                .map(|a| line::Answer {
+                    machine: a.robot,
+                    command: a.command,
+                    late_s: a.late_s,
+                    error: a.error,
+                })
+                .collect(),
             pauses: (scenario.pauses.iter())
                 .map(|p| line::Pause { at_scan: scans(p.at_s), scans: scans(p.for_s) })
                 .collect(),

@@ -156,6 +156,7 @@ impl Items {
 pub struct Faults {
     pub slips: Vec<Slip<Spanned<String>>>,
     pub refusals: Vec<Refusal<Spanned<String>>>,
+    pub answers: Vec<Answer<Spanned<String>>>,
     pub pauses: Vec<Pause>,
 }
 
@@ -194,6 +195,15 @@ pub struct Refusal<Robot> {
     pub command: u32,
 }
 
+/// How `robot` answers its command number `command`, counted from 1: so late, and in this error if there is one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Answer<Robot> {
+    pub robot: Robot,
+    pub command: u32,
+    pub late_s: f64,
+    pub error: Option<i32>,
+}
+
 /// The permit to run is taken away for a time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pause {
@@ -216,6 +226,7 @@ pub struct ResolvedScenario {
     pub seed: u32,
     pub slips: Vec<Slip<usize>>,
     pub refusals: Vec<Refusal<usize>>,
+    pub answers: Vec<Answer<usize>>,
     pub pauses: Vec<Pause>,
     /// By numbers of the machine and of its part.
     pub operations: Vec<Operation<[usize; 2]>>,

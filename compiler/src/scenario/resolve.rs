@@ -1,7 +1,7 @@
 //! A scenario meets a line: names of machines become indices, and the supply is laid out.
 
 use super::{
-    Collected, Faults, Items, MOST_PARTS, Number, Operation, Order, Part, Refusal, ResolvedScenario,
+    Answer, Collected, Faults, Items, MOST_PARTS, Number, Operation, Order, Part, Refusal, ResolvedScenario,
     Scenario, Slip, supply,
 };
 use crate::diagnostic::{Diagnostic, MOST, collect, sort};
@@ -41,7 +41,7 @@ pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec
     let mut resolver = Resolver { scenario, line, by_name: HashMap::new(), diagnostics: Vec::new() };
     let orders = resolver.orders();
     let supply = resolver.supply();
-    let Faults { slips, refusals, pauses } = &scenario.faults;
+    let Faults { slips, refusals, answers, pauses } = &scenario.faults;
     let slips = slips.iter().filter_map(|s| {
         let robot = resolver.named(&s.robot, line.arms, "robot with a gripper")?;
         Some(Slip { robot, pick: s.pick, after_s: s.after_s })
@@ -52,6 +52,11 @@ pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec
         Some(Refusal { robot, command: r.command })
     });
     let refusals = refusals.collect();
+    let answers = answers.iter().filter_map(|a| {
+        let robot = resolver.named(&a.robot, line.commanded, "robot that obeys commands")?;
+        Some(Answer { robot, command: a.command, late_s: a.late_s, error: a.error })
+    });
+    let answers = answers.collect();
     let operations = scenario.operations.iter().filter_map(|operation| resolver.operation(operation));
     let operations = operations.collect();
     let goal = scenario.goal.iter().filter_map(|collected| resolver.collected(collected)).collect();
@@ -68,6 +73,7 @@ pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec
             seed: scenario.supply.seed,
             slips,
             refusals,
+            answers,
             pauses: pauses.clone(),
             operations,
             goal,

@@ -36,6 +36,7 @@ pub fn answer(input: &[u8], effort: Effort) {
             of_line(&options.build.input, input, effort);
         }
         Command::Sweep(options) => of_sweep(options, input, effort),
+        Command::Verify(options) => of_line(&options.input, input, effort),
         Command::Merge(_)
         | Command::New(_)
         | Command::Test(_)

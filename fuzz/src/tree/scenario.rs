@@ -86,11 +86,20 @@ fn faults(u: &mut Unstructured) -> Result<String> {
         let members = [("robot", name(u)?), ("command", whole(u, 9)?)];
         object(u, &members)
     })?;
+    let answers = list(u, 2, |u| {
+        let members = [
+            ("robot", name(u)?),
+            ("command", whole(u, 9)?),
+            ("late_s", seconds(u)?),
+            ("error", whole(u, 4)?),
+        ];
+        object(u, &members)
+    })?;
     let pauses = list(u, 2, |u| {
         let members = [("at_s", seconds(u)?), ("for_s", seconds(u)?)];
         object(u, &members)
     })?;
-    object(u, &[("slips", slips), ("refusals", refusals), ("pauses", pauses)])
+    object(u, &[("slips", slips), ("refusals", refusals), ("answers", answers), ("pauses", pauses)])
 }
 
 fn whole(u: &mut Unstructured, most: u32) -> Result<String> {

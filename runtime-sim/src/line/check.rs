@@ -130,6 +130,15 @@ impl Line {
         for refusal in &scenario.refusals {
             self.machine(refusal.machine, "a refusal")?;
         }
+        for answer in &scenario.answers {
+            let machine = self.machine(answer.machine, "an answer")?;
+            if !(0.0..=LONGEST_TIME).contains(&answer.late_s) {
+                return Err(format!("an answer of {} after {:?} s", machine.name, answer.late_s));
+            }
+            if answer.error.is_some_and(|error| !(1..=255).contains(&error)) {
+                return Err(format!("an answer of {} in an error that is none", machine.name));
+            }
+        }
         for operation in &scenario.operations {
             let panel = self.machine(operation.machine, "an operation")?;
             let part = panel.parts.get(operation.part);

@@ -4,8 +4,8 @@ use std::fmt::Write;
 use std::sync::Arc;
 
 use super::{
-    Collected, Goal, IoDelay, Kind, Line, Obstacle, Operation, Order, Pause, Refusal, Scenario, Slip, State,
-    Supply,
+    Answer, Collected, Goal, IoDelay, Kind, Line, Obstacle, Operation, Order, Pause, Refusal, Scenario, Slip,
+    State, Supply,
 };
 use crate::machine::Machine;
 use crate::part::Part;
@@ -108,6 +108,10 @@ impl Line {
         put(format!("refusals {}", scenario.refusals.len()));
         for refusal in &scenario.refusals {
             put(format!("  {} {}", refusal.machine, refusal.command));
+        }
+        put(format!("answers {}", scenario.answers.len()));
+        for Answer { machine, command, late_s, error } in &scenario.answers {
+            put(format!("  {machine} {command} {late_s:?} {}", error.unwrap_or(0)));
         }
         put(format!("pauses {}", scenario.pauses.len()));
         for pause in &scenario.pauses {
@@ -254,6 +258,11 @@ fn read_scenario(words: &mut Words) -> Result<Scenario, String> {
     let slips = words.list(|w| Ok(Slip { machine: w.int()?, pick: w.int()?, after_s: w.real()? }))?;
     words.expect("refusals")?;
     let refusals = words.list(|w| Ok(Refusal { machine: w.int()?, command: w.int()? }))?;
+    words.expect("answers")?;
+    let answers = words.list(|w| {
+        let (machine, command, late_s, error) = (w.int()?, w.int()?, w.real()?, w.int()?);
+        Ok(Answer { machine, command, late_s, error: (error != 0).then_some(error) })
+    })?;
     words.expect("pauses")?;
     let pauses = words.list(|w| Ok(Pause { at_scan: w.int()?, scans: w.int()? }))?;
     words.expect("operations")?;
@@ -271,6 +280,7 @@ fn read_scenario(words: &mut Words) -> Result<Scenario, String> {
         start_scan,
         slips,
         refusals,
+        answers,
         pauses,
         operations,
         seed,

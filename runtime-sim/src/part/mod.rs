@@ -8,6 +8,7 @@ mod running;
 mod settings;
 
 pub use operated::Operated;
+pub(crate) use running::milliseconds;
 pub use running::{Begun, Looks, Progress, Running, See, Start, World};
 pub use settings::{Form, Setting, Settings};
 

@@ -20,6 +20,11 @@ pub struct Head {
     pub held: bool,
     /// Which commands to refuse, counted from 1.
     refusals: Vec<u32>,
+    answers: Vec<Answer>,
+    /// The command has ended; its answer in this error comes at this time, ms from the start of the run.
+    late: Option<(i32, u64)>,
+    /// What the last command awaits does not come.
+    in_vain: bool,
     task: Option<Task>,
 }
 
@@ -43,9 +48,17 @@ pub enum Asked {
     Refused,
 }
 
+/// How the command of a number, from 1, is answered.
+#[derive(Clone, Copy, Debug)]
+pub struct Answer {
+    pub command: u32,
+    pub late_ms: u64,
+    pub error: Option<i32>,
+}
+
 impl Head {
     /// None for a machine without commands.
-    pub fn new(wiring: &Arc<Wiring>, kinds: usize, refusals: Vec<u32>) -> Option<Self> {
+    pub fn new(wiring: &Arc<Wiring>, kinds: usize, refusals: Vec<u32>, answers: Vec<Answer>) -> Option<Self> {
         wiring.is_commanded().then_some(())?;
         let at = |drives| wiring.output_at(drives, kinds);
         Some(Self {
@@ -59,12 +72,16 @@ impl Head {
             accepted: 0,
             held: false,
             refusals,
+            answers,
+            late: None,
+            in_vain: false,
             task: None,
         })
     }
 
     /// Takes a command if the number is new. Number 0 is no command.
-    pub fn accept(&mut self, outputs: &[f64]) -> Asked {
+    /// `ends_ms` is when a refusal is answered, ms from the start of the run.
+    pub fn accept(&mut self, outputs: &[f64], ends_ms: u64) -> Asked {
         let number = outputs[self.cmd] as i32;
         if number == self.got || number == 0 {
             return Asked::Nothing;
@@ -73,13 +90,32 @@ impl Head {
         self.accepted = self.accepted.saturating_add(1);
         let verb = outputs[self.verb] as i32;
         let known = self.wiring.commands.iter().position(|command| command.number == verb);
-        match known.filter(|_| !self.refusals.contains(&self.accepted)) {
-            Some(command) => Asked::Start(command),
-            None => {
-                self.end(error::REFUSED);
+        self.late = None;
+        let fault = self.answer().and_then(|answer| answer.error);
+        let awaited = known.and_then(|command| self.wiring.commands[command].then).map(|then| then.error);
+        self.in_vain = fault.is_some() && fault == awaited;
+        let refused = match (known, fault) {
+            (None, _) => Some(error::REFUSED),
+            _ if self.refusals.contains(&self.accepted) => Some(error::REFUSED),
+            (Some(_), fault) => fault.filter(|_| !self.in_vain),
+        };
+        match (refused, known) {
+            (None, Some(command)) => Asked::Start(command),
+            (refused, _) => {
+                self.end(refused.unwrap_or(error::REFUSED), ends_ms);
                 Asked::Refused
             }
         }
+    }
+
+    /// What the scenario says of the last command.
+    fn answer(&self) -> Option<Answer> {
+        self.answers.iter().find(|answer| answer.command == self.accepted).copied()
+    }
+
+    /// What the last command awaits does not come.
+    pub fn is_in_vain(&self) -> bool {
+        self.in_vain
     }
 
     pub fn is_held_by(&self, outputs: &[f64]) -> bool {
@@ -96,10 +132,25 @@ impl Head {
     }
 
     /// Answers the command under way: reached (0), or why not.
-    pub fn end(&mut self, error: i32) {
+    /// It ends at this time, ms from the start of the run.
+    pub fn end(&mut self, error: i32, ends_ms: u64) {
         self.task = None;
-        self.ack = self.got;
-        self.error = error;
+        match self.answer().filter(|answer| answer.late_ms > 0) {
+            Some(answer) => self.late = Some((error, ends_ms.saturating_add(answer.late_ms))),
+            None => {
+                self.ack = self.got;
+                self.error = error;
+            }
+        }
+    }
+
+    /// Gives an answer that was late, once its time has come.
+    pub fn publish(&mut self, now_ms: u64) {
+        if let Some((error, _)) = self.late.filter(|(_, due_ms)| *due_ms <= now_ms) {
+            self.late = None;
+            self.ack = self.got;
+            self.error = error;
+        }
     }
 
     /// The command whose action is under way.
@@ -114,10 +165,10 @@ impl Head {
     }
 
     /// The action of the command under way has ended well.
-    pub fn reach(&mut self) {
+    pub fn reach(&mut self, ends_ms: u64) {
         match (self.acting().and_then(|command| command.then), &mut self.task) {
             (Some(_), Some(task)) => task.waited_ms = Some(0),
-            _ => self.end(error::NONE),
+            _ => self.end(error::NONE, ends_ms),
         }
     }
 
@@ -129,9 +180,12 @@ impl Head {
 
     /// When it has waited long enough for what it awaits, ms from the start of the run.
     pub fn next_change(&self, now_ms: u64) -> f64 {
+        let late = self.late.map_or(f64::INFINITY, |(_, due_ms)| due_ms as f64);
         match self.awaits().filter(|_| !self.held) {
-            Some((awaited, waited_ms)) => (now_ms + awaited.within_ms.saturating_sub(waited_ms)) as f64,
-            None => f64::INFINITY,
+            Some((awaited, waited_ms)) => {
+                late.min((now_ms + awaited.within_ms.saturating_sub(waited_ms)) as f64)
+            }
+            None => late,
         }
     }
 

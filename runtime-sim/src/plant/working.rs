@@ -1,6 +1,6 @@
 //! A machine at work: its parts, and the head that commands them.
 
-use super::command::{Asked, Head};
+use super::command::{Answer, Asked, Head};
 use crate::carrier::Carrier;
 use crate::device::error;
 use crate::item::Items;
@@ -11,7 +11,7 @@ use crate::memory::Memory;
 use crate::part::cylinder::Working as Cylinder;
 use crate::part::lane::Moving;
 use crate::part::orders::Desk;
-use crate::part::{Begun, Looks, Part, Progress, Running, See, Start, World};
+use crate::part::{Begun, Looks, Part, Progress, Running, See, Start, World, milliseconds};
 use crate::plant::trajectory::Trajectory;
 use crate::point::Point;
 use crate::wiring::{Drives, Source, Wiring};
@@ -65,6 +65,12 @@ impl Working {
         commanded.dedup();
         let refusals = line.scenario.refusals.iter().filter(|refusal| refusal.machine == index);
         let refusals = refusals.map(|refusal| refusal.command).collect();
+        let answers = line.scenario.answers.iter().filter(|answer| answer.machine == index);
+        let answers = answers.map(|answer| Answer {
+            command: answer.command,
+            late_ms: milliseconds(answer.late_s),
+            error: answer.error,
+        });
         let start = |(part, made): (usize, &Arc<Part>)| {
             made.primitive.start(&mut Start { line, machine: index, part, desk, items, memory })
         };
@@ -73,7 +79,7 @@ impl Working {
             index,
             pose: machine.pose,
             parts: parts.collect::<Result<_, _>>()?,
-            head: Head::new(&machine.wiring, kinds, refusals),
+            head: Head::new(&machine.wiring, kinds, refusals, answers.collect()),
             inputs: ranges(machine.wiring.inputs.iter().map(|input| input.size.words(kinds))),
             outputs: ranges(machine.wiring.outputs.iter().map(|output| output.size.words(kinds))),
             wiring: machine.wiring.clone(),
@@ -119,9 +125,9 @@ impl Working {
         }
     }
 
-    fn end(&mut self, error: i32) {
+    fn end(&mut self, error: i32, ends_ms: u64) {
         if let Some(head) = &mut self.head {
-            head.end(error);
+            head.end(error, ends_ms);
         }
     }
 
@@ -140,7 +146,7 @@ impl Working {
     fn command(&mut self, outputs: &[f64], shared: &mut Shared) {
         let Some(head) = &mut self.head else { return };
         let before = head.part_at_work();
-        match head.accept(outputs) {
+        match head.accept(outputs, shared.next_ms()) {
             Asked::Nothing => {}
             Asked::Refused => self.abandon(shared.now_ms),
             Asked::Start(command) => self.begin(command, before, outputs, shared),
@@ -171,10 +177,10 @@ impl Working {
                     head.start(command);
                 }
             }
-            Ok(Begun::Ended) => self.end(error::NONE),
+            Ok(Begun::Ended) => self.end(error::NONE, shared.next_ms()),
             Err(error) => {
                 self.abandon(shared.now_ms);
-                self.end(error);
+                self.end(error, shared.next_ms());
             }
         }
     }
@@ -204,10 +210,10 @@ impl Working {
             }
             match progress {
                 Progress::Going => {}
-                Progress::Reached => head.reach(),
+                Progress::Reached => head.reach(shared.next_ms()),
                 Progress::Failed(error) => {
                     self.abandon(shared.next_ms());
-                    self.end(error);
+                    self.end(error, shared.next_ms());
                 }
             }
         }
@@ -258,6 +264,9 @@ impl Working {
 
     /// Where a part looks for an item in this scan, and how near it has to be, m.
     pub fn seeks(&self, part: usize, see: &See, now_ms: u64, next_ms: u64) -> Option<(Pose, f64)> {
+        if self.head.as_ref().is_some_and(Head::is_in_vain) {
+            return None;
+        }
         self.parts.get(part)?.as_ref()?.seeks(see, now_ms, next_ms)
     }
 
@@ -269,14 +278,20 @@ impl Working {
         self.parts.len()
     }
 
-    /// Ends a command that has waited for a signal, once it is known.
-    pub fn settle(&mut self, items: &Items, desk: &Desk) {
-        let Some(is_there) = self.awaited(&self.see(items, desk)) else { return };
-        let Some((awaited, waited_ms)) = self.head.as_ref().and_then(Head::awaits) else { return };
-        if is_there {
-            self.end(error::NONE);
-        } else if waited_ms >= awaited.within_ms {
-            self.end(awaited.error);
+    /// Ends a command that has waited for a signal, once it is known; then answers that were late are given.
+    pub fn settle(&mut self, shared: &mut Shared) {
+        let next_ms = shared.next_ms();
+        if let Some(is_there) = self.awaited(&self.see(shared.items, shared.desk))
+            && let Some((awaited, waited_ms)) = self.head.as_ref().and_then(Head::awaits)
+        {
+            if is_there {
+                self.end(error::NONE, next_ms);
+            } else if waited_ms >= awaited.within_ms {
+                self.end(awaited.error, next_ms);
+            }
+        }
+        if let Some(head) = &mut self.head {
+            head.publish(next_ms);
         }
     }
 
@@ -287,7 +302,7 @@ impl Working {
         if let Some(part) = &self.parts[awaited.part] {
             part.signal(awaited.signal, see, &mut word);
         }
-        Some(word[0] != 0.0)
+        Some(word[0] != 0.0 && !self.head.as_ref()?.is_in_vain())
     }
 
     pub fn serve(&mut self, shared: &mut Shared) {

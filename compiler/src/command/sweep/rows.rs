@@ -155,7 +155,7 @@ impl<'a> Rows<'a> {
 pub fn worse(a: Status, b: Status) -> Status {
     let rank = |status| match status {
         Status::Done => 0,
-        Status::WrongInput | Status::NotReached => 1,
+        Status::WrongInput | Status::NotReached | Status::Undecided => 1,
         Status::WrongCommand => 2,
         Status::Bug => 3,
     };

@@ -3,7 +3,7 @@
 use super::LONGEST_S;
 use crate::layout::decode::{Decoder, find};
 use crate::layout::json::{Json, Member};
-use crate::scenario::{Faults, Pause, Refusal, Slip};
+use crate::scenario::{Answer, Faults, Pause, Refusal, Slip};
 use crate::source::Spanned;
 
 /// The highest number of a pick or of a command.
@@ -12,10 +12,11 @@ pub const LAST: u32 = 1_000_000;
 impl Decoder {
     pub(super) fn faults(&mut self, json: &Json) -> Option<Faults> {
         let members = self.object(json, "faults")?;
-        self.unknown_keys(members, &["slips", "refusals", "pauses"], "faults");
+        self.unknown_keys(members, &["slips", "refusals", "answers", "pauses"], "faults");
         Some(Faults {
             slips: self.each(members, "slips", Self::slip),
             refusals: self.each(members, "refusals", Self::refusal),
+            answers: self.each(members, "answers", Self::answer),
             pauses: self.each(members, "pauses", Self::pause),
         })
     }
@@ -52,6 +53,20 @@ impl Decoder {
         let robot = self.robot(members, json, "a refusal");
         let command = self.count(members, json, "command", "a refusal");
         Some(Refusal { robot: robot?, command: command? })
+    }
+
+    fn answer(&mut self, json: &Json) -> Option<Answer<Spanned<String>>> {
+        let members = self.object(json, "an answer")?;
+        self.unknown_keys(members, &["robot", "command", "late_s", "error"], "an answer");
+        let robot = self.robot(members, json, "an answer");
+        let command = self.count(members, json, "command", "an answer");
+        let late_s =
+            find(members, "late_s").map_or(Some(0.0), |j| self.number_in(j, "late_s", 0.0..=LONGEST_S));
+        let error = match find(members, "error") {
+            Some(j) => Some(self.whole(j, "error", 1..=255)? as i32),
+            None => None,
+        };
+        Some(Answer { robot: robot?, command: command?, late_s: late_s?, error })
     }
 
     fn pause(&mut self, json: &Json) -> Option<Pause> {

@@ -1,0 +1,163 @@
+//! `autogen verify`: every course of events is looked at.
+
+mod report;
+
+use super::interrupt;
+use super::options::{Format, VerifyOptions};
+use super::pending::{Content, Pending};
+use super::{load, print};
+use crate::Status;
+use autogen::lower::compile;
+use autogen::verify::{self, replay, scenario};
+use autogen_search::explore::{Bounds, Covered, End, Outcome, explore};
+use autogen_search::model::Model;
+use autogen_search::plant::Faults;
+use report::{Report, Shown};
+use std::io::{self, IsTerminal};
+use std::time::{Duration, Instant};
+
+/// Without `--limit`.
+const TIME: Duration = Duration::from_secs(600);
+const MEMORY: usize = 2_000_000_000;
+/// Different violations of which `--all` tells.
+const MOST: usize = 100;
+/// Instances whose steps are put into every order.
+const MOST_IN_ANY_ORDER: usize = 64;
+
+pub fn run(options: &VerifyOptions) -> Status {
+    let limits = match limits(&options.limit) {
+        Ok(limits) => limits,
+        Err(text) => {
+            complain!("autogen: {text}");
+            return Status::WrongCommand;
+        }
+    };
+    let overwrite = super::output::Overwrite::Own;
+    let file = options.counterexample.as_ref().map(|path| Pending::new(path, Content::Scenario, overwrite));
+    let file = match file.transpose() {
+        Ok(file) => file,
+        Err(text) => {
+            complain!("autogen: {text}");
+            return Status::WrongCommand;
+        }
+    };
+    let input = match load::load(&options.input) {
+        Ok(input) => input,
+        Err(failure) => return print::failure(&options.input, &failure),
+    };
+    let outcome = compile(input);
+    let faults = if options.no_faults { Faults::None } else { Faults::All };
+    let model = outcome.project.as_ref().map(|project| verify::model(project, faults));
+    let refused = |found: &[autogen::diagnostic::Diagnostic]| {
+        match options.input.format {
+            Format::Text => print::diagnostics(&outcome.sources, found),
+            Format::Json => {
+                say!(
+                    "{}",
+                    serde_json::json!({ "diagnostics": print::diagnostics_json(&outcome.sources, found) })
+                );
+            }
+        }
+        Status::WrongInput
+    };
+    let (Some(project), Some(model)) = (&outcome.project, model) else {
+        return refused(&outcome.diagnostics);
+    };
+    let model = match model {
+        Ok(model) => model,
+        Err(found) => return refused(&found),
+    };
+    if options.orders == super::options::StepOrders::All && model.instances.len() > MOST_IN_ANY_ORDER {
+        complain!("autogen: --orders all takes lines of {MOST_IN_ANY_ORDER} machines at most");
+        return Status::WrongCommand;
+    }
+    let (searched, answers) = search(options, &model, limits);
+    let mut shown: Vec<Shown> = Vec::new();
+    for (violation, course) in &searched.violations {
+        let replay = replay::replay(project, &model, course);
+        shown.push(Shown { violation, course, replay });
+    }
+    if let (Some(file), Some(first)) = (file, shown.first().and_then(|shown| shown.replay.as_ref().ok())) {
+        let written = file.write(&scenario::text(&first.line)).and_then(|()| file.keep());
+        if let Err(text) = written {
+            complain!("autogen: {text}");
+            return Status::WrongCommand;
+        }
+    }
+    let teller = verify::story::Teller { project, model: &model, sources: &outcome.sources };
+    let report = Report { options, teller: &teller, outcome: &searched, answers, shown: &shown };
+    match options.input.format {
+        Format::Json => say!("{}", report.json()),
+        Format::Text => say_part!("{}", report.text()),
+    }
+    match (searched.violations.is_empty(), searched.end) {
+        (false, _) => Status::NotReached,
+        (true, End::Complete) => Status::Done,
+        (true, _) => Status::Undecided,
+    }
+}
+
+/// Without a number of answers first with one in a scan, which finds most and takes a tenth of the time; then with any
+/// number. The second result is how many of the last search.
+fn search(
+    options: &VerifyOptions,
+    model: &Model,
+    (time, memory): (Duration, usize),
+) -> (Outcome, Option<usize>) {
+    let begin = Instant::now();
+    let is_shown = !options.input.quiet && options.input.format == Format::Text && io::stderr().is_terminal();
+    let mut last = Instant::now();
+    let stops = interrupt::asks_first();
+    let mut watch = |covered: &Covered| {
+        if is_shown && last.elapsed() >= Duration::from_millis(200) {
+            last = Instant::now();
+            let rate = covered.states as f64 / covered.time.as_secs_f64().max(0.001);
+            print::err_styled(&format!(
+                "\r\x1b[K{} states, {rate:.0} a second, depth {}, {} MB",
+                covered.states,
+                covered.depth,
+                covered.memory / 1_000_000
+            ));
+        }
+        !stops.asked()
+    };
+    let mut bounds = Bounds {
+        answers: options.answers.or(Some(1)),
+        orders: options.orders.into(),
+        time: Some(time),
+        memory,
+        violations: if options.all { MOST } else { 1 },
+    };
+    let mut outcome = explore(model, &bounds, &mut watch);
+    if options.answers.is_none() && outcome.end == End::Complete && outcome.violations.is_empty() {
+        bounds.answers = None;
+        bounds.time = Some(time.saturating_sub(begin.elapsed()));
+        outcome = explore(model, &bounds, &mut watch);
+    }
+    if is_shown {
+        print::err_styled("\r\x1b[K");
+    }
+    (outcome, bounds.answers)
+}
+
+/// Of time and memory, as `90s`, `10min`, `2GB` or `500MB`.
+fn limits(texts: &[String]) -> Result<(Duration, usize), String> {
+    let (mut time, mut memory) = (TIME, MEMORY);
+    for text in texts {
+        let digits = text.find(|c: char| !c.is_ascii_digit()).unwrap_or(text.len());
+        let number: Option<u32> = text[..digits].parse().ok().filter(|number| *number > 0);
+        match (number, &text[digits..]) {
+            (Some(n), "s") => time = Duration::from_secs(n.into()),
+            (Some(n), "min") => time = Duration::from_secs(60 * u64::from(n)),
+            (Some(n), "h") => time = Duration::from_secs(3600 * u64::from(n)),
+            (Some(n), "MB") => memory = (n as usize).saturating_mul(1_000_000),
+            (Some(n), "GB") => memory = (n as usize).saturating_mul(1_000_000_000),
+            _ => {
+                return Err(
+                    "--limit takes a time or an amount of memory, such as 90s, 10min, 500MB or 2GB".into()
+                );
+            }
+        }
+    }
+    Ok((time, memory))
+}

@@ -1,0 +1,147 @@
+//! What a search has shown, and exactly what not.
+
+use super::super::options::{StepOrders, VerifyOptions};
+use autogen::verify::replay::Replay;
+use autogen::verify::story::Teller;
+use autogen_search::explore::{End, Outcome};
+use autogen_search::story::Course;
+use autogen_search::violation::Violation;
+use serde_json::{Value, json};
+use std::fmt::Write;
+
+pub struct Report<'a> {
+    pub options: &'a VerifyOptions,
+    pub teller: &'a Teller<'a>,
+    pub outcome: &'a Outcome,
+    /// Answers in one scan of the last search.
+    pub answers: Option<usize>,
+    pub shown: &'a [Shown<'a>],
+}
+
+pub struct Shown<'a> {
+    pub violation: &'a Violation,
+    pub course: &'a Course,
+    pub replay: Result<Replay, String>,
+}
+
+impl Report<'_> {
+    fn verdict(&self) -> &'static str {
+        match (self.outcome.violations.is_empty(), self.outcome.end) {
+            (false, _) => "violated",
+            (true, End::Complete) => "proved within these bounds",
+            (true, _) => "undecided",
+        }
+    }
+
+    /// Why the search ended before all states were looked at.
+    fn cut(&self) -> Option<&'static str> {
+        match self.outcome.end {
+            End::Complete => None,
+            End::Violated => Some("it ended with the violation"),
+            End::TimeIsUp => Some("the time was up"),
+            End::MemoryIsFull => Some("the memory was full"),
+            End::Stopped => Some("it was interrupted"),
+            End::TooManyValues => Some("more than 65,536 places or numbers came up"),
+        }
+    }
+
+    fn bounds(&self) -> Vec<String> {
+        let plant = &self.teller.project.plant;
+        let machines: Vec<&str> = plant.machines.iter().map(|machine| machine.name.as_str()).collect();
+        let parts: u32 = plant.scenario.orders.iter().flat_map(|order| &order.parts).sum();
+        let mut bounds = vec![
+            format!("machines: {}", machines.join(", ")),
+            format!("orders: {} of {parts} parts together", plant.scenario.orders.len()),
+            match self.answers {
+                Some(answers) => format!("answers: at most {answers} in a scan"),
+                None => "answers: any number in a scan, after any number of scans".into(),
+            },
+            match self.options.orders {
+                StepOrders::One => "steps: in the order of the line".into(),
+                StepOrders::All => "steps: in any order, another one in each scan".into(),
+            },
+            if self.options.no_faults {
+                "faults: none".into()
+            } else {
+                "faults: commands end in each of their errors, grippers lose what they hold".into()
+            },
+            "belts bring parts of every kind, without end; times come in any scan, none is too long".into(),
+            "the system runs: no pauses, no operator".into(),
+        ];
+        if self.outcome.covered.stops > 0 {
+            bounds.push(format!(
+                "{} transitions end in a stop whose text calls the operator: what follows is not searched",
+                self.outcome.covered.stops
+            ));
+        }
+        if plant.scenario.orders.is_empty() {
+            bounds.push("nothing is ordered: whether anything can be made is not asked".into());
+        }
+        bounds
+    }
+
+    pub fn text(&self) -> String {
+        let covered = &self.outcome.covered;
+        let mut out = String::new();
+        for shown in self.shown {
+            let _ = writeln!(out, "{}\n", self.teller.title(shown.violation));
+            let _ = writeln!(out, "{}", self.teller.tell(shown.course));
+            let _ = writeln!(out, "in the simulator   {}\n", replayed(&shown.replay));
+        }
+        let _ = writeln!(out, "{}\n", self.verdict());
+        for bound in self.bounds() {
+            let _ = writeln!(out, "  {bound}");
+        }
+        let _ = writeln!(
+            out,
+            "\nstates             {}\ntransitions        {}\ndepth              {} scans\ntime               {:.2} s\nmemory             {} MB",
+            covered.states,
+            covered.transitions,
+            covered.depth,
+            covered.time.as_secs_f64(),
+            covered.memory / 1_000_000
+        );
+        match self.cut() {
+            None => out += "complete           yes\n",
+            Some(why) => {
+                let _ = writeln!(out, "complete           no: {why}");
+            }
+        }
+        out
+    }
+
+    pub fn json(&self) -> Value {
+        let covered = &self.outcome.covered;
+        let violations: Vec<Value> = (self.shown.iter())
+            .map(|shown| {
+                json!({
+                    "violation": self.teller.title(shown.violation),
+                    "story": self.teller.tell(shown.course).lines().collect::<Vec<_>>(),
+                    "simulator": replayed(&shown.replay),
+                })
+            })
+            .collect();
+        json!({
+            "verdict": self.verdict(),
+            "complete": self.cut().is_none(),
+            "bounds": self.bounds(),
+            "violations": violations,
+            "states": covered.states,
+            "transitions": covered.transitions,
+            "stops": covered.stops,
+            "depth": covered.depth,
+            "time_s": covered.time.as_secs_f64(),
+            "memory_bytes": covered.memory,
+        })
+    }
+}
+
+fn replayed(replay: &Result<Replay, String>) -> String {
+    match replay {
+        Ok(Replay { result: Ok(seconds), reason, .. }) => {
+            format!("the same transitions have fired by {seconds:.2} s; the run ends: {reason}")
+        }
+        Ok(Replay { result: Err(why), reason, .. }) => format!("{why}; the run ends: {reason}"),
+        Err(why) => format!("there is no run: {why}"),
+    }
+}

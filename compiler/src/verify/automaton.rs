@@ -1,0 +1,330 @@
+//! The automaton of one instance.
+
+use super::expression::Stored;
+use super::live::live;
+use super::plant::{Plant, Signal};
+use crate::executor::Executor;
+use crate::ir::{self, Automaton, Expr, InterfaceId, Place, RoleId, Scalar, System, UpdateKind, Value};
+use crate::reads::{Reads, Whose, is_fixed};
+use autogen_search::plant::Machine;
+use autogen_search::program::{
+    Bounds, Clause, Command, Int, Invariant, Key, Operator, State, Target, Transition, Update, bit,
+};
+use autogen_search::value::Var;
+use runtime_sim::device::Direction;
+use std::collections::{BTreeSet, HashMap};
+use std::sync::Arc;
+
+/// Where values stand: each element, and how much less the state holds.
+pub type Vars = (Vec<Var>, i32);
+
+/// What all instances share.
+pub struct Line<'a> {
+    pub system: &'a System,
+    pub plant: &'a runtime_sim::line::Line,
+    /// Of each instance: the automaton's state, and how many times have come.
+    pub states: Vec<(Var, Option<Var>)>,
+    pub locals: Vec<Vec<Vars>>,
+    /// `[interface][row][cell]`.
+    pub cells: Vec<Vec<Vec<Vars>>>,
+    pub plants: Vec<Plant>,
+    /// Of each instance the places of the outputs that it reads, by their ports.
+    pub outputs: Vec<Vec<Option<Vars>>>,
+    /// The first state.
+    pub initial: &'a [u8],
+}
+
+/// An instance on its way into the model.
+pub struct Instance<'a> {
+    pub line: &'a Line<'a>,
+    pub number: usize,
+    pub automaton: &'a Automaton,
+    /// Of the state whose expressions are read, ms, ascending.
+    times: Vec<i32>,
+    defines: HashMap<usize, Arc<Int>>,
+    /// Variables of quantifiers that stand for one value each, and how many copies of an expression that makes.
+    pub fixed_variables: HashMap<usize, i32>,
+    pub copies: usize,
+    /// Names of inputs of which nothing is known that could be searched.
+    pub refused: Vec<String>,
+}
+
+impl<'a> Instance<'a> {
+    pub fn new(line: &'a Line<'a>, number: usize) -> Self {
+        let automaton = line.system.automaton_of(number);
+        Self {
+            line,
+            number,
+            automaton,
+            times: Vec::new(),
+            defines: HashMap::new(),
+            fixed_variables: HashMap::new(),
+            copies: 1,
+            refused: Vec::new(),
+        }
+    }
+
+    pub fn instance(&self) -> &'a ir::Instance {
+        &self.line.system.instances[self.number]
+    }
+
+    pub fn machine(&self) -> &'a Machine {
+        &self.line.plants[self.number].machine
+    }
+
+    pub fn own_row(&self, interface: InterfaceId) -> usize {
+        self.automaton.implementing(interface).map_or(0, |position| self.instance().rows[position])
+    }
+
+    pub fn role(&self, role: RoleId) -> &'a [usize] {
+        &self.instance().roles[role.0]
+    }
+
+    pub fn define(&mut self, define: usize) -> Int {
+        if let Some(known) = self.defines.get(&define) {
+            return Int::Shared(known.clone());
+        }
+        let value = &self.automaton.defines[define].value;
+        let copies = std::mem::replace(&mut self.copies, 1);
+        let value = Arc::new(self.int(value));
+        self.copies = copies;
+        self.defines.insert(define, value.clone());
+        Int::Shared(value)
+    }
+
+    /// What stands at a port of the device.
+    pub fn port(&mut self, port: usize) -> Stored {
+        let ports = &self.automaton.device.ports;
+        let direction = ports[port].direction;
+        if direction == Direction::Output {
+            return match &self.line.outputs[self.number][port] {
+                Some((vars, low)) => Stored::Vars(vars.clone(), *low),
+                None => Stored::Signal(Signal::Unbounded),
+            };
+        }
+        let before = ports[..port].iter().filter(|other| other.direction == direction).count();
+        Stored::Signal(self.line.plants[self.number].inputs[before].clone())
+    }
+
+    /// An input is read of which nothing is known that could be searched.
+    pub fn refuse(&mut self, place: &Place) {
+        if let Place::Port { port, .. } = place {
+            let name = self.automaton.device.ports[*port].name.clone();
+            if !self.refused.contains(&name) {
+                self.refused.push(name);
+            }
+        }
+    }
+
+    /// A time that the layout fixes comes in its turn; another one comes or does not.
+    pub fn after(&mut self, time: &Expr) -> Int {
+        let Some(ms) = self.fixed(time) else { return Int::Chance };
+        if ms <= self.line.system.scan_ms {
+            return Int::Constant(1);
+        }
+        let (Ok(rank), Some(come)) = (self.times.binary_search(&ms), self.line.states[self.number].1) else {
+            return Int::Chance;
+        };
+        Int::Binary(Operator::GreaterEqual, Box::new([Int::Load(come, 0), Int::Constant(rank as i32 + 1)]))
+    }
+
+    fn fixed(&self, time: &Expr) -> Option<i32> {
+        let value = is_fixed(self.automaton, time)
+            .then(|| Executor::new(self.line.system).value(self.number, time))?;
+        match value {
+            Value::Int(ms) => Some(ms),
+            _ => None,
+        }
+    }
+
+    pub fn program(&mut self) -> autogen_search::program::Instance {
+        let (state, times_come) = self.line.states[self.number];
+        let automaton = self.automaton;
+        let live = live(automaton);
+        let states =
+            automaton.states.iter().zip(&live).map(|(state, live)| self.state(state, live)).collect();
+        let invariants = automaton.invariants.iter().map(|invariant| Invariant {
+            condition: self.int(&invariant.condition),
+            fault: invariant.fault.0,
+            asks_operator: invariant.asks_operator,
+            reads: self.cells_of(&invariant.condition),
+        });
+        let invariants = invariants.collect();
+        autogen_search::program::Instance {
+            state,
+            times_come,
+            states,
+            invariants,
+            variables: automaton.variables.len(),
+        }
+    }
+
+    /// Whose cells an expression reads, a bit for each instance.
+    fn cells_of(&self, expr: &Expr) -> u64 {
+        let own = match &expr.kind {
+            ir::ExprKind::Define(define) => self.cells_of(&self.automaton.defines[*define].value),
+            ir::ExprKind::Read(Place::Cell { of: None, .. }) => bit(self.number),
+            ir::ExprKind::Read(Place::Cell { interface, .. }) => {
+                self.line.system.members[interface.0].iter().fold(0, |bits, member| bits | bit(*member))
+            }
+            _ => 0,
+        };
+        expr.parts().into_iter().fold(own, |bits, part| bits | self.cells_of(part))
+    }
+
+    fn state(&mut self, state: &ir::State, live: &BTreeSet<usize>) -> State {
+        let automaton = self.automaton;
+        let guards = Reads::of_guards(automaton, state);
+        let mut times: Vec<i32> = guards.timers.iter().filter_map(|time| self.fixed(time)).collect();
+        times.retain(|ms| *ms > self.line.system.scan_ms);
+        times.sort_unstable();
+        times.dedup();
+        self.times = times.clone();
+        self.defines.clear();
+        let mut reads = 0;
+        for cell in &Reads::of_state(automaton, state).cells {
+            match cell.of {
+                Whose::Own => reads |= bit(self.number),
+                Whose::Others => {
+                    let members = &self.line.system.members[cell.interface.0];
+                    members.iter().for_each(|member| reads |= bit(*member));
+                }
+            }
+        }
+        let transitions = state.transitions.iter().map(|transition| self.transition(transition)).collect();
+        let locals = self.line.locals[self.number].iter().enumerate();
+        let dead = locals.filter(|(local, _)| !live.contains(local)).flat_map(|(_, (vars, _))| vars);
+        let dead = dead.map(|var| (*var, var.load(self.line.initial))).collect();
+        let is_answer_dead = !live.contains(&automaton.locals.len());
+        State { transitions, reads, times, dead, is_answer_dead }
+    }
+
+    fn transition(&mut self, transition: &ir::Transition) -> Transition {
+        let clauses = transition.clauses.iter().map(|clause| match clause {
+            ir::Clause::Condition(condition) => Clause::Condition(self.int(condition)),
+            ir::Clause::Bind(binder) => Clause::Bind {
+                variable: binder.variable.0,
+                domain: self.domain(&binder.domain),
+                condition: binder.condition.as_ref().map(|condition| self.int(condition)),
+                key: binder.key.as_ref().map(|key| match key.ty {
+                    Scalar::Real => Key::Real(self.real(key)),
+                    _ => Key::Int(self.int(key)),
+                }),
+            },
+        });
+        let clauses = clauses.collect();
+        let updates = transition.updates.iter().filter_map(|update| self.update(&update.kind)).collect();
+        Transition { clauses, target: transition.target.map(|target| target.0), updates }
+    }
+
+    /// None for what nobody reads.
+    fn update(&mut self, update: &UpdateKind) -> Option<Update> {
+        match update {
+            UpdateKind::Assign { target, value, check } => {
+                let (vars, index) = match self.target(&target.place) {
+                    Some(target) => target,
+                    None if check.is_some() => ((Vec::new(), 0), Int::Constant(0)),
+                    None => return None,
+                };
+                let place = Target { vars: vars.0.into(), index };
+                Some(self.store(place, target.ty.scalar, value, vars.1, check.map(|fault| fault.0)))
+            }
+            UpdateKind::Fill { target, value, check } => {
+                let (vars, begin) = self.target(&target.place)?;
+                let (low, vars): (i32, Arc<[Var]>) = (vars.1, vars.0.into());
+                let elements = self.line.system.model.elements(target.ty.extent);
+                let updates = (0..elements).map(|element| {
+                    let place = Target { vars: vars.clone(), index: offset(&begin, element) };
+                    self.store(place, target.ty.scalar, value, low, check.map(|fault| fault.0))
+                });
+                Some(Update::Copy(updates.collect()))
+            }
+            UpdateKind::Copy { target, source, check } => {
+                let (vars, begin) = self.target(&target.place)?;
+                let (low, vars): (i32, Arc<[Var]>) = (vars.1, vars.0.into());
+                let elements = self.line.system.model.elements(target.ty.extent);
+                let updates = (0..elements).map(|element| {
+                    let place = Target { vars: vars.clone(), index: offset(&begin, element) };
+                    let value =
+                        Expr { ty: target.ty.scalar, kind: ir::ExprKind::Read(with_index(source, element)) };
+                    self.store(place, target.ty.scalar, &value, low, check.map(|fault| fault.0))
+                });
+                Some(Update::Copy(updates.collect()))
+            }
+            UpdateKind::Command { verb, arguments } => Some(self.command(*verb, arguments)),
+        }
+    }
+
+    fn store(&mut self, target: Target, ty: Scalar, value: &Expr, base: i32, fault: Option<usize>) -> Update {
+        match ty {
+            Scalar::Real => Update::Real(target, self.real(value), fault),
+            Scalar::Point => Update::Point(target, self.point(value), fault),
+            Scalar::Int { lo, hi } => {
+                Update::Int(target, self.int(value), Bounds { low: lo, high: hi, base, fault })
+            }
+            Scalar::Time => {
+                Update::Int(target, self.int(value), Bounds { low: 0, high: i32::MAX, base, fault })
+            }
+            Scalar::Bool | Scalar::Enum(_) | Scalar::Ref(_) => {
+                let bounds = Bounds { low: i32::MIN, high: i32::MAX, base, fault: None };
+                Update::Int(target, self.int(value), bounds)
+            }
+        }
+    }
+
+    fn target(&mut self, place: &Place) -> Option<(Vars, Int)> {
+        match self.stored(place) {
+            (Stored::Vars(vars, low), index) => Some(((vars, low), index)),
+            _ => None,
+        }
+    }
+
+    fn command(&mut self, verb: i32, arguments: &[ir::Argument]) -> Update {
+        let machine = &self.line.plant.machines[self.number];
+        let commands = &machine.wiring.commands;
+        let command = commands.iter().position(|command| command.number == verb).unwrap_or(0);
+        let places = super::plant::places_of_commands(machine)[command];
+        let ports = &self.automaton.device.ports;
+        let mut points = Vec::new();
+        let mut outputs = Vec::new();
+        for argument in arguments {
+            let ty = Scalar::from(ports[argument.port].ty);
+            if ty == Scalar::Point && points.len() < places {
+                points.push(self.point(&argument.value));
+            }
+            let (vars, low) = match self.port(argument.port) {
+                Stored::Vars(vars, low) => (vars, low),
+                _ if argument.check.is_some() => (Vec::new(), 0),
+                _ => continue,
+            };
+            let target = Target { vars: vars.into(), index: Int::Constant(0) };
+            let fault = argument.check.map(|fault| fault.0);
+            outputs.push(self.store(target, ty, &argument.value, low, fault));
+        }
+        Update::Command(Command { command, outputs, points })
+    }
+}
+
+fn offset(begin: &Int, element: usize) -> Int {
+    match begin {
+        Int::Constant(begin) => Int::Constant(begin + element as i32),
+        begin => Int::Binary(Operator::Add, Box::new([begin.clone(), Int::Constant(element as i32)])),
+    }
+}
+
+/// The element of an array with this number.
+fn with_index(place: &Place, element: usize) -> Place {
+    let mut place = place.clone();
+    let number = Expr {
+        ty: Scalar::Int { lo: element as i32, hi: element as i32 },
+        kind: ir::ExprKind::Constant(Value::Int(element as i32)),
+    };
+    match &mut place {
+        Place::Local { index, .. }
+        | Place::Cell { index, .. }
+        | Place::Port { index, .. }
+        | Place::Parameter { index, .. }
+        | Place::Shown { index, .. } => *index = Some(Box::new(number)),
+    }
+    place
+}

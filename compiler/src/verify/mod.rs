@@ -1,0 +1,13 @@
+//! The line as it is searched for courses of events that must not be.
+
+mod automaton;
+mod expression;
+mod live;
+mod memory;
+mod model;
+mod plant;
+pub mod replay;
+pub mod scenario;
+pub mod story;
+
+pub use model::model;

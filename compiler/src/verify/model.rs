@@ -1,0 +1,193 @@
+//! The whole line.
+
+use super::automaton::{Instance, Line, Vars};
+use super::memory::{Kept, Memory, kept};
+use super::plant::plant;
+use crate::diagnostic::Diagnostic;
+use crate::ir::{Automaton, Expr, ExprKind, Place, Scalar, System, Type, UpdateKind, Value};
+use crate::lower::Project;
+use autogen_search::model::{Model, Reach};
+use autogen_search::plant::{Faults, Order, Watch};
+use runtime_sim::device::{Direction, PortType};
+use runtime_sim::point::Point;
+use std::sync::Arc;
+
+/// A line as it is searched; or why it cannot be.
+pub fn model(project: &Project, faults: Faults) -> Result<Model, Vec<Diagnostic>> {
+    let Project { system, plant: line, .. } = project;
+    let mut memory = Memory::default();
+    let mut inputs = Vec::new();
+    let mut whole = Line {
+        system,
+        plant: line,
+        states: Vec::new(),
+        locals: Vec::new(),
+        cells: Vec::new(),
+        plants: Vec::new(),
+        outputs: Vec::new(),
+        initial: &[],
+    };
+    whole.cells = vec![Vec::new(); system.model.interfaces.len()];
+    let kept = |ty: Scalar| -> Kept {
+        kept(ty, |ty| match ty {
+            Scalar::Enum(id) => system.model.enums[id.0].members.len(),
+            Scalar::Ref(id) => system.members[id.0].len(),
+            _ => 0,
+        })
+    };
+    let values = |memory: &mut Memory, owner: usize, name: &str, ty: Type, initial: Value| -> Vars {
+        let kept = kept(ty.scalar);
+        let count = system.model.elements(ty.extent);
+        let vars = (0..count).map(|element| {
+            let name = if count == 1 { name.to_string() } else { format!("{name}[{element}]") };
+            memory.value(owner, name, ty.scalar, kept, initial)
+        });
+        (vars.collect(), kept.low)
+    };
+    for (number, instance) in system.instances.iter().enumerate() {
+        let automaton = system.automaton_of(number);
+        let name = &instance.name;
+        let state = memory.number(number, format!("{name}.(state)"), automaton.states.len(), 0);
+        let waits = automaton
+            .states
+            .iter()
+            .any(|state| !crate::reads::Reads::of_guards(automaton, state).timers.is_empty());
+        let times = waits.then(|| memory.number(number, format!("{name}.(times)"), 255, 0));
+        whole.states.push((state, times));
+        let locals = automaton.locals.iter().map(|local| {
+            values(&mut memory, number, &format!("{name}.{}", local.name), local.ty, local.initial)
+        });
+        whole.locals.push(locals.collect());
+        whole.plants.push(plant(
+            line,
+            number,
+            &automaton.device.ports,
+            reads_error(automaton),
+            &mut memory,
+            &mut inputs,
+        ));
+        let mut outputs = vec![None; automaton.device.ports.len()];
+        let mut levels = whole.plants[number].outputs.iter();
+        for (port, output) in automaton.device.ports.iter().enumerate() {
+            if output.direction != Direction::Output {
+                continue;
+            }
+            let level = levels.next().copied().flatten();
+            outputs[port] = level.map(|var| (vec![var], 0));
+            if level.is_none() && reads_port(automaton, port) {
+                let ty = Type { scalar: output.ty.into(), extent: output.extent.into() };
+                let initial = match output.ty {
+                    PortType::Bool => Value::Bool(false),
+                    PortType::Int { lo, hi } => Value::Int(0.clamp(lo, hi)),
+                    PortType::Real => Value::Real(0.0),
+                    PortType::Point => Value::Point([0.0; 3]),
+                };
+                let name = format!("{name}.{}", output.name);
+                outputs[port] = Some(values(&mut memory, number, &name, ty, initial));
+            }
+        }
+        whole.outputs.push(outputs);
+    }
+    for (interface, (shape, members)) in system.model.interfaces.iter().zip(&system.members).enumerate() {
+        for member in members {
+            let name = &system.instances[*member].name;
+            let row = shape.cells.iter().map(|cell| {
+                values(&mut memory, *member, &format!("{name}.{}", cell.name), cell.ty, cell.initial)
+            });
+            whole.cells[interface].push(row.collect());
+        }
+    }
+    let orders = line.scenario.orders.iter().enumerate().map(|(number, order)| Order {
+        parts: order.parts.clone(),
+        made: memory.number(0, format!("(order {} made)", number + 1), 1, 0),
+    });
+    let orders: Vec<Order> = orders.collect();
+    let initial = memory.initial.clone();
+    whole.initial = &initial;
+    let mut refused = Vec::new();
+    let instances = (0..system.instances.len()).map(|number| {
+        let mut instance = Instance::new(&whole, number);
+        let program = instance.program();
+        refused.extend(instance.refused.into_iter().map(|port| (number, port)));
+        program
+    });
+    let instances = instances.collect();
+    if !refused.is_empty() {
+        return Err(refused.into_iter().map(|(number, port)| unbounded(system, number, &port)).collect());
+    }
+    memory.end();
+    let arms: Vec<_> = line.machines.iter().map(|machine| machine.arm()).collect();
+    let reach = Reach(Arc::new(move |machine: usize, [x, y, z]: [f64; 3]| {
+        arms[machine].as_ref().is_some_and(|arm| arm.solve(Point { x, y, z }, &arm.start()).is_some())
+    }));
+    let Memory { initial, owners, variables, values } = memory;
+    Ok(Model {
+        initial,
+        owners,
+        instances,
+        machines: whole.plants.into_iter().map(|plant| plant.machine).collect(),
+        inputs,
+        orders,
+        heights: line.kinds.iter().map(|kind| kind.height).collect(),
+        faults,
+        watch: Watch::Everything,
+        reach,
+        values,
+        variables,
+    })
+}
+
+fn unbounded(system: &System, number: usize, port: &str) -> Diagnostic {
+    let automaton = system.automaton_of(number);
+    let name = &system.instances[number].name;
+    Diagnostic::new(
+        "E1001",
+        automaton.place,
+        format!("`{name}` cannot be searched: it reads the input `{port}`, of which no contract says what it may be"),
+    )
+    .help("verify lines whose automata read truths, whole numbers of few values, and places that commands fix")
+}
+
+fn reads_error(automaton: &Automaton) -> bool {
+    let port = automaton.device.ports.iter().position(|port| port.name == "error");
+    port.is_some_and(|port| reads_port(automaton, port))
+}
+
+/// Whether an expression reads a port by its name.
+fn reads_port(automaton: &Automaton, port: usize) -> bool {
+    fn reads(expr: &Expr, port: usize) -> bool {
+        let here = matches!(&expr.kind, ExprKind::Read(Place::Port { port: p, .. }) if *p == port);
+        here || expr.parts().into_iter().any(|part| reads(part, port))
+    }
+    let place = |place: &Place| {
+        matches!(place, Place::Port { port: p, .. } if *p == port)
+            || place.parts().into_iter().any(|part| reads(part, port))
+    };
+    let update = |update: &UpdateKind| match update {
+        UpdateKind::Assign { target, value, .. } | UpdateKind::Fill { target, value, .. } => {
+            reads(value, port) || target.place.parts().into_iter().any(|part| reads(part, port))
+        }
+        UpdateKind::Copy { target, source, .. } => {
+            place(source) || target.place.parts().into_iter().any(|part| reads(part, port))
+        }
+        UpdateKind::Command { arguments, .. } => arguments.iter().any(|a| reads(&a.value, port)),
+    };
+    let clause = |clause: &crate::ir::Clause| match clause {
+        crate::ir::Clause::Condition(condition) => reads(condition, port),
+        crate::ir::Clause::Bind(binder) => {
+            let ends = match &binder.domain {
+                crate::ir::Domain::Range(low, high) => reads(low, port) || reads(high, port),
+                _ => false,
+            };
+            ends || binder.condition.iter().chain(&binder.key).any(|expr| reads(expr, port))
+        }
+    };
+    let defines = automaton.defines.iter().any(|define| reads(&define.value, port));
+    let invariants = automaton.invariants.iter().any(|invariant| reads(&invariant.condition, port));
+    let mut transitions = automaton.states.iter().flat_map(|state| &state.transitions);
+    defines
+        || invariants
+        || transitions.any(|transition| {
+            transition.clauses.iter().any(clause) || transition.updates.iter().any(|u| update(&u.kind))
+        })
+}

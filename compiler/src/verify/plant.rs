@@ -1,0 +1,354 @@
+//! What the machines of a line may do: the contract of each primitive, put together by the wiring of the device.
+//!
+//! Commands take any number of scans and end as [`ending`] says. What a signal may do is in [`Signals::of`]; one of a
+//! primitive that is not named there changes freely, which is sound for every primitive and says little.
+
+use super::memory::Memory;
+use crate::device::Port;
+use autogen_search::plant::{
+    Action, Arm, Asked, Awaits, Desk, Head, Input, Lane, Place, Route, Zone, motion, phase, status,
+};
+use autogen_search::value::Var;
+use runtime_sim::device::error;
+use runtime_sim::line::Line;
+use runtime_sim::machine::Machine;
+use runtime_sim::part::Primitive;
+use runtime_sim::part::lane::Lane as Conveyor;
+use runtime_sim::part::zone::Zone as Field;
+use runtime_sim::point::Point;
+use runtime_sim::wiring::{Command, Drives, Source};
+
+/// What stands for an input of a machine.
+#[derive(Clone, Debug)]
+pub enum Signal {
+    /// It is always so.
+    Fixed(i32),
+    /// Truths, or whole numbers from `low` on: numbers of inputs that change by themselves, element by element.
+    Free(Vec<usize>),
+    /// A place in the state.
+    At(Var),
+    /// A truth that is at its place in the state.
+    Held(Var),
+    /// Unlike 0.
+    Moves(Var),
+    /// The number of the stop at which it stands.
+    AtStop,
+    /// Where items of each kind are found.
+    Found(Vec<[f64; 3]>),
+    IsOpen,
+    Parts,
+    OrderNumber,
+    Error,
+    /// Nothing is known of it that could be searched.
+    Unbounded,
+}
+
+/// A machine as it is searched, with what its inputs are.
+#[derive(Debug)]
+pub struct Plant {
+    pub machine: autogen_search::plant::Machine,
+    /// In the order of its input ports.
+    pub inputs: Vec<Signal>,
+    /// For each output port the place of a level that the plant reads.
+    pub outputs: Vec<Option<Var>>,
+}
+
+fn coordinates(p: Point) -> [f64; 3] {
+    [p.x, p.y, p.z]
+}
+
+/// The errors in which a command may end before anything has moved. Every device may refuse a command; an arm or a
+/// vehicle may find its goal out of reach, which an automaton can tell from that by the port `error` alone.
+fn refusals(action: Action, reads_error: bool) -> Vec<i32> {
+    match action {
+        Action::Motion | Action::Trip if reads_error => vec![error::REFUSED, error::UNREACHABLE],
+        _ => vec![error::REFUSED],
+    }
+}
+
+/// What a command asks for, by the primitive of its part and the name of its action. `around` goes to the first of its
+/// two places; all other motions end at the last one.
+fn asked(machine: &Machine, command: &Command, reads_error: bool) -> (Asked, usize) {
+    let schema = machine.parts[command.part].schema();
+    let (action, points) = match (schema.name, schema.actions[command.action].name) {
+        ("chain", "joints" | "turned" | "direct" | "around") => (Action::Motion, 1),
+        ("chain", "past" | "onto") => (Action::Motion, 2),
+        ("route", "to") => (Action::Trip, 1),
+        ("lane", "run") => (Action::Run, 0),
+        ("lane", "rest") => (Action::Rest, 0),
+        _ => (Action::Other, 0),
+    };
+    let awaits = command.then.map(|then| Awaits {
+        is_hold: signal_name(machine, then.part, then.signal) == ("grip", "holds"),
+        error: then.error,
+    });
+    (Asked { action, awaits, refusals: refusals(action, reads_error) }, points)
+}
+
+fn signal_name(machine: &Machine, part: usize, signal: usize) -> (&'static str, &'static str) {
+    let schema = machine.parts[part].schema();
+    (schema.name, schema.signals[signal].name)
+}
+
+/// How many places each command has, by its number among those of the wiring.
+pub fn places_of_commands(machine: &Machine) -> Vec<usize> {
+    machine.wiring.commands.iter().map(|command| asked(machine, command, false).1).collect()
+}
+
+/// Lays out what the plant remembers of a machine. `ports` are those of its device; `reads_error` says whether its
+/// automaton reads the port `error` by itself.
+pub fn plant(
+    line: &Line,
+    number: usize,
+    ports: &[Port],
+    reads_error: bool,
+    memory: &mut Memory,
+    inputs: &mut Vec<Input>,
+) -> Plant {
+    let machine = &line.machines[number];
+    let mut found = autogen_search::plant::Machine::default();
+    let name = |what: &str| format!("{}.{what}", machine.name);
+    if machine.wiring.is_commanded() {
+        let commands = machine.wiring.commands.iter();
+        found.head = Some(Head {
+            status: memory.number(number, name("(answer)"), 3, status::NONE),
+            command: memory.number(number, name("(command)"), 16, 0),
+            error: reads_error.then(|| memory.number(number, name("error"), 255, 0)),
+            commands: commands.map(|command| asked(machine, command, reads_error).0).collect(),
+        });
+    }
+    let levels = levels(machine, number, ports, memory);
+    let level = |part: usize, wanted: &str| {
+        let outputs = machine.wiring.outputs.iter().zip(&levels);
+        let mut named = outputs.filter_map(|(output, var)| match output.drives {
+            Drives::Level { part: of, level } => Some((of, level, (*var)?)),
+            _ => None,
+        });
+        let is_wanted = |level: usize| machine.parts[part].schema().levels[level].name == wanted;
+        named.find(|(of, level, _)| *of == part && is_wanted(*level)).map(|(_, _, var)| var)
+    };
+    for (part, made) in machine.parts.iter().enumerate() {
+        match &made.primitive {
+            Primitive::Chain(chain) => {
+                let is_on = |other: &Primitive| matches!(other, Primitive::Grip(grip) if grip.chain == part);
+                let grip = machine.parts.iter().position(|other| is_on(&other.primitive));
+                let near = grip.and_then(|grip| match &machine.parts[grip].primitive {
+                    Primitive::Grip(grip) => Some(grip.near),
+                    _ => None,
+                });
+                found.arm = Some(Arm {
+                    tool: memory.point(number, name("(tool)"), coordinates(chain.rest)),
+                    via: memory.point(number, name("(via)"), [0.0; 3]),
+                    goal: memory.point(number, name("(goal)"), [0.0; 3]),
+                    holds: memory.number(number, name("(holds)"), line.kinds.len(), 0),
+                    shown: memory.number(number, name("(attached)"), 1, 0),
+                    closes: grip.and_then(|grip| level(grip, "close")),
+                    near: near.unwrap_or(0.0),
+                });
+            }
+            Primitive::Route(route) => {
+                let first = coordinates(route.stops[0]);
+                found.route = Some(Route {
+                    at: memory.point(number, name("(at)"), first),
+                    goal: memory.point(number, name("(goal)"), first),
+                    stops: route.stops.iter().map(|stop| coordinates(*stop)).collect(),
+                    tolerance: route.tolerance,
+                });
+            }
+            Primitive::Lane(lane) if machine.wiring.commands.iter().any(|command| command.part == part) => {
+                let zones =
+                    machine.parts.iter().enumerate().filter_map(|(of, other)| match &other.primitive {
+                        Primitive::Zone(field) if field.lane == part => {
+                            Some(zone(line, number, of, lane, field, memory, inputs))
+                        }
+                        _ => None,
+                    });
+                let zones = zones.flatten().collect();
+                found.lane =
+                    Some(Lane { motion: memory.number(number, name("(motion)"), 3, motion::STANDS), zones });
+            }
+            Primitive::Place(place) => {
+                let count = if place.by_kind { line.kinds.len() } else { place.slots.len() };
+                let asked = line.scenario.orders.iter().flat_map(|order| &order.parts);
+                let more = asked.copied().max().unwrap_or(0) as usize + 1;
+                let most = if place.by_kind { more } else { line.kinds.len() };
+                let items = (0..count)
+                    .map(|n| memory.number(number, format!("{}.(item)[{n}]", machine.name), most, 0));
+                found.places.push(Place {
+                    stands: place.route.is_none().then_some(coordinates(place.at)),
+                    floor: coordinates(place.floor),
+                    floor_x: place.floor_x,
+                    floor_y: place.floor_y,
+                    slots: place.slots.iter().map(|slot| coordinates(*slot)).collect(),
+                    by_kind: place.by_kind,
+                    items: items.collect(),
+                    most: more as i32,
+                });
+            }
+            Primitive::Orders(orders) => {
+                let is_place = |part: &&usize| matches!(machine.parts[**part].primitive, Primitive::Place(_));
+                let before: Vec<usize> = (0..orders.place).collect();
+                let place = before.iter().filter(is_place).count();
+                let here = line.scenario.orders.iter().enumerate();
+                let here: Vec<usize> = here
+                    .filter(|(_, order)| order.stations.contains(&number))
+                    .map(|(order, _)| order)
+                    .collect();
+                let first = here.first().copied();
+                let is_open = first.is_some();
+                found.desk = Some(Desk {
+                    phase: memory.number(
+                        number,
+                        name("(order is)"),
+                        4,
+                        if is_open { phase::OPEN } else { phase::BARE },
+                    ),
+                    order: memory.number(
+                        number,
+                        name("(order)"),
+                        line.scenario.orders.len(),
+                        first.unwrap_or(0) as i32,
+                    ),
+                    next: memory.number(number, name("(orders begun)"), here.len(), i32::from(is_open)),
+                    complete: level(part, "complete"),
+                    place,
+                    orders: here,
+                });
+            }
+            _ => {}
+        }
+    }
+    let signals = machine.wiring.inputs.iter().map(|input| match input.source {
+        Source::Ready => Signal::Fixed(1),
+        Source::Error => Signal::Error,
+        Source::Got | Source::Ack => Signal::Unbounded,
+        Source::Signal { part, signal } => self::signal(line, number, part, signal, &found, memory, inputs),
+    });
+    Plant { inputs: signals.collect(), machine: found, outputs: levels }
+}
+
+/// Places for the levels that the plant reads.
+fn levels(machine: &Machine, number: usize, ports: &[Port], memory: &mut Memory) -> Vec<Option<Var>> {
+    use runtime_sim::device::Direction;
+    let outputs = ports.iter().filter(|port| port.direction == Direction::Output);
+    let levels = outputs.zip(&machine.wiring.outputs).map(|(port, output)| match output.drives {
+        Drives::Level { part, level } => {
+            let schema = machine.parts[part].schema();
+            let is_read = matches!(
+                (schema.name, schema.levels[level].name),
+                ("grip", "close") | ("orders", "complete")
+            );
+            is_read.then(|| memory.number(number, format!("{}.{}", machine.name, port.name), 1, 0))
+        }
+        _ => None,
+    });
+    levels.collect()
+}
+
+/// None for a field that is not over the lane.
+fn zone(
+    line: &Line,
+    number: usize,
+    part: usize,
+    lane: &Conveyor,
+    field: &Field,
+    memory: &mut Memory,
+    inputs: &mut Vec<Input>,
+) -> Option<Zone> {
+    let (middle, _) = lane.course.find(field.middle)?;
+    let corner = |along: f64, across: f64| lane.course.point(middle + along, across);
+    let half = lane.width / 2.0;
+    let corners = [
+        corner(-field.half, -half),
+        corner(-field.half, half),
+        corner(field.half, -half),
+        corner(field.half, half),
+    ];
+    let least = |of: fn(&Point) -> f64| corners.iter().map(of).fold(f64::INFINITY, f64::min);
+    let most = |of: fn(&Point) -> f64| corners.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
+    // Items come from where places are greater, and are found as soon as they lie wholly in the field.
+    let found = line.kinds.iter().map(|kind| {
+        let own = (kind.size[0].max(kind.size[1]) / 2.0).max(field.part_half);
+        coordinates(corner((field.half - own).max(0.0), 0.0))
+    });
+    let machine = &line.machines[number];
+    let is_seen = machine.wiring.inputs.iter().any(
+        |input| matches!(input.source, Source::Signal { part: of, signal } if of == part && signal_name(machine, of, signal).1 == "sees"),
+    );
+    let sees = line.kinds.iter().map(|kind| {
+        is_seen.then(|| {
+            let name = format!("{}.(sees {})", machine.name, kind.name);
+            inputs.push(Input {
+                var: memory.number(number, name, 2, 1),
+                low: 0,
+                values: 2,
+                stays: Some(number),
+                machine: number,
+            });
+            inputs.len() - 1
+        })
+    });
+    Some(Zone {
+        low: [least(|p| p.x), least(|p| p.y)],
+        high: [most(|p| p.x), most(|p| p.y)],
+        surface: corners[0].z,
+        sees: sees.collect(),
+        found: found.collect(),
+    })
+}
+
+/// How an input behaves that shows this signal.
+fn signal(
+    line: &Line,
+    number: usize,
+    part: usize,
+    signal: usize,
+    found: &autogen_search::plant::Machine,
+    memory: &mut Memory,
+    inputs: &mut Vec<Input>,
+) -> Signal {
+    use runtime_sim::device::PortType;
+    let machine = &line.machines[number];
+    let zone_of = || {
+        // The fields of the lane, in the order of the parts.
+        let lane = found.lane.as_ref()?;
+        let is_zone = |part: &&usize| matches!(machine.parts[**part].primitive, Primitive::Zone(_));
+        let before: Vec<usize> = (0..part).collect();
+        lane.zones.get(before.iter().filter(is_zone).count())
+    };
+    match (signal_name(machine, part, signal), &found.arm, &found.route, &found.lane) {
+        (("grip", "holds"), Some(arm), ..) => return Signal::Held(arm.shown),
+        (("chain", "tool"), Some(arm), ..) => return Signal::At(arm.tool),
+        (("route", "position"), _, Some(route), _) => return Signal::At(route.at),
+        (("route", "at_stop"), _, Some(_), _) => return Signal::AtStop,
+        (("lane", "moves"), .., Some(lane)) => return Signal::Moves(lane.motion),
+        (("zone", "sees"), ..) => {
+            if let Some(zone) = zone_of() {
+                return Signal::Free(zone.sees.iter().copied().flatten().collect());
+            }
+        }
+        (("zone", "foremost"), ..) => {
+            if let Some(zone) = zone_of() {
+                return Signal::Found(zone.found.clone());
+            }
+        }
+        (("orders", "open"), ..) => return Signal::IsOpen,
+        (("orders", "parts"), ..) => return Signal::Parts,
+        (("orders", "number"), ..) => return Signal::OrderNumber,
+        _ => {}
+    }
+    let schema = &machine.parts[part].schema().signals[signal];
+    let (low, values) = match schema.ty {
+        PortType::Bool => (0, 2),
+        PortType::Int { lo, hi } if i64::from(hi) - i64::from(lo) < 255 => (lo, (hi - lo) as u32 + 1),
+        _ => return Signal::Unbounded,
+    };
+    let elements = schema.extent.elements(line.kinds.len());
+    let free = (0..elements).map(|element| {
+        let name = format!("{}.({} {})[{element}]", machine.name, machine.parts[part].name, schema.name);
+        let var = memory.number(number, name, 255, 0);
+        inputs.push(Input { var, low, values, stays: None, machine: number });
+        inputs.len() - 1
+    });
+    Signal::Free(free.collect())
+}

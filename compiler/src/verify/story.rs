@@ -1,0 +1,135 @@
+//! A course of events in words.
+
+use crate::lower::Project;
+use crate::source::{Sources, Span};
+use autogen_search::Fired;
+use autogen_search::event::{Ending, Event, From, What};
+use autogen_search::model::Model;
+use autogen_search::story::{Course, Happened};
+use autogen_search::violation::Violation;
+use std::fmt::Write;
+
+/// Who tells it.
+pub struct Teller<'a> {
+    pub project: &'a Project,
+    pub model: &'a Model,
+    pub sources: &'a Sources,
+}
+
+impl Teller<'_> {
+    /// What is wrong, on one line.
+    pub fn title(&self, violation: &Violation) -> String {
+        let name = |machine: usize| self.name(machine);
+        match *violation {
+            Violation::Fault { instance, fault } => {
+                let site = &self.project.system.model.faults[fault];
+                format!("fault of {}: {} ({})", name(instance), site.text, self.place(site.place))
+            }
+            Violation::Stop => "the line stops until an operator has come".into(),
+            Violation::NeverMade => "from here the orders cannot be made any more".into(),
+            Violation::TwoArms { arms: [a, b], machine } => {
+                format!("two arms over one place: {} and {} over {}", name(a), name(b), name(machine))
+            }
+            Violation::MovesUnder { machine, arm } => {
+                format!("{} moves while {} is at it", name(machine), name(arm))
+            }
+            Violation::ItemOnItem { arm, machine, slot } => {
+                format!("{} puts an item onto another one, at place {slot} of {}", name(arm), name(machine))
+            }
+            Violation::WrongItems { machine, order } => {
+                format!("{} sends order {} away with other items than it asks for", name(machine), order + 1)
+            }
+        }
+    }
+
+    /// The course scan by scan; scans in which nothing happens are left out.
+    pub fn tell(&self, course: &Course) -> String {
+        let mut out = String::new();
+        for (number, happened) in course.scans.iter().enumerate() {
+            for event in &happened.events {
+                let _ = writeln!(out, "{:>4}  {}", number + 1, self.event(happened, event));
+            }
+            for fired in &happened.told.fired {
+                let _ = writeln!(out, "{:>4}    {}", number + 1, self.fired(fired));
+            }
+        }
+        out
+    }
+
+    fn name(&self, machine: usize) -> &str {
+        &self.project.system.instances[machine].name
+    }
+
+    /// `kitting.aut:43:5`
+    fn place(&self, span: Span) -> String {
+        let (line, column) = self.sources.position(span);
+        format!("{}:{line}:{column}", self.sources.file(span.file).name)
+    }
+
+    /// `kitting: Picking -> Lifting, when done (kitting.aut:43:5)`
+    pub fn fired(&self, fired: &Fired) -> String {
+        let automaton = self.project.system.automaton_of(fired.instance);
+        let state = &automaton.states[fired.state];
+        let transition = &state.transitions[fired.transition];
+        let name = |number: usize| match number {
+            0 => "Initial",
+            number => automaton.states[number].name.as_str(),
+        };
+        let target = transition.target.map_or(String::new(), |target| format!(" -> {}", name(target.0)));
+        format!(
+            "{}: {}{target}, {} ({})",
+            self.name(fired.instance),
+            name(fired.state),
+            transition.title(),
+            self.place(transition.place)
+        )
+    }
+
+    /// `kitting answers: pick has ended well, a battery hangs on the gripper`
+    pub fn event(&self, happened: &Happened, event: &Event) -> String {
+        let name = self.name(event.machine);
+        let plant = &self.model.machines[event.machine];
+        let kind = |var: autogen_search::value::Var, state: &[u8]| {
+            let kind = var.load(state) as usize;
+            kind.checked_sub(1).map_or("item", |kind| self.project.plant.kinds[kind].name.as_str())
+        };
+        match event.what {
+            What::Ends(ending) => {
+                let command = plant.head.as_ref().map_or(0, |head| head.command.load(&happened.before));
+                let device = &self.project.system.automaton_of(event.machine).device;
+                let number =
+                    self.project.plant.machines[event.machine].wiring.commands[command as usize].number;
+                let verb = device.verbs.iter().find(|verb| verb.number == number);
+                let verb = verb.map_or("command", |verb| verb.name.as_str());
+                match ending {
+                    Ending::Well => format!("{name} answers: `{verb}` has ended well"),
+                    Ending::WithItem => {
+                        format!("{name} answers: `{verb}` has ended well, and an item hangs on the gripper")
+                    }
+                    Ending::InVain => format!("{name} answers: `{verb}` has ended in vain"),
+                    Ending::Refused(error) => {
+                        format!("{name} answers: `{verb}` has ended in error {error}, nothing has moved")
+                    }
+                }
+            }
+            What::Loses(from) => {
+                let item = plant.arm.as_ref().map_or("item", |arm| kind(arm.holds, &happened.before));
+                let place = match from {
+                    From::Tool => "where it is, or set out",
+                    From::Via => "where it passes",
+                    From::Goal => "where it is going",
+                    From::OnTheWay => "on the way",
+                };
+                format!("{name} loses the {item} {place}")
+            }
+            What::Takes => format!("{name} takes the item that is there"),
+            What::Shows => format!("{name} answers: nothing hangs on the gripper"),
+            What::Opens => format!("{name}: the next order opens"),
+            What::IsGone => {
+                let order = plant.desk.as_ref().map_or(0, |desk| desk.order.load(&happened.before));
+                format!("{name}: order {} has been taken away", order + 1)
+            }
+            What::TimeComes => format!("{name}: a time of its state has come"),
+        }
+    }
+}

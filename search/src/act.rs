@@ -1,0 +1,202 @@
+//! What outputs do to the plant.
+
+use crate::event;
+use crate::plant::{Action, Desk, Machine, Watch, motion, phase, status};
+use crate::program::bit;
+use crate::scan::Scan;
+use crate::surface::{self, Landing};
+use crate::value::Point;
+use crate::violation::Violation;
+
+impl Scan<'_> {
+    /// A command is given to a machine.
+    pub(crate) fn begin(&mut self, machine: usize, command: usize, points: &[Point], is_under_way: bool) {
+        let plant = &self.model.machines[machine];
+        let Some(head) = &plant.head else { return };
+        if is_under_way {
+            self.interrupt(plant);
+        }
+        let number = |scan: &mut Self, point: Point| scan.values.number_of_point(point);
+        match (head.commands[command].action, points) {
+            (Action::Motion, &[goal]) => self.aim(machine, 0, goal),
+            (Action::Motion, &[via, goal]) => {
+                let via = number(self, via);
+                self.aim(machine, via, goal);
+            }
+            (Action::Trip, &[goal]) => {
+                if let Some(route) = &plant.route {
+                    let goal = number(self, event::stop(&route.stops, route.tolerance, goal));
+                    route.goal.store(self.bytes, goal);
+                }
+            }
+            (Action::Run, _) => self.drive(plant, motion::RUNS, motion::STARTS),
+            (Action::Rest, _) => self.drive(plant, motion::STANDS, motion::STOPS),
+            _ => {}
+        }
+        head.status.store(self.bytes, status::UNDER_WAY);
+        head.command.store(self.bytes, command as i32);
+        self.moved = true;
+    }
+
+    /// An arm goes nowhere if its goal is out of reach.
+    fn aim(&mut self, machine: usize, via: i32, goal: Point) {
+        if let Some(arm) = &self.model.machines[machine].arm {
+            let goal = self.values.number_of_point(goal);
+            let mut is_reached = |number| {
+                self.values.is_reached(machine, number, |point| (self.model.reach.0)(machine, point))
+            };
+            let (via, goal) =
+                if is_reached(goal) && (via == 0 || is_reached(via)) { (via, goal) } else { (0, 0) };
+            arm.via.store(self.bytes, via);
+            arm.goal.store(self.bytes, goal);
+        }
+    }
+
+    fn drive(&mut self, plant: &Machine, same: i32, changing: i32) {
+        if let Some(lane) = &plant.lane
+            && lane.motion.load(self.bytes) != same
+        {
+            lane.motion.store(self.bytes, changing);
+        }
+    }
+
+    /// The command under way is void: what moved is where it began or where it would have ended.
+    fn interrupt(&mut self, plant: &Machine) {
+        if let Some(arm) = &plant.arm {
+            let goal = arm.goal.load(self.bytes);
+            if goal != 0 && goal != arm.tool.load(self.bytes) && self.choices.take(2) == 1 {
+                arm.tool.store(self.bytes, goal);
+            }
+            arm.via.store(self.bytes, 0);
+            arm.goal.store(self.bytes, 0);
+        }
+        if let Some(route) = &plant.route
+            && route.goal.load(self.bytes) != route.at.load(self.bytes)
+            && self.choices.take(2) == 1
+        {
+            let goal = route.goal.load(self.bytes);
+            route.at.store(self.bytes, goal);
+        }
+        if let Some(lane) = &plant.lane
+            && matches!(lane.motion.load(self.bytes), motion::STARTS | motion::STOPS)
+        {
+            let now = self.choices.take(2) as i32;
+            lane.motion.store(self.bytes, now);
+        }
+    }
+
+    pub(crate) fn at_stop(&mut self, machine: usize) -> i32 {
+        let Some(route) = &self.model.machines[machine].route else { return -1 };
+        let stop = |scan: &Self, number: i32| {
+            let at = scan.values.point(number);
+            route.stops.iter().position(|stop| *stop == at).map_or(-1, |stop| stop as i32)
+        };
+        let (at, goal) = (route.at.load(self.bytes), route.goal.load(self.bytes));
+        if !surface::is_driving(self.model, self.bytes, machine) {
+            return stop(self, at);
+        }
+        match self.choices.take(3) {
+            0 => stop(self, at),
+            1 => -1,
+            _ => stop(self, goal),
+        }
+    }
+
+    /// Levels act, orders are served, and what is not remembered is forgotten.
+    pub(crate) fn act(&mut self, touched: u64) -> Result<(), Violation> {
+        let model = self.model;
+        for (machine, plant) in model.machines.iter().enumerate() {
+            if (touched | self.fired) & bit(machine) != 0 {
+                self.release(machine, plant)?;
+                self.forget_answer(machine, plant);
+            }
+        }
+        for (machine, plant) in model.machines.iter().enumerate() {
+            if let Some(desk) = &plant.desk {
+                self.serve(machine, plant, desk)?;
+            }
+        }
+        for input in &model.inputs {
+            let stays = input.stays.and_then(|machine| model.machines[machine].lane.as_ref());
+            if stays.is_none_or(|lane| lane.motion.load(self.bytes) != motion::STANDS) {
+                input.var.store(self.bytes, 0);
+            }
+        }
+        if self.moved && model.watch == Watch::Everything { self.hazards() } else { Ok(()) }
+    }
+
+    /// The answer to a command, once it is of no use.
+    fn forget_answer(&mut self, machine: usize, plant: &Machine) {
+        let program = &self.model.instances[machine];
+        let state = program.state.load(self.bytes) as usize;
+        if let Some(head) = plant.head.as_ref().filter(|_| program.states[state].is_answer_dead)
+            && head.status.load(self.bytes) != status::UNDER_WAY
+        {
+            head.status.store(self.bytes, status::NONE);
+            if let Some(port) = head.error {
+                port.store(self.bytes, 0);
+            }
+        }
+    }
+
+    fn release(&mut self, machine: usize, plant: &Machine) -> Result<(), Violation> {
+        let Some(arm) = &plant.arm else { return Ok(()) };
+        let held = arm.holds.load(self.bytes);
+        if held == 0 || arm.closes.is_none_or(|level| level.load(self.bytes) != 0) {
+            return Ok(());
+        }
+        let kind = held as usize - 1;
+        let places = event::losses(self.model, self.values, self.bytes, arm, kind);
+        let (_, landing) = places[self.choices.take(places.len() as u32) as usize];
+        if let Landing::Slot { machine: at, place, slot } = landing {
+            let place = &self.model.machines[at].places[place];
+            let is_watched = self.model.watch == Watch::Everything;
+            if is_watched && !place.by_kind && place.items[slot].load(self.bytes) != 0 {
+                return Err(Violation::ItemOnItem { arm: machine, machine: at, slot });
+            }
+        }
+        event::land(self.model, self.bytes, landing, kind);
+        arm.holds.store(self.bytes, 0);
+        Ok(())
+    }
+
+    fn serve(&mut self, machine: usize, plant: &Machine, desk: &Desk) -> Result<(), Violation> {
+        let is_complete = desk.complete.is_some_and(|level| level.load(self.bytes) != 0);
+        let order = desk.order.load(self.bytes) as usize;
+        let place = &plant.places[desk.place];
+        match desk.phase.load(self.bytes) {
+            phase::OPEN if self.model.orders[order].made.load(self.bytes) != 0 => {
+                place.items.iter().for_each(|item| item.store(self.bytes, 0));
+                desk.phase.store(self.bytes, phase::TAKEN);
+            }
+            phase::OPEN if is_complete => {
+                let count = |kind: usize| {
+                    if place.by_kind {
+                        return place.items[kind].load(self.bytes) as u32;
+                    }
+                    let items = place.items.iter().filter(|item| item.load(self.bytes) == kind as i32 + 1);
+                    items.count() as u32
+                };
+                let parts = self.model.orders[order].parts.iter().enumerate();
+                if parts.into_iter().any(|(kind, wanted)| count(kind) != *wanted) {
+                    return match self.model.watch {
+                        Watch::Everything => Err(Violation::WrongItems { machine, order }),
+                        Watch::Faults => Ok(()),
+                    };
+                }
+                place.items.iter().for_each(|item| item.store(self.bytes, 0));
+                self.model.orders[order].made.store(self.bytes, 1);
+                desk.phase.store(self.bytes, phase::TAKEN);
+            }
+            phase::GONE if !is_complete => {
+                let next = desk.next.load(self.bytes) as usize;
+                let is_left = desk.orders[next.min(desk.orders.len())..]
+                    .iter()
+                    .any(|order| self.model.orders[*order].made.load(self.bytes) == 0);
+                desk.phase.store(self.bytes, if is_left { phase::OPENING } else { phase::BARE });
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,25 @@
+//! Explicit-state search of a line: automata and what their devices may do, breadth first.
+//!
+//! A [`model::Model`] is the line; `docs/verify.md` says what one step is. Nothing here knows of layouts or texts.
+
+mod act;
+mod choice;
+mod evaluate;
+pub mod event;
+pub mod explore;
+mod hazard;
+pub mod model;
+mod order;
+pub mod plant;
+mod possible;
+pub mod program;
+pub mod promela;
+mod scan;
+pub mod store;
+pub mod story;
+pub mod successor;
+mod surface;
+pub mod value;
+pub mod violation;
+
+pub use scan::{Fired, Told};

@@ -1,0 +1,70 @@
+//! A line as it is searched: automata, plant, and what a state consists of.
+
+use crate::plant::{Faults, Input, Machine, Order, Watch};
+use crate::program::Instance;
+use crate::value::{Point, Values, Var};
+use std::fmt;
+use std::sync::Arc;
+
+#[derive(Clone, Debug)]
+pub struct Model {
+    /// The first state.
+    pub initial: Vec<u8>,
+    /// Of each byte of a state the instance that owns it, of which others see cells; as the number of a bit.
+    pub owners: Vec<u8>,
+    /// In the order in which they step.
+    pub instances: Vec<Instance>,
+    /// The machine of each instance.
+    pub machines: Vec<Machine>,
+    pub inputs: Vec<Input>,
+    pub orders: Vec<Order>,
+    /// Heights of the kinds, m.
+    pub heights: Vec<f64>,
+    pub faults: Faults,
+    pub watch: Watch,
+    pub reach: Reach,
+    /// Those of the first state.
+    pub values: Values,
+    /// What each value is, for whoever looks at a state.
+    pub variables: Vec<Variable>,
+}
+
+/// Whether the arm of a machine can bring its tool to a point.
+#[derive(Clone)]
+pub struct Reach(pub Arc<dyn Fn(usize, Point) -> bool + Send + Sync>);
+
+impl fmt::Debug for Reach {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("Reach")
+    }
+}
+
+/// A value of a state.
+#[derive(Clone, Debug)]
+pub struct Variable {
+    pub var: Var,
+    /// Such as `agv1.slot[3]`.
+    pub name: String,
+    pub form: Form,
+}
+
+/// How a value is meant.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Form {
+    /// With how much less the state holds.
+    Int(i32),
+    Point,
+    Real,
+}
+
+impl Model {
+    /// Whether all orders are made.
+    pub fn is_made(&self, state: &[u8]) -> bool {
+        self.orders.iter().all(|order| order.made.load(state) != 0)
+    }
+
+    /// Variables of binders and quantifiers that one instance has at most.
+    pub(crate) fn most_variables(&self) -> usize {
+        self.instances.iter().map(|instance| instance.variables).max().unwrap_or(0)
+    }
+}

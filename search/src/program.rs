@@ -1,0 +1,202 @@
+//! Automata of one line, each by itself: every name is a place in the state, a table or a number.
+
+use crate::value::{Point, Var};
+use std::sync::Arc;
+
+/// Whole numbers, truths (0 and 1), times in ms, members of enumerations and rows.
+#[derive(Clone, Debug)]
+pub enum Int {
+    Constant(i32),
+    /// What the state holds, and how much less it holds than is meant.
+    Load(Var, i32),
+    Element(Arc<Elements>, Box<Int>),
+    /// Of a binder or a quantifier.
+    Variable(usize),
+    Table(Arc<[i32]>, Box<Int>),
+    /// An input that changes by itself.
+    Input(usize),
+    InputElement(Arc<[usize]>, Box<Int>),
+    /// Number of the stop at which a vehicle stands, -1 between stops.
+    AtStop(usize),
+    /// Holds or does not, anew each time.
+    Chance,
+    Shared(Arc<Int>),
+    Not(Box<Int>),
+    Negate(Box<Int>),
+    Absolute(Box<Int>),
+    Binary(Operator, Box<[Int; 2]>),
+    And(Box<[Int]>),
+    Or(Box<[Int]>),
+    Total(Box<[Int]>),
+    Min(Box<[Int; 2]>),
+    Max(Box<[Int; 2]>),
+    CompareReals(Operator, Box<[Real; 2]>),
+    ComparePoints(Operator, Box<[PointValue; 2]>),
+    /// Whether a number is one of these.
+    OneOf(Arc<[i32]>, Box<Int>),
+    Exists(Box<Each<Int>>),
+    ForAll(Box<Each<Int>>),
+    Count(Box<Each<Int>>),
+    Sum(Box<Each<Int>>),
+}
+
+#[derive(Clone, Debug)]
+pub enum Real {
+    Constant(f64),
+    Load(Var),
+    Element(Arc<[Var]>, Box<Int>),
+    Table(Arc<[f64]>, Box<Int>),
+    OfInt(Box<Int>),
+    Negate(Box<Real>),
+    Absolute(Box<Real>),
+    Binary(Operator, Box<[Real; 2]>),
+    Min(Box<[Real; 2]>),
+    Max(Box<[Real; 2]>),
+    Coordinate(Box<PointValue>, usize),
+    SquaredDistance(Box<[PointValue; 2]>),
+    Sum(Box<Each<Real>>),
+}
+
+#[derive(Clone, Debug)]
+pub enum PointValue {
+    Constant(Point),
+    Load(Var),
+    Element(Arc<[Var]>, Box<Int>),
+    Table(Arc<[Point]>, Box<Int>),
+    Make(Box<[Real; 3]>),
+    Add(Box<[PointValue; 2]>),
+    Subtract(Box<[PointValue; 2]>),
+}
+
+/// Values of one type by their numbers, and how much less the state holds than is meant.
+#[derive(Clone, Debug)]
+pub struct Elements {
+    pub vars: Vec<Var>,
+    pub low: i32,
+}
+
+#[derive(Clone, Debug)]
+pub struct Each<T> {
+    pub variable: usize,
+    pub domain: Domain,
+    pub body: T,
+}
+
+#[derive(Clone, Debug)]
+pub enum Domain {
+    List(Arc<[i32]>),
+    /// Both ends included.
+    Range(Box<[Int; 2]>),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Operator {
+    Equal,
+    NotEqual,
+    Less,
+    LessEqual,
+    Greater,
+    GreaterEqual,
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+    Modulo,
+}
+
+/// What a binder prefers.
+#[derive(Clone, Debug)]
+pub enum Key {
+    Int(Int),
+    Real(Real),
+}
+
+#[derive(Clone, Debug)]
+pub enum Clause {
+    Condition(Int),
+    Bind { variable: usize, domain: Domain, condition: Option<Int>, key: Option<Key> },
+}
+
+/// Where an update writes.
+#[derive(Clone, Debug)]
+pub struct Target {
+    /// None: nobody reads it.
+    pub vars: Arc<[Var]>,
+    pub index: Int,
+}
+
+/// What may be stored; beyond it the nearest bound is, and the step faults if there is a fault for it.
+#[derive(Clone, Copy, Debug)]
+pub struct Bounds {
+    pub low: i32,
+    pub high: i32,
+    /// The least number that the type has: what the state holds is counted from it.
+    pub base: i32,
+    pub fault: Option<usize>,
+}
+
+#[derive(Clone, Debug)]
+pub enum Update {
+    Int(Target, Int, Bounds),
+    Real(Target, Real, Option<usize>),
+    Point(Target, PointValue, Option<usize>),
+    /// All values are read before one is written. Lists of equal length.
+    Copy(Vec<Update>),
+    Command(Command),
+}
+
+/// A numbered command of a machine.
+#[derive(Clone, Debug)]
+pub struct Command {
+    /// Index into [`crate::plant::Head::commands`].
+    pub command: usize,
+    /// Outputs that it writes, if the state holds them.
+    pub outputs: Vec<Update>,
+    /// Its places, in the order of its arguments.
+    pub points: Vec<PointValue>,
+}
+
+#[derive(Clone, Debug)]
+pub struct Transition {
+    pub clauses: Vec<Clause>,
+    pub target: Option<usize>,
+    pub updates: Vec<Update>,
+}
+
+#[derive(Clone, Debug)]
+pub struct State {
+    pub transitions: Vec<Transition>,
+    /// Instances whose cells it reads or writes, a bit each; instance 64 has the bit of instance 0.
+    pub reads: u64,
+    /// Times of `after` in ascending order, ms; those that have come at the first test are left out.
+    pub times: Vec<i32>,
+    /// What is of no use here, and what it holds then.
+    pub dead: Vec<(Var, i32)>,
+    /// The answer to the last command is of no use here.
+    pub is_answer_dead: bool,
+}
+
+#[derive(Clone, Debug)]
+pub struct Instance {
+    pub state: Var,
+    /// How many times of its state have come; none if none of its states waits for a time.
+    pub times_come: Option<Var>,
+    pub states: Vec<State>,
+    pub invariants: Vec<Invariant>,
+    /// Variables of binders and quantifiers.
+    pub variables: usize,
+}
+
+#[derive(Clone, Debug)]
+pub struct Invariant {
+    pub condition: Int,
+    pub fault: usize,
+    /// A stop that is meant: somebody has to come.
+    pub asks_operator: bool,
+    pub reads: u64,
+}
+
+/// The bit of an instance in a mask.
+pub fn bit(instance: usize) -> u64 {
+    1 << (instance % 64)
+}

@@ -1,0 +1,309 @@
+//! One scan: every instance makes one step, then outputs act.
+
+use crate::choice::Choices;
+use crate::model::Model;
+use crate::plant::status;
+use crate::program::{Bounds, Clause, Command, Domain, Int, Key, Target, Transition, Update, bit};
+use crate::value::Values;
+use crate::violation::Violation;
+
+/// A scan under way on the bytes of a state.
+pub struct Scan<'a> {
+    pub(crate) model: &'a Model,
+    pub(crate) bytes: &'a mut [u8],
+    pub(crate) values: &'a mut Values,
+    pub(crate) choices: &'a mut Choices,
+    pub(crate) variables: &'a mut [i32],
+    /// Instances that own a value that has changed.
+    pub(crate) written: u64,
+    /// Instances that have fired.
+    pub(crate) fired: u64,
+    pub(crate) moved: bool,
+    /// Instances that may do something in the next scan even if no device does.
+    pub(crate) restless: u64,
+    pub(crate) story: Option<&'a mut Told>,
+}
+
+/// A transition that has fired.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Fired {
+    pub instance: usize,
+    pub state: usize,
+    pub transition: usize,
+}
+
+/// What is told of a scan.
+#[derive(Clone, Debug, Default)]
+pub struct Told {
+    /// In the order of the steps.
+    pub fired: Vec<Fired>,
+    /// Inputs that change by themselves, and what was chosen for them.
+    pub read: Vec<(usize, i32)>,
+}
+
+/// A step ends here.
+pub(crate) struct Fault(pub usize);
+
+impl Scan<'_> {
+    /// All instances in this order; those alone that can do anything: `touched` are those whose inputs have changed or
+    /// that were not at rest.
+    pub fn run(&mut self, order: &[usize], touched: u64) -> Result<(), Violation> {
+        for &instance in order {
+            self.step_if_due(instance, touched)?;
+        }
+        self.finish(touched)
+    }
+
+    /// What comes after the steps.
+    pub(crate) fn finish(&mut self, touched: u64) -> Result<(), Violation> {
+        let model = self.model;
+        for (instance, program) in model.instances.iter().enumerate() {
+            for invariant in &program.invariants {
+                let is_due =
+                    (touched | self.fired) & bit(instance) != 0 || self.written & invariant.reads != 0;
+                if is_due && !self.holds(&invariant.condition) {
+                    return Err(match invariant.asks_operator {
+                        true => Violation::Stop,
+                        false => Violation::Fault { instance, fault: invariant.fault },
+                    });
+                }
+            }
+        }
+        self.act(touched)?;
+        self.restless |= self.fired;
+        for (instance, program) in model.instances.iter().enumerate() {
+            let state = program.state.load(self.bytes) as usize;
+            if self.written & program.states[state].reads != 0 {
+                self.restless |= bit(instance);
+            }
+        }
+        Ok(())
+    }
+
+    pub(crate) fn step_if_due(&mut self, instance: usize, touched: u64) -> Result<(), Violation> {
+        let program = &self.model.instances[instance];
+        let state = program.state.load(self.bytes) as usize;
+        if touched & bit(instance) == 0 && self.written & program.states[state].reads == 0 {
+            return Ok(());
+        }
+        let made = self.choices.count();
+        let result = self.step(instance, state);
+        if self.choices.count() != made {
+            self.restless |= bit(instance);
+        }
+        result.map_err(|Fault(fault)| Violation::Fault { instance, fault })
+    }
+
+    fn step(&mut self, instance: usize, number: usize) -> Result<(), Fault> {
+        let program = &self.model.instances[instance];
+        for (index, transition) in program.states[number].transitions.iter().enumerate() {
+            if self.choose(&transition.clauses) {
+                return self.fire(instance, number, index, transition);
+            }
+        }
+        Ok(())
+    }
+
+    fn fire(
+        &mut self,
+        instance: usize,
+        state: usize,
+        index: usize,
+        transition: &Transition,
+    ) -> Result<(), Fault> {
+        let program = &self.model.instances[instance];
+        self.fired |= bit(instance);
+        if let Some(story) = &mut self.story {
+            story.fired.push(Fired { instance, state, transition: index });
+        }
+        for update in &transition.updates {
+            self.update(instance, update)?;
+        }
+        if let Some(target) = transition.target {
+            program.state.store(self.bytes, target as i32);
+            if target != state {
+                self.written |= bit(instance);
+            }
+            if let Some(times) = program.times_come {
+                times.store(self.bytes, 0);
+            }
+            program.states[target].dead.iter().for_each(|(var, value)| var.store(self.bytes, *value));
+        }
+        Ok(())
+    }
+
+    /// Whether the clauses hold together; leaves the variables of their binders as chosen.
+    fn choose(&mut self, clauses: &[Clause]) -> bool {
+        match clauses.split_first() {
+            None => true,
+            Some((Clause::Condition(condition), rest)) => self.holds(condition) && self.choose(rest),
+            Some((Clause::Bind { variable, domain, condition, key: None }, rest)) => {
+                self.first(*variable, domain, condition.as_ref(), rest)
+            }
+            Some((Clause::Bind { variable, domain, condition, key: Some(key) }, rest)) => {
+                self.least(*variable, domain, condition.as_ref(), key, rest)
+            }
+        }
+    }
+
+    fn first(&mut self, variable: usize, domain: &Domain, condition: Option<&Int>, rest: &[Clause]) -> bool {
+        let mut found = false;
+        self.values_of(domain, |scan, value| {
+            scan.variables[variable] = value;
+            found = condition.is_none_or(|condition| scan.holds(condition)) && scan.choose(rest);
+            found
+        });
+        found
+    }
+
+    fn least(
+        &mut self,
+        variable: usize,
+        domain: &Domain,
+        condition: Option<&Int>,
+        key: &Key,
+        rest: &[Clause],
+    ) -> bool {
+        let mut best: Option<(f64, Vec<i32>)> = None;
+        self.values_of(domain, |scan, value| {
+            scan.variables[variable] = value;
+            if !condition.is_none_or(|condition| scan.holds(condition)) {
+                return false;
+            }
+            // Whole numbers of 32 bits are exact as reals.
+            let key = match key {
+                Key::Int(key) => f64::from(scan.int(key)),
+                Key::Real(key) => scan.real(key),
+            };
+            let is_less = best.as_ref().is_none_or(|(least, _)| key < *least);
+            if is_less && scan.choose(rest) {
+                best = Some((key, scan.variables.to_vec()));
+            }
+            false
+        });
+        let found = best.is_some();
+        if let Some((_, variables)) = best {
+            self.variables.copy_from_slice(&variables);
+        }
+        found
+    }
+
+    fn update(&mut self, instance: usize, update: &Update) -> Result<(), Fault> {
+        match update {
+            Update::Int(target, value, bounds) => {
+                let value = self.int(value);
+                self.store_int(target, value, bounds)
+            }
+            Update::Real(target, value, fault) => {
+                let value = self.real(value);
+                if !value.is_finite() {
+                    return fault.map_or(Ok(()), |fault| Err(Fault(fault)));
+                }
+                let number = self.values.number_of_real(value);
+                self.store(target, number);
+                Ok(())
+            }
+            Update::Point(target, value, fault) => {
+                let value = self.point(value);
+                if value.iter().any(|c| !c.is_finite()) {
+                    return fault.map_or(Ok(()), |fault| Err(Fault(fault)));
+                }
+                let number = self.values.number_of_point(value);
+                self.store(target, number);
+                Ok(())
+            }
+            Update::Copy(updates) => self.copy(updates),
+            Update::Command(command) => self.command(instance, command),
+        }
+    }
+
+    fn copy(&mut self, updates: &[Update]) -> Result<(), Fault> {
+        enum Read {
+            Int(i32),
+            Real(f64),
+            Point([f64; 3]),
+        }
+        let mut read = Vec::with_capacity(updates.len());
+        for update in updates {
+            match update {
+                Update::Int(_, value, _) => read.push(Read::Int(self.int(value))),
+                Update::Real(_, value, _) => read.push(Read::Real(self.real(value))),
+                Update::Point(_, value, _) => read.push(Read::Point(self.point(value))),
+                Update::Copy(_) | Update::Command(_) => {}
+            }
+        }
+        for (update, value) in updates.iter().zip(read) {
+            match (update, value) {
+                (Update::Int(target, _, bounds), Read::Int(value)) => {
+                    self.store_int(target, value, bounds)?
+                }
+                (Update::Real(target, ..), Read::Real(value)) => {
+                    let number = self.values.number_of_real(value);
+                    self.store(target, number);
+                }
+                (Update::Point(target, ..), Read::Point(value)) => {
+                    let number = self.values.number_of_point(value);
+                    self.store(target, number);
+                }
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
+    fn store_int(&mut self, target: &Target, value: i32, bounds: &Bounds) -> Result<(), Fault> {
+        self.store(target, value.clamp(bounds.low, bounds.high).wrapping_sub(bounds.base));
+        match bounds.fault {
+            Some(fault) if value < bounds.low || value > bounds.high => Err(Fault(fault)),
+            _ => Ok(()),
+        }
+    }
+
+    fn store(&mut self, target: &Target, value: i32) {
+        if target.vars.is_empty() {
+            return;
+        }
+        let index = self.int(&target.index) as usize;
+        let var = target.vars[index];
+        if var.load(self.bytes) != value {
+            var.store(self.bytes, value);
+            self.written |= 1 << self.model.owners[var.at as usize];
+        }
+    }
+
+    fn command(&mut self, instance: usize, command: &Command) -> Result<(), Fault> {
+        for output in &command.outputs {
+            self.update(instance, output)?;
+        }
+        let mut points = [[0.0; 3]; 2];
+        for (place, point) in points.iter_mut().zip(&command.points) {
+            *place = self.point(point);
+            if place.iter().any(|c| !c.is_finite()) {
+                return Ok(());
+            }
+        }
+        let before = self.model.machines[instance].head.as_ref().map(|head| head.status.load(self.bytes));
+        self.begin(
+            instance,
+            command.command,
+            &points[..command.points.len().min(2)],
+            before == Some(status::UNDER_WAY),
+        );
+        Ok(())
+    }
+
+    /// The value of an input that changes by itself: chosen where it is first read.
+    pub(crate) fn input(&mut self, number: usize) -> i32 {
+        let input = &self.model.inputs[number];
+        let held = input.var.load(self.bytes);
+        if held != 0 {
+            return held - 1 + input.low;
+        }
+        let value = self.choices.take(input.values) as i32;
+        input.var.store(self.bytes, value + 1);
+        if let Some(story) = &mut self.story {
+            story.read.push((number, value + input.low));
+        }
+        value + input.low
+    }
+}

@@ -1,0 +1,166 @@
+//! All that may follow a state: what devices do, then one scan.
+
+use crate::choice::Choices;
+use crate::event::{self, Event};
+use crate::model::Model;
+use crate::program::bit;
+use crate::scan::{Scan, Told};
+use crate::value::Values;
+use crate::violation::Violation;
+
+/// In which orders the instances step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Orders {
+    /// In that of the line.
+    One,
+    /// In any, another one in each scan.
+    All,
+}
+
+pub(crate) struct Expander<'a> {
+    pub model: &'a Model,
+    pub values: Values,
+    /// At most so many devices do something in one scan.
+    pub answers: usize,
+    pub orders: Orders,
+    order: Vec<usize>,
+    pub(crate) choices: Choices,
+    pub(crate) variables: Vec<i32>,
+    /// Of each source that may do anything what that is.
+    options: Vec<Vec<Event>>,
+    /// The state after the events chosen so far, by their number.
+    pub(crate) levels: Vec<Vec<u8>>,
+    work: Vec<u8>,
+    pub(crate) chosen: Vec<Event>,
+    restless: u64,
+    /// Whether ways are to say what has fired.
+    pub tell: bool,
+    pub(crate) told: Told,
+}
+
+/// A way on from a state.
+pub(crate) struct Way<'a> {
+    pub state: &'a [u8],
+    pub events: &'a [Event],
+    pub result: Result<(), Violation>,
+    /// Instances that may do something in the next scan even if no device does.
+    pub restless: u64,
+    /// What is told of it, if that was asked for.
+    pub told: &'a Told,
+}
+
+impl<'a> Expander<'a> {
+    pub fn new(model: &'a Model, answers: usize, orders: Orders) -> Self {
+        Self {
+            model,
+            values: model.values.clone(),
+            answers,
+            orders,
+            order: (0..model.instances.len()).collect(),
+            choices: Choices::default(),
+            variables: vec![0; model.most_variables()],
+            options: Vec::new(),
+            levels: Vec::new(),
+            work: vec![0; model.initial.len()],
+            chosen: Vec::new(),
+            restless: 0,
+            tell: false,
+            told: Told::default(),
+        }
+    }
+
+    /// Calls `emit` with every way on; a state may come several times.
+    /// `restless` are the instances that may do something even if no device does.
+    pub fn expand(&mut self, state: &[u8], restless: u64, emit: &mut impl FnMut(Way)) {
+        self.restless = self.restless_in(state, restless);
+        let sources = event::sources(self.model);
+        let mut options: Vec<Vec<Event>> = std::mem::take(&mut self.options);
+        options.truncate(sources);
+        let mut used = 0;
+        for source in 0..sources {
+            if used == options.len() {
+                options.push(Vec::new());
+            }
+            options[used].clear();
+            event::events(self.model, &self.values, state, source, &mut options[used]);
+            used += usize::from(!options[used].is_empty());
+        }
+        self.levels.resize_with(used + 2, || vec![0; state.len()]);
+        self.levels[0].copy_from_slice(state);
+        self.chosen.clear();
+        self.answer(&options[..used], 0, 0, emit);
+        self.options = options;
+    }
+
+    /// Instances that would do something even if no device did.
+    fn restless_in(&mut self, state: &[u8], candidates: u64) -> u64 {
+        let mut restless = 0;
+        for instance in (0..self.model.instances.len()).filter(|instance| candidates & bit(*instance) != 0) {
+            self.choices.clear();
+            self.work.copy_from_slice(state);
+            let mut scan = Scan {
+                model: self.model,
+                bytes: &mut self.work,
+                values: &mut self.values,
+                choices: &mut self.choices,
+                variables: &mut self.variables,
+                written: 0,
+                fired: 0,
+                moved: false,
+                restless: 0,
+                story: None,
+            };
+            let result = scan.step_if_due(instance, u64::MAX);
+            if result.is_err() || scan.fired != 0 || !self.choices.is_empty() {
+                restless |= bit(instance);
+            }
+        }
+        restless
+    }
+
+    fn answer(&mut self, options: &[Vec<Event>], level: usize, touched: u64, emit: &mut impl FnMut(Way)) {
+        let Some((events, rest)) = options.split_first().filter(|_| self.chosen.len() < self.answers) else {
+            return self.scan(level, touched | self.restless, emit);
+        };
+        self.answer(rest, level, touched, emit);
+        for event in events {
+            let (before, after) = self.levels.split_at_mut(level + 1);
+            after[0].copy_from_slice(&before[level]);
+            event::apply(self.model, &mut self.values, &mut after[0], *event);
+            self.chosen.push(*event);
+            self.answer(rest, level + 1, touched | bit(event.machine), emit);
+            self.chosen.pop();
+        }
+    }
+
+    /// Every way that one scan may go.
+    fn scan(&mut self, level: usize, touched: u64, emit: &mut impl FnMut(Way)) {
+        if self.orders == Orders::All {
+            return self.scan_in_any_order(level, touched, emit);
+        }
+        self.choices.clear();
+        loop {
+            self.work.copy_from_slice(&self.levels[level]);
+            self.told.fired.clear();
+            self.told.read.clear();
+            let mut scan = Scan {
+                model: self.model,
+                bytes: &mut self.work,
+                values: &mut self.values,
+                choices: &mut self.choices,
+                variables: &mut self.variables,
+                written: 0,
+                fired: 0,
+                moved: false,
+                restless: 0,
+                story: self.tell.then_some(&mut self.told),
+            };
+            let result = scan.run(&self.order, touched);
+            let restless = scan.restless;
+            emit(Way { state: &self.work, events: &self.chosen, result, restless, told: &self.told });
+            if !self.choices.advance() {
+                return;
+            }
+        }
+    }
+}

@@ -1,0 +1,139 @@
+//! Where things are: what lies under a tool, and what it would grip.
+
+use crate::model::Model;
+use crate::plant::{Place, Zone, motion, phase, status};
+use crate::value::{Point, Values};
+
+/// An item that is let go at most so far below a surface lies on it, m: as in the simulator.
+const SINK: f64 = 0.01;
+/// A place no farther from a slot is that slot, m.
+const AT_SLOT: f64 = 0.01;
+
+/// Where an item comes to lie.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Landing {
+    /// Machine, its place, and the slot or the kind.
+    Slot { machine: usize, place: usize, slot: usize },
+    /// In a field over a lane.
+    Zone { machine: usize, zone: usize },
+    /// Where nothing looks for it.
+    Elsewhere,
+}
+
+/// An item that a gripper could take.
+#[derive(Clone, Copy, Debug)]
+pub struct Found {
+    pub kind: usize,
+    pub at: Landing,
+}
+
+/// The origin of a place, in the state; of one that is carried, at the stop where its vehicle is or was.
+pub fn origin(model: &Model, values: &Values, state: &[u8], machine: usize, place: &Place) -> Point {
+    match (place.stands, &model.machines[machine].route) {
+        (Some(point), _) => point,
+        (None, Some(route)) => values.point(route.at.load(state)),
+        (None, None) => [0.0; 3],
+    }
+}
+
+pub fn is_over(place: &Place, origin: Point, point: Point) -> bool {
+    let within = |axis: usize, [low, high]: [f64; 2]| {
+        let at = point[axis] - origin[axis] - place.floor[axis];
+        low <= at && at <= high
+    };
+    within(0, place.floor_x) && within(1, place.floor_y) && point[2] >= origin[2] + place.floor[2] - SINK
+}
+
+pub fn is_in(zone: &Zone, point: Point) -> bool {
+    (0..2).all(|axis| zone.low[axis] <= point[axis] && point[axis] <= zone.high[axis])
+        && point[2] >= zone.surface - SINK
+}
+
+/// Whether the vehicle of a machine is on its way.
+pub fn is_driving(model: &Model, state: &[u8], machine: usize) -> bool {
+    let machine = &model.machines[machine];
+    match (&machine.head, &machine.route) {
+        (Some(head), Some(route)) => {
+            head.status.load(state) == status::UNDER_WAY && route.at.load(state) != route.goal.load(state)
+        }
+        _ => false,
+    }
+}
+
+fn is_there(model: &Model, state: &[u8], machine: usize, place: usize) -> bool {
+    model.machines[machine]
+        .desk
+        .as_ref()
+        .is_none_or(|desk| desk.place != place || desk.phase.load(state) == phase::OPEN)
+}
+
+/// Where an item of a kind lands that a tool loses here.
+pub fn landing(model: &Model, values: &Values, state: &[u8], tool: Point, kind: usize) -> Landing {
+    let under = [tool[0], tool[1], tool[2] - model.heights[kind]];
+    let mut highest = (f64::NEG_INFINITY, Landing::Elsewhere);
+    for (machine, plant) in model.machines.iter().enumerate() {
+        for (number, place) in plant.places.iter().enumerate() {
+            let origin = origin(model, values, state, machine, place);
+            let height = origin[2] + place.floor[2];
+            if height <= highest.0
+                || !is_over(place, origin, under)
+                || !is_there(model, state, machine, number)
+            {
+                continue;
+            }
+            let slot = if place.by_kind { Some(kind) } else { slot_at(place, origin, under) };
+            let landing = slot.filter(|slot| *slot < place.items.len());
+            let landing = landing.map(|slot| Landing::Slot { machine, place: number, slot });
+            highest = (height, landing.unwrap_or(Landing::Elsewhere));
+        }
+        for (number, zone) in plant.lane.iter().flat_map(|lane| &lane.zones).enumerate() {
+            if zone.surface > highest.0 && is_in(zone, under) {
+                highest = (zone.surface, Landing::Zone { machine, zone: number });
+            }
+        }
+    }
+    highest.1
+}
+
+fn slot_at(place: &Place, origin: Point, point: Point) -> Option<usize> {
+    let distance = |slot: &Point| {
+        let [dx, dy] = [0, 1].map(|axis| origin[axis] + slot[axis] - point[axis]);
+        dx * dx + dy * dy
+    };
+    let nearest = place.slots.iter().enumerate().min_by(|(_, a), (_, b)| distance(a).total_cmp(&distance(b)));
+    nearest.filter(|(_, slot)| distance(slot) <= AT_SLOT * AT_SLOT).map(|(number, _)| number)
+}
+
+/// The item that a gripper finds with its tool here, no farther than `near` from where it is gripped.
+pub fn found(model: &Model, values: &Values, state: &[u8], tool: Point, near: f64) -> Option<Found> {
+    let meets = |p: Point, kind: usize| {
+        let gap = [p[0] - tool[0], p[1] - tool[1], p[2] + model.heights[kind] - tool[2]];
+        gap.iter().map(|c| c * c).sum::<f64>() <= near * near
+    };
+    for (machine, plant) in model.machines.iter().enumerate() {
+        for (number, place) in plant.places.iter().enumerate() {
+            let origin = origin(model, values, state, machine, place);
+            for (slot, item) in place.items.iter().enumerate() {
+                let held = item.load(state);
+                let kind = if place.by_kind { slot } else { held as usize - usize::from(held > 0) };
+                let Some(offset) = place.slots.get(slot).filter(|_| held > 0) else { continue };
+                let at = [0, 1, 2].map(|axis| origin[axis] + offset[axis]);
+                if meets(at, kind) && !is_driving(model, state, machine) {
+                    return Some(Found { kind, at: Landing::Slot { machine, place: number, slot } });
+                }
+            }
+        }
+        let Some(lane) = plant.lane.as_ref().filter(|lane| lane.motion.load(state) == motion::STANDS) else {
+            continue;
+        };
+        for (number, zone) in lane.zones.iter().enumerate() {
+            for (kind, at) in zone.found.iter().enumerate() {
+                let is_seen = zone.sees[kind].is_none_or(|input| model.inputs[input].var.load(state) != 1);
+                if is_seen && meets(*at, kind) {
+                    return Some(Found { kind, at: Landing::Zone { machine, zone: number } });
+                }
+            }
+        }
+    }
+    None
+}

@@ -1,0 +1,132 @@
+//! Values of a state: where each stands among its bytes, and numbers for what is no whole number.
+
+use std::collections::HashMap;
+
+/// Where a value stands in a state. 1, 2 or 4 bytes; those of one and two hold no negative numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Var {
+    pub at: u32,
+    pub width: u8,
+}
+
+impl Var {
+    #[inline]
+    pub fn load(self, state: &[u8]) -> i32 {
+        let at = self.at as usize;
+        match self.width {
+            1 => i32::from(state[at]),
+            2 => i32::from(u16::from_le_bytes([state[at], state[at + 1]])),
+            _ => i32::from_le_bytes([state[at], state[at + 1], state[at + 2], state[at + 3]]),
+        }
+    }
+
+    #[inline]
+    pub fn store(self, state: &mut [u8], value: i32) {
+        let at = self.at as usize;
+        match self.width {
+            1 => state[at] = value as u8,
+            2 => state[at..at + 2].copy_from_slice(&(value as u16).to_le_bytes()),
+            _ => state[at..at + 4].copy_from_slice(&value.to_le_bytes()),
+        }
+    }
+}
+
+pub type Point = [f64; 3];
+
+/// Numbers of the points and reals that have come up. Number 0 is (0, 0, 0), and 0.
+#[derive(Clone, Debug)]
+pub struct Values {
+    points: Vec<Point>,
+    point_numbers: HashMap<[u64; 3], u16>,
+    reals: Vec<f64>,
+    real_numbers: HashMap<u64, u16>,
+    is_full: bool,
+    /// Whether an arm can bring its tool to a point, where that was asked.
+    reached: HashMap<(usize, i32), bool>,
+    /// Of each point that was asked for the sites that it is at, see [`crate::hazard`].
+    pub(crate) sites: Vec<Option<Box<[usize]>>>,
+}
+
+impl Default for Values {
+    fn default() -> Self {
+        let mut values = Self {
+            points: Vec::new(),
+            point_numbers: HashMap::new(),
+            reals: Vec::new(),
+            real_numbers: HashMap::new(),
+            is_full: false,
+            reached: HashMap::new(),
+            sites: Vec::new(),
+        };
+        values.number_of_point([0.0; 3]);
+        values.number_of_real(0.0);
+        values
+    }
+}
+
+impl Values {
+    pub fn point(&self, number: i32) -> Point {
+        self.points[number as usize]
+    }
+
+    pub fn real(&self, number: i32) -> f64 {
+        self.reals[number as usize]
+    }
+
+    pub fn number_of_point(&mut self, point: Point) -> i32 {
+        // 0 equals -0.
+        let point = point.map(|c| c + 0.0);
+        let key = point.map(f64::to_bits);
+        if let Some(number) = self.point_numbers.get(&key) {
+            return i32::from(*number);
+        }
+        let Ok(number) = u16::try_from(self.points.len()) else {
+            self.is_full = true;
+            return 0;
+        };
+        self.points.push(point);
+        self.point_numbers.insert(key, number);
+        i32::from(number)
+    }
+
+    pub fn number_of_real(&mut self, real: f64) -> i32 {
+        let real = real + 0.0;
+        if let Some(number) = self.real_numbers.get(&real.to_bits()) {
+            return i32::from(*number);
+        }
+        let Ok(number) = u16::try_from(self.reals.len()) else {
+            self.is_full = true;
+            return 0;
+        };
+        self.reals.push(real);
+        self.real_numbers.insert(real.to_bits(), number);
+        i32::from(number)
+    }
+
+    /// More than 65,536 places or numbers have come up: states can no longer be told apart.
+    pub fn is_full(&self) -> bool {
+        self.is_full
+    }
+
+    /// Asks once for each machine and point.
+    pub fn is_reached(&mut self, machine: usize, number: i32, ask: impl FnOnce(Point) -> bool) -> bool {
+        let point = self.point(number);
+        *self.reached.entry((machine, number)).or_insert_with(|| ask(point))
+    }
+
+    pub(crate) fn note_sites(&mut self, number: i32, sites: Vec<usize>) {
+        let number = number as usize;
+        if self.sites.len() <= number {
+            self.sites.resize(number + 1, None);
+        }
+        self.sites[number] = Some(sites.into());
+    }
+
+    pub(crate) fn sites_of(&self, number: i32) -> &[usize] {
+        self.sites.get(number as usize).and_then(Option::as_deref).unwrap_or(&[])
+    }
+
+    pub fn points(&self) -> &[Point] {
+        &self.points
+    }
+}

@@ -1,0 +1,20 @@
+//! What must not happen.
+
+/// Numbers are those of machines, which are those of their instances.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Violation {
+    /// A fault at run time: index into the faults of the model.
+    Fault { instance: usize, fault: usize },
+    /// None: the line stops as its types say, until an operator has come. What follows is not searched.
+    Stop,
+    /// From here the orders cannot be made any more, whatever happens.
+    NeverMade,
+    /// Two arms are over one place.
+    TwoArms { arms: [usize; 2], machine: usize },
+    /// A machine moves while an arm is at it.
+    MovesUnder { machine: usize, arm: usize },
+    /// An arm puts an item where one lies.
+    ItemOnItem { arm: usize, machine: usize, slot: usize },
+    /// A station asks for its place to be taken away, and what lies there is not what was ordered.
+    WrongItems { machine: usize, order: usize },
+}

@@ -1,0 +1,222 @@
+//! The search against the simulator, against itself with reductions off, and on lines with known mistakes.
+
+use autogen::executor::Executor;
+use autogen::lower::Project;
+use autogen::verify::{model, replay::replay};
+use autogen_search::explore::{Bounds, End, Outcome, explore};
+use autogen_search::model::Model;
+use autogen_search::plant::{Faults, Watch};
+use autogen_search::successor::Orders;
+use autogen_search::violation::Violation;
+use autogen_tests::searched::Common;
+use autogen_tests::{Texts, is_full_campaign, own_line};
+use runtime_sim::line::{Answer, IoDelay, Refusal, Slip};
+use runtime_sim::random::Random;
+use runtime_sim::run::{Stepping, run};
+
+const ONE_PART: &str = r#"{
+    "kinds": [{"name": "battery", "height": 0.053}, {"name": "pump", "height": 0.11}],
+    "orders": [{"station": "as1", "parts": {"battery": 1}}],
+    "supply": {"surplus": [4, 1]}
+}"#;
+const TWO_PARTS: &str = r#"{
+    "kinds": [{"name": "battery", "height": 0.053}, {"name": "pump", "height": 0.11}],
+    "orders": [{"station": "as1", "parts": {"battery": 1, "pump": 1}}],
+    "supply": {"surplus": [4, 1]}
+}"#;
+
+const BOUNDS: Bounds =
+    Bounds { answers: None, orders: Orders::One, time: None, memory: 1_000_000_000, violations: 1 };
+
+fn buffer(scenario: &str) -> Texts {
+    Texts { scenario: Some(scenario.into()), ..own_line("buffer") }
+}
+
+/// The line with one place of its own type changed.
+fn changed(from: &str, to: &str) -> Texts {
+    let mut texts = buffer(TWO_PARTS);
+    assert!(texts.specs[0].contains(from), "{from}");
+    texts.specs[0] = texts.specs[0].replace(from, to);
+    texts
+}
+
+fn search(model: &Model, bounds: &Bounds) -> Outcome {
+    explore(model, bounds, &mut |_| true)
+}
+
+fn model_of(project: &Project, faults: Faults) -> Model {
+    model(project, faults).expect("a line that can be searched")
+}
+
+#[test]
+fn a_right_line_is_proved_without_faults() {
+    for orders in [Orders::One, Orders::All] {
+        let project = buffer(ONE_PART).project();
+        let outcome = search(&model_of(&project, Faults::None), &Bounds { orders, ..BOUNDS });
+        assert_eq!((outcome.end, outcome.violations.len()), (End::Complete, 0));
+    }
+}
+
+#[test]
+fn a_table_without_its_lock_has_two_arms_over_it_in_the_simulator_too() {
+    let project = changed("held := true;", "").project();
+    let model = model_of(&project, Faults::None);
+    let outcome = search(&model, &BOUNDS);
+    let [(violation, course)] = &outcome.violations[..] else {
+        panic!("{} violations", outcome.violations.len())
+    };
+    assert!(matches!(violation, Violation::TwoArms { .. }), "{violation:?}");
+    let replay = replay(&project, &model, course).expect("a run");
+    assert!(replay.result.is_ok(), "{:?}", replay.result);
+}
+
+#[test]
+fn orders_that_can_never_be_made_are_found() {
+    let mut texts = buffer(ONE_PART);
+    texts.specs.push(
+        autogen::library::FILES
+            .iter()
+            .find(|(name, _)| name.ends_with("/station.aut") && !name.contains("devices"))
+            .expect("the library's station")
+            .1
+            .replace("complete := true;", ""),
+    );
+    let outcome = search(&model_of(&texts.project(), Faults::None), &BOUNDS);
+    assert_eq!(outcome.end, End::Complete);
+    assert!(matches!(outcome.violations[..], [(Violation::NeverMade, _)]), "{:?}", outcome.violations);
+}
+
+#[test]
+fn a_fault_is_found_and_its_course_is_the_shortest() {
+    let project =
+        changed("local next: int 0..11 := 0;", "local next: int 0..11 := 0; invariant not offer;").project();
+    let model = model_of(&project, Faults::None);
+    let outcome = search(&model, &BOUNDS);
+    let [(Violation::Fault { .. }, course)] = &outcome.violations[..] else {
+        panic!("{:?}", outcome.violations)
+    };
+    assert_eq!(course.scans.len(), outcome.covered.depth + 1);
+    let replay = replay(&project, &model, course).expect("a run");
+    assert!(replay.reason.starts_with("fault "), "{}", replay.reason);
+}
+
+#[test]
+fn a_search_that_is_cut_proves_nothing() {
+    let model = model_of(&buffer(TWO_PARTS).project(), Faults::None);
+    let outcome = search(&model, &Bounds { memory: 1, ..BOUNDS });
+    assert_eq!(outcome.end, End::MemoryIsFull);
+    let outcome = explore(&model, &BOUNDS, &mut |_| false);
+    assert_eq!(outcome.end, End::Stopped);
+}
+
+/// Violations and whether the search was complete.
+fn verdict(outcome: &Outcome) -> (End, Vec<String>) {
+    let mut violations: Vec<String> = outcome.violations.iter().map(|(v, _)| format!("{v:?}")).collect();
+    violations.sort();
+    (outcome.end, violations)
+}
+
+#[test]
+fn forgetting_what_is_of_no_use_changes_no_verdict() {
+    let lines = [
+        (buffer(ONE_PART), Faults::All),
+        (changed("held := true;", ""), Faults::None),
+        (changed("slot[next] := Free;", ""), Faults::None),
+    ];
+    let mut saved = 0;
+    for (texts, faults) in lines {
+        let texts = Texts { scenario: Some(ONE_PART.into()), ..texts };
+        let model = model_of(&texts.project(), faults);
+        let mut whole = model.clone();
+        for state in whole.instances.iter_mut().flat_map(|instance| &mut instance.states) {
+            state.dead.clear();
+            state.is_answer_dead = false;
+        }
+        let bounds = Bounds { answers: Some(1), violations: 100, ..BOUNDS };
+        let (less, more) = (search(&model, &bounds), search(&whole, &bounds));
+        assert_eq!(verdict(&less), verdict(&more));
+        saved += more.covered.states - less.covered.states;
+    }
+    assert!(saved > 0);
+}
+
+/// With few answers in a scan there are fewer states, never others.
+#[test]
+fn few_answers_reach_a_part_of_the_states() {
+    let model = model_of(&buffer(ONE_PART).project(), Faults::None);
+    let all = search(&model, &BOUNDS);
+    let one = search(&model, &Bounds { answers: Some(1), ..BOUNDS });
+    assert!((0..one.reached.len()).all(|state| all.reached.find(one.reached.state(state)).is_some()));
+    assert!(one.reached.len() <= all.reached.len());
+}
+
+/// The long form: 1,000 runs. Every scan of every run is a state that was reached.
+#[test]
+fn simulated_runs_stay_within_the_states() {
+    let runs = if is_full_campaign() { 1000 } else { 40 };
+    let mut random = Random::new(1);
+    let (mut scans, mut outside) = (0, Vec::new());
+    for order in 0..runs / 20 {
+        let texts = Texts { order: (order > 0).then_some(order), ..buffer(ONE_PART) };
+        let project = texts.project();
+        let mut model = model_of(&project, Faults::All);
+        model.watch = Watch::Faults;
+        let outcome = search(&model, &Bounds { memory: 2_000_000_000, ..BOUNDS });
+        assert_eq!(outcome.end, End::Complete);
+        let common = Common::new(&project, &model);
+        let all = common.of_all(&outcome.reached);
+        for number in 0..20_u64 {
+            let mut line = project.plant.clone();
+            let machines = line.machines.len() as u32;
+            let scenario = &mut line.scenario;
+            let arms: Vec<usize> =
+                (0..machines as usize).filter(|m| project.plant.machines[*m].has("grip")).collect();
+            for pick in 1..4 {
+                for machine in &arms {
+                    if random.up_to(2) == 0 {
+                        let after_s = f64::from(random.up_to(9000)) / 1000.0;
+                        scenario.slips.push(Slip { machine: *machine, pick, after_s });
+                    }
+                }
+            }
+            let commanded: Vec<usize> =
+                (0..machines as usize).filter(|m| project.plant.machines[*m].wiring.is_commanded()).collect();
+            for machine in commanded {
+                for command in 1..40 {
+                    match random.up_to(15) {
+                        0 => scenario.refusals.push(Refusal { machine, command }),
+                        1 => scenario.answers.push(Answer {
+                            machine,
+                            command,
+                            late_s: f64::from(random.up_to(3000)) / 1000.0,
+                            error: (random.up_to(2) == 0).then_some(2),
+                        }),
+                        _ => {}
+                    }
+                }
+            }
+            line.io_delay = match number % 3 {
+                0 => IoDelay::Fixed(0),
+                1 => IoDelay::Fixed(3),
+                _ => IoDelay::Random { max: 5, seed: number },
+            };
+            scenario.time_limit_s = 300.0;
+            let mut executor = Executor::new(&project.system);
+            let mut last = Vec::new();
+            let mut is_outside = false;
+            let report = run(&line, &mut executor, Stepping::Events, &mut |seen| {
+                let found = common.of_trace(seen.trace);
+                scans += 1;
+                if found != last && !is_outside && !all.contains(&found) {
+                    is_outside = true;
+                    let difference = common.difference(&found, &all);
+                    outside.push(format!("order {order}, run {number}, scan {}: {difference}", seen.scan));
+                }
+                last = found;
+            });
+            report.expect("a line that can be run");
+        }
+    }
+    println!("{runs} runs, {scans} scans");
+    assert!(outside.is_empty(), "{} of {runs} runs leave the states:\n{}", outside.len(), outside.join("\n"));
+}
