@@ -50,7 +50,14 @@ pub enum From {
     Goal,
     /// In between: it falls to where nothing looks for it.
     OnTheWay,
+    /// The same, but near to where the motion began.
+    BesideTool,
+    /// The same, but near to where it goes.
+    BesideGoal,
 }
+
+/// So far from an end of its motion, along x and along y, a tool is still over what is there, and not over one slot, m.
+const BESIDE: f64 = 0.2;
 
 /// Who may do something in a scan: each machine at most one thing, each instance at most one time.
 pub(crate) fn sources(model: &Model) -> usize {
@@ -166,7 +173,8 @@ fn takes(model: &Model, values: &Values, state: &[u8], plant: &Machine, arm: &Ar
     }
 }
 
-/// Where the gripper of an arm may lose an item of this kind; one place for each that makes a difference.
+/// Where the gripper of an arm may lose an item of this kind; one place for each that makes a difference to where it
+/// falls, or to an automaton that reads where the tool is then.
 pub(crate) fn losses(
     model: &Model,
     values: &Values,
@@ -182,15 +190,24 @@ pub(crate) fn losses(
     }
     if goal != 0 {
         all.push(at(From::Goal, goal));
-        all.push((From::OnTheWay, Landing::Elsewhere));
+        all.extend([From::OnTheWay, From::BesideTool, From::BesideGoal].map(|from| (from, Landing::Elsewhere)));
     }
-    let mut different: Vec<(From, Landing)> = Vec::new();
-    for (from, landing) in all {
-        if !different.iter().any(|(_, other)| *other == landing) {
-            different.push((from, landing));
-        }
-    }
-    different
+    all
+}
+
+/// Where the tool is when it loses an item; none: where it was.
+fn tool_at(values: &mut Values, state: &[u8], arm: &Arm, from: From) -> Option<i32> {
+    let [tool, goal] = [arm.tool, arm.goal].map(|place| values.point(place.load(state)));
+    let beside = |[x, y, z]: Point| [x + BESIDE, y + BESIDE, z];
+    let place = match from {
+        From::Tool => return None,
+        From::Via => return Some(arm.via.load(state)),
+        From::Goal => return Some(arm.goal.load(state)),
+        From::OnTheWay => [0, 1, 2].map(|axis| (tool[axis] + goal[axis]) / 2.0),
+        From::BesideTool => beside(tool),
+        From::BesideGoal => beside(goal),
+    };
+    Some(values.number_of_point(place))
 }
 
 /// The state after an event.
@@ -207,6 +224,9 @@ pub(crate) fn apply(model: &Model, values: &mut Values, state: &mut [u8], event:
             let Some(arm) = &plant.arm else { return };
             let kind = arm.holds.load(state) as usize - 1;
             let landing = losses(model, values, state, arm, kind).into_iter().find(|(f, _)| *f == from);
+            if let Some(place) = tool_at(values, state, arm, from) {
+                arm.tool.store(state, place);
+            }
             arm.holds.store(state, 0);
             arm.shown.store(state, 0);
             if let Some((_, landing)) = landing {

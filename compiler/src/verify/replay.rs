@@ -231,7 +231,7 @@ impl<'a> Director<'a> {
                 words[machine].head.is_none() || given[machine] == ack
             };
             let is_awaited = |machine: usize| match due[machine].front().map(|due| due.what) {
-                Some(What::Loses(From::Tool | From::OnTheWay)) | None => false,
+                Some(What::Loses(From::Tool | From::BesideTool | From::OnTheWay)) | None => false,
                 Some(_) => given[machine] != 0.0,
             };
             let all_ended = (0..count).all(|machine| !is_awaited(machine) || has_ended(machine));
@@ -336,6 +336,8 @@ impl<'a> Director<'a> {
         match from {
             From::Tool => true,
             From::Goal | From::Via => has_ended,
+            From::BesideTool => (scan - begun) * u64::from(self.line.scan_ms) >= 200,
+            From::BesideGoal => has_ended,
             From::OnTheWay => (scan - begun) * u64::from(self.line.scan_ms) >= 400,
         }
     }

@@ -119,6 +119,8 @@ impl Teller<'_> {
                     From::Via => "where it passes",
                     From::Goal => "where it is going",
                     From::OnTheWay => "on the way",
+                    From::BesideTool => "near to where it set out",
+                    From::BesideGoal => "near to where it is going",
                 };
                 format!("{name} loses the {item} {place}")
             }
