@@ -4,6 +4,7 @@ pub mod dot;
 mod footprint;
 pub mod paths;
 pub mod plan;
+pub mod report;
 pub mod rust;
 pub mod sdf;
 pub mod st;

@@ -22,6 +22,8 @@ mod machines;
 mod parts;
 #[path = "command_line/replications.rs"]
 mod replications;
+#[path = "command_line/report.rs"]
+mod report;
 #[path = "command_line/side_by_side.rs"]
 mod side_by_side;
 #[path = "command_line/sweep.rs"]

@@ -27,6 +27,28 @@ pub enum Activity {
     InState(usize),
 }
 
+/// What the scans of a machine are counted as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Counted {
+    Moving,
+    Working,
+    Waiting,
+    Stopped,
+}
+
+impl Activity {
+    pub fn counted(self, line: &Line, machine: usize) -> Counted {
+        match self {
+            Activity::Stopped => Counted::Stopped,
+            Activity::Moving => Counted::Moving,
+            Activity::InState(state) => match line.machines[machine].states.get(state) {
+                Some(state) if state.working => Counted::Working,
+                _ => Counted::Waiting,
+            },
+        }
+    }
+}
+
 impl Account {
     pub fn new(line: &Line) -> Self {
         Self { waiting_for: vec![0; line.machines.len()], ..Self::default() }
@@ -34,19 +56,17 @@ impl Account {
 
     /// What the machine does in so many scans.
     pub fn book(&mut self, line: &Line, machine: usize, activity: Activity, scans: u64) {
-        match activity {
-            Activity::Stopped => self.stopped += scans,
-            Activity::Moving => self.moving += scans,
-            Activity::InState(state) => match line.machines[machine].states.get(state) {
-                Some(state) if state.working => self.working += scans,
-                Some(state) => {
-                    self.waiting += scans;
-                    for &owner in &state.awaits {
-                        self.waiting_for[owner] += scans;
-                    }
-                }
-                None => self.waiting += scans,
-            },
+        match activity.counted(line, machine) {
+            Counted::Stopped => self.stopped += scans,
+            Counted::Moving => self.moving += scans,
+            Counted::Working => self.working += scans,
+            Counted::Waiting => self.waiting += scans,
+        }
+        if let (Activity::InState(state), Counted::Waiting) = (activity, activity.counted(line, machine)) {
+            let state = line.machines[machine].states.get(state);
+            for &owner in state.iter().flat_map(|state| &state.awaits) {
+                self.waiting_for[owner] += scans;
+            }
         }
     }
 }

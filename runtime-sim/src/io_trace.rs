@@ -34,7 +34,7 @@ pub enum Form {
 }
 
 /// Where a value is found.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Source {
     RunPermit,
     Start,
@@ -106,7 +106,7 @@ const SINGLE: [(&str, Source); 7] = [
 
 impl Source {
     /// The word, 0 if the run has none there.
-    fn value(self, seen: &Seen) -> f64 {
+    pub fn value(self, seen: &Seen) -> f64 {
         let flag = |b: bool| f64::from(u8::from(b));
         let word = |images: &[Vec<f64>], machine: usize, word: usize| {
             images.get(machine).and_then(|image| image.get(word)).copied().unwrap_or(0.0)

@@ -13,6 +13,7 @@ pub mod event;
 mod fingerprint;
 pub mod frame;
 pub mod hash;
+pub mod history;
 pub mod io_trace;
 pub mod item;
 mod json;

@@ -101,6 +101,26 @@ impl Motion {
         Arc::ptr_eq(&self.path, &other.path)
     }
 
+    /// Along which it goes.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// When what [`Self::phases`] gives begins, s.
+    pub fn since(&self) -> f64 {
+        self.since
+    }
+
+    /// What the place on the path does from then on: where it begins and how fast, 1/s, and then for each phase its
+    /// duration in s and its acceleration in 1/s2. Behind the last the motion rests.
+    pub fn phases(&self) -> ([f64; 2], Vec<[f64; 2]>) {
+        let phases = self.profile.phases();
+        let first = phases.iter().find(|phase| phase.duration > 0.0);
+        let begin = first.map_or([self.rest, 0.0], |first| [first.place_after(0.0), first.speed_after(0.0)]);
+        let phases = phases.iter().filter(|phase| phase.duration > 0.0);
+        (begin, phases.map(|phase| [phase.duration, phase.gain()]).collect())
+    }
+
     /// Of its path.
     pub(crate) fn fingerprint(&self) -> Fingerprint {
         self.path.fingerprint()

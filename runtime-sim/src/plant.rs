@@ -304,6 +304,16 @@ impl Plant {
         self.conveying.are_joined([a, b])
     }
 
+    /// Of the surface of a conveyor, m/s.
+    pub(crate) fn surface_speed(&self, machine: usize, part: usize) -> Option<f64> {
+        Some(self.machines.get(machine)?.lane(part)?.speed())
+    }
+
+    /// How a cylinder of a machine goes on from now: [`crate::part::cylinder::Working::going`].
+    pub(crate) fn cylinder_going(&self, machine: usize, part: usize) -> Option<(f64, f64)> {
+        Some(self.machines.get(machine)?.cylinder(part)?.going(self.now_ms()))
+    }
+
     /// How a cylinder of a machine moves what is on it from now on.
     pub(crate) fn stroking(&self, machine: usize, part: usize) -> Option<Stroking> {
         self.machines.get(machine)?.cylinder(part)?.stroking(self.now_ms())

@@ -231,7 +231,7 @@ pub(crate) fn seconds(scans: u64, scan_ms: u32) -> f64 {
 }
 
 /// Such as `tray of agv1`.
-pub(crate) fn carrier_text(line: &Line, carrier: Carrier) -> String {
+pub fn carrier_text(line: &Line, carrier: Carrier) -> String {
     let name = |machine: usize| &line.machines[machine].name;
     match carrier {
         Carrier::Supply => "supply".into(),

@@ -7,6 +7,8 @@ mod progress;
 use crate::account::{Account, Activity};
 use crate::collision::{CollisionCheck, Contact};
 use crate::conservation::conservation;
+use crate::history::{History, Stay};
+use crate::io_trace::Source as Word;
 use crate::line::Line;
 use crate::memory::Memory;
 use crate::path::{Path, Recorder};
@@ -71,15 +73,41 @@ pub fn run_again(
     Ok(report)
 }
 
-/// The same run, and the paths of all items, in the order of the line's supply.
+/// A run with all that went on in it.
+#[derive(Clone, Debug)]
+pub struct Recorded {
+    pub report: Report,
+    /// Of all items, in the order of the line's supply.
+    pub paths: Vec<Path>,
+    pub history: History,
+}
+
+/// The same run, and what went on in it; of the words of the controllers those that are `watched`.
 pub fn record(
     line: &Line,
     controllers: &mut dyn Controllers,
     stepping: Stepping,
+    watched: &[Word],
     observer: &mut dyn FnMut(&Seen),
-) -> Result<(Report, Vec<Path>), String> {
-    let recorder = Some(Recorder::new(line));
-    simulate(line, controllers, stepping, &mut Memory::default(), observer, recorder)
+) -> Result<Recorded, String> {
+    let recorders = Some(Recorders { paths: Recorder::new(line), history: History::new(line, watched) });
+    let (report, recorders) =
+        simulate(line, controllers, stepping, &mut Memory::default(), observer, recorders)?;
+    let Recordings { paths, history } = recorders.unwrap_or_default();
+    Ok(Recorded { report, paths, history })
+}
+
+/// What the recorders have at the end.
+#[derive(Default)]
+struct Recordings {
+    paths: Vec<Path>,
+    history: History,
+}
+
+/// What a run that is recorded is recorded by.
+struct Recorders {
+    paths: Recorder,
+    history: History,
 }
 
 fn simulate(
@@ -88,8 +116,8 @@ fn simulate(
     stepping: Stepping,
     memory: &mut Memory,
     observer: &mut dyn FnMut(&Seen),
-    mut recorder: Option<Recorder>,
-) -> Result<(Report, Vec<Path>), String> {
+    mut recorders: Option<Recorders>,
+) -> Result<(Report, Option<Recordings>), String> {
     let mut plant = Plant::remembering(line, memory)?;
     let mut check = CollisionCheck::new(line);
     let kinds = line.kinds.len();
@@ -138,16 +166,24 @@ fn simulate(
                 return Err(format!("something happens in scan {scan}, which would be left out"));
             }
             agenda.step(scan, system, &inputs, answer, acted);
-            observer(&Seen {
-                scan,
-                system,
-                answer,
-                inputs: &inputs,
-                outputs: &outputs,
-                trace: &trace,
-                hash: changes.hash(),
-                plant: &plant,
-            });
+        }
+        let seen = Seen {
+            scan,
+            system,
+            answer,
+            inputs: &inputs,
+            outputs: &outputs,
+            trace: &trace,
+            hash: changes.hash(),
+            plant: &plant,
+        };
+        if is_due || stepping != Stepping::Events {
+            observer(&seen);
+        }
+        if let Some(recorders) = &mut recorders
+            && (acted || arrived == Arrived::Events)
+        {
+            recorders.history.words(&seen);
         }
         if stepping == Stepping::Checked && arrived == Arrived::Events && scan < quiet_until {
             return Err(format!("an input changes in scan {scan}, which would be left out"));
@@ -155,8 +191,9 @@ fn simulate(
         progress.note(scan, acted || arrived == Arrived::Events);
 
         plant.obey(&outputs);
-        if let Some(recorder) = &mut recorder {
-            recorder.look(&plant);
+        if let Some(recorders) = &mut recorders {
+            recorders.paths.look(&plant);
+            recorders.history.look(&plant);
         }
         let is_alive = plant.is_busy() || operator.is_busy(scan + 1, &line.scenario);
         if is_alive {
@@ -202,6 +239,10 @@ fn simulate(
                 Activity::InState(states[machine])
             };
             account.book(line, machine, activity, next - scan);
+            if let Some(recorders) = &mut recorders {
+                let stay = Stay { scan, state: states[machine], counted: activity.counted(line, machine) };
+                recorders.history.stay(machine, stay);
+            }
         }
         scan = next;
         if answer.fault {
@@ -231,8 +272,11 @@ fn simulate(
         trace_hash: changes.hash(),
         collisions: check.into_contacts(),
     };
-    let paths = recorder.map_or_else(Vec::new, |recorder| recorder.finish(&plant));
-    Ok((Report::new(line, &plant, outcome), paths))
+    let recorded = recorders.map(|recorders| Recordings {
+        paths: recorders.paths.finish(&plant),
+        history: recorders.history.finish(&plant),
+    });
+    Ok((Report::new(line, &plant, outcome), recorded))
 }
 
 /// Where in the images of a machine the number of its last command stands, and the number answered. None for a

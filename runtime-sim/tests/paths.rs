@@ -26,8 +26,9 @@ fn places(plant: &Plant) -> Vec<(Carrier, Option<Point>)> {
 fn recorded(line: &Line, steps: Vec<Step>) -> (Report, Vec<Path>, Places) {
     let mut all = Places::new();
     let mut observe = |seen: &Seen| all.push(places(seen.plant));
-    let (report, paths) = record(line, &mut Script::new(steps), Stepping::EveryScan, &mut observe).unwrap();
-    (report, paths, all)
+    let script = &mut Script::new(steps);
+    let recorded = record(line, script, Stepping::EveryScan, &[], &mut observe).unwrap();
+    (recorded.report, recorded.paths, all)
 }
 
 fn distance(a: Point, b: Point) -> f64 {

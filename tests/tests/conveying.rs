@@ -211,10 +211,10 @@ fn recorded_paths_are_where_the_items_are() {
             seen.push((scan.scan * u64::from(project.plant.scan_ms), places));
         };
         let mut executor = Executor::new(&project.system);
-        let (_, paths) = record(&project.plant, &mut executor, Stepping::EveryScan, &mut observe).unwrap();
+        let recorded = record(&project.plant, &mut executor, Stepping::EveryScan, &[], &mut observe).unwrap();
         let mut compared = 0;
         for (ms, places) in seen {
-            for (path, (carrier, place)) in paths.iter().zip(places) {
+            for (path, (carrier, place)) in recorded.paths.iter().zip(places) {
                 let Some(place) = place else { continue };
                 let at = path.at(ms as f64).find(|segment| segment.carrier == carrier);
                 let at = at.unwrap_or_else(|| panic!("{name}: nothing on {carrier:?} at {ms} ms: {path:?}"));
@@ -223,6 +223,6 @@ fn recorded_paths_are_where_the_items_are() {
                 compared += 1;
             }
         }
-        assert!(compared > 1000 || paths.is_empty(), "{name}: {compared} places");
+        assert!(compared > 1000 || recorded.paths.is_empty(), "{name}: {compared} places");
     }
 }

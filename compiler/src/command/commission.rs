@@ -6,7 +6,7 @@ use super::controllers::{self, Notice};
 use super::fault;
 use super::io_trace::IoTrace;
 use super::options::{CommissionOptions, Format};
-use super::output::{self, Output};
+use super::output::{self, OF_A_RUN, Output};
 use super::pending::{Content, Pending};
 use super::progress::Progress;
 use super::read;
@@ -14,8 +14,9 @@ use super::trajectories::Request;
 use super::why;
 use crate::Status;
 use autogen::backend::rust::parameters_text;
+use autogen::backend::{Files, report as page};
 use runtime_sim::line::IoDelay;
-use runtime_sim::run::{Seen, Stepping, record, run as simulate};
+use runtime_sim::run::{Recorded, Seen, Stepping, record, run as simulate};
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::io::{self, IsTerminal};
@@ -50,7 +51,7 @@ impl From<String> for End {
 }
 
 /// What a run writes beside the output folder.
-struct Files {
+struct Requested {
     io_trace: Option<Pending>,
     hashes: Option<Pending>,
     trajectories: Request,
@@ -65,7 +66,7 @@ fn commission(options: &CommissionOptions) -> Result<Status, End> {
     let pending = |path: &Option<PathBuf>, content: Content| {
         path.as_ref().map(|path| Pending::new(path, content, overwrite)).transpose()
     };
-    let files = Files {
+    let files = Requested {
         io_trace: pending(&options.io_trace, Content::IoTrace)?,
         hashes: pending(&options.hashes, Content::Hashes)?,
         trajectories: Request::new(options)?,
@@ -77,9 +78,10 @@ fn commission(options: &CommissionOptions) -> Result<Status, End> {
     // Until the results are written, so that they are those of what is in the folder.
     let output = build::open(&options.build, &built).map_err(refused)?;
     build::write(&options.build, &built, &output).map_err(refused)?;
-    output.may_write_results(overwrite).map_err(refused)?;
+    let names = if options.no_report { &OF_A_RUN[..1] } else { &OF_A_RUN[..] };
+    output.may_write_results(names, overwrite).map_err(refused)?;
 
-    let mut report = report(options, &built, delay.clone(), files)?;
+    let (mut report, recorded) = report(options, &built, delay.clone(), files)?;
     fault::name(&mut report, &built.project.system, &built.sources);
     contact::name_reasons(&mut report, &built.project.may_touch);
     if let Some(waits) = why::at_the_end(&built.project, delay, &report)? {
@@ -89,7 +91,12 @@ fn commission(options: &CommissionOptions) -> Result<Status, End> {
     report["settings"] = json!(options.build.input.settings);
     report["order_seed"] = json!(options.build.input.order);
     report["io_delay"] = json!(options.io_delay);
-    output.write_results(&format!("{report:#}\n"), overwrite).map_err(refused)?;
+    let mut results = Files::from([(output::RESULTS.to_string(), format!("{report:#}\n"))]);
+    if let Some(recorded) = recorded.filter(|_| !options.no_report) {
+        let page = page::html(&built.project, &built.sources, &built.project.plant, &recorded, &report);
+        results.insert(output::REPORT.into(), page);
+    }
+    output.write_results(&results, overwrite).map_err(refused)?;
     let wall = begin.elapsed().as_secs_f64();
     report["wall_s"] = json!((wall * 1000.0).round() / 1000.0);
     show(options, &output, &report, wall);
@@ -111,7 +118,12 @@ pub fn io_delay(text: &str) -> Option<IoDelay> {
 }
 
 /// Runs the scenario and writes what was asked for of it.
-fn report(options: &CommissionOptions, built: &Built, delay: IoDelay, files: Files) -> Result<Value, String> {
+fn report(
+    options: &CommissionOptions,
+    built: &Built,
+    delay: IoDelay,
+    files: Requested,
+) -> Result<(Value, Option<Recorded>), String> {
     let input = &options.build.input;
     let is_quiet = input.quiet || input.format != Format::Text;
     let notice = if is_quiet { Notice::None } else { Notice::Compiling };
@@ -121,7 +133,7 @@ fn report(options: &CommissionOptions, built: &Built, delay: IoDelay, files: Fil
     line.io_delay = delay;
     let mut controllers = library.controllers(&line, &parameters_text(system))?;
 
-    let Files { io_trace, hashes, trajectories } = files;
+    let Requested { io_trace, hashes, trajectories } = files;
     let columns = &built.files["rust/commissioning/data/columns.txt"];
     let mut io_trace = io_trace.map(|file| IoTrace::new(columns, file)).transpose()?;
     let mut hash_list = String::new();
@@ -138,12 +150,16 @@ fn report(options: &CommissionOptions, built: &Built, delay: IoDelay, files: Fil
         }
         progress.show(seen.scan * u64::from(line.scan_ms) / 1000);
     };
-    let report = match trajectories.is_empty() {
-        true => simulate(&line, &mut controllers, stepping, &mut observe)?,
-        false => {
-            let (report, paths) = record(&line, &mut controllers, stepping, &mut observe)?;
-            trajectories.write(&built.project, &line, &paths)?;
-            report
+    let is_recorded = !options.no_report || !trajectories.is_empty();
+    let (report, recorded) = match is_recorded {
+        false => (simulate(&line, &mut controllers, stepping, &mut observe)?, None),
+        true => {
+            let watched = if options.no_report { Vec::new() } else { page::watched(system) };
+            let recorded = record(&line, &mut controllers, stepping, &watched, &mut observe)?;
+            if !trajectories.is_empty() {
+                trajectories.write(&built.project, &line, &recorded.paths)?;
+            }
+            (recorded.report.clone(), Some(recorded))
         }
     };
     progress.end();
@@ -152,7 +168,9 @@ fn report(options: &CommissionOptions, built: &Built, delay: IoDelay, files: Fil
         hashes.write(&hash_list)?;
         hashes.keep()?;
     }
-    serde_json::from_str(&report.to_json()).map_err(|e| format!("the report is no JSON: {e}"))
+    let report =
+        serde_json::from_str(&report.to_json()).map_err(|e| format!("the report is no JSON: {e}"))?;
+    Ok((report, recorded))
 }
 
 fn show(options: &CommissionOptions, output: &Output, report: &Value, wall: f64) {
@@ -160,6 +178,9 @@ fn show(options: &CommissionOptions, output: &Output, report: &Value, wall: f64)
         Format::Json => say!("{report}"),
         Format::Text if !options.build.input.quiet => {
             say_part!("{}", text(report, wall, output));
+            if !options.no_report {
+                say!("report             {}", output.folder().join(output::REPORT).display());
+            }
             for path in &options.trajectories.files {
                 say!("trajectories       {}", path.display());
             }
@@ -199,7 +220,7 @@ fn are_different(options: &CommissionOptions) -> Result<(), String> {
 
 /// No file is named that was read or that the build writes.
 fn are_free(options: &CommissionOptions, built: &Built) -> Result<(), String> {
-    let own = built.files.keys().map(String::as_str).chain([output::MANIFEST, output::RESULTS]);
+    let own = built.files.keys().map(String::as_str).chain([output::MANIFEST]).chain(OF_A_RUN);
     let own: Vec<PathBuf> = own.map(|name| place(&built.folder.join(name))).collect();
     let inputs = read::files();
     for path in named(options) {

@@ -166,6 +166,9 @@ pub struct CommissionOptions {
     /// Write the hash of each scan's trace to this file, a line each
     #[arg(long, value_name = "FILE")]
     pub hashes: Option<PathBuf>,
+    /// Leave out report.html, the page on which the run plays
+    #[arg(long)]
+    pub no_report: bool,
     /// Execute every scan, also those in which nothing can happen; events and results are the same
     #[arg(long)]
     pub every_scan: bool,
@@ -226,6 +229,13 @@ pub struct SweepOptions {
     /// the table looks, which is for `merge`
     #[arg(long, value_name = "K/N", conflicts_with_all = ["beside", "compare", "format"])]
     pub part: Option<String>,
+    /// Write the rows as a page with charts to this file, for any browser
+    #[arg(long, value_name = "FILE.html", conflicts_with = "part")]
+    pub report: Option<PathBuf>,
+    /// Rows whose runs are kept as pages that the report links: numbers from 1 such as 1,4, or `all`. Of several
+    /// replications the first is kept. The pages are in a folder beside the report
+    #[arg(long, value_name = "ROWS", requires = "report")]
+    pub keep: Option<String>,
     /// Runs that are worked on at the same time; default: one for each processor
     #[arg(short, long, value_name = "N")]
     pub jobs: Option<NonZeroUsize>,

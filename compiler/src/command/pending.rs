@@ -7,6 +7,7 @@ use super::lock;
 use super::output::Overwrite;
 use super::test::junit;
 use autogen::backend::paths::MARK;
+use autogen::backend::report;
 use runtime_sim::path::{FORMAT, HEAD};
 use std::fs::{self, File};
 use std::io::{self, ErrorKind, Read, Write};
@@ -22,6 +23,7 @@ pub enum Content {
     PathDrawing,
     Scenario,
     JUnit,
+    Report,
 }
 
 impl Content {
@@ -34,6 +36,7 @@ impl Content {
             Content::PathDrawing => "drawing of paths",
             Content::Scenario => "scenario",
             Content::JUnit => "list of test results",
+            Content::Report => "report",
         }
     }
 
@@ -54,6 +57,7 @@ impl Content {
             Content::Scenario => bytes.starts_with(b"{\n  \"kinds\": ["),
             Content::PathDrawing => String::from_utf8_lossy(bytes).contains(MARK),
             Content::JUnit => bytes.starts_with(junit::HEAD.as_bytes()),
+            Content::Report => bytes.starts_with(report::MARK.as_bytes()),
         }
     }
 }
@@ -179,6 +183,7 @@ mod tests {
             (Content::PathSegments, &format!("{{\"format\":\"{FORMAT}\"}}")),
             (Content::PathDrawing, &format!("<svg>\n{MARK}: -->\n</svg>")),
             (Content::JUnit, &format!("{}>\n</testsuites>\n", junit::HEAD)),
+            (Content::Report, report::MARK),
         ];
         for (content, text) in texts {
             fs::write(&path, "{}").unwrap();

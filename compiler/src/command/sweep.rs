@@ -13,6 +13,7 @@ mod interval;
 pub mod measured;
 pub mod merge;
 mod outcome;
+mod page;
 mod part;
 mod part_file;
 mod plan;
@@ -74,7 +75,13 @@ fn part(text: &str) -> Result<Part, Refusal> {
 
 /// All runs, as rows of a table.
 fn whole(plan: &Plan, options: &SweepOptions) -> Status {
+    let page = page::Request::new(options.report.as_deref(), options.keep.as_deref(), &plan.design);
+    let page = match page {
+        Ok(page) => page,
+        Err(text) => return not_planned(&options.table, &Refusal::Said(text)),
+    };
     let mut rows = match Table::new(&plan.design, &options.table) {
+        Ok(table) if page.is_some() => Rows::new(&plan.design, table.keeping()),
         Ok(table) => Rows::new(&plan.design, table),
         Err(refusal) => return not_planned(&options.table, &refusal),
     };
@@ -98,7 +105,14 @@ fn whole(plan: &Plan, options: &SweepOptions) -> Status {
         progress.count();
     });
     progress.clear();
-    rows.end()
+    let (status, rows) = rows.end();
+    match page.map_or(Ok(()), |page| page.write(plan, &rows)) {
+        Ok(()) => status,
+        Err(text) => {
+            complain!("autogen: {text}");
+            Status::WrongCommand
+        }
+    }
 }
 
 /// The runs of a part, a line each.

@@ -2,6 +2,7 @@
 
 use super::fixed::FixedArm;
 use super::gantry::{self, Gantry, Stance};
+use super::links::Link;
 use super::pose::Pose;
 use super::rail_arm::{self, RailArm};
 use super::{nearest_equivalent, nearest_turn};
@@ -303,6 +304,15 @@ impl Arm {
             Solver::Fixed(arm) => Frames::new(&arm.frames(&joints.array())),
             Solver::Rail(arm) => Frames::new(&arm.frames(&joints.array())),
             Solver::Gantry(arm) => Frames::new(&arm.frames(&joints.array())),
+        }
+    }
+
+    /// The joints, from the world on: those of [`Arm::frames`].
+    pub fn links(&self) -> Vec<Link> {
+        match &self.solver {
+            Solver::Fixed(arm) => arm.links(),
+            Solver::Rail(arm) => arm.links(),
+            Solver::Gantry(arm) => arm.links(),
         }
     }
 

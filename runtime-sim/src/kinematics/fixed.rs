@@ -1,5 +1,6 @@
 //! An arm of the Universal Robots kind that stands where it is, its tool pointing down.
 
+use super::links::Link;
 use super::pose::Pose;
 use super::ur::{Angles, Lengths};
 use super::{is_finite, nearest_turn, root};
@@ -78,6 +79,11 @@ impl FixedArm {
     pub fn frames(&self, joints: &Angles) -> [Pose; JOINTS] {
         let base = self.base();
         self.lengths.frames(joints).map(|frame| base.then(&frame))
+    }
+
+    /// The joints, from the world on.
+    pub fn links(&self) -> Vec<Link> {
+        self.lengths.links(self.base()).into()
     }
 
     pub fn start(&self) -> Angles {

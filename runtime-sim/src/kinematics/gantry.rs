@@ -1,11 +1,12 @@
 //! A UR10 that hangs sideways from a torso which travels on two rails and turns.
 
+use super::links::Link;
 pub use super::planar::Wrist;
 use super::planar::{self, Links};
 use super::pose::Pose;
 use super::ur10::{self, D1, D4};
 use super::{is_finite, nearest_turn, root};
-use crate::point::Point;
+use crate::point::{Axis, Point};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Torso on both rails (m, world frame), its turn (0: the arm is mounted on the side of +y), then the angles of the UR10 (rad).
@@ -236,6 +237,17 @@ impl Gantry {
             2 => torso,
             _ => base.then(&arm[i - 3]),
         })
+    }
+
+    /// The joints, from the world on.
+    pub fn links(&self) -> Vec<Link> {
+        let rails = Pose { position: Point::new(0.0, 0.0, self.shoulder), ..Pose::IDENTITY };
+        let carriers = [
+            Link::slides(rails, Axis::X, Pose::IDENTITY),
+            Link::slides(Pose::IDENTITY, Axis::Y, Pose::IDENTITY),
+            Link::turns(Pose::turned(Point::default(), FRAC_PI_2), Pose::IDENTITY),
+        ];
+        carriers.into_iter().chain(ur10::LENGTHS.links(MOUNT)).collect()
     }
 
     fn torso_pose(&self, &[x, y, turn, ..]: &Joints) -> Pose {

@@ -6,6 +6,7 @@
 pub mod arm;
 pub mod fixed;
 pub mod gantry;
+pub mod links;
 mod planar;
 pub mod pose;
 pub mod rail_arm;

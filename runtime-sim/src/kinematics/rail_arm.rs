@@ -1,5 +1,6 @@
 //! A UR10 that stands on a rail: the kitting robot.
 
+use super::links::Link;
 use super::planar::{self, Wrist};
 use super::pose::Pose;
 use super::ur10::{self, D1, D4};
@@ -141,15 +142,24 @@ impl RailArm {
         std::array::from_fn(|i| if i == 0 { base } else { base.then(&arm[i - 1]) })
     }
 
+    /// The joints, from the world on.
+    pub fn links(&self) -> Vec<Link> {
+        let rail = Pose { position: self.base_at(0.0), ..Pose::IDENTITY };
+        let carriage = Link::slides(rail, self.rail, Pose::turned(Point::default(), PI));
+        [carriage].into_iter().chain(ur10::LENGTHS.links(Pose::IDENTITY)).collect()
+    }
+
     fn base(&self, joints: &Joints) -> Pose {
-        let place = joints[0];
+        // The description's base and the one of the link table differ by half a turn.
+        Pose::turned(self.base_at(joints[0]), PI)
+    }
+
+    fn base_at(&self, place: f64) -> Point {
         let height = self.shoulder - D1;
-        let base = match self.rail {
+        match self.rail {
             Axis::X => Point::new(place, self.line, height),
             Axis::Y => Point::new(self.line, place, height),
-        };
-        // The description's base and the one of the link table differ by half a turn.
-        Pose::turned(base, PI)
+        }
     }
 
     pub fn tool(&self, joints: &Joints) -> Point {

@@ -328,6 +328,12 @@ fn assert_links(frames: &[Pose], first: usize) {
     }
 }
 
+fn assert_near(a: &Pose, b: &Pose) {
+    assert!(length(a.position, b.position) < 1e-12, "{a:?} {b:?}");
+    let turned = a.rotation.iter().flatten().zip(b.rotation.iter().flatten());
+    assert!(turned.into_iter().all(|(a, b)| (a - b).abs() < 1e-12), "{a:?} {b:?}");
+}
+
 fn axis(at: Point, motion: Motion) -> crate::part::axis::Axis {
     let word = String::new();
     let link = word.clone();
@@ -388,6 +394,11 @@ fn assert_arm(arm: &Arm, count: usize, random: &mut Random) {
         assert_eq!(frames.len(), count);
         assert_eq!(frames.last(), Some(&arm.tool_pose(&Joints::new(&joints))));
         assert_links(&frames, count - 6);
+        let mut composed = Pose::IDENTITY;
+        for ((link, value), frame) in arm.links().iter().zip(&joints).zip(frames.iter()) {
+            composed = composed.then(&link.frame(*value));
+            assert_near(&composed, frame);
+        }
         // A joint moves the links from its own on, and none before it.
         for moved in 0..count {
             let mut other = joints.clone();

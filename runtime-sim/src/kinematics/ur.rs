@@ -2,6 +2,7 @@
 //!
 //! Links by Denavit and Hartenberg, in the frame of the arm's base as the maker defines it (z along the first joint).
 
+use super::links::Link;
 use super::pose::Pose;
 use super::{root, wrapped};
 use crate::point::Point;
@@ -29,6 +30,29 @@ const LAST_DIGITS: f64 = 1e-15;
 pub type Angles = [f64; 6];
 
 impl Lengths {
+    /// What is fixed behind each joint: Denavit and Hartenberg's link at the angle 0.
+    fn behind(&self) -> [Pose; 6] {
+        let Lengths { d1, a2, a3, d4, d5, tool } = *self;
+        const STRAIGHT: (f64, f64) = (0.0, 1.0);
+        const QUARTER: (f64, f64) = (1.0, 0.0);
+        const BACK: (f64, f64) = (-1.0, 0.0);
+        let link = |shift_z, shift_x, twist| Pose::link(0.0, shift_z, shift_x, twist);
+        [
+            link(d1, 0.0, QUARTER),
+            link(0.0, a2, STRAIGHT),
+            link(0.0, a3, STRAIGHT),
+            link(d4, 0.0, QUARTER),
+            link(d5, 0.0, BACK),
+            link(tool, 0.0, STRAIGHT),
+        ]
+    }
+
+    /// The joints, the base at this pose in the frame of the joint before.
+    pub fn links(&self, base: Pose) -> [Link; 6] {
+        let mut before = base;
+        self.behind().map(|behind| Link::turns(std::mem::replace(&mut before, Pose::IDENTITY), behind))
+    }
+
     /// The frames that the joints move, in the frame of the base: frame `i` is fixed to the link behind joint `i`.
     /// The first has its origin on the shoulder's axis and its y along the base's z; the second and the third lie
     /// at the far ends of upper arm and forearm, x pointing back along the link; the last is the tool, z its axis.

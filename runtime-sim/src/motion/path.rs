@@ -253,6 +253,16 @@ impl Path {
         sections
     }
 
+    /// Of each knot.
+    pub fn places(&self) -> &[f64] {
+        &self.places
+    }
+
+    /// Of each knot half of the length of its corner.
+    pub fn halves(&self) -> &[f64] {
+        &self.halves
+    }
+
     /// Both ends, and where lines meet.
     pub fn knots(&self) -> &[Joints] {
         &self.knots

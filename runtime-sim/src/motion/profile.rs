@@ -114,6 +114,11 @@ impl Phase {
         [self.place, self.speed, self.acceleration / 2.0]
     }
 
+    /// 1/s2.
+    pub fn gain(&self) -> f64 {
+        self.acceleration
+    }
+
     pub fn speed_after(&self, t: f64) -> f64 {
         self.speed + self.acceleration * t
     }

@@ -197,9 +197,8 @@ impl Working {
         }
     }
 
-    /// How it moves what is on it from now on, if its valves stay as they are; none if nothing is on it.
-    pub fn stroking(&self, now_ms: u64) -> Option<Stroking> {
-        let stroke = self.cylinder.stroke?;
+    /// The part of its stroke that it is out now, and how that goes on if its valves stay as they are, parts per second.
+    pub fn going(&self, now_ms: u64) -> (f64, f64) {
         let mut sent = self.clone();
         sent.turn(now_ms);
         let left = sent.left(now_ms);
@@ -208,7 +207,14 @@ impl Working {
             End::Out => (1.0 - left, self.cylinder.extend_ms as f64),
             End::In => (left, -(self.cylinder.retract_ms as f64)),
         };
-        Some(Stroking { stroke, out, rate: if moves { 1000.0 / way_ms } else { 0.0 } })
+        (out, if moves { 1000.0 / way_ms } else { 0.0 })
+    }
+
+    /// How it moves what is on it from now on, if its valves stay as they are; none if nothing is on it.
+    pub fn stroking(&self, now_ms: u64) -> Option<Stroking> {
+        let stroke = self.cylinder.stroke?;
+        let (out, rate) = self.going(now_ms);
+        Some(Stroking { stroke, out, rate })
     }
 
     /// What is on it at a time from the start of this span on, ms, from where it is at the inner end.

@@ -19,6 +19,8 @@ pub struct Recorder {
     trajectories: Vec<Trajectory>,
     /// How each item went on then, if it was on a conveyor.
     conveyed: Vec<Option<Conveyed>>,
+    /// The items that were.
+    on_lanes: Vec<usize>,
     /// Events that were looked at.
     read: usize,
     paths: Vec<Path>,
@@ -31,6 +33,7 @@ impl Recorder {
             arms: line.machines.iter().map(|machine| machine.arm()).collect(),
             trajectories: vec![Trajectory::Rests; line.machines.len()],
             conveyed: vec![None; items],
+            on_lanes: Vec::new(),
             read: 0,
             paths: vec![Path::default(); items],
         }
@@ -39,15 +42,20 @@ impl Recorder {
     /// Takes note of what has changed, when the plant has obeyed the outputs of a scan and nothing has moved yet.
     pub(crate) fn look(&mut self, plant: &Plant) {
         let now_ms = plant.now_ms() as f64;
-        let mut changed = self.take_events(plant);
+        let handed_over = self.take_events(plant);
+        let mut changed = handed_over.clone();
         for (machine, last) in self.trajectories.iter_mut().enumerate() {
             let trajectory = plant.trajectory(machine).since(now_ms);
             if std::mem::replace(last, trajectory.clone()).since(now_ms) != trajectory {
                 changed.extend(plant.items().borne_by(machine));
             }
         }
-        for (item, last) in self.conveyed.iter_mut().enumerate() {
-            let conveyed = plant.conveyed(item);
+        // Nothing comes onto a conveyor unless it is handed over.
+        self.on_lanes.extend(&handed_over);
+        self.on_lanes.sort_unstable();
+        self.on_lanes.dedup();
+        for &item in &self.on_lanes {
+            let (conveyed, last) = (plant.conveyed(item), &mut self.conveyed[item]);
             let is_as_before = match (last.as_ref(), conveyed.as_ref()) {
                 (Some(last), Some(conveyed)) => last.goes_on_as(conveyed),
                 (last, conveyed) => last.is_none() && conveyed.is_none(),
@@ -57,6 +65,7 @@ impl Recorder {
             }
             *last = conveyed;
         }
+        self.on_lanes.retain(|&item| self.conveyed[item].is_some());
         for item in changed {
             self.follow(plant, item);
         }

@@ -4,7 +4,7 @@ mod cache;
 mod cargo;
 mod shared_library;
 
-pub use shared_library::SharedLibrary;
+pub use shared_library::{Controllers, SharedLibrary};
 
 use super::output::hash;
 use autogen::backend::Files;

@@ -20,6 +20,9 @@ use transaction::{Change, NewText};
 
 /// Written by `commission` beside the files of a build.
 pub const RESULTS: &str = "results.json";
+pub const REPORT: &str = "report.html";
+/// What holds for the controllers in the folder alone.
+pub const OF_A_RUN: [&str; 2] = [RESULTS, REPORT];
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Overwrite {
@@ -88,29 +91,33 @@ impl Output {
         self.replace(files, &before, after, overwrite)
     }
 
-    /// Writes the results of the controllers that are in the folder.
-    pub fn write_results(&self, text: &str, overwrite: Overwrite) -> Result<(), Refusal> {
+    /// Writes what has come of the controllers that are in the folder: files of [`OF_A_RUN`]. Those of the last run that
+    /// are not among them go.
+    pub fn write_results(&self, files: &Files, overwrite: Overwrite) -> Result<(), Refusal> {
         let before = Manifest::read(&self.folder);
         let mut hashes = before.files.clone();
-        hashes.insert(RESULTS.into(), hash(text.as_bytes()));
-        let files = Files::from([(RESULTS.to_string(), text.to_string())]);
-        self.replace(&files, &before, Manifest::new(before.about.clone(), hashes), overwrite)
+        hashes.retain(|name, _| !OF_A_RUN.contains(&name.as_str()));
+        hashes.extend(files.iter().map(|(name, text)| (name.clone(), hash(text.as_bytes()))));
+        self.replace(files, &before, Manifest::new(before.about.clone(), hashes), overwrite)
     }
 
-    /// Whether results may be written: a run may be long, and it is better to know before it.
-    pub fn may_write_results(&self, overwrite: Overwrite) -> Result<(), Refusal> {
+    /// Whether these may be written: a run may be long, and it is better to know before it.
+    pub fn may_write_results(&self, names: &[&str], overwrite: Overwrite) -> Result<(), Refusal> {
         let before = Manifest::read(&self.folder);
-        let names = [RESULTS.to_string()];
+        let names: Vec<String> = names.iter().map(|name| name.to_string()).collect();
         let found = obstacles(&self.folder, names.iter());
         if !found.is_empty() {
             return Err(Refusal::InTheWay(found));
         }
-        match present(&self.folder, RESULTS)? {
-            Present::File(hash)
-                if overwrite == Overwrite::Own && before.files.get(RESULTS) != Some(&hash) =>
-            {
-                Err(Refusal::NotOurs(vec![self.folder.join(RESULTS)]))
+        let mut foreign = Vec::new();
+        for name in &names {
+            let present = present(&self.folder, name)?;
+            if present != Present::Nothing && !present.is(before.files.get(name).map(String::as_str)) {
+                foreign.push(self.folder.join(name));
             }
+        }
+        match overwrite {
+            Overwrite::Own if !foreign.is_empty() => Err(Refusal::NotOurs(foreign)),
             _ => Ok(()),
         }
     }
@@ -171,11 +178,9 @@ fn after(files: &Files, about: Map<String, Value>, before: &Manifest) -> Manifes
     let mut hashes: BTreeMap<String, String> =
         files.iter().map(|(name, text)| (name.clone(), hash(text.as_bytes()))).collect();
     let same = |name: &String, hash: &String| before.files.get(name) == Some(hash);
-    if about == before.about
-        && hashes.iter().all(|(name, hash)| same(name, hash))
-        && let Some(results) = before.files.get(RESULTS)
-    {
-        hashes.insert(RESULTS.into(), results.clone());
+    if about == before.about && hashes.iter().all(|(name, hash)| same(name, hash)) {
+        let kept = OF_A_RUN.iter().filter_map(|name| before.files.get_key_value(*name));
+        hashes.extend(kept.map(|(name, hash)| (name.clone(), hash.clone())));
     }
     Manifest::new(about, hashes)
 }

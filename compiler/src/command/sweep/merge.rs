@@ -55,7 +55,7 @@ fn merge(options: &MergeOptions) -> Result<Status, Refusal> {
         })?;
         rows.take(design.run(index), outcome);
     }
-    Ok(rows.end())
+    Ok(rows.end().0)
 }
 
 /// All parts of one sweep, in the order of their numbers.

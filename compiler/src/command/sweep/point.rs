@@ -1,18 +1,23 @@
 //! One run of a point: its values made a line, and the line run.
 
-use super::super::controllers::Notice;
+use super::super::contact;
+use super::super::controllers::{Controllers, Notice};
 use super::super::fault;
 use super::super::print;
 use super::design::{Point, RunNumber};
 use super::outcome::Outcome;
 use super::plan::Plan;
 use crate::Status;
+use autogen::backend::report;
 use autogen::backend::rust::parameters_text;
 use autogen::diagnostic::Diagnostic;
-use autogen::lower::Setting;
+use autogen::ir::System;
+use autogen::lower::{Project, Setting};
+use autogen::source::Sources;
 use runtime_sim::line::IoDelay;
 use runtime_sim::memory::Memory;
-use runtime_sim::run::{Stepping, run_again};
+use runtime_sim::report::Report;
+use runtime_sim::run::{Seen, Stepping, record, run_again};
 use serde_json::Value;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -50,7 +55,35 @@ enum End {
     NoReport(String),
 }
 
-fn run(plan: &Plan, point: &Point, replication: u32, notice: Notice) -> Result<Value, End> {
+/// The page of a run, as `commission` writes it; an error says why there is none.
+pub fn page(plan: &Plan, number: RunNumber) -> Result<String, String> {
+    let point = plan.design.point(number.point);
+    let line = &plan.lines[point.layout];
+    let made = catch_unwind(AssertUnwindSafe(|| {
+        let (project, mut controllers) = ready(plan, &point, number.replication, Notice::None)?;
+        let watched = report::watched(&project.system);
+        let ignore = &mut |_: &Seen| {};
+        let recorded = record(&project.plant, &mut controllers, Stepping::Events, &watched, ignore)
+            .map_err(End::NoReport)?;
+        let mut results = results(&recorded.report, &project.system, &line.shown)?;
+        contact::name_reasons(&mut results, &project.may_touch);
+        Ok(report::html(&project, &line.shown, &project.plant, &recorded, &results))
+    }));
+    match made {
+        Ok(Ok(page)) => Ok(page),
+        Ok(Err(End::Refused(found))) => Err(refusal(&found)),
+        Ok(Err(End::NoControllers(text) | End::NoReport(text))) => Err(text),
+        Err(_) => Err("bug: autogen panicked".into()),
+    }
+}
+
+/// The line of a point, and what controls it.
+fn ready(
+    plan: &Plan,
+    point: &Point,
+    replication: u32,
+    notice: Notice,
+) -> Result<(Project, Controllers), End> {
     let line = &plan.lines[point.layout];
     let settings: Vec<Setting> =
         line.settings.iter().zip(&point.values).map(|(of_axis, &value)| of_axis[value].clone()).collect();
@@ -63,16 +96,26 @@ fn run(plan: &Plan, point: &Point, replication: u32, notice: Notice) -> Result<V
         }
         IoDelay::Fixed(scans) => IoDelay::Fixed(scans),
     };
-    let mut controllers =
+    let controllers =
         library.controllers(&project.plant, &parameters_text(&project.system)).map_err(End::NoReport)?;
+    Ok((project, controllers))
+}
+
+fn run(plan: &Plan, point: &Point, replication: u32, notice: Notice) -> Result<Value, End> {
+    let line = &plan.lines[point.layout];
+    let (project, mut controllers) = ready(plan, point, replication, notice)?;
     let simulate = |memory: &mut Memory| {
         run_again(&project.plant, &mut controllers, Stepping::Events, memory, &mut |_| {})
     };
     let report = line.remembering(simulate).map_err(End::NoReport)?;
-    let mut report = serde_json::from_str(&report.to_json())
+    results(&report, &project.system, &line.shown)
+}
+
+fn results(report: &Report, system: &System, sources: &Sources) -> Result<Value, End> {
+    let mut results = serde_json::from_str(&report.to_json())
         .map_err(|e| End::NoReport(format!("the report is no JSON: {e}")))?;
-    fault::name(&mut report, &project.system, &line.shown);
-    Ok(report)
+    fault::name(&mut results, system, sources);
+    Ok(results)
 }
 
 /// All diagnostics in a line.

@@ -5,6 +5,7 @@ use super::interval::Sample;
 use super::outcome::Outcome;
 use super::table::Table;
 use crate::Status;
+use serde_json::Value;
 
 /// What came of one point.
 pub struct Row {
@@ -145,9 +146,9 @@ impl<'a> Rows<'a> {
         }
     }
 
-    pub fn end(self) -> Status {
-        self.table.end();
-        self.status
+    /// What all runs came to, and the rows as JSON, if the table keeps them.
+    pub fn end(self) -> (Status, Vec<Value>) {
+        (self.status, self.table.end())
     }
 }
 

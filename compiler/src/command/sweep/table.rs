@@ -19,6 +19,8 @@ pub struct Table<'a> {
     names: Vec<Name<'a>>,
     grid: Option<Grid>,
     measured: Option<Measured>,
+    /// The rows so far, if they are wanted again.
+    kept: Option<Vec<Value>>,
 }
 
 /// A column that says which point a row is.
@@ -53,7 +55,22 @@ impl<'a> Table<'a> {
         let grid = if format == TableFormat::Text && !quiet { Grid::of(design) } else { None };
         let titles: Vec<&str> = names.iter().map(|name| name.title).collect();
         let measured = options.beside.as_ref().map(|path| Measured::read(path, &titles)).transpose()?;
-        Ok(Self { design, format, quiet, compare: options.compare, rows: 0, names, grid, measured })
+        Ok(Self {
+            design,
+            format,
+            quiet,
+            compare: options.compare,
+            rows: 0,
+            names,
+            grid,
+            measured,
+            kept: None,
+        })
+    }
+
+    /// Its rows can be had when it has ended.
+    pub fn keeping(self) -> Self {
+        Self { kept: Some(Vec::new()), ..self }
     }
 
     /// Whether its rows say what they differ from the first.
@@ -102,6 +119,10 @@ impl<'a> Table<'a> {
 
     pub fn row(&mut self, row: &Row) {
         let beside = self.beside(row);
+        if self.kept.is_some() {
+            let json = self.json(row, self.columns(row, beside));
+            self.kept.iter_mut().for_each(|kept| kept.push(json.clone()));
+        }
         let columns = self.columns(row, beside);
         match self.format {
             TableFormat::Json => {
@@ -137,7 +158,8 @@ impl<'a> Table<'a> {
         self.rows += 1;
     }
 
-    pub fn end(&self) {
+    /// The rows as JSON, if it was [`Self::keeping`] them.
+    pub fn end(self) -> Vec<Value> {
         let rms = self.measured.as_ref().and_then(Measured::rms);
         if self.format == TableFormat::Json {
             let rms = rms.map_or_else(String::new, |(rms, _)| format!(",\"rms\":{}", json!(rms)));
@@ -151,6 +173,7 @@ impl<'a> Table<'a> {
         {
             say!("\nRMS of what the {ratios} ratios differ from 1: {:.1} %", rms * 100.0);
         }
+        self.kept.unwrap_or_default()
     }
 
     /// What the measured figures say of a row's point; none without such figures.

@@ -1,0 +1,91 @@
+//! When each machine did something: what a step of it leaves behind.
+
+use super::signals::{Group, Signal};
+use runtime_sim::history::History;
+use runtime_sim::io_trace::Source;
+
+/// A time in one state.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stay {
+    pub begin: u64,
+    /// The scan in which it was left, or that of the end.
+    pub end: u64,
+    pub state: usize,
+}
+
+/// Of one machine, in scans.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Acts {
+    pub stays: Vec<Stay>,
+    /// In which it has changed its state, a variable of its own or an output. Ascending.
+    pub acted: Vec<u64>,
+    /// Of each word of its inputs when it changed.
+    pub inputs: Vec<Vec<u64>>,
+}
+
+/// Of all machines, up to this scan.
+pub fn acts(history: &History, signals: &[Signal], end: u64) -> Vec<Acts> {
+    let mut all: Vec<Acts> = history.machines.iter().map(|course| stays(course, end)).collect();
+    for (signal, word) in signals.iter().zip(&history.words) {
+        let Some(machine) = signal.machine else { continue };
+        // The first entry is the value at the start.
+        let scans = word.changes.iter().skip(1).map(|(scan, _)| *scan).filter(|scan| *scan < end);
+        match (signal.group, signal.source) {
+            (Group::Input, Source::Input { word, .. }) => {
+                let inputs = &mut all[machine].inputs;
+                inputs.resize(inputs.len().max(word + 1), Vec::new());
+                inputs[word] = scans.collect();
+            }
+            (Group::Output | Group::Local, _) => all[machine].acted.extend(scans),
+            _ => {}
+        }
+    }
+    for machine in &mut all {
+        machine.acted.sort_unstable();
+        machine.acted.dedup();
+    }
+    all
+}
+
+fn stays(course: &runtime_sim::history::Course, end: u64) -> Acts {
+    let mut acts = Acts::default();
+    for stay in course.stays.iter().filter(|stay| stay.scan < end) {
+        match acts.stays.last_mut() {
+            // What it is counted as has changed alone.
+            Some(last) if last.state == stay.state => continue,
+            Some(last) => {
+                last.end = stay.scan;
+                acts.acted.push(stay.scan);
+            }
+            None => {}
+        }
+        acts.stays.push(Stay { begin: stay.scan, end, state: stay.state });
+    }
+    acts
+}
+
+impl Acts {
+    /// The stay that lasts up to this scan.
+    pub fn before(&self, scan: u64) -> Option<Stay> {
+        let number = self.stays.partition_point(|stay| stay.begin < scan);
+        number.checked_sub(1).map(|number| self.stays[number])
+    }
+
+    /// The last scan before this one in which it has acted.
+    pub fn last_act(&self, scan: u64) -> Option<u64> {
+        self.acted[..self.acted.partition_point(|act| *act < scan)].last().copied()
+    }
+
+    pub fn has_acted(&self, scan: u64) -> bool {
+        self.acted.binary_search(&scan).is_ok()
+    }
+
+    /// Whether it has left a state for another one in this scan.
+    pub fn has_left(&self, scan: u64) -> bool {
+        self.before(scan).is_some_and(|stay| stay.end == scan)
+    }
+
+    pub fn input_changed(&self, word: usize, scan: u64) -> bool {
+        self.inputs.get(word).is_some_and(|scans| scans.binary_search(&scan).is_ok())
+    }
+}

@@ -1,0 +1,203 @@
+//! What stands on the line and of what it consists, for the drawing.
+
+use super::signals::Signal;
+use crate::backend::footprint;
+use runtime_sim::io_trace::Source;
+use runtime_sim::kinematics::links::Joint;
+use runtime_sim::kinematics::pose::Pose;
+use runtime_sim::line::{Line, Obstacle};
+use runtime_sim::machine::Machine;
+use runtime_sim::part::Primitive;
+use runtime_sim::part::cylinder::Stroke;
+use runtime_sim::part::lane::Course;
+use runtime_sim::point::{Axis, Point};
+use runtime_sim::solid::{Link, Shape, Solid};
+use runtime_sim::wiring::{self, Drives};
+use serde_json::{Value, json};
+use std::collections::HashMap;
+
+/// Edge of the square that stands for an obstacle of which the layout gives no size, m.
+const UNKNOWN: f64 = 0.4;
+
+/// All of a line; `signals` are its words by name.
+pub fn machines(line: &Line, signals: &[Signal]) -> Vec<Value> {
+    let numbers: HashMap<Source, usize> =
+        signals.iter().enumerate().map(|(number, signal)| (signal.source, number)).collect();
+    let numbered = |(index, machine): (usize, &Machine)| {
+        let mut value = self::machine(machine);
+        value["lamps"] = (0..machine.parts.len())
+            .filter_map(|part| {
+                let word = machine.wiring.output_at(Drives::Level { part, level: 0 }, line.kinds.len());
+                let signal = word.and_then(|word| numbers.get(&Source::Output { machine: index, word }));
+                lamp(machine, part, signal.copied())
+            })
+            .collect();
+        value["beams"] = (0..machine.parts.len())
+            .filter_map(|part| {
+                let source = wiring::Source::Signal { part, signal: 0 };
+                let word = machine.wiring.input_at(source, line.kinds.len());
+                let signal = word.and_then(|word| numbers.get(&Source::Input { machine: index, word }));
+                beam(machine, part, signal.copied())
+            })
+            .collect();
+        value
+    };
+    line.machines.iter().enumerate().map(numbered).collect()
+}
+
+pub fn obstacles(line: &Line) -> Vec<Value> {
+    line.obstacles.iter().map(obstacle).collect()
+}
+
+fn machine(machine: &Machine) -> Value {
+    let label = footprint::label(machine);
+    json!({
+        "name": machine.name,
+        "pose": point(machine.pose),
+        "label": [label.x, label.y],
+        "bodies": machine.solids().iter().map(body).collect::<Vec<_>>(),
+        "links": links(machine),
+        "lanes": of_parts(machine, lane),
+        "places": of_parts(machine, place),
+        "stops": machine.stops().iter().copied().map(point).collect::<Vec<_>>(),
+        "cylinders": of_parts(machine, cylinder),
+        "rails": rails(machine),
+        "gates": of_parts(machine, gate),
+    })
+}
+
+fn of_parts(machine: &Machine, value: fn(&Machine, usize) -> Option<Value>) -> Vec<Value> {
+    (0..machine.parts.len()).filter_map(|part| value(machine, part)).collect()
+}
+
+fn obstacle(obstacle: &Obstacle) -> Value {
+    let flat = || Solid {
+        name: "body".into(),
+        link: Link::World,
+        pose: Pose { position: obstacle.pose, ..Pose::IDENTITY },
+        shape: Shape::Box { size: Point::new(UNKNOWN, UNKNOWN, 0.0) },
+        grips: false,
+    };
+    json!({ "name": obstacle.name, "body": body(&obstacle.solid().unwrap_or_else(flat)) })
+}
+
+fn point(point: Point) -> Value {
+    json!([point.x, point.y, point.z])
+}
+
+/// The rows of the rotation, then the position.
+fn pose(pose: &Pose) -> Value {
+    let rotation = pose.rotation.iter().flatten().copied();
+    json!(rotation.chain([pose.position.x, pose.position.y, pose.position.z]).collect::<Vec<f64>>())
+}
+
+fn body(solid: &Solid) -> Value {
+    let on = match solid.link {
+        Link::World => json!("world"),
+        Link::Route => json!("route"),
+        Link::Cylinder(part) => json!({ "cylinder": part }),
+        Link::Joint(joint) => json!({ "joint": joint }),
+    };
+    let shape = match solid.shape {
+        Shape::Box { size } => json!({ "box": point(size) }),
+        Shape::Capsule { length, radius } => json!({ "capsule": [length, radius] }),
+    };
+    json!({ "name": solid.name, "on": on, "pose": pose(&solid.pose), "shape": shape })
+}
+
+/// The joints of an arm, from the world on; null for any other machine.
+fn links(machine: &Machine) -> Value {
+    let Some(arm) = machine.arm() else { return Value::Null };
+    let link = |link: runtime_sim::kinematics::links::Link| {
+        let joint = match link.joint {
+            Joint::Slides(Axis::X) => "x",
+            Joint::Slides(Axis::Y) => "y",
+            Joint::Turns => "turns",
+        };
+        json!({ "before": pose(&link.before), "joint": joint, "behind": pose(&link.behind) })
+    };
+    arm.links().into_iter().map(link).collect()
+}
+
+fn lane(machine: &Machine, part: usize) -> Option<Value> {
+    let Primitive::Lane(lane) = &machine.parts[part].primitive else { return None };
+    let course = match lane.course {
+        Course::Axis { along, range, surface } => {
+            let along = if along == Axis::X { "x" } else { "y" };
+            json!({ "along": along, "range": range, "surface": point(surface) })
+        }
+        Course::Line { from, length, rise } => {
+            json!({ "from": point(from.position), "yaw": from.yaw, "length": length, "rise": rise })
+        }
+        Course::Arc { from, length, rise, radius } => json!({
+            "from": point(from.position), "yaw": from.yaw, "length": length, "rise": rise, "radius": radius
+        }),
+    };
+    Some(json!({
+        "part": part, "name": machine.parts[part].name, "on": lane.on, "course": course, "width": lane.width,
+        "outline": lane.outline, "speed": lane.speed
+    }))
+}
+
+/// A floor on which items lie: its sides along x and y, from the origin of what carries it.
+fn place(machine: &Machine, part: usize) -> Option<Value> {
+    let Primitive::Place(place) = &machine.parts[part].primitive else { return None };
+    let [low_x, high_x] = place.floor_x.map(|x| place.floor.x + x);
+    let [low_y, high_y] = place.floor_y.map(|y| place.floor.y + y);
+    Some(json!({
+        "part": part, "carried": place.route.is_some(), "at": point(place.at), "x": [low_x, high_x],
+        "y": [low_y, high_y], "z": place.floor.z, "orders": machine.is_place_of_orders(part)
+    }))
+}
+
+fn cylinder(machine: &Machine, part: usize) -> Option<Value> {
+    let Primitive::Cylinder(cylinder) = &machine.parts[part].primitive else { return None };
+    let stroke = cylinder.stroke.map(|stroke| match stroke {
+        Stroke::Slides(far) => json!({ "slides": point(far) }),
+        Stroke::Turns { pivot, degrees } => json!({ "pivot": point(pivot), "degrees": degrees }),
+    });
+    Some(json!({ "part": part, "name": machine.parts[part].name, "stroke": stroke }))
+}
+
+/// What a cylinder moves into a conveyor, so far from its beginning.
+fn gate(machine: &Machine, part: usize) -> Option<Value> {
+    let (kind, lane, at, cylinder, onto, width) = match &machine.parts[part].primitive {
+        Primitive::Stopper(stopper) => ("stopper", stopper.lane, stopper.at, stopper.cylinder, None, None),
+        Primitive::Diverter(d) => ("diverter", d.lane, d.at, d.cylinder, Some(d.onto), None),
+        Primitive::Pusher(p) => ("pusher", p.lane, p.at, p.cylinder, Some(p.onto), Some(p.width)),
+        _ => return None,
+    };
+    Some(json!({ "kind": kind, "lane": lane, "at": at, "cylinder": cylinder, "onto": onto, "width": width }))
+}
+
+/// With the number of the signal that says whether it is on.
+fn lamp(machine: &Machine, part: usize, signal: Option<usize>) -> Option<Value> {
+    let Primitive::Lamp(lamp) = &machine.parts[part].primitive else { return None };
+    Some(json!({ "at": [lamp.at.x, lamp.at.y], "colour": lamp.colour, "signal": signal }))
+}
+
+/// A sensor across a conveyor, so far from its beginning, with the number of the signal that says what it sees.
+fn beam(machine: &Machine, part: usize, signal: Option<usize>) -> Option<Value> {
+    let Primitive::Beam(beam) = &machine.parts[part].primitive else { return None };
+    let name = &machine.parts[part].name;
+    Some(json!({ "part": part, "name": name, "lane": beam.lane, "at": beam.at, "signal": signal }))
+}
+
+/// Where the axes of an arm may be: a line, or an area.
+fn rails(machine: &Machine) -> Vec<Value> {
+    let of_axes =
+        footprint::shapes(machine).into_iter().filter(|(_, class)| ["rail", "range"].contains(class));
+    let corners = |shape: footprint::Shape| match shape {
+        footprint::Shape::Line { from, to } => vec![from, to],
+        footprint::Shape::Rectangle { centre, size: (x, y) } => {
+            let at = |i: f64, j: f64| centre + Point::new(i * x / 2.0, j * y / 2.0, 0.0);
+            vec![at(-1.0, -1.0), at(1.0, -1.0), at(1.0, 1.0), at(-1.0, 1.0)]
+        }
+        footprint::Shape::Circle { .. } | footprint::Shape::Polygon(_) => Vec::new(),
+    };
+    let rail = |(shape, class)| {
+        let points: Vec<Value> = corners(shape).into_iter().map(|p| json!([p.x, p.y])).collect();
+        json!({ "points": points, "isArea": class == "range" })
+    };
+    of_axes.map(rail).collect()
+}

@@ -1,0 +1,94 @@
+//! The options `--report` and `--keep`: the page of a sweep, and those of some of its runs.
+
+use super::super::interrupt;
+use super::super::output::Overwrite;
+use super::super::pending::{Content, Pending};
+use super::design::{Design, RunNumber};
+use super::plan::Plan;
+use super::point;
+use autogen::backend::report::sweep::{self, Name};
+use serde_json::Value;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// What is asked for.
+pub struct Request {
+    file: Pending,
+    keep: Keep,
+}
+
+enum Keep {
+    All,
+    /// Numbers from 1.
+    Rows(BTreeSet<usize>),
+}
+
+impl Request {
+    /// None if no page is asked for; an error says what is wrong with the options.
+    pub fn new(report: Option<&Path>, keep: Option<&str>, design: &Design) -> Result<Option<Self>, String> {
+        let Some(path) = report else { return Ok(None) };
+        let points = design.points().unwrap_or(0);
+        let number = |text: &str| text.trim().parse().ok().filter(|row| (1..=points).contains(row));
+        let keep = match keep {
+            None => Keep::Rows(BTreeSet::new()),
+            Some("all") => Keep::All,
+            Some(text) => {
+                let rows = text.split(',').map(|text| {
+                    number(text).ok_or_else(|| {
+                        format!("--keep {text}: it takes `all`, or numbers of rows from 1 to {points}, such as 1,4")
+                    })
+                });
+                Keep::Rows(rows.collect::<Result<_, _>>()?)
+            }
+        };
+        Ok(Some(Self { file: Pending::new(path, Content::Report, Overwrite::Own)?, keep }))
+    }
+
+    /// Runs again what is to be kept, and writes all pages.
+    pub fn write(self, plan: &Plan, rows: &[Value]) -> Result<(), String> {
+        let wanted = |row: &usize| match &self.keep {
+            Keep::All => true,
+            Keep::Rows(rows) => rows.contains(row),
+        };
+        let folder = folder(self.file.path());
+        let mut kept = BTreeMap::new();
+        for row in (1..=rows.len()).filter(wanted) {
+            // A point that was refused has its reason in the table.
+            let Ok(page) = point::page(plan, RunNumber { point: row - 1, replication: 0 }) else { continue };
+            fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+            let name = format!("row-{row}.html");
+            let file = Pending::new(&folder.join(&name), Content::Report, Overwrite::Own)?;
+            file.write(&page)?;
+            let _writing = interrupt::writing();
+            file.keep()?;
+            kept.insert(row, format!("{}/{name}", encoded(&folder)));
+        }
+        self.file.write(&sweep::html(&names(&plan.design), rows, &kept))?;
+        let _writing = interrupt::writing();
+        self.file.keep()
+    }
+}
+
+/// Beside the page: its name without the end, and `-runs`.
+fn folder(page: &Path) -> PathBuf {
+    let stem = page.file_stem().map_or_else(Default::default, |stem| stem.to_string_lossy().into_owned());
+    page.with_file_name(format!("{stem}-runs"))
+}
+
+/// The name of the folder as an address has it.
+fn encoded(folder: &Path) -> String {
+    let name = folder.file_name().map_or_else(Default::default, |name| name.to_string_lossy().into_owned());
+    let plain = |byte: u8| byte.is_ascii_alphanumeric() || b"-_.".contains(&byte);
+    let address: String = (name.bytes())
+        .map(|byte| if plain(byte) { char::from(byte).to_string() } else { format!("%{byte:02X}") })
+        .collect();
+    format!("./{address}")
+}
+
+fn names(design: &Design) -> Vec<Name> {
+    let axes = design.axes.iter().map(|axis| Name::Set(axis.name.clone()));
+    let orders = (!design.orders.is_empty()).then_some(Name::Of("order_seed"));
+    let delays = (!design.delays.is_empty()).then_some(Name::Of("io_delay"));
+    [Name::Of("layout")].into_iter().chain(axes).chain(orders).chain(delays).collect()
+}

@@ -1,0 +1,190 @@
+//! What went on in a run: the states of all machines, how they moved, and the words of their controllers, as changes.
+
+use crate::account::Counted;
+use crate::event::Event;
+use crate::io_trace::Source;
+use crate::kinematics::arm::Joints;
+use crate::line::Line;
+use crate::part::Primitive;
+use crate::plant::Plant;
+use crate::plant::trajectory::Trajectory;
+use crate::point::Point;
+use crate::run::Seen;
+
+/// Changes of words that are kept at most.
+const MOST_CHANGES: usize = 4_000_000;
+
+#[derive(Clone, Debug, Default)]
+pub struct History {
+    /// In the order of the line's machines.
+    pub machines: Vec<Course>,
+    /// In the order in which they were asked for.
+    pub words: Vec<Word>,
+    /// The scan from which on words are not kept, as there were too many changes.
+    pub words_until: Option<u64>,
+    /// What became of items and orders.
+    pub events: Vec<Event>,
+    changes: usize,
+}
+
+/// What one machine did.
+#[derive(Clone, Debug, Default)]
+pub struct Course {
+    /// Each holds from its scan on until the next one does.
+    pub stays: Vec<Stay>,
+    /// Of a vehicle: where it is at the start. Of all else: its pose.
+    pub position: Point,
+    /// Of an arm, at the start.
+    pub joints: Option<Joints>,
+    /// Each goes on until the next one begins, or until it comes to rest.
+    pub motions: Vec<Motion>,
+    pub strokes: Vec<Track<Stroke>>,
+    /// Speeds of the surfaces of conveyors, m/s.
+    pub surfaces: Vec<Track<f64>>,
+}
+
+/// What a machine is counted as in a state.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stay {
+    /// From its start on.
+    pub scan: u64,
+    pub state: usize,
+    pub counted: Counted,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct Motion {
+    pub begin_ms: u64,
+    /// Of a vehicle, at that time.
+    pub from: Point,
+    pub trajectory: Trajectory,
+}
+
+/// Changes of a part of a machine.
+#[derive(Clone, Debug)]
+pub struct Track<T> {
+    pub part: usize,
+    /// Times in ms, and what holds from then on.
+    pub changes: Vec<(u64, T)>,
+}
+
+/// A cylinder as it goes on, 0 (in) to 1 (out).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stroke {
+    pub out: f64,
+    /// 1/s.
+    pub rate: f64,
+}
+
+/// A word of a controller.
+#[derive(Clone, Debug)]
+pub struct Word {
+    pub source: Source,
+    /// Scans, and what holds from then on.
+    pub changes: Vec<(u64, f64)>,
+}
+
+impl History {
+    pub fn new(line: &Line, watched: &[Source]) -> Self {
+        let course = |machine: &crate::machine::Machine| {
+            let numbers = |wanted: fn(&Primitive) -> bool| {
+                let parts = machine.parts.iter().enumerate();
+                parts.filter(move |(_, part)| wanted(&part.primitive)).map(|(number, _)| number)
+            };
+            let cylinders = numbers(|part| matches!(part, Primitive::Cylinder(_)));
+            let lanes = numbers(|part| matches!(part, Primitive::Lane(_)));
+            Course {
+                strokes: cylinders.map(|part| Track { part, changes: Vec::new() }).collect(),
+                surfaces: lanes.map(|part| Track { part, changes: Vec::new() }).collect(),
+                ..Course::default()
+            }
+        };
+        Self {
+            machines: line.machines.iter().map(course).collect(),
+            words: watched.iter().map(|source| Word { source: *source, changes: Vec::new() }).collect(),
+            ..Self::default()
+        }
+    }
+
+    /// A scan in which something has happened.
+    pub(crate) fn words(&mut self, seen: &Seen) {
+        if self.words_until.is_some() {
+            return;
+        }
+        for word in &mut self.words {
+            let value = word.source.value(seen);
+            if word.changes.last().is_none_or(|(_, last)| last.to_bits() != value.to_bits()) {
+                word.changes.push((seen.scan, value));
+                self.changes += 1;
+            }
+        }
+        if self.changes > MOST_CHANGES {
+            self.words_until = Some(seen.scan + 1);
+        }
+    }
+
+    /// The plant has obeyed the outputs of a scan, and nothing has moved yet.
+    pub(crate) fn look(&mut self, plant: &Plant) {
+        let now_ms = plant.now_ms();
+        for (machine, course) in self.machines.iter_mut().enumerate() {
+            course.look(machine, plant, now_ms);
+        }
+    }
+
+    /// From the start of a scan on.
+    pub(crate) fn stay(&mut self, machine: usize, stay: Stay) {
+        let stays = &mut self.machines[machine].stays;
+        let is_new = |last: &Stay| (last.state, last.counted) != (stay.state, stay.counted);
+        if stays.last().is_none_or(is_new) {
+            stays.push(stay);
+        }
+    }
+
+    pub(crate) fn finish(mut self, plant: &Plant) -> Self {
+        self.events = plant.items().log().to_vec();
+        self
+    }
+}
+
+impl Course {
+    fn look(&mut self, machine: usize, plant: &Plant, now_ms: u64) {
+        if now_ms == 0 {
+            self.position = plant.position(machine).unwrap_or_default();
+            self.joints = plant.joints(machine);
+        }
+        let trajectory = plant.trajectory(machine).since(now_ms as f64);
+        let goes_on = match self.motions.last() {
+            None => trajectory == Trajectory::Rests,
+            Some(last) => {
+                last.trajectory == trajectory || trajectory == Trajectory::Rests && last.is_over(now_ms)
+            }
+        };
+        if !goes_on {
+            let from = plant.position(machine).unwrap_or_default();
+            self.motions.push(Motion { begin_ms: now_ms, from, trajectory });
+        }
+        for track in &mut self.strokes {
+            let Some((out, rate)) = plant.cylinder_going(machine, track.part) else { continue };
+            let stroke = Stroke { out, rate };
+            track.note(now_ms, stroke, |last| last.rate != stroke.rate);
+        }
+        for track in &mut self.surfaces {
+            let Some(speed) = plant.surface_speed(machine, track.part) else { continue };
+            track.note(now_ms, speed, |last| *last != speed);
+        }
+    }
+}
+
+impl Motion {
+    fn is_over(&self, ms: u64) -> bool {
+        self.trajectory == Trajectory::Rests || self.trajectory.clone().since(ms as f64) == Trajectory::Rests
+    }
+}
+
+impl<T> Track<T> {
+    fn note(&mut self, now_ms: u64, value: T, differs: impl Fn(&T) -> bool) {
+        if self.changes.last().is_none_or(|(_, last)| differs(last)) {
+            self.changes.push((now_ms, value));
+        }
+    }
+}

@@ -1,0 +1,161 @@
+'use strict';
+/* Figures of the whole run: what limits it, what each machine did with its time, and throughput. */
+
+const Figures = (() => {
+  const { raw, results } = Data;
+  const percent = (part, whole) => `${((100 * part) / (whole || 1)).toFixed(1)} %`;
+
+  function head() {
+    document.title = `${raw.name} – report`;
+    byId('name').textContent = raw.name;
+    const verdict = byId('verdict');
+    verdict.textContent = results.reason;
+    verdict.className = 'verdict ' + (results.finished ? 'good' : 'wrong');
+    const legs = raw.limit.machines, whole = legs.reduce((sum, { s }) => sum + s, 0);
+    const contacts = (results.collisions || []).length;
+    const figures = [
+      results.orders ? ['orders made', `${results.orders_done} of ${results.orders}`] : null,
+      results.seconds_per_order ? ['seconds per order', results.seconds_per_order.toFixed(2)] : null,
+      ['simulated', clock(Data.endMs)],
+      ['contacts', String(contacts)],
+      legs.length > 1 ? ['limited by', `${Data.machines[legs[0].machine].name}, ${percent(legs[0].s, whole)}`] : null,
+    ];
+    byId('figures').append(...figures.filter(Boolean).map(([name, value]) =>
+      element('div', 'figure', element('dt', '', name), element('dd', '', value))));
+  }
+
+  /* ---- What limits the line ---- */
+
+  function limit() {
+    const { machines, from_s, to_s } = raw.limit;
+    const box = byId('limit');
+    if (!machines.length) {
+      box.append(element('p', 'muted', 'Nothing happened in this run.'));
+      return;
+    }
+    const whole = machines.reduce((sum, { s }) => sum + s, 0);
+    const name = ({ machine }) => Data.machines[machine].name;
+    const [first, second] = machines;
+    const states = (of) => of.states.slice(0, 3).map(([state, s]) => `${Data.stateName(of.machine, state)} ${s.toFixed(1)} s`).join(', ');
+    const goal = raw.made.length ? 'the last order' : raw.collected.length ? 'the last item that was collected' : 'the last thing that happened';
+    box.append(element('p', 'lead', element('strong', '', name(first)),
+      ` limits this run: ${percent(first.s, whole)} of the time that led to ${goal} (${first.s.toFixed(1)} of ${whole.toFixed(1)} s) was spent on what it did itself, most of it in ${states(first)}.`));
+    if (second) {
+      box.append(element('p', '', 'Next: ', element('strong', '', name(second)),
+        ` with ${percent(second.s, whole)} (${second.s.toFixed(1)} s), most of it in ${states(second)}.`));
+    }
+    box.append(element('div', 'bars', ...machines.slice(0, 8).map((of) => {
+      const bar = element('div', 'bar');
+      bar.style.width = `${(100 * of.s) / first.s}%`;
+      const line = element('button', 'bar-row', element('span', 'bar-name', name(of)), element('span', 'bar-room', bar),
+        element('span', 'number', percent(of.s, whole)));
+      line.addEventListener('click', () => Player.choose({ machine: of.machine }));
+      return line;
+    })));
+    box.append(element('details', 'method', element('summary', '', 'How it was found'), element('p', '',
+      `Backwards from ${goal} at ${clock(to_s * 1000)} to ${clock(from_s * 1000)}. A machine left its state when an input of its own changed, or a timer of the state was over: then this time is its own. Or another machine let it go on, which acted in the same scan or in the one before: then its waiting counts for nothing, and the path goes on with the other one. So all shares add up to the whole time. A second less in a state on the path makes the run shorter by one second at most: another path may be as long. In the chart above the path is the line under the bars.`)));
+  }
+
+  /* ---- Utilisation ---- */
+
+  function use() {
+    const whole = results.simulated_s || 1;
+    const rows = Data.machines.map((machine) => ({ machine, ...machine.account }));
+    const share = (key) => ({
+      name: key, isNumber: true, show: (row) => percent(row[key + '_s'], whole), sort: (row) => row[key + '_s'],
+    });
+    const bar = (row) => {
+      const parts = Data.COUNTED.map((key) => {
+        const part = element('span', key);
+        part.style.width = `${(100 * row[key + '_s']) / whole}%`;
+        part.title = `${key} ${row[key + '_s'].toFixed(2)} s`;
+        return part;
+      });
+      return element('div', 'stack', ...parts);
+    };
+    const awaited = (row) => Object.entries(row.waiting_for || {}).sort((a, b) => b[1] - a[1]).map(([name]) => name);
+    byId('use').append(sortedTable([
+      { name: 'machine', show: (row) => row.machine.name, sort: (row) => row.machine.number },
+      { name: 'time', show: bar, sort: (row) => row.moving_s + row.working_s },
+      ...Data.COUNTED.map(share),
+      { name: 'waited for', show: (row) => awaited(row).slice(0, 4).join(', ') + (awaited(row).length > 4 ? ', …' : '') },
+    ], rows, { chosen: (row) => Player.choose({ machine: row.machine.number }), empty: 'There are no machines.' }));
+  }
+
+  /* ---- Throughput ---- */
+
+  function throughput() {
+    const width = 3, isOrders = raw.made.length > 0;
+    const list = isOrders ? raw.made : raw.collected;
+    const times = [];
+    for (let i = 0; i < list.length; i += width) times.push(list[i] * Data.scanMs);
+    const box = byId('throughput'), what = isOrders ? 'orders made' : 'items collected';
+    if (!times.length) {
+      box.append(element('p', 'muted', 'No order was made, and no item came into a sink.'));
+      return;
+    }
+    const perHour = (times.length / Data.endMs) * 3600000;
+    box.append(element('p', '', `${times.length} ${what}, ${perHour.toFixed(1)} per hour over the whole run.`));
+    box.append(chart(times, what));
+  }
+
+  /* Bars: how many in each of some equal times, per hour. A line: how many so far. */
+  function chart(times, what) {
+    const [W, H, L, R, T, B] = [640, 250, 48, 48, 26, 30];
+    const spans = [1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600, 7200, 14400].map((s) => s * 1000);
+    const wanted = Math.min(Math.max(times.length, 6), 36);
+    const span = spans.find((ms) => Data.endMs / ms <= wanted) || spans[spans.length - 1];
+    const counts = new Array(Math.ceil(Data.endMs / span)).fill(0);
+    times.forEach((ms) => counts[Math.min(Math.floor(ms / span), counts.length - 1)]++);
+    const x = (ms) => L + (ms / Data.endMs) * (W - L - R);
+    // The last one may be shorter than the others.
+    const rates = counts.map((n, i) => n / ((Math.min((i + 1) * span, Data.endMs) - i * span) / 3600000));
+    const [mostRate, mostCount] = [nice(Math.max(...rates)), nice(times.length)];
+    const y = (share) => H - B - share * (H - T - B);
+    const made = svg('svg', { viewBox: `0 0 ${W} ${H}`, class: 'chart', role: 'img' });
+    for (const share of [0, 0.5, 1]) {
+      made.append(svg('line', { x1: L, x2: W - R, y1: y(share), y2: y(share), class: 'grid' }));
+      made.append(svg('text', { x: L - 6, y: y(share) + 4, class: 'left' }, String(Math.round(mostRate * share * 100) / 100)));
+      made.append(svg('text', { x: W - R + 6, y: y(share) + 4 }, String(Math.round(mostCount * share * 100) / 100)));
+    }
+    rates.forEach((rate, i) => {
+      const [from, to] = [x(i * span), x(Math.min((i + 1) * span, Data.endMs))];
+      const bar = svg('rect', { x: from + 0.5, width: Math.max(to - from - 1, 0.5), y: y(rate / mostRate), height: (rate / mostRate) * (H - T - B), class: 'rate' });
+      bar.append(svg('title', {}, `${clock(i * span, 0)} to ${clock(Math.min((i + 1) * span, Data.endMs), 0)}: ${counts[i]}`));
+      made.append(bar);
+    });
+    let d = `M${x(0)} ${y(0)}`;
+    times.forEach((ms, i) => {
+      d += `H${x(ms).toFixed(1)}V${y((i + 1) / mostCount).toFixed(1)}`;
+    });
+    made.append(svg('path', { d: d + `H${x(Data.endMs)}`, class: 'sum' }));
+    for (const share of [0, 0.25, 0.5, 0.75, 1]) {
+      made.append(svg('text', { x: x(share * Data.endMs), y: H - 10, class: 'middle' }, clock(share * Data.endMs, 0)));
+    }
+    made.append(svg('text', { x: 4, y: 14, class: 'rate-name' }, `per hour, in steps of ${span >= 60000 ? span / 60000 + ' min' : span / 1000 + ' s'}`));
+    made.append(svg('text', { x: W - 4, y: 14, class: 'left sum-name' }, `${what} so far`));
+    return made;
+  }
+
+  /* ---- What the page does not have ---- */
+
+  function foot() {
+    const notes = [...raw.left_out];
+    if (raw.words_until_s !== null) {
+      notes.push(`Signals were recorded until ${clock(raw.words_until_s * 1000)}, as there were too many changes; what limits the line is found for the time until then.`);
+    }
+    byId('left-out').append(...notes.map((note) => element('p', '', note)));
+    byId('left-out').hidden = !notes.length;
+    byId('tool').textContent = `${raw.tool} · trace ${results.trace_hash} · scan ${Data.scanMs} ms`;
+  }
+
+  function draw() {
+    head();
+    limit();
+    use();
+    throughput();
+    foot();
+  }
+
+  return { draw };
+})();

@@ -1,0 +1,75 @@
+'use strict';
+/* What every page is made of: elements, tables and charts. */
+
+/* An element with a class and children; strings become text, never markup. */
+function element(tag, classes, ...children) {
+  const made = document.createElement(tag);
+  if (classes) made.className = classes;
+  made.append(...children.filter((child) => child !== null && child !== undefined));
+  return made;
+}
+
+function byId(id) {
+  return document.getElementById(id);
+}
+
+/* Rows that are shown at first. */
+const MOST_ROWS = 100;
+
+/* A table that is sorted by a click on a column. `columns`: name, what a cell shows, by what it is sorted; numbers stand to the right. */
+function sortedTable(columns, rows, { chosen, first = 0, empty }) {
+  if (!rows.length) return element('p', 'muted', empty);
+  let by = first, isDown = false, most = MOST_ROWS;
+  const heads = columns.map(({ name, isNumber }, i) => {
+    const button = element('button', 'plain', name);
+    button.addEventListener('click', () => {
+      [by, isDown] = [i, by === i ? !isDown : false];
+      fill();
+    });
+    const head = element('th', isNumber ? 'number' : '', button);
+    head.scope = 'col';
+    return head;
+  });
+  const body = element('tbody', ''), more = element('button', 'more');
+  more.addEventListener('click', () => {
+    most = Infinity;
+    fill();
+  });
+  const order = (a, b) => {
+    const [p, q] = [a, b].map(columns[by].sort || columns[by].show);
+    if (p === q) return 0;
+    if (p === null || p === undefined) return 1;
+    if (q === null || q === undefined) return -1;
+    return (typeof p === 'string' ? p.localeCompare(q, 'en', { numeric: true }) : p - q) * (isDown ? -1 : 1);
+  };
+  function fill() {
+    heads.forEach((head, i) => head.setAttribute('aria-sort', i !== by ? 'none' : isDown ? 'descending' : 'ascending'));
+    body.replaceChildren(...[...rows].sort(order).slice(0, most).map((row) => {
+      const line = element('tr', chosen ? 'link' : '', ...columns.map((column) => {
+        return element('td', column.isNumber ? 'number' : '', column.show(row));
+      }));
+      if (chosen) line.addEventListener('click', () => chosen(row));
+      return line;
+    }));
+    more.hidden = rows.length <= most;
+    more.textContent = `show all ${rows.length} rows`;
+  }
+  fill();
+  return element('div', 'scroll', element('table', 'data', element('thead', '', element('tr', '', ...heads)), body), more);
+}
+
+const SVG = 'http://www.w3.org/2000/svg';
+
+/* An element of a drawing. */
+function svg(tag, attributes, text) {
+  const made = document.createElementNS(SVG, tag);
+  Object.entries(attributes).forEach(([name, value]) => made.setAttribute(name, value));
+  if (text !== undefined) made.textContent = text;
+  return made;
+}
+
+/* The next number over this one that is easy to read. */
+function nice(most) {
+  const unit = 10 ** Math.floor(Math.log10(most));
+  return [1, 1.5, 2, 3, 4, 5, 6, 8, 10].map((n) => n * unit).find((n) => n >= most) || most;
+}

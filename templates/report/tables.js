@@ -1,0 +1,93 @@
+'use strict';
+/* Orders, items, contacts and alarms, as tables that can be sorted. */
+
+const Tables = (() => {
+  /* Where an item was, one after another, and from when on. */
+  function stations(item) {
+    const all = [];
+    for (const segment of item.segments) {
+      const { text } = Motion.carrierOf(segment);
+      if (!all.length || all[all.length - 1].text !== text) all.push({ text, ms: segment[0] });
+    }
+    return all;
+  }
+
+  function orders() {
+    const rows = Data.results.order_times || [];
+    const duration = (order) => (order.opened_s === null || order.made_s === null ? null : order.made_s - order.opened_s);
+    return sortedTable([
+      { name: 'order', isNumber: true, show: (o) => String(o.order), sort: (o) => o.order },
+      { name: 'station', show: (o) => o.station },
+      { name: 'opened', isNumber: true, show: (o) => (o.opened_s === null ? '–' : clock(o.opened_s * 1000)), sort: (o) => o.opened_s },
+      { name: 'made', isNumber: true, show: (o) => (o.made_s === null ? '–' : clock(o.made_s * 1000)), sort: (o) => o.made_s },
+      { name: 'seconds', isNumber: true, show: (o) => seconds(duration(o)), sort: duration },
+    ], rows, {
+      chosen: (o) => Player.seek((o.made_s === null ? o.opened_s || 0 : o.made_s) * 1000),
+      empty: 'The scenario orders nothing.',
+    });
+  }
+
+  function items() {
+    const rows = Motion.items.filter((item) => item.segments.length).map((item) => {
+      const way = stations(item);
+      const isGone = ['sink', 'collector', 'order'].includes(Motion.carrierOf(item.segments[item.segments.length - 1]).what);
+      return { item, way, begin: item.segments[0][0], end: isGone ? item.endMs : null };
+    });
+    const kind = ({ item }) => Data.raw.kinds[item.kind].name;
+    return sortedTable([
+      { name: 'item', show: ({ item }) => item.name, sort: ({ item }) => item.name },
+      { name: 'kind', show: kind },
+      { name: 'came', isNumber: true, show: (r) => clock(r.begin), sort: (r) => r.begin },
+      { name: 'left', isNumber: true, show: (r) => (r.end === null ? '–' : clock(r.end)), sort: (r) => r.end },
+      { name: 'on the line, s', isNumber: true, show: (r) => (r.end === null ? '–' : seconds((r.end - r.begin) / 1000)), sort: (r) => (r.end === null ? null : r.end - r.begin) },
+      { name: 'path', show: ({ way }) => way.map(({ text }) => text).join(' → ') },
+    ], rows, {
+      first: 2,
+      chosen: ({ item, begin }) => {
+        Player.choose({ item: item.number });
+        if (!Motion.itemAt(item.number, Player.time())) Player.seek(begin);
+      },
+      empty: 'No item came onto the line.',
+    });
+  }
+
+  function contacts() {
+    return sortedTable([
+      { name: 'time', isNumber: true, show: (c) => clock(c.time_s * 1000, 3), sort: (c) => c.time_s },
+      { name: 'between', show: (c) => `${c.pair[0]} (${c.parts[0]}) and ${c.pair[1]} (${c.parts[1]})` },
+      { name: 'at, m', show: (c) => c.place.map((v) => v.toFixed(3)).join(', ') },
+      { name: 'times', isNumber: true, show: (c) => String(c.count), sort: (c) => c.count },
+      { name: 'allowed', show: (c) => (c.allowed ? c.reason || 'yes' : 'no') },
+    ], Data.results.collisions || [], {
+      chosen: (c) => Player.seek(c.time_s * 1000),
+      empty: 'The collision check found no contact.',
+    });
+  }
+
+  function alarms() {
+    const rows = Data.raw.alarms.map(([s, machine, text]) => ({ s, machine, text }));
+    const { fault } = Data.results;
+    if (fault) rows.push({ s: Data.results.simulated_s, machine: Data.machines.findIndex(({ name }) => name === fault.robot), text: Data.results.reason });
+    const name = ({ machine }) => (machine < 0 ? 'the line' : Data.machines[machine].name);
+    return sortedTable([
+      { name: 'time', isNumber: true, show: ({ s }) => clock(s * 1000), sort: ({ s }) => s },
+      { name: 'machine', show: name },
+      { name: 'what happened', show: ({ text }) => text },
+    ], rows, {
+      chosen: ({ s, machine }) => {
+        if (machine >= 0) Player.choose({ machine });
+        Player.seek(s * 1000);
+      },
+      empty: 'No fault, no command that ended in an error, no stop.',
+    });
+  }
+
+  function draw() {
+    byId('orders').append(orders());
+    byId('items').append(items());
+    byId('contacts').append(contacts());
+    byId('alarms').append(alarms());
+  }
+
+  return { draw, stations };
+})();

@@ -1,0 +1,116 @@
+'use strict';
+/* The time line that the Gantt chart and the signals share: what part of the run is seen, and its axis. */
+
+const Timeline = (() => {
+  const GUTTER = 168;
+  const view = { from: 0, to: Math.max(Data.endMs, 1) };
+  const listeners = [];
+  /* So much is seen at least, ms. */
+  const LEAST = 20;
+
+  function show(from, to) {
+    const span = Math.min(Math.max(to - from, LEAST), Math.max(Data.endMs, LEAST));
+    view.from = Math.min(Math.max(from, 0), Math.max(Data.endMs - span, 0));
+    view.to = view.from + span;
+    listeners.forEach((listener) => listener());
+  }
+
+  function zoom(factor, around = Player.time()) {
+    const centre = around < view.from || around > view.to ? (view.from + view.to) / 2 : around;
+    show(centre - (centre - view.from) / factor, centre + (view.to - centre) / factor);
+  }
+
+  const x = (ms, width) => GUTTER + ((ms - view.from) / (view.to - view.from)) * (width - GUTTER);
+  const ms = (px, width) => view.from + ((px - GUTTER) / (width - GUTTER)) * (view.to - view.from);
+
+  const STEPS = [10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000, 15000, 30000, 60000, 120000, 300000, 600000,
+    900000, 1800000, 3600000, 7200000, 14400000, 21600000];
+
+  function ticks(width) {
+    const step = STEPS.find((ms) => (ms / (view.to - view.from)) * (width - GUTTER) >= 84) || 43200000;
+    const all = [];
+    for (let at = Math.ceil(view.from / step) * step; at <= view.to; at += step) all.push(at);
+    return { all, decimals: step >= 1000 ? 0 : step >= 100 ? 1 : 2 };
+  }
+
+  /* The axis along the top, if that has a height, and lines down from it. */
+  function axis(context, width, height, top) {
+    const colours = Colours.get();
+    const { all, decimals } = ticks(width);
+    context.font = `11px ${colours.font}`;
+    context.textBaseline = 'middle';
+    context.textAlign = 'center';
+    context.strokeStyle = colours.grid;
+    context.lineWidth = 1;
+    context.beginPath();
+    for (const at of all) {
+      const px = Math.round(x(at, width)) + 0.5;
+      context.moveTo(px, top);
+      context.lineTo(px, height);
+    }
+    context.stroke();
+    context.fillStyle = colours.muted;
+    for (const at of top ? all : []) {
+      const text = clock(at, decimals), half = context.measureText(text).width / 2;
+      context.fillText(text, Math.min(Math.max(x(at, width), GUTTER + half), width - half - 2), top / 2);
+    }
+  }
+
+  /* Where the plan is. */
+  function cursor(context, width, height) {
+    const px = x(Player.time(), width);
+    if (px < GUTTER || px > width) return;
+    context.strokeStyle = Colours.get().accent;
+    context.lineWidth = 1.5;
+    context.beginPath();
+    context.moveTo(px, 0);
+    context.lineTo(px, height);
+    context.stroke();
+  }
+
+  /* Pointer and wheel on a canvas of this time line; `press` is told where it was pressed without being moved. */
+  function listen(canvas, press) {
+    let grabbed = null;
+    canvas.addEventListener('wheel', (event) => {
+      if (event.ctrlKey || event.metaKey) {
+        event.preventDefault();
+        zoom(Math.exp(-event.deltaY / 300), ms(event.offsetX, canvas.clientWidth));
+      } else if (event.shiftKey || Math.abs(event.deltaX) > Math.abs(event.deltaY)) {
+        event.preventDefault();
+        const by = (((event.deltaX || event.deltaY) / (canvas.clientWidth - GUTTER)) * (view.to - view.from));
+        show(view.from + by, view.to + by);
+      }
+    }, { passive: false });
+    canvas.addEventListener('pointerdown', (event) => {
+      grabbed = { x: event.offsetX, y: event.offsetY, from: view.from, to: view.to, isMoved: false };
+      canvas.setPointerCapture(event.pointerId);
+    });
+    canvas.addEventListener('pointermove', (event) => {
+      if (!grabbed) return;
+      const by = event.offsetX - grabbed.x;
+      if (Math.abs(by) > 4) grabbed.isMoved = true;
+      if (!grabbed.isMoved) return;
+      const span = grabbed.to - grabbed.from;
+      const shift = (-by / (canvas.clientWidth - GUTTER)) * span;
+      show(grabbed.from + shift, grabbed.to + shift);
+    });
+    canvas.addEventListener('pointerup', (event) => {
+      if (grabbed && !grabbed.isMoved) {
+        press(event.offsetX, event.offsetY);
+        if (event.offsetX >= GUTTER) Player.seek(ms(event.offsetX, canvas.clientWidth));
+      }
+      grabbed = null;
+    });
+    canvas.addEventListener('dblclick', (event) => zoom(3, ms(event.offsetX, canvas.clientWidth)));
+  }
+
+  /* Text that is too long ends in dots. */
+  function clipped(context, text, width) {
+    if (context.measureText(text).width <= width) return text;
+    let end = text.length;
+    while (end > 1 && context.measureText(text.slice(0, end) + '…').width > width) end--;
+    return end > 1 ? text.slice(0, end) + '…' : '';
+  }
+
+  return { GUTTER, view, show, zoom, x, ms, axis, cursor, listen, clipped, onChange: (f) => listeners.push(f) };
+})();

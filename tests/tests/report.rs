@@ -1,0 +1,239 @@
+//! The report of a run, in a browser: what it shows is what the run recorded.
+
+use autogen::backend::report;
+use autogen::executor::Executor;
+use autogen_tests::{Texts, ariac, browser, side_by_side};
+use runtime_sim::item;
+use runtime_sim::path::table_csv;
+use runtime_sim::run::{Recorded, Seen, Stepping, record};
+use serde_json::Value;
+use std::collections::BTreeMap;
+
+/// Rows of the table of places are so far apart, and rounded to a millionth.
+const EVERY_MS: u64 = 100;
+const ROUNDED: f64 = 0.6e-6;
+/// What the page rounds itself, m.
+const DRAWN: f64 = 1e-6;
+
+struct Run {
+    recorded: Recorded,
+    results: Value,
+    page: String,
+    table: String,
+}
+
+fn run(texts: &Texts) -> Run {
+    let outcome = texts.compile();
+    let project = outcome.project.expect("a line that is right");
+    let (line, mut executor) = (&project.plant, Executor::new(&project.system));
+    let watched = report::watched(&project.system);
+    let ignore = &mut |_: &Seen| {};
+    let recorded = record(line, &mut executor, Stepping::Events, &watched, ignore).expect("a run");
+    let results: Value = serde_json::from_str(&recorded.report.to_json()).expect("JSON");
+    let page = report::html(&project, &outcome.sources, line, &recorded, &results);
+    let items: Vec<usize> = (0..item::names(line).len()).collect();
+    let table = table_csv(line, &recorded.paths, &items, EVERY_MS);
+    Run { recorded, results, page, table }
+}
+
+/// One order of the default line.
+fn default_line() -> Texts {
+    let scenario = autogen_tests::text("examples/ariac2021/scenario.json");
+    Texts { scenario: Some(scenario.replace("\"count\": 8", "\"count\": 1")), ..ariac("default") }
+}
+
+/// The lines that are drawn: arms and vehicles, arms alone, lanes on turning and sliding cylinders.
+fn lines() -> Vec<(&'static str, Texts)> {
+    let mut tending = side_by_side("tending/tending");
+    tending.scenario = tending.scenario.map(|text| text.replace("41", "2"));
+    let scene = |name: &'static str| (name, side_by_side(&format!("scenes/{name}")));
+    vec![
+        ("default", default_line()),
+        ("tending", tending),
+        ("sorting", side_by_side("sorting/sorting")),
+        scene("separating_station"),
+        scene("elevator"),
+        scene("converge_station"),
+    ]
+}
+
+/// The data of a page.
+fn data(page: &str) -> Value {
+    let (_, rest) = page.split_once("id=\"data\">").expect("the data");
+    let (json, _) = rest.split_once("</script>").expect("the end of the data");
+    serde_json::from_str(json).expect("JSON")
+}
+
+/// Ten times, all of them multiples of the table's.
+fn ten_times(end_s: f64) -> Vec<u64> {
+    let steps = (end_s * 1000.0) as u64 / EVERY_MS;
+    (0..10).map(|i| (steps * (2 * i + 1) / 20) * EVERY_MS).collect()
+}
+
+/// Places of the items on the line at a time by the table; two where an item changes its carrier.
+fn places(table: &str, ms: u64) -> BTreeMap<String, Vec<[f64; 3]>> {
+    let time = format!("{:.6}", ms as f64 / 1000.0);
+    let mut places: BTreeMap<String, Vec<[f64; 3]>> = BTreeMap::new();
+    for row in table.lines().map(|row| row.split(',').collect::<Vec<_>>()) {
+        if row[2] == time {
+            let place = [3, 4, 5].map(|column| row[column].parse().expect("a number"));
+            places.entry(row[0].into()).or_default().push(place);
+        }
+    }
+    places
+}
+
+fn is_near(shown: &Value, place: &[f64; 3]) -> bool {
+    let shown = shown.as_array().expect("a place");
+    let off = |i: usize| (shown[i].as_f64().expect("a number") - place[i]).abs();
+    (0..3).all(|i| off(i) < ROUNDED + DRAWN)
+}
+
+#[test]
+fn the_page_draws_plays_and_zooms_and_shows_the_places_of_the_run() {
+    let Some(browser) = browser::browser() else { return };
+    for (name, texts) in lines() {
+        let run = run(&texts);
+        let end_s = run.results["simulated_s"].as_f64().expect("a number");
+        let times = ten_times(end_s);
+        let script = format!("const TIMES = {times:?};\n{}", include_str!("../fixtures/report/driver.js"));
+        let found = browser::found(browser, name, &run.page, &script);
+        let found: Value = serde_json::from_str(&found).expect("JSON");
+        assert_eq!(found["errors"], Value::Array(Vec::new()), "{name}");
+
+        for (canvas, least) in [("plan", 5), ("gantt", 5), ("signals", 4)] {
+            assert!(
+                found["colours"][canvas].as_u64() >= Some(least),
+                "{name}: {canvas} {}",
+                found["colours"]
+            );
+        }
+        let mut compared = 0;
+        for (ms, drawn) in times.iter().zip(found["drawn"].as_array().expect("a list")) {
+            assert_eq!(drawn["shown"].as_f64(), Some(*ms as f64), "{name}");
+            let places = places(&run.table, *ms);
+            let shown = drawn["items"].as_object().expect("items");
+            for (item, place) in shown {
+                let is =
+                    places.get(item).is_some_and(|known| known.iter().any(|known| is_near(place, known)));
+                assert!(is, "{name}: {item} at {ms} ms: {place} is not {:?}", places.get(item));
+            }
+            let gone = |item: &str| has_left(&run, item, *ms);
+            let missing = places.keys().find(|item| !shown.contains_key(*item) && !gone(item));
+            assert_eq!(missing, None, "{name} at {ms} ms");
+            compared += shown.len();
+        }
+        assert!(compared >= 10, "{name}: {compared} places");
+
+        let played = &found["played"];
+        assert!(played["to"].as_f64() > played["from"].as_f64(), "{name}: {played}");
+        assert!(played["rests"] == true && played["changed"] == true, "{name}: {played}");
+        assert_eq!(found["next"]["time"], found["next"]["first"], "{name}");
+        let zoomed = &found["zoomed"];
+        let ratio = zoomed["whole"].as_f64().expect("a number") / zoomed["line"].as_f64().expect("a number");
+        assert!((ratio - 2.0).abs() < 1e-9 && zoomed["plan"] == true, "{name}: {zoomed}");
+        let machine = data(&run.page)["machines"][0]["name"].as_str().expect("a name").to_string();
+        assert!(found["inspector"].as_str().is_some_and(|text| text.starts_with(&machine)), "{name}");
+        let percent = |value: &Value| -> f64 {
+            value.as_str().and_then(|text| text.strip_suffix(" %")?.parse().ok()).expect("a percentage")
+        };
+        assert!(percent(&found["sorted"][0]) <= percent(&found["sorted"][1]), "{name}: {}", found["sorted"]);
+    }
+}
+
+/// Whether the table has an item at a time only since it leaves the line then.
+fn has_left(run: &Run, item: &str, ms: u64) -> bool {
+    let time = format!("{:.6}", ms as f64 / 1000.0);
+    let mut rows = run.table.lines().rev().map(|row| row.split(',').collect::<Vec<_>>());
+    let last = rows.find(|row| row[0] == item).expect("a row of the item");
+    last[2] == time && (last[6] == "collector" || last[6].starts_with("order "))
+}
+
+/// What stands in a text of the line is text on the page.
+#[test]
+fn text_of_a_specification_is_never_markup() {
+    let hostile =
+        "</script><img src=x onerror=\"errors.push('markup')\"><script>errors.push('script')</script><!--";
+    let plain = run(&side_by_side("scenes/lifting_table"));
+    let mut texts = side_by_side("scenes/lifting_table");
+    let own = texts.specs[0].replacen("automaton ", &format!("/// {hostile}\nautomaton "), 1);
+    texts.specs[0] = own.replacen("    state ", &format!("    /// {hostile}\n    state "), 1);
+    let run = run(&texts);
+    for (tag, more) in [("<script", 0), ("<img", 0), ("<!--", 0)] {
+        let count = |page: &str| page.matches(tag).count();
+        assert_eq!(count(&run.page), count(&plain.page) + more, "{tag}");
+    }
+    let Some(browser) = browser::browser() else { return };
+    let script = format!("const TIMES = [0];\n{}", include_str!("../fixtures/report/driver.js"));
+    let found = browser::found(browser, "hostile", &run.page, &script);
+    let found: Value = serde_json::from_str(&found).expect("JSON");
+    assert_eq!(found["errors"], Value::Array(Vec::new()));
+    assert_eq!(found["images"], 0);
+    let text = found["inspector"].as_str().expect("a text");
+    assert!(text.contains(hostile), "{text}");
+}
+
+/// Nothing is fetched, and nothing that could be is named.
+#[test]
+fn the_page_names_nothing_outside_of_it() {
+    let page = run(&side_by_side("scenes/lifting_table")).page;
+    // The name of a namespace is no address.
+    let page = page.replace("'http://www.w3.org/2000/svg'", "");
+    for outside in ["http:", "https:", "src=", "href=", "@import", "url(", "fetch(", "import("] {
+        assert!(!page.contains(outside), "{outside}");
+    }
+}
+
+/// The shares of what limits a line are one after another, each within a stay of its machine, and add up.
+#[test]
+fn the_path_that_limits_a_run_has_no_gap() {
+    for (name, texts) in lines() {
+        let run = run(&texts);
+        let data = data(&run.page);
+        let limit = &data["limit"];
+        let scan_ms = data["scan_ms"].as_f64().expect("a number");
+        let legs: Vec<[u64; 3]> = serde_json::from_value(limit["path"].clone()).expect("a list of legs");
+        assert!(legs.windows(2).all(|pair| pair[0][2] == pair[1][1]), "{name}: {legs:?}");
+        assert_eq!(legs.first().map(|leg| leg[1]), Some(0), "{name}");
+        let shares = limit["machines"].as_array().expect("a list").iter();
+        let sum: f64 = shares.map(|share| share["s"].as_f64().expect("a number")).sum();
+        let end = legs.last().map_or(0, |leg| leg[2]);
+        assert!((sum - end as f64 * scan_ms / 1000.0).abs() < 1e-6, "{name}: {sum}");
+        assert!(end <= run.recorded.report.scans);
+    }
+}
+
+/// By hand: the mill cuts for 90 s a piece, and all else is done while it cuts or takes less.
+#[test]
+fn the_mill_limits_the_tending_cell() {
+    let (_, texts) = lines().swap_remove(1);
+    let data = data(&run(&texts).page);
+    let first = &data["limit"]["machines"][0];
+    assert_eq!(data["machines"][first["machine"].as_u64().expect("a number") as usize]["name"], "mill");
+    let cutting = first["states"][0][1].as_f64().expect("a number");
+    assert!((cutting - 180.0).abs() < 1.0, "two pieces: {cutting}");
+}
+
+/// The states of the page are those of the accounts.
+#[test]
+fn times_in_states_add_up_to_the_accounts() {
+    let run = run(&default_line());
+    let data = data(&run.page);
+    let scan_ms = data["scan_ms"].as_f64().expect("a number");
+    let end = run.recorded.report.scans;
+    for (machine, stays) in data["stays"].as_array().expect("a list").iter().enumerate() {
+        let stays: Vec<u64> = serde_json::from_value(stays.clone()).expect("whole numbers");
+        let mut sums = [0.0; 4];
+        let mut begin = 0;
+        for (i, stay) in stays.chunks(3).enumerate() {
+            begin += stay[0];
+            let next = stays.get(3 * (i + 1)).map_or(end, |later| begin + later);
+            sums[stay[2] as usize] += (next - begin) as f64 * scan_ms / 1000.0;
+        }
+        let name = data["machines"][machine]["name"].as_str().expect("a name");
+        let account = &run.results["robots"][name];
+        for (sum, key) in sums.iter().zip(["moving_s", "working_s", "waiting_s", "stopped_s"]) {
+            assert!((sum - account[key].as_f64().expect("a number")).abs() < 1e-6, "{name} {key}: {sum}");
+        }
+    }
+}
