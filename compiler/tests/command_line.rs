@@ -282,7 +282,7 @@ fn a_run_that_misses_its_goal_is_status_3_and_names_part_and_place() {
         "kinds": [{"name": "battery", "height": 0.053}],
         "orders": [{"station": "as1", "parts": {"battery": 1}}],
         "supply": {"items": ["battery"]},
-        "faults": {"slips": [{"robot": "kitting", "pick": 1, "after_s": 4.0}]}
+        "faults": {"slips": [{"robot": "kitting", "pick": 1, "after_s": 2.8}]}
     }"#;
     fs::write(folder.join("scenario.json"), scenario).expect("a file");
     let layout = example("ariac2021/default.json");

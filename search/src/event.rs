@@ -58,6 +58,8 @@ pub enum From {
 
 /// So far from an end of its motion, along x and along y, a tool is still over what is there, and not over one slot, m.
 const BESIDE: f64 = 0.2;
+/// So far it is over nothing that an automaton knows.
+const FAR: f64 = 100.0;
 
 /// Who may do something in a scan: each machine at most one thing, each instance at most one time.
 pub(crate) fn sources(model: &Model) -> usize {
@@ -190,7 +192,9 @@ pub(crate) fn losses(
     }
     if goal != 0 {
         all.push(at(From::Goal, goal));
-        all.extend([From::OnTheWay, From::BesideTool, From::BesideGoal].map(|from| (from, Landing::Elsewhere)));
+        all.extend(
+            [From::OnTheWay, From::BesideTool, From::BesideGoal].map(|from| (from, Landing::Elsewhere)),
+        );
     }
     all
 }
@@ -203,7 +207,7 @@ fn tool_at(values: &mut Values, state: &[u8], arm: &Arm, from: From) -> Option<i
         From::Tool => return None,
         From::Via => return Some(arm.via.load(state)),
         From::Goal => return Some(arm.goal.load(state)),
-        From::OnTheWay => [0, 1, 2].map(|axis| (tool[axis] + goal[axis]) / 2.0),
+        From::OnTheWay => [tool[0] + FAR, tool[1] + FAR, tool[2]],
         From::BesideTool => beside(tool),
         From::BesideGoal => beside(goal),
     };

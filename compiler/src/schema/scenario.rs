@@ -117,7 +117,7 @@ fn supply() -> Value {
     ];
     let mut schema = object(all, &[]);
     let both = |key: &str| json!({ "required": ["items", key] });
-    schema["not"] = json!({ "anyOf": [both("surplus"), both("seed")] });
+    schema["not"] = both("surplus");
     schema
 }
 
@@ -136,7 +136,16 @@ fn faults() -> Value {
         &["robot", "pick", "after_s"],
     );
     let command = property("command", nth(), "Which command of this machine, from 1");
-    let refusal = object(vec![robot(), command], &["robot", "command"]);
+    let refusal = object(vec![robot(), command.clone()], &["robot", "command"]);
+    let answer = object(
+        vec![
+            robot(),
+            command,
+            property("late_s", seconds_from_0(), "How much later than it would be answered, s"),
+            property("error", whole(1, 255), "The error in which it ends. Without it: as it would end"),
+        ],
+        &["robot", "command"],
+    );
     let pause = object(
         vec![
             property("at_s", seconds_from_0(), "When the permit to run is taken away, s"),
@@ -147,6 +156,7 @@ fn faults() -> Value {
     let all = vec![
         property("slips", list(slip), "Parts that fall off a gripper"),
         property("refusals", list(refusal), "Commands that a machine refuses"),
+        property("answers", list(answer), "How commands end, and how late"),
         property("pauses", list(pause), "The permit to run is taken away, then the line is started again"),
     ];
     object(all, &[])
