@@ -3,7 +3,7 @@
 mod evaluate;
 mod step;
 
-use crate::ir::{FaultId, InterfaceId, System, Type, Value, VariableId};
+use crate::ir::{Element, FaultId, Scalar, System, Type, Value, VariableId};
 use runtime_sim::device::{Direction, PortType, Stop};
 use runtime_sim::scan::{Controllers, SystemInputs, SystemOutputs};
 
@@ -29,14 +29,6 @@ pub enum Entry {
     Changed { robot: usize, what: Element },
     /// A transition of the state in which the instance was, by its number.
     Fired { robot: usize, transition: usize },
-}
-
-/// One value that the controllers remember.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Element {
-    Local { robot: usize, local: usize, index: usize },
-    Cell { interface: InterfaceId, row: usize, cell: usize, index: usize },
-    Port { robot: usize, port: usize, index: usize },
 }
 
 #[derive(Clone, Debug)]
@@ -174,20 +166,15 @@ impl<'a> Executor<'a> {
     fn latch(&mut self, inputs: &[Vec<f64>]) {
         let kinds = self.system.kinds();
         for (robot, words) in inputs.iter().enumerate().take(self.robots.len()) {
-            let mut words = words.iter().copied();
+            let mut words = &words[..];
             let ports = self.system.automaton_of(robot).device.ports.iter().enumerate();
             for (number, port) in ports.filter(|(_, port)| port.direction == Direction::Input) {
                 for index in 0..port.extent.elements(kinds) {
-                    let mut word = || words.next().unwrap_or(0.0);
-                    let latched = match port.ty {
-                        PortType::Bool => Value::Bool(word() != 0.0),
-                        PortType::Int { lo, hi } => Value::Int((word() as i32).clamp(lo, hi)),
-                        PortType::Real => Value::Real(word()),
-                        PortType::Point => Value::Point([word(), word(), word()]),
-                    };
+                    let ty = Scalar::from(port.ty);
+                    let latched = Value::from_words(ty, words);
+                    words = words.get(ty.words()..).unwrap_or_default();
                     let value = &mut self.robots[robot].ports[number][index];
-                    if *value != latched {
-                        *value = latched;
+                    if std::mem::replace(value, latched) != latched {
                         let what = Element::Port { robot, port: number, index };
                         self.note(Entry::Changed { robot, what });
                     }
@@ -211,7 +198,7 @@ impl<'a> Executor<'a> {
         {
             match port.stop {
                 Stop::Value(stop) if !running => image.extend(values.iter().map(|_| stop)),
-                _ => values.iter().for_each(|v| push(*v, image)),
+                _ => values.iter().for_each(|v| v.push_words(image)),
             }
         }
     }
@@ -298,21 +285,11 @@ impl Executor<'_> {
         let robot = &self.robots[index];
         out.push(robot.state as f64);
         out.push(f64::from(robot.elapsed));
-        robot.locals.iter().flatten().for_each(|v| push(*v, out));
+        robot.locals.iter().flatten().for_each(|v| v.push_words(out));
         let automaton = self.system.automaton_of(index);
         for (implemented, row) in automaton.implements.iter().zip(&self.system.instances[index].rows) {
-            self.cells[implemented.interface.0][*row].iter().flatten().for_each(|v| push(*v, out));
+            self.cells[implemented.interface.0][*row].iter().flatten().for_each(|v| v.push_words(out));
         }
         self.outputs(index, true, out);
-    }
-}
-
-/// A value as numbers of a process image.
-fn push(value: Value, out: &mut Vec<f64>) {
-    match value {
-        Value::Bool(b) => out.push(f64::from(u8::from(b))),
-        Value::Int(i) => out.push(f64::from(i)),
-        Value::Real(r) => out.push(r),
-        Value::Point(p) => out.extend(p),
     }
 }

@@ -13,10 +13,19 @@
 //! - Every place at which a step can fault has a code, from 1, unique in the model.
 //! - Values are in SI units, times in whole milliseconds.
 
+mod element;
+mod expression;
+mod system;
+mod value;
+
+pub use element::{Element, Group, Named};
+pub use expression::{Expr, ExprKind, Operator, Place};
+pub use system::{Instance, System};
+pub use value::{Extent, Scalar, Type, Value};
+
 use crate::device::Device;
 use crate::source::Span;
 use crate::spec::ast::Side;
-use runtime_sim::device::{self, PortType};
 use std::sync::Arc;
 
 macro_rules! id {
@@ -337,175 +346,6 @@ pub struct Target {
     pub ty: Type,
 }
 
-/// Where a value is kept.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Place {
-    Local {
-        local: usize,
-        index: Option<Box<Expr>>,
-    },
-    /// A cell of this instance, or of another one.
-    Cell {
-        interface: InterfaceId,
-        cell: usize,
-        of: Option<Box<Expr>>,
-        index: Option<Box<Expr>>,
-    },
-    /// A port of this instance's device.
-    Port {
-        port: usize,
-        index: Option<Box<Expr>>,
-    },
-    /// A parameter of this instance.
-    Parameter {
-        parameter: usize,
-        index: Option<Box<Expr>>,
-    },
-    /// A parameter that another instance shows.
-    Shown {
-        interface: InterfaceId,
-        parameter: usize,
-        of: Box<Expr>,
-        index: Option<Box<Expr>>,
-    },
-}
-
-#[derive(Clone, Debug, PartialEq)]
-pub struct Expr {
-    pub ty: Scalar,
-    pub kind: ExprKind,
-}
-
-#[derive(Clone, Debug, PartialEq)]
-pub enum ExprKind {
-    Constant(Value),
-    Read(Place),
-    Variable(VariableId),
-    Define(usize),
-    /// This instance's own row in an interface.
-    Own(InterfaceId),
-    /// The stay in the present state has lasted so many ms.
-    After(Box<Expr>),
-    /// The last command has ended well.
-    Done,
-    /// The last command has ended in error.
-    Failed,
-    Not(Box<Expr>),
-    Negate(Box<Expr>),
-    /// Both operands have the same type, but for durations times whole numbers.
-    Binary(Operator, Box<Expr>, Box<Expr>),
-    Min(Box<Expr>, Box<Expr>),
-    Max(Box<Expr>, Box<Expr>),
-    Absolute(Box<Expr>),
-    /// Whole number to real.
-    ToReal(Box<Expr>),
-    MakePoint(Box<[Expr; 3]>),
-    /// x, y or z of a point, by number.
-    Coordinate(Box<Expr>, usize),
-    /// Squared distance of two points.
-    SquaredDistance(Box<Expr>, Box<Expr>),
-    Exists {
-        variable: VariableId,
-        domain: Box<Domain>,
-        body: Box<Expr>,
-    },
-    Forall {
-        variable: VariableId,
-        domain: Box<Domain>,
-        body: Box<Expr>,
-    },
-    Count {
-        variable: VariableId,
-        domain: Box<Domain>,
-        body: Box<Expr>,
-    },
-    Sum {
-        variable: VariableId,
-        domain: Box<Domain>,
-        body: Box<Expr>,
-    },
-    /// Number of members of a role.
-    Members(RoleId),
-    IsMember(Box<Expr>, RoleId),
-    Reaches(RelationId, Box<Expr>, Box<Expr>),
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Operator {
-    Or,
-    And,
-    Equal,
-    NotEqual,
-    Less,
-    LessEqual,
-    Greater,
-    GreaterEqual,
-    Add,
-    Subtract,
-    Multiply,
-    Divide,
-    Modulo,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Scalar {
-    Bool,
-    Int {
-        lo: i32,
-        hi: i32,
-    },
-    Real,
-    /// Whole milliseconds, never negative.
-    Time,
-    Point,
-    Enum(EnumId),
-    Ref(InterfaceId),
-}
-
-impl From<PortType> for Scalar {
-    fn from(ty: PortType) -> Self {
-        match ty {
-            PortType::Bool => Scalar::Bool,
-            PortType::Int { lo, hi } => Scalar::Int { lo, hi },
-            PortType::Real => Scalar::Real,
-            PortType::Point => Scalar::Point,
-        }
-    }
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Extent {
-    One,
-    Count(usize),
-    By(EnumId),
-}
-
-impl From<device::Extent> for Extent {
-    fn from(extent: device::Extent) -> Self {
-        match extent {
-            device::Extent::One => Extent::One,
-            device::Extent::PerKind => Extent::By(KIND),
-            device::Extent::Times(n) => Extent::Count(n),
-        }
-    }
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Type {
-    pub scalar: Scalar,
-    pub extent: Extent,
-}
-
-/// A value of a scalar type; the elements of an array all begin with the same one.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Value {
-    Bool(bool),
-    /// A whole number, a duration in ms, the ordinal of a member, a row.
-    Int(i32),
-    Real(f64),
-    Point([f64; 3]),
-}
-
 #[derive(Clone, Debug)]
 pub struct Invariant {
     pub place: Span,
@@ -547,31 +387,6 @@ pub enum FaultKind {
     TooLong,
 }
 
-/// A model with the instances of one layout.
-#[derive(Clone, Debug)]
-pub struct System {
-    pub model: Model,
-    pub scan_ms: i32,
-    /// In layout order: the order in which they step.
-    pub instances: Vec<Instance>,
-    /// For each interface its members, in layout order: the instance of each row.
-    pub members: Vec<Vec<usize>>,
-    /// For each relation, `[row of from][row of to]`.
-    pub reaches: Vec<Vec<Vec<bool>>>,
-}
-
-#[derive(Clone, Debug)]
-pub struct Instance {
-    pub name: String,
-    pub automaton: AutomatonId,
-    /// For each parameter its elements.
-    pub parameters: Vec<Vec<Value>>,
-    /// For each role its members, as rows of the role's interface, in layout order.
-    pub roles: Vec<Vec<usize>>,
-    /// For each interface that the automaton implements, this instance's row.
-    pub rows: Vec<usize>,
-}
-
 impl Model {
     pub fn elements(&self, extent: Extent) -> usize {
         match extent {
@@ -587,92 +402,6 @@ impl Model {
 
     pub fn interface(&self, id: InterfaceId) -> &Interface {
         &self.interfaces[id.0]
-    }
-}
-
-impl System {
-    pub fn automaton_of(&self, instance: usize) -> &Automaton {
-        self.model.automaton(self.instances[instance].automaton)
-    }
-
-    /// The elements of a parameter that a member of an interface shows.
-    pub fn shown(&self, interface: InterfaceId, row: usize, parameter: usize) -> &[Value] {
-        let instance = self.members[interface.0][row];
-        let implements = &self.automaton_of(instance).implements;
-        let supplied = implements.iter().find(|i| i.interface == interface).map(|i| i.parameters[parameter]);
-        supplied.map_or(&[], |p| &self.instances[instance].parameters[p])
-    }
-
-    pub fn kinds(&self) -> usize {
-        self.model.enums[KIND.0].members.len()
-    }
-
-    /// A value for people: seconds with `s`, points in metres, members and robots by name.
-    pub fn shown_value(&self, ty: Scalar, value: Value) -> String {
-        match (value, ty) {
-            (Value::Bool(b), _) => b.to_string(),
-            (Value::Int(ms), Scalar::Time) => format!("{} s", f64::from(ms) / 1000.0),
-            (Value::Int(ordinal), Scalar::Enum(id)) => {
-                self.model.enums[id.0].members[ordinal as usize].clone()
-            }
-            (Value::Int(row), Scalar::Ref(id)) => {
-                self.instances[self.members[id.0][row as usize]].name.clone()
-            }
-            (Value::Int(i), _) => i.to_string(),
-            (Value::Real(r), _) => r.to_string(),
-            (Value::Point([x, y, z]), _) => format!("({x}, {y}, {z})"),
-        }
-    }
-}
-
-impl Expr {
-    /// The expressions of which this one directly consists, those of places and domains included.
-    pub fn parts(&self) -> Vec<&Expr> {
-        use ExprKind as Kind;
-        match &self.kind {
-            Kind::Constant(_)
-            | Kind::Variable(_)
-            | Kind::Define(_)
-            | Kind::Own(_)
-            | Kind::Done
-            | Kind::Failed
-            | Kind::Members(_) => Vec::new(),
-            Kind::Read(place) => place.parts(),
-            Kind::After(a)
-            | Kind::Not(a)
-            | Kind::Negate(a)
-            | Kind::Absolute(a)
-            | Kind::ToReal(a)
-            | Kind::Coordinate(a, _)
-            | Kind::IsMember(a, _) => vec![a],
-            Kind::Binary(_, a, b)
-            | Kind::Min(a, b)
-            | Kind::Max(a, b)
-            | Kind::SquaredDistance(a, b)
-            | Kind::Reaches(_, a, b) => vec![a, b],
-            Kind::MakePoint(parts) => parts.iter().collect(),
-            Kind::Exists { domain, body, .. }
-            | Kind::Forall { domain, body, .. }
-            | Kind::Count { domain, body, .. }
-            | Kind::Sum { domain, body, .. } => match &**domain {
-                Domain::Range(low, high) => vec![low, high, body],
-                Domain::Role(_) | Domain::Enum(_) => vec![body],
-            },
-        }
-    }
-}
-
-impl Place {
-    /// The expressions that say which instance and which element is meant.
-    pub fn parts(&self) -> Vec<&Expr> {
-        let (of, index) = match self {
-            Place::Local { index, .. } | Place::Port { index, .. } | Place::Parameter { index, .. } => {
-                (None, index)
-            }
-            Place::Cell { of, index, .. } => (of.as_ref(), index),
-            Place::Shown { of, index, .. } => (Some(of), index),
-        };
-        of.into_iter().chain(index).map(|e| &**e).collect()
     }
 }
 

@@ -193,8 +193,9 @@ impl Executor<'_> {
                 Element::Port { port, .. } => &mut self.robots[robot].ports[port][index],
                 Element::Cell { interface, cell, .. } => &mut self.cells[interface.0][row][cell][index],
             };
-            if *value != kept {
-                *value = kept;
+            // What is equal is stored too: -0.0 is equal to 0.0, and is another value.
+            let changed = std::mem::replace(value, kept) != kept;
+            if changed {
                 self.note(Entry::Changed { robot, what });
             }
         }

@@ -4,7 +4,7 @@ use super::machine::{Engine, Poke, Step, Target, Wanted};
 use super::names::{all, name_of, words};
 use super::value::{Kind, Named};
 use super::{Failure, Time};
-use crate::executor::Element;
+use crate::ir::Element;
 use crate::ir::{Scalar, System, Type, Value};
 use crate::source::Span;
 use runtime_sim::device::Direction;

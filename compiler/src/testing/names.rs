@@ -1,7 +1,7 @@
 //! The values that a machine writes, by name.
 
 use super::value::{Kind, Named};
-use crate::executor::Element;
+use crate::ir::Element;
 use crate::ir::{Extent, Scalar, System, Type};
 use runtime_sim::device::Direction;
 

@@ -2,7 +2,7 @@
 
 use super::{Literal, LiteralKind, Path};
 use crate::diagnostic::{Diagnostic, suggestion};
-use crate::executor::Element;
+use crate::ir::Element;
 use crate::ir::{Extent, Scalar, System, Type, Value};
 use crate::source::Span;
 use runtime_sim::device::Direction;

@@ -2,7 +2,7 @@
 
 use super::guard::Look;
 use super::{Await, Changed, Read};
-use crate::executor::Element;
+use crate::ir::Element;
 use crate::ir::{Expr, ExprKind, Extent, Place, Scalar, Type, Value};
 use runtime_sim::device::Direction;
 

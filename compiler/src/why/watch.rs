@@ -2,7 +2,8 @@
 
 use super::until::Later;
 use super::{Picture, guard};
-use crate::executor::{Element, Entry, Executor};
+use crate::executor::{Entry, Executor};
+use crate::ir::Element;
 use crate::ir::System;
 use runtime_sim::scan::{Controllers, SystemInputs, SystemOutputs};
 use std::collections::HashMap;

@@ -1,7 +1,7 @@
 //! Who may write a cell, from the text of the types, the rule of the cell and its present value.
 
 use super::Watch;
-use crate::executor::Element;
+use crate::ir::Element;
 use crate::ir::{Automaton, Expr, ExprKind, InterfaceId, Place, Rule, System, UpdateKind, Value};
 use crate::spec::ast::Side;
 use std::collections::BTreeSet;

@@ -1,8 +1,8 @@
 //! Where two runs differ first. Both go on side by side, so that nothing has to be kept of either.
 
 use super::super::progress::Progress;
-use autogen::executor::{Element, Entry, Executor};
-use autogen::ir::{Extent, Scalar, System, Type};
+use autogen::executor::{Entry, Executor};
+use autogen::ir::{Element, Extent, Scalar, System, Type};
 use autogen::lower::Project;
 use runtime_sim::device::Direction;
 use runtime_sim::run::{Seen, Stepping, run as simulate};

@@ -1,0 +1,164 @@
+//! Expressions, and the places that they read.
+
+use super::{Domain, InterfaceId, RelationId, RoleId, Scalar, Value, VariableId};
+
+/// Where a value is kept.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Place {
+    Local {
+        local: usize,
+        index: Option<Box<Expr>>,
+    },
+    /// A cell of this instance, or of another one.
+    Cell {
+        interface: InterfaceId,
+        cell: usize,
+        of: Option<Box<Expr>>,
+        index: Option<Box<Expr>>,
+    },
+    /// A port of this instance's device.
+    Port {
+        port: usize,
+        index: Option<Box<Expr>>,
+    },
+    /// A parameter of this instance.
+    Parameter {
+        parameter: usize,
+        index: Option<Box<Expr>>,
+    },
+    /// A parameter that another instance shows.
+    Shown {
+        interface: InterfaceId,
+        parameter: usize,
+        of: Box<Expr>,
+        index: Option<Box<Expr>>,
+    },
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct Expr {
+    pub ty: Scalar,
+    pub kind: ExprKind,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub enum ExprKind {
+    Constant(Value),
+    Read(Place),
+    Variable(VariableId),
+    Define(usize),
+    /// This instance's own row in an interface.
+    Own(InterfaceId),
+    /// The stay in the present state has lasted so many ms.
+    After(Box<Expr>),
+    /// The last command has ended well.
+    Done,
+    /// The last command has ended in error.
+    Failed,
+    Not(Box<Expr>),
+    Negate(Box<Expr>),
+    /// Both operands have the same type, but for durations times whole numbers.
+    Binary(Operator, Box<Expr>, Box<Expr>),
+    Min(Box<Expr>, Box<Expr>),
+    Max(Box<Expr>, Box<Expr>),
+    Absolute(Box<Expr>),
+    /// Whole number to real.
+    ToReal(Box<Expr>),
+    MakePoint(Box<[Expr; 3]>),
+    /// x, y or z of a point, by number.
+    Coordinate(Box<Expr>, usize),
+    /// Squared distance of two points.
+    SquaredDistance(Box<Expr>, Box<Expr>),
+    Exists {
+        variable: VariableId,
+        domain: Box<Domain>,
+        body: Box<Expr>,
+    },
+    Forall {
+        variable: VariableId,
+        domain: Box<Domain>,
+        body: Box<Expr>,
+    },
+    Count {
+        variable: VariableId,
+        domain: Box<Domain>,
+        body: Box<Expr>,
+    },
+    Sum {
+        variable: VariableId,
+        domain: Box<Domain>,
+        body: Box<Expr>,
+    },
+    /// Number of members of a role.
+    Members(RoleId),
+    IsMember(Box<Expr>, RoleId),
+    Reaches(RelationId, Box<Expr>, Box<Expr>),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Operator {
+    Or,
+    And,
+    Equal,
+    NotEqual,
+    Less,
+    LessEqual,
+    Greater,
+    GreaterEqual,
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+    Modulo,
+}
+
+impl Expr {
+    /// The expressions of which this one directly consists, those of places and domains included.
+    pub fn parts(&self) -> Vec<&Expr> {
+        use ExprKind as Kind;
+        match &self.kind {
+            Kind::Constant(_)
+            | Kind::Variable(_)
+            | Kind::Define(_)
+            | Kind::Own(_)
+            | Kind::Done
+            | Kind::Failed
+            | Kind::Members(_) => Vec::new(),
+            Kind::Read(place) => place.parts(),
+            Kind::After(a)
+            | Kind::Not(a)
+            | Kind::Negate(a)
+            | Kind::Absolute(a)
+            | Kind::ToReal(a)
+            | Kind::Coordinate(a, _)
+            | Kind::IsMember(a, _) => vec![a],
+            Kind::Binary(_, a, b)
+            | Kind::Min(a, b)
+            | Kind::Max(a, b)
+            | Kind::SquaredDistance(a, b)
+            | Kind::Reaches(_, a, b) => vec![a, b],
+            Kind::MakePoint(parts) => parts.iter().collect(),
+            Kind::Exists { domain, body, .. }
+            | Kind::Forall { domain, body, .. }
+            | Kind::Count { domain, body, .. }
+            | Kind::Sum { domain, body, .. } => match &**domain {
+                Domain::Range(low, high) => vec![low, high, body],
+                Domain::Role(_) | Domain::Enum(_) => vec![body],
+            },
+        }
+    }
+}
+
+impl Place {
+    /// The expressions that say which instance and which element is meant.
+    pub fn parts(&self) -> Vec<&Expr> {
+        let (of, index) = match self {
+            Place::Local { index, .. } | Place::Port { index, .. } | Place::Parameter { index, .. } => {
+                (None, index)
+            }
+            Place::Cell { of, index, .. } => (of.as_ref(), index),
+            Place::Shown { of, index, .. } => (Some(of), index),
+        };
+        of.into_iter().chain(index).map(|e| &**e).collect()
+    }
+}
