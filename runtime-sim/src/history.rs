@@ -17,7 +17,7 @@ const MOST_CHANGES: usize = 4_000_000;
 #[derive(Clone, Debug, Default)]
 pub struct History {
     /// In the order of the line's machines.
-    pub machines: Vec<Course>,
+    pub machines: Vec<MachineHistory>,
     /// In the order in which they were asked for.
     pub words: Vec<Word>,
     /// The scan from which on words are not kept, as there were too many changes.
@@ -29,7 +29,7 @@ pub struct History {
 
 /// What one machine did.
 #[derive(Clone, Debug, Default)]
-pub struct Course {
+pub struct MachineHistory {
     /// Each holds from its scan on until the next one does.
     pub stays: Vec<Stay>,
     /// Of a vehicle: where it is at the start. Of all else: its pose.
@@ -86,21 +86,21 @@ pub struct Word {
 
 impl History {
     pub fn new(line: &Line, watched: &[Source]) -> Self {
-        let course = |machine: &crate::machine::Machine| {
+        let begun = |machine: &crate::machine::Machine| {
             let numbers = |wanted: fn(&Primitive) -> bool| {
                 let parts = machine.parts.iter().enumerate();
                 parts.filter(move |(_, part)| wanted(&part.primitive)).map(|(number, _)| number)
             };
             let cylinders = numbers(|part| matches!(part, Primitive::Cylinder(_)));
             let lanes = numbers(|part| matches!(part, Primitive::Lane(_)));
-            Course {
+            MachineHistory {
                 strokes: cylinders.map(|part| Track { part, changes: Vec::new() }).collect(),
                 surfaces: lanes.map(|part| Track { part, changes: Vec::new() }).collect(),
-                ..Course::default()
+                ..MachineHistory::default()
             }
         };
         Self {
-            machines: line.machines.iter().map(course).collect(),
+            machines: line.machines.iter().map(begun).collect(),
             words: watched.iter().map(|source| Word { source: *source, changes: Vec::new() }).collect(),
             ..Self::default()
         }
@@ -126,8 +126,8 @@ impl History {
     /// The plant has obeyed the outputs of a scan, and nothing has moved yet.
     pub(crate) fn look(&mut self, plant: &Plant) {
         let now_ms = plant.now_ms();
-        for (machine, course) in self.machines.iter_mut().enumerate() {
-            course.look(machine, plant, now_ms);
+        for (machine, history) in self.machines.iter_mut().enumerate() {
+            history.look(machine, plant, now_ms);
         }
     }
 
@@ -146,7 +146,7 @@ impl History {
     }
 }
 
-impl Course {
+impl MachineHistory {
     fn look(&mut self, machine: usize, plant: &Plant, now_ms: u64) {
         if now_ms == 0 {
             self.position = plant.position(machine).unwrap_or_default();

@@ -107,7 +107,7 @@ impl Machine {
         let Some(Primitive::Lane(lane)) = self.parts.get(lane).map(|part| &part.primitive) else {
             return Ok(());
         };
-        let length = lane.course.begin() - lane.course.end();
+        let length = lane.centre_line.begin() - lane.centre_line.end();
         if !(-ROUNDED..=length + ROUNDED).contains(&at) {
             return Err(format!("{} is {at:.3} m from the beginning of a lane of {length:.3} m", part.name));
         }

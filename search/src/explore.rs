@@ -4,7 +4,7 @@ use crate::event::Event;
 use crate::model::Model;
 use crate::possible::{Edges, never_made};
 use crate::store::Store;
-use crate::story::{self, Course};
+use crate::story::{self, Execution};
 use crate::successor::{Expander, Orders};
 use crate::value::Values;
 use crate::violation::Violation;
@@ -56,8 +56,8 @@ pub enum End {
 pub struct Outcome {
     pub covered: Covered,
     pub end: End,
-    /// The shortest course of events to each.
-    pub violations: Vec<(Violation, Course)>,
+    /// The shortest execution to each.
+    pub violations: Vec<(Violation, Execution)>,
     /// All states that were reached.
     pub reached: Store,
     /// Points and reals by their numbers in these states.
@@ -92,15 +92,15 @@ pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -
             end_of_depth = store.len();
         }
         let state = store.state(next).to_vec();
-        expander.expand(&state, restless[next], &mut |way| {
+        expander.expand(&state, restless[next], &mut |successor| {
             covered.transitions += 1;
-            match way.result {
+            match successor.result {
                 Ok(()) => {
-                    let (number, is_new) = store.add(way.state, next);
+                    let (number, is_new) = store.add(successor.state, next);
                     if is_new {
-                        restless.push(way.restless);
+                        restless.push(successor.restless);
                     }
-                    if way.events.len() <= 1 && number != next {
+                    if successor.events.len() <= 1 && number != next {
                         edges.add(next, number);
                     }
                 }
@@ -111,7 +111,7 @@ pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -
                 Err(violation) => {
                     edges.lead_out(next);
                     if found.len() < bounds.violations && known.insert(violation.clone()) {
-                        found.push(Found { violation, from: next, events: way.events.to_vec() });
+                        found.push(Found { violation, from: next, events: successor.events.to_vec() });
                     }
                 }
             }
@@ -140,12 +140,12 @@ pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -
     };
     covered.states = store.len();
     covered.memory = store.size() + 8 * restless.capacity() + edges.size();
-    let mut violations: Vec<(Violation, Course)> = found
+    let mut violations: Vec<(Violation, Execution)> = found
         .into_iter()
         .map(|found| {
-            let course =
+            let execution =
                 story::to_violation(&store, &mut expander, found.from, &found.violation, &found.events);
-            (found.violation, course)
+            (found.violation, execution)
         })
         .collect();
     if end == End::Complete

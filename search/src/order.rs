@@ -2,7 +2,7 @@
 
 use crate::program::bit;
 use crate::scan::{Scan, Told};
-use crate::successor::{Expander, Way};
+use crate::successor::{Expander, Successor};
 use crate::violation::Violation;
 use std::collections::HashSet;
 
@@ -22,7 +22,7 @@ struct Midway {
 impl Expander<'_> {
     /// Instances that would do nothing now may step now or later; all others take their turns. A line has 64 instances
     /// at most.
-    pub(crate) fn scan_in_any_order(&mut self, level: usize, touched: u64, emit: &mut impl FnMut(Way)) {
+    pub(crate) fn scan_in_any_order(&mut self, level: usize, touched: u64, emit: &mut impl FnMut(Successor)) {
         let mut seen: HashSet<(Vec<u8>, u64, u64)> = HashSet::new();
         let begin = Midway {
             bytes: self.levels[level].clone(),
@@ -47,7 +47,7 @@ impl Expander<'_> {
                     let result = self.on(&mut next, |scan| scan.step_if_due(instance, u64::MAX));
                     next.stepped |= bit(instance);
                     match result {
-                        Err(violation) => emit(Way {
+                        Err(violation) => emit(Successor {
                             state: &next.bytes,
                             events: &self.chosen,
                             result: Err(violation),
@@ -91,12 +91,12 @@ impl Expander<'_> {
         due
     }
 
-    fn finish(&mut self, midway: &Midway, touched: u64, emit: &mut impl FnMut(Way)) {
+    fn finish(&mut self, midway: &Midway, touched: u64, emit: &mut impl FnMut(Successor)) {
         self.choices.clear();
         loop {
             let mut end = midway.clone();
             let result = self.on(&mut end, |scan| scan.finish(touched));
-            emit(Way {
+            emit(Successor {
                 state: &end.bytes,
                 events: &self.chosen,
                 result,

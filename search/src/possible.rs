@@ -46,8 +46,8 @@ pub(crate) fn never_made(store: &Store, edges: &Edges, expander: &mut Expander) 
     }
     let mut all = Vec::new();
     for state in (0..store.len()).filter(|state| !can[*state]) {
-        expander.expand(store.state(state), u64::MAX, &mut |way| {
-            let to = way.result.is_ok().then(|| store.find(way.state)).flatten();
+        expander.expand(store.state(state), u64::MAX, &mut |successor| {
+            let to = successor.result.is_ok().then(|| store.find(successor.state)).flatten();
             if let Some(to) = to.filter(|to| *to != state) {
                 all.push((state as u32, to as u32));
             }

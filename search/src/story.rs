@@ -1,4 +1,4 @@
-//! A course of events from the start.
+//! An execution: what happened from the start.
 
 use crate::event::Event;
 use crate::scan::Told;
@@ -8,7 +8,7 @@ use crate::violation::Violation;
 
 /// What happened, scan by scan.
 #[derive(Clone, Debug, Default)]
-pub struct Course {
+pub struct Execution {
     pub scans: Vec<Happened>,
 }
 
@@ -34,14 +34,15 @@ fn states(store: &Store, to: usize) -> Vec<usize> {
     states
 }
 
-pub(crate) fn to_state(store: &Store, expander: &mut Expander, to: usize) -> Course {
-    let mut course = Course::default();
+pub(crate) fn to_state(store: &Store, expander: &mut Expander, to: usize) -> Execution {
+    let mut execution = Execution::default();
     for pair in states(store, to).windows(2) {
         let (before, after) = (store.state(pair[0]).to_vec(), store.state(pair[1]).to_vec());
-        let way = expander.way(&before, |way| way.result.is_ok() && way.state == after);
-        course.scans.extend(way);
+        let last =
+            expander.shortest(&before, |successor| successor.result.is_ok() && successor.state == after);
+        execution.scans.extend(last);
     }
-    course
+    execution
 }
 
 pub(crate) fn to_violation(
@@ -50,27 +51,33 @@ pub(crate) fn to_violation(
     from: usize,
     violation: &Violation,
     events: &[Event],
-) -> Course {
-    let mut course = to_state(store, expander, from);
+) -> Execution {
+    let mut execution = to_state(store, expander, from);
     let before = store.state(from).to_vec();
-    let way = expander.way(&before, |way| way.events == events && way.result.as_ref() == Err(violation));
-    course.scans.extend(way);
-    course
+    let last = expander.shortest(&before, |successor| {
+        successor.events == events && successor.result.as_ref() == Err(violation)
+    });
+    execution.scans.extend(last);
+    execution
 }
 
 impl Expander<'_> {
-    /// The way with the fewest events among those that are wanted.
-    fn way(&mut self, before: &[u8], wanted: impl Fn(&crate::successor::Way) -> bool) -> Option<Happened> {
+    /// The successor with the fewest events among those that are wanted.
+    fn shortest(
+        &mut self,
+        before: &[u8],
+        wanted: impl Fn(&crate::successor::Successor) -> bool,
+    ) -> Option<Happened> {
         let mut best: Option<Happened> = None;
         self.tell = true;
-        self.expand(before, u64::MAX, &mut |way| {
-            let is_better = best.as_ref().is_none_or(|best| way.events.len() < best.events.len());
-            if is_better && wanted(&way) {
+        self.expand(before, u64::MAX, &mut |successor| {
+            let is_better = best.as_ref().is_none_or(|best| successor.events.len() < best.events.len());
+            if is_better && wanted(&successor) {
                 best = Some(Happened {
                     before: before.to_vec(),
-                    events: way.events.to_vec(),
-                    told: way.told.clone(),
-                    after: way.state.to_vec(),
+                    events: successor.events.to_vec(),
+                    told: successor.told.clone(),
+                    after: successor.state.to_vec(),
                 });
             }
         });

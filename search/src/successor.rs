@@ -33,13 +33,13 @@ pub(crate) struct Expander<'a> {
     work: Vec<u8>,
     pub(crate) chosen: Vec<Event>,
     restless: u64,
-    /// Whether ways are to say what has fired.
+    /// Whether successors are to say what has fired.
     pub tell: bool,
     pub(crate) told: Told,
 }
 
-/// A way on from a state.
-pub(crate) struct Way<'a> {
+/// What follows a state.
+pub(crate) struct Successor<'a> {
     pub state: &'a [u8],
     pub events: &'a [Event],
     pub result: Result<(), Violation>,
@@ -69,9 +69,9 @@ impl<'a> Expander<'a> {
         }
     }
 
-    /// Calls `emit` with every way on; a state may come several times.
+    /// Calls `emit` with every successor; a state may come several times.
     /// `restless` are the instances that may do something even if no device does.
-    pub fn expand(&mut self, state: &[u8], restless: u64, emit: &mut impl FnMut(Way)) {
+    pub fn expand(&mut self, state: &[u8], restless: u64, emit: &mut impl FnMut(Successor)) {
         self.restless = self.restless_in(state, restless);
         let sources = event::sources(self.model);
         let mut options: Vec<Vec<Event>> = std::mem::take(&mut self.options);
@@ -98,18 +98,7 @@ impl<'a> Expander<'a> {
         for instance in (0..self.model.instances.len()).filter(|instance| candidates & bit(*instance) != 0) {
             self.choices.clear();
             self.work.copy_from_slice(state);
-            let mut scan = Scan {
-                model: self.model,
-                bytes: &mut self.work,
-                values: &mut self.values,
-                choices: &mut self.choices,
-                variables: &mut self.variables,
-                written: 0,
-                fired: 0,
-                moved: false,
-                restless: 0,
-                story: None,
-            };
+            let mut scan = self.begin();
             let result = scan.step_if_due(instance, u64::MAX);
             if result.is_err() || scan.fired != 0 || !self.choices.is_empty() {
                 restless |= bit(instance);
@@ -118,7 +107,29 @@ impl<'a> Expander<'a> {
         restless
     }
 
-    fn answer(&mut self, options: &[Vec<Event>], level: usize, touched: u64, emit: &mut impl FnMut(Way)) {
+    /// A scan of the state that is worked on.
+    fn begin(&mut self) -> Scan<'_> {
+        Scan {
+            model: self.model,
+            bytes: &mut self.work,
+            values: &mut self.values,
+            choices: &mut self.choices,
+            variables: &mut self.variables,
+            written: 0,
+            fired: 0,
+            moved: false,
+            restless: 0,
+            story: self.tell.then_some(&mut self.told),
+        }
+    }
+
+    fn answer(
+        &mut self,
+        options: &[Vec<Event>],
+        level: usize,
+        touched: u64,
+        emit: &mut impl FnMut(Successor),
+    ) {
         let Some((events, rest)) = options.split_first().filter(|_| self.chosen.len() < self.answers) else {
             return self.scan(level, touched | self.restless, emit);
         };
@@ -133,8 +144,8 @@ impl<'a> Expander<'a> {
         }
     }
 
-    /// Every way that one scan may go.
-    fn scan(&mut self, level: usize, touched: u64, emit: &mut impl FnMut(Way)) {
+    /// Every outcome of one scan.
+    fn scan(&mut self, level: usize, touched: u64, emit: &mut impl FnMut(Successor)) {
         if self.orders == Orders::All {
             return self.scan_in_any_order(level, touched, emit);
         }
@@ -143,21 +154,12 @@ impl<'a> Expander<'a> {
             self.work.copy_from_slice(&self.levels[level]);
             self.told.fired.clear();
             self.told.read.clear();
-            let mut scan = Scan {
-                model: self.model,
-                bytes: &mut self.work,
-                values: &mut self.values,
-                choices: &mut self.choices,
-                variables: &mut self.variables,
-                written: 0,
-                fired: 0,
-                moved: false,
-                restless: 0,
-                story: self.tell.then_some(&mut self.told),
-            };
-            let result = scan.run(&self.order, touched);
+            let order = std::mem::take(&mut self.order);
+            let mut scan = self.begin();
+            let result = scan.run(&order, touched);
             let restless = scan.restless;
-            emit(Way { state: &self.work, events: &self.chosen, result, restless, told: &self.told });
+            self.order = order;
+            emit(Successor { state: &self.work, events: &self.chosen, result, restless, told: &self.told });
             if !self.choices.advance() {
                 return;
             }

@@ -9,7 +9,7 @@ const Conveyors = (() => {
 
   /* A point of the surface of a conveyor, so far from its beginning. */
   function onLane(lane, frame, gone, across) {
-    const lies = Motion.coursePoint(lane.course, Motion.courseEnds(lane.course)[1] - gone, across);
+    const lies = Motion.pointOn(lane.line, Motion.endsOf(lane.line)[1] - gone, across);
     return frame ? Motion.point(frame, lies) : lies;
   }
 
@@ -28,7 +28,7 @@ const Conveyors = (() => {
     context.stroke();
     // Marks that go with the surface.
     if (CHEVRON * view.scale < 7) return;
-    const [end, begin] = Motion.courseEnds(lane.course);
+    const [end, begin] = Motion.endsOf(lane.line);
     const half = Math.min(lane.width / 4, 0.06);
     context.beginPath();
     for (let gone = Motion.travelAt(machine.number, lane.part, ms) % CHEVRON; gone < begin - end; gone += CHEVRON) {

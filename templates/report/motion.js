@@ -48,7 +48,7 @@ const Motion = (() => {
     surfaces: new Map(motion.surfaces.map(([part, list]) => [part, rows(list, 2)])),
   }));
 
-  /* The place on the path of a course, 0 to 1, so many seconds after its begin. */
+  /* The place on the path of a trajectory, 0 to 1, so many seconds after its begin. */
   function placeOn([place, speed, ...phases], s) {
     for (let i = 0; i < phases.length; i += 2) {
       const [duration, gain] = [phases[i], phases[i + 1]];
@@ -71,15 +71,15 @@ const Motion = (() => {
     });
   }
 
-  const courses = new Map();
-  /* A course of an arm: what the place on its path does, and that path. */
-  function courseOf(number) {
-    if (!courses.has(number)) {
-      const [place, places, halves, ...joints] = raw.courses[number];
+  const trajectories = new Map();
+  /* A trajectory of an arm: what the place on its path does, and that path. */
+  function trajectoryOf(number) {
+    if (!trajectories.has(number)) {
+      const [place, places, halves, ...joints] = raw.trajectories[number];
       const list = (of, unit) => (Array.isArray(of) ? straightened(of, unit) : of);
-      courses.set(number, [place, list(places, 1e8), list(halves, 1e8), ...joints.map((joint) => list(joint, 1e7))]);
+      trajectories.set(number, [place, list(places, 1e8), list(halves, 1e8), ...joints.map((joint) => list(joint, 1e7))]);
     }
-    return courses.get(number);
+    return trajectories.get(number);
   }
 
   /* The joints at a place on a path: lines from knot to knot, and a parabola over each corner. */
@@ -106,10 +106,10 @@ const Motion = (() => {
   function jointsBy(machine, index, ms) {
     const { joints, swings } = machines[machine];
     if (index < 0) return joints;
-    const [begin, after, course] = swings.list.slice(3 * index, 3 * index + 3);
+    const [begin, after, trajectory] = swings.list.slice(3 * index, 3 * index + 3);
     // It was let go where it was.
-    if (course < 0) return jointsBy(machine, index - 1, begin);
-    const found = courseOf(course);
+    if (trajectory < 0) return jointsBy(machine, index - 1, begin);
+    const found = trajectoryOf(trajectory);
     return onPath(found, placeOn(found[0], (ms - begin - after) / 1000));
   }
 
@@ -188,13 +188,13 @@ const Motion = (() => {
   }
 
   /* A place on the middle line of a conveyor: point and heading, in rad. */
-  function courseFrame(course, place) {
-    const { along, surface, from, length, rise, radius } = course;
+  function frameOn(line, place) {
+    const { along, surface, from, length, rise, radius } = line;
     if (along === 'x') return turned(Math.PI, [place, surface[1], surface[2]]);
     if (along === 'y') return turned(-Math.PI / 2, [surface[0], place, surface[2]]);
     const gone = length - place;
     const height = rise * Math.min(Math.max(gone / length, 0), 1);
-    const base = turned(radians(course.yaw), from);
+    const base = turned(radians(line.yaw), from);
     if (!radius) return then(base, shifted([gone, 0, height]));
     const onArc = Math.min(Math.max(gone, 0), length), angle = onArc / radius;
     const arc = turned(angle, [radius * Math.sin(angle), radius * (1 - Math.cos(angle)), height]);
@@ -202,14 +202,14 @@ const Motion = (() => {
     return [...frame.slice(0, 9), ...point(frame, [gone - onArc, 0, 0])];
   }
 
-  function coursePoint(course, place, across) {
-    const { along, surface } = course;
+  function pointOn(line, place, across) {
+    const { along, surface } = line;
     if (along === 'x') return [place, surface[1] + across, surface[2]];
     if (along === 'y') return [surface[0] + across, place, surface[2]];
-    return point(courseFrame(course, place), [0, across, 0]);
+    return point(frameOn(line, place), [0, across, 0]);
   }
 
-  const courseEnds = (course) => course.range || [0, course.length];
+  const endsOf = (line) => line.range || [0, line.length];
   const laneOf = (machine, part) => Data.machines[machine].lanes.find((lane) => lane.part === part);
   const yawOf = (frame) => Math.atan2(frame[3], frame[0]);
 
@@ -251,7 +251,7 @@ const Motion = (() => {
       case 1: return [a + d * s, b + e * s, c + f * s];
       case 2: {
         const { place, across, frame } = conveyed(segment, s);
-        const lies = coursePoint(laneOf(machine, part).course, place, across);
+        const lies = pointOn(laneOf(machine, part).line, place, across);
         return frame ? point(frame, lies) : lies;
       }
       default: {
@@ -276,13 +276,13 @@ const Motion = (() => {
     const { what, machine, part } = carrierOf(segment);
     if (what === 'lane') {
       const lane = laneOf(machine, part);
-      if (segment[2] === 2 && !lane.course.along) {
+      if (segment[2] === 2 && !lane.line.along) {
         const { place, frame } = conveyed(segment, (ms - segment[0]) / 1000);
-        return yawOf(courseFrame(lane.course, place)) + (frame ? yawOf(frame) : 0);
+        return yawOf(frameOn(lane.line, place)) + (frame ? yawOf(frame) : 0);
       }
-      if (lane.course.from && !lane.course.radius) {
+      if (lane.line.from && !lane.line.radius) {
         const carried = lane.on === null ? 0 : yawOf(cylinderFrame(machine, lane.on, ms));
-        return radians(lane.course.yaw) + carried;
+        return radians(lane.line.yaw) + carried;
       }
     }
     const begin = turnAtBegin(item, index);
@@ -313,7 +313,7 @@ const Motion = (() => {
   }
 
   return {
-    IDENTITY, items, kindAt, then, point, turned, jointsAt, framesAt, positionAt, cylinderFrame, travelAt, courseFrame,
-    coursePoint, courseEnds, outAt, laneOf, itemAt, carrierOf, placeBy, yawOf,
+    IDENTITY, items, kindAt, then, point, turned, jointsAt, framesAt, positionAt, cylinderFrame, travelAt, frameOn,
+    pointOn, endsOf, outAt, laneOf, itemAt, carrierOf, placeBy, yawOf,
   };
 })();

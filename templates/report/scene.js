@@ -57,10 +57,10 @@ const Scene = (() => {
   still.sort((a, b) => a.high - b.high);
 
   function laneBand(lane, frame, across) {
-    const [end, begin] = Motion.courseEnds(lane.course);
-    const count = lane.course.radius ? 24 : 1;
+    const [end, begin] = Motion.endsOf(lane.line);
+    const count = lane.line.radius ? 24 : 1;
     const side = (i, sign) => {
-      const lies = Motion.coursePoint(lane.course, end + ((begin - end) * i) / count, (sign * across) / 2);
+      const lies = Motion.pointOn(lane.line, end + ((begin - end) * i) / count, (sign * across) / 2);
       return frame ? Motion.point(frame, lies) : lies;
     };
     const steps = Array.from({ length: count + 1 }, (_, i) => i);

@@ -62,11 +62,11 @@ fn a_table_without_its_lock_has_two_arms_over_it_in_the_simulator_too() {
     let project = changed("held := true;", "").project();
     let model = model_of(&project, Faults::None);
     let outcome = search(&model, &BOUNDS);
-    let [(violation, course)] = &outcome.violations[..] else {
+    let [(violation, execution)] = &outcome.violations[..] else {
         panic!("{} violations", outcome.violations.len())
     };
     assert!(matches!(violation, Violation::TwoArms { .. }), "{violation:?}");
-    let replay = replay(&project, &model, course).expect("a run");
+    let replay = replay(&project, &model, execution).expect("a run");
     assert!(replay.result.is_ok(), "{:?}", replay.result);
 }
 
@@ -92,11 +92,11 @@ fn a_fault_is_found_and_its_course_is_the_shortest() {
         changed("local next: int 0..11 := 0;", "local next: int 0..11 := 0; invariant not offer;").project();
     let model = model_of(&project, Faults::None);
     let outcome = search(&model, &BOUNDS);
-    let [(Violation::Fault { .. }, course)] = &outcome.violations[..] else {
+    let [(Violation::Fault { .. }, execution)] = &outcome.violations[..] else {
         panic!("{:?}", outcome.violations)
     };
-    assert_eq!(course.scans.len(), outcome.covered.depth + 1);
-    let replay = replay(&project, &model, course).expect("a run");
+    assert_eq!(execution.scans.len(), outcome.covered.depth + 1);
+    let replay = replay(&project, &model, execution).expect("a run");
     assert!(replay.reason.starts_with("fault "), "{}", replay.reason);
 }
 

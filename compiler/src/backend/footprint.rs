@@ -3,7 +3,7 @@
 use runtime_sim::kinematics::pose::Pose;
 use runtime_sim::machine::Machine;
 use runtime_sim::part::axis::Motion;
-use runtime_sim::part::lane::{Course, Lane};
+use runtime_sim::part::lane::{CentreLine, Lane};
 use runtime_sim::part::place::Place;
 use runtime_sim::point::{Axis, Point};
 
@@ -44,8 +44,8 @@ pub fn shapes(machine: &Machine) -> Vec<(Shape, &'static str)> {
 }
 
 fn of_lane(lane: &Lane) -> Shape {
-    match lane.course {
-        Course::Axis { along, range: [low, high], surface } => {
+    match lane.centre_line {
+        CentreLine::Axis { along, range: [low, high], surface } => {
             let (middle, length) = ((low + high) / 2.0, high - low);
             let (centre, size) = match along {
                 Axis::X => (Point::new(middle, surface.y, 0.0), (length, lane.outline)),
@@ -53,8 +53,8 @@ fn of_lane(lane: &Lane) -> Shape {
             };
             Shape::Rectangle { centre, size }
         }
-        Course::Line { .. } => Shape::Polygon(band(lane, 1)),
-        Course::Arc { .. } => Shape::Polygon(band(lane, ARC_SIDES)),
+        CentreLine::Line { .. } => Shape::Polygon(band(lane, 1)),
+        CentreLine::Arc { .. } => Shape::Polygon(band(lane, ARC_SIDES)),
     }
 }
 
@@ -64,8 +64,8 @@ const ARC_SIDES: usize = 24;
 /// Both sides of a lane, one after another.
 fn band(lane: &Lane, pieces: usize) -> Vec<Point> {
     let side = |piece: usize, across: f64| {
-        let place = lane.course.end() + lane.course.length() * piece as f64 / pieces as f64;
-        lane.course.point(place, across * lane.outline / 2.0)
+        let place = lane.centre_line.end() + lane.centre_line.length() * piece as f64 / pieces as f64;
+        lane.centre_line.point(place, across * lane.outline / 2.0)
     };
     let there = (0..=pieces).map(|piece| side(piece, 1.0));
     there.chain((0..=pieces).rev().map(|piece| side(piece, -1.0))).collect()
@@ -132,14 +132,14 @@ fn of_box(pose: &Pose, size: Point) -> Shape {
 pub fn label(machine: &Machine) -> Point {
     let pose = machine.pose;
     if let Some(lane) = machine.lane() {
-        return match lane.course {
-            Course::Axis { along: Axis::X, range: [low, high], .. } => {
+        return match lane.centre_line {
+            CentreLine::Axis { along: Axis::X, range: [low, high], .. } => {
                 Point::new((low + high) / 2.0, pose.y + lane.outline / 2.0 + 0.2, 0.0)
             }
-            Course::Axis { along: Axis::Y, range, .. } => Point::new(pose.x, range[1] + 0.2, 0.0),
-            Course::Line { .. } | Course::Arc { .. } => {
-                let middle = lane.course.end() + lane.course.length() / 2.0;
-                lane.course.point(middle, lane.outline / 2.0 + 0.2)
+            CentreLine::Axis { along: Axis::Y, range, .. } => Point::new(pose.x, range[1] + 0.2, 0.0),
+            CentreLine::Line { .. } | CentreLine::Arc { .. } => {
+                let middle = lane.centre_line.end() + lane.centre_line.length() / 2.0;
+                lane.centre_line.point(middle, lane.outline / 2.0 + 0.2)
             }
         };
     }

@@ -13,7 +13,7 @@ use askama::Template;
 use panel::{Panel, Tick, View, tenths};
 use runtime_sim::line::Line;
 use runtime_sim::machine::Machine;
-use runtime_sim::part::lane::Course;
+use runtime_sim::part::lane::CentreLine;
 use runtime_sim::part::place::Place;
 use runtime_sim::point::{Axis, Point};
 use track::Track;
@@ -180,14 +180,16 @@ fn supports(machine: &Machine) -> Vec<(Point, Point)> {
         (middle - Point::new(0.0, half, 0.0), middle + Point::new(0.0, half, 0.0))
     };
     if let Some(lane) = machine.lane() {
-        return match lane.course {
-            Course::Axis { along: Axis::Y, range: [low, high], surface } => {
+        return match lane.centre_line {
+            CentreLine::Axis { along: Axis::Y, range: [low, high], surface } => {
                 vec![(Point { y: low, ..surface }, Point { y: high, ..surface })]
             }
-            Course::Axis { along: Axis::X, surface, .. } => vec![across(surface, lane.outline / 2.0, 0.0)],
-            Course::Line { .. } | Course::Arc { .. } => {
-                let end = |place: f64| lane.course.point(place, 0.0);
-                vec![(end(lane.course.begin()), end(lane.course.end()))]
+            CentreLine::Axis { along: Axis::X, surface, .. } => {
+                vec![across(surface, lane.outline / 2.0, 0.0)]
+            }
+            CentreLine::Line { .. } | CentreLine::Arc { .. } => {
+                let end = |place: f64| lane.centre_line.point(place, 0.0);
+                vec![(end(lane.centre_line.begin()), end(lane.centre_line.end()))]
             }
         };
     }

@@ -40,7 +40,7 @@ pub enum Command {
     Sweep(SweepOptions),
     /// Put the parts of a sweep together: the table that the whole sweep would print
     Merge(MergeOptions),
-    /// Look at every course of events: answers that come late, commands that fail, items that are lost
+    /// Search all that may happen: answers that come late, commands that fail, items that are lost
     Verify(VerifyOptions),
     /// Print the connectivity graph or an automaton as DOT, or the layout from above as SVG
     Graph(GraphOptions),

@@ -1,4 +1,4 @@
-//! `autogen verify`: every course of events is looked at.
+//! `autogen verify`: all executions are searched.
 
 mod report;
 
@@ -73,9 +73,9 @@ pub fn run(options: &VerifyOptions) -> Status {
     }
     let (searched, answers) = search(options, &model, limits);
     let mut shown: Vec<Shown> = Vec::new();
-    for (violation, course) in &searched.violations {
-        let replay = replay::replay(project, &model, course);
-        shown.push(Shown { violation, course, replay });
+    for (violation, execution) in &searched.violations {
+        let replay = replay::replay(project, &model, execution);
+        shown.push(Shown { violation, execution, replay });
     }
     if let (Some(file), Some(first)) = (file, shown.first().and_then(|shown| shown.replay.as_ref().ok())) {
         let written = file.write(&scenario::text(&first.line)).and_then(|()| file.keep());

@@ -1,4 +1,4 @@
-//! The line as it is searched for courses of events that must not be.
+//! The line as it is searched for executions that must not be.
 
 mod automaton;
 mod expression;

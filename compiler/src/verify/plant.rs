@@ -255,8 +255,8 @@ fn zone(
     memory: &mut Memory,
     inputs: &mut Vec<Input>,
 ) -> Option<Zone> {
-    let (middle, _) = lane.course.find(field.middle)?;
-    let corner = |along: f64, across: f64| lane.course.point(middle + along, across);
+    let (middle, _) = lane.centre_line.find(field.middle)?;
+    let corner = |along: f64, across: f64| lane.centre_line.point(middle + along, across);
     let half = lane.width / 2.0;
     let corners = [
         corner(-field.half, -half),

@@ -1,4 +1,4 @@
-//! A course of events in the simulator: the scenario that brings it about, by what slips, how commands end, and how late
+//! An execution in the simulator: the scenario that brings it about, by what slips, how commands end, and how late
 //! devices answer.
 
 use crate::executor::Executor;
@@ -7,7 +7,7 @@ use crate::lower::Project;
 use autogen_search::event::{Ending, From, What};
 use autogen_search::model::Model;
 use autogen_search::plant::motion;
-use autogen_search::story::Course;
+use autogen_search::story::Execution;
 use runtime_sim::line::{Answer, Line, Slip, Supply};
 use runtime_sim::plant::{self, Plant};
 use runtime_sim::run::{Seen, Stepping, run};
@@ -24,14 +24,14 @@ const LONGEST_S: f64 = 1800.0;
 /// Slips are found one after another, each in a run of its own.
 const MOST_RUNS: usize = 20;
 
-/// What the simulator made of a course.
+/// What the simulator made of an execution.
 #[derive(Debug)]
 pub struct Replay {
     /// With the scenario.
     pub line: Line,
     /// How the run ended.
     pub reason: String,
-    /// When all transitions of the course had fired, s; or what kept them from it.
+    /// When all transitions of the execution had fired, s; or what kept them from it.
     pub result: Result<f64, String>,
 }
 
@@ -43,7 +43,7 @@ struct Mark {
     commands: u32,
 }
 
-/// What devices are to do, in the order of the course.
+/// What devices are to do, in the order of the execution.
 #[derive(Clone, Copy, Debug)]
 struct Due {
     scan: usize,
@@ -58,9 +58,9 @@ struct Director<'a> {
     due: Vec<VecDeque<Due>>,
 }
 
-/// Brings a course about as far as it can be.
-pub fn replay(project: &Project, model: &Model, course: &Course) -> Result<Replay, String> {
-    let mut director = Director::new(project, model, course);
+/// Brings an execution about as far as it can be.
+pub fn replay(project: &Project, model: &Model, execution: &Execution) -> Result<Replay, String> {
+    let mut director = Director::new(project, model, execution);
     let result = director.direct();
     let line = director.line.clone();
     let mut executor = Executor::new(&project.system);
@@ -80,7 +80,7 @@ pub fn replay(project: &Project, model: &Model, course: &Course) -> Result<Repla
     Ok(Replay { line, reason: report.reason, result })
 }
 
-/// Whether a run does what the course says, machine by machine.
+/// Whether a run does what the execution says, machine by machine.
 struct Follower {
     marks: Vec<VecDeque<Mark>>,
     /// Where the state of each machine stands in the trace, and its number of the last command among its outputs.
@@ -116,7 +116,7 @@ impl Follower {
 }
 
 impl<'a> Director<'a> {
-    fn new(project: &'a Project, model: &Model, course: &Course) -> Self {
+    fn new(project: &'a Project, model: &Model, execution: &Execution) -> Self {
         let instances = project.system.instances.len();
         let mut marks = vec![Vec::new(); instances];
         let mut due = vec![VecDeque::new(); instances];
@@ -129,7 +129,7 @@ impl<'a> Director<'a> {
         line.scenario.spawn_first_s = APART_S;
         line.scenario.spawn_every_s = APART_S;
         let mut supply: Vec<Vec<usize>> = vec![Vec::new(); instances];
-        for (scan, happened) in course.scans.iter().enumerate() {
+        for (scan, happened) in execution.scans.iter().enumerate() {
             for event in &happened.events {
                 let machine = event.machine;
                 if let What::Ends(ending) = event.what {
@@ -315,7 +315,7 @@ impl<'a> Director<'a> {
                         let at = (scan * scan_ms) as f64 / 1000.0;
                         return Err(format!("{name} does something else at {at:.2} s"));
                     }
-                    // It has done all that it does in the course.
+                    // It has done all that it does in the execution.
                     None => {}
                 }
             }

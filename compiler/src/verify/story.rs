@@ -1,11 +1,11 @@
-//! A course of events in words.
+//! An execution in words.
 
 use crate::lower::Project;
 use crate::source::{Sources, Span};
 use autogen_search::Fired;
 use autogen_search::event::{Ending, Event, From, What};
 use autogen_search::model::Model;
-use autogen_search::story::{Course, Happened};
+use autogen_search::story::{Execution, Happened};
 use autogen_search::violation::Violation;
 use std::fmt::Write;
 
@@ -42,10 +42,10 @@ impl Teller<'_> {
         }
     }
 
-    /// The course scan by scan; scans in which nothing happens are left out.
-    pub fn tell(&self, course: &Course) -> String {
+    /// The execution scan by scan; scans in which nothing happens are left out.
+    pub fn tell(&self, execution: &Execution) -> String {
         let mut out = String::new();
-        for (number, happened) in course.scans.iter().enumerate() {
+        for (number, happened) in execution.scans.iter().enumerate() {
             for event in &happened.events {
                 let _ = writeln!(out, "{:>4}  {}", number + 1, self.event(happened, event));
             }

@@ -14,7 +14,7 @@ use crate::machine::Machine;
 use crate::motion::Travel;
 use crate::part::Primitive;
 use crate::part::cylinder::Stroking;
-use crate::part::lane::Course;
+use crate::part::lane::CentreLine;
 use crate::plant::Plant;
 use crate::plant::conveyed::Conveyed;
 use crate::point::Point;
@@ -455,14 +455,14 @@ fn lying(
 
 /// What an item can take on the rest of its conveyor.
 fn on_course(conveyed: &Conveyed, ball: &Ball) -> BoundingBox {
-    let Conveyed { course, place, across, .. } = conveyed;
-    let pieces = if matches!(course, Course::Arc { .. }) { ARC_PIECES } else { 1 };
-    let piece = (place - course.end()).max(0.0) / pieces as f64;
+    let Conveyed { centre_line, place, across, .. } = conveyed;
+    let pieces = if matches!(centre_line, CentreLine::Arc { .. }) { ARC_PIECES } else { 1 };
+    let piece = (place - centre_line.end()).max(0.0) / pieces as f64;
     // No point of an arc is farther from the nearest of these places than half of a piece, and what lies outside the
     // middle line by so much more.
     let beside = if pieces > 1 { piece * conveyed.widening() } else { 0.0 };
     let boxes = (0..=pieces).map(|number| {
-        let Ball { middle, radius } = ball.shifted(course.point(place - piece * number as f64, *across));
+        let Ball { middle, radius } = ball.shifted(centre_line.point(place - piece * number as f64, *across));
         BoundingBox::around(&Ball { middle, radius: radius + beside })
     });
     boxes.fold(BoundingBox::NOTHING, |all, next| all.with(&next))

@@ -66,7 +66,7 @@ impl Crossing {
     pub fn seen(&self, see: &See) -> impl Iterator<Item = usize> {
         let moving = see.lane(self.beam.lane);
         let riders = moving.into_iter().flat_map(|moving| {
-            let beam = moving.lane().course.begin() - self.beam.at + AT_ONCE;
+            let beam = moving.lane().centre_line.begin() - self.beam.at + AT_ONCE;
             let places = moving.riders.iter().map(move |rider| (rider, moving.place_now(rider)));
             places.filter(move |(rider, place)| place - rider.half <= beam && place + rider.half > beam)
         });
@@ -84,7 +84,7 @@ impl Running for Crossing {
     /// An edge of an item comes to the beam.
     fn next_change(&self, see: &See, now_ms: u64) -> f64 {
         let Some(moving) = see.lane(self.beam.lane) else { return f64::INFINITY };
-        let beam = moving.lane().course.begin() - self.beam.at;
+        let beam = moving.lane().centre_line.begin() - self.beam.at;
         let edges = moving.riders.iter().flat_map(|rider| {
             let comes_to = |place| moving.comes_to(rider.motion, place, now_ms as f64);
             [comes_to(beam + rider.half), comes_to(beam - rider.half)]

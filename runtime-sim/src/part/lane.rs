@@ -1,9 +1,9 @@
 //! A conveyor: items lie on it and go with it, until something is in their way.
 
-mod course;
+mod centre_line;
 mod moving;
 
-pub use course::Course;
+pub use centre_line::CentreLine;
 pub use moving::{AT_ONCE, Motion, Moving, Rider};
 
 use super::settings::{Form, Setting, Settings};
@@ -41,7 +41,7 @@ pub struct Lane {
     /// The cylinder that carries it.
     pub on: Option<usize>,
     /// At the inner end of what carries it.
-    pub course: Course,
+    pub centre_line: CentreLine,
     pub width: f64,
     pub outline: f64,
     /// m/s.
@@ -54,13 +54,13 @@ pub const RUN: usize = 0;
 impl Described for Lane {
     fn new(settings: &Settings) -> Result<Self, String> {
         let width = settings.positive("width")?;
-        let (on, course) = (settings.optional("on", Settings::part)?, Course::new(settings)?);
-        if on.is_some() && !course.turns_items() {
+        let (on, centre_line) = (settings.optional("on", Settings::part)?, CentreLine::new(settings)?);
+        if on.is_some() && !centre_line.turns_items() {
             return Err("a lane on a cylinder is given by from and length".into());
         }
         Ok(Self {
             on,
-            course,
+            centre_line,
             width,
             outline: settings.optional("outline", Settings::positive)?.unwrap_or(width),
             speed: settings.positive("speed")?,

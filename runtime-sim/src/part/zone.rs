@@ -87,7 +87,7 @@ impl Seeing {
 
     /// Place of the field's middle on the lane.
     fn middle(&self, moving: &lane::Moving) -> Option<f64> {
-        Some(moving.lane().course.find(self.zone.middle)?.0)
+        Some(moving.lane().centre_line.find(self.zone.middle)?.0)
     }
 }
 

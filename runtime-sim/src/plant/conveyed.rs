@@ -2,21 +2,21 @@
 
 use crate::frame::Frame;
 use crate::part::cylinder::{Stroke, Stroking};
-use crate::part::lane::Course;
+use crate::part::lane::CentreLine;
 use crate::point::{Axis, Point};
 
 /// The motion of an item on a conveyor from now on, until a drive, a cylinder or another item changes it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Conveyed {
-    pub course: Course,
-    /// Place of its middle on the course, now.
+    pub centre_line: CentreLine,
+    /// Place of its middle on the centre line, now.
     pub place: f64,
     pub across: f64,
     /// m/s.
     pub speed: f64,
     /// It goes no farther; negative infinity: nothing that stands is in its way.
     pub stops_at: f64,
-    /// How the conveyor itself moves; the course is where it is at the inner end.
+    /// How the conveyor itself moves; the centre line is where it is at the inner end.
     pub carried: Option<Stroking>,
 }
 
@@ -45,15 +45,15 @@ impl Conveyed {
 
     /// Where its underside is after so many seconds.
     pub fn point(&self, seconds: f64) -> Point {
-        let point = self.course.point(self.place_after(seconds), self.across);
+        let point = self.centre_line.point(self.place_after(seconds), self.across);
         self.carried.map_or(point, |carried| carried.frame(seconds).point(point))
     }
 
     /// Degrees about the vertical; none if it keeps the heading with which it came.
     pub fn yaw(&self, seconds: f64) -> Option<f64> {
-        let turns = self.course.turns_items();
+        let turns = self.centre_line.turns_items();
         let carried = self.carried.map_or(0.0, |carried| carried.frame(seconds).yaw);
-        turns.then(|| self.course.frame(self.place_after(seconds)).yaw + carried)
+        turns.then(|| self.centre_line.frame(self.place_after(seconds)).yaw + carried)
     }
 
     /// Seconds until something that stands stops it.
@@ -90,29 +90,29 @@ impl Conveyed {
 
     /// Metres per second that no point of it goes faster than which is so far from its middle line.
     pub fn speed_within(&self, reach: f64) -> f64 {
-        let turns = match self.course {
-            Course::Arc { radius, .. } => (self.across.abs() + reach) / radius.abs(),
-            Course::Axis { .. } | Course::Line { .. } => 0.0,
+        let turns = match self.centre_line {
+            CentreLine::Arc { radius, .. } => (self.across.abs() + reach) / radius.abs(),
+            CentreLine::Axis { .. } | CentreLine::Line { .. } => 0.0,
         };
-        let climbs = match self.course {
-            Course::Axis { .. } => 0.0,
-            Course::Line { length, rise, .. } | Course::Arc { length, rise, .. } => rise / length,
+        let climbs = match self.centre_line {
+            CentreLine::Axis { .. } => 0.0,
+            CentreLine::Line { length, rise, .. } | CentreLine::Arc { length, rise, .. } => rise / length,
         };
         let carried = self.carried.map_or(0.0, |carried| {
-            let place = self.course.point(self.place, self.across);
-            carried.stroke.path(place, reach + self.course.length(), carried.rate.abs())
+            let place = self.centre_line.point(self.place, self.across);
+            carried.stroke.path(place, reach + self.centre_line.length(), carried.rate.abs())
         });
         self.speed * (libm::hypot(1.0, climbs) + turns) + carried
     }
 
-    /// How it moves along its course, as seen from what the conveyor is on.
+    /// How it moves along its centre line, as seen from what the conveyor is on.
     pub fn along(&self) -> Along {
         let now = self.carried.map_or(Frame::default(), |carried| carried.frame(0.0));
-        let ahead = match self.course {
-            Course::Axis { along: Axis::X, .. } => Point::new(-1.0, 0.0, 0.0),
-            Course::Axis { along: Axis::Y, .. } => Point::new(0.0, -1.0, 0.0),
-            Course::Line { from, length, rise } => from.direction(Point::new(1.0, 0.0, rise / length)),
-            Course::Arc { from, radius, length, rise } => {
+        let ahead = match self.centre_line {
+            CentreLine::Axis { along: Axis::X, .. } => Point::new(-1.0, 0.0, 0.0),
+            CentreLine::Axis { along: Axis::Y, .. } => Point::new(0.0, -1.0, 0.0),
+            CentreLine::Line { from, length, rise } => from.direction(Point::new(1.0, 0.0, rise / length)),
+            CentreLine::Arc { from, radius, length, rise } => {
                 return Along::Arc {
                     middle: now.point(from.point(Point::new(0.0, radius, 0.0))),
                     rate: self.speed / radius,
@@ -134,11 +134,11 @@ impl Conveyed {
         })
     }
 
-    /// How much longer its own course is than the middle line, as a factor: 1 and more.
+    /// How much longer its own path is than the centre line, as a factor: 1 and more.
     pub fn widening(&self) -> f64 {
-        match self.course {
-            Course::Arc { radius, .. } => 1.0 + self.across.abs() / radius.abs(),
-            Course::Axis { .. } | Course::Line { .. } => 1.0,
+        match self.centre_line {
+            CentreLine::Arc { radius, .. } => 1.0 + self.across.abs() / radius.abs(),
+            CentreLine::Axis { .. } | CentreLine::Line { .. } => 1.0,
         }
     }
 }

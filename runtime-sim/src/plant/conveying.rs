@@ -163,12 +163,12 @@ impl Conveying {
     /// At the beginning of a lane.
     fn has_room(&self, among: &Among, track: usize, half: f64, ms: f64) -> bool {
         let lane = among.lane(&self.tracks[track]);
-        let begin = lane.lane().course.begin();
+        let begin = lane.lane().centre_line.begin();
         lane.riders.iter().all(|rider| lane.place_at(rider.motion, ms) + rider.half <= begin - half + SAME)
     }
 
     fn pass(&self, among: &mut Among, ms: f64, from: usize, item: usize, goes: Goes) {
-        let course = self.tracks[from].course(among, ms);
+        let centre_line = self.tracks[from].centre_line(among, ms);
         let lane = among.lane_mut(&self.tracks[from]);
         let index = lane.riders.iter().position(|rider| rider.item == item);
         let Some(rider) = index.map(|index| lane.riders.remove(index)) else { return };
@@ -178,18 +178,18 @@ impl Conveying {
                 let Carrier::Lane { across, .. } = among.carrier(item) else { return };
                 let machine = self.tracks[from].machine;
                 let carrier = Carrier::Sink { machine, part: sink };
-                among.items.pass(item, carrier, course.point(place, across));
+                among.items.pass(item, carrier, centre_line.point(place, across));
             }
             Goes::Onto(onto) => {
                 let track = &self.tracks[onto];
-                let course = track.course(among, ms);
+                let centre_line = track.centre_line(among, ms);
                 let lane = among.lane_mut(track);
-                let at = course.begin() + lane.travel_at(ms);
+                let at = centre_line.begin() + lane.travel_at(ms);
                 let half = track.halves[among.items.all()[item].kind];
                 let rider = Rider { from: Some(from), ..Rider::new(item, half, at) };
                 among.lane_mut(track).riders.push(rider);
                 let carrier = Carrier::Lane { machine: track.machine, part: track.part, at, across: 0.0 };
-                among.items.pass(item, carrier, course.point(course.begin(), 0.0));
+                among.items.pass(item, carrier, centre_line.point(centre_line.begin(), 0.0));
             }
             Goes::Falls(_) => {}
         }

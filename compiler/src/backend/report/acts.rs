@@ -2,7 +2,7 @@
 
 use super::signals::Signal;
 use crate::ir::Group;
-use runtime_sim::history::History;
+use runtime_sim::history::{History, MachineHistory};
 use runtime_sim::io_trace::Source;
 
 /// A time in one state.
@@ -26,7 +26,7 @@ pub struct Acts {
 
 /// Of all machines, up to this scan.
 pub fn acts(history: &History, signals: &[Signal], end: u64) -> Vec<Acts> {
-    let mut all: Vec<Acts> = history.machines.iter().map(|course| stays(course, end)).collect();
+    let mut all: Vec<Acts> = history.machines.iter().map(|machine| stays(machine, end)).collect();
     for (signal, word) in signals.iter().zip(&history.words) {
         let Some(machine) = signal.machine else { continue };
         // The first entry is the value at the start.
@@ -48,9 +48,9 @@ pub fn acts(history: &History, signals: &[Signal], end: u64) -> Vec<Acts> {
     all
 }
 
-fn stays(course: &runtime_sim::history::Course, end: u64) -> Acts {
+fn stays(machine: &MachineHistory, end: u64) -> Acts {
     let mut acts = Acts::default();
-    for stay in course.stays.iter().filter(|stay| stay.scan < end) {
+    for stay in machine.stays.iter().filter(|stay| stay.scan < end) {
         match acts.stays.last_mut() {
             // What it is counted as has changed alone.
             Some(last) if last.state == stay.state => continue,

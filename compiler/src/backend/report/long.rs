@@ -91,7 +91,7 @@ fn drawn(line: &Line, recorded: &Recorded, until_ms: f64) -> Vec<(&'static str, 
     let motions = motions(&recorded.history, until_ms);
     let paths = paths(line, &recorded.paths, until_ms);
     vec![
-        ("courses", motions.courses),
+        ("trajectories", motions.trajectories),
         ("motions", motions.machines),
         ("carriers", paths.carriers),
         ("paths", paths.items),
@@ -100,10 +100,10 @@ fn drawn(line: &Line, recorded: &Recorded, until_ms: f64) -> Vec<(&'static str, 
 
 /// Of each machine: scans since the change before, number of the state, and what it is counted as.
 fn stays(history: &History) -> String {
-    list(history.machines.iter().map(|course| {
+    list(history.machines.iter().map(|machine| {
         let mut stays = List::default();
         let mut last = 0;
-        for stay in &course.stays {
+        for stay in &machine.stays {
             stays.put_whole(stay.scan - last).put_whole(stay.state).put_whole(stay.counted as usize);
             last = stay.scan;
         }

@@ -9,7 +9,7 @@ use runtime_sim::line::{Line, Obstacle};
 use runtime_sim::machine::Machine;
 use runtime_sim::part::Primitive;
 use runtime_sim::part::cylinder::Stroke;
-use runtime_sim::part::lane::Course;
+use runtime_sim::part::lane::CentreLine;
 use runtime_sim::point::{Axis, Point};
 use runtime_sim::solid::{Link, Shape, Solid};
 use runtime_sim::wiring::{self, Drives};
@@ -121,20 +121,20 @@ fn links(machine: &Machine) -> Value {
 
 fn lane(machine: &Machine, part: usize) -> Option<Value> {
     let Primitive::Lane(lane) = &machine.parts[part].primitive else { return None };
-    let course = match lane.course {
-        Course::Axis { along, range, surface } => {
+    let line = match lane.centre_line {
+        CentreLine::Axis { along, range, surface } => {
             let along = if along == Axis::X { "x" } else { "y" };
             json!({ "along": along, "range": range, "surface": point(surface) })
         }
-        Course::Line { from, length, rise } => {
+        CentreLine::Line { from, length, rise } => {
             json!({ "from": point(from.position), "yaw": from.yaw, "length": length, "rise": rise })
         }
-        Course::Arc { from, length, rise, radius } => json!({
+        CentreLine::Arc { from, length, rise, radius } => json!({
             "from": point(from.position), "yaw": from.yaw, "length": length, "rise": rise, "radius": radius
         }),
     };
     Some(json!({
-        "part": part, "name": machine.parts[part].name, "on": lane.on, "course": course, "width": lane.width,
+        "part": part, "name": machine.parts[part].name, "on": lane.on, "line": line, "width": lane.width,
         "outline": lane.outline, "speed": lane.speed
     }))
 }

@@ -4,7 +4,7 @@ use super::super::options::{StepOrders, VerifyOptions};
 use autogen::verify::replay::Replay;
 use autogen::verify::story::Teller;
 use autogen_search::explore::{End, Outcome};
-use autogen_search::story::Course;
+use autogen_search::story::Execution;
 use autogen_search::violation::Violation;
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -20,7 +20,7 @@ pub struct Report<'a> {
 
 pub struct Shown<'a> {
     pub violation: &'a Violation,
-    pub course: &'a Course,
+    pub execution: &'a Execution,
     pub replay: Result<Replay, String>,
 }
 
@@ -85,7 +85,7 @@ impl Report<'_> {
         let mut out = String::new();
         for shown in self.shown {
             let _ = writeln!(out, "{}\n", self.teller.title(shown.violation));
-            let _ = writeln!(out, "{}", self.teller.tell(shown.course));
+            let _ = writeln!(out, "{}", self.teller.tell(shown.execution));
             let _ = writeln!(out, "in the simulator   {}\n", replayed(&shown.replay));
         }
         let _ = writeln!(out, "{}\n", self.verdict());
@@ -116,7 +116,7 @@ impl Report<'_> {
             .map(|shown| {
                 json!({
                     "violation": self.teller.title(shown.violation),
-                    "story": self.teller.tell(shown.course).lines().collect::<Vec<_>>(),
+                    "story": self.teller.tell(shown.execution).lines().collect::<Vec<_>>(),
                     "simulator": replayed(&shown.replay),
                 })
             })

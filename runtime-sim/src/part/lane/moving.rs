@@ -1,6 +1,6 @@
 //! A conveyor at work.
 
-use super::{Course, Lane};
+use super::{CentreLine, Lane};
 use crate::carrier::Carrier;
 use crate::device::error;
 use crate::part::{Begun, Progress, Running, See, World};
@@ -44,7 +44,7 @@ impl Rider {
     }
 }
 
-/// How an item goes, by the places of its middle on the course.
+/// How an item goes, by the places of its middle on the centre line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Motion {
     /// With the surface: it would be at this place if the surface had not moved since the start of the run.
@@ -77,9 +77,9 @@ impl Moving {
     }
 
     /// Where it is at a time from the start of this span on, ms.
-    fn course(&self, see: &See, ms: f64) -> Course {
+    fn centre_line(&self, see: &See, ms: f64) -> CentreLine {
         let carried = self.lane.on.and_then(|cylinder| see.cylinder(cylinder));
-        carried.map_or(self.lane.course, |cylinder| self.lane.course.moved(cylinder.frame(ms)))
+        carried.map_or(self.lane.centre_line, |cylinder| self.lane.centre_line.moved(cylinder.frame(ms)))
     }
 
     /// Metres that the surface has moved since the start of the run.
@@ -149,7 +149,7 @@ impl Moving {
         let motion = self.motion(item, carrier)?;
         let rider = self.riders.iter().find(|rider| rider.item == item);
         Some(Conveyed {
-            course: self.lane.course,
+            centre_line: self.lane.centre_line,
             place: self.place_at(motion, self.now_ms as f64),
             across,
             speed: self.speed_of(motion),
@@ -209,9 +209,9 @@ impl Running for Moving {
     }
 
     fn below(&self, point: Point, ms: f64, see: &See) -> Option<(f64, Carrier)> {
-        let course = self.course(see, ms);
-        let (place, across) = course.find(point)?;
-        let height = course.point(place, across).z;
+        let centre_line = self.centre_line(see, ms);
+        let (place, across) = centre_line.find(point)?;
+        let height = centre_line.point(place, across).z;
         let at = place + self.travel_at(ms);
         let carrier = Carrier::Lane { machine: see.machine, part: self.part, at, across };
         (across.abs() <= self.lane.width / 2.0).then_some((height, carrier))
@@ -219,7 +219,7 @@ impl Running for Moving {
 
     fn place(&self, item: usize, carrier: &Carrier, see: &See) -> Option<Point> {
         let Carrier::Lane { across, .. } = *carrier else { return None };
-        Some(self.course(see, self.now_ms as f64).point(self.place_of(item, carrier)?, across))
+        Some(self.centre_line(see, self.now_ms as f64).point(self.place_of(item, carrier)?, across))
     }
 
     fn lane(&self) -> Option<&Moving> {

@@ -86,8 +86,8 @@ fn limits(tracks: &[Track], among: &Among, entries: &[Entry], at: usize, ms: f64
 /// What is in the way of the first item of a lane on the lane after it, or beside it on another one that leads there.
 fn beyond_end(tracks: &[Track], among: &Among, entries: &[Entry], at: usize, onto: usize) -> Vec<Limit> {
     let entry = &entries[at];
-    let end = among.lane(&tracks[entry.track]).lane().course.end();
-    let begin = among.lane(&tracks[onto]).lane().course.begin();
+    let end = among.lane(&tracks[entry.track]).lane().centre_line.end();
+    let begin = among.lane(&tracks[onto]).lane().centre_line.begin();
     let last = entries.iter().enumerate().rev().find(|(_, other)| other.track == onto);
     let last = last.map(|(number, last)| {
         let rear = last.place + last.half;
@@ -103,7 +103,7 @@ fn beyond_end(tracks: &[Track], among: &Among, entries: &[Entry], at: usize, ont
     let inputs = tracks[onto].inputs.iter().filter(|input| **input != entry.track);
     let others = inputs.filter_map(|input| {
         let other = entries.iter().find(|other| other.track == *input)?;
-        let over = among.lane(&tracks[*input]).lane().course.end() - (other.place - other.half);
+        let over = among.lane(&tracks[*input]).lane().centre_line.end() - (other.place - other.half);
         let own_over = end - (entry.place - entry.half);
         let goes_first = over > SAME || over > -SAME && (own_over < -SAME || *input < entry.track);
         (goes_first && own_over <= SAME).then_some(Limit { place: end + entry.half, behind: None })
@@ -173,14 +173,14 @@ fn next_ms(tracks: &[Track], among: &Among, entries: &[Entry], ms: f64) -> f64 {
                 next = next.min(lane.comes_to(rider.motion, place, ms));
             }
         };
-        comes_to(track.sink.map_or(lane.lane().course.end(), |sink| sink.place));
+        comes_to(track.sink.map_or(lane.lane().centre_line.end(), |sink| sink.place));
         track.branches.iter().filter_map(|branch| branch.awaits(rider)).for_each(&mut comes_to);
         let shares_joint = |onto: usize| tracks[onto].inputs.len() > 1;
         if shares_joint(entry.track) {
-            comes_to(lane.lane().course.begin() - rider.half);
+            comes_to(lane.lane().centre_line.begin() - rider.half);
         }
         if track.onto.is_some_and(shares_joint) {
-            comes_to(lane.lane().course.end() + rider.half);
+            comes_to(lane.lane().centre_line.end() + rider.half);
         }
         for limit in &entry.limits {
             next = next.min(meets(entry, *limit, entries, lane, ms));

@@ -56,7 +56,7 @@ impl Ends {
 #[derive(Clone, Debug)]
 pub struct Branch {
     pub kind: Kind,
-    /// On the course.
+    /// On the centre line.
     pub place: f64,
     pub ends: Ends,
 }

@@ -188,7 +188,7 @@ impl Design {
         }
         assert!(parts.iter().all(|part| Schema::find(part.schema().name).is_some()));
         let end = parts.first().and_then(|part| match &part.primitive {
-            crate::part::Primitive::Lane(lane) => Some(lane.course.frame(lane.course.end())),
+            crate::part::Primitive::Lane(lane) => Some(lane.centre_line.frame(lane.centre_line.end())),
             _ => None,
         });
         let outputs = drives.into_iter().map(|drives| Output { size: ONE, drives }).collect();
@@ -438,7 +438,7 @@ fn events_are_those_of_every_scan_and_of_small_steps() {
 fn compare(seed: u64, scan: u64, steps: &Steps, plant: &Plant) {
     for (item, at) in steps.items.iter().enumerate() {
         let carrier = plant.items().all()[item].carrier;
-        let conveyed = plant.conveyed(item).map(|conveyed| conveyed.course.begin() - conveyed.place);
+        let conveyed = plant.conveyed(item).map(|conveyed| conveyed.centre_line.begin() - conveyed.place);
         let found = carrier.machine().zip(conveyed);
         let is_same = match (*at, found) {
             (None, None) => true,

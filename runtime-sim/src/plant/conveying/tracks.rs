@@ -8,11 +8,11 @@ use crate::line::Line;
 use crate::machine::Machine;
 use crate::part::Primitive;
 use crate::part::cylinder::End;
-use crate::part::lane::{Course, Lane, Rider};
+use crate::part::lane::{CentreLine, Lane, Rider};
 use crate::part::source::{self, Spawn};
 use crate::point::Axis;
 
-/// A lane with all that stands at it. Places are those of its course.
+/// A lane with all that stands at it. Places are those of its centre line.
 #[derive(Clone, Debug)]
 pub struct Track {
     pub machine: usize,
@@ -98,8 +98,8 @@ pub fn tracks(line: &Line) -> Vec<Track> {
         })
     };
     let places: Vec<(usize, usize)> = lanes().map(|(machine, part, _)| (machine, part)).collect();
-    let courses: Vec<Vec<(Option<End>, Course)>> =
-        lanes().map(|(machine, _, lane)| courses(&line.machines[machine], lane)).collect();
+    let centre_lines: Vec<Vec<(Option<End>, CentreLine)>> =
+        lanes().map(|(machine, _, lane)| centre_lines(&line.machines[machine], lane)).collect();
     let number = |machine: usize, part: usize| places.iter().position(|place| *place == (machine, part));
     let track = |(index, (machine, part, lane)): (usize, (usize, usize, &Lane))| Track {
         machine,
@@ -108,7 +108,7 @@ pub fn tracks(line: &Line) -> Vec<Track> {
         feed: feed(line, machine, part, lane),
         branches: branches(&line.machines[machine], part, lane, &|onto| number(machine, onto)),
         carried: lane.on.map(Ends::new),
-        joints: joints(&courses, index),
+        joints: joints(&centre_lines, index),
         onto: None,
         inputs: Vec::new(),
         halves: line.kinds.iter().map(|kind| half(lane, kind.size)).collect(),
@@ -117,18 +117,20 @@ pub fn tracks(line: &Line) -> Vec<Track> {
 }
 
 /// Where a lane lies: at both ends of its cylinder, if it is on one.
-fn courses(machine: &Machine, lane: &Lane) -> Vec<(Option<End>, Course)> {
+fn centre_lines(machine: &Machine, lane: &Lane) -> Vec<(Option<End>, CentreLine)> {
     let cylinder = lane.on.map(|part| &machine.parts[part].primitive);
-    let Some(Primitive::Cylinder(cylinder)) = cylinder else { return vec![(None, lane.course)] };
-    let moved = |out: f64| cylinder.stroke.map_or(lane.course, |stroke| lane.course.moved(stroke.frame(out)));
+    let Some(Primitive::Cylinder(cylinder)) = cylinder else { return vec![(None, lane.centre_line)] };
+    let moved = |out: f64| {
+        cylinder.stroke.map_or(lane.centre_line, |stroke| lane.centre_line.moved(stroke.frame(out)))
+    };
     vec![(Some(End::In), moved(0.0)), (Some(End::Out), moved(1.0))]
 }
 
 /// The lanes on which a lane goes on.
-fn joints(courses: &[Vec<(Option<End>, Course)>], index: usize) -> Vec<Joint> {
+fn joints(centre_lines: &[Vec<(Option<End>, CentreLine)>], index: usize) -> Vec<Joint> {
     let mut joints = Vec::new();
-    for (own, from) in &courses[index] {
-        for (onto, others) in courses.iter().enumerate().filter(|(onto, _)| *onto != index) {
+    for (own, from) in &centre_lines[index] {
+        for (onto, others) in centre_lines.iter().enumerate().filter(|(onto, _)| *onto != index) {
             let joined = others.iter().filter(|(_, to)| joins(from, to));
             joints.extend(joined.map(|(other, _)| Joint { onto, when: [*own, *other] }));
         }
@@ -156,23 +158,23 @@ pub fn join(tracks: &mut [Track], ms: f64) {
 }
 
 /// Whether a lane goes on as another one.
-fn joins(from: &Course, to: &Course) -> bool {
+fn joins(from: &CentreLine, to: &CentreLine) -> bool {
     let (end, begin) = (from.frame(from.end()), to.frame(to.begin()));
     let turn = crate::frame::whole_turn(end.yaw - begin.yaw);
     (end.position - begin.position).length() <= JOINED && turn.abs() <= ALIGNED
 }
 
 fn half(lane: &Lane, [x, y]: [f64; 2]) -> f64 {
-    match lane.course {
-        Course::Axis { along: Axis::Y, .. } => y / 2.0,
-        Course::Axis { along: Axis::X, .. } | Course::Line { .. } | Course::Arc { .. } => x / 2.0,
+    match lane.centre_line {
+        CentreLine::Axis { along: Axis::Y, .. } => y / 2.0,
+        CentreLine::Axis { along: Axis::X, .. } | CentreLine::Line { .. } | CentreLine::Arc { .. } => x / 2.0,
     }
 }
 
 fn sink(machine: &Machine, lane_part: usize, lane: &Lane) -> Option<Leaves> {
     machine.parts.iter().enumerate().find_map(|(part, other)| match &other.primitive {
         Primitive::Sink(sink) if sink.lane == lane_part => {
-            Some(Leaves { part, place: lane.course.end() + sink.inset })
+            Some(Leaves { part, place: lane.centre_line.end() + sink.inset })
         }
         _ => None,
     })
@@ -183,7 +185,7 @@ fn feed(line: &Line, machine: usize, lane_part: usize, lane: &Lane) -> Option<Fe
         Primitive::Source(source) if source.lane == lane_part => {
             let mut supply = source::supply(line, machine);
             supply.reverse();
-            let place = lane.course.begin() - source.inset;
+            let place = lane.centre_line.begin() - source.inset;
             let spawn = Spawn::new(&line.scenario);
             Some(Feed { part, place, asked: None, spawn, supply, spawned: 0 })
         }
@@ -197,7 +199,7 @@ fn branches(
     lane: &Lane,
     number: &dyn Fn(usize) -> Option<usize>,
 ) -> Vec<Branch> {
-    let begin = lane.course.begin();
+    let begin = lane.centre_line.begin();
     let branch =
         |kind: Kind, at: f64, cylinder: usize| Branch { kind, place: begin - at, ends: Ends::new(cylinder) };
     let parts = machine.parts.iter().filter_map(|other| match &other.primitive {
@@ -250,17 +252,17 @@ impl Track {
     }
 
     /// Where the lane is at a time.
-    pub fn course(&self, among: &Among, ms: f64) -> Course {
-        let course = among.lane(self).lane().course;
+    pub fn centre_line(&self, among: &Among, ms: f64) -> CentreLine {
+        let centre_line = among.lane(self).lane().centre_line;
         let carried = self.carried.as_ref();
         let cylinder = carried.and_then(|ends| among.machines[self.machine].cylinder(ends.cylinder));
-        cylinder.map_or(course, |cylinder| course.moved(cylinder.frame(ms)))
+        cylinder.map_or(centre_line, |cylinder| centre_line.moved(cylinder.frame(ms)))
     }
 
     /// Where an item goes that has come to the end of the lane.
     pub fn leaves(&self, among: &Among, rider: &Rider, place: f64, ms: f64) -> Option<Goes> {
-        let course = among.lane(self).lane().course;
-        let end = self.sink.map_or(course.end(), |sink| sink.place);
+        let centre_line = among.lane(self).lane().centre_line;
+        let end = self.sink.map_or(centre_line.end(), |sink| sink.place);
         if place > end + SAME {
             return None;
         }
@@ -268,8 +270,8 @@ impl Track {
             (Some(sink), _) => Goes::Collected { sink: sink.part },
             (None, Some(onto)) => Goes::Onto(onto),
             (None, None) => {
-                let course = self.course(among, ms);
-                Goes::Falls(course.point(course.end() - rider.half, 0.0))
+                let centre_line = self.centre_line(among, ms);
+                Goes::Falls(centre_line.point(centre_line.end() - rider.half, 0.0))
             }
         })
     }
@@ -278,7 +280,7 @@ impl Track {
     pub fn appear(&mut self, among: &mut Among, ms: f64) {
         while self.feed_ms(among, ms) <= ms + AT_ONCE {
             let lane = among.lane(self);
-            let (course, machine, part) = (lane.lane().course, self.machine, self.part);
+            let (centre_line, machine, part) = (lane.lane().centre_line, self.machine, self.part);
             let Some(feed) = &mut self.feed else { return };
             let Some(item) = feed.supply.pop() else { return };
             let due_ms = feed.spawn.at_ms(feed.spawned) as f64;
@@ -286,7 +288,7 @@ impl Track {
             let travel = if is_late { lane.travel_at(ms) } else { lane.lane().distance(due_ms) };
             feed.spawned += 1;
             let at = feed.place + travel;
-            let point = course.point(at - lane.travel_at(ms), 0.0);
+            let point = centre_line.point(at - lane.travel_at(ms), 0.0);
             among.items.pass(item, Carrier::Lane { machine, part, at, across: 0.0 }, point);
             self.adopt(among, ms);
         }

@@ -5,9 +5,9 @@ use crate::part::settings::Settings;
 use crate::point::{Axis, Point};
 
 /// The middle line of a conveyor. Places on it are counted against the direction of travel, in metres: items go from
-/// [`Course::begin`] down to [`Course::end`].
+/// [`CentreLine::begin`] down to [`CentreLine::end`].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Course {
+pub enum CentreLine {
     /// Along an axis of the world, counted as this is. Items keep the heading with which they come.
     Axis { along: Axis, range: [f64; 2], surface: Point },
     /// From a frame, counted from its end. Items lie along it.
@@ -19,7 +19,7 @@ pub enum Course {
 /// Less than this is no arc, degrees.
 const LEAST_TURN: f64 = 1e-6;
 
-impl Course {
+impl CentreLine {
     pub fn new(settings: &Settings) -> Result<Self, String> {
         let [axis, frame] =
             [["along", "range", "surface"].as_slice(), &["from", "length"]].map(|names| {
@@ -81,7 +81,7 @@ impl Course {
     }
 
     /// A point of the surface; `across` to the left of the direction of travel, or along the other axis of the world on
-    /// [`Course::Axis`]. Beyond its ends it goes straight on.
+    /// [`CentreLine::Axis`]. Beyond its ends it goes straight on.
     pub fn point(&self, place: f64, across: f64) -> Point {
         match *self {
             Self::Axis { along: Axis::X, surface, .. } => Point::new(place, surface.y + across, surface.z),
@@ -157,7 +157,7 @@ mod tests {
         let from = Frame::new(Point::new(1.0, 2.0, 0.8), 90.0);
         let length = std::f64::consts::FRAC_PI_2;
         for (side, end, yaw) in [(1.0, Point::new(0.0, 3.0, 0.8), -180.0), (-1.0, Point::new(2.0, 3.0, 0.8), 0.0)] {
-            let arc = Course::Arc { from, length, rise: 0.0, radius: side };
+            let arc = CentreLine::Arc { from, length, rise: 0.0, radius: side };
             assert!(near(arc.frame(length).position, from.position));
             let last = arc.frame(0.0);
             assert!(near(last.position, end), "{last:?}");
@@ -174,10 +174,10 @@ mod tests {
             let (length, rise) = (drawn(0.5, 3.0), drawn(-0.2, 0.2));
             let radius = length / drawn(0.2, 4.0) * drawn(-1.0, 1.0).signum();
             let (place, across) = (drawn(0.01, length), drawn(-0.1, 0.1));
-            for course in [Course::Line { from, length, rise }, Course::Arc { from, length, rise, radius }] {
-                let found = course.find(course.point(place, across));
+            for centre_line in [CentreLine::Line { from, length, rise }, CentreLine::Arc { from, length, rise, radius }] {
+                let found = centre_line.find(centre_line.point(place, across));
                 let (at, aside) = found.unwrap_or((f64::NAN, f64::NAN));
-                assert!((at - place).abs() < 1e-9 && (aside - across).abs() < 1e-9, "{course:?} {found:?}");
+                assert!((at - place).abs() < 1e-9 && (aside - across).abs() < 1e-9, "{centre_line:?} {found:?}");
             }
         }
     }
