@@ -6,6 +6,8 @@ mod client;
 mod diagnostics;
 #[path = "lsp/messages.rs"]
 mod messages;
+#[path = "lsp/names.rs"]
+mod names;
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

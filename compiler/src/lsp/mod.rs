@@ -3,5 +3,9 @@
 
 pub use gen_lsp_types as protocol;
 
+pub mod completion;
 pub mod diagnostics;
+pub mod hover;
 pub mod lines;
+pub mod rename;
+pub mod specs;

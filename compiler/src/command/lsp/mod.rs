@@ -3,6 +3,7 @@
 mod documents;
 mod layouts;
 mod published;
+mod questions;
 mod root;
 mod server;
 mod transport;

@@ -6,8 +6,8 @@ use crate::command::{named, read};
 use autogen::check;
 use autogen::diagnostic::Diagnostic;
 use autogen::lower::{Input, compile};
+use autogen::lsp::specs::{Specs, trees};
 use autogen::source::{FileId, Sources};
-use autogen::spec::{ast, parser};
 use autogen::{library, lint, scenario, testing};
 use std::path::{Path, PathBuf};
 
@@ -98,7 +98,7 @@ fn one(path: &Path, check: impl Fn(&Sources, FileId) -> Vec<Diagnostic>) -> Foun
 }
 
 /// The texts of the library, then those of a folder, and the kinds of part of its scenario.
-pub fn texts(folder: &Path) -> Result<(Sources, Vec<FileId>, Vec<String>), String> {
+fn texts(folder: &Path) -> Result<(Sources, Vec<FileId>, Vec<String>), String> {
     let mut sources = Sources::default();
     let mut files: Vec<FileId> =
         library::FILES.iter().map(|(name, text)| sources.add(*name, *text)).collect();
@@ -108,24 +108,32 @@ pub fn texts(folder: &Path) -> Result<(Sources, Vec<FileId>, Vec<String>), Strin
     }
     let own = load::add(&mut sources, &folder.join(layouts::SCENARIO)).ok();
     let file = own.unwrap_or_else(|| sources.add("built-in scenario", scenario::DEFAULT));
-    let kinds = match scenario::parse(&sources, file).0 {
-        Some(scenario) => scenario.kinds.iter().map(|kind| kind.name.value.clone()).collect(),
-        None => vec!["part".into()],
-    };
+    let kinds = kinds(&sources, file);
     Ok((sources, files, kinds))
 }
 
-/// The trees of files, and what cannot be read.
-pub fn trees(sources: &Sources, files: &[FileId]) -> (Vec<(FileId, ast::File)>, Vec<Diagnostic>) {
-    let mut left = parser::MOST_TOKENS;
-    let mut diagnostics = Vec::new();
-    let mut read = |file: &FileId| {
-        let (tree, found) = parser::parse_within(*file, &sources.file(*file).text, &mut left);
-        diagnostics.extend(found);
-        (*file, tree)
-    };
-    let trees = files.iter().map(&mut read).collect();
-    (trees, diagnostics)
+/// What the names of a root mean; none of one that has no automata, or cannot be read.
+pub fn specs(root: &Root) -> Option<Specs> {
+    match root {
+        Root::Layout(path) => {
+            let mut sources = Sources::default();
+            let texts = load::texts(&mut sources, path, &[], None).ok()?;
+            let kinds = kinds(&sources, texts.scenario);
+            Some(Specs::new(sources, &texts.specs, texts.layout.0, kinds))
+        }
+        Root::Folder(path) => {
+            let (sources, files, kinds) = texts(path).ok()?;
+            Some(Specs::new(sources, &files, None, kinds))
+        }
+        Root::Scenario(_) | Root::Tests(_) => None,
+    }
+}
+
+fn kinds(sources: &Sources, scenario: FileId) -> Vec<String> {
+    match scenario::parse(sources, scenario).0 {
+        Some(scenario) => scenario.kinds.iter().map(|kind| kind.name.value.clone()).collect(),
+        None => vec!["part".into()],
+    }
 }
 
 fn folder(path: &Path) -> Found {

@@ -3,6 +3,7 @@
 use super::documents::Documents;
 use super::layouts::Layouts;
 use super::published::Published;
+use super::questions::{Asked, Questions};
 use super::root::Root;
 use super::transport::{self, Incoming};
 use super::uri;
@@ -11,10 +12,13 @@ use crate::command::read;
 use autogen::lsp::lines::Lines;
 use autogen::lsp::protocol::json_rpc::{Error, Id, RequestObject, ResponseObject};
 use autogen::lsp::protocol::{
-    DidChangeTextDocumentParams, DidCloseTextDocumentParams, DidOpenTextDocumentParams,
-    DocumentFormattingRequest, ErrorCodes, InitializeRequest, InitializeResult, LspErrorCodes,
-    LspNotificationMethod, LspRequestMethod, PositionEncodingKind, Request, ServerCapabilities, ServerInfo,
-    ShutdownRequest, TextDocumentSyncKind, TextDocumentSyncOptions, TextEdit, Uri,
+    CompletionOptions, CompletionRequest, Definition, DefinitionRequest, DidChangeTextDocumentParams,
+    DidCloseTextDocumentParams, DidOpenTextDocumentParams, DocumentFormattingRequest, ErrorCodes,
+    HoverRequest, InitializeRequest, InitializeResult, LspErrorCodes, LspNotificationMethod,
+    LspRequestMethod, PositionEncodingKind, PrepareRenamePlaceholder, PrepareRenameRequest,
+    ReferencesRequest, RenameOptions, RenameRequest, Request, ServerCapabilities, ServerInfo,
+    ShutdownRequest, TextDocumentPositionParams, TextDocumentSyncKind, TextDocumentSyncOptions, TextEdit,
+    Uri,
 };
 use autogen::source::FileId;
 use autogen::spec::format::format;
@@ -45,11 +49,12 @@ enum Stage {
 pub struct Server<W> {
     output: W,
     stage: Stage,
-    pub(super) documents: Documents,
+    documents: Documents,
     /// Those of the workspace.
-    pub(super) folders: Vec<PathBuf>,
-    pub(super) layouts: Layouts,
+    folders: Vec<PathBuf>,
+    layouts: Layouts,
     published: Published,
+    questions: Questions,
 }
 
 type Answer = Result<Value, Error>;
@@ -63,6 +68,7 @@ impl<W: Write> Server<W> {
             folders: Vec::new(),
             layouts: Layouts::default(),
             published: Published::default(),
+            questions: Questions::default(),
         }
     }
 
@@ -126,15 +132,69 @@ impl<W: Write> Server<W> {
                 self.stage = Stage::ShutDown;
                 result::<ShutdownRequest>(())
             }
-            (Stage::Running, LspRequestMethod::TextDocumentFormatting) => {
+            (Stage::Running, _) => self.asked(method, params),
+        }
+    }
+
+    fn asked(&mut self, method: LspRequestMethod, params: Value) -> Answer {
+        match method {
+            LspRequestMethod::TextDocumentFormatting => {
                 let params = read_params::<DocumentFormattingRequest>(params)?;
                 result::<DocumentFormattingRequest>(self.formatted(&params.text_document.uri))
             }
-            (Stage::Running, _) => {
+            LspRequestMethod::TextDocumentHover => {
+                let params = read_params::<HoverRequest>(params)?;
+                let (questions, asked, layouts) = self.at(&params.text_document_position_params);
+                result::<HoverRequest>(questions.hover(&asked, layouts))
+            }
+            LspRequestMethod::TextDocumentDefinition => {
+                let params = read_params::<DefinitionRequest>(params)?;
+                let (questions, asked, layouts) = self.at(&params.text_document_position_params);
+                let found = questions.definition(&asked, layouts);
+                result::<DefinitionRequest>(found.map(|found| Definition::from(found).into()))
+            }
+            LspRequestMethod::TextDocumentReferences => {
+                let params = read_params::<ReferencesRequest>(params)?;
+                let (questions, asked, layouts) = self.at(&params.text_document_position_params);
+                let found = questions.references(&asked, layouts, params.context.include_declaration);
+                result::<ReferencesRequest>(Some(found))
+            }
+            LspRequestMethod::TextDocumentPrepareRename => {
+                let params = read_params::<PrepareRenameRequest>(params)?;
+                let (questions, asked, layouts) = self.at(&params.text_document_position_params);
+                let (range, placeholder) = questions.renamed_at(&asked, layouts).map_err(refused)?;
+                let found = PrepareRenamePlaceholder { range, placeholder };
+                result::<PrepareRenameRequest>(Some(found.into()))
+            }
+            LspRequestMethod::TextDocumentRename => {
+                let params = read_params::<RenameRequest>(params)?;
+                let (questions, asked, layouts) = self.at(&params.text_document_position_params);
+                let edit = questions.rename(&asked, layouts, &params.new_name).map_err(refused)?;
+                result::<RenameRequest>(Some(edit))
+            }
+            LspRequestMethod::TextDocumentCompletion => {
+                let params = read_params::<CompletionRequest>(params)?;
+                let (questions, asked, layouts) = self.at(&params.text_document_position_params);
+                result::<CompletionRequest>(Some(questions.completion(&asked, layouts).into()))
+            }
+            method => {
                 let name = String::from(method);
                 Err(error(ErrorCodes::MethodNotFound, format!("there is no method `{name}`")))
             }
         }
+    }
+
+    fn at<'a>(
+        &'a mut self,
+        place: &'a TextDocumentPositionParams,
+    ) -> (&'a mut Questions, Asked<'a>, &'a mut Layouts) {
+        let asked = Asked {
+            documents: &self.documents,
+            folders: &self.folders,
+            uri: &place.text_document.uri,
+            position: place.position,
+        };
+        (&mut self.questions, asked, &mut self.layouts)
     }
 
     /// Nothing is answered, not even if it is wrong.
@@ -168,6 +228,7 @@ impl<W: Write> Server<W> {
             | (Stage::Running, LspNotificationMethod::WorkspaceDidChangeWatchedFiles) => {}
             _ => return Next::Ready,
         }
+        self.questions.forget();
         Next::Changed
     }
 
@@ -205,8 +266,13 @@ impl<W: Write> Server<W> {
     }
 }
 
-pub(super) fn error(code: ErrorCodes, message: impl Into<String>) -> Error {
+fn error(code: ErrorCodes, message: impl Into<String>) -> Error {
     Error { code, message: message.into(), data: None }
+}
+
+/// Why something cannot be renamed, for the user.
+fn refused(why: String) -> Error {
+    error(ErrorCodes::Custom(LspErrorCodes::RequestFailed.into()), why)
 }
 
 fn read_params<R: Request>(params: Value) -> Result<R::Params, Error> {
@@ -239,11 +305,19 @@ fn capabilities() -> InitializeResult {
         save: Some(true.into()),
         ..TextDocumentSyncOptions::default()
     };
+    let rename = RenameOptions { prepare_provider: Some(true), ..RenameOptions::default() };
+    let completion =
+        CompletionOptions { trigger_characters: Some(vec![".".into()]), ..CompletionOptions::default() };
     InitializeResult {
         capabilities: ServerCapabilities {
             position_encoding: Some(PositionEncodingKind::UTF16),
             text_document_sync: Some(sync.into()),
             document_formatting_provider: Some(true.into()),
+            hover_provider: Some(true.into()),
+            definition_provider: Some(true.into()),
+            references_provider: Some(true.into()),
+            rename_provider: Some(rename.into()),
+            completion_provider: Some(completion),
             ..ServerCapabilities::default()
         },
         server_info: Some(ServerInfo {
