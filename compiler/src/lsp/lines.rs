@@ -9,6 +9,21 @@ use gen_lsp_types::{Position, Range};
 pub struct Lines<'t> {
     text: &'t str,
     starts: Vec<usize>,
+    /// Units of UTF-16 before each stretch of the text.
+    marks: Vec<usize>,
+}
+
+/// From mark to mark, in bytes.
+const STRIDE: usize = 1024;
+
+/// Of characters that begin in these bytes.
+fn units(bytes: &[u8]) -> usize {
+    let of_byte = |byte: &u8| match byte {
+        0x80..0xc0 => 0,
+        0xf0.. => 2,
+        _ => 1,
+    };
+    bytes.iter().map(of_byte).sum()
 }
 
 impl<'t> Lines<'t> {
@@ -21,21 +36,25 @@ impl<'t> Lines<'t> {
             _ => None,
         };
         let starts = std::iter::once(0).chain(bytes.iter().enumerate().filter_map(ends)).collect();
-        Self { text, starts }
+        let mut marks = vec![0];
+        for stretch in bytes.chunks(STRIDE) {
+            marks.push(marks[marks.len() - 1] + units(stretch));
+        }
+        Self { text, starts, marks }
     }
 
-    /// The text of a line without its end.
-    fn line(&self, line: usize) -> &'t str {
-        let end = self.starts.get(line + 1).copied().unwrap_or(self.text.len());
-        self.text[self.starts[line]..end].trim_end_matches(['\n', '\r'])
+    /// Units of UTF-16 before a byte that begins a character.
+    fn units_before(&self, offset: usize) -> usize {
+        let mark = offset / STRIDE;
+        self.marks[mark] + units(&self.text.as_bytes()[mark * STRIDE..offset])
     }
 
     /// A place in bytes; within a character, its beginning.
     pub fn position(&self, offset: usize) -> Position {
         let offset = boundary(self.text, offset);
         let line = self.starts.partition_point(|start| *start <= offset) - 1;
-        let units = self.text[self.starts[line]..offset].encode_utf16().count();
-        Position { line: line as u32, character: units as u32 }
+        let character = self.units_before(offset) - self.units_before(self.starts[line]);
+        Position { line: line as u32, character: character as u32 }
     }
 
     pub fn range(&self, span: Span) -> Range {
@@ -46,14 +65,18 @@ impl<'t> Lines<'t> {
     /// between the two units of a character it is the beginning of the character.
     pub fn offset(&self, position: Position) -> usize {
         let line = position.line as usize;
-        let Some(start) = self.starts.get(line) else { return self.text.len() };
-        let mut left = position.character as usize;
-        let mut offset = *start;
-        for c in self.line(line).chars() {
-            if left < c.len_utf16() {
+        let Some(start) = self.starts.get(line).copied() else { return self.text.len() };
+        let next = self.starts.get(line + 1).copied().unwrap_or(self.text.len());
+        let end = start + self.text[start..next].trim_end_matches(['\n', '\r']).len();
+        let wanted = self.units_before(start) + position.character as usize;
+        let mark = self.marks.partition_point(|units| *units <= wanted).saturating_sub(1);
+        let mut offset = boundary(self.text, (mark * STRIDE).min(end)).max(start);
+        let mut before = self.units_before(offset);
+        for c in self.text[offset..end].chars() {
+            before += c.len_utf16();
+            if before > wanted {
                 break;
             }
-            left -= c.len_utf16();
             offset += c.len_utf8();
         }
         offset
@@ -85,6 +108,19 @@ mod tests {
         assert_eq!(lines.offset(at(0, 10)), text.find('\u{1f916}').unwrap());
         assert_eq!(lines.position(text.find("local").unwrap()), at(1, 0));
         assert_eq!(lines.position(text.find("end").unwrap()), at(2, 0));
+    }
+
+    #[test]
+    fn places_in_long_lines_come_back() {
+        let text = "ab\u{e4}\u{1f916}\u{4e2d}".repeat(1000) + "\n" + &"\u{1f916}x".repeat(900);
+        let lines = Lines::new(&text);
+        for (offset, _) in text.char_indices().chain([(text.len(), ' ')]) {
+            let position = lines.position(offset);
+            assert_eq!(lines.offset(position), offset);
+            let start = text[..offset].rfind('\n').map_or(0, |end| end + 1);
+            assert_eq!(position.character as usize, text[start..offset].encode_utf16().count());
+        }
+        assert_eq!(lines.offset(at(0, 1_000_000)), text.find('\n').unwrap());
     }
 
     #[test]

@@ -16,6 +16,8 @@ const MOST_FILES: usize = 200;
 const MOST_BYTES: usize = 20_000_000;
 /// Layouts of one file.
 const MOST_LAYOUTS: usize = 16;
+/// Names of automata of one layout.
+const MOST_SPECS: usize = 1000;
 /// The scenario of a layout that names none.
 pub const SCENARIO: &str = "scenario.json";
 
@@ -127,7 +129,7 @@ fn of_text(path: &Path, text: &str) -> Option<Named> {
     let real = |name: &str| read::real(&folder.join(name));
     let scenario = layout.scenario.as_ref().map_or(SCENARIO, |scenario| &scenario.value);
     Some(Named {
-        specs: layout.specs.iter().filter_map(|spec| real(&spec.value)).collect(),
+        specs: layout.specs.iter().take(MOST_SPECS).filter_map(|spec| real(&spec.value)).collect(),
         scenario: real(scenario),
     })
 }

@@ -19,7 +19,7 @@ use std::time::{Duration, Instant};
 use transport::Incoming;
 
 /// Messages that are kept before they are looked at.
-const MOST_WAITING: usize = 1000;
+const MOST_WAITING: usize = 100;
 /// Nothing is checked while somebody types: until nothing has come for so long,
 const QUIET: Duration = Duration::from_millis(150);
 /// or until so long after the first change.
@@ -50,7 +50,8 @@ fn answer_all(receiver: &Receiver<Incoming>) -> io::Result<Status> {
     let mut waiting = VecDeque::new();
     let mut changed: Option<Instant> = None;
     loop {
-        waiting.extend(receiver.try_iter().take(MOST_WAITING));
+        let room = MOST_WAITING.saturating_sub(waiting.len());
+        waiting.extend(receiver.try_iter().take(room));
         let is_late = changed.is_some_and(|since| since.elapsed() >= LATEST);
         if waiting.is_empty() || is_late {
             let next = match (changed, is_late) {

@@ -15,7 +15,7 @@ use autogen::lsp::protocol::{
 use autogen::lsp::rename;
 use autogen::lsp::specs::Specs;
 use autogen::source::{FileId, Span};
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::PathBuf;
 
 /// What the texts mean, until one of them changes.
@@ -97,12 +97,13 @@ impl Questions {
         layouts: &mut Layouts,
         and_declaration: bool,
     ) -> Vec<Location> {
-        let mut found: Vec<Location> = Vec::new();
+        let mut found = Vec::new();
+        let mut known = HashSet::new();
         for at in self.at(asked, layouts) {
             let Some((declared, uses)) = at.specs.references(at.span()) else { continue };
             let spans = declared.filter(|_| and_declaration).into_iter().chain(uses);
             for location in spans.filter_map(|span| at.files.location(span)) {
-                if !found.contains(&location) {
+                if known.insert(location.clone()) {
                     found.push(location);
                 }
             }
@@ -129,6 +130,7 @@ impl Questions {
         name: &str,
     ) -> Result<WorkspaceEdit, String> {
         let mut changes: HashMap<Uri, Vec<TextEdit>> = HashMap::new();
+        let mut known = HashSet::new();
         let all = self.at(asked, layouts);
         if all.is_empty() {
             return Err("no name stands here that could be renamed".into());
@@ -137,10 +139,9 @@ impl Questions {
             for (span, new_text) in rename::rename(at.specs, at.span(), name)? {
                 let location = at.files.location(span);
                 let location = location.ok_or("a file that is to be changed is not on this machine")?;
-                let edit = TextEdit { range: location.range, new_text };
-                let of_file = changes.entry(location.uri).or_default();
-                if !of_file.contains(&edit) {
-                    of_file.push(edit);
+                if known.insert(location.clone()) {
+                    let edit = TextEdit { range: location.range, new_text };
+                    changes.entry(location.uri).or_default().push(edit);
                 }
             }
         }

@@ -326,3 +326,35 @@ fn capabilities() -> InitializeResult {
         }),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Incoming, Next, Server};
+    use crate::Status;
+    use serde_json::{Value, json};
+    use std::collections::VecDeque;
+
+    fn message(json: Value) -> Incoming {
+        Incoming::Request(serde_json::from_value(json).expect("a request"))
+    }
+
+    #[test]
+    fn a_request_that_is_cancelled_while_it_waits_is_not_begun() {
+        let request = |id| message(json!({"jsonrpc": "2.0", "id": id, "method": "initialize", "params": {}}));
+        let cancel =
+            |id| message(json!({"jsonrpc": "2.0", "method": "$/cancelRequest", "params": {"id": id}}));
+        let mut server = Server::new(Vec::new());
+        let waiting = VecDeque::from([cancel(json!(7)), cancel(json!("8"))]);
+        for id in [json!(7), json!("8")] {
+            server.take(request(id), &waiting).expect("an answer");
+        }
+        let text = String::from_utf8(std::mem::take(&mut server.output)).expect("text");
+        assert_eq!(text.matches("\"code\":-32800").count(), 2, "{text}");
+        // Another number, and a text that reads as one.
+        server.take(request(json!("7")), &waiting).expect("an answer");
+        let text = String::from_utf8(std::mem::take(&mut server.output)).expect("text");
+        assert!(text.contains("\"capabilities\""), "{text}");
+        let ended = server.take(Incoming::End, &waiting).expect("no answer");
+        assert!(matches!(ended, Next::Ended(Status::WrongInput)), "{ended:?}");
+    }
+}

@@ -16,6 +16,9 @@ pub struct Word {
     pub doc: String,
 }
 
+/// Names of one kind that are offered.
+const MOST_WORDS: usize = 1000;
+
 const TYPES: &[&str] = &["bool", "int", "real", "time", "point"];
 
 pub fn of_language(words: &[&str]) -> Vec<Word> {
@@ -43,7 +46,7 @@ pub fn all(specs: &Specs, wanted: impl Fn(&Declaration) -> bool) -> Vec<Word> {
         detail: signature(specs, declaration),
         doc: declaration.doc.join(" "),
     };
-    found.map(word).collect()
+    found.take(MOST_WORDS).map(word).collect()
 }
 
 pub fn declared<'s>(specs: &'s Specs, name: &str, owner: &str) -> Option<&'s Declaration> {
