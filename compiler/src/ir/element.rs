@@ -24,7 +24,7 @@ pub enum Group {
 /// A value of a machine.
 #[derive(Clone, Debug)]
 pub struct Named {
-    /// Within its machine, such as `at_stop` or `wanted[pump]`.
+    /// As [`System::name_of`] says.
     pub name: String,
     pub element: Element,
     pub ty: Scalar,
@@ -44,25 +44,29 @@ impl System {
         }
     }
 
-    /// The name of a value within its machine.
-    pub fn name_of(&self, element: Element) -> String {
+    /// The port, local or cell of which this is an element: its name and its extent.
+    pub fn array_of(&self, element: Element) -> (&str, Extent) {
         match element {
-            Element::Local { robot, local, index } => {
+            Element::Local { robot, local, .. } => {
                 let declared = &self.automaton_of(robot).locals[local];
-                self.indexed(&declared.name, declared.ty.extent, index)
+                (&declared.name, declared.ty.extent)
             }
-            Element::Port { robot, port, index } => {
+            Element::Port { robot, port, .. } => {
                 let declared = &self.automaton_of(robot).device.ports[port];
-                self.indexed(&declared.name, declared.extent.into(), index)
+                (&declared.name, declared.extent.into())
             }
-            Element::Cell { interface, cell, index, .. } => {
+            Element::Cell { interface, cell, .. } => {
                 let declared = &self.model.interface(interface).cells[cell];
-                self.indexed(&declared.name, declared.ty.extent, index)
+                (&declared.name, declared.ty.extent)
             }
         }
     }
 
-    fn indexed(&self, name: &str, extent: Extent, index: usize) -> String {
+    /// The name of a value within its machine, such as `at_stop` or `wanted[pump]`.
+    pub fn name_of(&self, element: Element) -> String {
+        let (name, extent) = self.array_of(element);
+        let (Element::Local { index, .. } | Element::Port { index, .. } | Element::Cell { index, .. }) =
+            element;
         match extent {
             Extent::One => name.to_string(),
             Extent::Count(_) => format!("{name}[{index}]"),

@@ -1,11 +1,8 @@
 //! A machine on the bench: its inputs are given, scan by scan, and what it does is looked at.
 
-use super::machine::{Engine, Poke, Step, Target, Wanted};
-use super::names::{all, name_of, words};
-use super::value::{Kind, Named};
+use super::machine::{Engine, Step, Target, Wanted};
 use super::{Failure, Time};
-use crate::ir::Element;
-use crate::ir::{Scalar, System, Type, Value};
+use crate::ir::{Group, Named, System, Value};
 use crate::source::Span;
 use runtime_sim::device::Direction;
 use runtime_sim::scan::SystemInputs;
@@ -14,12 +11,15 @@ use std::collections::VecDeque;
 /// Events that a failure tells.
 const MOST_EVENTS: usize = 12;
 
+/// Ports of a device that obeys commands.
+const COMMAND: [&str; 6] = ["cmd", "verb", "hold", "got", "ack", "error"];
+
 pub(super) struct Bench<'e, 'a, 's> {
     system: &'s System,
     machine: usize,
     engine: Engine<'e, 'a>,
-    /// Where the trace of each machine begins.
-    begins: Vec<usize>,
+    /// Where the trace of the machine begins.
+    begin: usize,
     inputs: Vec<Vec<f64>>,
     outputs: Vec<Vec<f64>>,
     trace: Vec<f64>,
@@ -27,8 +27,9 @@ pub(super) struct Bench<'e, 'a, 's> {
     now: i64,
     fault: Option<String>,
     events: VecDeque<(u64, String)>,
-    /// What the machine writes, by name, with its place in the trace.
-    values: Vec<(String, Named, usize)>,
+    /// Of the machine, its ports for commands apart.
+    values: Vec<Named>,
+    command: Vec<Named>,
 }
 
 impl<'e, 'a, 's> Bench<'e, 'a, 's> {
@@ -42,25 +43,23 @@ impl<'e, 'a, 's> Bench<'e, 'a, 's> {
         if let Engine::Executor(executor) = &mut engine {
             executor.step_only(machine);
         }
-        // The time in a state stands behind the state.
-        let begins = engine.controllers().stays().into_iter().map(|stay| stay - 1).collect();
-        let (inputs, outputs) = (images(Direction::Input), images(Direction::Output));
-        let mut bench = Self {
+        let begin = system.traces()[machine];
+        let is_of_command = |value: &Named| COMMAND.contains(&value.name.as_str());
+        let (command, values) = system.values_of(machine, begin).into_iter().partition(is_of_command);
+        Self {
             system,
             machine,
             engine,
-            begins,
-            inputs,
-            outputs,
+            begin,
+            inputs: images(Direction::Input),
+            outputs: images(Direction::Output),
             trace: Vec::new(),
             now: -2,
             fault: None,
             events: VecDeque::new(),
-            values: Vec::new(),
-        };
-        let all = all(system, machine).into_iter();
-        bench.values = all.map(|(name, named)| (name, named, bench.offset(named.element))).collect();
-        bench
+            values,
+            command,
+        }
     }
 
     fn ms(&self) -> u64 {
@@ -99,116 +98,53 @@ impl<'e, 'a, 's> Bench<'e, 'a, 's> {
 
     fn tell_changes(&mut self, before: &[f64]) {
         let system = self.system;
-        let begin = self.begins[self.machine];
+        let begin = self.begin;
         let automaton = system.automaton_of(self.machine);
         let state =
             |trace: &[f64]| automaton.states.get(trace[begin] as usize).map_or("?", |state| &state.name);
         if state(before) != state(&self.trace) {
             self.tell(state(&self.trace).to_string());
         }
-        let values = std::mem::take(&mut self.values);
-        for (name, named, at) in &values {
-            let words = *at..*at + words(named.ty);
+        let mut changes = Vec::new();
+        for named in self.values.iter().filter(|named| named.group != Group::Input) {
+            let Some(at) = named.trace else { continue };
+            let words = at..at + named.ty.words();
             if before[words.clone()] != self.trace[words] {
-                let value = self.value(&self.trace, named);
-                self.tell(format!("{name} = {}", system.shown_value(named.ty, value)));
+                changes.push(format!("{} = {}", named.name, system.shown_value(named.ty, self.value(named))));
             }
         }
-        self.values = values;
+        changes.into_iter().for_each(|change| self.tell(change));
     }
 
-    /// A value of a trace.
-    fn value(&self, trace: &[f64], named: &Named) -> Value {
-        let at = self.offset(named.element);
-        let word = |i: usize| trace.get(at + i).copied().unwrap_or(0.0);
-        match named.ty {
-            Scalar::Bool => Value::Bool(word(0) != 0.0),
-            Scalar::Real => Value::Real(word(0)),
-            Scalar::Point => Value::Point([word(0), word(1), word(2)]),
-            Scalar::Int { .. } | Scalar::Time | Scalar::Enum(_) | Scalar::Ref(_) => {
-                Value::Int(word(0) as i32)
-            }
-        }
-    }
-
-    /// Where the words of a value begin in a trace.
-    fn offset(&self, element: Element) -> usize {
-        let system = self.system;
-        let of = |ty: Type| words(ty.scalar) * system.model.elements(ty.extent);
-        let robot = match element {
-            Element::Local { robot, .. } | Element::Port { robot, .. } => robot,
-            Element::Cell { interface, row, .. } => system.members[interface.0][row],
+    /// An input as it was given last; of anything else what the trace says.
+    fn value(&self, named: &Named) -> Value {
+        let (words, at) = match named.group {
+            Group::Input => (&self.inputs[self.system.owner(named.element)], named.image),
+            Group::Output | Group::Local | Group::Cell => (&self.trace, named.trace),
         };
-        let automaton = system.automaton_of(robot);
-        // The state and the time in it come first.
-        let mut at = self.begins[robot] + 2;
-        for (number, local) in automaton.locals.iter().enumerate() {
-            if let Element::Local { local: wanted, index, .. } = element
-                && wanted == number
-            {
-                return at + index * words(local.ty.scalar);
-            }
-            at += of(local.ty);
-        }
-        for implements in &automaton.implements {
-            for (number, cell) in system.model.interface(implements.interface).cells.iter().enumerate() {
-                if let Element::Cell { interface, cell: wanted, index, .. } = element
-                    && (interface, wanted) == (implements.interface, number)
-                {
-                    return at + index * words(cell.ty.scalar);
-                }
-                at += of(cell.ty);
-            }
-        }
-        for (number, port) in automaton.device.ports.iter().enumerate() {
-            if port.direction == Direction::Output {
-                if let Element::Port { port: wanted, index, .. } = element
-                    && wanted == number
-                {
-                    return at + index * port.ty.words();
-                }
-                at += port.ty.words() * port.extent.elements(system.kinds());
-            }
-        }
-        at
+        Value::from_words(named.ty, at.and_then(|at| words.get(at..)).unwrap_or_default())
     }
 
-    /// Writes an input of a machine into its image.
-    fn give(&mut self, given: &Poke) {
-        let Element::Port { robot, port, index } = given.named.element else {
-            if let Engine::Executor(executor) = &mut self.engine {
-                executor.set(given.named.element, given.value);
-            }
-            return;
-        };
-        let (device, kinds) = (&self.system.automaton_of(robot).device, self.system.kinds());
-        let before = device.ports[..port].iter().filter(|p| p.direction == Direction::Input);
-        let begin: usize = before.map(|p| p.ty.words() * p.extent.elements(kinds)).sum();
-        let at = begin + index * device.ports[port].ty.words();
-        let words = match given.value {
-            Value::Bool(b) => vec![f64::from(u8::from(b))],
-            Value::Int(i) => vec![f64::from(i)],
-            Value::Real(r) => vec![r],
-            Value::Point(p) => p.to_vec(),
-        };
-        self.inputs[robot][at..at + words.len()].copy_from_slice(&words);
-    }
-
-    fn port(&self, name: &str) -> Option<(usize, Element)> {
-        let ports = &self.system.automaton_of(self.machine).device.ports;
-        let port = ports.iter().position(|port| port.name == name)?;
-        Some((port, Element::Port { robot: self.machine, port, index: 0 }))
+    /// Writes an input of the machine into its image, and a cell as another machine does.
+    fn give(&mut self, named: &Named, value: Value) {
+        if let (Group::Input, Some(at)) = (named.group, named.image) {
+            let mut words = Vec::new();
+            value.push_words(&mut words);
+            self.inputs[self.machine][at..at + words.len()].copy_from_slice(&words);
+        } else if let Engine::Executor(executor) = &mut self.engine {
+            executor.set(named.element, value);
+        }
     }
 
     /// The device ends the last command.
     fn answer(&mut self, error: i32) {
-        let Some((_, element)) = self.port("cmd") else { return };
-        let command = Named { element, ty: Scalar::Int { lo: 0, hi: i32::MAX }, kind: Kind::Output };
-        let number = self.value(&self.trace, &command);
-        for (name, value) in [("got", number), ("ack", number), ("error", Value::Int(error))] {
-            if let Some((_, element)) = self.port(name) {
-                let named = Named { element, ty: command.ty, kind: Kind::Input };
-                self.give(&Poke { named, value });
+        let port = |name: &str| self.command.iter().find(|port| port.name == name).cloned();
+        let Some(command) = port("cmd") else { return };
+        let number = self.value(&command);
+        let answers = [("got", number), ("ack", number), ("error", Value::Int(error))];
+        for (port, value) in answers.map(|(name, value)| (port(name), value)) {
+            if let Some(port) = port {
+                self.give(&port, value);
             }
         }
     }
@@ -223,8 +159,8 @@ impl<'e, 'a, 's> Bench<'e, 'a, 's> {
             self.step(step.span, false)?;
         }
         for given in &step.given {
-            self.give(given);
-            let name = name_of(self.system, self.machine, &given.named);
+            self.give(&given.named, given.value);
+            let name = self.name(&given.named);
             let text = self.system.shown_value(given.named.ty, given.value);
             self.events.push_back((
                 first.max(0) as u64 * self.system.scan_ms as u64,
@@ -277,7 +213,7 @@ impl<'e, 'a, 's> Bench<'e, 'a, 's> {
         for wanted in expected {
             match wanted {
                 Wanted::State(state) => {
-                    let found = self.trace[self.begins[self.machine]] as usize;
+                    let found = self.trace[self.begin] as usize;
                     if found != *state {
                         let name =
                             |state: usize| automaton.states.get(state).map_or("?", |s| &s.name).to_string();
@@ -285,10 +221,7 @@ impl<'e, 'a, 's> Bench<'e, 'a, 's> {
                     }
                 }
                 Wanted::Value(name, named, value) => {
-                    let found = match named.kind {
-                        Kind::Input => self.input(named),
-                        _ => self.value(&self.trace, named),
-                    };
+                    let found = self.value(named);
                     if found != *value {
                         let shown =
                             |value: Value| format!("{name} = {}", self.system.shown_value(named.ty, value));
@@ -313,18 +246,11 @@ impl<'e, 'a, 's> Bench<'e, 'a, 's> {
         wrong
     }
 
-    fn input(&self, named: &Named) -> Value {
-        let Element::Port { robot, port, index } = named.element else { return Value::Bool(false) };
-        let (device, kinds) = (&self.system.automaton_of(robot).device, self.system.kinds());
-        let before = device.ports[..port].iter().filter(|p| p.direction == Direction::Input);
-        let begin: usize = before.map(|p| p.ty.words() * p.extent.elements(kinds)).sum();
-        let at = begin + index * device.ports[port].ty.words();
-        let words = &self.inputs[robot][at..];
-        match named.ty {
-            Scalar::Bool => Value::Bool(words[0] != 0.0),
-            Scalar::Real => Value::Real(words[0]),
-            Scalar::Point => Value::Point([words[0], words[1], words[2]]),
-            _ => Value::Int(words[0] as i32),
+    /// With its machine, if that is another one.
+    fn name(&self, named: &Named) -> String {
+        match self.system.owner(named.element) {
+            owner if owner == self.machine => named.name.clone(),
+            owner => format!("{}.{}", self.system.instances[owner].name, named.name),
         }
     }
 }

@@ -1,11 +1,11 @@
 //! One machine alone against a table: the test plays its device, and the other machines.
 
 use super::bench::Bench;
-use super::value::{self, Kind, Named};
+use super::value;
 use super::{Expected, Failure, Given, Path, Row, Time};
 use crate::diagnostic::Diagnostic;
 use crate::executor::Executor;
-use crate::ir::{System, Value};
+use crate::ir::{Group, Named, System, Value};
 use crate::source::Span;
 use runtime_sim::scan::Controllers;
 
@@ -41,7 +41,7 @@ pub fn is_for_any_engine(system: &System, machine: usize, rows: &[Row]) -> bool 
     let given = rows.iter().flat_map(|row| &row.given);
     let plays_device = given.into_iter().all(|given| match given {
         Given::Value(path, _) => {
-            value::named(system, machine, path).is_ok_and(|named| named.kind == Kind::Input)
+            value::named(system, machine, path).is_ok_and(|named| named.group == Group::Input)
         }
         Given::Answer(..) => true,
     });
@@ -180,9 +180,9 @@ fn step(system: &System, machine: usize, row: &Row, found: &mut Vec<Diagnostic>)
 /// What a test may write: inputs of the device, and shared cells as others do.
 fn giving(system: &System, machine: usize, path: &Path) -> Result<Named, Box<Diagnostic>> {
     let named = value::named(system, machine, path)?;
-    match named.kind {
-        Kind::Input | Kind::Cell => Ok(named),
-        Kind::Output | Kind::Local => {
+    match named.group {
+        Group::Input | Group::Cell => Ok(named),
+        Group::Output | Group::Local => {
             let message = format!("the automaton itself writes `{}`", path.name);
             Err(Diagnostic::new("E0902", path.span, message)
                 .help("give inputs of the device and shared cells; expect this one behind `->`")

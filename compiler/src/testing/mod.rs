@@ -4,7 +4,6 @@
 mod bench;
 mod line;
 mod machine;
-mod names;
 mod read;
 mod value;
 

@@ -2,26 +2,8 @@
 
 use super::{Literal, LiteralKind, Path};
 use crate::diagnostic::{Diagnostic, suggestion};
-use crate::ir::Element;
-use crate::ir::{Extent, Scalar, System, Type, Value};
+use crate::ir::{Extent, Group, Named, Scalar, System, Value};
 use crate::source::Span;
-use runtime_sim::device::Direction;
-
-/// What a path of a test names.
-#[derive(Clone, Copy, Debug)]
-pub struct Named {
-    pub element: Element,
-    pub ty: Scalar,
-    pub kind: Kind,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    Input,
-    Output,
-    Local,
-    Cell,
-}
 
 /// The value that a path of a test of this machine names.
 pub fn named(system: &System, machine: usize, path: &Path) -> Result<Named, Box<Diagnostic>> {
@@ -29,53 +11,24 @@ pub fn named(system: &System, machine: usize, path: &Path) -> Result<Named, Box<
         None => machine,
         Some(name) => instance(system, name, path.span)?,
     };
-    let automaton = system.automaton_of(robot);
-    let mut known: Vec<&str> = Vec::new();
-    let mut found: Option<(Type, Kind, Element)> = None;
+    let mut values = system.values_of(robot, system.traces()[robot]);
     // Of another machine only what it shows.
-    if robot == machine {
-        for (local, declared) in automaton.locals.iter().enumerate() {
-            known.push(&declared.name);
-            if declared.name == path.name {
-                let element = Element::Local { robot, local, index: 0 };
-                found = Some((declared.ty, Kind::Local, element));
-            }
-        }
-        for (port, declared) in automaton.device.ports.iter().enumerate() {
-            known.push(&declared.name);
-            if declared.name == path.name {
-                let ty = Type { scalar: declared.ty.into(), extent: declared.extent.into() };
-                let kind = if declared.direction == Direction::Input { Kind::Input } else { Kind::Output };
-                let element = Element::Port { robot, port, index: 0 };
-                found = Some((ty, kind, element));
-            }
-        }
-    }
-    for (implements, row) in automaton.implements.iter().zip(&system.instances[robot].rows) {
-        let (interface, row) = (implements.interface, *row);
-        for (cell, declared) in system.model.interface(interface).cells.iter().enumerate() {
-            known.push(&declared.name);
-            if declared.name == path.name {
-                let element = Element::Cell { interface, row, cell, index: 0 };
-                found = Some((declared.ty, Kind::Cell, element));
-            }
-        }
-    }
-    let Some((ty, kind, element)) = found else {
+    values.retain(|value| robot == machine || value.group == Group::Cell);
+    let elements: Vec<Named> =
+        values.iter().filter(|value| system.array_of(value.element).0 == path.name).cloned().collect();
+    let Some(first) = elements.first() else {
         let name = &system.instances[robot].name;
         let message = format!("`{name}` has no port, cell or variable `{}`", path.name);
+        let mut known: Vec<&str> = values.iter().map(|value| system.array_of(value.element).0).collect();
+        known.dedup();
         return Err(unknown(path.span, message, &path.name, &known));
     };
-    let count = system.model.elements(ty.extent);
-    let index = match (&path.index, ty.extent) {
+    let count = elements.len();
+    let index = match (&path.index, system.array_of(first.element).1) {
         (None, Extent::One) => 0,
         (Some(index), Extent::By(id)) => literal(system, Scalar::Enum(id), index).map(ordinal)?,
         (Some(index), Extent::Count(_)) => {
-            let Value::Int(number) = literal(system, Scalar::Int { lo: 0, hi: count as i32 - 1 }, index)?
-            else {
-                return Err(wrong(index, "an index"));
-            };
-            number as usize
+            literal(system, Scalar::Int { lo: 0, hi: count as i32 - 1 }, index).map(ordinal)?
         }
         (Some(index), Extent::One) => {
             let message = format!("`{}` is no array", path.name);
@@ -87,16 +40,7 @@ pub fn named(system: &System, machine: usize, path: &Path) -> Result<Named, Box<
             return Err(Diagnostic::new("E0903", path.span, message).help(help).into());
         }
     };
-    Ok(Named { element: at(element, index), ty: ty.scalar, kind })
-}
-
-/// Another element of the same array.
-fn at(element: Element, index: usize) -> Element {
-    match element {
-        Element::Local { robot, local, .. } => Element::Local { robot, local, index },
-        Element::Cell { interface, row, cell, .. } => Element::Cell { interface, row, cell, index },
-        Element::Port { robot, port, .. } => Element::Port { robot, port, index },
-    }
+    Ok(elements[index].clone())
 }
 
 fn ordinal(value: Value) -> usize {

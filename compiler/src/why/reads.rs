@@ -2,8 +2,7 @@
 
 use super::guard::Look;
 use super::{Await, Changed, Read};
-use crate::ir::Element;
-use crate::ir::{Expr, ExprKind, Extent, Place, Scalar, Type, Value};
+use crate::ir::{Element, Expr, ExprKind, Place, Scalar, Value};
 use runtime_sim::device::Direction;
 
 /// What is read by `done` and `failed`, and by `after`.
@@ -69,8 +68,8 @@ impl<'a> Look<'_, 'a> {
 
     fn read(&mut self, place: &'a Place, ty: Scalar, holds: bool, found: &mut Vec<Read>) {
         place.parts().into_iter().for_each(|part| self.collect(part, holds, found));
-        let Some((element, name)) = self.element(place) else { return };
-        let read = self.value(element, name, ty);
+        let Some(element) = self.element(place) else { return };
+        let read = self.value(element, ty);
         match element {
             Element::Cell { .. } => {
                 for robot in self.writers.of_now(self.watch, element) {
@@ -91,7 +90,7 @@ impl<'a> Look<'_, 'a> {
         found.push(read);
     }
 
-    fn value(&self, element: Element, name: String, ty: Scalar) -> Read {
+    fn value(&self, element: Element, ty: Scalar) -> Read {
         let (system, watch) = (self.watch.system, &*self.watch);
         let automaton = system.automaton_of(self.robot);
         let is_input = |port: usize| automaton.device.ports[port].direction == Direction::Input;
@@ -110,38 +109,30 @@ impl<'a> Look<'_, 'a> {
             }
             _ => Vec::new(),
         };
+        let name = match element {
+            Element::Cell { .. } => {
+                format!("{}.{}", system.instances[system.owner(element)].name, system.name_of(element))
+            }
+            Element::Local { .. } | Element::Port { .. } => system.name_of(element),
+        };
         let value = system.shown_value(ty, watch.executor.element(element));
         Read { name, value, changed, writers }
     }
 
-    /// Where a place is kept, and its name. None for what the layout fixes, which nobody waits for.
-    fn element(&mut self, place: &Place) -> Option<(Element, String)> {
-        let (robot, words, system) = (self.robot, self.words(), self.watch.system);
-        let executor = &mut self.watch.executor;
-        let indexed = |name: &str, ty: Type, index: usize| match ty.extent {
-            Extent::One => name.to_string(),
-            Extent::Count(_) => format!("{name}[{index}]"),
-            Extent::By(id) => format!("{name}[{}]", system.model.enums[id.0].members[index]),
-        };
+    /// Where a place is kept. None for what the layout fixes, which nobody waits for.
+    fn element(&mut self, place: &Place) -> Option<Element> {
+        let (robot, executor) = (self.robot, &mut self.watch.executor);
         Some(match place {
             Place::Local { local, index } => {
-                let index = executor.element_of(robot, index);
-                let declared = &words.automaton.locals[*local];
-                (Element::Local { robot, local: *local, index }, indexed(&declared.name, declared.ty, index))
+                Element::Local { robot, local: *local, index: executor.element_of(robot, index) }
             }
             Place::Port { port, index } => {
-                let index = executor.element_of(robot, index);
-                let declared = &words.automaton.device.ports[*port];
-                let ty = Type { scalar: declared.ty.into(), extent: declared.extent.into() };
-                (Element::Port { robot, port: *port, index }, indexed(&declared.name, ty, index))
+                Element::Port { robot, port: *port, index: executor.element_of(robot, index) }
             }
             Place::Cell { interface, cell, of, index } => {
                 let row = executor.row_of(robot, *interface, of);
                 let index = executor.element_of(robot, index);
-                let declared = &system.model.interface(*interface).cells[*cell];
-                let owner = &system.instances[system.members[interface.0][row]].name;
-                let name = indexed(&declared.name, declared.ty, index);
-                (Element::Cell { interface: *interface, row, cell: *cell, index }, format!("{owner}.{name}"))
+                Element::Cell { interface: *interface, row, cell: *cell, index }
             }
             Place::Parameter { .. } | Place::Shown { .. } => return None,
         })

@@ -1,6 +1,7 @@
 //! When each machine did something: what a step of it leaves behind.
 
-use super::signals::{Group, Signal};
+use super::signals::Signal;
+use crate::ir::Group;
 use runtime_sim::history::History;
 use runtime_sim::io_trace::Source;
 
@@ -31,12 +32,12 @@ pub fn acts(history: &History, signals: &[Signal], end: u64) -> Vec<Acts> {
         // The first entry is the value at the start.
         let scans = word.changes.iter().skip(1).map(|(scan, _)| *scan).filter(|scan| *scan < end);
         match (signal.group, signal.source) {
-            (Group::Input, Source::Input { word, .. }) => {
+            (Some(Group::Input), Source::Input { word, .. }) => {
                 let inputs = &mut all[machine].inputs;
                 inputs.resize(inputs.len().max(word + 1), Vec::new());
                 inputs[word] = scans.collect();
             }
-            (Group::Output | Group::Local, _) => all[machine].acted.extend(scans),
+            (Some(Group::Output | Group::Local), _) => all[machine].acted.extend(scans),
             _ => {}
         }
     }

@@ -1,6 +1,6 @@
 //! What went wrong or was stopped in a run, with its times.
 
-use super::signals::{Group, Signal};
+use super::signals::Signal;
 use runtime_sim::device::error;
 use runtime_sim::history::{History, Word};
 use runtime_sim::io_trace::Source;
@@ -17,11 +17,11 @@ pub fn alarms(line: &Line, history: &History, signals: &[Signal]) -> Vec<Value> 
     for (signal, word) in signals.iter().zip(&history.words) {
         let machine = signal.machine.map_or(-1, |machine| machine as i64);
         let mut put = |scan: u64, text: String| alarms.push((scan, machine, text));
-        match (signal.group, signal.source) {
-            (Group::Input, Source::Input { machine, word: at }) if errors[machine] == Some(at) => {
+        match signal.source {
+            Source::Input { machine, word: at } if errors[machine] == Some(at) => {
                 answers(word).for_each(|(scan, code)| put(scan, answer_text(code)));
             }
-            (Group::Line, Source::RunPermit) => {
+            Source::RunPermit => {
                 for (scan, permit) in word.changes.iter().skip(1) {
                     let text = if *permit == 0.0 {
                         "run_permit falls: the line stops"
@@ -31,7 +31,7 @@ pub fn alarms(line: &Line, history: &History, signals: &[Signal]) -> Vec<Value> 
                     put(*scan, text.into());
                 }
             }
-            (Group::Line, Source::FaultCode) => {
+            Source::FaultCode => {
                 answers(word).for_each(|(scan, code)| put(scan, format!("fault {code}")));
             }
             _ => {}

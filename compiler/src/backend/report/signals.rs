@@ -1,9 +1,7 @@
 //! The words of a run by name: ports, cells and variables of each machine, and inputs and outputs of the line.
 
 use super::numbers::{List, list};
-use crate::device::Port;
-use crate::ir::{Extent, Scalar, System, Type};
-use runtime_sim::device::{self, Direction, PortType};
+use crate::ir::{Element, Group, Named, Scalar, System};
 use runtime_sim::history::Word;
 use runtime_sim::io_trace::Source;
 use serde_json::{Value, json};
@@ -15,20 +13,10 @@ pub struct Signal {
     pub name: String,
     /// None: of the line.
     pub machine: Option<usize>,
-    pub group: Group,
+    /// None: of the line.
+    pub group: Option<Group>,
     pub form: Form,
     pub source: Source,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Group {
-    Line,
-    Input,
-    Output,
-    /// A shared variable that belongs to the machine.
-    Cell,
-    /// A variable of its automaton.
-    Local,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -38,18 +26,6 @@ pub enum Form {
     Real,
     /// What its numbers mean.
     Names(Vec<String>),
-}
-
-impl Group {
-    fn name(self) -> &'static str {
-        match self {
-            Group::Line => "line",
-            Group::Input => "input",
-            Group::Output => "output",
-            Group::Cell => "cell",
-            Group::Local => "local",
-        }
-    }
 }
 
 /// All of a line, machine by machine.
@@ -64,132 +40,81 @@ pub fn signals(system: &System) -> Vec<Signal> {
     ];
     let mut signals: Vec<Signal> = line
         .into_iter()
-        .map(|(name, form, source)| Signal {
-            name: name.into(),
-            machine: None,
-            group: Group::Line,
-            form,
-            source,
-        })
+        .map(|(name, form, source)| Signal { name: name.into(), machine: None, group: None, form, source })
         .collect();
-    let mut at = 0;
-    for machine in 0..system.instances.len() {
-        let mut of = OfMachine { system, machine, at, signals: Vec::new() };
-        of.ports(Direction::Input);
-        of.ports(Direction::Output);
-        of.remembered();
-        at = of.at;
-        signals.append(&mut of.signals);
+    for (machine, begin) in (0..system.instances.len()).zip(system.traces()) {
+        let values = system.values_of(machine, begin);
+        for group in [Group::Input, Group::Output, Group::Local, Group::Cell] {
+            values
+                .iter()
+                .filter(|value| value.group == group)
+                .for_each(|v| put(system, machine, v, &mut signals));
+        }
     }
     signals
 }
 
-struct OfMachine<'a> {
-    system: &'a System,
-    machine: usize,
-    /// The next word of the trace.
-    at: usize,
-    signals: Vec<Signal>,
+/// A signal for each word of a value.
+fn put(system: &System, machine: usize, value: &Named, signals: &mut Vec<Signal>) {
+    let form = form(system, value);
+    let axes: &[&str] = if value.ty == Scalar::Point { &[".x", ".y", ".z"] } else { &[""] };
+    for (axis, word) in axes.iter().zip(0..) {
+        let name = format!("{}.{}{axis}", system.instances[machine].name, value.name);
+        let source = match (value.group, value.image, value.trace) {
+            (Group::Input, Some(image), _) => Source::Input { machine, word: image + word },
+            (Group::Output, Some(image), _) => Source::Output { machine, word: image + word },
+            (_, _, trace) => Source::Trace(trace.unwrap_or(0) + word),
+        };
+        signals.push(Signal {
+            name,
+            machine: Some(machine),
+            group: Some(value.group),
+            form: form.clone(),
+            source,
+        });
+    }
 }
 
-impl OfMachine<'_> {
-    fn put(&mut self, name: &str, group: Group, form: Form, source: Source) {
-        let name = format!("{}.{name}", self.system.instances[self.machine].name);
-        self.signals.push(Signal { name, machine: Some(self.machine), group, form, source });
+fn form(system: &System, value: &Named) -> Form {
+    match value.ty {
+        Scalar::Bool => Form::Truth,
+        Scalar::Int { .. } | Scalar::Time => meaning(system, value.element),
+        Scalar::Real | Scalar::Point => Form::Real,
+        Scalar::Enum(id) => Form::Names(system.model.enums[id.0].members.clone()),
+        Scalar::Ref(interface) => {
+            let members = system.members[interface.0].iter();
+            Form::Names(members.map(|&member| system.instances[member].name.clone()).collect())
+        }
     }
+}
 
-    fn ports(&mut self, direction: Direction) {
-        let system = self.system;
-        let (machine, mut word) = (self.machine, 0);
-        let of_direction = |port: &&Port| port.direction == direction;
-        for port in system.automaton_of(machine).device.ports.iter().filter(of_direction) {
-            let form = match port.ty {
-                PortType::Bool => Form::Truth,
-                PortType::Int { .. } => self.meaning(port),
-                PortType::Real | PortType::Point => Form::Real,
-            };
-            for name in self.elements(&port.name, port.extent.into(), port.ty == PortType::Point) {
-                let (group, source) = match direction {
-                    Direction::Input => (Group::Input, Source::Input { machine, word }),
-                    Direction::Output => (Group::Output, Source::Output { machine, word }),
-                };
-                self.put(&name, group, form.clone(), source);
-                word += 1;
-            }
-        }
+/// Of the port of commands what its numbers ask for.
+fn meaning(system: &System, element: Element) -> Form {
+    let Element::Port { robot, port, .. } = element else { return Form::Whole };
+    let device = &system.automaton_of(robot).device;
+    if device.ports[port].name != "verb" || !device.is_commanded() {
+        return Form::Whole;
     }
-
-    /// Of the port of commands what its numbers ask for.
-    fn meaning(&self, port: &Port) -> Form {
-        let device = &self.system.automaton_of(self.machine).device;
-        if port.name != "verb" || !device.is_commanded() {
-            return Form::Whole;
-        }
-        let last = device.verbs.iter().map(|verb| verb.number).max().unwrap_or(0);
-        let name = |number: i32| {
-            let verb = device.verbs.iter().find(|verb| verb.number == number);
-            verb.map_or(String::new(), |verb| verb.name.clone())
-        };
-        Form::Names((0..=last.clamp(0, MOST_NAMES)).map(name).collect())
-    }
-
-    /// What the trace has of this machine: state, time in it, locals, cells, outputs.
-    fn remembered(&mut self) {
-        let system = self.system;
-        self.at += 2;
-        let automaton = system.automaton_of(self.machine);
-        for local in &automaton.locals {
-            self.variable(&local.name, local.ty, Group::Local);
-        }
-        for implemented in &automaton.implements {
-            for cell in &system.model.interface(implemented.interface).cells {
-                self.variable(&cell.name, cell.ty, Group::Cell);
-            }
-        }
-        self.at += automaton.device.words(device::Direction::Output, system.kinds());
-    }
-
-    fn variable(&mut self, name: &str, ty: Type, group: Group) {
-        let form = self.form(ty.scalar);
-        for name in self.elements(name, ty.extent, ty.scalar == Scalar::Point) {
-            self.put(&name, group, form.clone(), Source::Trace(self.at));
-            self.at += 1;
-        }
-    }
-
-    fn form(&self, scalar: Scalar) -> Form {
-        let model = &self.system.model;
-        match scalar {
-            Scalar::Bool => Form::Truth,
-            Scalar::Int { .. } | Scalar::Time => Form::Whole,
-            Scalar::Real | Scalar::Point => Form::Real,
-            Scalar::Enum(id) => Form::Names(model.enums[id.0].members.clone()),
-            Scalar::Ref(interface) => {
-                let members = self.system.members[interface.0].iter();
-                Form::Names(members.map(|&member| self.system.instances[member].name.clone()).collect())
-            }
-        }
-    }
-
-    /// Names of the words of a variable.
-    fn elements(&self, name: &str, extent: Extent, is_point: bool) -> Vec<String> {
-        let model = &self.system.model;
-        let elements: Vec<String> = match extent {
-            Extent::One => vec![name.into()],
-            Extent::Count(n) => (0..n).map(|i| format!("{name}[{i}]")).collect(),
-            Extent::By(id) => {
-                model.enums[id.0].members.iter().map(|member| format!("{name}[{member}]")).collect()
-            }
-        };
-        match is_point {
-            false => elements,
-            true => elements.iter().flat_map(|e| ["x", "y", "z"].map(|axis| format!("{e}.{axis}"))).collect(),
-        }
-    }
+    let last = device.verbs.iter().map(|verb| verb.number).max().unwrap_or(0);
+    let name = |number: i32| {
+        let verb = device.verbs.iter().find(|verb| verb.number == number);
+        verb.map_or(String::new(), |verb| verb.name.clone())
+    };
+    Form::Names((0..=last.clamp(0, MOST_NAMES)).map(name).collect())
 }
 
 /// Numbers of commands that are named.
 const MOST_NAMES: i32 = 1000;
+
+fn group_name(group: Option<Group>) -> &'static str {
+    match group {
+        None => "line",
+        Some(Group::Input) => "input",
+        Some(Group::Output) => "output",
+        Some(Group::Cell) => "cell",
+        Some(Group::Local) => "local",
+    }
+}
 
 /// Names and what they stand for; forms that come again are written once.
 pub fn signals_json(signals: &[Signal]) -> Value {
@@ -201,7 +126,7 @@ pub fn signals_json(signals: &[Signal]) -> Value {
             forms.len() - 1
         });
         let machine = signal.machine.map_or(-1, |machine| machine as i64);
-        rows.push(json!([signal.name, machine, signal.group.name(), form]));
+        rows.push(json!([signal.name, machine, group_name(signal.group), form]));
     }
     let forms = forms.into_iter().map(|form| match form {
         Form::Truth => json!("truth"),

@@ -2,13 +2,12 @@
 
 use super::super::progress::Progress;
 use autogen::executor::{Entry, Executor};
-use autogen::ir::{Element, Extent, Scalar, System, Type};
+use autogen::ir::{Element, Group, Named, Scalar, System};
 use autogen::lower::Project;
-use runtime_sim::device::Direction;
 use runtime_sim::run::{Seen, Stepping, run as simulate};
 use runtime_sim::scan::{Controllers, SystemInputs, SystemOutputs};
 use serde_json::{Value, json};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread;
 
@@ -36,17 +35,9 @@ struct Changes {
     values: BTreeMap<String, String>,
 }
 
-/// A word that controllers remember, with its name.
-struct Named {
-    name: String,
-    element: Element,
-    ty: Scalar,
-}
-
 pub fn find(projects: [&Project; 2], progress: Progress) -> Result<Found, String> {
     let names = projects.map(|project| all(&project.system));
-    let sets =
-        names.each_ref().map(|names| -> BTreeSet<&str> { names.iter().map(|n| n.name.as_str()).collect() });
+    let sets = names.each_ref().map(|names| -> BTreeSet<&String> { names.keys().collect() });
     let states = projects.map(|project| -> BTreeSet<String> {
         project.system.instances.iter().map(|instance| format!("{}, in state", instance.name)).collect()
     });
@@ -109,7 +100,7 @@ fn both(a: &Changes, b: &Changes) -> First {
 /// Names of states come first: `agv1, in state`.
 fn run(
     project: &Project,
-    names: &[Named],
+    names: &BTreeMap<String, Named>,
     common: &BTreeSet<String>,
     to: SyncSender<Changes>,
     mut progress: Progress,
@@ -119,7 +110,11 @@ fn run(
     let mut side = Side {
         system: &project.system,
         executor,
-        named: names.iter().filter(|n| common.contains(&n.name)).map(|n| (key(n.element), n)).collect(),
+        named: names
+            .iter()
+            .filter(|(name, _)| common.contains(*name))
+            .map(|(name, value)| (value.element, (name.as_str(), value.ty)))
+            .collect(),
         machines: project
             .system
             .instances
@@ -137,20 +132,10 @@ fn run(
     serde_json::from_str(&report.to_json()).map_err(|e| format!("the report is no JSON: {e}"))
 }
 
-type Key = (u8, usize, usize, usize, usize);
-
-fn key(element: Element) -> Key {
-    match element {
-        Element::Local { robot, local, index } => (0, robot, local, index, 0),
-        Element::Cell { interface, row, cell, index } => (1, interface.0, row, cell, index),
-        Element::Port { robot, port, index } => (2, robot, port, index, 0),
-    }
-}
-
 struct Side<'a> {
     system: &'a System,
     executor: Executor<'a>,
-    named: BTreeMap<Key, &'a Named>,
+    named: HashMap<Element, (&'a str, Scalar)>,
     machines: Vec<bool>,
     scan: Option<u64>,
     skipped: u64,
@@ -164,8 +149,8 @@ impl Side<'_> {
         let mut values = BTreeMap::new();
         for entry in self.executor.take_journal() {
             let Entry::Changed { what, .. } = entry else { continue };
-            if let Some(Named { name, element, ty }) = self.named.get(&key(what)) {
-                values.insert(name.clone(), self.system.shown_value(*ty, self.executor.element(*element)));
+            if let Some((name, ty)) = self.named.get(&what) {
+                values.insert(name.to_string(), self.system.shown_value(*ty, self.executor.element(what)));
             }
         }
         for (machine, before) in
@@ -218,49 +203,14 @@ impl Controllers for Side<'_> {
     }
 }
 
-/// Locals, cells and outputs of all machines.
-fn all(system: &System) -> Vec<Named> {
-    let mut found = Vec::new();
-    for (robot, instance) in system.instances.iter().enumerate() {
-        let automaton = system.automaton_of(robot);
-        for (local, declared) in automaton.locals.iter().enumerate() {
-            let element = |index| Element::Local { robot, local, index };
-            put(system, &instance.name, &declared.name, declared.ty, element, &mut found);
-        }
-        for (implements, row) in automaton.implements.iter().zip(&instance.rows) {
-            let interface = implements.interface;
-            for (cell, declared) in system.model.interface(interface).cells.iter().enumerate() {
-                let element = |index| Element::Cell { interface, row: *row, cell, index };
-                put(system, &instance.name, &declared.name, declared.ty, element, &mut found);
-            }
-        }
-        for (port, declared) in automaton.device.ports.iter().enumerate() {
-            if declared.direction == Direction::Output {
-                let ty = Type { scalar: declared.ty.into(), extent: declared.extent.into() };
-                let element = |index| Element::Port { robot, port, index };
-                put(system, &instance.name, &declared.name, ty, element, &mut found);
-            }
-        }
-    }
-    found
-}
-
-fn put(
-    system: &System,
-    machine: &str,
-    name: &str,
-    ty: Type,
-    element: impl Fn(usize) -> Element,
-    found: &mut Vec<Named>,
-) {
-    for index in 0..system.model.elements(ty.extent) {
-        let name = match ty.extent {
-            Extent::One => format!("{machine}.{name}"),
-            Extent::Count(_) => format!("{machine}.{name}[{index}]"),
-            Extent::By(id) => format!("{machine}.{name}[{}]", system.model.enums[id.0].members[index]),
-        };
-        found.push(Named { name, element: element(index), ty: ty.scalar });
-    }
+/// Locals, cells and outputs of all machines, by name: `agv1.at_stop`.
+fn all(system: &System) -> BTreeMap<String, Named> {
+    let values = |(machine, begin): (usize, usize)| {
+        let machine_name = &system.instances[machine].name;
+        let values = system.values_of(machine, begin).into_iter().filter(|v| v.group != Group::Input);
+        values.map(move |value| (format!("{machine_name}.{}", value.name), value))
+    };
+    (0..system.instances.len()).zip(system.traces()).flat_map(values).collect()
 }
 
 /// Values that are shown.
