@@ -107,6 +107,20 @@ fn automata_without_a_layout_are_checked_with_their_folder() {
     assert_eq!(codes(&client.diagnostics(&other)), ["E0301"]);
 }
 
+#[cfg(unix)]
+#[test]
+fn why_nothing_is_checked_is_said_in_the_files_that_are_open() {
+    let folder = new_line("unchecked");
+    fs::remove_file(folder.join("line.json")).expect("the layout");
+    std::os::unix::fs::symlink("/etc/passwd", folder.join("specs/link.aut")).expect("a link");
+    let file = folder.join("specs/stamp.aut");
+    let mut client = Client::in_folder(&folder);
+    client.open(&file, &read(&file));
+    let found = client.diagnostics(&file);
+    let text = found[0]["message"].as_str().expect("a text");
+    assert!(text.contains("link.aut is a symbolic link that leads out of it"), "{text}");
+}
+
 #[test]
 fn formatting_is_that_of_the_command() {
     let folder = new_line("formatted");

@@ -22,7 +22,8 @@ pub struct Published {
 
 impl Published {
     /// Checks everything anew: a message for each file of which the client knows something else, or another version.
-    pub fn renewed(&mut self, roots: &[Root], documents: &Documents) -> Vec<Value> {
+    /// Each root comes with the open files that belong to it.
+    pub fn renewed(&mut self, roots: &BTreeMap<Root, Vec<PathBuf>>, documents: &Documents) -> Vec<Value> {
         let mut new: BTreeMap<PathBuf, Vec<Diagnostic>> = BTreeMap::new();
         for (path, document) in documents.all() {
             let of_file = new.entry(path.into()).or_default();
@@ -32,12 +33,12 @@ impl Published {
                 of_file.push(diagnostics::of_file(&text));
             }
         }
-        for root in roots {
+        for (root, open) in roots {
             let found = catch_unwind(AssertUnwindSafe(|| root.check())).unwrap_or_else(|_| Found {
                 refused: Some("this is a bug in autogen, not in this file".into()),
                 ..Found::default()
             });
-            add(&mut new, root, &found, documents);
+            add(&mut new, open, &found, documents);
         }
         let files: BTreeSet<&PathBuf> = self.told.keys().chain(new.keys()).collect();
         let mut messages = Vec::new();
@@ -61,7 +62,7 @@ impl Published {
 }
 
 /// Of what several roots find in a file each is told once.
-fn add(new: &mut BTreeMap<PathBuf, Vec<Diagnostic>>, root: &Root, found: &Found, documents: &Documents) {
+fn add(new: &mut BTreeMap<PathBuf, Vec<Diagnostic>>, open: &[PathBuf], found: &Found, documents: &Documents) {
     let mut tell = |path: &Path, diagnostic: Diagnostic| {
         let of_file = new.entry(path.into()).or_default();
         if !of_file.contains(&diagnostic) {
@@ -69,7 +70,7 @@ fn add(new: &mut BTreeMap<PathBuf, Vec<Diagnostic>>, root: &Root, found: &Found,
         }
     };
     if let Some(why) = &found.refused {
-        tell(root.path(), diagnostics::of_file(why));
+        open.iter().for_each(|path| tell(path, diagnostics::of_file(why)));
     }
     let files = Files::new(&found.sources, documents);
     for diagnostic in &found.diagnostics {

@@ -49,13 +49,6 @@ impl Root {
         }
     }
 
-    /// The file or folder itself.
-    pub fn path(&self) -> &Path {
-        match self {
-            Root::Layout(path) | Root::Folder(path) | Root::Scenario(path) | Root::Tests(path) => path,
-        }
-    }
-
     pub fn check(&self) -> Found {
         match self {
             Root::Layout(path) => layout(path),

@@ -23,7 +23,7 @@ use autogen::lsp::protocol::{
 use autogen::source::FileId;
 use autogen::spec::format::format;
 use serde_json::{Value, json};
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
 use std::io::{self, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
@@ -234,13 +234,13 @@ impl<W: Write> Server<W> {
 
     /// Checks what is open, and tells the client what is new.
     pub fn publish(&mut self) -> io::Result<()> {
-        let mut roots = Vec::new();
+        let mut roots: BTreeMap<Root, Vec<PathBuf>> = BTreeMap::new();
         for (path, document) in self.documents.all() {
             let text = document.text.as_deref().unwrap_or_default();
-            roots.extend(Root::all(path, text, &mut self.layouts, &self.folders));
+            for root in Root::all(path, text, &mut self.layouts, &self.folders) {
+                roots.entry(root).or_default().push(path.into());
+            }
         }
-        roots.sort();
-        roots.dedup();
         for message in self.published.renewed(&roots, &self.documents) {
             self.send(&message)?;
         }
