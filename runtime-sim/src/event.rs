@@ -8,6 +8,8 @@ use crate::point::Point;
 pub enum Event {
     /// An item was handed over. `point` is where its underside was afterwards.
     Item { scan: u64, item: usize, from: Carrier, to: Carrier, point: Point },
+    /// An item became one of another kind.
+    Kind { scan: u64, item: usize, kind: usize },
     Order {
         scan: u64,
         /// The station.

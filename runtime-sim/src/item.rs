@@ -80,7 +80,9 @@ impl Items {
 
     /// An item becomes one of another kind.
     pub(crate) fn remake(&mut self, item: usize, kind: usize) {
-        self.list[item].kind = kind;
+        if std::mem::replace(&mut self.list[item].kind, kind) != kind {
+            self.log.push(Event::Kind { scan: self.scan, item, kind });
+        }
     }
 
     /// Only the first counts.

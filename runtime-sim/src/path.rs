@@ -23,6 +23,8 @@ use crate::point::Point;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Path {
     pub segments: Vec<Segment>,
+    /// Other kinds that the item became, each with its time, ms.
+    pub becomes: Vec<(f64, usize)>,
 }
 
 /// Times are milliseconds from the start of the run. An item that leaves the line ends with a segment without
@@ -59,6 +61,12 @@ pub struct Hanging {
 }
 
 impl Path {
+    /// The kind at this time of an item that was of kind `first`.
+    pub fn kind_at(&self, ms: f64, first: usize) -> usize {
+        let before = self.becomes.partition_point(|(at_ms, _)| *at_ms <= ms);
+        before.checked_sub(1).map_or(first, |last| self.becomes[last].1)
+    }
+
     /// The segments that hold at this time: one, or those that meet there, in their order. None while the item
     /// is not on the line.
     pub fn at(&self, ms: f64) -> impl Iterator<Item = &Segment> {

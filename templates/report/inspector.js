@@ -81,7 +81,8 @@ const Inspector = (() => {
 
   function ofItem(number) {
     const item = Motion.items[number];
-    const head = element('div', 'head', element('h3', '', item.name), element('span', 'muted', Data.raw.kinds[item.kind].name));
+    const kind = element('span', 'muted');
+    const head = element('div', 'head', element('h3', '', item.name), kind);
     const place = element('p', '');
     const way = element('ol', 'way', ...Tables.stations(item).map(({ text, ms }) => {
       const jump = element('button', 'plain', clock(ms));
@@ -89,13 +90,15 @@ const Inspector = (() => {
       return element('li', '', jump, ' ', text);
     }));
     box.replaceChildren(head, place, element('h4', '', 'Its path'), way);
-    return { machine: null, item: number, place };
+    return { machine: null, item: number, kind, place };
   }
 
   function updateItem(ms) {
     const found = Motion.itemAt(made.item, ms);
     const text = found ? `${found.carrier.text}, at ${found.place.map((v) => v.toFixed(3)).join(', ')} m` : 'not on the line';
     if (made.place.textContent !== text) made.place.textContent = text;
+    const kind = Motion.kindAt(Motion.items[made.item], ms).name;
+    if (made.kind.textContent !== kind) made.kind.textContent = kind;
   }
 
   function nothing() {

@@ -229,10 +229,17 @@ const Motion = (() => {
   }
 
   const items = raw.paths.map((path, number) => {
-    const [name, kind] = raw.items[number];
+    const [name, first, becomes] = raw.items[number];
+    const kinds = [[-Infinity, first], ...(becomes || [])];
     const segments = whole(path.slice(1));
-    return { number, name, kind, segments, at: Float64Array.from(segments, (s) => s[0]), endMs: path[0], turns: [], gripped: [] };
+    return { number, name, kinds, segments, at: Float64Array.from(segments, (s) => s[0]), endMs: path[0], turns: [], gripped: [] };
   });
+
+  /* What an item is at a time: a process makes one kind of another. */
+  function kindAt(item, ms) {
+    const kinds = item.kinds.filter(([since]) => since <= ms);
+    return raw.kinds[kinds[kinds.length - 1][1]];
+  }
 
   /* Where the underside of an item is by the law of a segment. */
   function placeBy(segment, ms) {
@@ -306,7 +313,7 @@ const Motion = (() => {
   }
 
   return {
-    IDENTITY, items, then, point, turned, jointsAt, framesAt, positionAt, cylinderFrame, travelAt, courseFrame,
+    IDENTITY, items, kindAt, then, point, turned, jointsAt, framesAt, positionAt, cylinderFrame, travelAt, courseFrame,
     coursePoint, courseEnds, outAt, laneOf, itemAt, carrierOf, placeBy, yawOf,
   };
 })();

@@ -151,28 +151,28 @@ const Plan = (() => {
     }
     all.sort((a, b) => a.place[2] - b.place[2]);
     for (const { number, place, turn } of all) {
-      const item = Motion.items[number], kind = raw.kinds[item.kind];
+      const item = Motion.items[number], kind = Motion.kindAt(item, ms);
       shown.set(item.name, place);
       const pose = Motion.turned(turn, place);
       const [w, h] = [kind.size[0] / 2, kind.size[1] / 2];
       const corners = [[-w, -h, 0], [w, -h, 0], [w, h, 0], [-w, h, 0]].map((corner) => Motion.point(pose, corner));
-      paint({ corners }, colours.kinds[item.kind % 8], colours.panel);
+      paint({ corners }, colours.kinds[raw.kinds.indexOf(kind) % 8], colours.panel);
       if (number === Player.chosen.item) {
         context.lineWidth = 2.5;
         context.strokeStyle = colours.ink;
         context.stroke();
       }
     }
-    nameItems(all);
+    nameItems(all, ms);
   }
 
   /* Items that are drawn large enough, and the chosen one. */
-  function nameItems(all) {
+  function nameItems(all, ms) {
     for (const { number, place } of all) {
-      const item = Motion.items[number], { size: [length] } = raw.kinds[item.kind];
+      const item = Motion.items[number], { size: [length, width] } = Motion.kindAt(item, ms);
       if (length * view.scale < 30 && number !== Player.chosen.item) continue;
       const [x, y] = toScreen(place);
-      label(item.name, [x, y + (raw.kinds[item.kind].size[1] / 2) * view.scale + 9], 10);
+      label(item.name, [x, y + (width / 2) * view.scale + 9], 10);
     }
   }
 

@@ -33,7 +33,7 @@ const Tables = (() => {
       const isGone = ['sink', 'collector', 'order'].includes(Motion.carrierOf(item.segments[item.segments.length - 1]).what);
       return { item, way, begin: item.segments[0][0], end: isGone ? item.endMs : null };
     });
-    const kind = ({ item }) => Data.raw.kinds[item.kind].name;
+    const kind = ({ item }) => item.kinds.map(([, number]) => Data.raw.kinds[number].name).join(' → ');
     return sortedTable([
       { name: 'item', show: ({ item }) => item.name, sort: ({ item }) => item.name },
       { name: 'kind', show: kind },

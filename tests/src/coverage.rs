@@ -74,6 +74,9 @@ impl Coverage {
             Ok(checked) => self.find_dead(text, &checked),
             Err(found) => return self.wrong.push(format!("{}: {}", text.name, listed(&found, text.main()))),
         }
+        let scl = Emitted::of_scl(&text.files);
+        let scl = scl.and_then(|scl| judge(&scl.main).map_err(|found| listed(&found, &scl.main)));
+        self.wrong.extend(scl.err().map(|why| format!("{} in SCL: {why}", text.name)));
         match Beside::new(text.system, &Emitted::of(&text.files)) {
             Ok(mut beside) => {
                 run(&mut beside);

@@ -58,12 +58,15 @@ fn fixtures_read_well() {
 }
 
 #[test]
-fn the_agv_reads_well_in_both_dialects() {
+fn the_agv_reads_well_in_all_dialects() {
     let files = of_layout("default");
     let main = &files["portable/main.st"];
     let agv = main.split("\n(* FB_Agv").nth(1).and_then(|text| text.split("END_FUNCTION_BLOCK").next());
     insta::assert_snapshot!("agv_portable", agv.expect("the block of the AGV"));
     insta::assert_snapshot!("agv_codesys", files["codesys/FB_Agv.st"]);
+    let scl =
+        files["siemens/main.scl"].split("\n(* FB_Agv").nth(1).and_then(|text| text.split("\n\n").next());
+    insta::assert_snapshot!("agv_siemens", scl.expect("the block of the AGV"));
 }
 
 #[test]

@@ -77,16 +77,19 @@ fn hand_written_traces_are_followed() {
     paths.sort();
     for path in &paths {
         let fixture = trace::load(&std::fs::read_to_string(path).expect("a text")).expect("a trace");
-        let text = emitted(&fixture.system, &fixture.sources);
-        let outcome = StructuredText::new(&fixture.system, &text).and_then(|mut engine| {
-            let compared = trace::compare(&fixture, &mut engine);
-            engine.ended.map_or(compared, Err)
-        });
-        if let Err(error) = outcome {
-            let name = path.file_stem().expect("a name").to_string_lossy().into_owned();
-            keep(&name, &text.main);
-            wrong.push(format!("{name}: {error}"));
-            differ.push(name);
+        let files = st::files(&fixture.system, &fixture.sources);
+        for (flavour, text) in [("", Ok(Emitted::of(&files))), (" in SCL", Emitted::of_scl(&files))] {
+            let outcome = text.as_ref().map_err(Clone::clone).and_then(|text| {
+                let mut engine = StructuredText::new(&fixture.system, text)?;
+                let compared = trace::compare(&fixture, &mut engine);
+                engine.ended.map_or(compared, Err)
+            });
+            if let Err(error) = outcome {
+                let name = path.file_stem().expect("a name").to_string_lossy().into_owned() + flavour;
+                keep(&name, &text.unwrap_or_default().main);
+                wrong.push(format!("{name}: {error}"));
+                differ.push(name);
+            }
         }
     }
     println!("{} traces, {} wrong\n{}", paths.len(), wrong.len(), wrong.join("\n"));

@@ -101,7 +101,13 @@ fn data(project: &Project, sources: &Sources, line: &Line, recorded: &Recorded, 
     let types: Vec<usize> = system.instances.iter().map(|instance| instance.automaton.0).collect();
     let names = item::names(line);
     let kinds = line.scenario.supply.iter().flat_map(|supply| supply.items.iter());
-    let items: Vec<Value> = names.iter().zip(kinds).map(|(name, kind)| json!([name, kind])).collect();
+    let becomes = recorded.paths.iter().map(|path| &path.becomes);
+    let items =
+        names.iter().zip(kinds).zip(becomes).map(|((name, kind), becomes)| match becomes.is_empty() {
+            true => json!([name, kind]),
+            false => json!([name, kind, becomes]),
+        });
+    let items: Vec<Value> = items.collect();
     let long = Long::new(line, recorded, &signals);
     let head = json!({
         "format": FORMAT,

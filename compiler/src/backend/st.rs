@@ -28,6 +28,7 @@ mod points;
 mod print;
 mod program;
 mod role;
+mod siemens;
 mod state;
 mod states;
 mod table;
@@ -69,6 +70,9 @@ pub fn mapped(system: &System, sources: &Sources, map: &IoMap) -> (Files, Column
     files.insert("portable/main.st".into(), text::portable(shared, &line));
     for (name, text) in text::codesys(shared, &line) {
         files.insert(format!("codesys/{name}"), text);
+    }
+    for (name, text) in siemens::files(shared, &line) {
+        files.insert(format!("siemens/{name}"), text);
     }
     files.insert("io.csv".into(), table::io(shared, map));
     files.insert("alarms.csv".into(), alarms::table(shared));

@@ -91,7 +91,7 @@ fn say_file(options: &TestOptions, file: &OfFile) {
         say!("{}", file.name);
     }
     for Result { title, engine, outcome } in &file.results {
-        let on = if *engine == TestEngine::Rust { " (compiled Rust)" } else { "" };
+        let on = engine.suffix();
         match outcome {
             Outcome::Passed if options.quiet => {}
             Outcome::Passed => say!("  ok    {title}{on}"),

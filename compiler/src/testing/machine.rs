@@ -13,12 +13,12 @@ use runtime_sim::scan::Controllers;
 pub enum Engine<'e, 'a> {
     /// Only this machine steps; what it shares with others is written by the test.
     Executor(&'e mut Executor<'a>),
-    /// All machines step: only for tests that [`is_for_any_engine`].
+    /// All machines step: a test of one machine has to be one that [`is_for_any_engine`].
     Other(&'e mut dyn Controllers),
 }
 
 impl Engine<'_, '_> {
-    pub(super) fn controllers(&mut self) -> &mut dyn Controllers {
+    pub fn controllers(&mut self) -> &mut dyn Controllers {
         match self {
             Engine::Executor(executor) => *executor,
             Engine::Other(controllers) => *controllers,

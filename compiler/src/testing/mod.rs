@@ -5,11 +5,13 @@ mod bench;
 mod line;
 mod machine;
 mod read;
+mod structured_text;
 mod value;
 
 pub use line::{Watched, judge};
 pub use machine::{Engine, Played, is_for_any_engine, play};
 pub use read::read;
+pub use structured_text::{Emitted, StructuredText};
 pub use value::instance;
 
 use crate::source::{Span, Spanned};

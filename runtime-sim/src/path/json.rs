@@ -22,6 +22,12 @@ pub fn segments_json(line: &Line, paths: &[Path], items: &[usize]) -> String {
         json.put_list("items", items, |json, &item| {
             json.put_text("item", &names[item]);
             json.put_text("kind", &line.kinds[kinds[item]].name);
+            if !paths[item].becomes.is_empty() {
+                json.put_list("becomes", &paths[item].becomes, |json, (at_ms, kind)| {
+                    json.put_real("at_s", Some(at_ms / 1000.0));
+                    json.put_text("kind", &line.kinds[*kind].name);
+                });
+            }
             json.put_list("segments", &paths[item].segments, |json, segment| put(json, line, segment));
         });
     })

@@ -86,16 +86,21 @@ impl Recorder {
         let log = plant.items().log();
         let mut passed = Vec::new();
         for event in &log[self.read..] {
-            let Event::Item { item, to, point, .. } = *event else { continue };
-            let path = &mut self.paths[item];
-            path.cut(now_ms);
-            path.segments.push(Segment {
-                begin_ms: now_ms,
-                end_ms: now_ms,
-                carrier: to,
-                law: Law::Rests(point),
-            });
-            passed.push(item);
+            match *event {
+                Event::Item { item, to, point, .. } => {
+                    let path = &mut self.paths[item];
+                    path.cut(now_ms);
+                    path.segments.push(Segment {
+                        begin_ms: now_ms,
+                        end_ms: now_ms,
+                        carrier: to,
+                        law: Law::Rests(point),
+                    });
+                    passed.push(item);
+                }
+                Event::Kind { item, kind, .. } => self.paths[item].becomes.push((now_ms, kind)),
+                Event::Order { .. } => {}
+            }
         }
         self.read = log.len();
         passed

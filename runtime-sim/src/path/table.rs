@@ -17,12 +17,13 @@ pub fn table_csv(line: &Line, paths: &[Path], items: &[usize], every_ms: u64) ->
     let names = item::names(line);
     let kinds: Vec<usize> = line.scenario.supply.iter().flat_map(|s| s.items.iter().copied()).collect();
     for &item in items {
-        let (name, kind) = (&names[item], &line.kinds[kinds[item]].name);
+        let name = &names[item];
         let mut last = String::new();
         for segment in &paths[item].segments {
             let carrier = carrier_text(line, segment.carrier);
             for ms in times(segment.begin_ms, segment.end_ms, every_ms) {
                 let place = segment.place(ms);
+                let kind = &line.kinds[paths[item].kind_at(ms, kinds[item])].name;
                 let [t, x, y, z] = [ms / 1000.0, place.x, place.y, place.z].map(millionths);
                 let row = format!("{name},{kind},{t},{x},{y},{z},{carrier}\n");
                 if row != last {

@@ -150,7 +150,8 @@ impl Variable {
         Self { address: None, initial: None, comments: Vec::new(), ..self.clone() }
     }
 
-    fn lines(&self, dialect: Dialect, ty: &str) -> String {
+    /// The declaration, with its comments.
+    pub fn line(&self, dialect: Dialect, ty: &str) -> String {
         let initial =
             self.initial.as_ref().map(|e| format!(" := {}", dialect.expression(e))).unwrap_or_default();
         let address = self.address.as_ref().map(|at| format!(" AT {at}")).unwrap_or_default();
@@ -176,8 +177,8 @@ impl Unit {
         let state = self.state.as_ref().filter(|_| dialect == Dialect::Codesys);
         let section = |keyword: &str, variables: &[Variable]| {
             let lines = variables.iter().map(|v| match state {
-                Some((name, ty)) if *name == v.name => v.lines(dialect, ty),
-                _ => v.lines(dialect, &v.ty()),
+                Some((name, ty)) if *name == v.name => v.line(dialect, ty),
+                _ => v.line(dialect, &v.ty()),
             });
             block(keyword, lines.collect())
         };
@@ -188,7 +189,7 @@ impl Unit {
         });
         let externals = match dialect {
             Dialect::Portable => section("VAR_EXTERNAL", &self.externals),
-            Dialect::Codesys => String::new(),
+            Dialect::Codesys | Dialect::Siemens => String::new(),
         };
         section("VAR_INPUT", &self.inputs)
             + &section("VAR_OUTPUT", &self.outputs)
@@ -204,7 +205,7 @@ fn block(keyword: &str, lines: Vec<String>) -> String {
 
 /// Declarations of globals.
 pub fn globals(variables: &[Variable], dialect: Dialect) -> String {
-    block("VAR_GLOBAL", variables.iter().map(|v| v.lines(dialect, &v.ty())).collect())
+    block("VAR_GLOBAL", variables.iter().map(|v| v.line(dialect, &v.ty())).collect())
 }
 
 /// The suffixes of the variables that hold one value.

@@ -9,6 +9,9 @@ pub enum Dialect {
     Portable,
     /// CODESYS and TwinCAT: enumerations, global variable lists.
     Codesys,
+    /// SCL: constants for members and states, numbers with their type, functions in quotes. Its names are written by
+    /// [`super::siemens`].
+    Siemens,
 }
 
 /// Lines longer than this are broken at AND and OR.
@@ -50,7 +53,7 @@ fn factors(value: f64) -> Option<(f64, f64)> {
 impl Dialect {
     pub fn member(self, member: &Member) -> String {
         match (self, &member.qualified) {
-            (Dialect::Codesys, Some(qualified)) => qualified.clone(),
+            (Dialect::Codesys | Dialect::Siemens, Some(qualified)) => qualified.clone(),
             _ => format!("{} {}", member.value, comment(&member.note)),
         }
     }
@@ -63,6 +66,7 @@ impl Dialect {
             Ex::Int(i) => i.to_string(),
             Ex::Real(r) => match factors(*r) {
                 Some((rest, power)) => self.expression(&code::binary("*", Ex::Real(rest), Ex::Real(power))),
+                None if self == Dialect::Siemens => format!("LREAL#{}", real(*r)),
                 None => real(*r),
             },
             Ex::Member(member) => self.member(member),
@@ -76,8 +80,16 @@ impl Dialect {
             Ex::Call(function, arguments) => {
                 let arguments: Vec<_> =
                     arguments.iter().map(|(name, value)| self.argument(name, value)).collect();
-                format!("{function}({})", arguments.join(", "))
+                format!("{}({})", self.function(function), arguments.join(", "))
             }
+        }
+    }
+
+    /// Those of the program begin with `F_`.
+    fn function(self, name: &str) -> String {
+        match self == Dialect::Siemens && name.starts_with("F_") {
+            true => format!("\"{name}\""),
+            false => name.into(),
         }
     }
 
@@ -173,7 +185,11 @@ impl Printer {
                 let text = format!("{} := {value}", self.dialect.expression(target));
                 match assigned {
                     Ex::Call(function, arguments) if 4 * depth + text.len() > WIDTH => {
-                        let begin = format!("{} := {function}", self.dialect.expression(target));
+                        let begin = format!(
+                            "{} := {}",
+                            self.dialect.expression(target),
+                            self.dialect.function(function)
+                        );
                         let arguments = arguments.iter().map(|(name, value)| (*name, value));
                         self.call(&begin, arguments, depth);
                     }
@@ -195,7 +211,7 @@ impl Printer {
                 self.line(depth, &format!("CASE {selector} OF"));
                 for (label, body) in branches {
                     let label = match (self.dialect, &label.qualified) {
-                        (Dialect::Codesys, Some(qualified)) => format!("{qualified}:"),
+                        (Dialect::Codesys | Dialect::Siemens, Some(qualified)) => format!("{qualified}:"),
                         _ => format!("{}: {}", label.value, comment(&label.note)),
                     };
                     self.line(depth + 1, &label);

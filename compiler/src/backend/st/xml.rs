@@ -177,7 +177,7 @@ fn variable(variable: &Variable, dialect: Dialect, derived: Option<&str>, indent
     let about = match (about.is_empty(), dialect) {
         (true, _) => String::new(),
         (false, Dialect::Portable) => format!("<documentation><xhtml:p>{about}</xhtml:p></documentation>"),
-        (false, Dialect::Codesys) => {
+        (false, Dialect::Codesys | Dialect::Siemens) => {
             format!(
                 "<documentation><xhtml xmlns=\"http://www.w3.org/1999/xhtml\">{about}</xhtml></documentation>"
             )

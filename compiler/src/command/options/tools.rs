@@ -110,9 +110,10 @@ pub struct TestOptions {
     /// Files of tests (*.test), or folders in which they are looked for, at any depth up to 8
     #[arg(required = true, value_name = "PATH")]
     pub paths: Vec<PathBuf>,
-    /// What runs the controllers: the reference executor, the compiled Rust, or one after the other
-    #[arg(long, value_enum, default_value = "executor")]
-    pub on: TestEngine,
+    /// What runs the controllers, such as `executor,rust,st`: the reference executor, the compiled Rust, the Structured
+    /// Text by an evaluator
+    #[arg(long, value_enum, value_delimiter = ',', value_name = "ENGINE", default_value = "executor")]
+    pub on: Vec<TestEngine>,
     /// A folder of automata (*.aut), or one such file: adds to the library and replaces types of the same name
     #[arg(long, value_name = "PATH")]
     pub specs: Vec<PathBuf>,
@@ -128,7 +129,18 @@ pub struct TestOptions {
 pub enum TestEngine {
     Executor,
     Rust,
-    Both,
+    St,
+}
+
+impl TestEngine {
+    /// Behind the title of a test; of the reference executor nothing.
+    pub fn suffix(self) -> &'static str {
+        match self {
+            TestEngine::Executor => "",
+            TestEngine::Rust => " (compiled Rust)",
+            TestEngine::St => " (Structured Text)",
+        }
+    }
 }
 
 #[derive(Args, Debug)]

@@ -1,6 +1,5 @@
 //! Results as XML in the form of JUnit, as servers for continuous integration read it.
 
-use super::super::options::TestEngine;
 use super::{OfFile, Outcome, Result, place_text};
 use autogen::plain;
 use std::fmt::Write;
@@ -24,7 +23,7 @@ pub fn text(files: &[OfFile]) -> String {
             "  <testsuite name=\"{name}\" tests=\"{tests}\" failures=\"{failed}\" skipped=\"{skipped}\">"
         );
         for Result { title, engine, outcome } in &file.results {
-            let on = if *engine == TestEngine::Rust { " (compiled Rust)" } else { "" };
+            let on = engine.suffix();
             let _ = write!(
                 out,
                 "    <testcase classname=\"{name}\" name=\"{}\"",

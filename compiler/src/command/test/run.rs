@@ -7,12 +7,12 @@ use super::super::options::{Format, InputOptions, TestEngine, TestOptions};
 use super::super::read;
 use super::{OfFile, Outcome, Result as TestResult};
 use autogen::backend::rust::parameters_text;
+use autogen::backend::st;
 use autogen::diagnostic::{Diagnostic, sort};
 use autogen::executor::Executor;
 use autogen::lower::{Project, compile};
 use autogen::source::{Sources, Spanned};
-use autogen::testing::{self, Body, Engine, Played, Setup, Test, Watched};
-use runtime_sim::report::Report;
+use autogen::testing::{self, Body, Emitted, Engine, Played, Setup, StructuredText, Test, Watched};
 use runtime_sim::run::{Stepping, run as simulate};
 use std::path::{Path, PathBuf};
 
@@ -39,11 +39,6 @@ pub fn file(options: &TestOptions, path: &Path) -> Result<OfFile, End> {
         Err(found) => return Err(End::Wrong(sources, found)),
     };
     let folder = path.parent().unwrap_or(Path::new(""));
-    let engines: &[TestEngine] = match options.on {
-        TestEngine::Executor => &[TestEngine::Executor],
-        TestEngine::Rust => &[TestEngine::Rust],
-        TestEngine::Both => &[TestEngine::Executor, TestEngine::Rust],
-    };
     let mut compiled: Vec<Compiled> = Vec::new();
     let (mut results, mut wrong) = (Vec::new(), Vec::new());
     for test in &tests.tests {
@@ -55,7 +50,7 @@ pub fn file(options: &TestOptions, path: &Path) -> Result<OfFile, End> {
             }
             Err(LineEnd::End(end)) => return Err(end),
         };
-        for engine in engines {
+        for engine in &options.on {
             match one(options, &compiled[number], test, *engine).map_err(End::Failed)? {
                 Ok(outcome) => {
                     results.push(TestResult { title: test.title.value.clone(), engine: *engine, outcome });
@@ -150,59 +145,64 @@ fn one(
     test: &Test,
     engine: TestEngine,
 ) -> Result<Result<Outcome, Vec<Diagnostic>>, String> {
-    let system = &line.project.system;
-    match &test.body {
-        Body::Machine { name, rows } => {
-            let machine = match machine(&line.project, name) {
-                Ok(machine) => machine,
-                Err(found) => return Ok(Err(found)),
-            };
-            let played = if engine == TestEngine::Rust {
-                if !testing::is_for_any_engine(system, machine, rows) {
-                    let why = "it plays other machines, which only the executor leaves to it";
-                    return Ok(Ok(Outcome::Skipped(why)));
-                }
-                let library = controllers::compiled(system, &line.sources, notice(options))?;
-                let mut controllers = library.controllers(&line.project.plant, &parameters_text(system))?;
-                testing::play(system, machine, rows, Engine::Other(&mut controllers))
-            } else {
-                let mut executor = Executor::new(system);
-                testing::play(system, machine, rows, Engine::Executor(&mut executor))
-            };
-            Ok(match played {
-                Played::Passed => Ok(Outcome::Passed),
-                Played::Failed(failure) => Ok(Outcome::Failed(vec![failure])),
-                Played::Wrong(found) => Err(found),
-            })
+    let (system, plant) = (&line.project.system, &line.project.plant);
+    if let Body::Machine { name, rows } = &test.body
+        && engine != TestEngine::Executor
+        && testing::instance(system, &name.value, name.span)
+            .is_ok_and(|machine| !testing::is_for_any_engine(system, machine, rows))
+    {
+        let why = "it plays other machines, which only the executor leaves to it";
+        return Ok(Ok(Outcome::Skipped(why)));
+    }
+    match engine {
+        TestEngine::Executor => {
+            on(line, test, Engine::Executor(&mut Executor::new(system)), Stepping::Events)
         }
-        Body::Line(expected) => {
-            let run = |watched: &mut Watched| -> Result<Report, String> {
-                simulate(&line.project.plant, watched, Stepping::Events, &mut |_| {})
-            };
-            let judged = if engine == TestEngine::Rust {
-                let library = controllers::compiled(system, &line.sources, notice(options))?;
-                let mut controllers = library.controllers(&line.project.plant, &parameters_text(system))?;
-                let mut watched = Watched::new(&mut controllers, system);
-                let report = run(&mut watched)?;
-                testing::judge(system, &report, &watched, expected)
-            } else {
-                let mut executor = Executor::new(system);
-                let mut watched = Watched::new(&mut executor, system);
-                let report = run(&mut watched)?;
-                testing::judge(system, &report, &watched, expected)
-            };
-            Ok(judged.map(|failures| match failures.is_empty() {
-                true => Outcome::Passed,
-                false => Outcome::Failed(failures),
-            }))
+        TestEngine::Rust => {
+            let library = controllers::compiled(system, &line.sources, notice(options))?;
+            let mut controllers = library.controllers(plant, &parameters_text(system))?;
+            on(line, test, Engine::Other(&mut controllers), Stepping::Events)
+        }
+        TestEngine::St => {
+            let emitted = Emitted::of(&st::files(system, &line.sources));
+            let mut text = StructuredText::new(system, &emitted)?;
+            let outcome = on(line, test, Engine::Other(&mut text), Stepping::EveryScan)?;
+            text.ended.map_or(Ok(outcome), Err)
         }
     }
 }
 
-fn notice(options: &TestOptions) -> Notice {
-    if options.quiet { Notice::None } else { Notice::Compiling }
+fn on(
+    line: &Compiled,
+    test: &Test,
+    mut engine: Engine,
+    stepping: Stepping,
+) -> Result<Result<Outcome, Vec<Diagnostic>>, String> {
+    let system = &line.project.system;
+    let failures = match &test.body {
+        Body::Machine { name, rows } => {
+            let machine = match testing::instance(system, &name.value, name.span) {
+                Ok(machine) => machine,
+                Err(wrong) => return Ok(Err(vec![*wrong])),
+            };
+            match testing::play(system, machine, rows, engine) {
+                Played::Passed => Vec::new(),
+                Played::Failed(failure) => vec![failure],
+                Played::Wrong(found) => return Ok(Err(found)),
+            }
+        }
+        Body::Line(expected) => {
+            let mut watched = Watched::new(engine.controllers(), system);
+            let report = simulate(&line.project.plant, &mut watched, stepping, &mut |_| {})?;
+            match testing::judge(system, &report, &watched, expected) {
+                Ok(failures) => failures,
+                Err(found) => return Ok(Err(found)),
+            }
+        }
+    };
+    Ok(Ok(if failures.is_empty() { Outcome::Passed } else { Outcome::Failed(failures) }))
 }
 
-fn machine(project: &Project, name: &Spanned<String>) -> Result<usize, Vec<Diagnostic>> {
-    testing::instance(&project.system, &name.value, name.span).map_err(|wrong| vec![*wrong])
+fn notice(options: &TestOptions) -> Notice {
+    if options.quiet { Notice::None } else { Notice::Compiling }
 }

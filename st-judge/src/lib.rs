@@ -13,6 +13,7 @@ pub mod machine;
 pub mod parse;
 mod read;
 mod reserved;
+pub mod scl;
 mod standard;
 pub mod types;
 pub mod view;

@@ -1,0 +1,300 @@
+//! The program as a source of SCL, which TIA Portal imports: data block, functions, blocks, and the instance of MAIN.
+//!
+//! The statements are those of the portable text. What differs is how names are written: `#name` within a block,
+//! `"Line".name` for what all blocks share, `"F_name"` for a function; and that states and members are constants
+//! of the block.
+
+use super::Line;
+use super::code::{Arm, Ex, Member, Stmt, expressions};
+use super::context::Shared;
+use super::declaration::{Unit, Variable};
+use super::print::{Dialect, comment, harmless};
+use super::text::{made_from, render};
+use crate::backend::Files;
+use askama::Template;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The data block of what all blocks share.
+const SHARED: &str = "Line";
+const DIALECT: Dialect = Dialect::Siemens;
+
+#[derive(Template)]
+#[template(path = "plc/siemens/header.scl", escape = "none")]
+struct Header {
+    made_from: String,
+}
+
+#[derive(Template)]
+#[template(path = "plc/siemens/data_block.scl", escape = "none")]
+struct DataBlock {
+    variables: String,
+}
+
+#[derive(Template)]
+#[template(path = "plc/siemens/function.scl", escape = "none")]
+struct FunctionText {
+    name: String,
+    about: String,
+    ty: String,
+    sections: String,
+    body: String,
+}
+
+#[derive(Template)]
+#[template(path = "plc/siemens/block.scl", escape = "none")]
+struct Block {
+    name: String,
+    comments: Vec<String>,
+    made_from: String,
+    sections: String,
+    body: String,
+}
+
+/// `main.scl`, and how it is called.
+pub fn files(shared: Shared, line: &Line) -> Files {
+    let mut parts = vec![render(&Header { made_from: made_from(shared) })];
+    let all: Vec<Variable> = line.globals.all().cloned().map(|v| Variable { address: None, ..v }).collect();
+    parts.push(render(&DataBlock { variables: lines(&all) }));
+    parts.extend(line.functions.iter().map(|function| function_text(function.text)));
+    let is_global = |name: &str| all.iter().any(|variable| variable.name == name);
+    parts.extend(line.units().map(|unit| block(shared, unit, &is_global)));
+    parts.push(include_str!("../../../../templates/plc/siemens/instance.scl").into());
+    let task = include_str!("../../../../templates/plc/siemens/task.txt");
+    let scan_ms = shared.system.scan_ms;
+    let task = task
+        .replace("SCAN_US", &(i64::from(scan_ms) * 1000).to_string())
+        .replace("SCAN_MS", &scan_ms.to_string());
+    Files::from([("main.scl".into(), parts.join("\n")), ("TASK.txt".into(), task)])
+}
+
+fn lines(variables: &[Variable]) -> String {
+    variables.iter().map(|variable| variable.line(DIALECT, &variable.ty())).collect()
+}
+
+fn section(keyword: &str, lines: &str) -> String {
+    if lines.is_empty() { String::new() } else { format!("{keyword}\n{lines}END_VAR\n") }
+}
+
+fn block(shared: Shared, unit: &Unit, is_global: &impl Fn(&str) -> bool) -> String {
+    let constants = Constants::of(unit);
+    let instances = unit.instances.iter().map(|instance| {
+        let about = if instance.comment.is_empty() {
+            String::new()
+        } else {
+            format!(" {}", comment(&instance.comment))
+        };
+        format!("    {} : \"{}\";{about}\n", instance.name, instance.block)
+    });
+    let declared = constants
+        .in_order()
+        .into_iter()
+        .map(|(name, member)| format!("    {name} : DINT := {};\n", member.value));
+    let sections = section("VAR_INPUT", &lines(&unit.inputs))
+        + &section("VAR_OUTPUT", &lines(&unit.outputs))
+        + &section("VAR", &(lines(&unit.variables) + &instances.collect::<String>()))
+        + &section("VAR CONSTANT", &declared.collect::<String>());
+    let own = Names { is_global, constants: &constants };
+    render(&Block {
+        name: unit.name.clone(),
+        comments: unit.comments.iter().map(|line| harmless(line.trim())).collect(),
+        made_from: made_from(shared),
+        sections,
+        body: DIALECT.statements(&own.statements(&unit.body), 1),
+    })
+}
+
+/// The states and members that a block names, as constants of it.
+struct Constants {
+    names: BTreeMap<String, Member>,
+}
+
+impl Constants {
+    fn of(unit: &Unit) -> Self {
+        let mut members = Vec::new();
+        members_of(&unit.body, &mut members);
+        let own = [&unit.inputs, &unit.outputs, &unit.variables]
+            .into_iter()
+            .flatten()
+            .map(|v| v.name.to_lowercase());
+        let own: BTreeSet<String> = own.chain(unit.instances.iter().map(|i| i.name.to_lowercase())).collect();
+        let named = members.into_iter().filter_map(|member| Some((Self::name(member)?, member.clone())));
+        // One that is called as a variable of the block stays a number.
+        Self { names: named.filter(|(name, _)| !own.contains(&name.to_lowercase())).collect() }
+    }
+
+    /// `E_Slot.Full` is `Slot_Full`.
+    fn name(member: &Member) -> Option<String> {
+        let qualified = member.qualified.as_ref()?;
+        Some(qualified.strip_prefix("E_").unwrap_or(qualified).replace('.', "_"))
+    }
+
+    /// By their types, and by their numbers.
+    fn in_order(&self) -> Vec<(&String, &Member)> {
+        let mut all: Vec<_> = self.names.iter().collect();
+        let ty = |name: &str| name.split_once('_').map(|(ty, _)| ty.to_string());
+        all.sort_by_key(|(name, member)| (ty(name), member.value));
+        all
+    }
+
+    /// The same member with the name of its constant, or as a number.
+    fn member(&self, member: &Member) -> Member {
+        let name = Self::name(member).filter(|name| self.names.contains_key(name));
+        Member { qualified: name.map(|name| format!("#{name}")), ..member.clone() }
+    }
+}
+
+fn members_of<'a>(statements: &'a [Stmt], found: &mut Vec<&'a Member>) {
+    expressions(statements, &mut |ex| members_in(ex, found));
+    labels(statements, found);
+}
+
+fn members_in<'a>(ex: &'a Ex, found: &mut Vec<&'a Member>) {
+    match ex {
+        Ex::Member(member) => found.push(member),
+        Ex::Bool(_) | Ex::Int(_) | Ex::Real(_) | Ex::Name(_) | Ex::Field(..) => {}
+        Ex::Element(_, a) | Ex::Not(a) | Ex::Minus(a) => members_in(a, found),
+        Ex::Binary(_, a, b) => {
+            members_in(a, found);
+            members_in(b, found);
+        }
+        Ex::Chain(_, parts) => parts.iter().for_each(|part| members_in(part, found)),
+        Ex::Call(_, arguments) => arguments.iter().for_each(|(_, a)| members_in(a, found)),
+    }
+}
+
+/// The labels of all CASE statements.
+fn labels<'a>(statements: &'a [Stmt], found: &mut Vec<&'a Member>) {
+    for statement in statements {
+        match statement {
+            Stmt::Case { branches, otherwise, .. } => {
+                for (label, body) in branches {
+                    found.push(label);
+                    labels(body, found);
+                }
+                labels(otherwise, found);
+            }
+            Stmt::If(arms, otherwise) => {
+                arms.iter().for_each(|arm| labels(&arm.body, found));
+                labels(otherwise, found);
+            }
+            Stmt::While { body, .. } => labels(body, found),
+            Stmt::Comment(_) | Stmt::Assign(..) | Stmt::Exit | Stmt::Return | Stmt::Call { .. } => {}
+        }
+    }
+}
+
+/// Names as SCL writes them.
+struct Names<'a, G> {
+    is_global: &'a G,
+    constants: &'a Constants,
+}
+
+impl<G: Fn(&str) -> bool> Names<'_, G> {
+    fn name(&self, name: &str) -> String {
+        if (self.is_global)(name) { format!("\"{SHARED}\".{name}") } else { format!("#{name}") }
+    }
+
+    fn statements(&self, statements: &[Stmt]) -> Vec<Stmt> {
+        statements.iter().map(|statement| self.statement(statement)).collect()
+    }
+
+    fn statement(&self, statement: &Stmt) -> Stmt {
+        match statement {
+            Stmt::Comment(_) | Stmt::Exit | Stmt::Return => statement.clone(),
+            Stmt::Assign(target, value) => Stmt::Assign(self.ex(target), self.ex(value)),
+            Stmt::If(arms, otherwise) => {
+                let arm = |arm: &Arm| Arm {
+                    comments: arm.comments.clone(),
+                    condition: self.ex(&arm.condition),
+                    body: self.statements(&arm.body),
+                };
+                Stmt::If(arms.iter().map(arm).collect(), self.statements(otherwise))
+            }
+            Stmt::Case { selector, branches, otherwise } => {
+                let branches = branches
+                    .iter()
+                    .map(|(label, body)| (self.constants.member(label), self.statements(body)));
+                Stmt::Case {
+                    selector: self.ex(selector),
+                    branches: branches.collect(),
+                    otherwise: self.statements(otherwise),
+                }
+            }
+            Stmt::While { condition, body, most } => {
+                Stmt::While { condition: self.ex(condition), body: self.statements(body), most: *most }
+            }
+            Stmt::Call { instance, arguments } => Stmt::Call {
+                instance: self.name(instance),
+                arguments: arguments.iter().map(|(name, value)| (name.clone(), self.ex(value))).collect(),
+            },
+        }
+    }
+
+    fn ex(&self, ex: &Ex) -> Ex {
+        let boxed = |ex: &Ex| Box::new(self.ex(ex));
+        match ex {
+            Ex::Bool(_) | Ex::Int(_) | Ex::Real(_) => ex.clone(),
+            Ex::Member(member) => Ex::Member(self.constants.member(member)),
+            Ex::Name(name) => Ex::Name(self.name(name)),
+            Ex::Element(name, index) => Ex::Element(self.name(name), boxed(index)),
+            Ex::Field(instance, output) => Ex::Field(self.name(instance), output.clone()),
+            Ex::Not(a) => Ex::Not(boxed(a)),
+            Ex::Minus(a) => Ex::Minus(boxed(a)),
+            Ex::Binary(operator, a, b) => Ex::Binary(operator, boxed(a), boxed(b)),
+            Ex::Chain(operator, parts) => {
+                Ex::Chain(operator, parts.iter().map(|part| self.ex(part)).collect())
+            }
+            Ex::Call(function, arguments) => {
+                Ex::Call(function, arguments.iter().map(|(name, value)| (*name, self.ex(value))).collect())
+            }
+        }
+    }
+}
+
+/// A function of the portable text as SCL has it.
+fn function_text(text: &str) -> String {
+    let (head, rest) = text.split_once("FUNCTION ").unwrap_or(("", text));
+    let (name_and_type, rest) = rest.split_once('\n').unwrap_or((rest, ""));
+    let (name, ty) = name_and_type.split_once(" : ").unwrap_or((name_and_type, "DINT"));
+    let rest = rest.strip_suffix("END_FUNCTION\n").unwrap_or(rest);
+    let (sections, body) = match rest.rfind("END_VAR\n") {
+        Some(end) => rest.split_at(end + "END_VAR\n".len()),
+        None => ("", rest),
+    };
+    let declared = sections.lines().filter_map(|line| line.trim().split_once(" : ").map(|(name, _)| name));
+    let own: BTreeSet<&str> = declared.chain([name]).collect();
+    let mut out = String::new();
+    for line in body.split_inclusive('\n') {
+        out += "    ";
+        let mut rest = line;
+        while let Some(first) = rest.chars().next() {
+            let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '.';
+            let end = rest.find(|c| is_word(c) != is_word(first)).unwrap_or(rest.len());
+            let (word, behind) = rest.split_at(end);
+            let is_argument = behind.starts_with(" := ") && !out.ends_with("    ");
+            out += &match word {
+                // The name of an argument stands within the brackets of a call.
+                _ if own.contains(word) && !is_argument => format!("#{word}"),
+                _ if word.starts_with("F_") => format!("\"{word}\""),
+                _ => number(word),
+            };
+            rest = behind;
+        }
+    }
+    let about = head.trim().trim_start_matches("(* ").trim_end_matches(" *)").to_string();
+    render(&FunctionText {
+        name: name.into(),
+        about,
+        ty: ty.into(),
+        sections: sections.replace("\nVAR\n", "\nVAR_TEMP\n"),
+        body: out,
+    })
+}
+
+/// A number with a point as one of 64 bits.
+fn number(word: &str) -> String {
+    match word.contains('.') && word.starts_with(|c: char| c.is_ascii_digit()) {
+        true => format!("LREAL#{word}"),
+        false => word.into(),
+    }
+}

@@ -1,0 +1,251 @@
+//! Emitted Structured Text as an engine: an evaluator that knows only the text runs it.
+
+use crate::backend::Files;
+use crate::ir::{Extent, Scalar, System};
+use crate::naming::{camel, snake};
+use autogen_st_judge::listed;
+use autogen_st_judge::machine::{Machine, Place};
+use autogen_st_judge::scl;
+use runtime_sim::device::{Direction, PortType};
+use runtime_sim::scan::{Controllers, SystemInputs, SystemOutputs};
+
+/// A program as it is written, and the table of names that could not stay as the specification has them.
+#[derive(Clone, Debug, Default)]
+pub struct Emitted {
+    pub main: String,
+    /// Empty if all names stayed.
+    pub names: String,
+}
+
+impl Emitted {
+    /// The portable flavour.
+    pub fn of(files: &Files) -> Self {
+        let text = |name: &str| files.get(name).cloned().unwrap_or_default();
+        Self { main: text("portable/main.st"), names: text("names.csv") }
+    }
+
+    /// The source of SCL, as the portable core has it. An error lists what is wrong with the source.
+    pub fn of_scl(files: &Files) -> Result<Self, String> {
+        let text = |name: &str| files.get(name).cloned().unwrap_or_default();
+        let source = text("siemens/main.scl");
+        let main = scl::portable(&source).map_err(|finding| finding.located(&source))?;
+        Ok(Self { main, names: text("names.csv") })
+    }
+
+    /// The name that a unit has for a wanted one. A coordinate is wanted as `at.x`.
+    fn name(&self, unit: &str, wanted: &str) -> String {
+        let rows = self.names.lines().skip(1).filter_map(|row| {
+            let mut fields = row.split(',');
+            Some((fields.next()?, fields.next()?, fields.next()?))
+        });
+        let mut found = rows.filter(|row| (row.0, row.1) == (unit, wanted));
+        found.next().map_or_else(|| wanted.replace('.', "_"), |row| row.2.into())
+    }
+}
+
+/// A text that runs a system.
+pub struct StructuredText {
+    pub machine: Machine,
+    scans: u64,
+    /// Why a scan could not be ended; none is run after it.
+    pub ended: Option<String>,
+    /// The most statements that a scan has executed.
+    pub most: u64,
+    /// For each robot its words; None stands for inputs that the text leaves out.
+    inputs: Vec<Vec<Option<Place>>>,
+    outputs: Vec<Vec<Place>>,
+    states: Vec<Place>,
+    trace: Vec<Word>,
+    /// Names of the words of the trace.
+    pub names: Vec<String>,
+}
+
+/// A word of the trace.
+#[derive(Clone, Copy)]
+enum Word {
+    At(Place),
+    /// The text leaves it out, since it never changes.
+    Constant(f64),
+}
+
+/// Finds the words of a system in a text.
+struct Finder<'a> {
+    machine: &'a Machine,
+    emitted: &'a Emitted,
+    system: &'a System,
+    missing: Vec<String>,
+}
+
+impl StructuredText {
+    /// An error lists the findings of the judge, or the names that are not in the text.
+    pub fn new(system: &System, emitted: &Emitted) -> Result<Self, String> {
+        let text = &emitted.main;
+        let machine = Machine::new(text).map_err(|findings| listed(&findings, text))?;
+        let mut finder = Finder { machine: &machine, emitted, system, missing: Vec::new() };
+        let mut trace = Vec::new();
+        let (mut inputs, mut outputs, mut states) = (Vec::new(), Vec::new(), Vec::new());
+        for index in 0..system.instances.len() {
+            let (own, answers) = finder.image(index);
+            inputs.push(own);
+            outputs.push(answers.into_iter().flatten().collect());
+            let instance = finder.instance(index);
+            states.extend(finder.place(format!("{instance}.state")));
+            finder.trace(index, &mut trace);
+        }
+        if !finder.missing.is_empty() {
+            return Err(format!("not in the text: {}", finder.missing.join(" ")));
+        }
+        let mut first = Vec::new();
+        crate::executor::Executor::new(system).trace(&mut first);
+        let (names, places): (Vec<_>, Vec<_>) = trace.into_iter().unzip();
+        let words = places.into_iter().zip(first);
+        let trace = words.map(|(place, first)| place.map_or(Word::Constant(first), Word::At)).collect();
+        Ok(Self { machine, scans: 0, ended: None, most: 0, inputs, outputs, states, trace, names })
+    }
+}
+
+impl StructuredText {
+    /// Words of the trace that the text leaves out: they are compared with what they were at first.
+    pub fn left_out(&self) -> Vec<&str> {
+        let words = self.names.iter().zip(&self.trace);
+        words.filter(|(_, word)| matches!(word, Word::Constant(_))).map(|(name, _)| name.as_str()).collect()
+    }
+}
+
+impl Finder<'_> {
+    fn place(&mut self, path: String) -> Option<Place> {
+        let place = self.machine.place(&path);
+        if place.is_none() {
+            self.missing.push(path);
+        }
+        place
+    }
+
+    /// The variables of a unit that hold a value: point by coordinate, element by element.
+    fn variables(&self, unit: &str, name: &str, is_point: bool, extent: Extent, first: usize) -> Vec<String> {
+        let parts: &[&str] = if is_point { &[".x", ".y", ".z"] } else { &[""] };
+        let mut variables = Vec::new();
+        for element in first..first + self.system.model.elements(extent) {
+            let index = if extent == Extent::One { String::new() } else { format!("[{element}]") };
+            for part in parts {
+                let wanted = format!("{name}{part}");
+                variables.push(format!("{}{index}", self.emitted.name(unit, &wanted)));
+            }
+        }
+        variables
+    }
+
+    /// The instance of a robot's block in the program.
+    fn instance(&self, index: usize) -> String {
+        self.emitted.name("MAIN", &self.system.instances[index].name)
+    }
+
+    /// Inputs and outputs of a robot in the order of its image. Inputs that no automaton reads may be left out.
+    fn image(&mut self, index: usize) -> (Vec<Option<Place>>, Vec<Option<Place>>) {
+        let robot = self.system.instances[index].name.clone();
+        let (mut inputs, mut outputs) = (Vec::new(), Vec::new());
+        for port in &self.system.automaton_of(index).device.ports {
+            let name = format!("{robot}_{}", port.name);
+            for path in self.variables("globals", &name, port.ty == PortType::Point, port.extent.into(), 0) {
+                match port.direction {
+                    Direction::Input => inputs.push(self.machine.place(&path)),
+                    Direction::Output => outputs.push(self.place(path)),
+                }
+            }
+        }
+        (inputs, outputs)
+    }
+
+    /// State, elapsed time, locals, cells, outputs before masking: the order of the executor's trace.
+    fn trace(&mut self, index: usize, trace: &mut Vec<(String, Option<Place>)>) {
+        let instance = &self.system.instances[index];
+        let automaton = self.system.automaton_of(index);
+        let robot = self.instance(index);
+        let block = format!("FB_{}", camel(&automaton.name));
+        let own = |name: &str, is_point, extent| {
+            let variables = self.variables(&block, name, is_point, extent, 0);
+            variables.into_iter().map(|variable| format!("{robot}.{variable}")).collect::<Vec<_>>()
+        };
+        let mut paths = vec![format!("{robot}.state"), format!("{robot}.elapsed")];
+        for local in &automaton.locals {
+            paths.extend(own(&local.name, local.ty.scalar == Scalar::Point, local.ty.extent));
+        }
+        for (implemented, row) in automaton.implements.iter().zip(&instance.rows) {
+            let interface = self.system.model.interface(implemented.interface);
+            for cell in &interface.cells {
+                let name = format!("{}_{}", snake(&interface.name), cell.name);
+                let count = self.system.model.elements(cell.ty.extent);
+                // A row of scalars has as many elements as there are members.
+                let extent = if cell.ty.extent == Extent::One { Extent::Count(1) } else { cell.ty.extent };
+                let is_point = cell.ty.scalar == Scalar::Point;
+                paths.extend(self.variables("globals", &name, is_point, extent, row * count));
+            }
+        }
+        for port in automaton.device.ports.iter().filter(|p| p.direction == Direction::Output) {
+            paths.extend(own(&port.name, port.ty == PortType::Point, port.extent.into()));
+        }
+        for path in paths {
+            let place = self.machine.place(&path);
+            trace.push((path, place));
+        }
+    }
+}
+
+impl Controllers for StructuredText {
+    fn scan(&mut self, system: SystemInputs, inputs: &[Vec<f64>], outputs: &mut [Vec<f64>]) -> SystemOutputs {
+        let machine = &mut self.machine;
+        for (name, value) in
+            [("run_permit", system.run_permit), ("start", system.start), ("reset", system.reset)]
+        {
+            machine.set(name, f64::from(u8::from(value)));
+        }
+        for (places, image) in self.inputs.iter().zip(inputs) {
+            for (place, value) in places.iter().zip(image) {
+                if let Some(place) = place {
+                    machine.write(*place, *value);
+                }
+            }
+        }
+        let before = machine.executed();
+        if self.ended.is_none()
+            && let Err(error) = machine.scan()
+        {
+            self.ended = Some(format!("scan {}: the text ends at {error}", self.scans));
+        }
+        if self.ended.is_some() {
+            return SystemOutputs { running: false, fault: true, fault_code: -1, fault_robot: -1 };
+        }
+        self.scans += 1;
+        self.most = self.most.max(self.machine.executed() - before);
+        let machine = &self.machine;
+        for (places, image) in self.outputs.iter().zip(outputs) {
+            image.clear();
+            image.extend(places.iter().map(|place| machine.read(*place)));
+        }
+        SystemOutputs {
+            running: machine.get("running") != 0.0,
+            fault: machine.get("fault") != 0.0,
+            fault_code: machine.get("fault_code") as i32,
+            fault_robot: machine.get("fault_robot") as i32,
+        }
+    }
+
+    fn state(&self, machine: usize) -> usize {
+        self.machine.read(self.states[machine]) as usize
+    }
+
+    fn trace(&self, out: &mut Vec<f64>) {
+        out.extend(self.trace.iter().map(|word| match word {
+            Word::At(place) => self.machine.read(*place),
+            Word::Constant(value) => *value,
+        }));
+    }
+
+    fn stays(&self) -> Vec<usize> {
+        Vec::new()
+    }
+
+    fn skip(&mut self, scans: u64) {
+        assert_eq!(scans, 0, "the text runs in every scan");
+    }
+}

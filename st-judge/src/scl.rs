@@ -1,0 +1,394 @@
+//! Reads the part of SCL that is generated, and says the same in the portable core.
+//!
+//! Written from the rules of SCL in TIA Portal, never from the emitter: names of a block are written `#name`, those of
+//! data blocks and blocks in quotes; a constant is a name of its block; a real number without a type may have 32 bits.
+
+mod token;
+
+use crate::finding::{Finding, Span};
+use std::collections::BTreeMap;
+use token::{Kind, Token, tokens};
+
+/// Types, and functions of the standard, that may stand in a text.
+const TYPES: [&str; 3] = ["BOOL", "DINT", "LREAL"];
+const STANDARD: [&str; 2] = ["DINT_TO_LREAL", "TRUNC"];
+const STATEMENTS: [&str; 24] = [
+    "IF",
+    "THEN",
+    "ELSIF",
+    "ELSE",
+    "END_IF",
+    "CASE",
+    "OF",
+    "END_CASE",
+    "WHILE",
+    "DO",
+    "END_WHILE",
+    "EXIT",
+    "RETURN",
+    "AND",
+    "OR",
+    "NOT",
+    "MOD",
+    "DIV",
+    "XOR",
+    "TRUE",
+    "FALSE",
+    "FOR",
+    "END_FOR",
+    "CONTINUE",
+];
+/// Longer names are refused by TIA Portal.
+const LONGEST: usize = 128;
+
+/// The same program in the portable core; or what is wrong with it.
+pub fn portable(source: &str) -> Result<String, Finding> {
+    let mut reader = Reader { tokens: tokens(source)?, next: 0, end: source.len(), known: Known::default() };
+    let mut blocks = Vec::new();
+    while reader.next < reader.tokens.len() {
+        blocks.extend(reader.unit()?);
+    }
+    let Known { shared: Some(shared), program: Some(program), .. } = reader.known else {
+        return Err(Finding::new("scl", Span { start: 0, end: 0 }, "no shared data block, or no instance"));
+    };
+    let mut text = String::new();
+    for block in blocks {
+        let word = if block.name == program { "PROGRAM" } else { block.word };
+        text += &format!("{word} {}{}\n{}", block.name, block.ty, block.sections);
+        let external: String = block
+            .globals
+            .iter()
+            .filter_map(|name| Some(format!("{name} : {};\n", shared.get(name)?.ty)))
+            .collect();
+        if !external.is_empty() {
+            text += &format!("VAR_EXTERNAL\n{external}END_VAR\n");
+        }
+        text += &format!("{}\nEND_{word}\n", block.body);
+    }
+    let globals: String =
+        shared.iter().map(|(name, v)| format!("{name} : {}{};\n", v.ty, v.initial)).collect();
+    Ok(text
+        + &format!(
+            "CONFIGURATION Config0\nVAR_GLOBAL\n{globals}END_VAR\nRESOURCE Res0 ON PLC\n\
+             TASK Scan(INTERVAL := T#10ms, PRIORITY := 0);\nPROGRAM Main_program WITH Scan : {program};\n\
+             END_RESOURCE\nEND_CONFIGURATION\n"
+        ))
+}
+
+#[derive(Default)]
+struct Known {
+    /// The variables of the data block that all share.
+    shared: Option<BTreeMap<String, Declared>>,
+    shared_name: String,
+    /// Functions and function blocks so far.
+    blocks: Vec<String>,
+    /// The block of the instance that is called.
+    program: Option<String>,
+}
+
+struct Declared {
+    ty: String,
+    /// With its `:=`.
+    initial: String,
+}
+
+struct Block {
+    word: &'static str,
+    name: String,
+    /// Of a function, with its colon.
+    ty: String,
+    sections: String,
+    globals: Vec<String>,
+    body: String,
+}
+
+struct Reader<'a> {
+    tokens: Vec<Token<'a>>,
+    next: usize,
+    end: usize,
+    known: Known,
+}
+
+impl<'a> Reader<'a> {
+    fn peek(&self) -> Option<Token<'a>> {
+        self.tokens.get(self.next).copied()
+    }
+
+    fn take(&mut self) -> Result<Token<'a>, Finding> {
+        let end = Span { start: self.end, end: self.end };
+        let token = self.peek().ok_or_else(|| Finding::new("scl", end, "the text ends too early"))?;
+        self.next += 1;
+        Ok(token)
+    }
+
+    fn expect(&mut self, kind: Kind, text: &str) -> Result<(), Finding> {
+        let token = self.take()?;
+        if token.is(kind, text) { Ok(()) } else { Err(wrong(token, &format!("`{text}` is wanted"))) }
+    }
+
+    fn kind(&mut self, kind: Kind) -> Result<Token<'a>, Finding> {
+        let token = self.take()?;
+        if token.kind == kind { Ok(token) } else { Err(wrong(token, &format!("{kind:?} is wanted"))) }
+    }
+
+    fn head(&mut self) -> Result<(), Finding> {
+        let attribute = self.kind(Kind::Attribute)?;
+        if attribute.text.trim() != "S7_Optimized_Access := 'TRUE'" {
+            return Err(wrong(attribute, "another attribute"));
+        }
+        self.expect(Kind::Word, "VERSION")?;
+        self.expect(Kind::Symbol, ":")?;
+        self.expect(Kind::Word, "0.1")
+    }
+
+    fn unit(&mut self) -> Result<Option<Block>, Finding> {
+        let word = self.kind(Kind::Word)?;
+        let name = self.kind(Kind::Global)?;
+        if !is_name(name.text) || self.known.blocks.iter().any(|known| known.eq_ignore_ascii_case(name.text))
+        {
+            return Err(wrong(name, "no name, or a second block of this name"));
+        }
+        self.known.blocks.push(name.text.into());
+        match word.text {
+            "DATA_BLOCK" => self.data_block(name).map(|()| None),
+            "FUNCTION" => {
+                self.expect(Kind::Symbol, ":")?;
+                let ty = self.kind(Kind::Word)?;
+                let mut block = self.block("FUNCTION", name)?;
+                block.ty = format!(" : {}", ty.text);
+                Ok(Some(block))
+            }
+            "FUNCTION_BLOCK" => self.block("FUNCTION_BLOCK", name).map(Some),
+            _ => Err(wrong(word, "no block begins so")),
+        }
+    }
+
+    /// The one that is shared, or the instance of a block.
+    fn data_block(&mut self, name: Token) -> Result<(), Finding> {
+        self.head()?;
+        self.expect(Kind::Word, "NON_RETAIN")?;
+        let token = self.take()?;
+        if token.kind == Kind::Global {
+            if !self.known.blocks.iter().any(|known| known == token.text) || self.known.program.is_some() {
+                return Err(wrong(token, "no block of this name, or a second instance"));
+            }
+            self.known.program = Some(token.text.into());
+        } else if token.is(Kind::Word, "VAR") && self.known.shared.is_none() {
+            let mut declared = BTreeMap::new();
+            for (name, variable) in self.declarations()? {
+                declared.insert(name, variable);
+            }
+            (self.known.shared, self.known.shared_name) = (Some(declared), name.text.into());
+        } else {
+            return Err(wrong(token, "`VAR` or the name of a block is wanted"));
+        }
+        self.expect(Kind::Word, "BEGIN")?;
+        self.expect(Kind::Word, "END_DATA_BLOCK")
+    }
+
+    /// Up to `END_VAR`.
+    fn declarations(&mut self) -> Result<Vec<(String, Declared)>, Finding> {
+        let mut found: Vec<(String, Declared)> = Vec::new();
+        loop {
+            let name = self.kind(Kind::Word)?;
+            if name.text == "END_VAR" {
+                return Ok(found);
+            }
+            if !is_name(name.text) || found.iter().any(|(known, _)| known.eq_ignore_ascii_case(name.text)) {
+                return Err(wrong(name, "no name, or declared before"));
+            }
+            self.expect(Kind::Symbol, ":")?;
+            let mut ty = String::new();
+            let mut initial = String::new();
+            loop {
+                let token = self.take()?;
+                match (token.kind, token.text) {
+                    (Kind::Symbol, ";") => break,
+                    (Kind::Symbol, ":=") => initial = " := ".into(),
+                    (Kind::Global, block) if self.known.blocks.iter().any(|known| known == block) => {
+                        ty += block
+                    }
+                    (Kind::Global, _) => return Err(wrong(token, "no block of this name")),
+                    _ if !initial.is_empty() => initial += literal(token)?,
+                    (Kind::Word, word) if TYPES.contains(&word) => ty += word,
+                    (Kind::Word, "ARRAY") => ty += "ARRAY",
+                    (Kind::Word, "OF") => ty += " OF ",
+                    _ => ty += token.text,
+                }
+            }
+            found.push((name.text.into(), Declared { ty, initial }));
+        }
+    }
+
+    fn block(&mut self, word: &'static str, name: Token) -> Result<Block, Finding> {
+        self.head()?;
+        let mut sections = String::new();
+        let mut names: BTreeMap<String, Option<String>> = BTreeMap::new();
+        if word == "FUNCTION" {
+            names.insert(name.text.into(), None);
+        }
+        loop {
+            let section = self.kind(Kind::Word)?;
+            let keyword = match section.text {
+                "BEGIN" => break,
+                "VAR_INPUT" | "VAR_OUTPUT" | "VAR" => section.text,
+                "VAR_TEMP" => "VAR",
+                _ => return Err(wrong(section, "no section is called so")),
+            };
+            let is_constant =
+                section.text == "VAR" && self.peek().is_some_and(|t| t.is(Kind::Word, "CONSTANT"));
+            self.next += usize::from(is_constant);
+            let declared = self.declarations()?;
+            for (name, variable) in &declared {
+                let value = is_constant.then(|| variable.initial.replace(" := ", ""));
+                let is_known = names.keys().any(|known| known.eq_ignore_ascii_case(name));
+                if is_known || (is_constant && variable.initial.is_empty()) {
+                    return Err(wrong(
+                        section,
+                        &format!("`{name}` is declared twice, or a constant without value"),
+                    ));
+                }
+                names.insert(name.clone(), value);
+            }
+            if !is_constant {
+                let lines: String =
+                    declared.iter().map(|(name, v)| format!("{name} : {}{};\n", v.ty, v.initial)).collect();
+                sections += &format!("{keyword}\n{lines}END_VAR\n");
+            }
+        }
+        let (globals, body) = self.body(&format!("END_{word}"), &names)?;
+        Ok(Block { word, name: name.text.into(), ty: String::new(), sections, globals, body })
+    }
+
+    fn body(
+        &mut self,
+        end: &str,
+        names: &BTreeMap<String, Option<String>>,
+    ) -> Result<(Vec<String>, String), Finding> {
+        let mut globals: Vec<String> = Vec::new();
+        let mut body = String::new();
+        loop {
+            let token = self.take()?;
+            let before = self.next.checked_sub(2).map(|i| self.tokens[i]);
+            let behind = |text: &str| before.is_some_and(|before| before.is(Kind::Symbol, text));
+            let text = match token.kind {
+                Kind::Word if token.text == end => return Ok((globals, body)),
+                Kind::Local => match names.get(token.text) {
+                    None => return Err(wrong(token, "not declared in this block")),
+                    Some(None) => token.text,
+                    Some(Some(value)) => value,
+                },
+                Kind::Global if token.text == self.known.shared_name => {
+                    self.expect(Kind::Symbol, ".")?;
+                    let name = self.kind(Kind::Word)?;
+                    if !self.known.shared.as_ref().is_some_and(|shared| shared.contains_key(name.text)) {
+                        return Err(wrong(name, "not in the data block"));
+                    }
+                    if !globals.iter().any(|known| known == name.text) {
+                        globals.push(name.text.into());
+                    }
+                    name.text
+                }
+                Kind::Global if self.known.blocks.iter().any(|known| known == token.text) => token.text,
+                Kind::Global => return Err(wrong(token, "no block of this name so far")),
+                Kind::Word if behind(".") => token.text,
+                Kind::Word if STATEMENTS.contains(&token.text) || STANDARD.contains(&token.text) => {
+                    token.text
+                }
+                // The name of an argument.
+                Kind::Word
+                    if (behind("(") || behind(","))
+                        && self.peek().is_some_and(|t| t.is(Kind::Symbol, ":=")) =>
+                {
+                    token.text
+                }
+                Kind::Word => literal(token)?,
+                Kind::Symbol => token.text,
+                Kind::Attribute => return Err(wrong(token, "no attribute stands here")),
+            };
+            let is_close = ["(", "."].into_iter().any(behind) || [".", "[", "("].contains(&text);
+            if !is_close {
+                body.push(' ');
+            }
+            body += text;
+            if text == ";" {
+                body.push('\n');
+            }
+        }
+    }
+}
+
+/// A number or a truth without its type. A real number needs one: without it TIA Portal may take it as one of 32 bits.
+fn literal<'a>(token: Token<'a>) -> Result<&'a str, Finding> {
+    let text = token.text;
+    let is_whole = |text: &str| text.bytes().all(|b| b.is_ascii_digit());
+    match text.strip_prefix("LREAL#") {
+        Some(real) if real.contains('.') => Ok(real),
+        None if ["TRUE", "FALSE", "-"].contains(&text) || is_whole(text) => Ok(text),
+        _ => Err(wrong(token, "no literal of 64 bits, and no name of this block")),
+    }
+}
+
+fn is_name(text: &str) -> bool {
+    text.len() <= LONGEST && text.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
+}
+
+fn wrong(token: Token, text: &str) -> Finding {
+    Finding::new("scl", token.span, format!("`{}`: {text}", token.text))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SOURCE: &str = r#"
+(* shared *)
+DATA_BLOCK "Line" { S7_Optimized_Access := 'TRUE' } VERSION : 0.1 NON_RETAIN
+VAR a : ARRAY[0..3] OF DINT; b : LREAL := LREAL#-1.5E-7; END_VAR BEGIN END_DATA_BLOCK
+FUNCTION "F_one" : DINT { S7_Optimized_Access := 'TRUE' } VERSION : 0.1
+VAR_INPUT value : DINT; END_VAR VAR_TEMP t : DINT; END_VAR
+BEGIN #t := #value; #F_one := #t + 1; END_FUNCTION
+FUNCTION_BLOCK "MAIN" { S7_Optimized_Access := 'TRUE' } VERSION : 0.1
+VAR state : DINT; END_VAR VAR CONSTANT Off : DINT := 7; END_VAR
+BEGIN CASE #state OF #Off: #state := "F_one"(value := #state); ELSE "Line".a[#state] := #Off; END_CASE;
+IF "Line".b < LREAL#2.0 THEN RETURN; END_IF; END_FUNCTION_BLOCK
+DATA_BLOCK "MAIN_DB" { S7_Optimized_Access := 'TRUE' } VERSION : 0.1 NON_RETAIN "MAIN" BEGIN END_DATA_BLOCK
+"#;
+
+    #[test]
+    fn it_says_the_same_in_the_portable_core() {
+        let text = portable(SOURCE).expect("a source");
+        for part in [
+            "FUNCTION F_one : DINT\nVAR_INPUT\nvalue : DINT;\nEND_VAR\nVAR\nt : DINT;\nEND_VAR\n",
+            "F_one := t + 1;",
+            "PROGRAM MAIN\nVAR\nstate : DINT;\nEND_VAR\nVAR_EXTERNAL\na : ARRAY[0..3] OF DINT;\nb : LREAL;\nEND_VAR\n",
+            "7 : state := F_one(value := state);",
+            "a[state] := 7;",
+            "IF b < 2.0 THEN",
+            "b : LREAL := -1.5E-7;",
+        ] {
+            assert!(text.contains(part), "{part}\n{text}");
+        }
+        crate::judge(&text).unwrap_or_else(|found| panic!("{}", crate::listed(&found, &text)));
+    }
+
+    #[test]
+    fn what_tia_portal_would_refuse_or_take_otherwise_is_found() {
+        for (from, to) in [
+            ("#t := #value", "t := #value"),
+            ("#t + 1", "#T + 1"),
+            ("\"F_one\"(", "F_one("),
+            ("\"Line\".b", "\"Line\".c"),
+            ("LREAL#2.0", "2.0"),
+            ("t : DINT; END_VAR", "VALUE : DINT; END_VAR"),
+            ("NON_RETAIN \"MAIN\"", "NON_RETAIN \"Other\""),
+            ("Off : DINT := 7", "Off : DINT"),
+            ("\"F_one\"(value", "\"F_two\"(value"),
+            ("VERSION : 0.1 NON_RETAIN", "NON_RETAIN"),
+            ("(* shared *)", "(* shared"),
+        ] {
+            assert!(SOURCE.contains(from), "{from}");
+            assert!(portable(&SOURCE.replacen(from, to, 1)).is_err(), "{to}");
+        }
+    }
+}
