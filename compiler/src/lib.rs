@@ -19,6 +19,7 @@ pub mod layout;
 pub mod library;
 pub mod lint;
 pub mod lower;
+pub mod lsp;
 pub mod naming;
 pub mod plain;
 pub mod reads;

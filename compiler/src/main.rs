@@ -56,6 +56,7 @@ fn main() -> ExitCode {
         Command::Fmt(options) => command::fmt::run(options),
         Command::Schema(options) => command::schema::run(options),
         Command::Completions(options) => command::completions::run(options),
+        Command::Lsp(_) => command::lsp::run(),
     });
     ExitCode::from(status.unwrap_or(Status::Bug) as u8)
 }

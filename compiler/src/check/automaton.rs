@@ -2,6 +2,7 @@
 
 use super::context::{Context, Symbol};
 use super::facts::Facts;
+use super::names::Space;
 use super::{Checker, state};
 use crate::device::Device;
 use crate::diagnostic::{Diagnostic, suggestion};
@@ -43,6 +44,7 @@ pub(super) fn check(checker: &mut Checker, tree: &ast::Automaton) {
         id,
         symbols: BTreeMap::new(),
         variables: Vec::new(),
+        variable_names: BTreeMap::new(),
         facts: Facts::default(),
         required: Facts::default(),
         in_guard: false,
@@ -82,7 +84,9 @@ pub(super) fn check(checker: &mut Checker, tree: &ast::Automaton) {
 /// None has been reported.
 fn device(checker: &mut Checker, name: &ast::Name) -> Option<Arc<Device>> {
     if let Some((_, device)) = checker.devices.iter().find(|(known, _)| *known == name.value) {
-        return device.clone();
+        let device = device.clone();
+        checker.uses(name.span, Space::Devices, "", &name.value);
+        return device;
     }
     if !name.value.is_empty() {
         let known = || checker.devices.iter().map(|(name, _)| name.as_str());
@@ -325,9 +329,19 @@ impl Context<'_, '_> {
                     .help("give both the same type and size"),
                 );
             }
+            self.same_name(interface, &parameter.name);
             supplied.push(index);
         }
         supplied
+    }
+
+    /// What supplies a parameter of an interface is called as it is.
+    fn same_name(&mut self, interface: ir::InterfaceId, name: &str) {
+        let Some(names) = &mut self.checker.names else { return };
+        let of_interface = names.find(Space::OfType, &self.checker.model.interfaces[interface.0].name, name);
+        let own = names.find(Space::OfType, &self.automaton.name, name);
+        let of_device = names.find(Space::OfDevice, &self.automaton.device.name, name);
+        names.link(of_interface, own.or(of_device));
     }
 
     fn handover(&mut self, tree: &ast::Handover) -> Option<ir::Handover> {
@@ -347,6 +361,7 @@ impl Context<'_, '_> {
             self.report(Diagnostic::new("E0324", tree.place.span, message).help(help));
             return None;
         };
+        self.checker.uses(tree.place.span, Space::Handovers, &device.name, &found.name);
         let index = match (&tree.index, found.indexed) {
             (None, None) => None,
             (Some(ast::Expr { kind: ast::ExprKind::Int(i), .. }), Some(n)) if (0..n as i64).contains(i) => {
@@ -431,6 +446,12 @@ impl Context<'_, '_> {
                 );
             }
             depths.push(depth);
+            let ty = self.checker.type_name(value.ty);
+            if let Some(names) = &mut self.checker.names
+                && let Some(number) = names.find(Space::OfType, &self.automaton.name, &define.name.value)
+            {
+                names.set_type(number, ty);
+            }
             self.declare(&define.name, Symbol::Define(self.automaton.defines.len()));
             self.automaton.defines.push(ir::Define {
                 name: define.name.value.clone(),

@@ -36,7 +36,11 @@ impl Context<'_, '_> {
             Tree::Duration(ms) => Some(constant(Scalar::Time, Value::Int(*ms as i32))),
             Tree::Name(_) | Tree::Member(..) | Tree::Index(..) => match self.path(tree, expected)? {
                 Path::Value(expr) => Some(expr),
-                Path::Place(place, ty) if ty.extent == Extent::One => Some(self.read(place, ty.scalar)),
+                Path::Place(place, ty) if ty.extent == Extent::One => {
+                    let read = self.read(place, ty.scalar);
+                    self.narrowed(tree, ty.scalar, read.ty);
+                    Some(read)
+                }
                 Path::Place(..) => {
                     self.report(
                         Diagnostic::new("E0312", tree.span, "this is a whole array, not one value")
@@ -126,6 +130,20 @@ impl Context<'_, '_> {
     /// A whole number.
     pub(super) fn whole(&mut self, tree: &ast::Expr) -> Option<Expr> {
         self.typed(tree, Scalar::Int { lo: i32::MIN, hi: i32::MAX })
+    }
+
+    /// Notes what is known of a whole number beyond its type.
+    fn narrowed(&mut self, tree: &ast::Expr, declared: Scalar, known: Scalar) {
+        let span = match &tree.kind {
+            ast::ExprKind::Name(_) => tree.span,
+            ast::ExprKind::Member(_, member) => member.span,
+            _ => return,
+        };
+        if let (Some(names), Scalar::Int { lo, hi }) = (&mut self.checker.names, known)
+            && known != declared
+        {
+            names.narrow(self.checker.sources, span, (lo, hi));
+        }
     }
 
     fn read(&self, place: Place, ty: Scalar) -> Expr {

@@ -2,8 +2,11 @@
 
 mod automaton;
 mod context;
+mod declared;
+mod devices;
 mod expression;
 mod facts;
+pub mod names;
 mod path;
 mod rule;
 mod sequence;
@@ -20,6 +23,7 @@ use crate::diagnostic::{Diagnostic, collect, suggestion};
 use crate::ir::{self, Rule};
 use crate::source::{FileId, Sources, Span};
 use crate::spec::ast;
+use names::{Names, Space};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
@@ -46,6 +50,26 @@ pub fn check(
     files: &[(FileId, ast::File)],
     kinds: &[String],
 ) -> Result<Checked, Vec<Diagnostic>> {
+    let mut checker = checked(sources, files, kinds, None);
+    if checker.diagnostics.is_empty() {
+        Ok(Checked { model: checker.model })
+    } else {
+        crate::diagnostic::sort(&mut checker.diagnostics);
+        Err(checker.diagnostics)
+    }
+}
+
+/// What the names of the files mean, as far as [`check`] understands them: of files with errors too.
+pub fn names(sources: &Sources, files: &[(FileId, ast::File)], kinds: &[String]) -> Names {
+    checked(sources, files, kinds, Some(Names::default())).names.unwrap_or_default()
+}
+
+fn checked<'a>(
+    sources: &'a Sources,
+    files: &[(FileId, ast::File)],
+    kinds: &[String],
+    names: Option<Names>,
+) -> Checker<'a> {
     let mut diagnostics = Vec::new();
     let declarations = declarations(files, &mut diagnostics);
     let mut checker = Checker {
@@ -55,8 +79,13 @@ pub fn check(
         model: empty_model(kinds),
         broken: BTreeSet::new(),
         devices: Vec::new(),
+        names,
     };
     checker.devices();
+    if checker.names.is_some() {
+        checker.declared();
+        checker.uses_of_devices();
+    }
     checker.enums();
     checker.interfaces();
     for index in 0..checker.declarations.automata.len() {
@@ -64,12 +93,7 @@ pub fn check(
         automaton::check(&mut checker, &automaton);
     }
     checker.lonely_roles();
-    if checker.diagnostics.is_empty() {
-        Ok(Checked { model: checker.model })
-    } else {
-        crate::diagnostic::sort(&mut checker.diagnostics);
-        Err(checker.diagnostics)
-    }
+    checker
 }
 
 fn empty_model(kinds: &[String]) -> ir::Model {
@@ -166,6 +190,8 @@ struct Checker<'a> {
     broken: BTreeSet<(ir::InterfaceId, String)>,
     /// Devices by name, in the order of their declarations; none for one with errors.
     devices: Vec<(String, Option<Arc<Device>>)>,
+    /// There if somebody asks what the names mean.
+    names: Option<Names>,
 }
 
 impl Checker<'_> {
@@ -325,6 +351,7 @@ impl Checker<'_> {
                 Rule::Counter
             }
             Some(ast::Rule::With(name)) => {
+                self.uses(name.span, Space::OfType, &interface.name.value, &name.value);
                 match interface.cells.iter().position(|c| c.name.value == name.value) {
                     Some(other) if matches!(interface.cells[other].rule, Some(ast::Rule::Token(_))) => {
                         Rule::With(other)
@@ -376,8 +403,9 @@ impl Checker<'_> {
             self.report(diagnostic);
             return Rule::Owner;
         };
-        let members = self.model.enums[id.0].members.clone();
+        let ir::Enum { name: of, members, .. } = self.model.enums[id.0].clone();
         for (name, _) in sides {
+            self.uses(name.span, Space::OfType, &of, &name.value);
             if !members.contains(&name.value) {
                 let diagnostic = Diagnostic::new(
                     "E0303",

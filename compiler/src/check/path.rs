@@ -2,6 +2,7 @@
 
 use super::context::{Context, Symbol};
 use super::facts;
+use super::names::Space;
 use crate::diagnostic::{Diagnostic, suggestion};
 use crate::ir::{self, Expr, ExprKind, Extent, Place, Scalar, Type, Value};
 use crate::source::Span;
@@ -28,7 +29,11 @@ impl Context<'_, '_> {
 
     fn name(&mut self, name: &str, span: Span, expected: Option<Scalar>) -> Option<Path> {
         if let Some((_, id, ty)) = self.variables.iter().rev().find(|(n, _, _)| n == name) {
-            return Some(Path::Value(Expr { ty: *ty, kind: ExprKind::Variable(*id) }));
+            let (id, ty) = (*id, *ty);
+            if let (Some(names), Some(number)) = (&mut self.checker.names, self.variable_names.get(&id)) {
+                names.use_at(self.checker.sources, span, *number);
+            }
+            return Some(Path::Value(Expr { ty, kind: ExprKind::Variable(id) }));
         }
         if name == "done" || name == "failed" {
             return self.answer(name, span).map(Path::Value);
@@ -36,7 +41,11 @@ impl Context<'_, '_> {
         if name == "self" {
             return self.own_reference(span, expected).map(Path::Value);
         }
-        match self.symbols.get(name).cloned() {
+        let symbol = self.symbols.get(name).cloned();
+        if let Some(symbol) = &symbol {
+            self.uses_symbol(name, symbol, span);
+        }
+        match symbol {
             Some(Symbol::Local(local)) => {
                 Some(Path::Place(Place::Local { local, index: None }, self.automaton.locals[local].ty))
             }
@@ -99,10 +108,14 @@ impl Context<'_, '_> {
             found = vec![*fit];
         }
         match found.as_slice() {
-            [(id, ordinal)] => Some(Path::Value(Expr {
-                ty: Scalar::Enum(*id),
-                kind: ExprKind::Constant(Value::Int(*ordinal as i32)),
-            })),
+            [(id, ordinal)] => {
+                let of = self.checker.model.enums[id.0].name.clone();
+                self.checker.uses(span, Space::OfType, &of, name);
+                Some(Path::Value(Expr {
+                    ty: Scalar::Enum(*id),
+                    kind: ExprKind::Constant(Value::Int(*ordinal as i32)),
+                }))
+            }
             [] => {
                 self.unknown_name(name, span);
                 None
@@ -167,6 +180,8 @@ impl Context<'_, '_> {
                 );
                 return None;
             };
+            self.checker.uses(base.span, Space::Types, "", name);
+            self.checker.uses(member.span, Space::OfType, name, &member.value);
             let kind = ExprKind::Constant(Value::Int(ordinal as i32));
             return Some(Path::Value(Expr { ty: Scalar::Enum(id), kind }));
         }
@@ -203,6 +218,8 @@ impl Context<'_, '_> {
             return None;
         }
         let of = Box::new(of);
+        let name = self.checker.model.interfaces[interface.0].name.clone();
+        self.checker.uses(member.span, Space::OfType, &name, &member.value);
         let shown = &self.checker.model.interfaces[interface.0];
         if let Some(cell) = shown.cells.iter().position(|c| c.name == member.value) {
             let ty = shown.cells[cell].ty;

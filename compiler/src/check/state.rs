@@ -1,6 +1,7 @@
 //! States and transitions.
 
 use super::context::Context;
+use super::names::Space;
 use super::sequence;
 use crate::diagnostic::{Diagnostic, suggestion};
 use crate::ir::{self, Scalar, StateId};
@@ -21,6 +22,7 @@ fn plain(context: &mut Context, tree: &ast::Automaton) -> Vec<ast::State> {
     }
     for any in tree.any.iter().rev() {
         for name in &any.except {
+            context.checker.uses(name.span, Space::States, &tree.name.value, &name.value);
             if !tree.states.iter().any(|s| s.name.value == name.value) {
                 unknown_state(context, tree, name);
             }
@@ -193,6 +195,7 @@ fn transition(
         None => None,
         Some(name) => {
             let target = number(&name.value);
+            context.checker.uses(name.span, Space::States, &automaton.name.value, &name.value);
             if target.is_none() {
                 unknown_state(context, automaton, name);
                 whole = false;

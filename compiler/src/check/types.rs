@@ -1,6 +1,7 @@
 //! Types and constants of declarations.
 
 use super::Checker;
+use super::names::Space;
 use crate::diagnostic::{Diagnostic, suggestion};
 use crate::ir::{self, Extent, Scalar, Value};
 use crate::spec::ast::{self, ExprKind};
@@ -41,6 +42,7 @@ impl Checker<'_> {
     }
 
     fn named_scalar(&mut self, name: &ast::Name) -> Option<Scalar> {
+        self.uses(name.span, Space::Types, "", &name.value);
         if let Some(id) = self.enum_named(&name.value) {
             return Some(Scalar::Enum(id));
         }
@@ -74,6 +76,7 @@ impl Checker<'_> {
 
     pub(super) fn interface_or_report(&mut self, name: &ast::Name) -> Option<ir::InterfaceId> {
         let found = self.interface_named(&name.value);
+        self.uses(name.span, Space::Types, "", &name.value);
         if found.is_none() {
             let known: Vec<String> = self.model.interfaces.iter().map(|i| i.name.clone()).collect();
             let help = suggestion(&name.value, known.iter().map(String::as_str))
@@ -89,6 +92,7 @@ impl Checker<'_> {
     fn extent(&mut self, expr: &ast::Expr) -> Option<Extent> {
         if let ExprKind::Name(name) = &expr.kind {
             if let Some(id) = self.enum_named(name) {
+                self.uses(expr.span, Space::Types, "", name);
                 return Some(Extent::By(id));
             }
             self.report(
@@ -181,9 +185,13 @@ impl Checker<'_> {
                 Value::Int(value)
             }
             (Scalar::Enum(id), ExprKind::Name(name)) => {
-                let members = &self.model.enums[id.0].members;
+                let ir::Enum { name: of, members, .. } = &self.model.enums[id.0];
                 match members.iter().position(|m| m == name) {
-                    Some(ordinal) => Value::Int(ordinal as i32),
+                    Some(ordinal) => {
+                        let of = of.clone();
+                        self.uses(expr.span, Space::OfType, &of, name);
+                        Value::Int(ordinal as i32)
+                    }
                     None => return self.not_constant(ty, expr),
                 }
             }

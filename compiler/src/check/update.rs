@@ -2,6 +2,7 @@
 
 use super::context::Context;
 use super::facts::{self, Interval};
+use super::names::Space;
 use super::path::Path;
 use crate::diagnostic::{Diagnostic, suggestion};
 use crate::ir::{
@@ -200,6 +201,7 @@ impl Context<'_, '_> {
             );
             return None;
         };
+        self.checker.uses(verb.span, Space::Commands, &device.name, name);
         if arguments.len() != known.arguments.len() {
             self.report(
                 Diagnostic::new(

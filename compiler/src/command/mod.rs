@@ -33,6 +33,7 @@ pub mod io_error;
 pub mod io_trace;
 pub mod load;
 pub mod lock;
+pub mod lsp;
 pub mod named;
 pub mod new;
 pub mod options;

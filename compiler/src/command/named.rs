@@ -67,7 +67,7 @@ impl Folder {
     /// The text of a file by its path as reports show it.
     fn text(&self, path: &Path) -> Result<(String, String), Unusable> {
         let own = if self.0.as_os_str().is_empty() { Path::new(".") } else { &self.0 };
-        let real = path.canonicalize()?;
+        let real = path.canonicalize().or_else(|error| read::opened(path).ok_or(error))?;
         if !real.starts_with(own.canonicalize()?) {
             return Err(Unusable::LeadsOut);
         }
@@ -109,6 +109,10 @@ pub fn automata(path: &Path) -> Result<Vec<PathBuf>, Unusable> {
             break;
         }
     }
+    let is_listed = |path: &PathBuf| files.iter().any(|listed| listed.file_name() == path.file_name());
+    let unsaved = read::open_in(path).into_iter().filter(|open| is_automata(open) && !is_listed(open));
+    let unsaved: Vec<_> = unsaved.filter_map(|open| Some(path.join(open.file_name()?))).collect();
+    files.extend(unsaved);
     files.sort();
     if files.is_empty() { Err(Unusable::NoAutomata) } else { Ok(files) }
 }

@@ -3,8 +3,8 @@
 mod tools;
 
 pub use tools::{
-    CompareOptions, CompletionsOptions, FmtOptions, NewOptions, SchemaOf, SchemaOptions, TestEngine,
-    TestOptions, WhyOptions,
+    CompareOptions, CompletionsOptions, FmtOptions, LspOptions, NewOptions, SchemaOf, SchemaOptions,
+    TestEngine, TestOptions, WhyOptions,
 };
 
 use super::output::Overwrite;
@@ -61,6 +61,9 @@ pub enum Command {
     Schema(SchemaOptions),
     /// Print the completions of the command line for a shell
     Completions(CompletionsOptions),
+    /// Serve an editor: diagnostics, definitions, references, hover, renaming, completion and formatting, by the
+    /// Language Server Protocol on standard input and output
+    Lsp(LspOptions),
 }
 
 #[derive(Args, Debug)]

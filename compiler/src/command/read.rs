@@ -1,5 +1,6 @@
 //! The bytes of files that somebody else may have written or named.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::fs::{File, OpenOptions};
 use std::io::{self, Read};
@@ -9,7 +10,10 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 /// Bytes that a file may have; the largest real layout has 4 MB.
 pub const MOST_BYTES: u64 = 10_000_000;
 
-static FILES: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+static FILES: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+
+/// Texts that an editor has open, which stand above those on the disk.
+static OPEN: Mutex<BTreeMap<PathBuf, String>> = Mutex::new(BTreeMap::new());
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
@@ -17,7 +21,32 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 
 /// All files that this process has read, without symbolic links: none of them is written over.
 pub fn files() -> Vec<PathBuf> {
-    lock(&FILES).clone()
+    lock(&FILES).iter().cloned().collect()
+}
+
+/// A path without symbolic links, of a file too that is not on the disk yet.
+pub fn real(path: &Path) -> Option<PathBuf> {
+    let whole = path.canonicalize().ok();
+    whole.or_else(|| Some(path.parent()?.canonicalize().ok()?.join(path.file_name()?)))
+}
+
+/// From now on this is the text of the file, given by its real path; with `None` it is that on the disk again.
+pub fn open_as(path: &Path, text: Option<String>) {
+    match text {
+        Some(text) => lock(&OPEN).insert(path.into(), text),
+        None => lock(&OPEN).remove(path),
+    };
+}
+
+/// The real path of a file that is open in an editor.
+pub fn opened(path: &Path) -> Option<PathBuf> {
+    real(path).filter(|path| lock(&OPEN).contains_key(path))
+}
+
+/// The files of a folder that are open in an editor, by their real paths.
+pub fn open_in(folder: &Path) -> Vec<PathBuf> {
+    let Ok(folder) = folder.canonicalize() else { return Vec::new() };
+    lock(&OPEN).keys().filter(|path| path.parent() == Some(&folder)).cloned().collect()
 }
 
 /// Why a file is not read. As text it says so without the file's name.
@@ -50,9 +79,13 @@ impl fmt::Display for Unread {
 /// The text of a file without a byte order mark; what is no UTF-8 is replaced. UTF-16 is refused: nothing in
 /// it could be read. Neither a pipe nor a device that never ends holds this up.
 pub fn text(path: &Path) -> Result<String, Unread> {
+    let open = real(path).and_then(|path| lock(&OPEN).get(&path).cloned());
+    if let Some(text) = open {
+        return Ok(text);
+    }
     let bytes = bytes(regular(path)?)?;
     if let Ok(path) = path.canonicalize() {
-        lock(&FILES).push(path);
+        lock(&FILES).insert(path);
     }
     if is_utf_16(&bytes) {
         return Err(Unread::Utf16);

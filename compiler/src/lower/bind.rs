@@ -64,7 +64,7 @@ fn without_automaton(object: &Object, name: &str, model: &Model) -> Diagnostic {
 }
 
 /// `assembly_station` is another word for `station`; other types are named as their automaton.
-fn automaton_name(kind: &str) -> String {
+pub(crate) fn automaton_name(kind: &str) -> String {
     let kind = if kind == "assembly_station" { "station" } else { kind };
     let mut name = String::new();
     for word in kind.split('_') {

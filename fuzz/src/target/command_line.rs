@@ -42,7 +42,8 @@ pub fn answer(input: &[u8], effort: Effort) {
         | Command::Test(_)
         | Command::Fmt(_)
         | Command::Schema(_)
-        | Command::Completions(_) => {}
+        | Command::Completions(_)
+        | Command::Lsp(_) => {}
         Command::Graph(options) => of_line(&options.input, input, effort),
         Command::Explain(options) => {
             diagnostic::explain(&options.code);

@@ -95,8 +95,9 @@ impl Context<'_, '_> {
     /// `count(role)` and `count(array, value)`.
     fn count_call(&mut self, arguments: &[ast::Expr], span: Span) -> Option<Expr> {
         if let [ast::Expr { kind: ast::ExprKind::Name(name), .. }] = arguments
-            && let Some(Symbol::Role(id)) = self.symbols.get(name).cloned()
+            && let Some(symbol @ Symbol::Role(id)) = self.symbols.get(name).cloned()
         {
+            self.uses_symbol(name, &symbol, arguments[0].span);
             return Some(Expr { ty: Scalar::Int { lo: 0, hi: MEMBERS }, kind: ExprKind::Members(id) });
         }
         let [array, value] = arguments else {

@@ -3,6 +3,7 @@
 use crate::check::Checker;
 use crate::check::context::{Context, Symbol};
 use crate::check::facts;
+use crate::check::names::{Declaration, Space, What};
 use crate::diagnostic::Diagnostic;
 use crate::ir::{self, Domain, Expr, ExprKind, Extent, Scalar, VariableId};
 use crate::spec::ast::{self, Quantifier};
@@ -78,6 +79,7 @@ impl Context<'_, '_> {
         match tree {
             ast::Domain::Named(name) => {
                 if let Some(id) = self.checker.enum_named(&name.value) {
+                    self.checker.uses(name.span, Space::Types, "", &name.value);
                     let size = self.checker.model.elements(Extent::By(id)) as i32;
                     return Some((Domain::Enum(id), Scalar::Enum(id), size));
                 }
@@ -113,8 +115,9 @@ impl Context<'_, '_> {
     }
 
     pub(super) fn role_named(&mut self, name: &ast::Name) -> Option<ir::RoleId> {
-        if let Some(Symbol::Role(id)) = self.symbols.get(&name.value) {
-            return Some(*id);
+        if let Some(symbol @ Symbol::Role(id)) = self.symbols.get(&name.value).cloned() {
+            self.uses_symbol(&name.value, &symbol, name.span);
+            return Some(id);
         }
         if self.broken.contains(&name.value) {
             return None;
@@ -152,6 +155,18 @@ impl Context<'_, '_> {
             );
         }
         let id = self.new_variable(&name.value, ty);
+        let declared = self.checker.type_name(ty);
+        if let Some(names) = &mut self.checker.names {
+            let number = names.declare(Declaration {
+                what: What::Variable,
+                name: name.value.clone(),
+                owner: self.automaton.name.clone(),
+                place: Some(name.span),
+                ty: declared,
+                doc: Vec::new(),
+            });
+            self.variable_names.insert(id, number);
+        }
         self.variables.push((name.value.clone(), id, ty));
         id
     }

@@ -81,6 +81,13 @@ pub struct CompletionsOptions {
 }
 
 #[derive(Args, Debug)]
+pub struct LspOptions {
+    /// Nothing else: many editors say so
+    #[arg(long, hide = true)]
+    pub stdio: bool,
+}
+
+#[derive(Args, Debug)]
 pub struct SchemaOptions {
     #[arg(value_enum, value_name = "WHAT")]
     pub of: SchemaOf,

@@ -1,0 +1,185 @@
+//! What the client asks about a place in a text.
+
+use super::documents::Documents;
+use super::layouts::Layouts;
+use super::published::Files;
+use super::root::{self, Root};
+use autogen::check::names::What;
+use autogen::lsp::completion::completion;
+use autogen::lsp::diagnostics::Located;
+use autogen::lsp::hover::hover;
+use autogen::lsp::protocol::{
+    CompletionItem, CompletionItemKind, Hover, Location, MarkupContent, MarkupKind, Position, Range,
+    TextEdit, Uri, WorkspaceEdit,
+};
+use autogen::lsp::rename;
+use autogen::lsp::specs::Specs;
+use autogen::source::{FileId, Span};
+use std::collections::{BTreeMap, HashMap, HashSet};
+use std::path::PathBuf;
+
+/// What the texts mean, until one of them changes.
+#[derive(Debug, Default)]
+pub struct Questions {
+    known: BTreeMap<Root, Option<Specs>>,
+}
+
+/// A place in one of the texts that belong together.
+struct At<'a> {
+    specs: &'a Specs,
+    files: Files<'a>,
+    file: FileId,
+    offset: usize,
+}
+
+impl At<'_> {
+    fn span(&self) -> Span {
+        Span::new(self.file, self.offset, self.offset)
+    }
+
+    fn range(&self, span: Span) -> Range {
+        self.files.lines(span.file).range(span)
+    }
+}
+
+/// Where somebody asks.
+pub struct Asked<'a> {
+    pub documents: &'a Documents,
+    pub folders: &'a [PathBuf],
+    pub uri: &'a Uri,
+    pub position: Position,
+}
+
+impl Questions {
+    /// What was understood is not so any more.
+    pub fn forget(&mut self) {
+        self.known.clear();
+    }
+
+    /// The place in each line that has the file, the nearest first.
+    fn at<'a>(&'a mut self, asked: &Asked<'a>, layouts: &mut Layouts) -> Vec<At<'a>> {
+        let Some((path, document)) = asked.documents.get(asked.uri) else { return Vec::new() };
+        let text = document.text.as_deref().unwrap_or_default();
+        let roots = Root::all(path, text, layouts, asked.folders);
+        for root in &roots {
+            if !self.known.contains_key(root) {
+                self.known.insert(root.clone(), root::specs(root));
+            }
+        }
+        let specs = roots.iter().filter_map(|root| self.known.get(root)?.as_ref());
+        let place = |specs: &'a Specs| {
+            let files = Files::new(&specs.sources, asked.documents);
+            let file = files.paths.iter().position(|known| known.as_deref() == Some(path))?;
+            let file = FileId(file as u32);
+            let offset = files.lines(file).offset(asked.position);
+            Some(At { specs, files, file, offset })
+        };
+        specs.filter_map(place).collect()
+    }
+
+    pub fn hover(&mut self, asked: &Asked, layouts: &mut Layouts) -> Option<Hover> {
+        self.at(asked, layouts).iter().find_map(|at| {
+            let (value, place) = hover(at.specs, at.span())?;
+            let contents = MarkupContent { kind: MarkupKind::Markdown, value };
+            Some(Hover { contents: contents.into(), range: Some(at.range(place)) })
+        })
+    }
+
+    /// None of what is declared in the library, which is in no file of this machine.
+    pub fn definition(&mut self, asked: &Asked, layouts: &mut Layouts) -> Option<Location> {
+        let all = self.at(asked, layouts);
+        all.iter().find_map(|at| at.files.location(at.specs.definition(at.span())?))
+    }
+
+    pub fn references(
+        &mut self,
+        asked: &Asked,
+        layouts: &mut Layouts,
+        and_declaration: bool,
+    ) -> Vec<Location> {
+        let mut found = Vec::new();
+        let mut known = HashSet::new();
+        for at in self.at(asked, layouts) {
+            let Some((declared, uses)) = at.specs.references(at.span()) else { continue };
+            let spans = declared.filter(|_| and_declaration).into_iter().chain(uses);
+            for location in spans.filter_map(|span| at.files.location(span)) {
+                if known.insert(location.clone()) {
+                    found.push(location);
+                }
+            }
+        }
+        found
+    }
+
+    /// The place and text of a name that can be renamed.
+    pub fn renamed_at(&mut self, asked: &Asked, layouts: &mut Layouts) -> Result<(Range, String), String> {
+        let all = self.at(asked, layouts);
+        let mut first = Err("no name stands here that could be renamed".to_string());
+        for at in all.iter().rev() {
+            let (_, place) = rename::renamed_at(at.specs, at.span())?;
+            first = Ok((at.range(place), at.specs.sources.text(place).to_string()));
+        }
+        first
+    }
+
+    /// In all lines that have the file: if one of them refuses, nothing is renamed.
+    pub fn rename(
+        &mut self,
+        asked: &Asked,
+        layouts: &mut Layouts,
+        name: &str,
+    ) -> Result<WorkspaceEdit, String> {
+        let mut changes: HashMap<Uri, Vec<TextEdit>> = HashMap::new();
+        let mut known = HashSet::new();
+        let all = self.at(asked, layouts);
+        if all.is_empty() {
+            return Err("no name stands here that could be renamed".into());
+        }
+        for at in &all {
+            for (span, new_text) in rename::rename(at.specs, at.span(), name)? {
+                let location = at.files.location(span);
+                let location = location.ok_or("a file that is to be changed is not on this machine")?;
+                if known.insert(location.clone()) {
+                    let edit = TextEdit { range: location.range, new_text };
+                    changes.entry(location.uri).or_default().push(edit);
+                }
+            }
+        }
+        Ok(WorkspaceEdit { changes: Some(changes), ..WorkspaceEdit::default() })
+    }
+
+    pub fn completion(&mut self, asked: &Asked, layouts: &mut Layouts) -> Vec<CompletionItem> {
+        let all = self.at(asked, layouts);
+        let Some(at) = all.first().filter(|at| at.specs.files.iter().any(|(file, _)| *file == at.file))
+        else {
+            return Vec::new();
+        };
+        let words = completion(at.specs, at.file, at.offset).into_iter();
+        words
+            .map(|word| CompletionItem {
+                label: word.text,
+                kind: Some(kind(word.what)),
+                detail: Some(word.detail).filter(|detail| !detail.is_empty()),
+                documentation: Some(word.doc).filter(|doc| !doc.is_empty()).map(Into::into),
+                ..CompletionItem::default()
+            })
+            .collect()
+    }
+}
+
+/// The sign beside a word.
+fn kind(what: Option<What>) -> CompletionItemKind {
+    match what {
+        None => CompletionItemKind::Keyword,
+        Some(What::Enumeration) => CompletionItemKind::Enum,
+        Some(What::Member | What::State) => CompletionItemKind::EnumMember,
+        Some(What::Interface) => CompletionItemKind::Interface,
+        Some(What::Automaton | What::Device | What::Assembly | What::Primitive) => CompletionItemKind::Class,
+        Some(What::Parameter | What::Constant | What::Key) => CompletionItemKind::Constant,
+        Some(What::Cell | What::Port | What::Role | What::Part | What::Setting | What::Handover) => {
+            CompletionItemKind::Field
+        }
+        Some(What::Local | What::Variable) => CompletionItemKind::Variable,
+        Some(What::Define | What::DeviceDefine | What::Command | What::Wire) => CompletionItemKind::Function,
+    }
+}

@@ -1,0 +1,145 @@
+//! What is checked together: a layout with all that it names, or the automata of a folder that no layout names.
+
+use super::layouts::{self, Layouts};
+use crate::command::load::{self, Failure};
+use crate::command::{named, read};
+use autogen::check;
+use autogen::diagnostic::Diagnostic;
+use autogen::lower::{Input, compile};
+use autogen::lsp::specs::{Specs, trees};
+use autogen::source::{FileId, Sources};
+use autogen::{library, lint, scenario, testing};
+use std::path::{Path, PathBuf};
+
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Root {
+    Layout(PathBuf),
+    /// Its automata, without a layout.
+    Folder(PathBuf),
+    /// A scenario that no layout has.
+    Scenario(PathBuf),
+    /// A file of tests.
+    Tests(PathBuf),
+}
+
+/// What was found.
+#[derive(Debug, Default)]
+pub struct Found {
+    pub sources: Sources,
+    pub diagnostics: Vec<Diagnostic>,
+    /// Why nothing could be checked.
+    pub refused: Option<String>,
+}
+
+impl Root {
+    /// What an open file belongs to; nothing if it is none of autogen's.
+    pub fn all(file: &Path, text: &str, known: &mut Layouts, folders: &[PathBuf]) -> Vec<Root> {
+        let extension = file.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
+        let layouts = |known: &mut Layouts, alone: Root| match known.naming(file, folders) {
+            found if found.is_empty() => vec![alone],
+            found => found.into_iter().map(Root::Layout).collect(),
+        };
+        match extension {
+            "aut" => layouts(known, Root::Folder(file.parent().unwrap_or(file).into())),
+            "test" => vec![Root::Tests(file.into())],
+            "json" if layouts::is_layout(text) => vec![Root::Layout(file.into())],
+            "json" if layouts::is_scenario(file) => layouts(known, Root::Scenario(file.into())),
+            "json" => known.naming(file, folders).into_iter().map(Root::Layout).collect(),
+            _ => Vec::new(),
+        }
+    }
+
+    pub fn check(&self) -> Found {
+        match self {
+            Root::Layout(path) => layout(path),
+            Root::Folder(path) => folder(path),
+            Root::Scenario(path) => one(path, |sources, file| scenario::parse(sources, file).1),
+            Root::Tests(path) => one(path, |sources, file| {
+                testing::read(file, &sources.file(file).text).err().unwrap_or_default()
+            }),
+        }
+    }
+}
+
+fn layout(path: &Path) -> Found {
+    let mut sources = Sources::default();
+    match load::texts(&mut sources, path, &[], None) {
+        Ok(load::Texts { layout, specs, scenario, .. }) => {
+            let input = Input { sources, layout, specs, scenario, settings: Vec::new(), order: None };
+            let outcome = compile(input);
+            let mut diagnostics = outcome.diagnostics;
+            diagnostics.extend(outcome.warnings);
+            Found { sources: outcome.sources, diagnostics, refused: None }
+        }
+        Err(Failure::Refused(sources, diagnostics) | Failure::Wrong(sources, diagnostics)) => {
+            Found { sources, diagnostics, refused: None }
+        }
+        Err(Failure::Unreadable(why)) => Found { refused: Some(why), ..Found::default() },
+    }
+}
+
+fn one(path: &Path, check: impl Fn(&Sources, FileId) -> Vec<Diagnostic>) -> Found {
+    match read::text(path) {
+        Ok(text) => {
+            let mut sources = Sources::default();
+            let file = sources.add(path.display().to_string(), text);
+            let diagnostics = check(&sources, file);
+            Found { sources, diagnostics, refused: None }
+        }
+        Err(why) => Found { refused: Some(why.to_string()), ..Found::default() },
+    }
+}
+
+/// The texts of the library, then those of a folder, and the kinds of part of its scenario.
+fn texts(folder: &Path) -> Result<(Sources, Vec<FileId>, Vec<String>), String> {
+    let mut sources = Sources::default();
+    let mut files: Vec<FileId> =
+        library::FILES.iter().map(|(name, text)| sources.add(*name, *text)).collect();
+    for path in named::automata(folder).map_err(|why| why.to_string())? {
+        let file = load::add(&mut sources, &path);
+        files.push(file.map_err(|_| format!("{}: this file cannot be read", path.display()))?);
+    }
+    let own = load::add(&mut sources, &folder.join(layouts::SCENARIO)).ok();
+    let file = own.unwrap_or_else(|| sources.add("built-in scenario", scenario::DEFAULT));
+    let kinds = kinds(&sources, file);
+    Ok((sources, files, kinds))
+}
+
+/// What the names of a root mean; none of one that has no automata, or cannot be read.
+pub fn specs(root: &Root) -> Option<Specs> {
+    match root {
+        Root::Layout(path) => {
+            let mut sources = Sources::default();
+            let texts = load::texts(&mut sources, path, &[], None).ok()?;
+            let kinds = kinds(&sources, texts.scenario);
+            Some(Specs::new(sources, &texts.specs, texts.layout.0, kinds))
+        }
+        Root::Folder(path) => {
+            let (sources, files, kinds) = texts(path).ok()?;
+            Some(Specs::new(sources, &files, None, kinds))
+        }
+        Root::Scenario(_) | Root::Tests(_) => None,
+    }
+}
+
+fn kinds(sources: &Sources, scenario: FileId) -> Vec<String> {
+    match scenario::parse(sources, scenario).0 {
+        Some(scenario) => scenario.kinds.iter().map(|kind| kind.name.value.clone()).collect(),
+        None => vec!["part".into()],
+    }
+}
+
+fn folder(path: &Path) -> Found {
+    let (sources, files, kinds) = match texts(path) {
+        Ok(texts) => texts,
+        Err(why) => return Found { refused: Some(why), ..Found::default() },
+    };
+    let (trees, mut diagnostics) = trees(&sources, &files);
+    if diagnostics.is_empty() {
+        diagnostics = match check::check(&sources, &trees, &kinds) {
+            Ok(checked) => lint::warnings(checked.model(), &trees),
+            Err(found) => found,
+        };
+    }
+    Found { sources, diagnostics, refused: None }
+}

@@ -1,0 +1,318 @@
+//! What can stand at a place of a file of automata. The text there is being typed and has errors, so the words before the
+//! place say what is wanted; what names there are is from all that could be read.
+
+mod words;
+
+pub use words::Word;
+
+use super::specs::Specs;
+use crate::check::names::What;
+use crate::source::FileId;
+use crate::spec::lexer::{self, Token};
+use crate::spec::parser::MOST_TOKENS;
+use words::{
+    all, as_word, declared, device, first_word, interfaces, named, of_language, type_of_domain, types,
+};
+
+const ITEMS: &[&str] = &["automaton", "device", "assembly", "interface", "enum"];
+const OF_AUTOMATON: &[&str] = &[
+    "parameter",
+    "shared",
+    "local",
+    "define",
+    "takes from",
+    "hands to",
+    "serves",
+    "knows",
+    "require",
+    "invariant",
+    "initial",
+    "any state",
+    "state",
+    "final state",
+];
+const OF_DEVICE: &[&str] =
+    &["parameter", "part", "define", "in", "out", "command", "constant", "handover", "require"];
+const OF_INTERFACE: &[&str] = &["parameter", "shared"];
+const IN_EXPRESSIONS: &[&str] = &[
+    "true",
+    "false",
+    "and",
+    "or",
+    "not",
+    "mod",
+    "in",
+    "reaches",
+    "after",
+    "done",
+    "failed",
+    "exists",
+    "forall",
+    "count",
+    "sum",
+    "min",
+    "max",
+    "abs",
+    "point",
+    "up",
+    "squared_distance",
+    "self",
+    "first",
+    "least",
+    "nearest",
+    "with",
+];
+
+/// The words for a place, in bytes, of a file.
+pub fn completion(specs: &Specs, file: FileId, offset: usize) -> Vec<Word> {
+    let text = &specs.sources.file(file).text;
+    let Some(before) = text.get(..offset) else { return Vec::new() };
+    if in_comment_or_text(before) {
+        return Vec::new();
+    }
+    let word = before
+        .rfind(|c: char| !c.is_ascii_alphanumeric() && c != '_')
+        .map_or(0, |at| at + before[at..].chars().next().map_or(1, char::len_utf8));
+    let (mut tokens, _) = lexer::tokens(file, &before[..word], MOST_TOKENS);
+    tokens.retain(|(token, _)| !matches!(token, Token::Doc(_) | Token::End));
+    let tokens: Vec<Token> = tokens.into_iter().map(|(token, _)| token).collect();
+    let mut found = Place::of(&tokens).words(specs);
+    found.sort_by(|a, b| a.text.cmp(&b.text));
+    found.dedup_by(|a, b| a.text == b.text);
+    found
+}
+
+fn in_comment_or_text(before: &str) -> bool {
+    let line = before.rsplit('\n').next().unwrap_or_default();
+    let mut in_text = false;
+    let mut last = ' ';
+    for c in line.chars() {
+        match c {
+            '"' => in_text = !in_text,
+            '/' if !in_text && last == '/' => return true,
+            _ => {}
+        }
+        last = c;
+    }
+    in_text
+}
+
+/// Where the words before the cursor lead.
+struct Place<'t> {
+    /// Before the cursor.
+    tokens: &'t [Token],
+    /// `automaton`, and its name; none outside of all items.
+    item: Option<(&'t str, &'t str)>,
+    /// Braces that are open, each with the beginning of the statement that it belongs to.
+    open: Vec<&'t [Token]>,
+    /// What stands of the statement.
+    statement: &'t [Token],
+}
+
+impl<'t> Place<'t> {
+    fn of(tokens: &'t [Token]) -> Self {
+        let mut item = None;
+        let mut open: Vec<&[Token]> = Vec::new();
+        let mut start = 0;
+        for (at, token) in tokens.iter().enumerate() {
+            match token {
+                Token::Word(word) if open.is_empty() && at == start && ITEMS.contains(&word.as_str()) => {
+                    let name = tokens.get(at + 1).and_then(as_word).unwrap_or_default();
+                    item = Some((word.as_str(), name));
+                }
+                Token::Sign("{") => {
+                    open.push(&tokens[start..at]);
+                    start = at + 1;
+                }
+                Token::Sign("}") => {
+                    open.pop();
+                    if open.is_empty() {
+                        item = None;
+                    }
+                    start = at + 1;
+                }
+                Token::Sign(";") => start = at + 1,
+                _ => {}
+            }
+        }
+        Self { tokens, item, open, statement: &tokens[start..] }
+    }
+
+    fn words(&self, specs: &Specs) -> Vec<Word> {
+        let Some((item, name)) = self.item else { return of_language(ITEMS) };
+        if self.tokens.last() == Some(&Token::Sign(".")) {
+            return self.members(specs, item, name);
+        }
+        let first = self.statement.first().and_then(as_word).unwrap_or_default();
+        let last = self.statement.last();
+        let declares = ["parameter", "shared", "local", "in", "out", "constant"].contains(&first);
+        match (item, self.open.len(), last) {
+            ("automaton", 0, Some(Token::Word(word))) if word == "on" => named(specs, &[What::Device], ""),
+            ("automaton", 0, _) => {
+                let mut words = of_language(&["on", "is", "accepts at", "offers at", "approach"]);
+                words.extend(named(specs, &[What::Interface], ""));
+                words
+            }
+            (_, 0, _) => Vec::new(),
+            ("automaton", 1, None) => of_language(OF_AUTOMATON),
+            ("device" | "assembly", 1, None) => of_language(OF_DEVICE),
+            ("interface", 1, None) => of_language(OF_INTERFACE),
+            (_, _, Some(Token::Sign(":"))) if declares => types(specs),
+            ("automaton", _, Some(Token::Sign(":" | "("))) if is_role(first) => {
+                named(specs, &[What::Interface, What::Automaton], "")
+            }
+            ("automaton", _, Some(Token::Sign("->"))) => named(specs, &[What::State], name),
+            ("automaton", _, Some(Token::Word(word))) if ["except", "else"].contains(&word.as_str()) => {
+                named(specs, &[What::State], name)
+            }
+            ("automaton", _, Some(Token::Word(word))) if word == "in" => {
+                let mut words = named(specs, &[What::Role], name);
+                words.extend(named(specs, &[What::Enumeration], ""));
+                words
+            }
+            ("automaton", _, _) => self.of_automaton(specs, name),
+            ("device" | "assembly", _, _) => self.of_device(specs, name),
+            _ => types(specs),
+        }
+    }
+
+    /// What the statement of an automaton may hold.
+    fn of_automaton(&self, specs: &Specs, name: &str) -> Vec<Word> {
+        let mut words = match (self.statement.is_empty(), self.in_updates()) {
+            (true, true) => of_language(&["until", "wait"]),
+            (true, false) => return of_language(&["when"]),
+            (false, _) => of_language(IN_EXPRESSIONS),
+        };
+        let of_type = [What::Parameter, What::Cell, What::Role, What::Local, What::Define];
+        words.extend(named(specs, &of_type, name));
+        for interface in interfaces(specs, name) {
+            words.extend(named(specs, &[What::Cell], &interface));
+        }
+        let device = device(specs, name);
+        words.extend(named(specs, &[What::Port, What::Constant, What::Command], &device));
+        words.extend(self.variables(specs, name));
+        if !self.statement.is_empty() {
+            words.extend(all(specs, |declaration| declaration.what == What::Member));
+            words.extend(named(specs, &[What::Enumeration], ""));
+        }
+        words
+    }
+
+    /// Within the braces of a transition or a sequence.
+    fn in_updates(&self) -> bool {
+        let of = self.open.last().and_then(|statement| statement.first()).and_then(as_word);
+        let is_sequence = |statement: &&[Token]| statement.last().and_then(as_word) == Some("sequence");
+        of == Some("when")
+            || of == Some("initial") && self.open.len() == 2 && !self.opens_state()
+            || self.open.last().is_some_and(is_sequence)
+    }
+
+    fn opens_state(&self) -> bool {
+        self.open.last().is_some_and(|statement| statement.get(1).and_then(as_word) == Some("state"))
+    }
+
+    /// Bound in the statement, or in that whose updates are written.
+    fn variables(&self, specs: &Specs, name: &str) -> Vec<Word> {
+        let statements = self.open.iter().copied().chain([self.statement]);
+        let mut words = Vec::new();
+        for statement in statements {
+            for (variable, domain) in bound(statement) {
+                let ty = type_of_domain(specs, name, domain);
+                let detail = format!("{variable}: {ty}");
+                words.push(Word {
+                    text: variable.into(),
+                    what: Some(What::Variable),
+                    detail,
+                    doc: String::new(),
+                });
+            }
+        }
+        words
+    }
+
+    fn of_device(&self, specs: &Specs, name: &str) -> Vec<Word> {
+        let part =
+            self.open.last().filter(|_| self.open.len() > 1).and_then(|statement| kind_of_part(statement));
+        if let (Some(kind), true) = (part, self.statement.is_empty()) {
+            let mut words = named(specs, &[What::Setting], kind);
+            words.extend(named(specs, &[What::Key], kind));
+            return words;
+        }
+        let is_part = self.statement.first().and_then(as_word) == Some("part");
+        if is_part && self.statement.last() == Some(&Token::Sign("=")) {
+            return named(specs, &[What::Primitive, What::Assembly], "");
+        }
+        let own = [What::Key, What::DeviceDefine, What::Part, What::Port, What::Constant];
+        let mut words = named(specs, &own, name);
+        words.extend(of_language(&["pose", "origin", "kind_heights", "pi", "point", "frame"]));
+        words
+    }
+
+    /// Behind a point.
+    fn members(&self, specs: &Specs, item: &str, name: &str) -> Vec<Word> {
+        let before = &self.tokens[..self.tokens.len() - 1];
+        let Some(base) = base(before) else { return Vec::new() };
+        if item != "automaton" {
+            let kind = declared(specs, base, name).map(|declaration| declaration.ty.clone());
+            let kind = kind.unwrap_or_default();
+            let mut words = named(specs, &[What::Wire, What::Setting], &kind);
+            words.extend(named(specs, &[What::Part, What::DeviceDefine, What::Key], &kind));
+            return words;
+        }
+        if specs.names.declarations().iter().any(|d| d.what == What::Enumeration && d.name == base) {
+            return named(specs, &[What::Member], base);
+        }
+        let statements = self.open.iter().copied().chain([self.statement]);
+        let domains: Vec<_> = statements.flat_map(bound).filter(|(variable, _)| *variable == base).collect();
+        let ty = match domains.last() {
+            Some((_, domain)) => type_of_domain(specs, name, domain),
+            None => {
+                let mut owners = vec![name.to_string(), device(specs, name)];
+                owners.extend(interfaces(specs, name));
+                let found = owners.iter().find_map(|owner| declared(specs, base, owner));
+                found.map_or_else(String::new, |declaration| first_word(&declaration.ty).to_string())
+            }
+        };
+        match ty.as_str() {
+            "point" => of_language(&["x", "y", "z"]),
+            ty => named(specs, &[What::Cell, What::Parameter], ty),
+        }
+    }
+}
+
+fn is_role(word: &str) -> bool {
+    ["takes", "hands", "serves", "knows"].contains(&word)
+}
+
+/// Variables and their domains: `first s in stations`, `exists i in 0..3`.
+fn bound(statement: &[Token]) -> impl Iterator<Item = (&str, &Token)> {
+    statement.windows(3).filter_map(|three| match three {
+        [Token::Word(variable), Token::Word(word), domain] if word == "in" => {
+            Some((variable.as_str(), domain))
+        }
+        _ => None,
+    })
+}
+
+/// The name before a point, past an index: of `slot[i].` it is `slot`.
+fn base(before: &[Token]) -> Option<&str> {
+    let mut depth = 0usize;
+    for token in before.iter().rev() {
+        match token {
+            Token::Sign("]") => depth += 1,
+            Token::Sign("[") => depth = depth.checked_sub(1)?,
+            Token::Word(word) if depth == 0 => return Some(word),
+            _ if depth > 0 => {}
+            _ => return None,
+        }
+    }
+    None
+}
+
+/// In `part drive = route`, the last word.
+fn kind_of_part(statement: &[Token]) -> Option<&str> {
+    match statement {
+        [Token::Word(part), _, Token::Sign("="), Token::Word(kind)] if part == "part" => Some(kind),
+        _ => None,
+    }
+}
