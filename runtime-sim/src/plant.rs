@@ -21,6 +21,7 @@ use crate::part::orders::Desk;
 use crate::point::Point;
 use conveyed::Conveyed;
 use conveying::{Among, Conveying, Falls};
+pub use conveying::{Gap, gaps};
 use trajectory::Trajectory;
 use working::{Shared, Working};
 

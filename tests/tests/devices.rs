@@ -3,7 +3,7 @@
 use autogen::device::{self, Placed};
 use autogen::source::Sources;
 use autogen::spec::parser;
-use autogen_tests::{Texts, devices};
+use autogen_tests::{Texts, devices, side_by_side};
 use runtime_sim::frame::Frame;
 use runtime_sim::point::Point;
 
@@ -122,4 +122,40 @@ fn an_axis_that_does_not_carry_the_chain_changes_nothing() {
     let machine = placed.machine("m", &[0.1], placed.device.place).unwrap();
     assert!(machine.arm().is_some());
     assert_eq!(placed.arm(), machine.arm());
+}
+
+/// The pose that is proposed joins the conveyors again.
+#[test]
+fn a_conveyor_that_nearly_meets_another_one_is_told_with_the_pose_that_joins_them() {
+    let warnings = |from: &str, to: &str| -> Vec<(String, String)> {
+        let mut texts = side_by_side("loop/loop");
+        assert!(texts.layout.contains(from), "{from}");
+        texts.layout = texts.layout.replacen(from, to, 1);
+        let warnings = texts.compile().warnings.into_iter();
+        warnings.map(|warning| (format!("{} {}", warning.code, warning.message), warning.help)).collect()
+    };
+    assert_eq!(warnings("[6, 1, 0, 180]", "[6, 1, 0, 180]"), []);
+    let found = warnings(
+        "\"s8\", \"type\": \"module\", \"pose\": [5, 1, 0, 180]",
+        "\"s8\", \"type\": \"module\", \"pose\": [4.97, 1, 0, 180]",
+    );
+    let told: Vec<&str> = found.iter().map(|(message, _)| message.as_str()).collect();
+    assert_eq!(
+        told,
+        [
+            "W0201 the conveyor `bed` of s7 ends 30 mm from where `bed` of s8 begins: items fall there",
+            "W0201 the conveyor `bed` of s8 ends 30 mm from where `bed` of s9 begins: items fall there",
+        ]
+    );
+    assert!(found[0].1.contains("\"pose\": [5, 1, 0, 180] for s8"), "{}", found[0].1);
+    let turned = warnings("[6, 1, 0, 180]", "[6, 1, 0, 175]");
+    assert!(turned.iter().any(|(_, help)| help.contains("turn one of the machines")), "{turned:?}");
+    // Farther away it was not meant.
+    assert_eq!(
+        warnings(
+            "\"s8\", \"type\": \"module\", \"pose\": [5, 1,",
+            "\"s8\", \"type\": \"module\", \"pose\": [5, 1.2,"
+        ),
+        []
+    );
 }

@@ -1,14 +1,17 @@
-//! What is no error and hardly meant: warnings from the texts of the types alone.
+//! What is no error and hardly meant: warnings, from the texts of the types and from the layout.
 
 mod failure;
 mod flow;
 mod implies;
+mod lanes;
 mod unused;
 
 use crate::diagnostic::{self, Diagnostic};
 use crate::ir::Model;
+use crate::layout::Layout;
 use crate::source::FileId;
 use crate::spec::ast;
+use runtime_sim::line::Line;
 
 /// Warnings of all types of a model that has no errors, in the order of the text. `files` are the texts of the model.
 pub fn warnings(model: &Model, files: &[(FileId, ast::File)]) -> Vec<Diagnostic> {
@@ -18,6 +21,13 @@ pub fn warnings(model: &Model, files: &[(FileId, ast::File)]) -> Vec<Diagnostic>
         failure::check(automaton, &mut found);
     }
     unused::check(model, files, &mut found);
+    diagnostic::sort(&mut found);
+    found
+}
+
+/// Warnings of a layout that has no errors.
+pub fn of_layout(layout: &Layout, line: &Line) -> Vec<Diagnostic> {
+    let mut found = lanes::check(layout, line);
     diagnostic::sort(&mut found);
     found
 }

@@ -48,6 +48,8 @@ struct Parts {
 #[derive(Clone, Debug)]
 pub struct Line {
     pub diagnostics: Vec<Diagnostic>,
+    /// What is hardly meant in the layout.
+    pub warnings: Vec<Diagnostic>,
     /// There as soon as the check of connectivity could be made.
     pub verdict: Option<Verdict>,
     pub project: Option<Project>,
@@ -139,7 +141,12 @@ impl Draft {
     /// The line with these values, and with its instances in layout order or in one drawn from `order`. Replication 0 is
     /// that of the scenario; another one adds its number to the seed of the supply.
     pub fn line(&self, settings: &[Setting], order: Option<u64>, replication: u32) -> Line {
-        let mut line = Line { diagnostics: self.diagnostics.clone(), verdict: None, project: None };
+        let mut line = Line {
+            diagnostics: self.diagnostics.clone(),
+            warnings: Vec::new(),
+            verdict: None,
+            project: None,
+        };
         if let Some(parts) = &self.parts {
             parts.line(&mut line, settings, order, replication);
             diagnostic::sort(&mut line.diagnostics);
@@ -200,6 +207,7 @@ impl Parts {
         };
         let plant = plant::line(&system, &line, bound.obstacles, resolved, layout.scan_ms, machines);
         found.diagnostics.extend(overlap::overlaps(&layout, &plant));
+        found.warnings = lint::of_layout(&layout, &plant);
         let Layout { name, may_touch, .. } = &*layout;
         found.project =
             Some(Project { name: name.clone(), system, plant, edges, may_touch: may_touch.clone() });

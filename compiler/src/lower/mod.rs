@@ -90,7 +90,7 @@ pub struct Outcome {
 pub fn compile(input: Input) -> Outcome {
     let Input { sources, layout, specs, scenario, settings, order } = input;
     let draft = Draft::new(&sources, Texts { layout, specs: &specs, scenario }, &settings);
-    let Line { diagnostics, verdict, project } = draft.line(&settings, order, 0);
-    let warnings = draft.warnings().to_vec();
+    let Line { diagnostics, warnings: of_layout, verdict, project } = draft.line(&settings, order, 0);
+    let warnings = draft.warnings().iter().cloned().chain(of_layout).collect();
     Outcome { sources, diagnostics, warnings, verdict, project }
 }

@@ -5,9 +5,12 @@
 
 mod ahead;
 mod branch;
+mod gap;
 #[cfg(test)]
 mod tests;
 mod tracks;
+
+pub use gap::{Gap, gaps};
 
 use super::working::Working;
 use crate::carrier::Carrier;

@@ -117,7 +117,7 @@ pub fn tracks(line: &Line) -> Vec<Track> {
 }
 
 /// Where a lane lies: at both ends of its cylinder, if it is on one.
-fn centre_lines(machine: &Machine, lane: &Lane) -> Vec<(Option<End>, CentreLine)> {
+pub fn centre_lines(machine: &Machine, lane: &Lane) -> Vec<(Option<End>, CentreLine)> {
     let cylinder = lane.on.map(|part| &machine.parts[part].primitive);
     let Some(Primitive::Cylinder(cylinder)) = cylinder else { return vec![(None, lane.centre_line)] };
     let moved = |out: f64| {
@@ -158,7 +158,7 @@ pub fn join(tracks: &mut [Track], ms: f64) {
 }
 
 /// Whether a lane goes on as another one.
-fn joins(from: &CentreLine, to: &CentreLine) -> bool {
+pub fn joins(from: &CentreLine, to: &CentreLine) -> bool {
     let (end, begin) = (from.frame(from.end()), to.frame(to.begin()));
     let turn = crate::frame::whole_turn(end.yaw - begin.yaw);
     (end.position - begin.position).length() <= JOINED && turn.abs() <= ALIGNED
