@@ -56,7 +56,7 @@ fn diagnostics_stand_where_they_are_expected() {
 fn warnings_stand_where_they_are_expected() {
     let (_, codes) =
         compare("warnings", |sources, name, text| read(sources, name, text).unwrap_or_else(|errors| errors));
-    expected_of(&["W"], &codes);
+    expected_of(&["W01"], &codes);
 }
 
 /// The library's types, and all that is shown how to write: nothing in them is hardly meant.
