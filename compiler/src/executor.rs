@@ -1,9 +1,11 @@
 //! The reference executor: runs a system straight from the IR, as `docs/semantics.md` says.
 
 mod evaluate;
+mod properties;
 mod step;
 
 use crate::ir::{Element, FaultId, Scalar, System, Type, Value, VariableId};
+pub use properties::Alarm;
 use runtime_sim::device::{Direction, PortType, Stop};
 use runtime_sim::scan::{Controllers, SystemInputs, SystemOutputs};
 
@@ -15,6 +17,8 @@ pub struct Executor<'a> {
     /// `[interface][row][cell][element]`.
     cells: Vec<Vec<Vec<Vec<Value>>>>,
     status: Status,
+    /// Scans since power-up; saturates.
+    scan: i32,
     /// For each automaton, state and transition: how often it has fired.
     fired: Vec<Vec<Vec<u64>>>,
     journal: Option<Vec<Entry>>,
@@ -41,6 +45,9 @@ struct Robot {
     ports: Vec<Vec<Value>>,
     /// Values of variables of binders and quantifiers.
     variables: Vec<Value>,
+    alarms: Vec<Alarm>,
+    /// It makes no steps, and its device is held.
+    stopped: bool,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -75,6 +82,8 @@ impl<'a> Executor<'a> {
                     locals: automaton.locals.iter().map(|l| filled(l.ty, l.initial)).collect(),
                     ports: ports.collect(),
                     variables: vec![Value::Int(0); automaton.variables.len()],
+                    alarms: vec![Alarm::NONE; automaton.alarms().count()],
+                    stopped: false,
                 }
             })
             .collect();
@@ -93,7 +102,7 @@ impl<'a> Executor<'a> {
             .map(|a| a.states.iter().map(|s| vec![0; s.transitions.len()]).collect())
             .collect();
         let status = Status { running: false, fault: None, start_before: true, reset_before: true };
-        Self { system, robots, cells, status, fired, journal: None, only: None }
+        Self { system, robots, cells, status, scan: 0, fired, journal: None, only: None }
     }
 
     /// Keeps what happens, until [`Self::take_journal`].
@@ -186,11 +195,11 @@ impl<'a> Executor<'a> {
     fn publish(&self, outputs: &mut [Vec<f64>]) {
         for (index, image) in outputs.iter_mut().enumerate() {
             image.clear();
-            self.outputs(index, self.status.running, image);
+            self.outputs(index, self.status.running && !self.robots[index].stopped, image);
         }
     }
 
-    /// Appends the outputs of an instance; with their stop values unless the system runs.
+    /// Appends the outputs of an instance; with their stop values unless it runs.
     fn outputs(&self, index: usize, running: bool, image: &mut Vec<f64>) {
         let ports = self.system.automaton_of(index).device.ports.iter();
         for (port, values) in
@@ -203,18 +212,14 @@ impl<'a> Executor<'a> {
         }
     }
 
-    fn run_scan(&mut self) -> Result<(), (FaultId, usize)> {
+    fn run_scan(&mut self, starts: bool) -> Result<(), (FaultId, usize)> {
         let only = self.only;
         let stepping = move |index: &usize| only.is_none_or(|only| only == *index);
         for index in (0..self.robots.len()).filter(stepping) {
             self.step(index).map_err(|fault| (fault, index))?;
         }
         for index in (0..self.robots.len()).filter(stepping) {
-            for invariant in &self.system.automaton_of(index).invariants {
-                if !self.holds(index, &invariant.condition) {
-                    return Err((invariant.fault, index));
-                }
-            }
+            self.properties(index, starts).map_err(|fault| (fault, index))?;
         }
         Ok(())
     }
@@ -225,9 +230,8 @@ impl Controllers for Executor<'_> {
         self.latch(inputs);
         let status = &mut self.status;
         let faulted_before = status.fault.is_some();
-        if system.reset && !status.reset_before && status.fault.take().is_some() {
-            self.robots.iter_mut().for_each(|robot| robot.elapsed = 0);
-        }
+        let reset = system.reset && !status.reset_before;
+        let cleared = reset && status.fault.take().is_some();
         let start = system.start && !status.start_before;
         status.start_before = system.start;
         status.reset_before = system.reset;
@@ -236,19 +240,28 @@ impl Controllers for Executor<'_> {
         } else if start && !faulted_before {
             status.running = true;
         }
+        if reset {
+            self.acknowledge();
+        }
+        if cleared {
+            self.robots.iter_mut().for_each(|robot| robot.elapsed = 0);
+            self.observe_anew();
+        }
         if self.status.running
-            && let Err(fault) = self.run_scan()
+            && let Err(fault) = self.run_scan(start)
         {
             self.status.fault = Some(fault);
             self.status.running = false;
         }
         self.publish(outputs);
-        SystemOutputs {
+        self.scan = self.scan.saturating_add(1);
+        self.tell_alarms(SystemOutputs {
             running: self.status.running,
             fault: self.status.fault.is_some(),
             fault_code: self.status.fault.map_or(0, |(fault, _)| fault.0 as i32 + 1),
             fault_robot: self.status.fault.map_or(-1, |(_, robot)| robot as i32),
-        }
+            ..SystemOutputs::default()
+        })
     }
 
     fn state(&self, machine: usize) -> usize {
@@ -266,12 +279,17 @@ impl Controllers for Executor<'_> {
     }
 
     fn skip(&mut self, scans: u64) {
+        self.scan = self.scan.saturating_add(i32::try_from(scans).unwrap_or(i32::MAX));
         if !self.status.running {
             return;
         }
         let passed = i32::try_from(scans).unwrap_or(i32::MAX).saturating_mul(self.system.scan_ms);
-        for robot in &mut self.robots {
-            robot.elapsed = robot.elapsed.saturating_add(passed);
+        for index in 0..self.robots.len() {
+            let robot = &mut self.robots[index];
+            if !robot.stopped {
+                robot.elapsed = robot.elapsed.saturating_add(passed);
+                self.wait(index, passed);
+            }
         }
     }
 
@@ -291,5 +309,9 @@ impl Executor<'_> {
             self.cells[implemented.interface.0][*row].iter().flatten().for_each(|v| v.push_words(out));
         }
         self.outputs(index, true, out);
+        if automaton.can_stop() {
+            out.push(f64::from(u8::from(robot.stopped)));
+        }
+        robot.alarms.iter().for_each(|alarm| alarm.push_words(out));
     }
 }

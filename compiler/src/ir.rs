@@ -15,11 +15,13 @@
 
 mod element;
 mod expression;
+mod property;
 mod system;
 mod value;
 
 pub use element::{Element, Group, Named};
 pub use expression::{Expr, ExprKind, Operator, Place};
+pub use property::{Entry, Kept, Property, PropertyKind, Severity};
 pub use system::{Instance, System};
 pub use value::{Extent, Scalar, Type, Value};
 
@@ -144,7 +146,8 @@ pub struct Automaton {
     pub variables: Vec<Variable>,
     /// The first is the beginning.
     pub states: Vec<State>,
-    pub invariants: Vec<Invariant>,
+    /// Looked at behind the steps of every scan, in this order.
+    pub properties: Vec<Property>,
     pub requires: Vec<Require>,
 }
 
@@ -229,6 +232,15 @@ pub struct Local {
     pub doc: Vec<String>,
     pub ty: Type,
     pub initial: Value,
+    pub kept_by: KeptBy,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum KeptBy {
+    /// Declared in the text; transitions write it.
+    Steps,
+    /// A property needs it from scan to scan.
+    Properties,
 }
 
 /// A name for an expression, evaluated whenever it is read.
@@ -347,16 +359,6 @@ pub struct Target {
 }
 
 #[derive(Clone, Debug)]
-pub struct Invariant {
-    pub place: Span,
-    pub text: String,
-    pub condition: Expr,
-    pub fault: FaultId,
-    /// The type has a text for the operator: a stop that is meant.
-    pub asks_operator: bool,
-}
-
-#[derive(Clone, Debug)]
 pub struct Require {
     pub place: Span,
     pub condition: Expr,
@@ -375,6 +377,7 @@ pub struct FaultSite {
     pub automaton: AutomatonId,
     pub kind: FaultKind,
     pub place: Span,
+    pub severity: Severity,
     /// What went wrong, such as `i leaves 0..11`.
     pub text: String,
 }
@@ -384,6 +387,8 @@ pub enum FaultKind {
     OutOfBounds,
     NotFinite,
     InvariantFails,
+    NotKept,
+    NotFollowed,
     TooLong,
 }
 

@@ -1,7 +1,8 @@
 //! What a state reads: the ports, cells and timers that decide whether a guard holds.
 
 use crate::ir::{
-    Automaton, Binder, Clause, Domain, Expr, ExprKind, InterfaceId, Place, State, Update, UpdateKind,
+    Automaton, Binder, Clause, Domain, Expr, ExprKind, InterfaceId, Place, Property, State, Update,
+    UpdateKind,
 };
 use runtime_sim::device::Direction;
 use std::collections::BTreeSet;
@@ -60,7 +61,7 @@ impl<'a> Reads<'a> {
     }
 
     /// What has to change before an instance in this state does anything, if it did nothing in the scan before: what its
-    /// guards read; what can become a fault, a stay that is too long and invariants; and all that a transition reads
+    /// guards read; what can become a fault, a stay that is too long and properties; and all that a transition reads
     /// which stays in the state, since it may fire in every scan and change nothing as long as this is the same.
     pub fn of_state(automaton: &'a Automaton, state: &'a State) -> Self {
         let mut reads = Self::of_guards(automaton, state);
@@ -76,7 +77,7 @@ impl<'a> Reads<'a> {
             reads.timers.push(longest);
             reads.expr(longest);
         }
-        automaton.invariants.iter().for_each(|invariant| reads.expr(&invariant.condition));
+        automaton.properties.iter().flat_map(Property::exprs).for_each(|expr| reads.expr(expr));
         reads
     }
 

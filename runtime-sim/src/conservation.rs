@@ -71,6 +71,7 @@ mod tests {
             parts: vec![],
             wiring: Arc::default(),
             states: vec![],
+            watch: Default::default(),
         };
         Items::new(&Line {
             scan_ms: 10,

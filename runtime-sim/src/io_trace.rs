@@ -43,6 +43,9 @@ pub enum Source {
     Fault,
     FaultCode,
     FaultRobot,
+    Alarm,
+    AlarmCode,
+    AlarmRobot,
     /// A word of an image, by the machine's number.
     Input {
         machine: usize,
@@ -94,7 +97,7 @@ impl Form {
 }
 
 /// Sources that are one word.
-const SINGLE: [(&str, Source); 7] = [
+const SINGLE: [(&str, Source); 10] = [
     ("run_permit", Source::RunPermit),
     ("start", Source::Start),
     ("reset", Source::Reset),
@@ -102,6 +105,9 @@ const SINGLE: [(&str, Source); 7] = [
     ("fault", Source::Fault),
     ("fault_code", Source::FaultCode),
     ("fault_robot", Source::FaultRobot),
+    ("alarm", Source::Alarm),
+    ("alarm_code", Source::AlarmCode),
+    ("alarm_robot", Source::AlarmRobot),
 ];
 
 impl Source {
@@ -111,7 +117,8 @@ impl Source {
         let word = |images: &[Vec<f64>], machine: usize, word: usize| {
             images.get(machine).and_then(|image| image.get(word)).copied().unwrap_or(0.0)
         };
-        let SystemOutputs { running, fault, fault_code, fault_robot } = seen.answer;
+        let SystemOutputs { running, fault, fault_code, fault_robot, alarm, alarm_code, alarm_robot } =
+            seen.answer;
         match self {
             Self::RunPermit => flag(seen.system.run_permit),
             Self::Start => flag(seen.system.start),
@@ -120,6 +127,9 @@ impl Source {
             Self::Fault => flag(fault),
             Self::FaultCode => f64::from(fault_code),
             Self::FaultRobot => f64::from(fault_robot),
+            Self::Alarm => flag(alarm),
+            Self::AlarmCode => f64::from(alarm_code),
+            Self::AlarmRobot => f64::from(alarm_robot),
             Self::Input { machine, word: at } => word(seen.inputs, machine, at),
             Self::Output { machine, word: at } => word(seen.outputs, machine, at),
             Self::Trace(at) => seen.trace.get(at).copied().unwrap_or(0.0),

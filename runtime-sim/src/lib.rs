@@ -35,5 +35,6 @@ mod shortage;
 pub mod solid;
 mod system;
 pub mod value;
+pub mod watch;
 pub mod wiring;
 pub mod words;

@@ -11,6 +11,7 @@ use crate::part::route::Route;
 use crate::part::{Form, Part, Primitive};
 use crate::point::Point;
 use crate::value::Value;
+use crate::watch::Watch;
 use crate::wiring::{Drives, Output, Source, Wiring};
 use std::collections::HashSet;
 use std::sync::Arc;
@@ -25,6 +26,7 @@ pub struct Machine {
     pub wiring: Arc<Wiring>,
     /// States of its automaton; empty if it has none.
     pub states: Vec<State>,
+    pub watch: Watch,
 }
 
 /// Elements of a port or a constant.

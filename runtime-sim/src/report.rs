@@ -7,8 +7,10 @@ use crate::event::{Event, OrderChange};
 use crate::item;
 use crate::json::Json;
 use crate::line::{Goal, Line};
+use crate::machine::Machine;
 use crate::plant::Plant;
 use crate::shortage::point_text;
+use crate::watch;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
@@ -28,6 +30,8 @@ pub struct Report {
     pub seconds_per_order: Option<f64>,
     /// Of orders without end those that have opened.
     pub order_times: Vec<OrderTimes>,
+    /// Those that were raised, in layout order.
+    pub alarms: Vec<AlarmReport>,
     /// In layout order.
     pub machines: Vec<MachineReport>,
     /// Of orders without end those that are on the line.
@@ -46,6 +50,18 @@ pub struct OrderTimes {
     pub station: String,
     pub opened_s: Option<f64>,
     pub made_s: Option<f64>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct AlarmReport {
+    pub machine: String,
+    pub code: i32,
+    pub count: u32,
+    pub first_s: f64,
+    pub last_s: f64,
+    /// What raised it lasts at the end.
+    pub active: bool,
+    pub acknowledged: bool,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -81,6 +97,8 @@ pub(crate) struct Outcome {
     pub states: Vec<usize>,
     pub trace_hash: u64,
     pub collisions: Vec<Contact>,
+    /// The last trace of the controllers.
+    pub trace: Vec<f64>,
 }
 
 fn names(line: &Line, machines: &[usize]) -> String {
@@ -137,6 +155,7 @@ impl Report {
             fault: outcome.fault.map(|(code, machine)| {
                 (code, machine.map_or_else(String::new, |machine| line.machines[machine].name.clone()))
             }),
+            alarms: alarms(line, &outcome.trace),
             scan_ms: line.scan_ms,
             scans: outcome.scans,
             simulated_s,
@@ -183,6 +202,17 @@ impl Report {
                 json.put_real("opened_s", times.opened_s);
                 json.put_real("made_s", times.made_s);
             });
+            if !self.alarms.is_empty() {
+                json.put_list("alarms", &self.alarms, |json, alarm| {
+                    json.put_int("code", u64::from(alarm.code.unsigned_abs()));
+                    json.put_text("robot", &alarm.machine);
+                    json.put_int("count", u64::from(alarm.count));
+                    json.put_real("first_s", Some(alarm.first_s));
+                    json.put_real("last_s", Some(alarm.last_s));
+                    json.put_truth("active", alarm.active);
+                    json.put_truth("acknowledged", alarm.acknowledged);
+                });
+            }
             json.put_object("robots", |json| {
                 for machine in &self.machines {
                     json.put_object(&machine.name, |json| {
@@ -224,6 +254,28 @@ impl Report {
             }
         });
     }
+}
+
+/// The alarms that a trace has as raised.
+fn alarms(line: &Line, trace: &[f64]) -> Vec<AlarmReport> {
+    let of = |machine: &Machine| -> Vec<AlarmReport> {
+        let alarms = machine.watch.alarms.iter().filter_map(|alarm| {
+            let [active, acknowledged, count, first, last] =
+                *trace.get(alarm.word..)?.first_chunk::<{ watch::ALARM_WORDS }>()?;
+            let at = |scan: f64| seconds(scan as u64, line.scan_ms);
+            (count > 0.0).then(|| AlarmReport {
+                machine: machine.name.clone(),
+                code: alarm.code,
+                count: count as u32,
+                first_s: at(first),
+                last_s: at(last),
+                active: active != 0.0,
+                acknowledged: acknowledged != 0.0,
+            })
+        });
+        alarms.collect()
+    };
+    line.machines.iter().flat_map(of).collect()
 }
 
 pub(crate) fn seconds(scans: u64, scan_ms: u32) -> f64 {

@@ -131,7 +131,7 @@ fn simulate(
     let mut states: Vec<usize> = (0..line.machines.len()).map(|machine| controllers.state(machine)).collect();
     let numbers: Vec<_> = (0..line.machines.len()).map(|machine| numbers(line, machine)).collect();
     let stays = controllers.stays();
-    let mut changes = Changes::new(&stays, line.scan_ms);
+    let mut changes = Changes::new(&stays, line);
     let mut agenda = Agenda::new(line, stays, &inputs, analogue);
     let mut answer = SystemOutputs::default();
     let mut trace = Vec::new();
@@ -230,7 +230,8 @@ fn simulate(
             progress.is_alive(next - 1);
         }
         for (machine, account) in accounts.iter_mut().enumerate() {
-            let activity = if !answer.running {
+            let is_stopped = line.machines[machine].watch.is_stopped(&trace);
+            let activity = if !answer.running || is_stopped {
                 Activity::Stopped
             } else if numbers[machine].is_some_and(|(cmd, ack)| outputs[machine][cmd] != inputs[machine][ack])
             {
@@ -271,6 +272,7 @@ fn simulate(
         states,
         trace_hash: changes.hash(),
         collisions: check.into_contacts(),
+        trace,
     };
     let recorded = recorders.map(|recorders| Recordings {
         paths: recorders.paths.finish(&plant),

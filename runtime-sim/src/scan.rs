@@ -11,13 +11,34 @@ pub struct SystemInputs {
 }
 
 /// Outputs of the system as a whole.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SystemOutputs {
     pub running: bool,
     pub fault: bool,
     pub fault_code: i32,
     /// Machine that raised the fault, -1 if none did.
     pub fault_robot: i32,
+    /// An alarm is active, or not acknowledged.
+    pub alarm: bool,
+    /// Of the alarms that are not acknowledged, the one that was raised first; 0 if there is none.
+    pub alarm_code: i32,
+    /// Machine of that alarm, -1 if there is none.
+    pub alarm_robot: i32,
+}
+
+impl Default for SystemOutputs {
+    /// At rest: not running, no fault, no alarm.
+    fn default() -> Self {
+        Self {
+            running: false,
+            fault: false,
+            fault_code: 0,
+            fault_robot: -1,
+            alarm: false,
+            alarm_code: 0,
+            alarm_robot: -1,
+        }
+    }
 }
 
 /// The controllers of all machines of a line, stepped together.

@@ -70,7 +70,7 @@ impl Controllers for Restless {
             command(output, verb, None);
         }
         self.scan += 1;
-        SystemOutputs { running: true, fault: self.answered.len() > 100, fault_code: 0, fault_robot: -1 }
+        SystemOutputs { running: true, fault: self.answered.len() > 100, ..SystemOutputs::default() }
     }
 
     fn state(&self, _: usize) -> usize {

@@ -21,7 +21,7 @@ pub struct Recording {
     pub answers: Vec<String>,
     /// Scans in which the system ran.
     pub running: usize,
-    /// Codes of the faults that were raised.
+    /// Codes of the faults, and of the alarms that were told.
     pub faults: BTreeSet<i32>,
 }
 
@@ -47,6 +47,9 @@ impl Recording {
             f64::from(flag(answer.fault)),
             f64::from(answer.fault_code),
             f64::from(answer.fault_robot),
+            f64::from(flag(answer.alarm)),
+            f64::from(answer.alarm_code),
+            f64::from(answer.alarm_robot),
         ];
         all.extend(outputs.iter().flatten());
         engine.trace(&mut all);
@@ -54,6 +57,9 @@ impl Recording {
         self.running += usize::from(answer.running);
         if answer.fault {
             self.faults.insert(answer.fault_code);
+        }
+        if answer.alarm_code > 0 {
+            self.faults.insert(answer.alarm_code);
         }
         answer
     }
@@ -82,7 +88,10 @@ pub fn record_trace(engine: &mut dyn Controllers, fixture: &trace::Fixture) -> R
 
 /// What the columns of an answer are.
 pub fn columns(system: &System) -> Vec<String> {
-    let mut names: Vec<String> = ["running", "fault", "fault_code", "fault_robot"].map(String::from).into();
+    let mut names: Vec<String> =
+        ["running", "fault", "fault_code", "fault_robot", "alarm", "alarm_code", "alarm_robot"]
+            .map(String::from)
+            .into();
     for (index, instance) in system.instances.iter().enumerate() {
         let ports = system.automaton_of(index).device.ports.iter();
         for port in ports.filter(|p| p.direction == Direction::Output) {

@@ -1,6 +1,7 @@
 //! What a state of the search and a scan of the executor have in common: states, locals and cells, but for points and reals,
 //! which the search knows by some places only.
 
+use autogen::ir::KeptBy;
 use autogen::lower::Project;
 use autogen_search::model::{Form, Model, Variable};
 use autogen_search::store::Store;
@@ -25,25 +26,31 @@ impl<'a> Common<'a> {
             words.push((at, by_name[format!("{}.(state)", instance.name).as_str()], 0, number));
             // Behind it stands the time in the state.
             at += 2;
-            let mut take = |name: &str, ty: autogen::ir::Type| {
+            let mut take = |at: &mut usize, name: &str, ty: autogen::ir::Type| {
                 let count = system.model.elements(ty.extent);
                 for element in 0..count {
                     let full = if count == 1 { name.into() } else { format!("{name}[{element}]") };
                     let variable = by_name[format!("{}.{full}", instance.name).as_str()];
                     if let Form::Int(low) = variable.form {
-                        words.push((at, variable, low, number));
+                        words.push((*at, variable, low, number));
                     }
-                    at += if ty.scalar == autogen::ir::Scalar::Point { 3 } else { 1 };
+                    *at += if ty.scalar == autogen::ir::Scalar::Point { 3 } else { 1 };
                 }
             };
-            automaton.locals.iter().for_each(|local| take(&local.name, local.ty));
+            let (declared, kept): (Vec<_>, Vec<_>) =
+                automaton.locals.iter().partition(|local| local.kept_by == KeptBy::Steps);
+            declared.into_iter().for_each(|local| take(&mut at, &local.name, local.ty));
+            // What properties keep is not searched, and stands behind all others.
+            let words = |ty: autogen::ir::Type| ty.scalar.words() * system.model.elements(ty.extent);
+            let kept: usize = kept.into_iter().map(|local| words(local.ty)).sum();
+            at += kept;
             for implements in &automaton.implements {
                 let cells = &system.model.interface(implements.interface).cells;
-                cells.iter().for_each(|cell| take(&cell.name, cell.ty));
+                cells.iter().for_each(|cell| take(&mut at, &cell.name, cell.ty));
             }
             let outputs = automaton.device.ports.iter();
             let outputs = outputs.filter(|port| port.direction == runtime_sim::device::Direction::Output);
-            at += outputs.map(|port| port.words(system.kinds())).sum::<usize>();
+            at += outputs.map(|port| port.words(system.kinds())).sum::<usize>() + automaton.alarm_words();
         }
         Self { model, words }
     }

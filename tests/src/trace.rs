@@ -20,7 +20,10 @@
 //! out running                     # or `stopped`, or `fault a1 TEXT`: the fault whose description has TEXT
 //! a1 Waiting 20 n=3 slot[1]=Full  # state, elapsed ms, and what has changed: locals, cells, outputs before masking
 //! image a1.hold=1                 # an output as published
+//! alarm a1 TEXT                   # the alarm that is told; `acknowledged` if all that last are, or `none`
 //! ```
+//!
+//! What properties keep is `property1_waited` and the like, an alarm `alarm1_count` and the like, and `stopped`.
 //!
 //! What is not written has not changed; an instance without a line has changed in
 //! nothing, its elapsed time included. Everything is compared in every scan, and
@@ -351,7 +354,7 @@ struct Script<'a> {
 impl<'a> Script<'a> {
     fn new(system: &'a ir::System) -> Self {
         let machines = (0..system.instances.len()).map(|i| machine(system, i)).collect();
-        let outputs = SystemOutputs { running: false, fault: false, fault_code: 0, fault_robot: -1 };
+        let outputs = SystemOutputs::default();
         Self { system, machines, outputs }
     }
 
@@ -407,31 +410,31 @@ impl<'a> Script<'a> {
             }
             "image" => published.extend(&words[1..]),
             "out" => {
-                let outputs = SystemOutputs { running: false, fault: false, fault_code: 0, fault_robot: -1 };
+                let outputs = SystemOutputs {
+                    running: false,
+                    fault: false,
+                    fault_code: 0,
+                    fault_robot: -1,
+                    ..self.outputs
+                };
                 self.outputs = match words[1..] {
                     ["running"] => SystemOutputs { running: true, ..outputs },
                     ["stopped"] => outputs,
                     ["fault", name, ref fragment @ ..] => {
-                        let fragment = fragment.join(" ");
-                        let automaton = self.system.instances[self.machine(name)?].automaton;
-                        let sites = self.system.model.faults.iter().enumerate();
-                        let found: Vec<usize> = sites
-                            .filter(|(_, f)| f.automaton == automaton && f.text.contains(&fragment))
-                            .map(|(i, _)| i)
-                            .collect();
-                        let [site] = found[..] else {
-                            return Err(format!("{} faults have `{fragment}`", found.len()));
-                        };
-                        let fault_robot = self.machine(name)? as i32;
-                        SystemOutputs {
-                            running: false,
-                            fault: true,
-                            fault_code: site as i32 + 1,
-                            fault_robot,
-                        }
+                        let (fault_code, fault_robot) = self.site(name, fragment)?;
+                        SystemOutputs { running: false, fault: true, fault_code, fault_robot, ..outputs }
                     }
                     _ => return Err("out what?".into()),
                 };
+            }
+            "alarm" => {
+                let (alarm_code, alarm_robot) = match words[1..] {
+                    ["none" | "acknowledged"] => (0, -1),
+                    [name, ref fragment @ ..] => self.site(name, fragment)?,
+                    [] => return Err("which alarm?".into()),
+                };
+                let alarm = words[1] != "none";
+                self.outputs = SystemOutputs { alarm, alarm_code, alarm_robot, ..self.outputs };
             }
             name => {
                 let machine = self.machine(name)?;
@@ -451,6 +454,22 @@ impl<'a> Script<'a> {
         Ok(())
     }
 
+    /// Code and instance of the fault or alarm of a machine whose description has these words.
+    fn site(&self, name: &str, fragment: &[&str]) -> Result<(i32, i32), String> {
+        let fragment = fragment.join(" ");
+        let machine = self.machine(name)?;
+        let automaton = self.system.instances[machine].automaton;
+        let sites = self.system.model.faults.iter().enumerate();
+        let found: Vec<usize> = sites
+            .filter(|(_, f)| f.automaton == automaton && f.text.contains(&fragment))
+            .map(|(i, _)| i)
+            .collect();
+        let [site] = found[..] else {
+            return Err(format!("{} faults have `{fragment}`", found.len()));
+        };
+        Ok((site as i32 + 1, machine as i32))
+    }
+
     fn machine(&self, name: &str) -> Result<usize, String> {
         let found = self.system.instances.iter().position(|i| i.name == name);
         found.ok_or(format!("there is no instance `{name}`"))
@@ -464,7 +483,9 @@ impl<'a> Script<'a> {
             trace.extend(image(&machine.variables, true));
             let ports: Vec<Variable> =
                 machine.variables.iter().filter(|v| v.stop.is_some()).cloned().collect();
-            images.push(image(&ports, self.outputs.running));
+            let is_stopped = |v: &Variable| v.name == "stopped" && v.elements == [Value::Bool(true)];
+            let runs = self.outputs.running && !machine.variables.iter().any(is_stopped);
+            images.push(image(&ports, runs));
         }
         Expected { outputs: self.outputs, trace, images }
     }
@@ -514,6 +535,21 @@ fn machine(system: &ir::System, index: usize) -> Machine {
             Direction::Output => variables.push(filled(&port.name, ty, first(ty.scalar), Some(port.stop))),
             // Inputs come as words of the image, whatever their type.
             Direction::Input => inputs.push(filled(&port.name, ty, first(ty.scalar), None)),
+        }
+    }
+    if automaton.can_stop() {
+        let ty = ir::Type { scalar: Scalar::Bool, extent: ir::Extent::One };
+        variables.push(filled("stopped", ty, Value::Bool(false), None));
+    }
+    for number in 1..=automaton.alarms().count() {
+        let mut word = |name: &str, scalar, first| {
+            let ty = ir::Type { scalar, extent: ir::Extent::One };
+            variables.push(filled(&format!("alarm{number}_{name}"), ty, first, None));
+        };
+        word("active", Scalar::Bool, Value::Bool(false));
+        word("acknowledged", Scalar::Bool, Value::Bool(true));
+        for name in ["count", "first", "last"] {
+            word(name, Scalar::Int { lo: 0, hi: i32::MAX }, Value::Int(0));
         }
     }
     for input in &mut inputs {

@@ -217,7 +217,10 @@ impl<'a> Wired<'a> {
                 Word::Line(0) => f64::from(u8::from(answer.running)),
                 Word::Line(1) => f64::from(u8::from(answer.fault)),
                 Word::Line(2) => f64::from(answer.fault_code),
-                Word::Line(_) => f64::from(answer.fault_robot),
+                Word::Line(3) => f64::from(answer.fault_robot),
+                Word::Line(4) => f64::from(u8::from(answer.alarm)),
+                Word::Line(5) => f64::from(answer.alarm_code),
+                Word::Line(_) => f64::from(answer.alarm_robot),
                 Word::Robot(robot, word) => outputs[*robot][*word],
             };
             self.compared += 1;

@@ -106,7 +106,8 @@ fn the_text_follows_the_trace_of_every_example() {
             let size = format!("{thousands},{rest:03} of them and {megabytes} MB for the default line");
             assert!(text("docs/io-trace.md").contains(&size), "docs/io-trace.md: {size}");
         }
-        for (global, first) in &driven.silent {
+        // The number of the scan is that of the row.
+        for (global, first) in driven.silent.iter().filter(|(global, _)| global != "scan_no") {
             let now = driven.machine.get(global).to_bits();
             assert_eq!(now, *first, "{name}: `{global}` changes and has no column");
         }

@@ -145,5 +145,8 @@ fn every_text_does_what_the_executor_does() {
     assert!(all.wrong.is_empty(), "{}", all.wrong.join("\n"));
     assert!(never.is_empty(), "{}", never.join("\n"));
     assert!(unexecuted.is_empty(), "{unexecuted:?}");
-    assert!(!all.unread.iter().any(|name| name.starts_with("examples:")), "{:?}", all.unread);
+    // A screen reads it.
+    let is_shown = |name: &str| name == "examples: alarms_first";
+    let unread = all.unread.iter().filter(|name| name.starts_with("examples:") && !is_shown(name));
+    assert_eq!(unread.count(), 0, "{:?}", all.unread);
 }

@@ -13,6 +13,7 @@ mod format;
 mod line;
 mod names;
 mod parameters;
+mod property;
 mod robots;
 mod shared;
 mod state;
@@ -34,6 +35,7 @@ const LIBRARY_MANIFEST: &str = include_str!("../../../templates/rust/library.tom
 const LOCK: &str = include_str!("../../../templates/rust/Cargo.lock");
 const CONTROLLERS_MANIFEST: &str = include_str!("../../../templates/rust/controllers/Cargo.toml");
 const TYPES: &str = include_str!("../../../templates/rust/controllers/types.rs");
+const ALARM: &str = include_str!("../../../templates/rust/controllers/alarm.rs");
 const COMMISSIONING_MANIFEST: &str = include_str!("../../../templates/rust/commissioning/Cargo.toml");
 const ADAPTERS_MANIFEST: &str = include_str!("../../../templates/rust/adapters/Cargo.toml");
 const ADAPTERS: [(&str, &str); 6] = [
@@ -82,6 +84,9 @@ fn crates(system: &System, sources: &Sources) -> Files {
     let mut put = |path: String, text: String| files.insert(path, text);
     put("controllers/Cargo.toml".into(), CONTROLLERS_MANIFEST.into());
     put("controllers/src/types.rs".into(), TYPES.into());
+    if shared::has_alarm_module(shared) {
+        put("controllers/src/alarm.rs".into(), ALARM.into());
+    }
     put("controllers/src/lib.rs".into(), shared::library(shared));
     put("controllers/src/kinds.rs".into(), shared::kinds(shared));
     put("controllers/src/cells.rs".into(), shared::cells(shared));

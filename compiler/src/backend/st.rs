@@ -8,6 +8,7 @@
 //! parameters. Where the generated Rust leaves a step by `?`, the block returns: what was written stays, and
 //! the blocks behind it find `fault_code` set and do nothing.
 
+mod alarm;
 mod alarms;
 mod attributes;
 mod block;
@@ -27,6 +28,7 @@ mod names;
 mod points;
 mod print;
 mod program;
+mod property;
 mod role;
 mod siemens;
 mod state;
@@ -111,7 +113,7 @@ impl Line {
     /// Function blocks, then the program.
     fn units(&self) -> impl Iterator<Item = &declaration::Unit> {
         let blocks = self.blocks.iter().flatten();
-        let blocks = blocks.flat_map(|b| [Some(&b.steps), b.invariants.as_ref()].into_iter().flatten());
+        let blocks = blocks.flat_map(|b| [Some(&b.steps), b.properties.as_ref()].into_iter().flatten());
         [&self.layout].into_iter().chain(blocks.map(|b| &b.unit)).chain([&self.program])
     }
 }
@@ -123,13 +125,13 @@ fn line(shared: Shared, image: &Image) -> Line {
         .map(|id| {
             (!shared.instances(id).is_empty()).then(|| Blocks {
                 steps: block::steps(shared, id, &globals),
-                invariants: block::invariants(shared, id, &globals),
+                properties: property::block(shared, id, &globals),
             })
         })
         .collect();
     let program = program::program(shared, &blocks, &globals, image);
     let units =
-        blocks.iter().flatten().flat_map(|b| [Some(&b.steps), b.invariants.as_ref()].into_iter().flatten());
+        blocks.iter().flatten().flat_map(|b| [Some(&b.steps), b.properties.as_ref()].into_iter().flatten());
     let mut used = code::names(&program.body);
     units.clone().for_each(|b| used.extend(code::names(&b.unit.body)));
     globals.retain(|name| used.contains(name));

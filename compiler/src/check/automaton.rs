@@ -7,7 +7,6 @@ use super::{Checker, state};
 use crate::device::Device;
 use crate::diagnostic::{Diagnostic, suggestion};
 use crate::ir::{self, Extent, Scalar, Type};
-use crate::plain;
 use crate::source::Span;
 use crate::spec::ast;
 use std::collections::{BTreeMap, BTreeSet};
@@ -27,7 +26,7 @@ pub(super) fn check(checker: &mut Checker, tree: &ast::Automaton) {
         defines: Vec::new(),
         variables: Vec::new(),
         states: Vec::new(),
-        invariants: Vec::new(),
+        properties: Vec::new(),
         requires: Vec::new(),
     };
     let id = ir::AutomatonId(checker.model.automata.len());
@@ -60,22 +59,7 @@ pub(super) fn check(checker: &mut Checker, tree: &ast::Automaton) {
         context.require(require);
     }
     state::check(&mut context, tree);
-    for invariant in &tree.invariants {
-        if let Some(condition) = context.typed(&invariant.condition, Scalar::Bool) {
-            let place = invariant.condition.span;
-            let words: Vec<_> = context.checker.sources.text(place).split_whitespace().collect();
-            let text = plain::line(&words.join(" "));
-            let told = invariant.text.as_ref().map_or(format!("not: {text}"), |told| plain::line(told));
-            let fault = context.fault(ir::FaultKind::InvariantFails, place, told);
-            context.automaton.invariants.push(ir::Invariant {
-                place,
-                text,
-                condition,
-                fault,
-                asks_operator: invariant.text.is_some(),
-            });
-        }
-    }
+    context.properties(tree);
     context.bounded_work();
     let automaton = context.automaton;
     checker.model.automata.push(automaton);
@@ -121,7 +105,13 @@ impl Context<'_, '_> {
     }
 
     pub(super) fn fault(&mut self, kind: ir::FaultKind, place: Span, text: String) -> ir::FaultId {
-        self.checker.model.faults.push(ir::FaultSite { automaton: self.id, kind, place, text });
+        self.checker.model.faults.push(ir::FaultSite {
+            automaton: self.id,
+            kind,
+            place,
+            severity: ir::Severity::Line,
+            text,
+        });
         ir::FaultId(self.checker.model.faults.len() - 1)
     }
 
@@ -233,6 +223,7 @@ impl Context<'_, '_> {
                 doc: local.doc.clone(),
                 ty,
                 initial,
+                kept_by: ir::KeptBy::Steps,
             });
         }
     }

@@ -8,6 +8,7 @@ mod expression;
 mod facts;
 pub mod names;
 mod path;
+mod property;
 mod rule;
 mod sequence;
 mod state;
@@ -79,6 +80,7 @@ fn checked<'a>(
         model: empty_model(kinds),
         broken: BTreeSet::new(),
         devices: Vec::new(),
+        refused: Vec::new(),
         names,
     };
     checker.devices();
@@ -190,6 +192,8 @@ struct Checker<'a> {
     broken: BTreeSet<(ir::InterfaceId, String)>,
     /// Devices by name, in the order of their declarations; none for one with errors.
     devices: Vec<(String, Option<Arc<Device>>)>,
+    /// Properties of interfaces that have errors.
+    refused: Vec<Span>,
     /// There if somebody asks what the names mean.
     names: Option<Names>,
 }
@@ -255,6 +259,7 @@ impl Checker<'_> {
                     name: automaton.name.clone(),
                     parameters: automaton.parameters.clone(),
                     cells: automaton.cells.clone(),
+                    properties: Vec::new(),
                 };
                 declared.push((own, false));
             }

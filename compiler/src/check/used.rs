@@ -19,6 +19,9 @@ pub fn used(files: &[(FileId, ast::File)], automata: &BTreeSet<String>) -> Vec<(
                 if names.contains(&interface.name.value) {
                     names.extend(interface.parameters.iter().flat_map(|p| of_type(&p.ty)));
                     names.extend(interface.cells.iter().flat_map(|c| of_type(&c.ty)));
+                    let mut read = Vec::new();
+                    interface.properties.iter().for_each(|property| of_property(property, &mut read));
+                    names.extend(read);
                 }
             }
         }
@@ -74,7 +77,7 @@ fn of_text(automaton: &ast::Automaton, names: &mut Vec<String>) {
             }
         }
     }
-    automaton.invariants.iter().for_each(|i| of_expr(&i.condition, names));
+    automaton.properties.iter().for_each(|property| of_property(property, names));
     automaton.initial.iter().for_each(|i| of_updates(&i.updates, names));
     automaton.any.iter().for_each(|a| of_transitions(&a.transitions, names));
     for state in &automaton.states {
@@ -97,6 +100,20 @@ fn of_text(automaton: &ast::Automaton, names: &mut Vec<String>) {
                 }
             }
         }
+    }
+}
+
+fn of_property(property: &ast::Property, names: &mut Vec<String>) {
+    match &property.kind {
+        ast::PropertyKind::Always(condition) => of_expr(condition, names),
+        ast::PropertyKind::Keep { values, condition } => {
+            values.iter().for_each(|value| of_expr(value, names));
+            of_expr(condition, names);
+        }
+        ast::PropertyKind::Whenever { trigger, goal, within } => {
+            [trigger, goal, within].into_iter().for_each(|expr| of_expr(expr, names));
+        }
+        ast::PropertyKind::Answer { within } => of_expr(within, names),
     }
 }
 

@@ -20,7 +20,10 @@ impl Context<'_, '_> {
         for state in &automaton.states {
             found.extend(state.transitions.iter().map(|t| (t.place, work.guard(&t.clauses))));
         }
-        found.extend(automaton.invariants.iter().map(|i| (i.place, work.of(&i.condition))));
+        found.extend(automaton.properties.iter().map(|property| {
+            let exprs = property.exprs().into_iter();
+            (property.place, exprs.fold(0, |sum, expr| u64::saturating_add(sum, work.of(expr))))
+        }));
         found.extend(automaton.requires.iter().map(|r| (r.place, work.of(&r.condition))));
         for (place, work) in found.into_iter().filter(|(_, work)| *work > MOST) {
             self.report(

@@ -1,5 +1,6 @@
 //! `autogen commission`: the generated controllers run the scenario in the simulator.
 
+use super::alarm;
 use super::build::{self, Built};
 use super::contact;
 use super::controllers::{self, Notice};
@@ -282,6 +283,7 @@ fn text(report: &Value, wall: f64, output: &Output) -> String {
     if is_ordered || !items.is_empty() {
         out += &format!("items              {} ({})\n", items.len(), places.join(", "));
     }
+    out += &alarm::text(report);
     out += &format!("written to         {}\n", output.folder().display());
     if let Some(waits) = report["waits"].as_array() {
         out += "\nwho waits for whom at the end (more with `autogen why`)\n";

@@ -15,6 +15,7 @@ macro_rules! complain {
     ($($text:tt)*) => { $crate::command::print::err(&format!("{}\n", format_args!($($text)*))) };
 }
 
+mod alarm;
 pub mod build;
 pub mod check;
 pub mod commission;

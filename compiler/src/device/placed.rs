@@ -82,6 +82,7 @@ impl Placed {
             parts: self.parts(heights, place)?,
             wiring: self.device.wiring.clone(),
             states: Vec::new(),
+            watch: Default::default(),
         };
         match machine.check() {
             Ok(()) => Ok(machine),

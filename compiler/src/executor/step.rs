@@ -9,6 +9,10 @@ impl Executor<'_> {
     pub(super) fn step(&mut self, robot: usize) -> Result<(), FaultId> {
         let system = self.system;
         let automaton = system.automaton_of(robot);
+        if self.robots[robot].stopped {
+            self.robots[robot].elapsed = 0;
+            return Ok(());
+        }
         self.robots[robot].elapsed = self.robots[robot].elapsed.saturating_add(system.scan_ms);
         let number = self.robots[robot].state;
         let state = &automaton.states[number];

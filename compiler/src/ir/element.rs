@@ -74,7 +74,7 @@ impl System {
         }
     }
 
-    /// Where the trace of each machine begins, and its end: the state, the time in it, locals, cells, outputs.
+    /// Where the trace of each machine begins, and its end: the state, the time in it, locals, cells, outputs, alarms.
     pub fn traces(&self) -> Vec<usize> {
         let mut begins = vec![0];
         for machine in 0..self.instances.len() {
@@ -83,7 +83,7 @@ impl System {
             let types = automaton.locals.iter().map(|l| l.ty).chain(cells.map(|c| c.ty));
             let variables: usize = types.map(|ty| ty.scalar.words() * self.model.elements(ty.extent)).sum();
             let outputs = automaton.device.words(Direction::Output, self.kinds());
-            begins.push(begins[machine] + 2 + variables + outputs);
+            begins.push(begins[machine] + 2 + variables + outputs + automaton.alarm_words());
         }
         begins
     }

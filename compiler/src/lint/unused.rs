@@ -2,7 +2,8 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::ir::{
-    Automaton, Binder, Clause, Domain, Expr, ExprKind, InterfaceId, Model, Place, TextPart, UpdateKind,
+    Automaton, Binder, Clause, Domain, Expr, ExprKind, InterfaceId, Model, Place, Property, TextPart,
+    UpdateKind,
 };
 use crate::source::{FileId, Span};
 use crate::spec::ast;
@@ -81,7 +82,7 @@ impl Uses {
 
     fn automaton(&mut self, automaton: &Automaton) {
         automaton.defines.iter().for_each(|define| self.expr(&define.value));
-        automaton.invariants.iter().for_each(|invariant| self.expr(&invariant.condition));
+        automaton.properties.iter().flat_map(Property::exprs).for_each(|expr| self.expr(expr));
         for require in &automaton.requires {
             self.expr(&require.condition);
             for part in &require.text {

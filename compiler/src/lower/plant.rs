@@ -3,11 +3,12 @@
 use super::role::Line;
 use crate::diagnostic::Diagnostic;
 use crate::executor::Executor;
-use crate::ir::{Automaton, InterfaceId, RoleKind, System, Value};
+use crate::ir::{Automaton, Element, InterfaceId, PropertyKind, RoleKind, System, Value};
 use crate::reads::{self, ReadCell, Reads, Whose};
 use crate::scenario::{self, Number, Panel, ResolvedScenario, Scenario};
 use runtime_sim::line;
 use runtime_sim::machine::Machine;
+use runtime_sim::watch::{ALARM_WORDS, Alarm, Counter, Watch};
 use std::collections::BTreeSet;
 
 pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec<Diagnostic>> {
@@ -57,6 +58,7 @@ pub fn line(
     let scans = |seconds: f64| (seconds * 1000.0 / f64::from(scan_ms)).round() as u64;
     let arms = arms(system);
     let mut executor = Executor::new(system);
+    let traces = system.traces();
     let reads: Vec<Vec<StateReads>> = system.model.automata.iter().map(state_reads).collect();
     line::Line {
         scan_ms,
@@ -76,6 +78,7 @@ pub fn line(
             .enumerate()
             .map(|(i, machine)| Machine {
                 states: states(system, &arms, &reads, &mut executor, i),
+                watch: watch(system, &traces, &mut executor, i),
                 ..machine
             })
             .collect(),
@@ -198,6 +201,38 @@ fn states(
         });
     }
     states
+}
+
+/// Where the trace has what the properties of an instance keep; `traces` is where that of each instance begins.
+fn watch(system: &System, traces: &[usize], executor: &mut Executor, instance: usize) -> Watch {
+    let automaton = system.automaton_of(instance);
+    let values = system.values_of(instance, traces[instance]);
+    let word = |local: usize| {
+        let is_it = |element| element == Element::Local { robot: instance, local, index: 0 };
+        values.iter().find(|value| is_it(value.element)).and_then(|value| value.trace)
+    };
+    let counters = automaton.properties.iter().filter_map(|property| {
+        let PropertyKind::Whenever { within, waited, .. } = &property.kind else { return None };
+        let limit = match executor.value(instance, within) {
+            Value::Int(ms) if reads::is_fixed(automaton, within) => Some(ms.max(0) as u32),
+            _ => None,
+        };
+        Some(Counter { word: word(*waited)?, limit })
+    });
+    let counters = counters.collect();
+    let begin = traces[instance + 1] - automaton.alarm_words();
+    let first = begin + usize::from(automaton.can_stop());
+    let alarms = automaton.alarms().enumerate();
+    Watch {
+        stopped: automaton.can_stop().then_some(begin),
+        counters,
+        alarms: alarms
+            .map(|(number, property)| Alarm {
+                code: property.site.0 as i32 + 1,
+                word: first + number * ALARM_WORDS,
+            })
+            .collect(),
+    }
 }
 
 /// Who writes the cells that guards read, but for the instance itself.

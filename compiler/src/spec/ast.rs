@@ -26,6 +26,8 @@ pub struct Interface {
     pub name: Name,
     pub parameters: Vec<Parameter>,
     pub cells: Vec<Cell>,
+    /// Of each member.
+    pub properties: Vec<Property>,
 }
 
 #[derive(Clone, Debug)]
@@ -188,7 +190,7 @@ pub struct Automaton {
     pub locals: Vec<Local>,
     pub defines: Vec<Define>,
     pub requires: Vec<Require>,
-    pub invariants: Vec<Invariant>,
+    pub properties: Vec<Property>,
     pub initial: Option<Initial>,
     pub any: Vec<AnyState>,
     pub states: Vec<State>,
@@ -251,11 +253,40 @@ pub struct Define {
     pub value: Expr,
 }
 
+/// What a type promises beside its states: it is looked at behind the steps of every scan.
 #[derive(Clone, Debug)]
-pub struct Invariant {
-    pub condition: Expr,
-    /// What the operator is told when it does not hold.
-    pub text: Option<String>,
+pub struct Property {
+    /// Without its reaction.
+    pub span: Span,
+    pub kind: PropertyKind,
+    pub reaction: Reaction,
+}
+
+#[derive(Clone, Debug)]
+pub enum PropertyKind {
+    /// `invariant C`
+    Always(Expr),
+    /// `keep E, F while C`
+    Keep { values: Vec<Expr>, condition: Expr },
+    /// `whenever P then Q within T`
+    Whenever { trigger: Expr, goal: Expr, within: Expr },
+    /// `answer within T`
+    Answer { within: Expr },
+}
+
+/// What a violation does; with the text that tells of it.
+#[derive(Clone, Debug)]
+pub enum Reaction {
+    /// It stops the line.
+    Fault,
+    /// `else "text"`: it stops the line, which waits for the operator.
+    Ask(String),
+    /// `else stop line "text"`
+    StopLine(String),
+    /// `else stop machine "text"`
+    StopMachine(String),
+    /// `else warn "text"`
+    Warn(String),
 }
 
 #[derive(Clone, Debug)]

@@ -7,6 +7,7 @@ mod declaration;
 mod device;
 mod expression;
 mod limits;
+mod property;
 mod state;
 
 use crate::diagnostic::{Diagnostic, collect, suggestion};

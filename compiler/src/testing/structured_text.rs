@@ -1,7 +1,7 @@
 //! Emitted Structured Text as an engine: an evaluator that knows only the text runs it.
 
 use crate::backend::Files;
-use crate::ir::{Extent, Scalar, System};
+use crate::ir::{Extent, KeptBy, Scalar, System};
 use crate::naming::{camel, snake};
 use autogen_st_judge::listed;
 use autogen_st_judge::machine::{Machine, Place};
@@ -58,6 +58,8 @@ pub struct StructuredText {
     trace: Vec<Word>,
     /// Names of the words of the trace.
     pub names: Vec<String>,
+    /// The text has a table of alarms.
+    has_alarms: bool,
 }
 
 /// A word of the trace.
@@ -95,12 +97,24 @@ impl StructuredText {
         if !finder.missing.is_empty() {
             return Err(format!("not in the text: {}", finder.missing.join(" ")));
         }
+        let has_alarms = !system.alarms().is_empty();
         let mut first = Vec::new();
         crate::executor::Executor::new(system).trace(&mut first);
         let (names, places): (Vec<_>, Vec<_>) = trace.into_iter().unzip();
         let words = places.into_iter().zip(first);
         let trace = words.map(|(place, first)| place.map_or(Word::Constant(first), Word::At)).collect();
-        Ok(Self { machine, scans: 0, ended: None, most: 0, inputs, outputs, states, trace, names })
+        Ok(Self {
+            machine,
+            scans: 0,
+            ended: None,
+            most: 0,
+            inputs,
+            outputs,
+            states,
+            trace,
+            names,
+            has_alarms,
+        })
     }
 }
 
@@ -162,13 +176,21 @@ impl Finder<'_> {
         let automaton = self.system.automaton_of(index);
         let robot = self.instance(index);
         let block = format!("FB_{}", camel(&automaton.name));
+        let tests = self.emitted.name("MAIN", &format!("{}_properties", instance.name));
         let own = |name: &str, is_point, extent| {
             let variables = self.variables(&block, name, is_point, extent, 0);
             variables.into_iter().map(|variable| format!("{robot}.{variable}")).collect::<Vec<_>>()
         };
         let mut paths = vec![format!("{robot}.state"), format!("{robot}.elapsed")];
         for local in &automaton.locals {
-            paths.extend(own(&local.name, local.ty.scalar == Scalar::Point, local.ty.extent));
+            let is_point = local.ty.scalar == Scalar::Point;
+            match local.kept_by {
+                KeptBy::Steps => paths.extend(own(&local.name, is_point, local.ty.extent)),
+                KeptBy::Properties => {
+                    let names = self.variables(&block, &local.name, is_point, local.ty.extent, 0);
+                    paths.extend(names.into_iter().map(|name| format!("{tests}.{name}")));
+                }
+            }
         }
         for (implemented, row) in automaton.implements.iter().zip(&instance.rows) {
             let interface = self.system.model.interface(implemented.interface);
@@ -183,6 +205,14 @@ impl Finder<'_> {
         }
         for port in automaton.device.ports.iter().filter(|p| p.direction == Direction::Output) {
             paths.extend(own(&port.name, port.ty == PortType::Point, port.extent.into()));
+        }
+        if automaton.can_stop() {
+            paths.push(format!("robot_stopped[{index}]"));
+        }
+        for (entry, alarm) in self.system.alarms().into_iter().enumerate() {
+            let columns = ["active", "acknowledged", "count", "first", "last"];
+            let columns = columns.iter().filter(|_| alarm.robot == index);
+            paths.extend(columns.map(|column| format!("alarms_{column}[{entry}]")));
         }
         for path in paths {
             let place = self.machine.place(&path);
@@ -213,7 +243,7 @@ impl Controllers for StructuredText {
             self.ended = Some(format!("scan {}: the text ends at {error}", self.scans));
         }
         if self.ended.is_some() {
-            return SystemOutputs { running: false, fault: true, fault_code: -1, fault_robot: -1 };
+            return SystemOutputs { fault: true, fault_code: -1, ..SystemOutputs::default() };
         }
         self.scans += 1;
         self.most = self.most.max(self.machine.executed() - before);
@@ -227,6 +257,9 @@ impl Controllers for StructuredText {
             fault: machine.get("fault") != 0.0,
             fault_code: machine.get("fault_code") as i32,
             fault_robot: machine.get("fault_robot") as i32,
+            alarm: self.has_alarms && machine.get("alarm") != 0.0,
+            alarm_code: if self.has_alarms { machine.get("alarm_code") as i32 } else { 0 },
+            alarm_robot: if self.has_alarms { machine.get("alarm_robot") as i32 } else { -1 },
         }
     }
 

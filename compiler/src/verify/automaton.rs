@@ -4,7 +4,9 @@ use super::expression::Stored;
 use super::live::live;
 use super::plant::{Plant, Signal};
 use crate::executor::Executor;
-use crate::ir::{self, Automaton, Expr, InterfaceId, Place, RoleId, Scalar, System, UpdateKind, Value};
+use crate::ir::{
+    self, Automaton, Expr, InterfaceId, Place, PropertyKind, RoleId, Scalar, System, UpdateKind, Value,
+};
 use crate::reads::{Reads, Whose, is_fixed};
 use autogen_search::plant::Machine;
 use autogen_search::program::{
@@ -143,11 +145,14 @@ impl<'a> Instance<'a> {
         let live = live(automaton);
         let states =
             automaton.states.iter().zip(&live).map(|(state, live)| self.state(state, live)).collect();
-        let invariants = automaton.invariants.iter().map(|invariant| Invariant {
-            condition: self.int(&invariant.condition),
-            fault: invariant.fault.0,
-            asks_operator: invariant.asks_operator,
-            reads: self.cells_of(&invariant.condition),
+        let invariants = super::properties::searched(automaton).filter_map(|property| {
+            let PropertyKind::Always(condition) = &property.kind else { return None };
+            Some(Invariant {
+                condition: self.int(condition),
+                fault: property.site.0,
+                asks_operator: property.asks_operator,
+                reads: self.cells_of(condition),
+            })
         });
         let invariants = invariants.collect();
         autogen_search::program::Instance {

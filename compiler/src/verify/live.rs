@@ -1,6 +1,6 @@
 //! What of an instance is of no use in a state: whatever it holds, it is written before it is read.
 
-use crate::ir::{Automaton, Clause, Domain, Expr, ExprKind, Place, Update, UpdateKind};
+use crate::ir::{Automaton, Clause, Domain, Expr, ExprKind, Place, Property, Update, UpdateKind};
 use std::collections::BTreeSet;
 
 /// Locals by their numbers; behind them the answer of the last command.
@@ -9,7 +9,9 @@ type Set = BTreeSet<usize>;
 /// For each state what may be read before it is written; the number of the locals stands for the answer.
 pub fn live(automaton: &Automaton) -> Vec<Set> {
     let mut always = Set::new();
-    automaton.invariants.iter().for_each(|invariant| expr(automaton, &invariant.condition, &mut always));
+    super::properties::searched(automaton)
+        .flat_map(Property::exprs)
+        .for_each(|read| expr(automaton, read, &mut always));
     let mut live = vec![always; automaton.states.len()];
     loop {
         let mut has_changed = false;

@@ -6,6 +6,7 @@ mod live;
 mod memory;
 mod model;
 mod plant;
+mod properties;
 pub mod replay;
 pub mod scenario;
 pub mod story;

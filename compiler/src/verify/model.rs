@@ -3,8 +3,11 @@
 use super::automaton::{Instance, Line, Vars};
 use super::memory::{Kept, Memory, kept};
 use super::plant::plant;
+use super::properties::searched;
 use crate::diagnostic::Diagnostic;
-use crate::ir::{Automaton, Expr, ExprKind, Place, Scalar, System, Type, UpdateKind, Value};
+use crate::ir::{
+    Automaton, Expr, ExprKind, KeptBy, Place, Property, Scalar, System, Type, UpdateKind, Value,
+};
 use crate::lower::Project;
 use autogen_search::model::{Model, Reach};
 use autogen_search::plant::{Faults, Order, Watch};
@@ -54,8 +57,12 @@ pub fn model(project: &Project, faults: Faults) -> Result<Model, Vec<Diagnostic>
             .any(|state| !crate::reads::Reads::of_guards(automaton, state).timers.is_empty());
         let times = waits.then(|| memory.number(number, format!("{name}.(times)"), 255, 0));
         whole.states.push((state, times));
-        let locals = automaton.locals.iter().map(|local| {
-            values(&mut memory, number, &format!("{name}.{}", local.name), local.ty, local.initial)
+        let locals = automaton.locals.iter().map(|local| match local.kept_by {
+            // Nothing that is searched reads it.
+            KeptBy::Properties => (Vec::new(), 0),
+            KeptBy::Steps => {
+                values(&mut memory, number, &format!("{name}.{}", local.name), local.ty, local.initial)
+            }
         });
         whole.locals.push(locals.collect());
         whole.plants.push(plant(
@@ -183,10 +190,10 @@ fn reads_port(automaton: &Automaton, port: usize) -> bool {
         }
     };
     let defines = automaton.defines.iter().any(|define| reads(&define.value, port));
-    let invariants = automaton.invariants.iter().any(|invariant| reads(&invariant.condition, port));
+    let properties = searched(automaton).flat_map(Property::exprs).any(|expr| reads(expr, port));
     let mut transitions = automaton.states.iter().flat_map(|state| &state.transitions);
     defines
-        || invariants
+        || properties
         || transitions.any(|transition| {
             transition.clauses.iter().any(clause) || transition.updates.iter().any(|u| update(&u.kind))
         })

@@ -10,6 +10,7 @@ use super::{
 use crate::machine::Machine;
 use crate::part::Part;
 use crate::point::Point;
+use crate::watch::{Alarm, Counter, Watch};
 use crate::wiring::Wiring;
 use crate::words::Words;
 
@@ -21,7 +22,7 @@ impl Line {
             out.push_str(entry.trim_end());
             out.push('\n');
         };
-        put("line 4".into());
+        put("line 5".into());
         put(format!("scan_ms {}", self.scan_ms));
         put(match self.io_delay {
             IoDelay::Fixed(scans) => format!("io_delay fixed {scans}"),
@@ -66,6 +67,18 @@ impl Line {
                     list(&state.awaits),
                     list(&state.reads)
                 ));
+            }
+            let Watch { stopped, counters, alarms } = &machine.watch;
+            let stopped = stopped.map_or("never".into(), |word| format!("at {word}"));
+            put(format!("    stopped {stopped}"));
+            put(format!("    counters {}", counters.len()));
+            for Counter { word, limit } in counters {
+                let limit = limit.map_or("any".into(), |limit| format!("at {limit}"));
+                put(format!("      {word} {limit}"));
+            }
+            put(format!("    alarms {}", alarms.len()));
+            for Alarm { code, word } in alarms {
+                put(format!("      {code} {word}"));
             }
         }
         put(format!("obstacles {}", self.obstacles.len()));
@@ -183,6 +196,15 @@ fn point_text(point: Point) -> String {
     format!("{:?} {:?} {:?}", point.x, point.y, point.z)
 }
 
+/// A number behind `at`, or the word for none.
+fn optional<T: std::str::FromStr>(words: &mut Words, none: &str) -> Result<Option<T>, String> {
+    match words.name()? {
+        "at" => Ok(Some(words.int()?)),
+        word if word == none => Ok(None),
+        other => Err(words.error(format_args!("`{other}` is neither `{none}` nor `at`"))),
+    }
+}
+
 fn read_machine(words: &mut Words, devices: &[Arc<Wiring>]) -> Result<Machine, String> {
     let name = words.name()?.into();
     let device: usize = words.int()?;
@@ -211,7 +233,21 @@ fn read_machine(words: &mut Words, devices: &[Arc<Wiring>]) -> Result<Machine, S
         };
         Ok(State { name, working, awaits, reads, timers })
     })?;
-    Ok(Machine { name, pose, parts, wiring, states })
+    let watch = Watch {
+        stopped: {
+            words.expect("stopped")?;
+            optional(words, "never")?
+        },
+        counters: {
+            words.expect("counters")?;
+            words.list(|w| Ok(Counter { word: w.int()?, limit: optional(w, "any")? }))?
+        },
+        alarms: {
+            words.expect("alarms")?;
+            words.list(|w| Ok(Alarm { code: w.int()?, word: w.int()? }))?
+        },
+    };
+    Ok(Machine { name, pose, parts, wiring, states, watch })
 }
 
 fn read_obstacle(words: &mut Words) -> Result<Obstacle, String> {

@@ -4,6 +4,7 @@ use super::changes::Changes;
 use crate::line::Line;
 use crate::plant::Plant;
 use crate::scan::{SystemInputs, SystemOutputs};
+use crate::watch::Counter;
 
 /// What the controllers wait for since the last scan in which they were stepped. A scan in which none of this happens
 /// does nothing but let times in states go on.
@@ -58,11 +59,20 @@ impl<'a> Agenda<'a> {
             let Some(state) = description.states.get(states[machine]) else { return true };
             let stay = self.stays.get(machine).map_or(0.0, |word| changes.stay(*word));
             let ends = |timer: &u32| stay < f64::from(*timer) && f64::from(*timer) <= stay + passed;
+            let watch = &description.watch;
+            let stops = watch.is_stopped(changes.trace());
+            let counter_ends = |counter: &Counter| {
+                let waited = changes.stay(counter.word);
+                let ends = |limit: u32| waited < f64::from(limit) && f64::from(limit) <= waited + passed;
+                waited >= 0.0 && counter.limit.is_none_or(ends)
+            };
             let differs = |word: &usize| {
                 self.latched[machine].get(*word).map(|w| w.to_bits())
                     != inputs[machine].get(*word).map(|w| w.to_bits())
             };
-            state.timers.as_ref().is_none_or(|timers| timers.iter().any(ends))
+            !stops
+                && (state.timers.as_ref().is_none_or(|timers| timers.iter().any(ends))
+                    || watch.counters.iter().any(counter_ends))
                 || state.reads.iter().any(differs)
         })
     }
@@ -97,14 +107,26 @@ impl<'a> Agenda<'a> {
         let mut next: Option<u64> = None;
         for (machine, description) in self.line.machines.iter().enumerate() {
             let Some(state) = description.states.get(states[machine]) else { return Some(scan + 1) };
-            let Some(timers) = &state.timers else { return Some(scan + 1) };
             let reads_analogue =
                 || state.reads.iter().any(|word| self.analogue[machine].get(*word) == Some(&true));
             if plant.moves(machine) && reads_analogue() {
                 return Some(scan + 1);
             }
+            if description.watch.is_stopped(changes.trace()) {
+                continue;
+            }
+            let Some(timers) = &state.timers else { return Some(scan + 1) };
             let stay = self.stays.get(machine).map_or(0.0, |word| changes.stay(*word));
-            let left = timers.iter().map(|timer| f64::from(*timer) - stay).filter(|left| *left > 0.0);
+            let mut left: Vec<f64> = timers.iter().map(|timer| f64::from(*timer) - stay).collect();
+            for counter in &description.watch.counters {
+                let waited = changes.stay(counter.word);
+                match counter.limit {
+                    _ if waited < 0.0 => {}
+                    Some(limit) => left.push(f64::from(limit) - waited),
+                    None => return Some(scan + 1),
+                }
+            }
+            let left = left.into_iter().filter(|left| *left > 0.0);
             let scans = left.map(|left| (left / f64::from(self.line.scan_ms)).ceil() as u64).min();
             if let Some(scans) = scans {
                 let due = (last.scan + scans).max(scan + 1);

@@ -269,7 +269,13 @@ impl Controllers for Script {
             outputs[machine][output::HOLD] = f64::from(u8::from(!self.running));
         }
         let (fault_code, fault_robot) = fault.unwrap_or((0, -1));
-        SystemOutputs { running: self.running, fault: fault.is_some(), fault_code, fault_robot }
+        SystemOutputs {
+            running: self.running,
+            fault: fault.is_some(),
+            fault_code,
+            fault_robot,
+            ..SystemOutputs::default()
+        }
     }
 
     fn state(&self, machine: usize) -> usize {

@@ -4,12 +4,12 @@
 //! closes it; sessions share nothing, and each is used by one thread at a time.
 #![allow(unsafe_code)] // Pointers are all that a C interface has.
 
-use crate::layout::{Layout, latch, publish};
+use crate::layout::{Layout, alarm, latch, publish};
 use crate::read::Reader;
 use controllers::system::{System, SystemInputs};
 
 /// Changes with the functions below.
-pub const VERSION: u32 = 2;
+pub const VERSION: u32 = 3;
 
 pub struct Session {
     layout: Layout,
@@ -41,6 +41,9 @@ pub struct Outputs {
     pub fault: u8,
     pub fault_code: i32,
     pub fault_robot: i32,
+    pub alarm: u8,
+    pub alarm_code: i32,
+    pub alarm_robot: i32,
 }
 
 #[unsafe(no_mangle)]
@@ -138,11 +141,15 @@ pub unsafe extern "C" fn autogen_scan(
         reset: system.reset != 0,
     };
     let found = session.layout.scan(&mut session.system, system);
+    let (alarm, alarm_code, alarm_robot) = alarm(&found);
     *answer = Outputs {
         running: found.running.into(),
         fault: found.fault.into(),
         fault_code: found.fault_code,
         fault_robot: found.fault_robot,
+        alarm: alarm.into(),
+        alarm_code,
+        alarm_robot,
     };
     for (number, (robot, image)) in session.layout.robots.iter().zip(outputs).enumerate() {
         publish(robot, found.running, &mut session.image);

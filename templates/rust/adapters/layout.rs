@@ -78,6 +78,25 @@ impl Read for {{ robot.module }}::Parameters<'static> {
 }
 {%- endfor %}
 
+/// `alarm`, `alarm_code`, `alarm_robot`{% if !alarms %}: this line has none{% endif %}.
+pub fn alarm({% if !alarms %}_{% endif %}outputs: &SystemOutputs) -> (bool, i32, i32) {
+    {%- if alarms %}
+    (outputs.alarm, outputs.alarm_code, outputs.alarm_robot)
+    {%- else %}
+    (false, 0, -1)
+    {%- endif %}
+}
+{%- if alarms %}
+
+impl Put for &Alarm {
+    fn put(self, out: &mut Vec<f64>) {
+        self.active.put(out);
+        self.acknowledged.put(out);
+        [self.count, self.first, self.last].into_iter().for_each(|word| word.put(out));
+    }
+}
+{%- endif %}
+
 /// The inputs of a robot from its process image.
 pub fn latch(robot: &mut Robot, image: &[f64]) {
     let image = &mut Image::new(image);
@@ -184,7 +203,7 @@ impl Layout {
         system.scan(inputs, &self.wiring, &mut self.robots{% if uses_cells %}, &mut self.cells{% endif %})
     }
 
-    pub fn skip(&mut self, system: &System, scans: u64) {
+    pub fn skip(&mut self, system: &mut System, scans: u64) {
         system.skip(scans, &self.wiring, &mut self.robots);
     }
 
@@ -199,7 +218,7 @@ impl Layout {
         stays
     }
 
-    /// All that the controllers remember: for each robot state, time in it, locals, own cells, outputs.
+    /// All that the controllers remember: for each robot state, time in it, locals, own cells, outputs, alarms.
     pub fn trace(&self, out: &mut Vec<f64>) {
         self.robots.iter().for_each(|robot| self.trace_of(robot, out));
     }
@@ -220,6 +239,12 @@ impl Layout {
                 {{ cell }}.put(out);
                 {%- endfor %}
                 robot.outputs.put(out);
+                {%- if robot.can_stop %}
+                robot.stopped.put(out);
+                {%- endif %}
+                {%- if robot.has_alarms %}
+                robot.alarms.iter().for_each(|alarm| alarm.put(out));
+                {%- endif %}
             }
             {%- endfor %}
         }

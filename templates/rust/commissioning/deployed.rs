@@ -1,6 +1,6 @@
 //! The controllers as the simulator meets them.
 
-use adapters::layout::{Layout, latch, publish};
+use adapters::layout::{Layout, alarm, latch, publish};
 use adapters::read::Reader;
 use controllers::system::{self, System};
 use runtime_sim::line::Line;
@@ -46,8 +46,9 @@ impl Controllers for Deployed {
         for (robot, image) in self.layout.robots.iter().zip(outputs) {
             publish(robot, answer.running, image);
         }
-        let system::SystemOutputs { running, fault, fault_code, fault_robot } = answer;
-        SystemOutputs { running, fault, fault_code, fault_robot }
+        let (alarm, alarm_code, alarm_robot) = alarm(&answer);
+        let system::SystemOutputs { running, fault, fault_code, fault_robot, .. } = answer;
+        SystemOutputs { running, fault, fault_code, fault_robot, alarm, alarm_code, alarm_robot }
     }
 
     fn state(&self, machine: usize) -> usize {
@@ -63,6 +64,6 @@ impl Controllers for Deployed {
     }
 
     fn skip(&mut self, scans: u64) {
-        self.layout.skip(&self.system, scans);
+        self.layout.skip(&mut self.system, scans);
     }
 }

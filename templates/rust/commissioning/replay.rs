@@ -24,6 +24,9 @@ pub fn replay(deployed: &mut Deployed) -> Result<(), String> {
             f64::from(u8::from(answer.fault)),
             f64::from(answer.fault_code),
             f64::from(answer.fault_robot),
+            f64::from(u8::from(answer.alarm)),
+            f64::from(answer.alarm_code),
+            f64::from(answer.alarm_robot),
         ];
         all.extend(outputs.iter().flatten());
         deployed.trace(&mut all);

@@ -95,6 +95,14 @@ pub struct {{ ty }}<'a> {
     {{ field.doc }}
     pub {{ field.name }}: {{ field.ty }},
     {%- endfor %}
+    {%- if !alarms.is_empty() %}
+    /// In the order of the text.
+    pub alarms: [Alarm; {{ alarms.len() }}],
+    {%- endif %}
+    {%- if can_stop %}
+    /// An alarm has stopped it: it makes no steps, and its device is held.
+    pub stopped: bool,
+    {%- endif %}
 }
 
 impl<'a> {{ ty }}<'a> {
@@ -116,11 +124,23 @@ impl<'a> {{ ty }}<'a> {
             {%- for field in locals %}
             {{ field.name }}: {{ field.initial }},
             {%- endfor %}
+            {%- if !alarms.is_empty() %}
+            alarms: [{% for alarm in alarms %}{{ alarm }}, {% endfor %}],
+            {%- endif %}
+            {%- if can_stop %}
+            stopped: false,
+            {%- endif %}
         }
     }
 
     /// The first transition of the present state whose guard holds fires; at most one.
     pub fn step(&mut self, {{ step_parameters }}) -> Result<(), Fault> {
+        {%- if can_stop %}
+        if self.stopped {
+            self.elapsed = 0;
+            return Ok(());
+        }
+        {%- endif %}
         self.elapsed = self.elapsed.saturating_add(wiring.scan_ms);
         match self.state {
             {%- for arm in arms %}
@@ -131,16 +151,42 @@ impl<'a> {{ ty }}<'a> {
 
     /// What the device is told in this scan.
     pub fn published(&self, running: bool) -> Outputs {
-        if running { self.outputs } else { self.outputs.stopped() }
+        if running{% if can_stop %} && !self.stopped{% endif %} { self.outputs } else { self.outputs.stopped() }
     }
-    {%- if !invariants.is_empty() %}
+    {%- if !properties.is_empty() %}
 
-    /// What holds at the end of every scan.
-    pub fn invariants(&self, {{ invariant_parameters }}) -> Result<(), Fault> {
-        {%- for invariant in invariants %}
-        {{ invariant }}
+    /// What is looked at behind the steps of every scan.
+    pub fn properties(&{% if remembers %}mut {% endif %}self, {{ property_parameters }}) -> Result<(), Fault> {
+        {%- for property in properties %}
+        {{ property }}
         {%- endfor %}
         Ok(())
+    }
+    {%- endif %}
+    {%- if can_stop || !counters.is_empty() %}
+
+    /// So many milliseconds pass in which nothing happens.
+    pub fn stay(&mut self, ms: i32) {
+        {%- if can_stop %}
+        if self.stopped {
+            return;
+        }
+        {%- endif %}
+        self.elapsed = self.elapsed.saturating_add(ms);
+        {%- for counter in counters %}
+        if self.{{ counter }} >= 0 {
+            self.{{ counter }} = self.{{ counter }}.saturating_add(ms);
+        }
+        {%- endfor %}
+    }
+    {%- endif %}
+    {%- if !anew.is_empty() %}
+
+    /// What properties remember begins anew.
+    pub fn observe_anew(&mut self) {
+        {%- for statement in anew %}
+        {{ statement }}
+        {%- endfor %}
     }
     {%- endif %}
     {%- for method in methods %}

@@ -42,14 +42,14 @@ impl Robot<'_> {
             {%- endfor %}
         }
     }
-    {%- if invariants %}
+    {%- if properties %}
 
-    /// What holds at the end of every scan.
-    pub fn invariants(&self, {{ invariants_parameters }}) -> Result<(), Fault> {
+    /// What is looked at behind the steps of every scan.
+    pub fn properties(&{% if properties_change %}mut {% endif %}self, {{ properties_parameters }}) -> Result<(), Fault> {
         match self {
             {%- for robot in robots %}
-            {%- if robot.has_invariants %}
-            Self::{{ robot.ty }}(robot) => robot.invariants({{ robot.invariants_arguments }}),
+            {%- if robot.has_properties %}
+            Self::{{ robot.ty }}(robot) => robot.properties({{ robot.properties_arguments }}),
             {%- else %}
             Self::{{ robot.ty }}(_) => Ok(()),
             {%- endif %}
@@ -62,16 +62,55 @@ impl Robot<'_> {
     pub fn stay(&mut self, ms: i32) {
         match self {
             {%- for robot in robots %}
+            {%- if robot.counts %}
+            Self::{{ robot.ty }}(robot) => robot.stay(ms),
+            {%- else %}
             Self::{{ robot.ty }}(robot) => robot.elapsed = robot.elapsed.saturating_add(ms),
+            {%- endif %}
             {%- endfor %}
         }
     }
 
-    /// The time in the present state begins anew.
+    {%- if alarms %}
+    /// In the order of the text of its type.
+    pub fn alarms(&self) -> &[Alarm] {
+        match self {
+            {%- for robot in robots %}
+            {%- if robot.has_alarms %}
+            Self::{{ robot.ty }}(robot) => &robot.alarms,
+            {%- else %}
+            Self::{{ robot.ty }}(_) => &[],
+            {%- endif %}
+            {%- endfor %}
+        }
+    }
+
+    /// All its alarms have been seen.
+    pub fn acknowledge(&mut self) {
+        match self {
+            {%- for robot in robots %}
+            {%- if robot.has_alarms %}
+            Self::{{ robot.ty }}(robot) => robot.alarms.iter_mut().for_each(|alarm| alarm.acknowledged = true),
+            {%- else %}
+            Self::{{ robot.ty }}(_) => {}
+            {%- endif %}
+            {%- endfor %}
+        }
+    }
+
+    {% endif -%}
+    /// The time in the present state begins anew{% if properties_change %}, and what properties remember{% endif %}.
     pub fn stay_anew(&mut self) {
         match self {
             {%- for robot in robots %}
+            {%- if robot.begins_anew %}
+            Self::{{ robot.ty }}(robot) => {
+                robot.elapsed = 0;
+                robot.observe_anew();
+            }
+            {%- else %}
             Self::{{ robot.ty }}(robot) => robot.elapsed = 0,
+            {%- endif %}
             {%- endfor %}
         }
     }

@@ -3,7 +3,8 @@
 //! Inputs are latched, the robots step one after another in the order of the layout, then outputs are
 //! published. After power-up nothing moves before a rising edge of `start`. This is no safety function.
 
-use crate::cells::{% if uses_cells %}{Cells, Wiring}{% else %}Wiring{% endif %};
+{% if alarms %}use crate::alarm::Alarm;
+{% endif %}use crate::cells::{% if uses_cells %}{Cells, Wiring}{% else %}Wiring{% endif %};
 use crate::robot::Robot;
 use crate::types::Fault;
 
@@ -14,7 +15,7 @@ pub struct SystemInputs {
     pub run_permit: bool,
     /// Acts on its rising edge.
     pub start: bool,
-    /// Clears a fault on its rising edge; all values are kept, and the time in each state begins anew.
+    /// {% if alarms %}Acknowledges all alarms, and clears{% else %}Clears{% endif %} a fault on its rising edge; all values are kept, and the time in each state begins anew.
     pub reset: bool,
 }
 
@@ -27,6 +28,14 @@ pub struct SystemOutputs {
     pub fault_code: i32,
     /// Number of the robot that raised the fault, from 0 in layout order; -1 if none did.
     pub fault_robot: i32,
+    {%- if alarms %}
+    /// An alarm is active, or not acknowledged.
+    pub alarm: bool,
+    /// Of the alarms that are not acknowledged, the one that was raised first; 0 if there is none.
+    pub alarm_code: i32,
+    /// Number of the robot that raised it; -1 if there is none.
+    pub alarm_robot: i32,
+    {%- endif %}
 }
 
 /// What the system remembers from scan to scan, beside robots and cells.
@@ -37,11 +46,15 @@ pub struct System {
     fault: Option<(Fault, usize)>,
     start_before: bool,
     reset_before: bool,
+    {%- if alarms %}
+    /// Scans since power-up; stops at its greatest value.
+    scan: i32,
+    {%- endif %}
 }
 
 impl System {
     pub const fn new() -> Self {
-        Self { running: false, fault: None, start_before: true, reset_before: true }
+        Self { running: false, fault: None, start_before: true, reset_before: true{% if alarms %}, scan: 0{% endif %} }
     }
 
     pub fn fault(&self) -> Option<Fault> {
@@ -65,7 +78,15 @@ impl System {
         }
         {%- endif %}
         let faulted_before = self.fault.is_some();
+        {%- if alarms %}
+        let reset = inputs.reset && !self.reset_before;
+        if reset {
+            robots.iter_mut().for_each(Robot::acknowledge);
+        }
+        if reset && self.fault.take().is_some() {
+        {%- else %}
         if inputs.reset && !self.reset_before && self.fault.take().is_some() {
+        {%- endif %}
             robots.iter_mut().for_each(Robot::stay_anew);
         }
         let start = inputs.start && !self.start_before;
@@ -77,22 +98,34 @@ impl System {
             self.running = true;
         }
         if self.running
-            && let Err(fault) = run(wiring, robots{% if uses_cells %}, cells{% endif %})
+            && let Err(fault) = run(wiring, robots{% if uses_cells %}, cells{% endif %}{% if scan %}, self.scan{% endif %}{% if start %}, start{% endif %})
         {
             self.fault = Some(fault);
             self.running = false;
         }
+        {%- if alarms %}
+        self.scan = self.scan.saturating_add(1);
+        let first = first_alarm(robots);
+        {%- endif %}
         SystemOutputs {
             running: self.running,
             fault: self.fault.is_some(),
             fault_code: self.fault.map_or(0, |(fault, _)| fault.code),
             fault_robot: self.fault.map_or(-1, |(_, robot)| robot as i32),
+            {%- if alarms %}
+            alarm: robots.iter().any(|robot| robot.alarms().iter().any(Alarm::is_open)),
+            alarm_code: first.map_or(0, |(alarm, _)| alarm.cause.code),
+            alarm_robot: first.map_or(-1, |(_, robot)| robot as i32),
+            {%- endif %}
         }
     }
 
     /// In place of so many scans in which nothing happens: no input that a state reads changes, and no timer ends. Every
     /// state says what it reads. A controller can do without; a simulator saves time.
-    pub fn skip(&self, scans: u64, wiring: &Wiring, robots: &mut [Robot]) {
+    pub fn skip(&{% if alarms %}mut {% endif %}self, scans: u64, wiring: &Wiring, robots: &mut [Robot]) {
+        {%- if alarms %}
+        self.scan = self.scan.saturating_add(i32::try_from(scans).unwrap_or(i32::MAX));
+        {%- endif %}
         if self.running {
             let passed = i32::try_from(scans).unwrap_or(i32::MAX).saturating_mul(wiring.scan_ms);
             robots.iter_mut().for_each(|robot| robot.stay(passed));
@@ -106,6 +139,15 @@ impl Default for System {
     }
 }
 
+{%- if alarms %}
+/// Of the alarms that are not acknowledged, the one that was raised first, and its robot.
+fn first_alarm<'a>(robots: &'a [Robot]) -> Option<(&'a Alarm, usize)> {
+    let robots = robots.iter().enumerate();
+    let alarms = robots.flat_map(|(number, robot)| robot.alarms().iter().map(move |alarm| (alarm, number)));
+    alarms.filter(|(alarm, _)| !alarm.acknowledged).min_by_key(|(alarm, _)| alarm.last)
+}
+
+{% endif -%}
 /// A step of each robot, up to the first fault.
 fn run(
     wiring: &Wiring,
@@ -113,13 +155,19 @@ fn run(
     {%- if uses_cells %}
     cells: &mut Cells,
     {%- endif %}
+    {%- if scan %}
+    scan: i32,
+    {%- endif %}
+    {%- if start %}
+    start: bool,
+    {%- endif %}
 ) -> Result<(), (Fault, usize)> {
     for (number, robot) in robots.iter_mut().enumerate() {
         robot.step(wiring{% if uses_cells %}, cells{% endif %}).map_err(|fault| (fault, number))?;
     }
-    {%- if invariants %}
-    for (number, robot) in robots.iter().enumerate() {
-        robot.invariants({{ invariants_arguments }}).map_err(|fault| (fault, number))?;
+    {%- if properties %}
+    for (number, robot) in robots.iter{% if properties_change %}_mut{% endif %}().enumerate() {
+        robot.properties({{ properties_arguments }}).map_err(|fault| (fault, number))?;
     }
     {%- endif %}
     Ok(())

@@ -1,8 +1,9 @@
 //! Constructs of the intermediate representation.
 
 use autogen::ir::{
-    Automaton, Clause, Domain, Expr, ExprKind, Extent, Invariant, Model, Operator, ParameterSource, Place,
-    Require, RoleKind, Scalar, State, Target, Transition, Type, Update, UpdateKind, Value,
+    Automaton, Clause, Domain, Expr, ExprKind, Extent, Model, Operator, ParameterSource, Place, Property,
+    PropertyKind, Require, RoleKind, Scalar, Severity, State, Target, Transition, Type, Update, UpdateKind,
+    Value,
 };
 use runtime_sim::device::Direction;
 use std::collections::BTreeSet;
@@ -107,9 +108,20 @@ impl<'a> Names<'a> {
         transition.updates.iter().for_each(|u| self.update(u));
     }
 
-    pub fn invariant(&mut self, invariant: &Invariant) {
-        self.add("invariant");
-        self.expr(&invariant.condition);
+    pub fn property(&mut self, property: &Property) {
+        let severity = match property.severity {
+            Severity::Warning => "warns",
+            Severity::Machine => "stops its machine",
+            Severity::Line => "stops the line",
+        };
+        let kind = match property.kind {
+            PropertyKind::Always(_) => "invariant",
+            PropertyKind::Keep { .. } => "keep",
+            PropertyKind::Whenever { .. } => "whenever",
+        };
+        self.add(kind);
+        self.add(format!("property: {severity}"));
+        property.exprs().into_iter().for_each(|expr| self.expr(expr));
     }
 
     pub fn require(&mut self, require: &Require) {

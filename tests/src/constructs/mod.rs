@@ -61,9 +61,9 @@ impl Table {
                     }
                 }
             }
-            for invariant in &automaton.invariants {
-                written.invariant(invariant);
-                executed.invariant(invariant);
+            for property in &automaton.properties {
+                written.property(property);
+                executed.property(property);
             }
             for (system, instance) in instances(layouts, AutomatonId(number)) {
                 for require in &automaton.requires {
@@ -123,6 +123,8 @@ fn fault_name(kind: FaultKind) -> &'static str {
         FaultKind::OutOfBounds => "fault: out of bounds",
         FaultKind::NotFinite => "fault: not finite",
         FaultKind::InvariantFails => "fault: invariant",
+        FaultKind::NotKept => "fault: not kept",
+        FaultKind::NotFollowed => "fault: not followed",
         FaultKind::TooLong => "fault: too long",
     }
 }

@@ -79,6 +79,7 @@ fn text(lot: &mut Lot, world: &World, name: &str, device: &Arc<Device>, own: &[&
     out += &writer.definitions();
     out += &writer.states();
     out += &writer.invariants();
+    out += &writer.properties();
     out + "}\n"
 }
 

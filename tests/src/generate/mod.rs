@@ -8,6 +8,7 @@ mod expression;
 mod guard;
 mod layout;
 mod lot;
+mod property;
 mod update;
 mod world;
 mod writer;

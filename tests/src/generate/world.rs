@@ -129,6 +129,8 @@ impl World {
     shared flags: bool[Colour] by owner;
     shared pause: time by owner;
     shared alarm: bool by handshake;
+    keep tally while alarm and rank < 9 else warn \"counted during an alarm\";
+    whenever alarm then tally > 0 or not alarm within pause else warn \"nobody comes\";
 }
 ";
         text += &shelf;

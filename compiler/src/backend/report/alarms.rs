@@ -9,7 +9,7 @@ use runtime_sim::wiring;
 use serde_json::{Value, json};
 
 /// Time in s, number of the machine or -1, and what happened; in the order of time.
-pub fn alarms(line: &Line, history: &History, signals: &[Signal]) -> Vec<Value> {
+pub fn alarms(line: &Line, history: &History, signals: &[Signal], results: &Value) -> Vec<Value> {
     let kinds = line.kinds.len();
     let errors: Vec<Option<usize>> =
         line.machines.iter().map(|machine| machine.wiring.input_at(wiring::Source::Error, kinds)).collect();
@@ -37,9 +37,27 @@ pub fn alarms(line: &Line, history: &History, signals: &[Signal]) -> Vec<Value> 
             _ => {}
         }
     }
-    alarms.sort();
     let seconds = |scan: u64| (scan * u64::from(line.scan_ms)) as f64 / 1000.0;
-    alarms.into_iter().map(|(scan, machine, text)| json!([seconds(scan), machine, text])).collect()
+    let alarms = alarms.into_iter().map(|(scan, machine, text)| (seconds(scan), machine, text));
+    let mut all: Vec<(f64, i64, String)> = alarms.chain(raised(line, results)).collect();
+    all.sort_by(|a, b| a.0.total_cmp(&b.0).then_with(|| (a.1, &a.2).cmp(&(b.1, &b.2))));
+    all.into_iter().map(|(time, machine, text)| json!([time, machine, text])).collect()
+}
+
+/// The alarms of the table, each at its first time.
+fn raised(line: &Line, results: &Value) -> Vec<(f64, i64, String)> {
+    let alarms = results["alarms"].as_array().into_iter().flatten();
+    let one = |alarm: &Value| {
+        let robot = alarm["robot"].as_str()?;
+        let machine = line.machines.iter().position(|machine| machine.name == robot)?;
+        let again = match alarm["count"].as_u64()? {
+            1 => String::new(),
+            count => format!(", {count} times until {:.2} s", alarm["last_s"].as_f64()?),
+        };
+        let text = format!("alarm {}: {}{again}", alarm["code"], alarm["text"].as_str()?);
+        Some((alarm["first_s"].as_f64()?, machine as i64, text))
+    };
+    alarms.filter_map(one).collect()
 }
 
 /// When a word became other than 0.

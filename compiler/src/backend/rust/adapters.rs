@@ -1,7 +1,7 @@
 //! Between process images or texts and the controllers.
 
 use super::context::Shared;
-use super::shared::uses_cells;
+use super::shared::{has_alarms, uses_cells};
 use super::{format, render};
 use askama::Template;
 use runtime_sim::device::Direction;
@@ -16,6 +16,7 @@ struct Adapters {
     has_cells: bool,
     uses_cells: bool,
     has_wiring: bool,
+    alarms: bool,
 }
 
 struct InterfaceView {
@@ -43,6 +44,8 @@ struct RobotView {
     locals: Vec<String>,
     /// Paths of the cells that it owns.
     cells: Vec<String>,
+    has_alarms: bool,
+    can_stop: bool,
 }
 
 pub fn adapters(shared: Shared) -> String {
@@ -72,6 +75,7 @@ pub fn adapters(shared: Shared) -> String {
         interfaces,
         uses_cells: uses_cells(shared),
         has_wiring,
+        alarms: has_alarms(shared),
     };
     let mut importable = shared.importable("controllers");
     importable.push(("crate::image".into(), ["Image", "Latch", "Put"].map(String::from).into()));
@@ -103,5 +107,7 @@ fn robot(shared: Shared, id: usize) -> RobotView {
         parameters: names.parameters.iter().chain(&names.roles).chain(&names.rows).cloned().collect(),
         locals: names.locals.clone(),
         cells: owned.collect(),
+        has_alarms: automaton.alarms().next().is_some(),
+        can_stop: automaton.can_stop(),
     }
 }

@@ -2,10 +2,11 @@
 
 use super::context::{Context, doc};
 use super::format;
+use super::property;
 use super::render;
 use super::walk::Uses;
 use crate::device::Port;
-use crate::ir::{Extent, RoleKind, Scalar, Type, Value};
+use crate::ir::{Extent, KeptBy, RoleKind, Scalar, Type, Value};
 use askama::Template;
 use runtime_sim::device::{Direction, PortType, Stop};
 
@@ -33,8 +34,14 @@ struct Module {
     commands: bool,
     done: bool,
     failed: bool,
-    invariants: Vec<String>,
-    invariant_parameters: String,
+    properties: Vec<String>,
+    property_parameters: String,
+    /// Properties keep something from scan to scan.
+    remembers: bool,
+    anew: Vec<String>,
+    counters: Vec<String>,
+    alarms: Vec<String>,
+    can_stop: bool,
 }
 
 struct Field {
@@ -63,7 +70,7 @@ pub fn module(context: &Context) -> String {
         uses.join(state.uses);
     }
     let mut asked = uses.clone();
-    asked.join(invariant_uses(context));
+    asked.join(property::uses(context));
     automaton.defines.iter().for_each(|d| asked.expr(automaton, &d.value));
     let stops: Vec<String> =
         ports(Direction::Output).filter_map(|(port, name)| stop(context, port, name)).collect();
@@ -103,7 +110,10 @@ pub fn module(context: &Context) -> String {
             .iter()
             .zip(&names.locals)
             .map(|(l, name)| Field {
-                doc: doc(&l.doc),
+                doc: match l.kept_by {
+                    KeptBy::Steps => doc(&l.doc),
+                    KeptBy::Properties => doc(&["Kept by a property.".into()]),
+                },
                 name: name.clone(),
                 ty: context.ty(l.ty),
                 initial: context.filled(l.ty, l.initial),
@@ -117,8 +127,13 @@ pub fn module(context: &Context) -> String {
         commands,
         done: asked.done,
         failed: asked.failed,
-        invariants: invariants(context),
-        invariant_parameters: context.parameters(&invariant_uses(context)),
+        properties: property::properties(context),
+        property_parameters: context.parameters(&property::uses(context)),
+        remembers: property::remembers(automaton),
+        anew: property::anew(context),
+        counters: property::counters(context),
+        alarms: property::alarms(context),
+        can_stop: automaton.can_stop(),
     };
     format::module(&render(&module), &context.importable("crate"))
 }
@@ -217,14 +232,6 @@ fn define(context: &Context, number: usize) -> String {
     )
 }
 
-pub fn invariant_uses(context: &Context) -> Uses {
-    let mut uses = Uses::default();
-    for invariant in &context.automaton().invariants {
-        uses.expr(context.automaton(), &invariant.condition);
-    }
-    uses
-}
-
 /// What a step needs beside the robot.
 pub fn step_uses(context: &Context) -> Uses {
     let mut uses = Uses { wiring: true, ..Uses::default() };
@@ -232,17 +239,4 @@ pub fn step_uses(context: &Context) -> Uses {
         uses.join(context.state(number).uses);
     }
     uses
-}
-
-fn invariants(context: &Context) -> Vec<String> {
-    let mut texts = Vec::new();
-    for invariant in &context.automaton().invariants {
-        let condition = context.expr(&invariant.condition);
-        texts.push(format!(
-            "{}let holds = {condition}; if !holds {{ return Err({}); }}",
-            format::comment(&format!("{}: invariant {}", context.line(invariant.place), invariant.text)),
-            context.fault(invariant.fault)
-        ));
-    }
-    texts
 }

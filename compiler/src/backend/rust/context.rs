@@ -43,17 +43,27 @@ impl<'a> Context<'a> {
 
     /// What a method is called with.
     pub fn arguments(&self, uses: &Uses) -> String {
-        list([("wiring", uses.wiring), ("cells", uses.cells != Access::None)])
+        list([
+            ("wiring", uses.wiring),
+            ("cells", uses.cells != Access::None),
+            ("scan", uses.scan),
+            ("start", uses.start),
+        ])
     }
 
     /// What a method declares behind `self`.
     pub fn parameters(&self, uses: &Uses) -> String {
         let reference = if uses.cells == Access::Write { "cells: &mut Cells" } else { "cells: &Cells" };
-        list([("wiring: &Wiring", uses.wiring), (reference, uses.cells != Access::None)])
+        list([
+            ("wiring: &Wiring", uses.wiring),
+            (reference, uses.cells != Access::None),
+            ("scan: i32", uses.scan),
+            ("start: bool", uses.start),
+        ])
     }
 }
 
-fn list(entries: [(&str, bool); 2]) -> String {
+fn list(entries: [(&str, bool); 4]) -> String {
     entries.iter().filter(|(_, is_used)| *is_used).map(|(text, _)| *text).collect::<Vec<_>>().join(", ")
 }
 

@@ -5,6 +5,7 @@ use crate::naming::{Scope, camel, screaming, snake};
 
 /// Types that generated modules have beside those of the specification.
 const TYPES: &[&str] = &[
+    "Alarm",
     "Array",
     "Cells",
     "Fault",
@@ -40,6 +41,7 @@ const TYPES: &[&str] = &[
 ];
 /// Modules and crates, primitive types, and names that a file cannot have everywhere.
 const MODULES: &[&str] = &[
+    "alarm",
     "aux",
     "bool",
     "con",
@@ -66,11 +68,13 @@ const MODULES: &[&str] = &[
     "controllers",
     "commissioning",
 ];
-const FIELDS: &[&str] = &["parameters", "inputs", "outputs", "state", "elapsed"];
+const FIELDS: &[&str] = &["parameters", "inputs", "outputs", "state", "elapsed", "alarms", "stopped"];
 const METHODS: &[&str] = &[
     "new",
     "step",
-    "invariants",
+    "observe_anew",
+    "properties",
+    "stay",
     "published",
     "limit",
     "enter",
@@ -88,6 +92,7 @@ const VARIABLES: &[&str] = &[
     "element",
     "greater",
     "holds",
+    "kept",
     "key",
     "least",
     "lesser",
@@ -96,12 +101,16 @@ const VARIABLES: &[&str] = &[
     "quotient",
     "remainder",
     "row",
+    "scan",
     "source",
+    "start",
+    "stopped",
     "store_point",
     "store_real",
     "store_whole",
     "sum",
     "value",
+    "waited",
     "wiring",
     "within",
 ];

@@ -1,7 +1,8 @@
 //! Modules that all automata share.
 
-use super::automaton::{invariant_uses, step_uses};
+use super::automaton::step_uses;
 use super::context::{Context, Shared, doc};
+use super::property;
 use super::walk::{Access, Uses};
 use super::{format, render};
 use crate::ir::{AutomatonId, InterfaceId, Variable};
@@ -25,9 +26,10 @@ pub fn library(shared: Shared) -> String {
         .collect();
     files.sort_unstable();
     files.dedup();
+    let alarm = has_alarm_module(shared).then(|| "alarm".to_string());
     let own = ["cells", "kinds", "line", "robot", "robots", "system", "types"].map(String::from);
     let mut modules: Vec<String> =
-        own.into_iter().chain(shared.names.automata.iter().map(|a| a.module.clone())).collect();
+        alarm.into_iter().chain(own).chain(shared.names.automata.iter().map(|a| a.module.clone())).collect();
     modules.sort();
     format::print(&render(&Library { files: crate::plain::line(&files.join(", ")), modules }))
 }
@@ -150,8 +152,12 @@ fn nothing(shared: Shared, parameter: &Variable) -> String {
 struct SystemView {
     uses_cells: bool,
     limits_inputs: bool,
-    invariants: bool,
-    invariants_arguments: String,
+    properties: bool,
+    properties_change: bool,
+    properties_arguments: String,
+    alarms: bool,
+    scan: bool,
+    start: bool,
 }
 
 #[derive(Template)]
@@ -160,8 +166,10 @@ struct RobotView {
     robots: Vec<Variant>,
     step_parameters: String,
     limits_inputs: bool,
-    invariants: bool,
-    invariants_parameters: String,
+    properties: bool,
+    properties_change: bool,
+    properties_parameters: String,
+    alarms: bool,
 }
 
 struct Variant {
@@ -169,8 +177,12 @@ struct Variant {
     module: String,
     step_arguments: String,
     limits: bool,
-    has_invariants: bool,
-    invariants_arguments: String,
+    has_properties: bool,
+    properties_arguments: String,
+    /// Time goes on in more than its state.
+    counts: bool,
+    begins_anew: bool,
+    has_alarms: bool,
 }
 
 fn contexts<'a>(shared: Shared<'a>) -> impl Iterator<Item = Context<'a>> {
@@ -182,43 +194,63 @@ fn limits(context: &Context) -> bool {
     context.automaton().device.ports.iter().any(|p| p.direction == Direction::Input && is_whole(p.ty))
 }
 
-/// What the steps, and what the invariants, of all automata need.
+/// What the steps, and what the properties, of all automata need.
 fn uses(shared: Shared) -> (Uses, Uses) {
-    let (mut steps, mut invariants) = (Uses::default(), Uses::default());
+    let (mut steps, mut properties) = (Uses::default(), Uses::default());
     for context in contexts(shared) {
         steps.join(step_uses(&context));
-        invariants.join(invariant_uses(&context));
+        properties.join(property::uses(&context));
     }
-    (steps, invariants)
+    (steps, properties)
 }
 
 pub fn uses_cells(shared: Shared) -> bool {
-    let (steps, invariants) = uses(shared);
-    steps.cells.max(invariants.cells) != Access::None
+    let (steps, properties) = uses(shared);
+    steps.cells.max(properties.cells) != Access::None
+}
+
+fn remembers(shared: Shared) -> bool {
+    shared.system.model.automata.iter().any(property::remembers)
+}
+
+pub fn has_alarms(shared: Shared) -> bool {
+    shared.system.model.automata.iter().any(|automaton| automaton.alarms().next().is_some())
+}
+
+/// Whether the crate has the module `alarm`.
+pub fn has_alarm_module(shared: Shared) -> bool {
+    has_alarms(shared) || shared.system.model.automata.iter().any(property::waits)
 }
 
 pub fn system(shared: Shared) -> String {
-    let (_, invariants) = uses(shared);
-    let arguments = contexts(shared).next().map(|c| c.arguments(&invariants)).unwrap_or_default();
+    let (_, properties) = uses(shared);
+    let arguments = contexts(shared).next().map(|c| c.arguments(&properties)).unwrap_or_default();
     let view = SystemView {
         uses_cells: uses_cells(shared),
         limits_inputs: contexts(shared).any(|c| limits(&c)),
-        invariants: shared.system.model.automata.iter().any(|a| !a.invariants.is_empty()),
-        invariants_arguments: arguments,
+        properties: shared.system.model.automata.iter().any(|a| !a.properties.is_empty()),
+        properties_change: remembers(shared),
+        properties_arguments: arguments,
+        alarms: has_alarms(shared),
+        scan: properties.scan,
+        start: properties.start,
     };
     format::print(&render(&view))
 }
 
 pub fn robot(shared: Shared) -> String {
-    let (_, invariants) = uses(shared);
+    let (_, properties) = uses(shared);
     let robots: Vec<Variant> = contexts(shared)
         .map(|context| Variant {
             ty: context.own().ty.clone(),
             module: context.own().module.clone(),
             step_arguments: context.arguments(&step_uses(&context)),
             limits: limits(&context),
-            has_invariants: !context.automaton().invariants.is_empty(),
-            invariants_arguments: context.arguments(&invariant_uses(&context)),
+            has_properties: !context.automaton().properties.is_empty(),
+            counts: context.automaton().can_stop() || property::waits(context.automaton()),
+            begins_anew: !property::anew(&context).is_empty(),
+            has_alarms: context.automaton().alarms().next().is_some(),
+            properties_arguments: context.arguments(&property::uses(&context)),
         })
         .collect();
     let view = RobotView {
@@ -229,8 +261,10 @@ pub fn robot(shared: Shared) -> String {
         }
         .into(),
         limits_inputs: robots.iter().any(|r| r.limits),
-        invariants: robots.iter().any(|r| r.has_invariants),
-        invariants_parameters: contexts(shared).next().map(|c| c.parameters(&invariants)).unwrap_or_default(),
+        properties: robots.iter().any(|r| r.has_properties),
+        properties_change: remembers(shared),
+        alarms: has_alarms(shared),
+        properties_parameters: contexts(shared).next().map(|c| c.parameters(&properties)).unwrap_or_default(),
         robots,
     };
     format::module(&render(&view), &shared.importable("crate"))
@@ -249,7 +283,7 @@ impl Shared<'_> {
         kinds.sort();
         let mut all = vec![(format!("{name}::cells"), cells), (format!("{name}::kinds"), kinds)];
         all.extend(
-            [("robot", own(&["Robot"])), ("types", own(TYPES))]
+            [("alarm", own(&["Alarm", "waited"])), ("robot", own(&["Robot"])), ("types", own(TYPES))]
                 .map(|(m, names)| (format!("{name}::{m}"), names)),
         );
         all

@@ -15,6 +15,10 @@ pub struct Uses {
     /// Whether it has ended in error.
     pub failed: bool,
     pub variables: BTreeSet<VariableId>,
+    /// The number of the scan.
+    pub scan: bool,
+    /// Whether there is an edge of `start`.
+    pub start: bool,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -77,6 +81,8 @@ impl Uses {
         self.cells = self.cells.max(other.cells);
         self.done |= other.done;
         self.failed |= other.failed;
+        self.scan |= other.scan;
+        self.start |= other.start;
         self.variables.extend(other.variables);
     }
 

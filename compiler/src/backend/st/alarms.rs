@@ -1,13 +1,13 @@
-//! What the code of a fault means to who stands before the line.
+//! What the code of a fault or an alarm means to who stands before the line.
 
 use super::context::Shared;
 use super::table::row;
 use super::value::NO_SUCH_STATE;
-use crate::ir::{Automaton, FaultId, FaultKind, Transition, UpdateKind};
+use crate::ir::{Automaton, FaultId, FaultKind, Severity, Transition, UpdateKind};
 
-/// `alarms.csv`: the codes that are published with a fault. Robots have the numbers that `fault_robot` gives.
+/// `alarms.csv`: the codes that are published with a fault or an alarm. Robots have the numbers that `fault_robot` gives.
 pub fn table(shared: Shared) -> String {
-    let mut text = row(&["code", "type", "robots", "state", "transition", "text", "remedy"]);
+    let mut text = row(&["code", "type", "robots", "state", "transition", "text", "remedy", "stops"]);
     for (i, site) in shared.system.model.faults.iter().enumerate() {
         let robots: Vec<String> = (shared.instances(site.automaton).iter())
             .map(|r| format!("{r} {}", shared.system.instances[*r].name))
@@ -25,6 +25,12 @@ pub fn table(shared: Shared) -> String {
             FaultKind::InvariantFails => {
                 "Do what the text says. If it is a condition, look at the values that it names, and set them right before reset, or the fault returns."
             }
+            FaultKind::NotKept => {
+                "A value has changed that the text promises to keep. Look at who writes it."
+            }
+            FaultKind::NotFollowed => {
+                "Look for what was waited for: the answer of a device, another robot, or somebody who has to do something."
+            }
             FaultKind::TooLong => {
                 "Look for what the state waits for: the answer of the device, or another robot. After reset and start the state has its whole time again."
             }
@@ -40,6 +46,11 @@ pub fn table(shared: Shared) -> String {
             &transition,
             &about,
             remedy,
+            match site.severity {
+                Severity::Line => "line",
+                Severity::Machine => "machine",
+                Severity::Warning => "nothing",
+            },
         ]);
     }
     let remedy = "The memory of the controller is damaged: only a cold start helps. Secure the parts on the grippers first: without power they are let go. Empty trays and briefcases: the controller forgets what lies there.";
@@ -51,6 +62,7 @@ pub fn table(shared: Shared) -> String {
         "",
         "the state has a number that does not exist",
         remedy,
+        "line",
     ])
 }
 

@@ -1,21 +1,22 @@
-//! The function blocks of a type: its steps, and its invariants.
+//! The function block of a type that makes its steps, and what all blocks of a type are called with.
 
 use super::code::{self, Ex, Member, Stmt, advance, assign, binary, name, not, or, when};
-use super::context::{Lowering, Phase, Shared};
+use super::context::{Lowering, Shared};
 use super::dead;
 use super::declaration::{Basic, Unit, Variable, constants};
-use super::expression::{guarded, limited};
+use super::expression::limited;
 use super::globals::{Globals, about, array_names, meaning};
 use super::names::ELEMENT;
+use super::property;
 use super::role::Members;
 use super::value::{NO_SUCH_STATE, first_value};
-use crate::ir::{Automaton, AutomatonId, Extent, RoleId, Scalar, Value};
+use crate::ir::{Automaton, AutomatonId, Extent, KeptBy, RoleId, Scalar, Value};
 use runtime_sim::device::{Direction, PortType};
 use std::collections::BTreeSet;
 
 /// Where a variable of a block comes from.
 #[derive(Clone, Debug)]
-enum Origin {
+pub enum Origin {
     Robot,
     Row(usize),
     Parameter {
@@ -30,20 +31,29 @@ enum Origin {
     },
     /// Kept in the block of the steps.
     Kept,
+    /// Its first entry in the table of alarms.
+    AlarmEntry,
 }
 
 /// A variable that a block of a type may need.
-struct Candidate {
-    variable: Variable,
+pub struct Candidate {
+    pub variable: Variable,
     origin: Origin,
     initial: Option<Ex>,
     is_output: bool,
+    pub kept_by: KeptBy,
+}
+
+impl Candidate {
+    pub fn given(variable: Variable, origin: Origin) -> Self {
+        Self { variable, origin, initial: None, is_output: false, kept_by: KeptBy::Steps }
+    }
 }
 
 /// A function block with what it is called with.
 pub struct Block {
     pub unit: Unit,
-    arguments: Vec<(String, Origin)>,
+    pub arguments: Vec<(String, Origin)>,
 }
 
 pub fn steps(shared: Shared, id: AutomatonId, globals: &Globals) -> Block {
@@ -56,6 +66,10 @@ pub fn steps(shared: Shared, id: AutomatonId, globals: &Globals) -> Block {
     let otherwise = vec![assign("fault_code", Ex::Member(unknown)), assign("fault_robot", name("robot"))];
     let anew = when(name("fault_cleared"), vec![assign("elapsed", Ex::Int(0))]);
     let mut body = vec![when(stopped(), vec![anew, Stmt::Return])];
+    if automaton.can_stop() {
+        let is_stopped = Ex::Element(property::STOPPED.into(), Box::new(name("robot")));
+        body.push(when(is_stopped, vec![assign("elapsed", Ex::Int(0)), Stmt::Return]));
+    }
     body.push(elapse());
     let case = vec![Stmt::Case { selector: state, branches, otherwise }];
     let mut case = dead::without_unread(case, &made(&lowering));
@@ -65,9 +79,10 @@ pub fn steps(shared: Shared, id: AutomatonId, globals: &Globals) -> Block {
     body.append(&mut case);
     let candidates = candidates(shared, id);
     let used = code::names(&body);
-    let asked = code::names(&invariant_body(&mut Lowering::new(shared, id)));
+    let asked = code::names(&property::body(&mut Lowering::new(shared, id)));
     let is_kept = |c: &&Candidate| {
         matches!(c.origin, Origin::Kept)
+            && c.kept_by == KeptBy::Steps
             && (used.contains(&c.variable.name) || asked.contains(&c.variable.name))
     };
     let kept: Vec<&Candidate> = candidates.iter().filter(is_kept).collect();
@@ -102,64 +117,8 @@ pub fn steps(shared: Shared, id: AutomatonId, globals: &Globals) -> Block {
     }
 }
 
-/// The block that tests the invariants of a type behind the steps of all robots.
-pub fn invariants(shared: Shared, id: AutomatonId, globals: &Globals) -> Option<Block> {
-    let mut lowering = Lowering::new(shared, id);
-    let automaton = lowering.automaton();
-    if automaton.invariants.is_empty() {
-        return None;
-    }
-    let mut body = vec![when(stopped(), vec![Stmt::Return])];
-    let tests = invariant_body(&mut lowering);
-    body.extend(dead::without_unread(tests, &made(&lowering)));
-    let used = code::names(&body);
-    let mut candidates = candidates(shared, id);
-    candidates.push(Candidate {
-        variable: Variable::new("elapsed", Basic::Dint).with_comment("ms in this state"),
-        origin: Origin::Kept,
-        initial: None,
-        is_output: true,
-    });
-    let variables = locals(shared, id, &lowering.temporaries, &used).into_iter().collect();
-    let (inputs, arguments) = inputs_and_kept(candidates, &used);
-    Some(Block {
-        unit: Unit {
-            name: lowering.own().invariants.clone(),
-            comments: vec![format!(
-                "What always holds for each {}, tested behind the steps of all robots.",
-                automaton.name
-            )],
-            inputs,
-            externals: externals(globals, &used),
-            variables,
-            body,
-            ..Unit::default()
-        },
-        arguments,
-    })
-}
-
-fn invariant_body(lowering: &mut Lowering) -> Vec<Stmt> {
-    let mut body = Vec::new();
-    for invariant in &lowering.automaton().invariants {
-        lowering.phase = Phase::Update;
-        lowering.release();
-        let mut before = Vec::new();
-        let fails = lowering.contrary(&invariant.condition, &mut before);
-        body.push(Stmt::Comment(format!(
-            "invariant {}   {}",
-            invariant.text,
-            lowering.line(invariant.place)
-        )));
-        body.append(&mut lowering.hoisted);
-        body.extend(before);
-        body.extend(guarded(fails, lowering.raise(invariant.fault)));
-    }
-    body
-}
-
 /// Not running, or faulted earlier in this scan.
-fn stopped() -> Ex {
+pub fn stopped() -> Ex {
     or(vec![not(name("running")), binary("<>", name("fault_code"), Ex::Int(0))])
 }
 
@@ -190,6 +149,13 @@ fn state_variable(shared: Shared, id: AutomatonId) -> Variable {
 /// Values at power-up.
 fn power_up(beginning: Member, kept: &[&Candidate]) -> Vec<Stmt> {
     let mut body = vec![assign("state", Ex::Member(beginning)), assign("elapsed", Ex::Int(0))];
+    body.extend(kept_values(kept));
+    body
+}
+
+/// What these hold at power-up.
+pub fn kept_values(kept: &[&Candidate]) -> Vec<Stmt> {
+    let mut body = Vec::new();
     for candidate in kept {
         let Some(initial) = &candidate.initial else { continue };
         match candidate.variable.elements {
@@ -206,16 +172,15 @@ fn power_up(beginning: Member, kept: &[&Candidate]) -> Vec<Stmt> {
     body
 }
 
-fn externals(globals: &Globals, used: &BTreeSet<String>) -> Vec<Variable> {
+pub fn externals(globals: &Globals, used: &BTreeSet<String>) -> Vec<Variable> {
     globals.all().filter(|v| used.contains(&v.name)).map(Variable::external).collect()
 }
 
 /// Everything that a block of the type may be given or keep.
-fn candidates(shared: Shared, id: AutomatonId) -> Vec<Candidate> {
+pub fn candidates(shared: Shared, id: AutomatonId) -> Vec<Candidate> {
     let automaton = shared.system.model.automaton(id);
     let own = &shared.names.automata[id.0];
-    let given =
-        |variable: Variable, origin: Origin| Candidate { variable, origin, initial: None, is_output: false };
+    let given = Candidate::given;
     let mut all = vec![given(
         Variable::new("robot", Basic::Dint).with_comment("its number, for fault_robot"),
         Origin::Robot,
@@ -255,7 +220,13 @@ fn candidates(shared: Shared, id: AutomatonId) -> Vec<Candidate> {
             if part == 0 {
                 variable.comments = about(&local.doc, meaning(shared, local.ty.scalar));
             }
-            all.push(Candidate { variable, origin: Origin::Kept, initial: Some(initial), is_output: false });
+            all.push(Candidate {
+                variable,
+                origin: Origin::Kept,
+                initial: Some(initial),
+                is_output: false,
+                kept_by: local.kept_by,
+            });
         }
     }
     all
@@ -276,15 +247,14 @@ fn ports(shared: Shared, automaton: &Automaton, id: AutomatonId) -> Vec<Candidat
                 .with_elements(elements)
                 .with_comment(if part == 0 { format!("{}{unit}", port.meaning) } else { String::new() });
             all.push(match port.direction {
-                Direction::Input => Candidate {
+                Direction::Input => Candidate::given(variable, Origin::Input { port: i, part }),
+                Direction::Output => Candidate {
                     variable,
-                    origin: Origin::Input { port: i, part },
-                    initial: None,
-                    is_output: false,
+                    origin: Origin::Kept,
+                    initial: Some(first),
+                    is_output: true,
+                    kept_by: KeptBy::Steps,
                 },
-                Direction::Output => {
-                    Candidate { variable, origin: Origin::Kept, initial: Some(first), is_output: true }
-                }
             });
         }
     }
@@ -292,14 +262,14 @@ fn ports(shared: Shared, automaton: &Automaton, id: AutomatonId) -> Vec<Candidat
 }
 
 /// Names of variables that no specification declares.
-fn made(lowering: &Lowering) -> BTreeSet<String> {
+pub fn made(lowering: &Lowering) -> BTreeSet<String> {
     let own = lowering.own();
     let temporaries = lowering.temporaries.iter().map(|variable| variable.name.clone());
     temporaries.chain(own.variables.iter().cloned()).chain(own.defines.iter().flatten().cloned()).collect()
 }
 
 /// Variables that a block computes anew in each step.
-fn locals(
+pub fn locals(
     shared: Shared,
     id: AutomatonId,
     temporaries: &[Variable],
@@ -334,7 +304,7 @@ fn inputs(candidates: Vec<Candidate>, used: &BTreeSet<String>) -> (Vec<Variable>
     inputs_and_kept(candidates, used)
 }
 
-fn inputs_and_kept(
+pub fn inputs_and_kept(
     candidates: Vec<Candidate>,
     used: &BTreeSet<String>,
 ) -> (Vec<Variable>, Vec<(String, Origin)>) {
@@ -380,8 +350,20 @@ fn argument(shared: Shared, robot: usize, input: &str, origin: &Origin) -> Ex {
                 _ => value,
             }
         }
+        Origin::AlarmEntry => Ex::Int(entries_before(shared, robot) as i32),
         Origin::Kept => Ex::Field(names.instance.clone(), input.into()),
     }
+}
+
+/// Entries of the table of alarms before those of a robot.
+fn entries_before(shared: Shared, robot: usize) -> usize {
+    shared.system.alarms().iter().filter(|entry| entry.robot < robot).count()
+}
+
+/// The time in the state, of the block of the steps.
+pub fn elapsed() -> Candidate {
+    let variable = Variable::new("elapsed", Basic::Dint).with_comment("ms in this state");
+    Candidate { is_output: true, ..Candidate::given(variable, Origin::Kept) }
 }
 
 /// Whether the block of the steps has such an output.

@@ -24,6 +24,13 @@ pub fn columns(shared: Shared, globals: &Globals) -> Columns {
         column("fault_code", Form::WHOLE, Source::FaultCode),
         column("fault_robot", Form::WHOLE, Source::FaultRobot),
     ]);
+    if !shared.system.alarms().is_empty() {
+        columns.extend([
+            column("alarm", Form::Truth, Source::Alarm),
+            column("alarm_code", Form::WHOLE, Source::AlarmCode),
+            column("alarm_robot", Form::WHOLE, Source::AlarmRobot),
+        ]);
+    }
     columns.extend(robots.flat_map(|robot| ports(shared, robot, Direction::Output)));
     let (states, mut cells) = remembered(shared);
     columns.extend(states);
@@ -96,7 +103,7 @@ fn remembered(shared: Shared) -> (Vec<Column>, BTreeMap<String, Vec<Column>>) {
                 }
             }
         }
-        at += automaton.device.words(Direction::Output, shared.system.kinds());
+        at += automaton.device.words(Direction::Output, shared.system.kinds()) + automaton.alarm_words();
     }
     let sorted = |mut found: Vec<(usize, Column)>| {
         found.sort_by_key(|(element, _)| *element);

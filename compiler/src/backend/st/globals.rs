@@ -4,6 +4,7 @@
 //! short as `t.open` of the specification, and nothing is copied into blocks and back. The comment at its
 //! declaration says which robot has which element. Elements of arrays follow each other row by row.
 
+use super::alarm;
 use super::attributes::{Attribute, OF_WHAT_IS_SHOWN};
 use super::code::{Ex, Stmt, advance, binary, name};
 use super::context::Shared;
@@ -29,6 +30,8 @@ pub struct Globals {
     pub raw: Vec<Variable>,
     pub cells: Vec<Table>,
     pub parameters: Vec<Table>,
+    /// The table of alarms, an array for each column.
+    pub alarms: Vec<Table>,
 }
 
 pub struct List {
@@ -51,6 +54,7 @@ impl Globals {
             raw: image.raw.clone(),
             cells: cells(shared),
             parameters: parameters(shared),
+            alarms: alarm::tables(shared),
         }
     }
 
@@ -69,13 +73,14 @@ impl Globals {
             list("GVL_Ports", "ports of the robots", OF_WHAT_IS_SHOWN, self.ports.concat()),
             list("GVL_Raw", "raw values of the process image", &[], self.raw.clone()),
             list("GVL_Cells", "shared cells", OF_WHAT_IS_SHOWN, tables(&self.cells)),
+            list("GVL_Alarms", "the table of alarms", OF_WHAT_IS_SHOWN, tables(&self.alarms)),
             list("GVL_Parameters", "parameters", &[], tables(&self.parameters)),
         ];
         lists.into_iter().filter(|list| !list.variables.is_empty()).collect()
     }
 
     pub fn all(&self) -> impl Iterator<Item = &Variable> {
-        let tables = self.cells.iter().chain(&self.parameters).map(|t| &t.variable);
+        let tables = self.cells.iter().chain(&self.parameters).chain(&self.alarms).map(|t| &t.variable);
         self.system.iter().chain(self.ports.iter().flatten()).chain(&self.raw).chain(tables)
     }
 }
@@ -88,7 +93,7 @@ fn system(shared: Shared) -> Vec<Variable> {
         };
         Variable::new(name, basic).with_initial(initial).with_comment(about)
     };
-    vec![
+    let mut variables = vec![
         variable(
             "run_permit",
             Ex::Bool(false),
@@ -111,7 +116,23 @@ fn system(shared: Shared) -> Vec<Variable> {
         ),
         variable("init_done", Ex::Bool(false), "false in the first scan"),
         variable("dt_ms", Ex::Int(shared.system.scan_ms), "length of a scan, ms: the INTERVAL of the task"),
-    ]
+    ];
+    if alarm::any(shared) {
+        variables.extend([
+            variable("alarm", Ex::Bool(false), "output: an alarm is active, or not acknowledged"),
+            variable(
+                "alarm_code",
+                Ex::Int(0),
+                "output: of the alarms that are not acknowledged, the one raised first, see alarms.csv; 0: none",
+            ),
+            variable("alarm_robot", Ex::Int(-1), "output: number of its robot; -1: none"),
+            variable("scan_no", Ex::Int(0), "scans since power-up"),
+        ]);
+    }
+    if alarm::can_stop(shared) {
+        variables.push(variable("start_edge", Ex::Bool(false), "start has risen in this scan"));
+    }
+    variables
 }
 
 fn ports(shared: Shared, robot: usize) -> Vec<Variable> {

@@ -33,6 +33,7 @@ const TAKEN: &[&str] = &[
     "GVL_Ports",
     "GVL_Raw",
     "GVL_Cells",
+    "GVL_Alarms",
     "GVL_Parameters",
     "Config0",
     "Res0",
@@ -46,13 +47,26 @@ const TAKEN: &[&str] = &[
     "fault_code",
     "fault_robot",
     "fault_cleared",
+    "alarm",
+    "alarm_code",
+    "alarm_robot",
+    "alarms_acknowledged",
+    "alarms_active",
+    "alarms_code",
+    "alarms_count",
+    "alarms_first",
+    "alarms_last",
+    "alarms_robot",
+    "robot_stopped",
+    "scan_no",
+    "start_edge",
     "init_done",
     "dt_ms",
 ];
 /// The counter over the elements of an array.
 pub const ELEMENT: &str = "element_no";
 const LOCAL: &[&str] = &["robot", "state", "elapsed", "done", "failed", "found", ELEMENT];
-const PROGRAM: &[&str] = &["start_before", "reset_before", "had_fault", "layout", ROUNDED];
+const PROGRAM: &[&str] = &["start_before", "reset_before", "had_fault", "layout", "oldest", ELEMENT, ROUNDED];
 /// A raw value before it becomes one of its narrow type.
 pub const ROUNDED: &str = "rounded";
 
@@ -83,7 +97,8 @@ pub struct InterfaceNames {
 
 pub struct AutomatonNames {
     pub block: String,
-    pub invariants: String,
+    /// The block that looks at its properties.
+    pub properties: String,
     /// The enumeration of the states, and its members.
     pub states: EnumNames,
     pub parameters: Vec<Held>,
@@ -107,7 +122,7 @@ pub struct RoleNames {
 
 pub struct RobotNames {
     pub instance: String,
-    pub invariants: String,
+    pub properties: String,
     pub ports: Vec<Held>,
     pub parameters: Vec<Held>,
     pub roles: Vec<String>,
@@ -121,8 +136,8 @@ pub fn names(system: &System) -> Names {
     let blocks: Vec<_> = (model.automata.iter())
         .map(|a| {
             let block = global.take(&format!("FB_{}", camel(&a.name)));
-            let invariants = global.take(&format!("FB_{}_invariants", camel(&a.name)));
-            (block, invariants, states(a, &mut global, &mut renamed))
+            let properties = global.take(&format!("FB_{}_properties", camel(&a.name)));
+            (block, properties, states(a, &mut global, &mut renamed))
         })
         .collect();
     let interfaces: Vec<_> = model.interfaces.iter().map(|i| interface_names(i, &mut global)).collect();
@@ -153,7 +168,7 @@ pub fn names(system: &System) -> Names {
     let robots = (robots.into_iter().zip(&system.instances))
         .map(|(robot, i)| RobotNames {
             instance: program.take(&i.name),
-            invariants: program.take(&format!("{}_invariants", i.name)),
+            properties: program.take(&format!("{}_properties", i.name)),
             ..robot
         })
         .collect();
@@ -212,14 +227,14 @@ fn table_names(system: &System, id: AutomatonId, global: &mut Scope) -> Vec<Held
 fn automaton_names(
     system: &System,
     id: AutomatonId,
-    (block, invariants, states): (String, String, EnumNames),
+    (block, properties, states): (String, String, EnumNames),
     tables: Vec<Held>,
     global: &Scope,
     renamed: &mut Vec<(String, Renamed)>,
 ) -> AutomatonNames {
     let source = system.model.automaton(id);
     let mut scope = global.inner();
-    LOCAL.iter().for_each(|name| drop(scope.take(name)));
+    LOCAL.iter().chain(&super::property::LOCAL).for_each(|name| drop(scope.take(name)));
     let parameters = source.parameters.iter().map(|p| held(&mut scope, &p.name, p.ty.scalar)).collect();
     let port = |p: &Port, scope: &mut Scope| held(scope, &p.name, Scalar::from(p.ty));
     let ports = source.device.ports.iter().map(|p| port(p, &mut scope)).collect();
@@ -238,7 +253,7 @@ fn automaton_names(
     renamed.extend(scope.renamed().iter().map(|r| (block.clone(), r.clone())));
     AutomatonNames {
         block,
-        invariants,
+        properties,
         states,
         parameters,
         tables,
@@ -312,5 +327,5 @@ fn robot_names(
             Members::All(_) => String::new(),
         })
         .collect();
-    RobotNames { instance: String::new(), invariants: String::new(), ports, parameters, roles }
+    RobotNames { instance: String::new(), properties: String::new(), ports, parameters, roles }
 }

@@ -61,7 +61,7 @@ fn line(system: &System) -> Vec<Terminal> {
     let codes = Kind::Int { lo: 0, hi: NO_SUCH_STATE.max(system.model.faults.len() as i32) };
     let robots = Kind::Int { lo: -1, hi: system.instances.len() as i32 - 1 };
     let truth = || Some(Ex::Bool(false));
-    [
+    let own = [
         (
             "run_permit",
             input,
@@ -81,25 +81,38 @@ fn line(system: &System) -> Vec<Terminal> {
             Some(Ex::Int(-1)),
             "number of the robot in the order of the steps, the first is 0; -1 without a fault",
         ),
-    ]
-    .into_iter()
-    .map(|(variable, direction, kind, first, meaning)| Terminal {
-        point: Point {
-            robot: String::new(),
-            port: variable.into(),
-            name: variable.into(),
-            direction,
-            kind,
-            unit: String::new(),
-            stop: String::new(),
-            meaning: meaning.into(),
-        },
-        variable: variable.into(),
-        element: None,
-        first,
-        is_own: direction == Direction::Input,
-    })
-    .collect()
+    ];
+    let alarms = [
+        ("alarm", output, Kind::Bool, truth(), "an alarm is active, or not acknowledged"),
+        (
+            "alarm_code",
+            output,
+            codes,
+            Some(Ex::Int(0)),
+            "of the alarms that are not acknowledged, the one raised first: see alarms.csv; 0 without one",
+        ),
+        ("alarm_robot", output, robots, Some(Ex::Int(-1)), "number of its robot; -1 without one"),
+    ];
+    let alarms = alarms.into_iter().filter(|_| !system.alarms().is_empty());
+    own.into_iter()
+        .chain(alarms)
+        .map(|(variable, direction, kind, first, meaning)| Terminal {
+            point: Point {
+                robot: String::new(),
+                port: variable.into(),
+                name: variable.into(),
+                direction,
+                kind,
+                unit: String::new(),
+                stop: String::new(),
+                meaning: meaning.into(),
+            },
+            variable: variable.into(),
+            element: None,
+            first,
+            is_own: direction == Direction::Input,
+        })
+        .collect()
 }
 
 fn terminal(robot: &str, port: &Port, part: usize, variable: &str, element: Option<usize>) -> Terminal {

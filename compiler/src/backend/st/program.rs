@@ -1,5 +1,6 @@
-//! The program: status, steps in layout order, invariants, outputs; and the block that sets tables up.
+//! The program: status, steps in layout order, properties, outputs, alarms; and the block that sets tables up.
 
+use super::alarm;
 use super::block::{Block, publishes};
 use super::code::{self, Arm, Ex, Stmt, and, assign, binary, name, not, or, when};
 use super::context::Shared;
@@ -7,6 +8,7 @@ use super::declaration::{Basic, Instance, Unit, Variable, constants};
 use super::globals::{Globals, fill};
 use super::image::Image;
 use super::names::{ELEMENT, ROUNDED};
+use super::property;
 use super::value::{first_value, stop_value};
 use runtime_sim::device::Direction;
 
@@ -15,7 +17,7 @@ pub const LAYOUT: &str = "FB_Layout";
 /// The blocks of a type that has robots.
 pub struct Blocks {
     pub steps: Block,
-    pub invariants: Option<Block>,
+    pub properties: Option<Block>,
 }
 
 pub fn program(shared: Shared, blocks: &[Option<Blocks>], globals: &Globals, image: &Image) -> Unit {
@@ -25,7 +27,7 @@ pub fn program(shared: Shared, blocks: &[Option<Blocks>], globals: &Globals, ima
     let cold = vec![("cold_start".to_string(), not(name("init_done")))];
     body.push(Stmt::Call { instance: "layout".into(), arguments: cold });
     body.extend(commented("Inputs: from raw values.", &image.inputs));
-    body.extend(status());
+    body.extend(status(shared));
     body.push(Stmt::Comment("Steps, in layout order.".into()));
     let robots: Vec<_> = (shared.system.instances.iter().zip(&shared.names.robots).enumerate())
         .filter_map(|(robot, (instance, names))| Some((robot, names, blocks[instance.automaton.0].as_ref()?)))
@@ -41,17 +43,18 @@ pub fn program(shared: Shared, blocks: &[Option<Blocks>], globals: &Globals, ima
     }
     let mut tests = Vec::new();
     for (robot, names, blocks) in &robots {
-        let Some(block) = &blocks.invariants else { continue };
+        let Some(block) = &blocks.properties else { continue };
         let comment = String::new();
-        instances.push(Instance { name: names.invariants.clone(), block: block.unit.name.clone(), comment });
-        tests.push(block.call(shared, &names.invariants, *robot));
+        instances.push(Instance { name: names.properties.clone(), block: block.unit.name.clone(), comment });
+        tests.push(block.call(shared, &names.properties, *robot));
     }
     if !tests.is_empty() {
-        body.push(Stmt::Comment("Invariants.".into()));
+        body.push(Stmt::Comment("Properties.".into()));
         body.extend(tests);
     }
     body.push(assign("fault", binary("<>", name("fault_code"), Ex::Int(0))));
     body.push(when(name("fault"), vec![assign("running", Ex::Bool(false))]));
+    body.extend(alarm::told(shared));
     body.push(Stmt::Comment(
         "Outputs: as the blocks left them, or with stop values while the line does not run.".into(),
     ));
@@ -59,6 +62,7 @@ pub fn program(shared: Shared, blocks: &[Option<Blocks>], globals: &Globals, ima
         body.extend(publish(shared, *robot, &blocks.steps));
     }
     body.extend(commented("Outputs: to raw values.", &image.outputs));
+    body.extend(alarm::counted(shared));
     body.push(assign("init_done", Ex::Bool(true)));
     let used = code::names(&body);
     Unit {
@@ -72,6 +76,9 @@ pub fn program(shared: Shared, blocks: &[Option<Blocks>], globals: &Globals, ima
             Variable::new("reset_before", Basic::Bool).with_initial(Ex::Bool(true)),
             Variable::new("had_fault", Basic::Bool)
                 .with_comment("there was a fault at the beginning of the scan"),
+            Variable::new("oldest", Basic::Dint)
+                .with_comment("scan of the first alarm that is not acknowledged"),
+            Variable::new(ELEMENT, Basic::Dint).with_comment("number of an element"),
             Variable::new(ROUNDED, Basic::Dint)
                 .with_comment("a raw value before it becomes one of its narrow type"),
         ]
@@ -90,11 +97,11 @@ fn commented(text: &str, statements: &[Stmt]) -> Vec<Stmt> {
     comment.into_iter().chain(statements.iter().cloned()).collect()
 }
 
-fn status() -> Vec<Stmt> {
+fn status(shared: Shared) -> Vec<Stmt> {
     let has_fault = || binary("<>", name("fault_code"), Ex::Int(0));
     let edge = |input: &str| and(vec![name(input), not(name(&format!("{input}_before")))]);
     let arm = |condition: Ex, body: Vec<Stmt>| Arm { comments: Vec::new(), condition, body };
-    vec![
+    let mut body = vec![
         Stmt::Comment(
             "Running: from a rising edge of start, as long as there are permit and no fault.".into(),
         ),
@@ -114,15 +121,24 @@ fn status() -> Vec<Stmt> {
             ],
             Vec::new(),
         ),
-        assign("start_before", name("start")),
-        assign("reset_before", name("reset")),
-    ]
+    ];
+    body.extend(alarm::acknowledged(shared));
+    if alarm::can_stop(shared) {
+        body.push(assign("start_edge", edge("start")));
+    }
+    body.extend([assign("start_before", name("start")), assign("reset_before", name("reset"))]);
+    body
 }
 
 fn publish(shared: Shared, robot: usize, block: &Block) -> Vec<Stmt> {
     let automaton = shared.system.automaton_of(robot);
     let own = &shared.names.automata[shared.system.instances[robot].automaton.0].ports;
     let names = &shared.names.robots[robot];
+    let is_stopped = || Ex::Element(property::STOPPED.into(), Box::new(Ex::Int(robot as i32)));
+    let runs = || match automaton.can_stop() {
+        true => and(vec![name("running"), not(is_stopped())]),
+        false => name("running"),
+    };
     let mut running = Vec::new();
     let mut stopped = Vec::new();
     let mut always = Vec::new();
@@ -136,7 +152,7 @@ fn publish(shared: Shared, robot: usize, block: &Block) -> Vec<Stmt> {
             match (value, stop.as_ref().map(|s| s[part].clone())) {
                 (Some(value), None) => always.push(assign(global, value)),
                 (None, None) => {}
-                (None, Some(Ex::Bool(true))) => always.push(assign(global, not(name("running")))),
+                (None, Some(Ex::Bool(true))) => always.push(assign(global, not(runs()))),
                 (value, Some(stop)) => {
                     let first = constants(first_value(port.ty))[part].clone();
                     running.push(assign(global, value.unwrap_or(first)));
@@ -146,7 +162,7 @@ fn publish(shared: Shared, robot: usize, block: &Block) -> Vec<Stmt> {
         }
     }
     if !running.is_empty() {
-        let arm = Arm { comments: Vec::new(), condition: name("running"), body: running };
+        let arm = Arm { comments: Vec::new(), condition: runs(), body: running };
         always.push(Stmt::If(vec![arm], stopped));
     }
     always
@@ -164,6 +180,11 @@ pub fn layout(globals: &Globals) -> Unit {
     if !parameters.is_empty() {
         body.push(Stmt::Comment("Parameters.".into()));
         body.extend(fill(&parameters, ELEMENT));
+    }
+    let alarms: Vec<_> = globals.alarms.iter().collect();
+    if !alarms.is_empty() {
+        body.push(Stmt::Comment("Alarms.".into()));
+        body.extend(fill(&alarms, ELEMENT));
     }
     let used = code::names(&body);
     let counter = Variable::new(ELEMENT, Basic::Dint).with_comment("number of an element");

@@ -9,7 +9,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// Of the interface that is spoken here.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 /// Bytes of a message.
 const MESSAGE: usize = 1000;
 
@@ -49,6 +49,9 @@ struct Outputs {
     fault: u8,
     fault_code: i32,
     fault_robot: i32,
+    alarm: u8,
+    alarm_code: i32,
+    alarm_robot: i32,
 }
 
 impl SharedLibrary {
@@ -144,6 +147,9 @@ impl scan::Controllers for Controllers {
             fault: answer.fault != 0,
             fault_code: answer.fault_code,
             fault_robot: answer.fault_robot,
+            alarm: answer.alarm != 0,
+            alarm_code: answer.alarm_code,
+            alarm_robot: answer.alarm_robot,
         }
     }
 

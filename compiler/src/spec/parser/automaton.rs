@@ -1,6 +1,7 @@
 //! `automaton`: its head and the members that are not states.
 
 use super::Parser;
+use super::property::WORDS;
 use crate::diagnostic::suggestion;
 use crate::spec::ast;
 use crate::spec::lexer::Token;
@@ -17,6 +18,9 @@ pub(super) const MEMBERS: &[&str] = &[
     "knows",
     "require",
     "invariant",
+    "keep",
+    "whenever",
+    "answer",
     "initial",
     "any",
     "state",
@@ -43,7 +47,7 @@ impl Parser {
             locals: Vec::new(),
             defines: Vec::new(),
             requires: Vec::new(),
-            invariants: Vec::new(),
+            properties: Vec::new(),
             initial: None,
             any: Vec::new(),
             states: Vec::new(),
@@ -127,11 +131,7 @@ impl Parser {
                 self.end_of_declaration(require.is_some());
                 automaton.requires.extend(require);
             }
-            Some("invariant") => {
-                let invariant = self.invariant();
-                self.end_of_declaration(invariant.is_some());
-                automaton.invariants.extend(invariant);
-            }
+            Some(word) if WORDS.contains(&word) => automaton.properties.extend(self.parse_property()),
             Some("initial") if *self.peek_second() == Token::Sign("->") => {
                 let span = self.span();
                 self.next();
@@ -216,29 +216,6 @@ impl Parser {
         self.next();
         let text = self.shown_text(&text, start as usize);
         Some(ast::Require { span: span.to(self.last_span()), condition, text })
-    }
-
-    fn invariant(&mut self) -> Option<ast::Invariant> {
-        self.next();
-        let errors = self.errors;
-        let condition = self.parse_expr();
-        if self.errors > errors {
-            return None;
-        }
-        if self.word() != Some("else") {
-            return Some(ast::Invariant { condition, text: None });
-        }
-        self.next();
-        let Token::Text(text) = self.peek().clone() else {
-            self.error(
-                "E0205",
-                "the text of the invariant is missing".into(),
-                "write what to tell the operator as a text after `else`, or leave `else` out",
-            );
-            return None;
-        };
-        self.next();
-        Some(ast::Invariant { condition, text: Some(text) })
     }
 
     fn role(

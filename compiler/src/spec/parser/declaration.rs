@@ -2,6 +2,7 @@
 
 use super::Parser;
 use super::automaton::MEMBERS;
+use super::property::WORDS;
 use crate::spec::ast;
 use crate::spec::lexer::Token;
 
@@ -36,7 +37,8 @@ impl Parser {
     pub(super) fn parse_interface(&mut self, doc: Vec<String>) -> Option<ast::Interface> {
         self.next();
         let name = self.expect_name("the interface")?;
-        let mut interface = ast::Interface { doc, name, parameters: Vec::new(), cells: Vec::new() };
+        let mut interface =
+            ast::Interface { doc, name, parameters: Vec::new(), cells: Vec::new(), properties: Vec::new() };
         if self.expect_sign("{", "before the members of the interface").is_none() {
             self.recover();
             return Some(interface);
@@ -55,12 +57,13 @@ impl Parser {
             match self.word() {
                 Some("parameter") => interface.parameters.extend(self.parse_parameter(doc)),
                 Some("shared") => interface.cells.extend(self.parse_cell(doc)),
+                Some(word) if WORDS.contains(&word) => interface.properties.extend(self.parse_property()),
                 _ => {
                     let found = self.found();
                     self.error(
                         "E0204",
                         format!("{found} cannot stand in an interface"),
-                        "an interface holds `parameter` and `shared`",
+                        "an interface holds `parameter`, `shared`, `invariant`, `keep` and `whenever`",
                     );
                     self.next();
                     self.recover_declaration();

@@ -22,6 +22,7 @@ impl Parser {
         for tree in &file.interfaces {
             self.bound(&tree.name, "parameters", tree.parameters.len());
             self.bound(&tree.name, "cells", tree.cells.len());
+            self.bound(&tree.name, "properties", tree.properties.len());
         }
         for tree in &file.automata {
             self.bound_automaton(tree);
@@ -37,7 +38,7 @@ impl Parser {
             ("local variables", tree.locals.len()),
             ("definitions", tree.defines.len()),
             ("requirements", tree.requires.len()),
-            ("invariants", tree.invariants.len()),
+            ("properties", tree.properties.len()),
             ("states", tree.states.len()),
             ("transitions of any state", tree.any.iter().map(|any| any.transitions.len()).sum()),
         ] {

@@ -194,7 +194,10 @@ impl Design {
         let outputs = drives.into_iter().map(|drives| Output { size: ONE, drives }).collect();
         let wiring = Arc::new(Wiring { inputs, outputs, commands: Vec::new() });
         let (name, pose) = (format!("lane_{number}"), from.position);
-        (Machine { name, pose, parts, wiring, states: Vec::new() }, end.unwrap_or_default())
+        (
+            Machine { name, pose, parts, wiring, states: Vec::new(), watch: Default::default() },
+            end.unwrap_or_default(),
+        )
     }
 
     /// Machine and output of each number in the script.

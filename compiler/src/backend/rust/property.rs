@@ -1,0 +1,125 @@
+//! Properties, which are looked at behind the steps, and the alarms that they raise.
+
+use super::context::Context;
+use super::format::comment;
+use super::walk::Uses;
+use crate::ir::{Automaton, Property, PropertyKind, Severity};
+
+/// What the method that looks at the properties needs beside the robot.
+pub fn uses(context: &Context) -> Uses {
+    let mut uses = Uses::default();
+    let automaton = context.automaton();
+    for property in &automaton.properties {
+        property.exprs().into_iter().for_each(|expr| uses.expr(automaton, expr));
+        uses.wiring |= matches!(property.kind, PropertyKind::Whenever { .. });
+        uses.scan |= property.is_alarm();
+    }
+    uses.start = automaton.can_stop();
+    uses
+}
+
+/// Whether properties keep anything from scan to scan.
+pub fn remembers(automaton: &Automaton) -> bool {
+    automaton.properties.iter().any(|p| p.is_alarm() || !matches!(p.kind, PropertyKind::Always(_)))
+}
+
+/// Whether one of them waits for something.
+pub fn waits(automaton: &Automaton) -> bool {
+    automaton.properties.iter().any(|p| matches!(p.kind, PropertyKind::Whenever { .. }))
+}
+
+/// Statements, one or more for each property.
+pub fn properties(context: &Context) -> Vec<String> {
+    let automaton = context.automaton();
+    let mut texts = Vec::new();
+    if automaton.can_stop() {
+        texts.push("let stopped = self.stopped;".into());
+    }
+    let mut alarm = 0;
+    for property in &automaton.properties {
+        let title = comment(&format!("{}: {}", context.line(property.place), property.text));
+        let holds = holds(context, property);
+        let reaction = match property.severity {
+            Severity::Line => format!("if !holds {{ return Err({}); }}", context.fault(property.site)),
+            Severity::Warning => format!("self.alarms[{alarm}].note(!holds, scan);"),
+            Severity::Machine => {
+                format!("if self.alarms[{alarm}].note(!holds, scan) {{ self.stopped = true; }}")
+            }
+        };
+        alarm += usize::from(property.is_alarm());
+        texts.push(format!("{title}{holds}{reaction}"));
+    }
+    if automaton.can_stop() {
+        let stops = automaton.alarms().enumerate().filter(|(_, p)| p.severity == Severity::Machine);
+        let closed: Vec<_> = stops.map(|(number, _)| format!("!self.alarms[{number}].is_open()")).collect();
+        texts.push(format!(
+            "{}if start && stopped && {} {{ self.stopped = false; }}",
+            comment("It goes on from the next scan on."),
+            closed.join(" && ")
+        ));
+    }
+    texts
+}
+
+/// Statements that end with the variable `holds`.
+fn holds(context: &Context, property: &Property) -> String {
+    let field = |local: usize| format!("self.{}", context.own().locals[local]);
+    let can_stop = context.automaton().can_stop();
+    match &property.kind {
+        PropertyKind::Always(condition) => format!("let holds = {};", context.expr(condition)),
+        PropertyKind::Keep { condition, values, same, held } => {
+            let (held, condition) = (field(*held), context.expr(condition));
+            let kept = if can_stop { format!("!stopped && ({condition})") } else { condition };
+            let stores: String = values
+                .iter()
+                .map(|kept| format!("{} = {};", field(kept.before), context.expr(&kept.value)))
+                .collect();
+            format!(
+                "let kept = {kept}; let holds = !({held} && kept) || ({}); {held} = kept; if kept {{ {stores} }}",
+                context.expr(same)
+            )
+        }
+        PropertyKind::Whenever { trigger, goal, within, waited, anew } => {
+            let waited = field(*waited);
+            let (trigger, goal) = (context.expr(trigger), context.expr(goal));
+            let goal = if can_stop { format!("stopped || ({goal})") } else { goal };
+            let anew = anew.as_ref().map(|kept| {
+                let (before, value) = (field(kept.before), context.expr(&kept.value));
+                format!("if {before} != {value} {{ {before} = {value}; {waited} = -1; }}")
+            });
+            format!(
+                "{}{waited} = waited({waited}, {trigger}, {goal}, wiring.scan_ms); let holds = {waited} < {};",
+                anew.unwrap_or_default(),
+                context.expr(within)
+            )
+        }
+    }
+}
+
+/// Statements after which properties begin anew.
+pub fn anew(context: &Context) -> Vec<String> {
+    let field = |local: usize| format!("self.{}", context.own().locals[local]);
+    let properties = context.automaton().properties.iter();
+    let statement = |property: &Property| match property.kind {
+        PropertyKind::Always(_) => None,
+        PropertyKind::Keep { held, .. } => Some(format!("{} = false;", field(held))),
+        PropertyKind::Whenever { waited, .. } => Some(format!("{} = -1;", field(waited))),
+    };
+    properties.filter_map(statement).collect()
+}
+
+/// The fields that count milliseconds.
+pub fn counters(context: &Context) -> Vec<String> {
+    let properties = context.automaton().properties.iter();
+    let counter = |property: &Property| match property.kind {
+        PropertyKind::Whenever { waited, .. } => Some(context.own().locals[waited].clone()),
+        _ => None,
+    };
+    properties.filter_map(counter).collect()
+}
+
+/// The alarms of a robot at power-up.
+pub fn alarms(context: &Context) -> Vec<String> {
+    let alarms = context.automaton().alarms();
+    alarms.map(|property| format!("Alarm::new({})", context.fault(property.site))).collect()
+}

@@ -1,0 +1,109 @@
+//! The table of alarms in the program: its arrays, what acknowledges, what is told of the first one.
+
+use super::code::{Arm, Ex, Stmt, advance, and, assign, binary, name, not, or, when};
+use super::context::Shared;
+use super::declaration::{Basic, Variable};
+use super::globals::Table;
+use super::names::ELEMENT;
+use super::property::STOPPED;
+use crate::ir::Severity;
+
+pub fn any(shared: Shared) -> bool {
+    !shared.system.alarms().is_empty()
+}
+
+pub fn can_stop(shared: Shared) -> bool {
+    shared.system.alarms().iter().any(|entry| entry.severity == Severity::Machine)
+}
+
+/// The arrays: an element for each entry, and for each robot whether an alarm has stopped it.
+pub fn tables(shared: Shared) -> Vec<Table> {
+    let entries = shared.system.alarms();
+    let table = |name: &str, basic: Basic, about: &str, values: Vec<Ex>| Table {
+        variable: Variable::new(name, basic).with_elements(Some(values.len())).with_comment(about),
+        values,
+    };
+    let all = |value: Ex| vec![value; entries.len()];
+    let mut tables = Vec::new();
+    if !entries.is_empty() {
+        let codes = entries.iter().map(|entry| Ex::Int(entry.site.0 as i32 + 1)).collect();
+        let robots = entries.iter().map(|entry| Ex::Int(entry.robot as i32)).collect();
+        tables.extend([
+            table("alarms_code", Basic::Dint, "see alarms.csv", codes),
+            table("alarms_robot", Basic::Dint, "number of the robot", robots),
+            table("alarms_active", Basic::Bool, "what raises it lasts", all(Ex::Bool(false))),
+            table("alarms_acknowledged", Basic::Bool, "it has been seen", all(Ex::Bool(true))),
+            table("alarms_count", Basic::Dint, "how often it was raised", all(Ex::Int(0))),
+            table("alarms_first", Basic::Dint, "scan in which it was raised first", all(Ex::Int(0))),
+            table("alarms_last", Basic::Dint, "scan in which it was raised last", all(Ex::Int(0))),
+        ]);
+    }
+    if can_stop(shared) {
+        let robots = vec![Ex::Bool(false); shared.system.instances.len()];
+        let about = "an alarm has stopped the robot: it makes no steps, and its device is held";
+        tables.push(table(STOPPED, Basic::Bool, about, robots));
+    }
+    tables
+}
+
+fn of(array: &str) -> Ex {
+    Ex::Element(array.into(), Box::new(name(ELEMENT)))
+}
+
+/// For every entry.
+fn each(shared: Shared, mut body: Vec<Stmt>) -> [Stmt; 2] {
+    let count = shared.system.alarms().len();
+    body.push(advance(ELEMENT));
+    let condition = binary("<", name(ELEMENT), Ex::Int(count as i32));
+    [assign(ELEMENT, Ex::Int(0)), Stmt::While { condition, body, most: count as u64 }]
+}
+
+/// A rising edge of `reset` acknowledges all alarms.
+pub fn acknowledged(shared: Shared) -> Vec<Stmt> {
+    if !any(shared) {
+        return Vec::new();
+    }
+    let store = Stmt::Assign(of("alarms_acknowledged"), Ex::Bool(true));
+    let edge = and(vec![name("reset"), not(name("reset_before"))]);
+    vec![when(edge, each(shared, vec![store]).into())]
+}
+
+/// The outputs that tell of alarms.
+pub fn told(shared: Shared) -> Vec<Stmt> {
+    if !any(shared) {
+        return Vec::new();
+    }
+    let is_open = or(vec![of("alarms_active"), not(of("alarms_acknowledged"))]);
+    let is_first =
+        or(vec![binary("=", name("alarm_code"), Ex::Int(0)), binary("<", of("alarms_last"), name("oldest"))]);
+    let tell = vec![
+        assign("alarm_code", of("alarms_code")),
+        assign("alarm_robot", of("alarms_robot")),
+        assign("oldest", of("alarms_last")),
+    ];
+    let mut body = vec![
+        Stmt::Comment("Alarms: of those that are not acknowledged, the one that was raised first.".into()),
+        assign("alarm", Ex::Bool(false)),
+        assign("alarm_code", Ex::Int(0)),
+        assign("alarm_robot", Ex::Int(-1)),
+        assign("oldest", Ex::Int(0)),
+    ];
+    body.extend(each(
+        shared,
+        vec![
+            when(is_open, vec![assign("alarm", Ex::Bool(true))]),
+            when(and(vec![not(of("alarms_acknowledged")), is_first]), tell),
+        ],
+    ));
+    body
+}
+
+/// The number of the scan grows, and stops at its greatest value.
+pub fn counted(shared: Shared) -> Vec<Stmt> {
+    if !any(shared) {
+        return Vec::new();
+    }
+    let room = binary("<", name("scan_no"), Ex::Int(i32::MAX));
+    let arm = Arm { comments: Vec::new(), condition: room, body: vec![advance("scan_no")] };
+    vec![Stmt::If(vec![arm], Vec::new())]
+}

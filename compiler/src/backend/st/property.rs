@@ -1,0 +1,233 @@
+//! The function block of a type that looks at its properties behind the steps of all robots, and raises alarms.
+
+use super::block::{
+    Block, Candidate, Origin, candidates, elapsed, externals, inputs_and_kept, kept_values, locals, made,
+    stopped,
+};
+use super::code::{self, Arm, Ex, Stmt, and, assign, binary, name, not, or, sum, when};
+use super::context::{Lowering, Phase, Shared};
+use super::dead;
+use super::declaration::{Basic, Unit, Variable};
+use super::expression::guarded;
+use super::globals::Globals;
+use crate::ir::{AutomatonId, Expr, KeptBy, Property, PropertyKind, Scalar, Severity};
+
+/// Whether the property at hand is violated.
+const VIOLATED: &str = "property_violated";
+/// Whether the condition of a `keep` holds.
+const HOLDS: &str = "condition_holds";
+/// The robot was stopped when the block was called.
+const WAS_STOPPED: &str = "was_stopped";
+/// The number of the robot's first entry in the table of alarms.
+pub const ENTRY: &str = "alarm_entry";
+pub const STOPPED: &str = "robot_stopped";
+pub const LOCAL: [&str; 4] = [VIOLATED, HOLDS, WAS_STOPPED, ENTRY];
+
+pub fn block(shared: Shared, id: AutomatonId, globals: &Globals) -> Option<Block> {
+    let mut lowering = Lowering::new(shared, id);
+    let automaton = lowering.automaton();
+    if automaton.properties.is_empty() {
+        return None;
+    }
+    let tests = body(&mut lowering);
+    let mut body = anew(&lowering);
+    body.push(when(stopped(), vec![Stmt::Return]));
+    if automaton.can_stop() {
+        body.push(assign(WAS_STOPPED, own_stop()));
+    }
+    body.extend(dead::without_unread(tests, &made(&lowering)));
+    let all = candidates(shared, id);
+    let used = code::names(&body);
+    let kept: Vec<&Candidate> =
+        all.iter().filter(|c| c.kept_by == KeptBy::Properties && used.contains(&c.variable.name)).collect();
+    if !kept.is_empty() {
+        body.insert(0, when(not(name("init_done")), kept_values(&kept)));
+    }
+    let used = code::names(&body);
+    let mut variables: Vec<Variable> = kept.iter().map(|c| c.variable.clone()).collect();
+    let own = [
+        (VIOLATED, "the property does not hold"),
+        (HOLDS, "its condition holds"),
+        (WAS_STOPPED, "an alarm had stopped the robot before this scan"),
+    ];
+    let own = own.map(|(name, about)| Variable::new(name, Basic::Bool).with_comment(about));
+    variables.extend(own.into_iter().filter(|variable| used.contains(&variable.name)));
+    variables.extend(locals(shared, id, &lowering.temporaries, &used));
+    let mut given: Vec<Candidate> = all.into_iter().filter(|c| c.kept_by == KeptBy::Steps).collect();
+    given.push(elapsed());
+    given.push(Candidate::given(
+        Variable::new(ENTRY, Basic::Dint).with_comment("number of its first entry in the table of alarms"),
+        Origin::AlarmEntry,
+    ));
+    let (inputs, arguments) = inputs_and_kept(given, &used);
+    Some(Block {
+        unit: Unit {
+            name: lowering.own().properties.clone(),
+            comments: vec![format!(
+                "What each {} promises, looked at behind the steps of all robots.",
+                automaton.name
+            )],
+            inputs,
+            externals: externals(globals, &used),
+            variables,
+            body,
+            ..Unit::default()
+        },
+        arguments,
+    })
+}
+
+/// The tests, in the order of the text.
+pub fn body(lowering: &mut Lowering) -> Vec<Stmt> {
+    let automaton = lowering.automaton();
+    let mut out = Vec::new();
+    let mut alarm = 0;
+    for property in &automaton.properties {
+        lowering.phase = Phase::Update;
+        lowering.release();
+        out.push(Stmt::Comment(format!("{}   {}", property.text, lowering.line(property.place))));
+        let violated = lowering.violated(property, &mut out);
+        if !property.is_alarm() {
+            out.extend(guarded(violated, lowering.raise(property.site)));
+            continue;
+        }
+        out.push(assign(VIOLATED, violated));
+        out.extend(note(entry(alarm), property.severity));
+        alarm += 1;
+    }
+    let stops = automaton.alarms().enumerate().filter(|(_, p)| p.severity == Severity::Machine);
+    let closed = stops.flat_map(|(number, _)| {
+        let of = |array: &str| Ex::Element(array.into(), Box::new(entry(number)));
+        [not(of("alarms_active")), of("alarms_acknowledged")]
+    });
+    if automaton.can_stop() {
+        out.push(Stmt::Comment("It goes on from the next scan on.".into()));
+        let conditions = [name("start_edge"), name(WAS_STOPPED)].into_iter().chain(closed);
+        out.push(when(and(conditions.collect()), vec![Stmt::Assign(own_stop(), Ex::Bool(false))]));
+    }
+    out
+}
+
+fn entry(alarm: usize) -> Ex {
+    sum(name(ENTRY), Ex::Int(alarm as i32))
+}
+
+fn own_stop() -> Ex {
+    Ex::Element(STOPPED.into(), Box::new(name("robot")))
+}
+
+/// Raises an alarm if there is none, and says whether it lasts.
+fn note(entry: Ex, severity: Severity) -> Vec<Stmt> {
+    let of = |array: &str| Ex::Element(array.into(), Box::new(entry.clone()));
+    let count = || of("alarms_count");
+    let mut raised = vec![
+        when(binary("=", count(), Ex::Int(0)), vec![Stmt::Assign(of("alarms_first"), name("scan_no"))]),
+        Stmt::Assign(of("alarms_last"), name("scan_no")),
+        when(
+            binary("<", count(), Ex::Int(i32::MAX)),
+            vec![Stmt::Assign(count(), binary("+", count(), Ex::Int(1)))],
+        ),
+        Stmt::Assign(of("alarms_acknowledged"), Ex::Bool(false)),
+    ];
+    if severity == Severity::Machine {
+        raised.push(Stmt::Assign(own_stop(), Ex::Bool(true)));
+    }
+    vec![
+        when(and(vec![name(VIOLATED), not(of("alarms_active"))]), raised),
+        Stmt::Assign(of("alarms_active"), name(VIOLATED)),
+    ]
+}
+
+/// Behind a reset that cleared a fault.
+fn anew(lowering: &Lowering) -> Vec<Stmt> {
+    let held = |local: usize| &lowering.own().locals[local][0];
+    let properties = lowering.automaton().properties.iter();
+    let statements = properties.filter_map(|property| match property.kind {
+        PropertyKind::Always(_) => None,
+        PropertyKind::Keep { held: local, .. } => Some(assign(held(local), Ex::Bool(false))),
+        PropertyKind::Whenever { waited, .. } => Some(assign(held(waited), Ex::Int(-1))),
+    });
+    guarded(name("fault_cleared"), statements.collect())
+}
+
+impl Lowering<'_> {
+    /// A condition as it is to be tested; `out` gets what comes before.
+    fn condition(&mut self, expr: &Expr, out: &mut Vec<Stmt>) -> Ex {
+        let mut before = Vec::new();
+        let value = self.value(expr, &mut before);
+        out.append(&mut self.hoisted);
+        out.extend(before);
+        value
+    }
+
+    fn violated(&mut self, property: &Property, out: &mut Vec<Stmt>) -> Ex {
+        let locals = &self.own().locals;
+        let can_stop = self.automaton().can_stop();
+        match &property.kind {
+            PropertyKind::Always(condition) => {
+                let mut before = Vec::new();
+                let fails = self.contrary(condition, &mut before);
+                out.append(&mut self.hoisted);
+                out.extend(before);
+                fails
+            }
+            PropertyKind::Keep { condition, values, same, held } => {
+                let held = &locals[*held][0];
+                let condition = self.condition(condition, out);
+                let holds = match can_stop {
+                    true => and(vec![not(name(WAS_STOPPED)), condition]),
+                    false => condition,
+                };
+                out.push(assign(HOLDS, holds));
+                let same = self.condition(same, out);
+                out.push(assign(VIOLATED, and(vec![name(held), name(HOLDS), not(same)])));
+                out.push(assign(held, name(HOLDS)));
+                let mut stores = Vec::new();
+                for kept in values {
+                    let mut before = Vec::new();
+                    let parts = match kept.value.ty {
+                        Scalar::Point => self.coordinates(&kept.value, &mut before),
+                        _ => vec![self.value(&kept.value, &mut before)],
+                    };
+                    out.append(&mut self.hoisted);
+                    out.extend(before);
+                    let stored = locals[kept.before].iter().zip(parts);
+                    stores.extend(stored.map(|(local, part)| assign(local, part)));
+                }
+                out.extend(guarded(name(HOLDS), stores));
+                name(VIOLATED)
+            }
+            PropertyKind::Whenever { trigger, goal, within, waited, anew } => {
+                let waited = &locals[*waited][0];
+                let trigger = self.condition(trigger, out);
+                let goal = self.condition(goal, out);
+                let within = self.condition(within, out);
+                let arm = |condition: Ex, body: Vec<Stmt>| Arm { comments: Vec::new(), condition, body };
+                let goal = if can_stop { or(vec![name(WAS_STOPPED), goal]) } else { goal };
+                let room = binary("-", Ex::Int(i32::MAX), name("dt_ms"));
+                let grow = Stmt::If(
+                    vec![arm(
+                        binary("<", name(waited), room),
+                        vec![assign(waited, binary("+", name(waited), name("dt_ms")))],
+                    )],
+                    vec![assign(waited, Ex::Int(i32::MAX))],
+                );
+                if let Some(kept) = anew {
+                    let before = &locals[kept.before][0];
+                    let value = self.condition(&kept.value, out);
+                    let changed = binary("<>", name(before), value.clone());
+                    out.push(when(changed, vec![assign(before, value), assign(waited, Ex::Int(-1))]));
+                }
+                out.push(Stmt::If(
+                    vec![
+                        arm(goal, vec![assign(waited, Ex::Int(-1))]),
+                        arm(binary(">=", name(waited), Ex::Int(0)), vec![grow]),
+                        arm(trigger, vec![assign(waited, Ex::Int(0))]),
+                    ],
+                    Vec::new(),
+                ));
+                binary(">=", name(waited), within)
+            }
+        }
+    }
+}

@@ -1,0 +1,190 @@
+//! What comes behind the steps: properties, and the alarms that they raise.
+
+use super::Executor;
+use crate::ir::{Expr, FaultId, Property, PropertyKind, Severity, Value};
+use runtime_sim::scan::SystemOutputs;
+
+/// An entry of the table of alarms.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Alarm {
+    /// What raises it lasts.
+    pub active: bool,
+    pub acknowledged: bool,
+    /// How often it was raised.
+    pub count: i32,
+    /// Scans in which it was raised first and last.
+    pub first: i32,
+    pub last: i32,
+}
+
+impl Alarm {
+    pub(super) const NONE: Self = Self { active: false, acknowledged: true, count: 0, first: 0, last: 0 };
+
+    /// Whether it is raised in this scan.
+    fn note(&mut self, violated: bool, scan: i32) -> bool {
+        let raised = violated && !self.active;
+        self.active = violated;
+        if raised {
+            if self.count == 0 {
+                self.first = scan;
+            }
+            self.last = scan;
+            self.count = self.count.saturating_add(1);
+            self.acknowledged = false;
+        }
+        raised
+    }
+
+    pub(super) fn push_words(self, out: &mut Vec<f64>) {
+        let truth = |value: bool| f64::from(u8::from(value));
+        out.extend([truth(self.active), truth(self.acknowledged)]);
+        out.extend([self.count, self.first, self.last].map(f64::from));
+    }
+}
+
+impl Executor<'_> {
+    /// The alarms of an instance, in the order of its type.
+    pub fn alarms(&self, robot: usize) -> &[Alarm] {
+        &self.robots[robot].alarms
+    }
+
+    pub fn is_stopped(&self, robot: usize) -> bool {
+        self.robots[robot].stopped
+    }
+
+    /// All properties of an instance; `starts` says whether there is an edge of `start`.
+    pub(super) fn properties(&mut self, robot: usize, starts: bool) -> Result<(), FaultId> {
+        let system = self.system;
+        let automaton = system.automaton_of(robot);
+        let was_stopped = self.robots[robot].stopped;
+        let mut alarm = 0;
+        for property in &automaton.properties {
+            let violated = self.is_violated(robot, property, was_stopped);
+            if !property.is_alarm() {
+                if violated {
+                    return Err(property.site);
+                }
+                continue;
+            }
+            let scan = self.scan;
+            let raised = self.robots[robot].alarms[alarm].note(violated, scan);
+            if raised && property.severity == Severity::Machine {
+                self.robots[robot].stopped = true;
+            }
+            alarm += 1;
+        }
+        let mut stops = automaton.alarms().zip(&self.robots[robot].alarms);
+        let is_held = stops.any(|(p, a)| p.severity == Severity::Machine && (a.active || !a.acknowledged));
+        if starts && was_stopped && !is_held {
+            self.robots[robot].stopped = false;
+        }
+        Ok(())
+    }
+
+    fn is_violated(&mut self, robot: usize, property: &Property, stopped: bool) -> bool {
+        match &property.kind {
+            PropertyKind::Always(condition) => !self.holds(robot, condition),
+            PropertyKind::Keep { condition, values, same, held } => {
+                let holds = !stopped && self.holds(robot, condition);
+                let held_before = self.robots[robot].locals[*held][0] == Value::Bool(true);
+                let violated = held_before && holds && !self.holds(robot, same);
+                self.remember(robot, *held, Value::Bool(holds));
+                if holds {
+                    for kept in values {
+                        let value = self.value(robot, &kept.value);
+                        self.remember(robot, kept.before, value);
+                    }
+                }
+                violated
+            }
+            PropertyKind::Whenever { trigger, goal, within, waited, anew } => {
+                let before = self.counted(robot, *waited);
+                let changed = anew.as_ref().is_some_and(|kept| {
+                    let value = self.value(robot, &kept.value);
+                    let differs = self.robots[robot].locals[kept.before][0] != value;
+                    self.remember(robot, kept.before, value);
+                    differs
+                });
+                let now = if stopped || self.holds(robot, goal) {
+                    -1
+                } else if before >= 0 && !changed {
+                    before.saturating_add(self.system.scan_ms)
+                } else if self.holds(robot, trigger) {
+                    0
+                } else {
+                    -1
+                };
+                self.remember(robot, *waited, Value::Int(now));
+                now >= 0 && now >= self.milliseconds(robot, within)
+            }
+        }
+    }
+
+    fn milliseconds(&mut self, robot: usize, time: &Expr) -> i32 {
+        match self.value(robot, time) {
+            Value::Int(ms) => ms,
+            other => unreachable!("a checked time is {other:?}"),
+        }
+    }
+
+    fn counted(&self, robot: usize, waited: usize) -> i32 {
+        match self.robots[robot].locals[waited][0] {
+            Value::Int(ms) => ms,
+            other => unreachable!("a counter is {other:?}"),
+        }
+    }
+
+    fn remember(&mut self, robot: usize, local: usize, value: Value) {
+        self.robots[robot].locals[local][0] = value;
+    }
+
+    /// What properties remember begins anew.
+    pub(super) fn observe_anew(&mut self) {
+        for robot in 0..self.robots.len() {
+            for property in &self.system.automaton_of(robot).properties {
+                match property.kind {
+                    PropertyKind::Always(_) => {}
+                    PropertyKind::Keep { held, .. } => self.remember(robot, held, Value::Bool(false)),
+                    PropertyKind::Whenever { waited, .. } => self.remember(robot, waited, Value::Int(-1)),
+                }
+            }
+        }
+    }
+
+    /// So many milliseconds pass in which nothing happens.
+    pub(super) fn wait(&mut self, robot: usize, ms: i32) {
+        for property in &self.system.automaton_of(robot).properties {
+            if let PropertyKind::Whenever { waited, .. } = property.kind {
+                let before = self.counted(robot, waited);
+                if before >= 0 {
+                    self.remember(robot, waited, Value::Int(before.saturating_add(ms)));
+                }
+            }
+        }
+    }
+
+    pub(super) fn acknowledge(&mut self) {
+        let alarms = self.robots.iter_mut().flat_map(|robot| &mut robot.alarms);
+        alarms.for_each(|alarm| alarm.acknowledged = true);
+    }
+
+    /// The outputs that tell of alarms: of those that are not acknowledged, the one that was raised first.
+    pub(super) fn tell_alarms(&self, outputs: SystemOutputs) -> SystemOutputs {
+        let mut told: Option<(i32, FaultId, usize)> = None;
+        let mut alarm = false;
+        for (robot, state) in self.robots.iter().enumerate() {
+            for (property, entry) in self.system.automaton_of(robot).alarms().zip(&state.alarms) {
+                alarm |= entry.active || !entry.acknowledged;
+                if !entry.acknowledged && told.is_none_or(|(scan, ..)| entry.last < scan) {
+                    told = Some((entry.last, property.site, robot));
+                }
+            }
+        }
+        SystemOutputs {
+            alarm,
+            alarm_code: told.map_or(0, |(_, site, _)| site.0 as i32 + 1),
+            alarm_robot: told.map_or(-1, |(_, _, robot)| robot as i32),
+            ..outputs
+        }
+    }
+}
