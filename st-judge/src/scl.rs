@@ -38,6 +38,51 @@ const STATEMENTS: [&str; 24] = [
     "END_FOR",
     "CONTINUE",
 ];
+/// Of the language: names only in quotes. TIA Portal colours them as keywords or types.
+const WORDS: [&str; 40] = [
+    "ANY",
+    "ARRAY",
+    "BEGIN",
+    "BOOL",
+    "BY",
+    "BYTE",
+    "CASE",
+    "CHAR",
+    "CONST",
+    "CONTINUE",
+    "COUNTER",
+    "DATA_BLOCK",
+    "DATE",
+    "DINT",
+    "DO",
+    "DWORD",
+    "ELSE",
+    "END_VAR",
+    "EXIT",
+    "FOR",
+    "FUNCTION",
+    "GOTO",
+    "IF",
+    "INT",
+    "LABEL",
+    "OF",
+    "OK",
+    "ORGANIZATION_BLOCK",
+    "REAL",
+    "REGION",
+    "REPEAT",
+    "RETURN",
+    "S5TIME",
+    "STRUCT",
+    "TIME",
+    "TIMER",
+    "TITLE",
+    "TYPE",
+    "VERSION",
+    "VOID",
+];
+/// Each project has an organization block of this name.
+const TAKEN: &str = "Main";
 /// Longer names are refused by TIA Portal.
 const LONGEST: usize = 128;
 
@@ -144,7 +189,9 @@ impl<'a> Reader<'a> {
     fn unit(&mut self) -> Result<Option<Block>, Finding> {
         let word = self.kind(Kind::Word)?;
         let name = self.kind(Kind::Global)?;
-        if !is_name(name.text) || self.known.blocks.iter().any(|known| known.eq_ignore_ascii_case(name.text))
+        if name.text.eq_ignore_ascii_case(TAKEN)
+            || !is_name(name.text)
+            || self.known.blocks.iter().any(|known| known.eq_ignore_ascii_case(name.text))
         {
             return Err(wrong(name, "no name, or a second block of this name"));
         }
@@ -186,16 +233,28 @@ impl<'a> Reader<'a> {
         self.expect(Kind::Word, "END_DATA_BLOCK")
     }
 
+    /// A name that is declared, or one behind a point. A word of the language is in quotes.
+    fn name(&mut self) -> Result<Token<'a>, Finding> {
+        let token = self.take()?;
+        let is_bare =
+            token.kind == Kind::Word && !WORDS.iter().any(|word| word.eq_ignore_ascii_case(token.text));
+        match is_name(token.text) && (is_bare || token.kind == Kind::Global) {
+            true => Ok(token),
+            false => Err(wrong(token, "a name is wanted; words of SCL stand in quotes")),
+        }
+    }
+
     /// Up to `END_VAR`.
     fn declarations(&mut self) -> Result<Vec<(String, Declared)>, Finding> {
         let mut found: Vec<(String, Declared)> = Vec::new();
         loop {
-            let name = self.kind(Kind::Word)?;
-            if name.text == "END_VAR" {
+            if self.peek().is_some_and(|token| token.is(Kind::Word, "END_VAR")) {
+                self.next += 1;
                 return Ok(found);
             }
-            if !is_name(name.text) || found.iter().any(|(known, _)| known.eq_ignore_ascii_case(name.text)) {
-                return Err(wrong(name, "no name, or declared before"));
+            let name = self.name()?;
+            if found.iter().any(|(known, _)| known.eq_ignore_ascii_case(name.text)) {
+                return Err(wrong(name, "declared before"));
             }
             self.expect(Kind::Symbol, ":")?;
             let mut ty = String::new();
@@ -280,7 +339,7 @@ impl<'a> Reader<'a> {
                 },
                 Kind::Global if token.text == self.known.shared_name => {
                     self.expect(Kind::Symbol, ".")?;
-                    let name = self.kind(Kind::Word)?;
+                    let name = self.name()?;
                     if !self.known.shared.as_ref().is_some_and(|shared| shared.contains_key(name.text)) {
                         return Err(wrong(name, "not in the data block"));
                     }
@@ -288,6 +347,14 @@ impl<'a> Reader<'a> {
                         globals.push(name.text.into());
                     }
                     name.text
+                }
+                Kind::Global if behind(".") => token.text,
+                // The name of an argument.
+                Kind::Global
+                    if (behind("(") || behind(","))
+                        && self.peek().is_some_and(|t| t.is(Kind::Symbol, ":=")) =>
+                {
+                    token.text
                 }
                 Kind::Global if self.known.blocks.iter().any(|known| known == token.text) => token.text,
                 Kind::Global => return Err(wrong(token, "no block of this name so far")),
@@ -306,7 +373,8 @@ impl<'a> Reader<'a> {
                 Kind::Symbol => token.text,
                 Kind::Attribute => return Err(wrong(token, "no attribute stands here")),
             };
-            let is_close = ["(", "."].into_iter().any(behind) || [".", "[", "("].contains(&text);
+            let is_close = ["(", "[", "."].into_iter().any(behind)
+                || [".", "[", "(", ")", "]", ",", ";"].contains(&text);
             if !is_close {
                 body.push(' ');
             }
@@ -348,11 +416,11 @@ VAR a : ARRAY[0..3] OF DINT; b : LREAL := LREAL#-1.5E-7; END_VAR BEGIN END_DATA_
 FUNCTION "F_one" : DINT { S7_Optimized_Access := 'TRUE' } VERSION : 0.1
 VAR_INPUT value : DINT; END_VAR VAR_TEMP t : DINT; END_VAR
 BEGIN #t := #value; #F_one := #t + 1; END_FUNCTION
-FUNCTION_BLOCK "MAIN" { S7_Optimized_Access := 'TRUE' } VERSION : 0.1
+FUNCTION_BLOCK "All" { S7_Optimized_Access := 'TRUE' } VERSION : 0.1
 VAR state : DINT; END_VAR VAR CONSTANT Off : DINT := 7; END_VAR
 BEGIN CASE #state OF #Off: #state := "F_one"(value := #state); ELSE "Line".a[#state] := #Off; END_CASE;
 IF "Line".b < LREAL#2.0 THEN RETURN; END_IF; END_FUNCTION_BLOCK
-DATA_BLOCK "MAIN_DB" { S7_Optimized_Access := 'TRUE' } VERSION : 0.1 NON_RETAIN "MAIN" BEGIN END_DATA_BLOCK
+DATA_BLOCK "All_DB" { S7_Optimized_Access := 'TRUE' } VERSION : 0.1 NON_RETAIN "All" BEGIN END_DATA_BLOCK
 "#;
 
     #[test]
@@ -361,7 +429,7 @@ DATA_BLOCK "MAIN_DB" { S7_Optimized_Access := 'TRUE' } VERSION : 0.1 NON_RETAIN 
         for part in [
             "FUNCTION F_one : DINT\nVAR_INPUT\nvalue : DINT;\nEND_VAR\nVAR\nt : DINT;\nEND_VAR\n",
             "F_one := t + 1;",
-            "PROGRAM MAIN\nVAR\nstate : DINT;\nEND_VAR\nVAR_EXTERNAL\na : ARRAY[0..3] OF DINT;\nb : LREAL;\nEND_VAR\n",
+            "PROGRAM All\nVAR\nstate : DINT;\nEND_VAR\nVAR_EXTERNAL\na : ARRAY[0..3] OF DINT;\nb : LREAL;\nEND_VAR\n",
             "7 : state := F_one(value := state);",
             "a[state] := 7;",
             "IF b < 2.0 THEN",
@@ -381,7 +449,9 @@ DATA_BLOCK "MAIN_DB" { S7_Optimized_Access := 'TRUE' } VERSION : 0.1 NON_RETAIN 
             ("\"Line\".b", "\"Line\".c"),
             ("LREAL#2.0", "2.0"),
             ("t : DINT; END_VAR", "VALUE : DINT; END_VAR"),
-            ("NON_RETAIN \"MAIN\"", "NON_RETAIN \"Other\""),
+            ("NON_RETAIN \"All\"", "NON_RETAIN \"Other\""),
+            ("FUNCTION_BLOCK \"All\"", "FUNCTION_BLOCK \"MAIN\""),
+            ("VAR state : DINT;", "VAR timer : TIMER; state : DINT;"),
             ("Off : DINT := 7", "Off : DINT"),
             ("\"F_one\"(value", "\"F_two\"(value"),
             ("VERSION : 0.1 NON_RETAIN", "NON_RETAIN"),

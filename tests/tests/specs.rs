@@ -217,6 +217,22 @@ fn no_change_of_the_library_is_too_much() {
     }
 }
 
+/// What compares the values of a `keep` is one expression, as deep as they are many.
+#[test]
+fn a_keep_of_many_values_is_refused() {
+    let text = |many: usize| {
+        format!("interface I {{ shared b: bool by owner; keep b{} while b; }}", ", b".repeat(many))
+    };
+    let codes = |many: usize| -> Vec<&str> {
+        let mut sources = Sources::default();
+        diagnostics(&mut sources, "x.aut", &text(many)).iter().map(|found| found.code).collect()
+    };
+    assert_eq!(codes(31), [""; 0]);
+    for many in [32, 60_000] {
+        assert_eq!(codes(many).first(), Some(&"E0211"));
+    }
+}
+
 #[test]
 fn endless_expressions_do_not_overflow_the_stack() {
     const MANY: usize = 20_000;

@@ -37,6 +37,7 @@ pub fn check(automaton: &Automaton, found: &mut Vec<Diagnostic>) {
     let [done, failed] = [ExprKind::Done, ExprKind::Failed].map(|kind| Asking::new(automaton, kind));
     let handles: Vec<bool> =
         automaton.states.iter().map(|state| state.transitions.iter().any(|t| failed.guard(t))).collect();
+    let (handled, commands) = (handled(automaton, &handles), commands(automaton));
     for (number, state) in automaton.states.iter().enumerate() {
         if handles[number] || state.transitions.is_empty() {
             continue;
@@ -48,8 +49,8 @@ pub fn check(automaton: &Automaton, found: &mut Vec<Diagnostic>) {
                     .note("a command that fails is never `done`: the machine would stay in this state")
                     .help("add `when failed -> ...`, or `any state { when failed -> ... }`"),
             );
-        } else if let Some(place) = command_into(automaton, number)
-            && !after(automaton, number).any(|later| handles[later])
+        } else if let Some(place) = commands[number]
+            && !handled[number]
         {
             let message =
                 format!("a command is given for `{}`, and no state looks whether it fails", state.name);
@@ -62,11 +63,15 @@ pub fn check(automaton: &Automaton, found: &mut Vec<Diagnostic>) {
     }
 }
 
-/// Where the first transition into a state gives a command.
-fn command_into(automaton: &Automaton, state: usize) -> Option<Span> {
-    let all = automaton.states.iter().flat_map(|state| &state.transitions);
-    let mut into = all.filter(|transition| transition.target == Some(StateId(state)));
-    into.find_map(command)
+/// For each state where the first transition into it that gives a command does so.
+fn commands(automaton: &Automaton) -> Vec<Option<Span>> {
+    let mut found = vec![None; automaton.states.len()];
+    for transition in automaton.states.iter().flat_map(|state| &state.transitions) {
+        if let Some(StateId(target)) = transition.target {
+            found[target] = found[target].or_else(|| command(transition));
+        }
+    }
+    found
 }
 
 fn command(transition: &Transition) -> Option<Span> {
@@ -74,21 +79,26 @@ fn command(transition: &Transition) -> Option<Span> {
     transition.updates.iter().find(is_command).map(|update| update.place)
 }
 
-/// The states that follow before another command is given, this one included.
-fn after(automaton: &Automaton, state: usize) -> impl Iterator<Item = usize> {
-    let mut seen = vec![state];
-    let mut next = 0;
-    while let Some(&state) = seen.get(next) {
-        next += 1;
-        for transition in &automaton.states[state].transitions {
-            if let (None, Some(StateId(target))) = (command(transition), transition.target)
-                && !seen.contains(&target)
-            {
-                seen.push(target);
+/// The states from which one that looks at failures is reached before another command is given, those included.
+fn handled(automaton: &Automaton, handles: &[bool]) -> Vec<bool> {
+    let mut before: Vec<Vec<usize>> = vec![Vec::new(); automaton.states.len()];
+    for (number, state) in automaton.states.iter().enumerate() {
+        for transition in state.transitions.iter().filter(|transition| command(transition).is_none()) {
+            if let Some(StateId(target)) = transition.target {
+                before[target].push(number);
             }
         }
     }
-    seen.into_iter()
+    let mut handled = handles.to_vec();
+    let mut found: Vec<usize> = (0..handled.len()).filter(|state| handled[*state]).collect();
+    while let Some(state) = found.pop() {
+        for &earlier in &before[state] {
+            if !std::mem::replace(&mut handled[earlier], true) {
+                found.push(earlier);
+            }
+        }
+    }
+    handled
 }
 
 fn expressions(transition: &Transition) -> impl Iterator<Item = &Expr> {

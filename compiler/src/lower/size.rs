@@ -5,7 +5,7 @@ use crate::diagnostic::Diagnostic;
 use crate::ir::{Automaton, Relation, RoleKind};
 use crate::source::Span;
 
-/// Values, states and members of roles that all machines have together, and the entries of the tables that say
+/// Values, states, words of alarms and members of roles that all machines have together, and the entries of the tables that say
 /// from which machine items get to which: 10,000 machines of the library have about a third of it, 400 lines
 /// beside one another too.
 const MOST: usize = 3_000_000;
@@ -26,7 +26,7 @@ impl Line<'_> {
             let name = &self.automaton(robot).name;
             let place = Span::new(self.layout.file, 0, 0);
             let message = format!(
-                "the machines have more than {MOST} values, states, members of roles and pairs together"
+                "the machines have more than {MOST} values, states, words of alarms, members of roles and pairs together"
             );
             self.diagnostics.push(
                 Diagnostic::new("E0508", place, message)
@@ -46,6 +46,6 @@ impl Line<'_> {
         let shown = shown.map(|c| elements(c.ty.extent));
         let known = automaton.roles.iter().filter(|r| r.kind == RoleKind::Knows);
         let known = known.map(|r| self.members[r.interface.0].len());
-        own.chain(shown).chain(known).sum::<usize>() + automaton.states.len()
+        own.chain(shown).chain(known).sum::<usize>() + automaton.states.len() + automaton.alarm_words()
     }
 }

@@ -26,6 +26,9 @@ const OF_AUTOMATON: &[&str] = &[
     "knows",
     "require",
     "invariant",
+    "keep",
+    "whenever",
+    "answer within",
     "initial",
     "any state",
     "state",
@@ -33,7 +36,7 @@ const OF_AUTOMATON: &[&str] = &[
 ];
 const OF_DEVICE: &[&str] =
     &["parameter", "part", "define", "in", "out", "command", "constant", "handover", "require"];
-const OF_INTERFACE: &[&str] = &["parameter", "shared"];
+const OF_INTERFACE: &[&str] = &["parameter", "shared", "invariant", "keep", "whenever", "answer within"];
 const IN_EXPRESSIONS: &[&str] = &[
     "true",
     "false",

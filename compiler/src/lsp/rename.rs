@@ -67,6 +67,13 @@ pub fn rename(specs: &Specs, place: Span, new_name: &str) -> Result<Vec<Edit>, S
         }
         edits.push((span, new_text));
     }
+    if specs.names.declarations()[number].what == What::Member
+        && let Some(layout) = &specs.layout
+        && specs.sources.file(layout.file).text.contains(&format!("\"{old_name}\""))
+    {
+        let file = &specs.sources.file(layout.file).name;
+        return Err(format!("{file} may name `{old_name}` as a value: rename it there first"));
+    }
     edits.sort();
     edits.dedup();
     proved(specs, &edits)?;

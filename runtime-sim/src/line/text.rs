@@ -155,7 +155,7 @@ impl Line {
     /// Reads the text form, and leaves what follows it.
     pub fn read(words: &mut Words) -> Result<Line, String> {
         words.expect("line")?;
-        words.expect("4")?;
+        words.expect("5")?;
         words.expect("scan_ms")?;
         let scan_ms = words.int()?;
         words.expect("io_delay")?;

@@ -6,7 +6,7 @@ use crate::finding::{Finding, Span};
 pub enum Kind {
     /// A keyword, a type, a name behind a point, a number, a number with its type.
     Word,
-    /// `#name`, without the sign.
+    /// `#name` or `#"name"`, without the sign and the quotes.
     Local,
     /// `"name"`, without the quotes.
     Global,
@@ -52,6 +52,9 @@ pub fn tokens(source: &str) -> Result<Vec<Token<'_>>, Finding> {
             continue;
         }
         let (kind, begin, length, end) = match first {
+            '#' if rest[1..].starts_with('"') => {
+                (Kind::Local, 2, rest[2..].find('"').ok_or_else(|| wrong("no closing quote"))?, 1)
+            }
             '#' => (Kind::Local, 1, word(&rest[1..]), 0),
             '"' => (Kind::Global, 1, rest[1..].find('"').ok_or_else(|| wrong("no closing quote"))?, 1),
             '{' => (Kind::Attribute, 1, rest[1..].find('}').ok_or_else(|| wrong("no closing bracket"))?, 1),

@@ -16,6 +16,12 @@ pub fn table(shared: Shared) -> String {
             continue;
         }
         let remedy = match site.kind {
+            _ if site.severity == Severity::Warning => {
+                "Do what the text says. Nothing was stopped; reset acknowledges the alarm."
+            }
+            _ if site.severity == Severity::Machine => {
+                "Do what the text says. The robot is held until the cause is gone, the alarm is acknowledged by reset, and start has a rising edge; the others run meanwhile. To reach in, take run_permit away by the safety system first."
+            }
             FaultKind::OutOfBounds => {
                 "The number was limited to its bounds. Look at the state of the robot and at what it counts. After reset and start the step is made again from its beginning: what it counted before the fault is counted twice."
             }

@@ -357,7 +357,9 @@ fn argument(shared: Shared, robot: usize, input: &str, origin: &Origin) -> Ex {
 
 /// Entries of the table of alarms before those of a robot.
 fn entries_before(shared: Shared, robot: usize) -> usize {
-    shared.system.alarms().iter().filter(|entry| entry.robot < robot).count()
+    let system = shared.system;
+    let counts: Vec<usize> = system.model.automata.iter().map(|a| a.alarms().count()).collect();
+    system.instances[..robot].iter().map(|instance| counts[instance.automaton.0]).sum()
 }
 
 /// The time in the state, of the block of the steps.

@@ -16,6 +16,43 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// The data block of what all blocks share.
 const SHARED: &str = "Line";
+/// The block that calls all others. Each project has a block `Main` already, and names are not told by their case.
+const CALLER: &str = "Line_controller";
+/// Words of SCL that may be a name in quotes alone. Those of IEC 61131-3 are no names of a specification's text at all.
+const WORDS: [&str; 32] = [
+    "any",
+    "begin",
+    "block_db",
+    "block_fb",
+    "block_fc",
+    "block_sdb",
+    "cont",
+    "const",
+    "continue",
+    "counter",
+    "data_block",
+    "db_any",
+    "en",
+    "eno",
+    "end_const",
+    "end_data_block",
+    "end_label",
+    "end_organization_block",
+    "end_region",
+    "goto",
+    "label",
+    "nil",
+    "ok",
+    "organization_block",
+    "pointer",
+    "region",
+    "s5time",
+    "timer",
+    "title",
+    "variant",
+    "version",
+    "void",
+];
 const DIALECT: Dialect = Dialect::Siemens;
 
 #[derive(Template)]
@@ -68,7 +105,15 @@ pub fn files(shared: Shared, line: &Line) -> Files {
 }
 
 fn lines(variables: &[Variable]) -> String {
-    variables.iter().map(|variable| variable.line(DIALECT, &variable.ty())).collect()
+    let line = |variable: &Variable| {
+        let quoted = Variable { name: quoted(&variable.name), ..variable.clone() };
+        quoted.line(DIALECT, &quoted.ty())
+    };
+    variables.iter().map(line).collect()
+}
+
+fn quoted(name: &str) -> String {
+    if WORDS.iter().any(|word| word.eq_ignore_ascii_case(name)) { format!("\"{name}\"") } else { name.into() }
 }
 
 fn section(keyword: &str, lines: &str) -> String {
@@ -83,7 +128,7 @@ fn block(shared: Shared, unit: &Unit, is_global: &impl Fn(&str) -> bool) -> Stri
         } else {
             format!(" {}", comment(&instance.comment))
         };
-        format!("    {} : \"{}\";{about}\n", instance.name, instance.block)
+        format!("    {} : \"{}\";{about}\n", quoted(&instance.name), instance.block)
     });
     let declared = constants
         .in_order()
@@ -95,7 +140,7 @@ fn block(shared: Shared, unit: &Unit, is_global: &impl Fn(&str) -> bool) -> Stri
         + &section("VAR CONSTANT", &declared.collect::<String>());
     let own = Names { is_global, constants: &constants };
     render(&Block {
-        name: unit.name.clone(),
+        name: if unit.name == "MAIN" { CALLER.into() } else { unit.name.clone() },
         comments: unit.comments.iter().map(|line| harmless(line.trim())).collect(),
         made_from: made_from(shared),
         sections,
@@ -191,7 +236,8 @@ struct Names<'a, G> {
 
 impl<G: Fn(&str) -> bool> Names<'_, G> {
     fn name(&self, name: &str) -> String {
-        if (self.is_global)(name) { format!("\"{SHARED}\".{name}") } else { format!("#{name}") }
+        let quoted = quoted(name);
+        if (self.is_global)(name) { format!("\"{SHARED}\".{quoted}") } else { format!("#{quoted}") }
     }
 
     fn statements(&self, statements: &[Stmt]) -> Vec<Stmt> {
@@ -225,7 +271,7 @@ impl<G: Fn(&str) -> bool> Names<'_, G> {
             }
             Stmt::Call { instance, arguments } => Stmt::Call {
                 instance: self.name(instance),
-                arguments: arguments.iter().map(|(name, value)| (name.clone(), self.ex(value))).collect(),
+                arguments: arguments.iter().map(|(name, value)| (quoted(name), self.ex(value))).collect(),
             },
         }
     }
@@ -237,7 +283,7 @@ impl<G: Fn(&str) -> bool> Names<'_, G> {
             Ex::Member(member) => Ex::Member(self.constants.member(member)),
             Ex::Name(name) => Ex::Name(self.name(name)),
             Ex::Element(name, index) => Ex::Element(self.name(name), boxed(index)),
-            Ex::Field(instance, output) => Ex::Field(self.name(instance), output.clone()),
+            Ex::Field(instance, output) => Ex::Field(self.name(instance), quoted(output)),
             Ex::Not(a) => Ex::Not(boxed(a)),
             Ex::Minus(a) => Ex::Minus(boxed(a)),
             Ex::Binary(operator, a, b) => Ex::Binary(operator, boxed(a), boxed(b)),

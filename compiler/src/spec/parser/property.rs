@@ -7,6 +7,9 @@ use crate::spec::lexer::Token;
 /// The words with which a property begins.
 pub(super) const WORDS: [&str; 4] = ["answer", "invariant", "keep", "whenever"];
 
+/// Values of one `keep`: what compares them is one expression.
+const MOST_KEPT: usize = 32;
+
 impl Parser {
     pub(super) fn parse_property(&mut self) -> Option<Property> {
         let property = self.property();
@@ -23,6 +26,14 @@ impl Parser {
             Some("keep") => {
                 let mut values = vec![self.parse_expr()];
                 while self.errors == errors && self.maybe_sign(",") {
+                    if values.len() == MOST_KEPT {
+                        self.error(
+                            "E0211",
+                            format!("a `keep` has {MOST_KEPT} values at most"),
+                            "make several of it",
+                        );
+                        break;
+                    }
                     values.push(self.parse_expr());
                 }
                 if self.errors == errors {
