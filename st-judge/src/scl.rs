@@ -419,7 +419,7 @@ BEGIN #t := #value; #F_one := #t + 1; END_FUNCTION
 FUNCTION_BLOCK "All" { S7_Optimized_Access := 'TRUE' } VERSION : 0.1
 VAR state : DINT; END_VAR VAR CONSTANT Off : DINT := 7; END_VAR
 BEGIN CASE #state OF #Off: #state := "F_one"(value := #state); ELSE "Line".a[#state] := #Off; END_CASE;
-IF "Line".b < LREAL#2.0 THEN RETURN; END_IF; END_FUNCTION_BLOCK
+IF "Line".b < LREAL#2.0 THEN #state := 0; END_IF; END_FUNCTION_BLOCK
 DATA_BLOCK "All_DB" { S7_Optimized_Access := 'TRUE' } VERSION : 0.1 NON_RETAIN "All" BEGIN END_DATA_BLOCK
 "#;
 
