@@ -18,6 +18,7 @@ const Figures = (() => {
       results.seconds_per_order ? ['seconds per order', results.seconds_per_order.toFixed(2)] : null,
       ['simulated', clock(Data.endMs)],
       ['contacts', String(contacts)],
+      raw.alarms.length ? ['alarms and faults', String(raw.alarms.length)] : null,
       legs.length > 1 ? ['limited by', `${Data.machines[legs[0].machine].name}, ${percent(legs[0].s, whole)}`] : null,
     ];
     byId('figures').append(...figures.filter(Boolean).map(([name, value]) =>

@@ -9,7 +9,8 @@ use autogen::source::Sources;
 use autogen_tests::replay::run as start;
 use autogen_tests::workspace::Workspace;
 use autogen_tests::{LAYOUTS, Texts, ariac, is_full_campaign, on_all_processors, own_line};
-use runtime_sim::line::{IoDelay, Line, Pause, Refusal, Slip};
+use runtime_sim::device::error::NO_PART;
+use runtime_sim::line::{Answer, IoDelay, Line, Pause, Refusal, Slip};
 use runtime_sim::machine::Machine;
 use runtime_sim::random::Random;
 use runtime_sim::run::{Seen, Stepping, run as simulate};
@@ -65,6 +66,7 @@ fn disturbed() -> Vec<Job> {
     jobs.push(job("pauses", ariac("default"), |line| {
         line.scenario.pauses = (1..20).map(|i| Pause { at_scan: i * 1700, scans: 100 + i * 10 }).collect();
     }));
+    jobs.push(job("nothing gripped", orders(ariac("default"), 2), nothing_gripped));
     for line in ["default", "buffer", "shared_agv"] {
         let texts = || match line {
             "default" => orders(ariac(line), 2),
@@ -84,6 +86,14 @@ fn disturbed() -> Vec<Job> {
         }
     }
     jobs
+}
+
+/// A gantry finds nothing to grip with one of its first commands, over the tray.
+fn nothing_gripped(line: &mut Line) {
+    for machine in all(line, "gantry") {
+        let answer = |command| Answer { machine, command, late_s: 0.0, error: Some(NO_PART) };
+        line.scenario.answers = (3..9).step_by(2).map(answer).collect();
+    }
 }
 
 /// The first command of the machines of one kind is refused, and one in so many of the others.

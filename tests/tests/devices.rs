@@ -143,8 +143,8 @@ fn a_conveyor_that_nearly_meets_another_one_is_told_with_the_pose_that_joins_the
     assert_eq!(
         told,
         [
-            "W0201 the conveyor `bed` of s7 ends 30 mm from where `bed` of s8 begins: items fall there",
-            "W0201 the conveyor `bed` of s8 ends 30 mm from where `bed` of s9 begins: items fall there",
+            "W0201 the conveyor `bed` of s7 ends 30 mm from where `bed` of s8 begins: they are not joined, and items fall where the first one ends",
+            "W0201 the conveyor `bed` of s8 ends 30 mm from where `bed` of s9 begins: they are not joined, and items fall where the first one ends",
         ]
     );
     assert!(found[0].1.contains("\"pose\": [5, 1, 0, 180] for s8"), "{}", found[0].1);

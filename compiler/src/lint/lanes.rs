@@ -19,7 +19,9 @@ fn diagnostic(layout: &Layout, line: &Line, gap: &Gap) -> Option<Diagnostic> {
     let name = &line.machines[gap.to.0].name;
     let object = layout.objects.iter().find(|object| object.name.value == *name)?;
     let mm = gap.off.length() * 1000.0;
-    let message = format!("the conveyor {from} ends {mm:.0} mm from where {to} begins: items fall there");
+    let message = format!(
+        "the conveyor {from} ends {mm:.0} mm from where {to} begins: they are not joined, and items fall where the first one ends"
+    );
     let diagnostic = Diagnostic::new("W0201", object.pose.span, message);
     if gap.turn != 0.0 && gap.turn.abs() > ALIGNED {
         let note = format!("their directions differ by {:.1} degrees", gap.turn.abs());

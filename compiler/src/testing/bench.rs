@@ -2,7 +2,7 @@
 
 use super::machine::{Engine, Step, Target, Wanted};
 use super::{Failure, Time};
-use crate::ir::{Group, Named, System, Value};
+use crate::ir::{Element, Group, KeptBy, Named, System, Value};
 use crate::source::Span;
 use runtime_sim::device::Direction;
 use runtime_sim::scan::SystemInputs;
@@ -27,7 +27,7 @@ pub(super) struct Bench<'e, 'a, 's> {
     now: i64,
     fault: Option<String>,
     events: VecDeque<(u64, String)>,
-    /// Of the machine, its ports for commands apart.
+    /// Of the machine, its ports for commands and what its properties keep apart.
     values: Vec<Named>,
     command: Vec<Named>,
 }
@@ -45,7 +45,14 @@ impl<'e, 'a, 's> Bench<'e, 'a, 's> {
         }
         let begin = system.traces()[machine];
         let is_of_command = |value: &Named| COMMAND.contains(&value.name.as_str());
-        let (command, values) = system.values_of(machine, begin).into_iter().partition(is_of_command);
+        let is_declared = |value: &Named| match value.element {
+            Element::Local { robot, local, .. } => {
+                system.automaton_of(robot).locals[local].kept_by == KeptBy::Steps
+            }
+            Element::Port { .. } | Element::Cell { .. } => true,
+        };
+        let values = system.values_of(machine, begin).into_iter().filter(is_declared);
+        let (command, values) = values.partition(is_of_command);
         Self {
             system,
             machine,

@@ -19,10 +19,15 @@ pub fn can_stop(shared: Shared) -> bool {
 /// The arrays: an element for each entry, and for each robot whether an alarm has stopped it.
 pub fn tables(shared: Shared) -> Vec<Table> {
     let entries = shared.system.alarms();
-    let table = |name: &str, basic: Basic, about: &str, values: Vec<Ex>| Table {
-        variable: Variable::new(name, basic).with_elements(Some(values.len())).with_comment(about),
+    let sized = |elements: usize, name: &str, basic: Basic, about: &str, values: Vec<Ex>| Table {
+        variable: Variable::new(name, basic).with_elements(Some(elements)).with_comment(about),
         values,
     };
+    let table = |name: &str, basic: Basic, about: &str, values: Vec<Ex>| {
+        sized(values.len(), name, basic, about, values)
+    };
+    // An array has two elements at least: a screen is not to show the second of a single one.
+    let acknowledged = vec![Ex::Bool(true); entries.len().max(2)];
     let all = |value: Ex| vec![value; entries.len()];
     let mut tables = Vec::new();
     if !entries.is_empty() {
@@ -32,7 +37,7 @@ pub fn tables(shared: Shared) -> Vec<Table> {
             table("alarms_code", Basic::Dint, "see alarms.csv", codes),
             table("alarms_robot", Basic::Dint, "number of the robot", robots),
             table("alarms_active", Basic::Bool, "what raises it lasts", all(Ex::Bool(false))),
-            table("alarms_acknowledged", Basic::Bool, "it has been seen", all(Ex::Bool(true))),
+            sized(entries.len(), "alarms_acknowledged", Basic::Bool, "it has been seen", acknowledged),
             table("alarms_count", Basic::Dint, "how often it was raised", all(Ex::Int(0))),
             table("alarms_first", Basic::Dint, "scan in which it was raised first", all(Ex::Int(0))),
             table("alarms_last", Basic::Dint, "scan in which it was raised last", all(Ex::Int(0))),
