@@ -3,7 +3,7 @@
 //! The long form: `AUTOGEN_CAMPAIGN=full cargo test --release -p autogen-tests --test stepping`.
 
 use autogen::executor::Executor;
-use autogen::ir::{System, Value};
+use autogen::ir::{Element, Expr, PropertyKind, System, Value};
 use autogen::reads::{self, Reads};
 use autogen_tests::generate::generate;
 use autogen_tests::lots::Lots;
@@ -138,7 +138,7 @@ fn what_a_state_does_not_read_does_not_move_it() {
     });
     let quiet: usize = counts.iter().sum();
     println!("{quiet} scans in which nothing happened");
-    assert!(quiet > 500 * seeds.len(), "only {quiet} quiet scans");
+    assert!(quiet > 200 * seeds.len(), "only {quiet} quiet scans");
 }
 
 fn quiet_scans(system: &System, seed: u64) -> usize {
@@ -152,10 +152,13 @@ fn quiet_scans(system: &System, seed: u64) -> usize {
         executor.trace(&mut trace);
         trace
     };
-    let without_stays = |trace: &[f64]| -> Vec<u64> {
-        let words = trace.iter().enumerate().filter(|(word, _)| !stays.contains(word));
+    let counters = counters(system);
+    let without_times = |trace: &[f64]| -> Vec<u64> {
+        let is_time = |word: &usize| stays.contains(word) || counters.iter().any(|c| c.word == *word);
+        let words = trace.iter().enumerate().filter(|(word, _)| !is_time(word));
         words.map(|(_, value)| value.to_bits()).collect()
     };
+    let stopped = stopped(system);
     let mut given = lots.next(system, &outputs);
     let mut before = executor.scan(given, &lots.images, &mut outputs);
     let (mut acted, mut quiet) = (true, 0);
@@ -183,14 +186,63 @@ fn quiet_scans(system: &System, seed: u64) -> usize {
                 }
             }
         }
+        for Counter { instance, word, within } in &counters {
+            let (automaton, waited) = (system.automaton_of(*instance), trace[*word]);
+            let is_fixed = reads::is_fixed(automaton, within);
+            may_act |= waited >= 0.0 && !is_fixed;
+            if is_fixed && let Value::Int(time) = executor.value(*instance, within) {
+                let next = waited + f64::from(system.scan_ms);
+                may_act |= waited >= 0.0 && waited < f64::from(time) && f64::from(time) <= next;
+            }
+        }
         let answer = executor.scan(given, &lots.images, &mut outputs);
         let after = remembered(&executor);
         let passed = if answer.running { f64::from(system.scan_ms) } else { 0.0 };
-        let restarted = stays.iter().any(|stay| after[*stay] != trace[*stay] + passed);
-        acted = restarted || answer != before || without_stays(&trace) != without_stays(&after);
+        let is_stopped = |instance: usize| stopped[instance].is_some_and(|word| trace[word] != 0.0);
+        let restarted = stays.iter().enumerate().any(|(instance, stay)| {
+            let lasts = if is_stopped(instance) { 0.0 } else { trace[*stay] + passed };
+            after[*stay] != lasts
+        });
+        let counted = counters.iter().any(|Counter { word, .. }| {
+            let waits = if trace[*word] < 0.0 { trace[*word] } else { trace[*word] + passed };
+            after[*word] != waits
+        });
+        acted = restarted || counted || answer != before || without_times(&trace) != without_times(&after);
         assert!(may_act || !acted, "seed {seed}: something happens though nothing was read");
         quiet += usize::from(!may_act && answer.running);
         before = answer;
     }
     quiet
+}
+
+/// What a property waits for: the word of its time in the trace, and how long it may be.
+struct Counter<'a> {
+    instance: usize,
+    word: usize,
+    within: &'a Expr,
+}
+
+fn counters(system: &System) -> Vec<Counter<'_>> {
+    let mut found = Vec::new();
+    for (instance, begin) in (0..system.instances.len()).zip(system.traces()) {
+        let values = system.values_of(instance, begin);
+        for property in &system.automaton_of(instance).properties {
+            if let PropertyKind::Whenever { within, waited, .. } = &property.kind {
+                let element = Element::Local { robot: instance, local: *waited, index: 0 };
+                let word = values.iter().find(|value| value.element == element).and_then(|value| value.trace);
+                found.push(Counter { instance, word: word.expect("a word of the trace"), within });
+            }
+        }
+    }
+    found
+}
+
+/// Of each instance the word that says whether an alarm has stopped it, if one can.
+fn stopped(system: &System) -> Vec<Option<usize>> {
+    let traces = system.traces();
+    let word = |instance: usize| {
+        let automaton = system.automaton_of(instance);
+        automaton.can_stop().then(|| traces[instance + 1] - automaton.alarm_words())
+    };
+    (0..system.instances.len()).map(word).collect()
 }

@@ -6,6 +6,7 @@ use crate::ir::{Element, Group, KeptBy, Named, System, Value};
 use crate::source::Span;
 use runtime_sim::device::Direction;
 use runtime_sim::scan::SystemInputs;
+use runtime_sim::watch::ALARM_WORDS;
 use std::collections::VecDeque;
 
 /// Events that a failure tells.
@@ -235,6 +236,19 @@ impl<'e, 'a, 's> Bench<'e, 'a, 's> {
                         wrong.push((shown(*value), shown(found)));
                     }
                 }
+                Wanted::Alarm(text) => {
+                    let alarms = self.alarms();
+                    if !alarms.iter().any(|alarm| text.as_ref().is_none_or(|t| alarm.contains(t))) {
+                        let wanted = text.as_ref().map_or("an alarm".into(), |text| format!("alarm: {text}"));
+                        wrong.push((wanted, shown_alarms(&alarms)));
+                    }
+                }
+                Wanted::NoAlarm => {
+                    let alarms = self.alarms();
+                    if !alarms.is_empty() {
+                        wrong.push(("no alarm".into(), shown_alarms(&alarms)));
+                    }
+                }
                 Wanted::Fault(text) => {
                     let is_it = self
                         .fault
@@ -253,6 +267,15 @@ impl<'e, 'a, 's> Bench<'e, 'a, 's> {
         wrong
     }
 
+    /// The texts of the machine's alarms that are active or not acknowledged.
+    fn alarms(&self) -> Vec<&str> {
+        let alarms = || self.system.automaton_of(self.machine).alarms();
+        let begin = self.system.traces()[self.machine + 1] - ALARM_WORDS * alarms().count();
+        let entries = self.trace[begin..].chunks(ALARM_WORDS);
+        let open = alarms().zip(entries).filter(|(_, entry)| entry[0] != 0.0 || entry[1] == 0.0);
+        open.map(|(alarm, _)| self.system.model.faults[alarm.site.0].text.as_str()).collect()
+    }
+
     /// With its machine, if that is another one.
     fn name(&self, named: &Named) -> String {
         match self.system.owner(named.element) {
@@ -260,4 +283,8 @@ impl<'e, 'a, 's> Bench<'e, 'a, 's> {
             owner => format!("{}.{}", self.system.instances[owner].name, named.name),
         }
     }
+}
+
+fn shown_alarms(alarms: &[&str]) -> String {
+    if alarms.is_empty() { "no alarm".into() } else { format!("alarm: {}", alarms.join("; ")) }
 }

@@ -153,6 +153,31 @@ fn check(
                 Failure { events: states(number), ..plain(text, format!("at {} s", *ms as f64 / 1000.0)) }
             })
         }
+        What::Alarm { text, machine } => {
+            if let Some(machine) = machine {
+                value::instance(system, &machine.value, machine.span)?;
+            }
+            let text_of = |code: i32| {
+                usize::try_from(code - 1)
+                    .ok()
+                    .and_then(|code| system.model.faults.get(code))
+                    .map_or("", |site| &site.text)
+            };
+            let is_it = report.alarms.iter().any(|alarm| {
+                text.as_ref().is_none_or(|text| text_of(alarm.code).contains(text.as_str()))
+                    && machine.as_ref().is_none_or(|machine| machine.value == alarm.machine)
+            });
+            let of = machine.as_ref().map_or(String::new(), |machine| format!(" of {}", machine.value));
+            let wanted =
+                format!("alarm{of}{}", text.as_ref().map_or(String::new(), |text| format!(": {text}")));
+            let all: Vec<String> = report
+                .alarms
+                .iter()
+                .map(|a| format!("alarm of {}: {}", a.machine, text_of(a.code)))
+                .collect();
+            let found = if all.is_empty() { "no alarm".into() } else { all.join("; ") };
+            (!is_it).then(|| plain(wanted, found))
+        }
         What::Fault { text, machine } => {
             if let Some(machine) = machine {
                 value::instance(system, &machine.value, machine.span)?;
@@ -181,6 +206,7 @@ fn figure_of(report: &Report, figure: Figure) -> Option<f64> {
         Figure::SecondsPerOrder => report.seconds_per_order,
         Figure::Simulated => Some(report.simulated_s),
         Figure::Contacts => Some(report.collisions.len() as f64),
+        Figure::Alarms => Some(report.alarms.iter().map(|alarm| f64::from(alarm.count)).sum()),
     }
 }
 
@@ -190,6 +216,7 @@ fn name_of(figure: Figure) -> &'static str {
         Figure::SecondsPerOrder => "seconds_per_order",
         Figure::Simulated => "simulated",
         Figure::Contacts => "contacts",
+        Figure::Alarms => "alarms",
     }
 }
 

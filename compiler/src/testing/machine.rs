@@ -74,6 +74,8 @@ pub(super) enum Wanted {
     State(usize),
     Value(String, Named, Value),
     Fault(Option<String>),
+    Alarm(Option<String>),
+    NoAlarm,
 }
 
 /// Runs the rows in order, up to the first that fails.
@@ -165,6 +167,8 @@ fn step(system: &System, machine: usize, row: &Row, found: &mut Vec<Diagnostic>)
                 Err(wrong) => found.push(*wrong),
             },
             Expected::Fault(_, text) => step.expected.push(Wanted::Fault(text.clone())),
+            Expected::Alarm(text) => step.expected.push(Wanted::Alarm(text.clone())),
+            Expected::NoAlarm => step.expected.push(Wanted::NoAlarm),
             Expected::Value(path, literal) => match value::named(system, machine, path) {
                 Ok(named) => match value::literal(system, named.ty, literal) {
                     Ok(value) => step.expected.push(Wanted::Value(shown_path(path), named, value)),

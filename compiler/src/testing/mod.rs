@@ -83,6 +83,9 @@ pub enum Expected {
     Value(Path, Literal),
     /// With this in its text.
     Fault(Span, Option<String>),
+    /// One that is active or not acknowledged, with this in its text.
+    Alarm(Option<String>),
+    NoAlarm,
 }
 
 /// `slot[3]`, `agv1.held`
@@ -133,6 +136,11 @@ pub enum What {
         machine: Spanned<String>,
         state: Spanned<String>,
     },
+    /// An alarm that was raised.
+    Alarm {
+        text: Option<String>,
+        machine: Option<Spanned<String>>,
+    },
     Fault {
         text: Option<String>,
         machine: Option<Spanned<String>>,
@@ -146,6 +154,8 @@ pub enum Figure {
     Simulated,
     /// Pairs that touched, those too that may.
     Contacts,
+    /// How often alarms were raised.
+    Alarms,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -251,16 +251,12 @@ impl Reader {
                 What::Reason(self.text("a part of the reason")?.value)
             }
             Some("fault") => {
-                self.next();
-                let text = match self.peek() {
-                    Token::Text(_) => Some(self.text("")?.value),
-                    _ => None,
-                };
-                let machine = match self.maybe_word("of") {
-                    true => Some(self.name("the machine")?),
-                    false => None,
-                };
+                let (text, machine) = self.text_of_machine()?;
                 What::Fault { text, machine }
+            }
+            Some("alarm") => {
+                let (text, machine) = self.text_of_machine()?;
+                What::Alarm { text, machine }
             }
             Some("never") => {
                 self.next();
@@ -272,6 +268,7 @@ impl Reader {
             Some("seconds_per_order") => self.figure(Figure::SecondsPerOrder)?,
             Some("simulated") => self.figure(Figure::Simulated)?,
             Some("contacts") => self.figure(Figure::Contacts)?,
+            Some("alarms") => self.figure(Figure::Alarms)?,
             _ => {
                 let machine = self.name("a figure or of a machine")?;
                 self.in_state()?;
@@ -287,10 +284,24 @@ impl Reader {
         Some(Expect { span: start.to(self.tokens[self.at - 1].1), what })
     }
 
+    /// Behind `fault` and `alarm`: `"text" of NAME`, both optional.
+    fn text_of_machine(&mut self) -> Option<(Option<String>, Option<Spanned<String>>)> {
+        self.next();
+        let text = match self.peek() {
+            Token::Text(_) => Some(self.text("")?.value),
+            _ => None,
+        };
+        let machine = match self.maybe_word("of") {
+            true => Some(self.name("the machine")?),
+            false => None,
+        };
+        Some((text, machine))
+    }
+
     fn in_state(&mut self) -> Option<()> {
         match self.maybe_word("in") {
             true => Some(()),
-            false => self.wrong("`in`", "write `expect MACHINE in STATE;`; figures are orders, seconds_per_order, simulated and contacts"),
+            false => self.wrong("`in`", "write `expect MACHINE in STATE;`; figures are orders, seconds_per_order, simulated, contacts and alarms"),
         }
     }
 

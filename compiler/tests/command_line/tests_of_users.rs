@@ -162,3 +162,31 @@ fn schemas_are_json_and_know_types_of_ones_own() {
     fs::write(folder.join("a.aut"), "automaton").expect("a file");
     assert_eq!(status(&autogen(&folder, &["schema", "layout", "--specs", "a.aut"])), 1);
 }
+
+/// The same on the executor and on the text; a claim that is not so is told with what is.
+#[test]
+fn alarms_are_expected_and_told() {
+    let folder = folder("test_alarms");
+    assert_eq!(status(&autogen(&folder, &["new", "line", "-q"])), 0);
+    let append = |name: &str, change: &dyn Fn(String) -> String| {
+        let path = folder.join("line").join(name);
+        let text = fs::read_to_string(&path).expect("a file");
+        fs::write(&path, change(text)).expect("a file");
+    };
+    let property =
+        "    whenever at_stamp then not at_stamp within 300 ms else warn \"a box stays\";\n    initial";
+    append("specs/stamp.aut", &|text| text.replacen("    initial", property, 1));
+    let rows = "test \"it warns\" of station {\n    1 s: at_stamp = true -> no alarm;\n    after 500 ms: -> alarm \"a box stays\";\n}\n";
+    let claims = "test \"line\" {\n    expect alarms >= 1;\n    expect alarm \"a box\" of station;\n}\n";
+    append("station.test", &|text| text + rows + claims);
+    let output = autogen(&folder, &["test", "line", "--on", "executor,st"]);
+    assert_eq!(status(&output), 0, "{}{}", said(&output), errors(&output));
+    append("station.test", &|text| {
+        text.replace("-> no alarm", "-> alarm").replace("alarms >= 1", "alarms = 0")
+    });
+    let output = autogen(&folder, &["test", "line", "--on", "executor,st"]);
+    assert_eq!(status(&output), 3, "{}{}", said(&output), errors(&output));
+    for told in ["+    1.000 s  no alarm", "+             alarms = 3"] {
+        assert_eq!(said(&output).matches(told).count(), 2, "{told}\n{}", said(&output));
+    }
+}

@@ -92,6 +92,19 @@ impl Reader {
             };
             return Some(Expected::Fault(span, text));
         }
+        if self.maybe_word("alarm") {
+            let text = match self.peek() {
+                Token::Text(_) => Some(self.text("")?.value),
+                _ => None,
+            };
+            return Some(Expected::Alarm(text));
+        }
+        if self.maybe_word("no") {
+            return match self.maybe_word("alarm") {
+                true => Some(Expected::NoAlarm),
+                false => self.wrong("`alarm`", "write `no alarm`"),
+            };
+        }
         let path = self.path()?;
         if self.maybe_sign("=") {
             return Some(Expected::Value(path, self.literal()?));
