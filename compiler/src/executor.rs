@@ -1,6 +1,7 @@
 //! The reference executor: runs a system straight from the IR, as `docs/semantics.md` says.
 
 mod evaluate;
+mod modes;
 mod properties;
 mod step;
 
@@ -17,6 +18,8 @@ pub struct Executor<'a> {
     /// `[interface][row][cell][element]`.
     cells: Vec<Vec<Vec<Vec<Value>>>>,
     status: Status,
+    /// The permit of this scan.
+    permit: bool,
     /// Scans since power-up; saturates.
     scan: i32,
     /// For each automaton, state and transition: how often it has fired.
@@ -67,15 +70,11 @@ impl<'a> Executor<'a> {
             .iter()
             .map(|instance| {
                 let automaton = model.automaton(instance.automaton);
-                let ports = automaton.device.ports.iter().map(|port| {
-                    let first = match port.ty {
-                        PortType::Bool => Value::Bool(false),
-                        PortType::Int { lo, hi } => Value::Int(0.clamp(lo, hi)),
-                        PortType::Real => Value::Real(0.0),
-                        PortType::Point => Value::Point([0.0; 3]),
-                    };
-                    vec![first; port.extent.elements(system.kinds())]
-                });
+                let ports = automaton
+                    .device
+                    .ports
+                    .iter()
+                    .map(|port| vec![Self::first_value(port.ty); port.extent.elements(system.kinds())]);
                 Robot {
                     state: 0,
                     elapsed: 0,
@@ -102,7 +101,17 @@ impl<'a> Executor<'a> {
             .map(|a| a.states.iter().map(|s| vec![0; s.transitions.len()]).collect())
             .collect();
         let status = Status { running: false, fault: None, start_before: true, reset_before: true };
-        Self { system, robots, cells, status, scan: 0, fired, journal: None, only: None }
+        Self { system, robots, cells, status, permit: false, scan: 0, fired, journal: None, only: None }
+    }
+
+    /// What a port is at power-up.
+    fn first_value(ty: PortType) -> Value {
+        match ty {
+            PortType::Bool => Value::Bool(false),
+            PortType::Int { lo, hi } => Value::Int(0.clamp(lo, hi)),
+            PortType::Real => Value::Real(0.0),
+            PortType::Point => Value::Point([0.0; 3]),
+        }
     }
 
     /// Keeps what happens, until [`Self::take_journal`].
@@ -192,10 +201,14 @@ impl<'a> Executor<'a> {
         }
     }
 
-    fn publish(&self, outputs: &mut [Vec<f64>]) {
+    fn publish(&mut self, outputs: &mut [Vec<f64>]) {
         for (index, image) in outputs.iter_mut().enumerate() {
             image.clear();
-            self.outputs(index, self.status.running && !self.robots[index].stopped, image);
+            let runs = self.status.running && !self.robots[index].stopped;
+            match &self.system.automaton_of(index).modes {
+                Some(modes) => self.outputs_of_mode(index, modes, runs, image),
+                None => self.outputs(index, runs, image),
+            }
         }
     }
 
@@ -212,14 +225,22 @@ impl<'a> Executor<'a> {
         }
     }
 
-    fn run_scan(&mut self, starts: bool) -> Result<(), (FaultId, usize)> {
+    /// Modes and steps in layout order, then properties, up to the first fault. Modes are looked at whatever happens.
+    fn turns(&mut self, starts: bool) -> Result<(), (FaultId, usize)> {
         let only = self.only;
         let stepping = move |index: &usize| only.is_none_or(|only| only == *index);
+        let mut so_far = Ok(());
         for index in (0..self.robots.len()).filter(stepping) {
-            self.step(index).map_err(|fault| (fault, index))?;
+            self.operate(index);
+            if self.status.running && so_far.is_ok() {
+                so_far = self.step(index).map_err(|fault| (fault, index));
+            }
         }
-        for index in (0..self.robots.len()).filter(stepping) {
-            self.properties(index, starts).map_err(|fault| (fault, index))?;
+        so_far?;
+        if self.status.running {
+            for index in (0..self.robots.len()).filter(stepping) {
+                self.properties(index, starts).map_err(|fault| (fault, index))?;
+            }
         }
         Ok(())
     }
@@ -247,9 +268,8 @@ impl Controllers for Executor<'_> {
             self.robots.iter_mut().for_each(|robot| robot.elapsed = 0);
             self.observe_anew();
         }
-        if self.status.running
-            && let Err(fault) = self.run_scan(start)
-        {
+        self.permit = system.run_permit;
+        if let Err(fault) = self.turns(start) {
             self.status.fault = Some(fault);
             self.status.running = false;
         }

@@ -15,12 +15,14 @@
 
 mod element;
 mod expression;
+mod modes;
 mod property;
 mod system;
 mod value;
 
 pub use element::{Element, Group, Named};
 pub use expression::{Expr, ExprKind, Operator, Place};
+pub use modes::{Action, ByHand, Commands, Modes};
 pub use property::{Entry, Kept, Property, PropertyKind, Severity};
 pub use system::{Instance, System};
 pub use value::{Extent, Scalar, Type, Value};
@@ -148,6 +150,8 @@ pub struct Automaton {
     pub states: Vec<State>,
     /// Looked at behind the steps of every scan, in this order.
     pub properties: Vec<Property>,
+    /// How a person operates each instance, if the layout gives the machines panels.
+    pub modes: Option<Modes>,
     pub requires: Vec<Require>,
 }
 
@@ -241,6 +245,8 @@ pub enum KeptBy {
     Steps,
     /// A property needs it from scan to scan.
     Properties,
+    /// The operating modes need it from scan to scan.
+    Modes,
 }
 
 /// A name for an expression, evaluated whenever it is read.
@@ -266,6 +272,8 @@ pub struct State {
     pub doc: Vec<String>,
     pub place: Span,
     pub is_final: bool,
+    /// Its machine may go on from here after it was moved by hand.
+    pub is_resumable: bool,
     /// Longest stay, ms; the fault if it is exceeded.
     pub within: Option<(Expr, FaultId)>,
     pub transitions: Vec<Transition>,

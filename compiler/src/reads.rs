@@ -1,8 +1,8 @@
 //! What a state reads: the ports, cells and timers that decide whether a guard holds.
 
 use crate::ir::{
-    Automaton, Binder, Clause, Domain, Expr, ExprKind, InterfaceId, Place, Property, State, Update,
-    UpdateKind,
+    Action, Automaton, Binder, ByHand, Clause, Domain, Expr, ExprKind, InterfaceId, Place, Property, State,
+    Update, UpdateKind,
 };
 use runtime_sim::device::Direction;
 use std::collections::BTreeSet;
@@ -79,6 +79,30 @@ impl<'a> Reads<'a> {
         }
         automaton.properties.iter().flat_map(Property::exprs).for_each(|expr| reads.expr(expr));
         reads
+    }
+
+    /// What operating modes read, in whatever state an instance is, and whether the line runs or not.
+    pub fn of_modes(automaton: &'a Automaton) -> Self {
+        let mut reads = Self::new(automaton);
+        let Some(modes) = &automaton.modes else { return reads };
+        modes.actions.iter().for_each(|action| reads.action(action));
+        for by_hand in modes.published.iter().flatten() {
+            if let ByHand::Panel(value) = by_hand {
+                reads.expr(value);
+            }
+        }
+        reads
+    }
+
+    fn action(&mut self, action: &'a Action) {
+        match action {
+            Action::Update(update) => self.update(update),
+            Action::If { condition, then, otherwise, .. } => {
+                self.expr(condition);
+                then.iter().chain(otherwise).for_each(|action| self.action(action));
+            }
+            Action::Stop | Action::StayAnew | Action::BeginAnew => {}
+        }
     }
 
     fn update(&mut self, update: &'a Update) {

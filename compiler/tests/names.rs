@@ -78,6 +78,7 @@ const OF_LANGUAGE: &[&str] = &[
     "reaches",
     "real",
     "require",
+    "resume",
     "s",
     "scenario",
     "self",

@@ -71,7 +71,7 @@ mod tests {
             parts: vec![],
             wiring: Arc::default(),
             states: vec![],
-            watch: Default::default(),
+            monitor: Default::default(),
         };
         Items::new(&Line {
             scan_ms: 10,

@@ -79,6 +79,7 @@ pub struct Scenario {
     pub answers: Vec<Answer>,
     pub pauses: Vec<Pause>,
     pub operations: Vec<Operation>,
+    pub presses: Vec<Press>,
     /// Of all times that are drawn.
     pub seed: u64,
 }
@@ -170,6 +171,44 @@ pub struct Operation {
     pub value: f64,
 }
 
+/// A person presses a button of the whole line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Press {
+    pub button: LineButton,
+    pub at_scan: u64,
+    /// None: to the end of the run.
+    pub scans: Option<u64>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LineButton {
+    Start,
+    Reset,
+}
+
+impl Press {
+    /// The scan in which it is released.
+    fn end(&self) -> Option<u64> {
+        self.scans.map(|scans| self.at_scan.saturating_add(scans))
+    }
+
+    fn holds(&self, scan: u64) -> bool {
+        self.at_scan <= scan && self.end().is_none_or(|end| scan < end)
+    }
+}
+
+impl Scenario {
+    /// Whether somebody presses a button of the line in this scan.
+    pub fn presses(&self, button: LineButton, scan: u64) -> bool {
+        self.presses.iter().any(|press| press.button == button && press.holds(scan))
+    }
+
+    /// Scans in which a button of the line is pressed or released.
+    pub fn press_changes(&self) -> impl Iterator<Item = u64> {
+        self.presses.iter().flat_map(|press| [Some(press.at_scan), press.end()]).flatten()
+    }
+}
+
 /// How many scans late the inputs of a machine reach its controller. They travel in one telegram.
 #[derive(Clone, Debug, PartialEq)]
 pub enum IoDelay {
@@ -199,6 +238,7 @@ impl Default for Scenario {
             answers: Vec::new(),
             pauses: Vec::new(),
             operations: Vec::new(),
+            presses: Vec::new(),
             seed: 1,
         }
     }

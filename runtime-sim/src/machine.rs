@@ -3,6 +3,7 @@
 use crate::device::PortType;
 use crate::kinematics::arm::Arm;
 use crate::line::State;
+use crate::monitor::Monitor;
 use crate::part::axis::Axis;
 use crate::part::chain::Chain;
 use crate::part::lane::Lane;
@@ -11,7 +12,6 @@ use crate::part::route::Route;
 use crate::part::{Form, Part, Primitive};
 use crate::point::Point;
 use crate::value::Value;
-use crate::watch::Watch;
 use crate::wiring::{Drives, Output, Source, Wiring};
 use std::collections::HashSet;
 use std::sync::Arc;
@@ -26,7 +26,7 @@ pub struct Machine {
     pub wiring: Arc<Wiring>,
     /// States of its automaton; empty if it has none.
     pub states: Vec<State>,
-    pub watch: Watch,
+    pub monitor: Monitor,
 }
 
 /// Elements of a port or a constant.
@@ -64,13 +64,15 @@ impl Machine {
         self.check_wiring()
     }
 
-    /// Of each word of its inputs, whether it changes while something moves.
+    /// Of each word of its inputs, whether it changes while something moves. What a person sets does not.
     pub fn analogue_inputs(&self, kinds: usize) -> Vec<bool> {
         let is_analogue = |source: Source| match source {
             Source::Signal { part, signal } => self
                 .parts
                 .get(part)
-                .and_then(|part| part.schema().signals.get(signal))
+                .map(|part| part.schema())
+                .filter(|schema| schema.operated.is_none())
+                .and_then(|schema| schema.signals.get(signal))
                 .is_some_and(|signal| matches!(signal.ty, PortType::Real | PortType::Point)),
             Source::Ready | Source::Got | Source::Ack | Source::Error => false,
         };

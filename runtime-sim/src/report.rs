@@ -8,9 +8,9 @@ use crate::item;
 use crate::json::Json;
 use crate::line::{Goal, Line};
 use crate::machine::Machine;
+use crate::monitor;
 use crate::plant::Plant;
 use crate::shortage::point_text;
-use crate::watch;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
@@ -259,9 +259,9 @@ impl Report {
 /// The alarms that a trace has as raised.
 fn alarms(line: &Line, trace: &[f64]) -> Vec<AlarmReport> {
     let of = |machine: &Machine| -> Vec<AlarmReport> {
-        let alarms = machine.watch.alarms.iter().filter_map(|alarm| {
+        let alarms = machine.monitor.alarms.iter().filter_map(|alarm| {
             let [active, acknowledged, count, first, last] =
-                *trace.get(alarm.word..)?.first_chunk::<{ watch::ALARM_WORDS }>()?;
+                *trace.get(alarm.word..)?.first_chunk::<{ monitor::ALARM_WORDS }>()?;
             let at = |scan: f64| seconds(scan as u64, line.scan_ms);
             (count > 0.0).then(|| AlarmReport {
                 machine: machine.name.clone(),

@@ -230,7 +230,7 @@ fn simulate(
             progress.is_alive(next - 1);
         }
         for (machine, account) in accounts.iter_mut().enumerate() {
-            let is_stopped = line.machines[machine].watch.is_stopped(&trace);
+            let is_stopped = line.machines[machine].monitor.is_stopped(&trace);
             let activity = if !answer.running || is_stopped {
                 Activity::Stopped
             } else if numbers[machine].is_some_and(|(cmd, ack)| outputs[machine][cmd] != inputs[machine][ack])

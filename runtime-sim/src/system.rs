@@ -1,6 +1,6 @@
 //! The inputs of the system, as the scenario has them given.
 
-use crate::line::Scenario;
+use crate::line::{LineButton, Scenario};
 use crate::scan::SystemInputs;
 
 /// Takes the permit away in the pauses, and gives an edge of `start` one scan after it has come back.
@@ -29,7 +29,11 @@ impl Operator {
             self.owes_start = false;
         }
         self.had_permit = run_permit;
-        self.last = SystemInputs { run_permit, start, reset: false };
+        self.last = SystemInputs {
+            run_permit,
+            start: start || scenario.presses(LineButton::Start, scan),
+            reset: scenario.presses(LineButton::Reset, scan),
+        };
         self.last
     }
 
@@ -40,12 +44,13 @@ impl Operator {
         }
         let pauses = scenario.pauses.iter();
         let ends = pauses.flat_map(|pause| [pause.at_scan, pause.at_scan.saturating_add(pause.scans)]);
-        ends.chain([scenario.start_scan]).filter(|at| *at > scan).min()
+        ends.chain([scenario.start_scan]).chain(scenario.press_changes()).filter(|at| *at > scan).min()
     }
 
     /// Something is still to come from here: a permit, or an edge of `start`.
     pub fn is_busy(&self, scan: u64, scenario: &Scenario) -> bool {
-        !self.had_permit || self.owes_start || scan < scenario.start_scan
+        let is_pressed_later = scenario.press_changes().any(|change| change > scan);
+        !self.had_permit || self.owes_start || scan < scenario.start_scan || is_pressed_later
     }
 }
 

@@ -1,7 +1,10 @@
 //! Systems without a layout: some instances of each automaton of a specification.
 
 use autogen::check::check;
+use autogen::device;
 use autogen::ir::{Automaton, Extent, Instance, Model, ParameterSource, Scalar, System, Value};
+use autogen::layout::Panel;
+use autogen::lower::modes;
 use autogen::source::Sources;
 use autogen::spec::parser;
 use runtime_sim::random::Random;
@@ -9,6 +12,11 @@ use runtime_sim::random::Random;
 /// Two instances of each automaton. Every role has all members that fit it, all constants of devices are
 /// drawn by lot, and every other member is reached.
 pub fn instantiate(files: &[(String, String)]) -> (System, Sources) {
+    panelled(files, Panel::Line)
+}
+
+/// The same, of machines with such panels.
+pub fn panelled(files: &[(String, String)], panel: Panel) -> (System, Sources) {
     let mut sources = Sources::default();
     let mut trees = crate::devices(&mut sources);
     let mut diagnostics = Vec::new();
@@ -18,8 +26,11 @@ pub fn instantiate(files: &[(String, String)]) -> (System, Sources) {
         diagnostics.extend(found);
         trees.push((id, tree));
     }
+    if panel == Panel::Machines {
+        device::panel::add(&mut trees);
+    }
     let kinds = ["bolt", "nut", "washer"].map(String::from);
-    let model = match check(&sources, &trees, &kinds) {
+    let mut model = match check(&sources, &trees, &kinds) {
         Ok(checked) if diagnostics.is_empty() => checked.into_model(),
         Ok(_) => panic!("{}", crate::plain(&sources, &diagnostics)),
         Err(found) => {
@@ -27,6 +38,9 @@ pub fn instantiate(files: &[(String, String)]) -> (System, Sources) {
             panic!("{}", crate::plain(&sources, &diagnostics))
         }
     };
+    if panel == Panel::Machines {
+        modes::add(&mut model);
+    }
     (system(model), sources)
 }
 

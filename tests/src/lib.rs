@@ -140,6 +140,12 @@ pub fn scenes() -> Vec<(String, Texts)> {
     scenes.into_iter().map(|scene| (scene.clone(), side_by_side(&format!("scenes/{scene}")))).collect()
 }
 
+/// The same line with a panel for each machine.
+pub fn with_panels(mut texts: Texts) -> Texts {
+    texts.layout = texts.layout.replacen('{', "{ \"panel\": \"machines\",", 1);
+    texts
+}
+
 /// A layout of the examples with its types and its scenario beside it, all of one name.
 pub fn side_by_side(path: &str) -> Texts {
     let part = |end: &str| text(&format!("examples/{path}{end}"));

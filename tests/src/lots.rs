@@ -1,5 +1,6 @@
 //! Inputs drawn by lot.
 
+use autogen::device::panel;
 use autogen::ir::System;
 use runtime_sim::device::Direction;
 use runtime_sim::random::Random;
@@ -50,6 +51,20 @@ impl Lots {
         }
     }
 
+    /// Mostly enabled and automatic, or little would happen.
+    fn panel(&mut self, system: &System, robot: usize) {
+        let device = &system.automaton_of(robot).device;
+        let [enable, mode] = [panel::ENABLE, panel::MODE].map(|port| device.offset(port, system.kinds()));
+        if let Some(enable) = enable {
+            self.images[robot][enable] = f64::from(u8::from(!self.one_in(40)));
+        }
+        if let Some(mode) = mode
+            && self.one_in(20)
+        {
+            self.images[robot][mode] = if self.one_in(3) { f64::from(self.random.up_to(3)) } else { 0.0 };
+        }
+    }
+
     /// Inputs of the next scan; devices often answer the command that they see in the outputs.
     pub fn next(&mut self, system: &System, outputs: &[Vec<f64>]) -> SystemInputs {
         // Times in which much happens take turns with others in which little does.
@@ -62,6 +77,7 @@ impl Lots {
                     self.images[robot][word] = self.word();
                 }
             }
+            self.panel(system, robot);
             if device.is_commanded() && self.one_in(answers) {
                 let command = published.first().copied().unwrap_or(0.0);
                 let error = if self.one_in(4) { 2.0 } else { 0.0 };

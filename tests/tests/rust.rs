@@ -5,8 +5,9 @@ use autogen::backend::{rust, st};
 use autogen::executor::Executor;
 use autogen::io_map::IoMap;
 use autogen::ir::System;
+use autogen::layout::Panel;
 use autogen::source::Sources;
-use autogen_tests::instances::instantiate;
+use autogen_tests::instances::{instantiate, panelled};
 use autogen_tests::lots::Lots;
 use autogen_tests::replay::{Recording, bits, difference, record, replay, run, silent};
 use autogen_tests::workspace::Workspace;
@@ -80,15 +81,26 @@ fn executed(system: &System, scans: usize, seed: u64) -> Recording {
 /// Each by itself: in the line of all of them some robot faults in nearly every scan, and no time passes.
 #[test]
 fn each_fixture_runs_as_on_the_executor() {
-    let systems: Vec<_> = fixtures()
+    let mut systems: Vec<_> = fixtures()
         .into_iter()
         .map(|fixture| (instantiate(std::slice::from_ref(&fixture)), fixture.0))
         .collect();
+    for (name, text) in fixtures() {
+        if matches!(name.as_str(), "sequence.aut" | "stores.aut" | "steps.aut") {
+            let title = format!("{name} with panels");
+            systems.push((panelled(&[(name, text)], Panel::Machines), title));
+        }
+    }
     let parts: Vec<_> = systems.iter().map(|((system, sources), _)| (system, sources)).collect();
     let workspace = many::workspace("each_fixture", &parts);
     workspace.cargo(&["build", "--quiet", "-p", "replays"]);
     for (number, ((system, _), name)) in systems.iter().enumerate() {
-        let recording = executed(system, 30_000, 2);
+        // In manual and single step little fires by lot.
+        let has_panels = system.model.automata.iter().any(|automaton| automaton.modes.is_some());
+        let recording = match has_panels {
+            true => record(&mut Executor::new(system), system, 30_000, Lots::new(system, 2)),
+            false => executed(system, 30_000, 2),
+        };
         let arguments = [number.to_string(), many::parameters(number)];
         let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
         let program = workspace.debug_program("replays");

@@ -8,7 +8,9 @@ use autogen_tests::generate::generate;
 use autogen_tests::instances::instantiate;
 use autogen_tests::lots::Lots;
 use autogen_tests::st::Beside;
-use autogen_tests::{Texts, examples, is_full_campaign, on_all_processors, prototype, root, trace};
+use autogen_tests::{
+    Texts, examples, is_full_campaign, on_all_processors, prototype, root, trace, with_panels,
+};
 use runtime_sim::run::{Stepping, run};
 use runtime_sim::scan::Controllers;
 use std::path::PathBuf;
@@ -112,6 +114,11 @@ fn every_text_does_what_the_executor_does() {
     let fast = ["agv.capacity=4", "kitting.speed=1", "gantry.speed=1", "gantry.version=V4"];
     let aside = fast.iter().fold(prototype("default"), |texts, setting| texts.set(setting));
     jobs.push(Job::Example("prototype, V4".into(), Box::new(aside)));
+    for (name, texts) in examples() {
+        if matches!(name.as_str(), "default" | "tending" | "production_line") {
+            jobs.push(Job::Example(format!("{name} with panels"), Box::new(with_panels(texts))));
+        }
+    }
     jobs.extend(fixtures("rust").into_iter().map(Job::Fixture));
     jobs.extend(fixtures("trace").into_iter().map(Job::Trace));
     jobs.extend((first..).take(families).map(Job::ByLot));

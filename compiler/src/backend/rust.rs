@@ -11,6 +11,7 @@ mod context;
 mod expression;
 mod format;
 mod line;
+mod modes;
 mod names;
 mod parameters;
 mod property;

@@ -24,6 +24,7 @@ mod functions;
 mod globals;
 mod guard;
 mod image;
+mod modes;
 mod names;
 mod points;
 mod print;

@@ -27,6 +27,7 @@ pub(super) fn check(checker: &mut Checker, tree: &ast::Automaton) {
         variables: Vec::new(),
         states: Vec::new(),
         properties: Vec::new(),
+        modes: None,
         requires: Vec::new(),
     };
     let id = ir::AutomatonId(checker.model.automata.len());

@@ -5,6 +5,7 @@ use super::names::Space;
 use super::sequence;
 use crate::diagnostic::{Diagnostic, suggestion};
 use crate::ir::{self, Scalar, StateId};
+use crate::reads::Reads;
 use crate::spec::ast;
 use std::collections::BTreeMap;
 
@@ -94,6 +95,7 @@ pub(super) fn check(context: &mut Context, tree: &ast::Automaton) {
         doc: vec!["Nothing has been done yet.".into()],
         place: tree.initial.as_ref().map_or(tree.name.span, |i| i.span),
         is_final: false,
+        is_resumable: false,
         within: None,
         transitions: beginning.into_iter().collect(),
     });
@@ -129,13 +131,41 @@ pub(super) fn check(context: &mut Context, tree: &ast::Automaton) {
             doc: state.doc.clone(),
             place: state.name.span,
             is_final: state.is_final,
+            is_resumable: state.is_resumable,
             within,
             transitions,
         });
     }
+    tree.states.iter().filter(|state| state.is_resumable).for_each(|state| resumable(context, state));
     if let Some(initial) = &tree.initial {
         unreachable_states(context, &initial.target.value, &states);
     }
+}
+
+/// From a state that a machine may go on from after it was moved by hand: by then its device has ended other commands.
+fn resumable(context: &mut Context, state: &ast::State) {
+    let automaton = &context.automaton;
+    let found = automaton.states.iter().find(|found| found.name == state.name.value);
+    let waits = found.is_some_and(|found| {
+        let inputs = Reads::of_guards(automaton, found).inputs;
+        inputs
+            .iter()
+            .any(|port| matches!(automaton.device.ports[*port].name.as_str(), "got" | "ack" | "error"))
+    });
+    let reason = match &state.body {
+        ast::Body::Sequence(_) => "it is a sequence, of which nobody knows how far it has come",
+        _ if state.is_final => "it is a final state",
+        _ if waits => "it waits for the answer to a command, and may take that to one given by hand for it",
+        _ => return,
+    };
+    context.report(
+        Diagnostic::new(
+            "E0336",
+            state.name.span,
+            format!("a machine that was moved by hand cannot go on in `{}`: {reason}", state.name.value),
+        )
+        .help("remove `resume`: the machine then begins anew; or mark a state that waits for something else"),
+    );
 }
 
 /// From the text, so that a transition with an error still leads to its state.

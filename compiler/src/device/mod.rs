@@ -6,6 +6,7 @@
 mod check;
 mod evaluate;
 mod head;
+pub mod panel;
 mod placed;
 mod program;
 mod settle;

@@ -82,7 +82,7 @@ impl Placed {
             parts: self.parts(heights, place)?,
             wiring: self.device.wiring.clone(),
             states: Vec::new(),
-            watch: Default::default(),
+            monitor: Default::default(),
         };
         match machine.check() {
             Ok(()) => Ok(machine),

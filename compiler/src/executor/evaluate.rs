@@ -47,6 +47,16 @@ impl Executor<'_> {
             ExprKind::After(time) => Value::Bool(self.robots[robot].elapsed >= self.int(robot, time)),
             ExprKind::Done => Value::Bool(self.answered(robot) && self.port_of(robot, "error") == 0),
             ExprKind::Failed => Value::Bool(self.answered(robot) && self.port_of(robot, "error") != 0),
+            ExprKind::Permit => Value::Bool(self.permit),
+            ExprKind::Stopped => Value::Bool(self.robots[robot].stopped),
+            ExprKind::InState(states) => {
+                Value::Bool(states.iter().any(|state| state.0 == self.robots[robot].state))
+            }
+            ExprKind::IsFinite(inner) => Value::Bool(match self.value(robot, inner) {
+                Value::Real(r) => r.is_finite(),
+                Value::Point(p) => p.iter().all(|coordinate| coordinate.is_finite()),
+                Value::Bool(_) | Value::Int(_) => true,
+            }),
             ExprKind::Not(inner) => Value::Bool(!self.holds(robot, inner)),
             ExprKind::Negate(inner) => match self.value(robot, inner) {
                 Value::Int(i) => Value::Int(-i),

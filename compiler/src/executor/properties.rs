@@ -57,9 +57,10 @@ impl Executor<'_> {
         let system = self.system;
         let automaton = system.automaton_of(robot);
         let was_stopped = self.robots[robot].stopped;
+        let waits = !was_stopped && !self.is_single(robot);
         let mut alarm = 0;
         for property in &automaton.properties {
-            let violated = self.is_violated(robot, property, was_stopped);
+            let violated = self.is_violated(robot, property, was_stopped, waits);
             if !property.is_alarm() {
                 if violated {
                     return Err(property.site);
@@ -75,13 +76,13 @@ impl Executor<'_> {
         }
         let mut stops = automaton.alarms().zip(&self.robots[robot].alarms);
         let is_held = stops.any(|(p, a)| p.severity == Severity::Machine && (a.active || !a.acknowledged));
-        if starts && was_stopped && !is_held {
+        if starts && was_stopped && !is_held && self.may_go_on(robot) {
             self.robots[robot].stopped = false;
         }
         Ok(())
     }
 
-    fn is_violated(&mut self, robot: usize, property: &Property, stopped: bool) -> bool {
+    fn is_violated(&mut self, robot: usize, property: &Property, stopped: bool, waits: bool) -> bool {
         match &property.kind {
             PropertyKind::Always(condition) => !self.holds(robot, condition),
             PropertyKind::Keep { condition, values, same, held } => {
@@ -105,7 +106,7 @@ impl Executor<'_> {
                     self.remember(robot, kept.before, value);
                     differs
                 });
-                let now = if stopped || self.holds(robot, goal) {
+                let now = if !waits || self.holds(robot, goal) {
                     -1
                 } else if before >= 0 && !changed {
                     before.saturating_add(self.system.scan_ms)

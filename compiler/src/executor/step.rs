@@ -14,6 +14,9 @@ impl Executor<'_> {
             return Ok(());
         }
         self.robots[robot].elapsed = self.robots[robot].elapsed.saturating_add(system.scan_ms);
+        if automaton.modes.as_ref().is_some_and(|modes| !self.is_set(robot, modes.steps)) {
+            return Ok(());
+        }
         let number = self.robots[robot].state;
         let state = &automaton.states[number];
         for (index, transition) in state.transitions.iter().enumerate() {
@@ -32,7 +35,9 @@ impl Executor<'_> {
             }
             break;
         }
+        let is_single = self.is_single(robot);
         if let Some((longest, fault)) = &state.within
+            && !is_single
             && let Value::Int(longest) = self.value(robot, longest)
             && self.robots[robot].elapsed >= longest
         {
@@ -84,7 +89,7 @@ impl Executor<'_> {
         }
     }
 
-    fn update(&mut self, robot: usize, update: &Update) -> Result<(), FaultId> {
+    pub(super) fn update(&mut self, robot: usize, update: &Update) -> Result<(), FaultId> {
         match &update.kind {
             UpdateKind::Assign { target, value, check } => {
                 let value = self.value(robot, value);

@@ -1,6 +1,6 @@
 //! Expressions, and the places that they read.
 
-use super::{Domain, InterfaceId, RelationId, RoleId, Scalar, Value, VariableId};
+use super::{Domain, InterfaceId, RelationId, RoleId, Scalar, StateId, Value, VariableId};
 
 /// Where a value is kept.
 #[derive(Clone, Debug, PartialEq)]
@@ -55,6 +55,14 @@ pub enum ExprKind {
     Done,
     /// The last command has ended in error.
     Failed,
+    /// The line has its permit to run.
+    Permit,
+    /// The instance makes no steps.
+    Stopped,
+    /// The present state is one of these.
+    InState(Vec<StateId>),
+    /// A real or all coordinates of a point are neither infinite nor NaN.
+    IsFinite(Box<Expr>),
     Not(Box<Expr>),
     Negate(Box<Expr>),
     /// Both operands have the same type, but for durations times whole numbers.
@@ -123,6 +131,9 @@ impl Expr {
             | Kind::Own(_)
             | Kind::Done
             | Kind::Failed
+            | Kind::Permit
+            | Kind::Stopped
+            | Kind::InState(_)
             | Kind::Members(_) => Vec::new(),
             Kind::Read(place) => place.parts(),
             Kind::After(a)
@@ -130,6 +141,7 @@ impl Expr {
             | Kind::Negate(a)
             | Kind::Absolute(a)
             | Kind::ToReal(a)
+            | Kind::IsFinite(a)
             | Kind::Coordinate(a, _)
             | Kind::IsMember(a, _) => vec![a],
             Kind::Binary(_, a, b)

@@ -2,7 +2,7 @@
 
 use super::{Automaton, Expr, FaultId, System};
 use crate::source::Span;
-use runtime_sim::watch::ALARM_WORDS;
+use runtime_sim::monitor::ALARM_WORDS;
 
 #[derive(Clone, Debug)]
 pub struct Property {
@@ -94,7 +94,7 @@ impl Automaton {
 
     /// Whether an instance can be stopped by itself.
     pub fn can_stop(&self) -> bool {
-        self.properties.iter().any(|property| property.severity == Severity::Machine)
+        self.modes.is_some() || self.properties.iter().any(|property| property.severity == Severity::Machine)
     }
 
     /// Words of the trace of its alarms: for each of them active, acknowledged, count, first, last; and before them

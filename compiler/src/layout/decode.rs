@@ -123,6 +123,18 @@ impl Decoder {
         }
     }
 
+    /// One of these words: what it stands for.
+    pub fn one_of<T: Copy>(&mut self, json: &Json, what: &str, words: &[(&str, T)]) -> Option<T> {
+        let text = self.text(json, what)?;
+        let found = words.iter().find(|(word, _)| *word == text.value);
+        if found.is_none() {
+            let known: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
+            let message = format!("{what} cannot be \"{}\"", text.value);
+            self.report(Diagnostic::new("E0115", json.span, message).help(instead(&text.value, &known)));
+        }
+        found.map(|(_, meant)| *meant)
+    }
+
     pub fn number(&mut self, json: &Json, what: &str) -> Option<f64> {
         match json.value {
             Value::Number(number) => Some(number),

@@ -27,7 +27,23 @@ pub struct Layout {
     /// None: the file beside the layout, else the built-in scenario.
     pub scenario: Option<Spanned<String>>,
     pub scan_ms: u32,
+    pub panel: Panel,
     pub may_touch: Vec<MayTouch>,
+}
+
+/// What a person can operate beside the devices.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Panel {
+    /// Permit, start and reset of the whole line.
+    #[default]
+    Line,
+    /// For each machine an enable, a mode, and what it does by hand, too.
+    Machines,
+}
+
+impl Panel {
+    /// With the words of layouts.
+    pub const ALL: [(&str, Panel); 2] = [("line", Panel::Line), ("machines", Panel::Machines)];
 }
 
 /// Two objects whose contact is no reason to end a run.

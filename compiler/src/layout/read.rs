@@ -2,13 +2,14 @@
 
 use super::decode::{Decoder, find, instead, make_identifier, some};
 use super::json::{self, Json, Member, Value};
-use super::{Layout, Object, Part};
+use super::{Layout, Object, Panel, Part};
 use crate::diagnostic::{Diagnostic, sort};
 use crate::source::{FileId, Sources, Spanned};
 use std::collections::HashSet;
 use std::ops::RangeInclusive;
 
-pub const KEYS: [&str; 7] = ["robots", "stationary", "name", "specs", "scenario", "scan_ms", "may_touch"];
+pub const KEYS: [&str; 8] =
+    ["robots", "stationary", "name", "specs", "scenario", "scan_ms", "panel", "may_touch"];
 const SCAN_MS: u32 = 10;
 pub const SCANS_MS: RangeInclusive<u32> = 1..=1000;
 /// The longest line that is measured has 10,040.
@@ -50,6 +51,7 @@ impl Decoder {
         specs.iter().flatten().for_each(|path| self.stays_within("specs", path));
         scenario.iter().for_each(|path| self.stays_within("scenario", path));
         let scan_ms = find(members, "scan_ms").and_then(|j| self.whole(j, "scan_ms", SCANS_MS));
+        let panel = find(members, "panel").and_then(|j| self.one_of(j, "panel", &Panel::ALL));
         let may_touch = find(members, "may_touch").map(|j| self.may_touch(j, &names(members)));
         Some(Layout {
             name: name.map_or_else(|| make_identifier(stem(file_name), "layout"), |n| n.value),
@@ -58,6 +60,7 @@ impl Decoder {
             specs: specs.unwrap_or_default(),
             scenario,
             scan_ms: scan_ms.unwrap_or(SCAN_MS),
+            panel: panel.unwrap_or_default(),
             may_touch: may_touch.unwrap_or_default(),
         })
     }

@@ -1,11 +1,12 @@
 //! A line without its values, so that it is read and checked once for many of them.
 
 use super::setting::{self, Setting};
-use super::{Project, Verdict, bind, overlap, plant, role};
+use super::{Project, Verdict, bind, modes, overlap, plant, role};
 use crate::check::{self, Checked};
+use crate::device::panel;
 use crate::diagnostic::{self, Diagnostic};
 use crate::ir::Model;
-use crate::layout::{Layout, Reading};
+use crate::layout::{Layout, Panel, Reading};
 use crate::scenario::{Number, Scenario};
 use crate::source::{FileId, Sources};
 use crate::spec::{ast, parser};
@@ -109,8 +110,18 @@ impl Draft {
             return None;
         }
         let names: BTreeSet<String> = bound.robots.iter().map(|r| r.automaton.clone()).collect();
-        match check::check(sources, &check::used(files, &names), &kinds(scenario)) {
-            Ok(checked) => Some(checked.into_model()),
+        let mut used = check::used(files, &names);
+        if layout.panel == Panel::Machines {
+            panel::add(&mut used);
+        }
+        match check::check(sources, &used, &kinds(scenario)) {
+            Ok(checked) => {
+                let mut model = checked.into_model();
+                if layout.panel == Panel::Machines {
+                    modes::add(&mut model);
+                }
+                Some(model)
+            }
             Err(found) => {
                 self.diagnostics.extend(found);
                 None

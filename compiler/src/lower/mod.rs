@@ -3,6 +3,7 @@
 
 pub(crate) mod bind;
 mod draft;
+pub mod modes;
 mod overlap;
 mod parameter;
 mod plant;

@@ -8,7 +8,7 @@ use crate::reads::{self, ReadCell, Reads, Whose};
 use crate::scenario::{self, Number, Panel, ResolvedScenario, Scenario};
 use runtime_sim::line;
 use runtime_sim::machine::Machine;
-use runtime_sim::watch::{ALARM_WORDS, Alarm, Counter, Watch};
+use runtime_sim::monitor::{ALARM_WORDS, Alarm, Counter, Monitor};
 use std::collections::BTreeSet;
 
 pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec<Diagnostic>> {
@@ -78,7 +78,7 @@ pub fn line(
             .enumerate()
             .map(|(i, machine)| Machine {
                 states: states(system, &arms, &reads, &mut executor, i),
-                watch: watch(system, &traces, &mut executor, i),
+                monitor: monitor(system, &traces, &mut executor, i),
                 ..machine
             })
             .collect(),
@@ -132,6 +132,13 @@ pub fn line(
                     at_s: o.at_s,
                     for_s: o.for_s,
                     value: o.value,
+                })
+                .collect(),
+            presses: (scenario.presses.iter())
+                .map(|press| line::Press {
+                    button: press.part,
+                    at_scan: scans(press.at_s),
+                    scans: press.for_s.map(|for_s| scans(for_s).max(1)),
                 })
                 .collect(),
             ..line::Scenario::default()
@@ -204,7 +211,7 @@ fn states(
 }
 
 /// Where the trace has what the properties of an instance keep; `traces` is where that of each instance begins.
-fn watch(system: &System, traces: &[usize], executor: &mut Executor, instance: usize) -> Watch {
+fn monitor(system: &System, traces: &[usize], executor: &mut Executor, instance: usize) -> Monitor {
     let automaton = system.automaton_of(instance);
     let values = system.values_of(instance, traces[instance]);
     let word = |local: usize| {
@@ -223,7 +230,7 @@ fn watch(system: &System, traces: &[usize], executor: &mut Executor, instance: u
     let begin = traces[instance + 1] - automaton.alarm_words();
     let first = begin + usize::from(automaton.can_stop());
     let alarms = automaton.alarms().enumerate();
-    Watch {
+    Monitor {
         stopped: automaton.can_stop().then_some(begin),
         counters,
         alarms: alarms
@@ -232,6 +239,7 @@ fn watch(system: &System, traces: &[usize], executor: &mut Executor, instance: u
                 word: first + number * ALARM_WORDS,
             })
             .collect(),
+        panel: Reads::of_modes(automaton).words(system.kinds()),
     }
 }
 

@@ -33,6 +33,7 @@ const OF_AUTOMATON: &[&str] = &[
     "any state",
     "state",
     "final state",
+    "resume state",
 ];
 const OF_DEVICE: &[&str] =
     &["parameter", "part", "define", "in", "out", "command", "constant", "handover", "require"];

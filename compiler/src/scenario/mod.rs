@@ -8,6 +8,7 @@ pub use read::parse;
 pub use resolve::{Line, Panel, resolve};
 
 use crate::source::{FileId, Sources, Span, Spanned};
+use runtime_sim::line::LineButton;
 
 /// Parts that the belts bring: more than a plant could bring in the longest time limit.
 const MOST_PARTS: u64 = 1_000_000;
@@ -24,7 +25,7 @@ pub struct Scenario {
     pub supply: Supply,
     pub time_limit_s: f64,
     pub faults: Faults,
-    pub operations: Vec<Operation<Part>>,
+    pub operations: Vec<Operation<Operated>>,
     /// What sinks should collect; empty: nobody asks.
     pub goal: Vec<Collected<Spanned<String>>>,
 }
@@ -160,6 +161,13 @@ pub struct Faults {
     pub pauses: Vec<Pause>,
 }
 
+/// What a person operates.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Operated {
+    OfLine(LineButton),
+    OfRobot(Part),
+}
+
 /// A button or a set-point of a machine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Part {
@@ -230,6 +238,7 @@ pub struct ResolvedScenario {
     pub pauses: Vec<Pause>,
     /// By numbers of the machine and of its part.
     pub operations: Vec<Operation<[usize; 2]>>,
+    pub presses: Vec<Operation<LineButton>>,
     /// The same of sinks.
     pub goal: Vec<Collected<[usize; 2]>>,
 }

@@ -57,8 +57,24 @@ pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec
         Some(Answer { robot, command: a.command, late_s: a.late_s, error: a.error })
     });
     let answers = answers.collect();
-    let operations = scenario.operations.iter().filter_map(|operation| resolver.operation(operation));
-    let operations = operations.collect();
+    let mut operations = Vec::new();
+    let mut presses = Vec::new();
+    for Operation { part, at_s, for_s, value } in &scenario.operations {
+        match part {
+            super::Operated::OfLine(button) => {
+                presses.push(Operation { part: *button, at_s: *at_s, for_s: *for_s, value: *value });
+            }
+            super::Operated::OfRobot(part) => {
+                let found = resolver.operated(part);
+                operations.extend(found.map(|part| Operation {
+                    part,
+                    at_s: *at_s,
+                    for_s: *for_s,
+                    value: *value,
+                }));
+            }
+        }
+    }
     let goal = scenario.goal.iter().filter_map(|collected| resolver.collected(collected)).collect();
     sort(&mut resolver.diagnostics);
     match (orders, supply) {
@@ -76,6 +92,7 @@ pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec
             answers,
             pauses: pauses.clone(),
             operations,
+            presses,
             goal,
         }),
         _ => Err(resolver.diagnostics),
@@ -111,8 +128,9 @@ impl<'a> Resolver<'a> {
         found
     }
 
-    fn operation(&mut self, operation: &Operation<Part>) -> Option<Operation<[usize; 2]>> {
-        let Part { robot, part, value } = &operation.part;
+    /// Machine and part.
+    fn operated(&mut self, operated: &Part) -> Option<[usize; 2]> {
+        let Part { robot, part, value } = operated;
         let all = self.line.panels;
         if !all.iter().any(|panel| panel.robot == robot.value) {
             let mut robots: Vec<(&str, usize)> = all.iter().map(|o| (o.robot, o.numbers[0])).collect();
@@ -124,7 +142,7 @@ impl<'a> Resolver<'a> {
             let names: Vec<&str> = of_robot().map(|panel| panel.part).collect();
             let message = format!("nobody operates \"{}\" of {}", part.value, robot.value);
             self.wrong_operation(part.span, message, |d| {
-                d.note(format!("buttons and set-points of it: {}", listing(&names)))
+                d.note(format!("buttons, selectors and set-points of it: {}", listing(&names)))
                     .help(instead(&part.value, &names))
             });
             return None;
@@ -142,8 +160,7 @@ impl<'a> Resolver<'a> {
             }
             (Operated::Press, None) | (Operated::SetNumber, Some(_)) => {}
         }
-        let Operation { at_s, for_s, value, .. } = *operation;
-        Some(Operation { part: found.numbers, at_s, for_s, value })
+        Some(found.numbers)
     }
 
     fn collected(&mut self, collected: &Collected<Spanned<String>>) -> Option<Collected<[usize; 2]>> {

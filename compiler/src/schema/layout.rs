@@ -3,6 +3,7 @@
 use super::{Property, described, file, list, name, number, object, property, text, tuple};
 use crate::device::{self, Form};
 use crate::ir::{Automaton, Extent, KIND, Model, Scalar, Type};
+use crate::layout::Panel;
 use crate::layout::machine::{LONGEST_S, OBSTACLES};
 use crate::layout::object::{COMMON_KEYS, FARTHEST};
 use crate::layout::read::{KEYS, SCANS_MS};
@@ -40,6 +41,11 @@ pub fn layout(model: &Model, are_kinds_known: bool) -> Value {
             "scan_ms",
             super::whole(*SCANS_MS.start(), *SCANS_MS.end()),
             "Period of the scan, ms. Without it: 10",
+        ),
+        property(
+            "panel",
+            json!({ "enum": Panel::ALL.map(|(word, _)| word) }),
+            "What a person can operate: the line as a whole, or each of its machines too. Without it: line",
         ),
         property("may_touch", list(may_touch()), "Pairs whose contact does not end a run"),
     ];

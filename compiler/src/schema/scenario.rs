@@ -164,10 +164,14 @@ fn faults() -> Value {
 fn operation() -> Value {
     let all = vec![
         robot(),
-        property("part", text(), "The name of a button or a set-point in its device"),
+        property(
+            "part",
+            text(),
+            "The name of a button or a set-point in the device of the robot; without a robot start or reset, of the line",
+        ),
         property("at_s", seconds_from_0(), "When, s from the start of the run"),
         property("for_s", seconds(), "For how long, s. Without it: to the end of the run"),
         property("value", number(-operator::MOST, operator::MOST), "The number that is set at a set-point"),
     ];
-    object(all, &["robot", "part", "at_s"])
+    object(all, &["part", "at_s"])
 }

@@ -322,6 +322,8 @@ pub struct State {
     pub doc: Vec<String>,
     pub name: Name,
     pub is_final: bool,
+    /// Its machine may go on from here after it was moved by hand.
+    pub is_resumable: bool,
     pub within: Option<Expr>,
     pub body: Body,
 }

@@ -5,8 +5,8 @@ use super::{Failure, Time};
 use crate::ir::{Element, Group, KeptBy, Named, System, Value};
 use crate::source::Span;
 use runtime_sim::device::Direction;
+use runtime_sim::monitor::ALARM_WORDS;
 use runtime_sim::scan::SystemInputs;
-use runtime_sim::watch::ALARM_WORDS;
 use std::collections::VecDeque;
 
 /// Events that a failure tells.

@@ -185,7 +185,7 @@ impl Finder<'_> {
         for local in &automaton.locals {
             let is_point = local.ty.scalar == Scalar::Point;
             match local.kept_by {
-                KeptBy::Steps => paths.extend(own(&local.name, is_point, local.ty.extent)),
+                KeptBy::Steps | KeptBy::Modes => paths.extend(own(&local.name, is_point, local.ty.extent)),
                 KeptBy::Properties => {
                     let names = self.variables(&block, &local.name, is_point, local.ty.extent, 0);
                     paths.extend(names.into_iter().map(|name| format!("{tests}.{name}")));

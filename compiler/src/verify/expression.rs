@@ -31,6 +31,9 @@ impl Instance<'_> {
             ExprKind::After(time) => self.after(time),
             ExprKind::Done => self.answer(status::DONE),
             ExprKind::Failed => self.answer(status::FAILED),
+            ExprKind::Permit | ExprKind::Stopped | ExprKind::InState(_) | ExprKind::IsFinite(_) => {
+                unreachable!("only operating modes ask for this, and they are not searched")
+            }
             ExprKind::Not(a) => Int::Not(Box::new(self.int(a))),
             ExprKind::Negate(a) => Int::Negate(Box::new(self.int(a))),
             ExprKind::Absolute(a) => Int::Absolute(Box::new(self.int(a))),

@@ -59,7 +59,7 @@ pub fn model(project: &Project, faults: Faults) -> Result<Model, Vec<Diagnostic>
         whole.states.push((state, times));
         let locals = automaton.locals.iter().map(|local| match local.kept_by {
             // Nothing that is searched reads it.
-            KeptBy::Properties => (Vec::new(), 0),
+            KeptBy::Properties | KeptBy::Modes => (Vec::new(), 0),
             KeptBy::Steps => {
                 values(&mut memory, number, &format!("{name}.{}", local.name), local.ty, local.initial)
             }

@@ -5,6 +5,7 @@
 
 use super::memory::Memory;
 use crate::device::Port;
+use crate::device::panel;
 use autogen_search::plant::{
     Action, Arm, Asked, Awaits, Desk, Head, Input, Lane, Place, Route, Zone, motion, phase, status,
 };
@@ -297,6 +298,15 @@ fn zone(
     })
 }
 
+/// What a panel shows that nobody touches: modes are not searched.
+fn at_rest(primitive: &Primitive) -> Signal {
+    match primitive {
+        Primitive::Button(button) => Signal::Fixed(i32::from(button.is_normally_closed)),
+        Primitive::Selector(_) => Signal::Fixed(0),
+        _ => Signal::Unbounded,
+    }
+}
+
 /// How an input behaves that shows this signal.
 fn signal(
     line: &Line,
@@ -336,6 +346,9 @@ fn signal(
         (("orders", "parts"), ..) => return Signal::Parts,
         (("orders", "number"), ..) => return Signal::OrderNumber,
         _ => {}
+    }
+    if !machine.monitor.panel.is_empty() && panel::has(&machine.parts[part].name) {
+        return at_rest(&machine.parts[part].primitive);
     }
     let schema = &machine.parts[part].schema().signals[signal];
     let (low, values) = match schema.ty {

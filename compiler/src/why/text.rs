@@ -57,6 +57,13 @@ impl Words<'_> {
             ExprKind::After(time) => (format!("after {}", self.at(time, Sum)), Primary),
             ExprKind::Done => ("done".into(), Primary),
             ExprKind::Failed => ("failed".into(), Primary),
+            ExprKind::Permit => ("run_permit".into(), Primary),
+            ExprKind::Stopped => ("stopped".into(), Primary),
+            ExprKind::InState(states) => {
+                let names = states.iter().map(|state| self.automaton.states[state.0].name.as_str());
+                (format!("in {}", names.collect::<Vec<_>>().join(" or ")), Primary)
+            }
+            ExprKind::IsFinite(inner) => call("is_finite", &[inner]),
             ExprKind::Not(inner) => (format!("not {}", self.at(inner, Not)), Not),
             ExprKind::Negate(inner) => (format!("-{}", self.at(inner, Sign)), Sign),
             ExprKind::Binary(operator, a, b) => self.binary(*operator, a, b),

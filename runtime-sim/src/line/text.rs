@@ -4,13 +4,13 @@ use std::fmt::Write;
 use std::sync::Arc;
 
 use super::{
-    Answer, Collected, Goal, IoDelay, Kind, Line, Obstacle, Operation, Order, Pause, Refusal, Scenario, Slip,
-    State, Supply,
+    Answer, Collected, Goal, IoDelay, Kind, Line, LineButton, Obstacle, Operation, Order, Pause, Press,
+    Refusal, Scenario, Slip, State, Supply,
 };
 use crate::machine::Machine;
+use crate::monitor::{Alarm, Counter, Monitor};
 use crate::part::Part;
 use crate::point::Point;
-use crate::watch::{Alarm, Counter, Watch};
 use crate::wiring::Wiring;
 use crate::words::Words;
 
@@ -22,7 +22,7 @@ impl Line {
             out.push_str(entry.trim_end());
             out.push('\n');
         };
-        put("line 5".into());
+        put("line 6".into());
         put(format!("scan_ms {}", self.scan_ms));
         put(match self.io_delay {
             IoDelay::Fixed(scans) => format!("io_delay fixed {scans}"),
@@ -68,7 +68,7 @@ impl Line {
                     list(&state.reads)
                 ));
             }
-            let Watch { stopped, counters, alarms } = &machine.watch;
+            let Monitor { stopped, counters, alarms, panel } = &machine.monitor;
             let stopped = stopped.map_or("never".into(), |word| format!("at {word}"));
             put(format!("    stopped {stopped}"));
             put(format!("    counters {}", counters.len()));
@@ -80,6 +80,7 @@ impl Line {
             for Alarm { code, word } in alarms {
                 put(format!("      {code} {word}"));
             }
+            put(format!("    panel {}", list(panel)));
         }
         put(format!("obstacles {}", self.obstacles.len()));
         for obstacle in &self.obstacles {
@@ -135,6 +136,15 @@ impl Line {
             let until = for_s.map_or("on".into(), |for_s| format!("for {for_s:?}"));
             put(format!("  {machine} {part} {at_s:?} {until} {value:?}"));
         }
+        put(format!("presses {}", scenario.presses.len()));
+        for Press { button, at_scan, scans } in &scenario.presses {
+            let button = match button {
+                LineButton::Start => "start",
+                LineButton::Reset => "reset",
+            };
+            let until = scans.map_or("on".into(), |scans| format!("at {scans}"));
+            put(format!("  {button} {at_scan} {until}"));
+        }
         put(format!("seed {}", scenario.seed));
         put("end".into());
         out
@@ -155,7 +165,7 @@ impl Line {
     /// Reads the text form, and leaves what follows it.
     pub fn read(words: &mut Words) -> Result<Line, String> {
         words.expect("line")?;
-        words.expect("5")?;
+        words.expect("6")?;
         words.expect("scan_ms")?;
         let scan_ms = words.int()?;
         words.expect("io_delay")?;
@@ -233,7 +243,7 @@ fn read_machine(words: &mut Words, devices: &[Arc<Wiring>]) -> Result<Machine, S
         };
         Ok(State { name, working, awaits, reads, timers })
     })?;
-    let watch = Watch {
+    let monitor = Monitor {
         stopped: {
             words.expect("stopped")?;
             optional(words, "never")?
@@ -246,8 +256,12 @@ fn read_machine(words: &mut Words, devices: &[Arc<Wiring>]) -> Result<Machine, S
             words.expect("alarms")?;
             words.list(|w| Ok(Alarm { code: w.int()?, word: w.int()? }))?
         },
+        panel: {
+            words.expect("panel")?;
+            words.list(|w| w.int())?
+        },
     };
-    Ok(Machine { name, pose, parts, wiring, states, watch })
+    Ok(Machine { name, pose, parts, wiring, states, monitor })
 }
 
 fn read_obstacle(words: &mut Words) -> Result<Obstacle, String> {
@@ -303,6 +317,8 @@ fn read_scenario(words: &mut Words) -> Result<Scenario, String> {
     let pauses = words.list(|w| Ok(Pause { at_scan: w.int()?, scans: w.int()? }))?;
     words.expect("operations")?;
     let operations = words.list(read_operation)?;
+    words.expect("presses")?;
+    let presses = words.list(read_press)?;
     words.expect("seed")?;
     let seed = words.int()?;
     Ok(Scenario {
@@ -319,6 +335,7 @@ fn read_scenario(words: &mut Words) -> Result<Scenario, String> {
         answers,
         pauses,
         operations,
+        presses,
         seed,
     })
 }
@@ -331,4 +348,13 @@ fn read_operation(words: &mut Words) -> Result<Operation, String> {
         other => return Err(words.error(format_args!("`{other}` is neither `on` nor `for`"))),
     };
     Ok(Operation { machine, part, at_s, for_s, value: words.real()? })
+}
+
+fn read_press(words: &mut Words) -> Result<Press, String> {
+    let button = match words.name()? {
+        "start" => LineButton::Start,
+        "reset" => LineButton::Reset,
+        other => return Err(words.error(format_args!("`{other}` is no button of the line"))),
+    };
+    Ok(Press { button, at_scan: words.int()?, scans: optional(words, "on")? })
 }

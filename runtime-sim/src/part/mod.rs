@@ -137,6 +137,7 @@ primitives! {
     process::Process,
     pusher::Pusher,
     route::Route,
+    selector::Selector,
     setpoint::Setpoint,
     sink::Sink,
     source::Source,

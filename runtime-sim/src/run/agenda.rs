@@ -2,9 +2,9 @@
 
 use super::changes::Changes;
 use crate::line::Line;
+use crate::monitor::Counter;
 use crate::plant::Plant;
 use crate::scan::{SystemInputs, SystemOutputs};
-use crate::watch::Counter;
 
 /// What the controllers wait for since the last scan in which they were stepped. A scan in which none of this happens
 /// does nothing but let times in states go on.
@@ -51,6 +51,14 @@ impl<'a> Agenda<'a> {
         if last.acted || system != last.system {
             return true;
         }
+        let differs = |machine: usize, word: &usize| {
+            self.latched[machine].get(*word).map(|w| w.to_bits())
+                != inputs[machine].get(*word).map(|w| w.to_bits())
+        };
+        let mut machines = self.line.machines.iter().enumerate();
+        if machines.any(|(machine, it)| it.monitor.panel.iter().any(|word| differs(machine, word))) {
+            return true;
+        }
         if !last.running {
             return false;
         }
@@ -59,21 +67,17 @@ impl<'a> Agenda<'a> {
             let Some(state) = description.states.get(states[machine]) else { return true };
             let stay = self.stays.get(machine).map_or(0.0, |word| changes.stay(*word));
             let ends = |timer: &u32| stay < f64::from(*timer) && f64::from(*timer) <= stay + passed;
-            let watch = &description.watch;
-            let stops = watch.is_stopped(changes.trace());
+            let monitor = &description.monitor;
+            let stops = monitor.is_stopped(changes.trace());
             let counter_ends = |counter: &Counter| {
                 let waited = changes.stay(counter.word);
                 let ends = |limit: u32| waited < f64::from(limit) && f64::from(limit) <= waited + passed;
                 waited >= 0.0 && counter.limit.is_none_or(ends)
             };
-            let differs = |word: &usize| {
-                self.latched[machine].get(*word).map(|w| w.to_bits())
-                    != inputs[machine].get(*word).map(|w| w.to_bits())
-            };
             !stops
                 && (state.timers.as_ref().is_none_or(|timers| timers.iter().any(ends))
-                    || watch.counters.iter().any(counter_ends))
-                || state.reads.iter().any(differs)
+                    || monitor.counters.iter().any(counter_ends))
+                || state.reads.iter().any(|word| differs(machine, word))
         })
     }
 
@@ -112,13 +116,13 @@ impl<'a> Agenda<'a> {
             if plant.moves(machine) && reads_analogue() {
                 return Some(scan + 1);
             }
-            if description.watch.is_stopped(changes.trace()) {
+            if description.monitor.is_stopped(changes.trace()) {
                 continue;
             }
             let Some(timers) = &state.timers else { return Some(scan + 1) };
             let stay = self.stays.get(machine).map_or(0.0, |word| changes.stay(*word));
             let mut left: Vec<f64> = timers.iter().map(|timer| f64::from(*timer) - stay).collect();
-            for counter in &description.watch.counters {
+            for counter in &description.monitor.counters {
                 let waited = changes.stay(counter.word);
                 match counter.limit {
                     _ if waited < 0.0 => {}

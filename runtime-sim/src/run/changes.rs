@@ -28,10 +28,10 @@ impl Changes {
     /// `stays` are the words of the times in states, by machine.
     pub fn new(stays: &[usize], line: &Line) -> Self {
         let stays = stays.iter().enumerate().map(|(machine, word)| {
-            (*word, line.machines.get(machine).and_then(|machine| machine.watch.stopped))
+            (*word, line.machines.get(machine).and_then(|machine| machine.monitor.stopped))
         });
-        let counters = line.machines.iter().flat_map(|Machine { watch, .. }| {
-            watch.counters.iter().map(|counter| (counter.word, watch.stopped))
+        let counters = line.machines.iter().flat_map(|Machine { monitor, .. }| {
+            monitor.counters.iter().map(|counter| (counter.word, monitor.stopped))
         });
         let times: Vec<_> = stays.chain(counters).collect();
         let mut words_are = vec![Word::Value; times.iter().map(|(word, _)| word + 1).max().unwrap_or(0)];

@@ -100,7 +100,7 @@ pub struct {{ ty }}<'a> {
     pub alarms: [Alarm; {{ alarms.len() }}],
     {%- endif %}
     {%- if can_stop %}
-    /// An alarm has stopped it: it makes no steps, and its device is held.
+    /// An alarm{% if modes.is_some() %} or its panel{% endif %} has stopped it: it makes no steps, and its device is held.
     pub stopped: bool,
     {%- endif %}
 }
@@ -142,6 +142,11 @@ impl<'a> {{ ty }}<'a> {
         }
         {%- endif %}
         self.elapsed = self.elapsed.saturating_add(wiring.scan_ms);
+        {%- if let Some(modes) = modes %}
+        if !self.{{ modes.steps }} {
+            return Ok(());
+        }
+        {%- endif %}
         match self.state {
             {%- for arm in arms %}
             {{ arm }}
@@ -149,9 +154,44 @@ impl<'a> {{ ty }}<'a> {
         }
     }
 
+    {%- if let Some(modes) = modes %}
+
+    /// What a person does at the panel, before the step of every scan.
+    pub fn operate(&mut self, permit: bool{% if !modes.parameters.is_empty() %}, {{ modes.parameters }}{% endif %}) {
+        {%- for statement in modes.operate %}
+        {{ statement }}
+        {%- endfor %}
+    }
+
+    /// As at power-up, but for what stays as it is without power.
+    fn begin_anew(&mut self{% if !modes.parameters.is_empty() %}, {{ modes.parameters }}{% endif %}) {
+        {%- for statement in modes.begin_anew %}
+        {{ statement }}
+        {%- endfor %}
+    }
+    {%- if let Some(is_single) = modes.is_single %}
+
+    /// In single step nothing lasts too long.
+    fn is_single(&self) -> bool {
+        {{ is_single }}
+    }
+    {%- endif %}
+    {%- endif %}
+
     /// What the device is told in this scan.
     pub fn published(&self, running: bool) -> Outputs {
+        {%- if let Some(modes) = modes %}
+        let runs = running && !self.stopped && !self.{{ modes.moved_by_hand }};
+        {% if modes.published.is_empty() %}if runs { self.outputs } else { self.outputs.stopped() }{% else %}
+        let mut outputs = if runs { self.outputs } else { self.outputs.stopped() };
+        {%- for statement in modes.published %}
+        {{ statement }}
+        {%- endfor %}
+        outputs
+        {%- endif %}
+        {%- else %}
         if running{% if can_stop %} && !self.stopped{% endif %} { self.outputs } else { self.outputs.stopped() }
+        {%- endif %}
     }
     {%- if !properties.is_empty() %}
 

@@ -35,6 +35,18 @@ impl Robot<'_> {
     }
     {%- endif %}
 
+    {%- if modes %}
+
+    /// What a person does at its panel, before the step of every scan.
+    pub fn operate(&mut self, permit: bool{{ operate_parameters }}) {
+        match self {
+            {%- for robot in robots %}
+            Self::{{ robot.ty }}(robot) => robot.operate(permit{% if !robot.operate_arguments.is_empty() %}, {{ robot.operate_arguments }}{% endif %}),
+            {%- endfor %}
+        }
+    }
+    {%- endif %}
+
     pub fn step(&mut self, {{ step_parameters }}) -> Result<(), Fault> {
         match self {
             {%- for robot in robots %}

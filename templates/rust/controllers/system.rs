@@ -97,8 +97,10 @@ impl System {
         } else if start && !faulted_before {
             self.running = true;
         }
+        {%- if modes %}
+        if let Err(fault) = run([inputs.run_permit, self.running], {% else %}
         if self.running
-            && let Err(fault) = run(wiring, robots{% if uses_cells %}, cells{% endif %}{% if scan %}, self.scan{% endif %}{% if start %}, start{% endif %})
+            && let Err(fault) = run({% endif %}wiring, robots{% if uses_cells %}, cells{% endif %}{% if scan %}, self.scan{% endif %}{% if start %}, start{% endif %})
         {
             self.fault = Some(fault);
             self.running = false;
@@ -148,8 +150,12 @@ fn first_alarm<'a>(robots: &'a [Robot]) -> Option<(&'a Alarm, usize)> {
 }
 
 {% endif -%}
-/// A step of each robot, up to the first fault.
+{% if modes %}/// The panel and a step of each robot, in turn; no steps after the first fault.
 fn run(
+    [permit, running]: [bool; 2],
+{%- else %}/// A step of each robot, up to the first fault.
+fn run(
+{%- endif %}
     wiring: &Wiring,
     robots: &mut [Robot],
     {%- if uses_cells %}
@@ -162,9 +168,23 @@ fn run(
     start: bool,
     {%- endif %}
 ) -> Result<(), (Fault, usize)> {
+    {%- if modes %}
+    let mut so_far = Ok(());
+    for (number, robot) in robots.iter_mut().enumerate() {
+        robot.operate(permit{% if operate_writes_cells %}, cells{% endif %});
+        if running && so_far.is_ok() {
+            so_far = robot.step(wiring{% if uses_cells %}, cells{% endif %}).map_err(|fault| (fault, number));
+        }
+    }
+    so_far?;
+    if !running {
+        return Ok(());
+    }
+    {%- else %}
     for (number, robot) in robots.iter_mut().enumerate() {
         robot.step(wiring{% if uses_cells %}, cells{% endif %}).map_err(|fault| (fault, number))?;
     }
+    {%- endif %}
     {%- if properties %}
     for (number, robot) in robots.iter{% if properties_change %}_mut{% endif %}().enumerate() {
         robot.properties({{ properties_arguments }}).map_err(|fault| (fault, number))?;

@@ -194,6 +194,7 @@ impl<'a> Names<'a> {
     fn expr(&mut self, expr: &Expr) {
         use ExprKind as Kind;
         let name: String = match &expr.kind {
+            Kind::Permit | Kind::Stopped | Kind::InState(_) | Kind::IsFinite(_) => "operating mode".into(),
             Kind::Constant(value) => match value {
                 Value::Bool(_) => "constant: bool".into(),
                 Value::Int(_) => format!("constant: {}", scalar(expr.ty)),

@@ -2,6 +2,7 @@
 
 use super::context::{Context, doc};
 use super::format;
+use super::modes;
 use super::property;
 use super::render;
 use super::walk::Uses;
@@ -42,6 +43,7 @@ struct Module {
     counters: Vec<String>,
     alarms: Vec<String>,
     can_stop: bool,
+    modes: Option<modes::Methods>,
 }
 
 struct Field {
@@ -69,6 +71,7 @@ pub fn module(context: &Context) -> String {
         commands |= state.commands;
         uses.join(state.uses);
     }
+    commands |= automaton.modes.is_some() && device.is_commanded();
     let mut asked = uses.clone();
     asked.join(property::uses(context));
     automaton.defines.iter().for_each(|d| asked.expr(automaton, &d.value));
@@ -111,7 +114,7 @@ pub fn module(context: &Context) -> String {
             .zip(&names.locals)
             .map(|(l, name)| Field {
                 doc: match l.kept_by {
-                    KeptBy::Steps => doc(&l.doc),
+                    KeptBy::Steps | KeptBy::Modes => doc(&l.doc),
                     KeptBy::Properties => doc(&["Kept by a property.".into()]),
                 },
                 name: name.clone(),
@@ -134,6 +137,7 @@ pub fn module(context: &Context) -> String {
         counters: property::counters(context),
         alarms: property::alarms(context),
         can_stop: automaton.can_stop(),
+        modes: modes::methods(context),
     };
     format::module(&render(&module), &context.importable("crate"))
 }

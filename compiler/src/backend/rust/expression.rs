@@ -80,6 +80,16 @@ impl Context<'_> {
             ExprKind::After(time) => compared("self.elapsed".into(), ">=", self.code(time).at(Level::Sum)),
             ExprKind::Done => Code::primary("self.command_done()"),
             ExprKind::Failed => Code::primary("self.command_failed()"),
+            ExprKind::Permit => Code::primary("permit"),
+            ExprKind::Stopped => Code::primary("self.stopped"),
+            ExprKind::InState(states) => {
+                let names = states.iter().map(|state| format!("State::{}", self.own().states[state.0]));
+                let names: Vec<String> = names.collect();
+                Code::primary(format!("matches!(self.state, {})", names.join(" | ")))
+            }
+            ExprKind::IsFinite(inner) => {
+                Code::primary(format!("{}.is_finite()", self.code(inner).at(Level::Primary)))
+            }
             ExprKind::Not(inner) => {
                 Code { text: format!("!{}", self.code(inner).at(Level::Unary)), level: Level::Unary }
             }

@@ -20,7 +20,8 @@ pub fn uses(context: &Context) -> Uses {
 
 /// Whether properties keep anything from scan to scan.
 pub fn remembers(automaton: &Automaton) -> bool {
-    automaton.properties.iter().any(|p| p.is_alarm() || !matches!(p.kind, PropertyKind::Always(_)))
+    automaton.modes.is_some()
+        || automaton.properties.iter().any(|p| p.is_alarm() || !matches!(p.kind, PropertyKind::Always(_)))
 }
 
 /// Whether one of them waits for something.
@@ -51,11 +52,12 @@ pub fn properties(context: &Context) -> Vec<String> {
     }
     if automaton.can_stop() {
         let stops = automaton.alarms().enumerate().filter(|(_, p)| p.severity == Severity::Machine);
-        let closed: Vec<_> = stops.map(|(number, _)| format!("!self.alarms[{number}].is_open()")).collect();
+        let closed = stops.map(|(number, _)| format!(" && !self.alarms[{number}].is_open()"));
+        let enabled = automaton.modes.iter().map(|modes| format!(" && {}", context.expr(&modes.may_go_on)));
         texts.push(format!(
-            "{}if start && stopped && {} {{ self.stopped = false; }}",
+            "{}if start && stopped{} {{ self.stopped = false; }}",
             comment("It goes on from the next scan on."),
-            closed.join(" && ")
+            closed.chain(enabled).collect::<String>()
         ));
     }
     texts
@@ -82,7 +84,11 @@ fn holds(context: &Context, property: &Property) -> String {
         PropertyKind::Whenever { trigger, goal, within, waited, anew } => {
             let waited = field(*waited);
             let (trigger, goal) = (context.expr(trigger), context.expr(goal));
-            let goal = if can_stop { format!("stopped || ({goal})") } else { goal };
+            let goal = match (can_stop, &context.automaton().modes) {
+                (_, Some(_)) => format!("stopped || self.is_single() || ({goal})"),
+                (true, None) => format!("stopped || ({goal})"),
+                (false, None) => goal,
+            };
             let anew = anew.as_ref().map(|kept| {
                 let (before, value) = (field(kept.before), context.expr(&kept.value));
                 format!("if {before} != {value} {{ {before} = {value}; {waited} = -1; }}")

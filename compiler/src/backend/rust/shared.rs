@@ -2,10 +2,11 @@
 
 use super::automaton::step_uses;
 use super::context::{Context, Shared, doc};
+use super::modes;
 use super::property;
 use super::walk::{Access, Uses};
 use super::{format, render};
-use crate::ir::{AutomatonId, InterfaceId, Variable};
+use crate::ir::{Automaton, AutomatonId, InterfaceId, Variable};
 use askama::Template;
 use runtime_sim::device::{Direction, PortType};
 
@@ -158,18 +159,23 @@ struct SystemView {
     alarms: bool,
     scan: bool,
     start: bool,
+    modes: bool,
+    operate_writes_cells: bool,
 }
 
 #[derive(Template)]
 #[template(path = "rust/controllers/robot.rs")]
 struct RobotView {
     robots: Vec<Variant>,
+    /// With a comma before them.
+    operate_parameters: &'static str,
     step_parameters: String,
     limits_inputs: bool,
     properties: bool,
     properties_change: bool,
     properties_parameters: String,
     alarms: bool,
+    modes: bool,
 }
 
 struct Variant {
@@ -183,6 +189,7 @@ struct Variant {
     counts: bool,
     begins_anew: bool,
     has_alarms: bool,
+    operate_arguments: String,
 }
 
 fn contexts<'a>(shared: Shared<'a>) -> impl Iterator<Item = Context<'a>> {
@@ -199,6 +206,7 @@ fn uses(shared: Shared) -> (Uses, Uses) {
     let (mut steps, mut properties) = (Uses::default(), Uses::default());
     for context in contexts(shared) {
         steps.join(step_uses(&context));
+        steps.join(modes::uses(&context));
         properties.join(property::uses(&context));
     }
     (steps, properties)
@@ -207,6 +215,20 @@ fn uses(shared: Shared) -> (Uses, Uses) {
 pub fn uses_cells(shared: Shared) -> bool {
     let (steps, properties) = uses(shared);
     steps.cells.max(properties.cells) != Access::None
+}
+
+/// Whether something is looked at behind the steps.
+fn has_properties(automaton: &Automaton) -> bool {
+    automaton.can_stop() || !automaton.properties.is_empty()
+}
+
+/// Whether a robot that begins anew has cells.
+fn operate_writes_cells(shared: Shared) -> bool {
+    contexts(shared).any(|context| modes::uses(&context).cells != Access::None)
+}
+
+fn has_modes(shared: Shared) -> bool {
+    shared.system.model.automata.iter().any(|automaton| automaton.modes.is_some())
 }
 
 fn remembers(shared: Shared) -> bool {
@@ -228,12 +250,14 @@ pub fn system(shared: Shared) -> String {
     let view = SystemView {
         uses_cells: uses_cells(shared),
         limits_inputs: contexts(shared).any(|c| limits(&c)),
-        properties: shared.system.model.automata.iter().any(|a| !a.properties.is_empty()),
+        properties: shared.system.model.automata.iter().any(has_properties),
         properties_change: remembers(shared),
         properties_arguments: arguments,
         alarms: has_alarms(shared),
         scan: properties.scan,
         start: properties.start,
+        modes: has_modes(shared),
+        operate_writes_cells: operate_writes_cells(shared),
     };
     format::print(&render(&view))
 }
@@ -246,10 +270,11 @@ pub fn robot(shared: Shared) -> String {
             module: context.own().module.clone(),
             step_arguments: context.arguments(&step_uses(&context)),
             limits: limits(&context),
-            has_properties: !context.automaton().properties.is_empty(),
+            has_properties: has_properties(context.automaton()),
             counts: context.automaton().can_stop() || property::waits(context.automaton()),
             begins_anew: !property::anew(&context).is_empty(),
             has_alarms: context.automaton().alarms().next().is_some(),
+            operate_arguments: context.arguments(&modes::uses(&context)),
             properties_arguments: context.arguments(&property::uses(&context)),
         })
         .collect();
@@ -264,6 +289,8 @@ pub fn robot(shared: Shared) -> String {
         properties: robots.iter().any(|r| r.has_properties),
         properties_change: remembers(shared),
         alarms: has_alarms(shared),
+        modes: has_modes(shared),
+        operate_parameters: if operate_writes_cells(shared) { ", cells: &mut Cells" } else { "" },
         properties_parameters: contexts(shared).next().map(|c| c.parameters(&properties)).unwrap_or_default(),
         robots,
     };

@@ -34,7 +34,11 @@ impl Context<'_> {
         let end = state.within.as_ref().map_or_else(
             || "Ok(())".to_string(),
             |(longest, fault)| {
-                format!("within(self.elapsed, {}, {})", self.expr(longest), self.fault(*fault))
+                let within = format!("within(self.elapsed, {}, {})", self.expr(longest), self.fault(*fault));
+                match self.automaton().modes {
+                    Some(_) => format!("if self.is_single() {{ Ok(()) }} else {{ {within} }}"),
+                    None => within,
+                }
             },
         );
         let mut body = String::new();

@@ -88,7 +88,12 @@ impl Uses {
 
     pub fn expr(&mut self, automaton: &Automaton, expr: &Expr) {
         match &expr.kind {
-            ExprKind::Constant(_) | ExprKind::Own(_) | ExprKind::Members(_) => {}
+            ExprKind::Constant(_)
+            | ExprKind::Own(_)
+            | ExprKind::Permit
+            | ExprKind::Stopped
+            | ExprKind::InState(_)
+            | ExprKind::Members(_) => {}
             ExprKind::Done => self.done = true,
             ExprKind::Failed => self.failed = true,
             ExprKind::Read(place) => self.place(automaton, place),
@@ -104,6 +109,7 @@ impl Uses {
             | ExprKind::Negate(inner)
             | ExprKind::Absolute(inner)
             | ExprKind::ToReal(inner)
+            | ExprKind::IsFinite(inner)
             | ExprKind::Coordinate(inner, _)
             | ExprKind::IsMember(inner, _) => self.expr(automaton, inner),
             ExprKind::Binary(_, a, b)

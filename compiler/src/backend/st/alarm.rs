@@ -13,7 +13,11 @@ pub fn any(shared: Shared) -> bool {
 }
 
 pub fn can_stop(shared: Shared) -> bool {
-    shared.system.alarms().iter().any(|entry| entry.severity == Severity::Machine)
+    shared.system.alarms().iter().any(|entry| entry.severity == Severity::Machine) || has_modes(shared)
+}
+
+fn has_modes(shared: Shared) -> bool {
+    shared.system.model.automata.iter().any(|automaton| automaton.modes.is_some())
 }
 
 /// The arrays: an element for each entry, and for each robot whether an alarm has stopped it.
@@ -45,7 +49,10 @@ pub fn tables(shared: Shared) -> Vec<Table> {
     }
     if can_stop(shared) {
         let robots = vec![Ex::Bool(false); shared.system.instances.len()];
-        let about = "an alarm has stopped the robot: it makes no steps, and its device is held";
+        let about = match has_modes(shared) {
+            true => "an alarm or its panel has stopped the robot: it makes no steps, and its device is held",
+            false => "an alarm has stopped the robot: it makes no steps, and its device is held",
+        };
         tables.push(table(STOPPED, Basic::Bool, about, robots));
     }
     tables

@@ -6,6 +6,7 @@ use super::dead;
 use super::declaration::{Basic, Unit, Variable, constants};
 use super::expression::limited;
 use super::globals::{Globals, about, array_names, meaning};
+use super::modes;
 use super::names::ELEMENT;
 use super::property;
 use super::role::Members;
@@ -50,6 +51,13 @@ impl Candidate {
     }
 }
 
+impl Candidate {
+    /// Kept in the block of the steps.
+    fn is_of_steps(&self) -> bool {
+        matches!(self.origin, Origin::Kept) && self.kept_by != KeptBy::Properties
+    }
+}
+
 /// A function block with what it is called with.
 pub struct Block {
     pub unit: Unit,
@@ -65,25 +73,26 @@ pub fn steps(shared: Shared, id: AutomatonId, globals: &Globals) -> Block {
     let unknown = Member { value: NO_SUCH_STATE, note: "no such state".into(), qualified: None };
     let otherwise = vec![assign("fault_code", Ex::Member(unknown)), assign("fault_robot", name("robot"))];
     let anew = when(name("fault_cleared"), vec![assign("elapsed", Ex::Int(0))]);
-    let mut body = vec![when(stopped(), vec![anew, Stmt::Return])];
+    let candidates = candidates(shared, id);
+    let own_steps: Vec<&Candidate> = candidates.iter().filter(|c| c.is_of_steps()).collect();
+    let mut body = lowering.operate(&own_steps, globals);
+    body.push(when(stopped(), vec![anew, Stmt::Return]));
     if automaton.can_stop() {
         let is_stopped = Ex::Element(property::STOPPED.into(), Box::new(name("robot")));
         body.push(when(is_stopped, vec![assign("elapsed", Ex::Int(0)), Stmt::Return]));
     }
     body.push(elapse());
+    body.extend(modes::without_steps(&lowering));
     let case = vec![Stmt::Case { selector: state, branches, otherwise }];
     let mut case = dead::without_unread(case, &made(&lowering));
     let used = code::names(&case);
     let is_asked = |s: &Stmt| matches!(s, Stmt::Assign(Ex::Name(n), _) if used.contains(n));
     body.extend(lowering.answer().into_iter().filter(is_asked));
     body.append(&mut case);
-    let candidates = candidates(shared, id);
     let used = code::names(&body);
     let asked = code::names(&property::body(&mut Lowering::new(shared, id)));
     let is_kept = |c: &&Candidate| {
-        matches!(c.origin, Origin::Kept)
-            && c.kept_by == KeptBy::Steps
-            && (used.contains(&c.variable.name) || asked.contains(&c.variable.name))
+        c.is_of_steps() && (used.contains(&c.variable.name) || asked.contains(&c.variable.name))
     };
     let kept: Vec<&Candidate> = candidates.iter().filter(is_kept).collect();
     body.insert(0, when(not(name("init_done")), power_up(shared.state(id, 0), &kept)));
@@ -92,6 +101,9 @@ pub fn steps(shared: Shared, id: AutomatonId, globals: &Globals) -> Block {
         state_variable(shared, id),
         Variable::new("elapsed", Basic::Dint).with_comment("ms in this state"),
     ];
+    if modes::tells_anew(automaton) {
+        outputs.push(begun_anew().variable);
+    }
     let mut variables = Vec::new();
     for candidate in kept {
         let is_seen = candidate.is_output || asked.contains(&candidate.variable.name);
@@ -212,6 +224,7 @@ pub fn candidates(shared: Shared, id: AutomatonId) -> Vec<Candidate> {
         all.push(given(count, Origin::MemberCount(i)));
     }
     all.extend(ports(shared, automaton, id));
+    let told = automaton.modes.as_ref().map(modes::told).unwrap_or_default();
     for (i, local) in automaton.locals.iter().enumerate() {
         let initial = shared.constants(local.ty.scalar, local.initial);
         for (part, (held, initial)) in own.locals[i].iter().zip(initial).enumerate() {
@@ -224,7 +237,7 @@ pub fn candidates(shared: Shared, id: AutomatonId) -> Vec<Candidate> {
                 variable,
                 origin: Origin::Kept,
                 initial: Some(initial),
-                is_output: false,
+                is_output: told.contains(&i),
                 kept_by: local.kept_by,
             });
         }
@@ -325,7 +338,8 @@ impl Block {
     }
 }
 
-fn argument(shared: Shared, robot: usize, input: &str, origin: &Origin) -> Ex {
+/// What a block of a robot is called with.
+pub fn argument(shared: Shared, robot: usize, input: &str, origin: &Origin) -> Ex {
     let instance = &shared.system.instances[robot];
     let automaton = shared.system.automaton_of(robot);
     let names = &shared.names.robots[robot];
@@ -365,6 +379,12 @@ fn entries_before(shared: Shared, robot: usize) -> usize {
 /// The time in the state, of the block of the steps.
 pub fn elapsed() -> Candidate {
     let variable = Variable::new("elapsed", Basic::Dint).with_comment("ms in this state");
+    Candidate { is_output: true, ..Candidate::given(variable, Origin::Kept) }
+}
+
+/// Whether the robot has begun anew in this scan, of the block of the steps.
+pub fn begun_anew() -> Candidate {
+    let variable = Variable::new(modes::BEGUN_ANEW, Basic::Bool).with_comment("it begins anew in this scan");
     Candidate { is_output: true, ..Candidate::given(variable, Origin::Kept) }
 }
 

@@ -3,9 +3,12 @@
 use super::code::{Ex, Stmt, advance, and, assign, binary, name, not, or, real, sum, times, when};
 use super::context::{Lowering, Phase};
 use super::declaration::Basic;
+use super::property::own_stop;
 use super::role::Members;
 use super::walk;
-use crate::ir::{Domain, Expr, ExprKind, InterfaceId, Operator, Place, RoleId, Scalar, Value, VariableId};
+use crate::ir::{
+    Domain, Expr, ExprKind, InterfaceId, Operator, Place, RoleId, Scalar, StateId, Value, VariableId,
+};
 use runtime_sim::device::PortType;
 
 /// A variable, or an element of an array: where a value is held.
@@ -75,6 +78,18 @@ impl Lowering<'_> {
             ExprKind::Failed if self.phase == Phase::Guard => name("failed"),
             ExprKind::Done => self.answered("="),
             ExprKind::Failed => self.answered("<>"),
+            ExprKind::Permit => name("run_permit"),
+            ExprKind::Stopped => own_stop(),
+            ExprKind::InState(states) => {
+                let is =
+                    |state: &StateId| binary("=", name("state"), Ex::Member(self.state(self.id, state.0)));
+                or(states.iter().map(is).collect())
+            }
+            ExprKind::IsFinite(inner) if inner.ty == Scalar::Point => {
+                let coordinates = self.coordinates(inner, before);
+                Ex::Call("F_is_finite_point", ["x", "y", "z"].into_iter().zip(coordinates).collect())
+            }
+            ExprKind::IsFinite(inner) => Ex::Call("F_is_finite", vec![("value", self.value(inner, before))]),
             ExprKind::Not(inner) => not(self.value(inner, before)),
             ExprKind::Negate(inner) => Ex::Minus(Box::new(self.value(inner, before))),
             ExprKind::Binary(operator, a, b) => self.binary(*operator, a, b, before),

@@ -7,9 +7,11 @@ use super::context::Shared;
 use super::declaration::{Basic, Instance, Unit, Variable, constants};
 use super::globals::{Globals, fill};
 use super::image::Image;
+use super::modes;
 use super::names::{ELEMENT, ROUNDED};
 use super::property;
 use super::value::{first_value, stop_value};
+use crate::ir::{ByHand, Commands};
 use runtime_sim::device::Direction;
 
 pub const LAYOUT: &str = "FB_Layout";
@@ -135,10 +137,17 @@ fn publish(shared: Shared, robot: usize, block: &Block) -> Vec<Stmt> {
     let own = &shared.names.automata[shared.system.instances[robot].automaton.0].ports;
     let names = &shared.names.robots[robot];
     let is_stopped = || Ex::Element(property::STOPPED.into(), Box::new(Ex::Int(robot as i32)));
-    let runs = || match automaton.can_stop() {
-        true => and(vec![name("running"), not(is_stopped())]),
-        false => name("running"),
+    let modes = automaton.modes.as_ref();
+    let runs = || match (automaton.can_stop(), modes) {
+        (_, Some(modes)) => {
+            let is_moved = modes::field(shared, robot, modes.moved_by_hand);
+            and(vec![name("running"), not(is_stopped()), not(is_moved)])
+        }
+        (true, None) => and(vec![name("running"), not(is_stopped())]),
+        (false, None) => name("running"),
     };
+    let mut by_hand = Vec::new();
+    let mut with_command = Vec::new();
     let mut running = Vec::new();
     let mut stopped = Vec::new();
     let mut always = Vec::new();
@@ -146,24 +155,49 @@ fn publish(shared: Shared, robot: usize, block: &Block) -> Vec<Stmt> {
         automaton.device.ports.iter().enumerate().filter(|(_, p)| p.direction == Direction::Output)
     {
         let stop = stop_value(port).map(constants);
+        let published = modes.and_then(|modes| modes.published[i].as_ref());
+        let panel = published.and_then(|published| modes::by_hand(shared, robot, published));
         for (part, (global, output)) in names.ports[i].iter().zip(&own[i]).enumerate() {
             let is_written = publishes(block, output);
             let value = is_written.then(|| Ex::Field(names.instance.clone(), output.clone()));
             match (value, stop.as_ref().map(|s| s[part].clone())) {
                 (Some(value), None) => always.push(assign(global, value)),
                 (None, None) => {}
-                (None, Some(Ex::Bool(true))) => always.push(assign(global, not(runs()))),
+                (None, Some(Ex::Bool(true))) => {
+                    let commands = modes.and_then(|modes| modes.commands);
+                    let held = match commands {
+                        Some(commands) => modes::hold(shared, robot, commands, runs()),
+                        None => not(runs()),
+                    };
+                    always.push(assign(global, held));
+                }
                 (value, Some(stop)) => {
                     let first = constants(first_value(port.ty))[part].clone();
-                    running.push(assign(global, value.unwrap_or(first)));
+                    let value = value.unwrap_or(first);
+                    if let Some(ByHand::Argument) = published {
+                        with_command.push(assign(global, value.clone()));
+                    }
+                    if modes.is_some() {
+                        let given = panel.as_ref().map_or(stop.clone(), |panel| panel[part].clone());
+                        by_hand.push(assign(global, given));
+                    }
+                    running.push(assign(global, value));
                     stopped.push(assign(global, stop));
                 }
             }
         }
     }
     if !running.is_empty() {
-        let arm = Arm { comments: Vec::new(), condition: runs(), body: running };
-        always.push(Stmt::If(vec![arm], stopped));
+        let arm = |condition: Ex, body: Vec<Stmt>| Arm { comments: Vec::new(), condition, body };
+        let mut arms = vec![arm(runs(), running)];
+        let is_by_hand = modes.and_then(|modes| modes.by_hand);
+        arms.extend(is_by_hand.map(|local| arm(modes::field(shared, robot, local), by_hand)));
+        always.push(Stmt::If(arms, stopped));
+    }
+    if let Some(Commands { commanded, .. }) = modes.and_then(|modes| modes.commands)
+        && !with_command.is_empty()
+    {
+        always.push(when(modes::field(shared, robot, commanded), with_command));
     }
     always
 }

@@ -1,8 +1,8 @@
 //! The function block of a type that looks at its properties behind the steps of all robots, and raises alarms.
 
 use super::block::{
-    Block, Candidate, Origin, candidates, elapsed, externals, inputs_and_kept, kept_values, locals, made,
-    stopped,
+    Block, Candidate, Origin, begun_anew, candidates, elapsed, externals, inputs_and_kept, kept_values,
+    locals, made, stopped,
 };
 use super::code::{self, Arm, Ex, Stmt, and, assign, binary, name, not, or, sum, when};
 use super::context::{Lowering, Phase, Shared};
@@ -10,6 +10,7 @@ use super::dead;
 use super::declaration::{Basic, Unit, Variable};
 use super::expression::guarded;
 use super::globals::Globals;
+use super::modes::{self, BEGUN_ANEW};
 use crate::ir::{AutomatonId, Expr, KeptBy, Property, PropertyKind, Scalar, Severity};
 
 /// Whether the property at hand is violated.
@@ -26,11 +27,12 @@ pub const LOCAL: [&str; 4] = [VIOLATED, HOLDS, WAS_STOPPED, ENTRY];
 pub fn block(shared: Shared, id: AutomatonId, globals: &Globals) -> Option<Block> {
     let mut lowering = Lowering::new(shared, id);
     let automaton = lowering.automaton();
-    if automaton.properties.is_empty() {
+    if automaton.properties.is_empty() && automaton.modes.is_none() {
         return None;
     }
     let tests = body(&mut lowering);
     let mut body = anew(&lowering);
+    let begins = modes::tells_anew(automaton);
     body.push(when(stopped(), vec![Stmt::Return]));
     if automaton.can_stop() {
         body.push(assign(WAS_STOPPED, own_stop()));
@@ -41,19 +43,21 @@ pub fn block(shared: Shared, id: AutomatonId, globals: &Globals) -> Option<Block
     let kept: Vec<&Candidate> =
         all.iter().filter(|c| c.kept_by == KeptBy::Properties && used.contains(&c.variable.name)).collect();
     if !kept.is_empty() {
-        body.insert(0, when(not(name("init_done")), kept_values(&kept)));
+        let begun = if begins { name(BEGUN_ANEW) } else { Ex::Bool(false) };
+        body.insert(0, when(or(vec![not(name("init_done")), begun]), kept_values(&kept)));
     }
     let used = code::names(&body);
     let mut variables: Vec<Variable> = kept.iter().map(|c| c.variable.clone()).collect();
     let own = [
         (VIOLATED, "the property does not hold"),
         (HOLDS, "its condition holds"),
-        (WAS_STOPPED, "an alarm had stopped the robot before this scan"),
+        (WAS_STOPPED, "the robot was stopped before this scan"),
     ];
     let own = own.map(|(name, about)| Variable::new(name, Basic::Bool).with_comment(about));
     variables.extend(own.into_iter().filter(|variable| used.contains(&variable.name)));
     variables.extend(locals(shared, id, &lowering.temporaries, &used));
-    let mut given: Vec<Candidate> = all.into_iter().filter(|c| c.kept_by == KeptBy::Steps).collect();
+    let mut given: Vec<Candidate> = all.into_iter().filter(|c| c.kept_by != KeptBy::Properties).collect();
+    given.push(begun_anew());
     given.push(elapsed());
     given.push(Candidate::given(
         Variable::new(ENTRY, Basic::Dint).with_comment("number of its first entry in the table of alarms"),
@@ -63,10 +67,14 @@ pub fn block(shared: Shared, id: AutomatonId, globals: &Globals) -> Option<Block
     Some(Block {
         unit: Unit {
             name: lowering.own().properties.clone(),
-            comments: vec![format!(
-                "What each {} promises, looked at behind the steps of all robots.",
-                automaton.name
-            )],
+            comments: vec![if automaton.properties.is_empty() {
+                format!(
+                    "When each {} goes on that was stopped, behind the steps of all robots.",
+                    automaton.name
+                )
+            } else {
+                format!("What each {} promises, looked at behind the steps of all robots.", automaton.name)
+            }],
             inputs,
             externals: externals(globals, &used),
             variables,
@@ -102,7 +110,11 @@ pub fn body(lowering: &mut Lowering) -> Vec<Stmt> {
     });
     if automaton.can_stop() {
         out.push(Stmt::Comment("It goes on from the next scan on.".into()));
-        let conditions = [name("start_edge"), name(WAS_STOPPED)].into_iter().chain(closed);
+        let mut enabled = Vec::new();
+        if let Some(modes) = &automaton.modes {
+            enabled.push(lowering.condition(&modes.may_go_on, &mut out));
+        }
+        let conditions = [name("start_edge"), name(WAS_STOPPED)].into_iter().chain(closed).chain(enabled);
         out.push(when(and(conditions.collect()), vec![Stmt::Assign(own_stop(), Ex::Bool(false))]));
     }
     out
@@ -112,7 +124,7 @@ fn entry(alarm: usize) -> Ex {
     sum(name(ENTRY), Ex::Int(alarm as i32))
 }
 
-fn own_stop() -> Ex {
+pub fn own_stop() -> Ex {
     Ex::Element(STOPPED.into(), Box::new(name("robot")))
 }
 
@@ -204,6 +216,10 @@ impl Lowering<'_> {
                 let within = self.condition(within, out);
                 let arm = |condition: Ex, body: Vec<Stmt>| Arm { comments: Vec::new(), condition, body };
                 let goal = if can_stop { or(vec![name(WAS_STOPPED), goal]) } else { goal };
+                let goal = match &self.automaton().modes {
+                    Some(modes) => or(vec![self.condition(&modes.is_single, out), goal]),
+                    None => goal,
+                };
                 let room = binary("-", Ex::Int(i32::MAX), name("dt_ms"));
                 let grow = Stmt::If(
                     vec![arm(

@@ -1,6 +1,6 @@
 //! The branch of a state: its transitions, tested in order.
 
-use super::code::{Arm, Ex, Member, Stmt, and, assign, binary, name, when};
+use super::code::{Arm, Ex, Member, Stmt, and, assign, binary, name, not, when};
 use super::context::{Lowering, Phase};
 use crate::ir::{ExprKind, State, Transition, Value};
 
@@ -103,6 +103,13 @@ impl Lowering<'_> {
         let condition = match is_positive {
             true => is_over,
             false => and(vec![binary(">", name("elapsed"), Ex::Int(0)), is_over]),
+        };
+        let condition = match &self.automaton().modes {
+            Some(modes) => {
+                let is_single = self.value(&modes.is_single, &mut out);
+                and(vec![condition, not(is_single)])
+            }
+            None => condition,
         };
         out.push(when(condition, self.raise(*fault)));
         let mut first = std::mem::take(&mut self.hoisted);

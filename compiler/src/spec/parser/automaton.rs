@@ -25,6 +25,7 @@ pub(super) const MEMBERS: &[&str] = &[
     "any",
     "state",
     "final",
+    "resume",
 ];
 
 impl Parser {
@@ -154,7 +155,7 @@ impl Parser {
                 }
             }
             Some("any") => automaton.any.extend(self.parse_any()),
-            Some("state" | "final") => automaton.states.extend(self.parse_state(doc)),
+            Some("state" | "final" | "resume") => automaton.states.extend(self.parse_state(doc)),
             _ => {
                 let found = self.found();
                 let near = match self.peek() {

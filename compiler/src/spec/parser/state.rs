@@ -28,6 +28,7 @@ impl Parser {
     }
 
     pub(super) fn parse_state(&mut self, doc: Vec<String>) -> Option<ast::State> {
+        let is_resumable = self.maybe_word("resume");
         let is_final = self.maybe_word("final");
         let name = match self.expect_word("state", "before the name of the state") {
             Some(()) => self.expect_name("the state"),
@@ -49,7 +50,7 @@ impl Parser {
         } else {
             ast::Body::Transitions(self.transitions())
         };
-        Some(ast::State { doc, name, is_final, within, body })
+        Some(ast::State { doc, name, is_final, is_resumable, within, body })
     }
 
     fn transitions(&mut self) -> Vec<ast::Transition> {
@@ -95,7 +96,9 @@ impl Parser {
     fn at_state(&self) -> bool {
         match self.word() {
             Some("state") => true,
-            Some("any" | "final" | "initial") => matches!(self.peek_second(), Token::Word(w) if w == "state"),
+            Some("any" | "final" | "initial" | "resume") => {
+                matches!(self.peek_second(), Token::Word(w) if matches!(w.as_str(), "state" | "resume"))
+            }
             _ => self.at_item(),
         }
     }

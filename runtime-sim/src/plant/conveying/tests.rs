@@ -195,7 +195,7 @@ impl Design {
         let wiring = Arc::new(Wiring { inputs, outputs, commands: Vec::new() });
         let (name, pose) = (format!("lane_{number}"), from.position);
         (
-            Machine { name, pose, parts, wiring, states: Vec::new(), watch: Default::default() },
+            Machine { name, pose, parts, wiring, states: Vec::new(), monitor: Default::default() },
             end.unwrap_or_default(),
         )
     }

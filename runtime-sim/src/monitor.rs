@@ -1,12 +1,14 @@
-//! What the properties of a machine keep in the trace: counters, alarms, whether the machine is stopped.
+//! What properties and operating modes of a machine keep in the trace: counters, alarms, whether it is stopped.
 
 /// Words are those of [`crate::scan::Controllers::trace`].
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Watch {
-    /// 1 while the machine is stopped by an alarm; none if no alarm stops it.
+pub struct Monitor {
+    /// 1 while the machine is stopped by an alarm or at its panel; none if nothing stops it.
     pub stopped: Option<usize>,
     pub counters: Vec<Counter>,
     pub alarms: Vec<Alarm>,
+    /// Words of the machine's inputs that its operating modes read, whether the line runs or not.
+    pub panel: Vec<usize>,
 }
 
 /// For how long something has been waited for, ms; negative while it is not.
@@ -27,7 +29,7 @@ pub struct Alarm {
 /// Words of an alarm.
 pub const ALARM_WORDS: usize = 5;
 
-impl Watch {
+impl Monitor {
     pub fn is_stopped(&self, trace: &[f64]) -> bool {
         self.stopped.and_then(|word| trace.get(word)).is_some_and(|stopped| *stopped != 0.0)
     }

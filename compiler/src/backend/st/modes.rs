@@ -1,0 +1,155 @@
+//! Operating modes: what a person does with one robot at its panel.
+
+use super::block::{Candidate, Origin, argument, kept_values};
+use super::code::{Arm, Ex, Stmt, advance, and, assign, binary, name, not, or, sum, times, when};
+use super::context::{Lowering, Phase, Shared};
+use super::globals::Globals;
+use super::names::ELEMENT;
+use super::property::own_stop;
+use crate::ir::{Action, Automaton, ByHand, Commands, Expr, ExprKind, KeptBy, Modes, Place};
+
+/// The robot begins anew in this scan: properties are told so.
+pub const BEGUN_ANEW: &str = "begun_anew";
+
+/// Properties remember something, and begin anew with the steps.
+pub fn tells_anew(automaton: &Automaton) -> bool {
+    automaton.modes.is_some() && automaton.locals.iter().any(|local| local.kept_by == KeptBy::Properties)
+}
+
+impl Lowering<'_> {
+    /// What comes before the step of every scan. `kept` is all that the block keeps.
+    pub fn operate(&mut self, kept: &[&Candidate], globals: &Globals) -> Vec<Stmt> {
+        let Some(modes) = &self.automaton().modes else { return Vec::new() };
+        let anew = self.begin_anew(kept, globals);
+        let mut out = Vec::new();
+        if tells_anew(self.automaton()) {
+            out.push(assign(BEGUN_ANEW, Ex::Bool(false)));
+        }
+        out.extend(self.actions(&modes.actions, &anew));
+        out
+    }
+
+    fn actions(&mut self, actions: &[Action], anew: &[Stmt]) -> Vec<Stmt> {
+        let mut out = Vec::new();
+        for action in actions {
+            self.phase = Phase::Update;
+            self.known.clear();
+            match action {
+                Action::Update(update) => {
+                    let statements = self.updates(std::slice::from_ref(update));
+                    out.extend(statements.into_iter().filter(|s| !matches!(s, Stmt::Comment(_))));
+                }
+                Action::Stop => out.push(Stmt::Assign(own_stop(), Ex::Bool(true))),
+                Action::StayAnew => out.push(assign("elapsed", Ex::Int(0))),
+                Action::BeginAnew => out.extend(anew.iter().cloned()),
+                Action::If { about, condition, then, otherwise } => {
+                    self.release();
+                    let mut before = Vec::new();
+                    let condition = self.value(condition, &mut before);
+                    out.append(&mut self.hoisted);
+                    if !about.is_empty() {
+                        out.push(Stmt::Comment(about.to_string()));
+                    }
+                    out.extend(before);
+                    let then = self.actions(then, anew);
+                    let otherwise = self.actions(otherwise, anew);
+                    out.push(Stmt::If(vec![Arm { comments: Vec::new(), condition, body: then }], otherwise));
+                }
+            }
+        }
+        out
+    }
+
+    fn begin_anew(&self, kept: &[&Candidate], globals: &Globals) -> Vec<Stmt> {
+        let automaton = self.automaton();
+        let own_ports = || self.own().ports.iter();
+        let anew: Vec<&String> =
+            automaton.outputs_that_begin_anew().flat_map(|port| &self.own().ports[port]).collect();
+        let begins = |candidate: &&&Candidate| {
+            let name = &candidate.variable.name;
+            let is_port = own_ports().flatten().any(|port| port == name);
+            candidate.kept_by == KeptBy::Steps && (!is_port || anew.contains(&name))
+        };
+        let begins: Vec<&Candidate> = kept.iter().filter(begins).copied().collect();
+        let mut out =
+            vec![assign("state", Ex::Member(self.state(self.id, 0))), assign("elapsed", Ex::Int(0))];
+        if tells_anew(automaton) {
+            out.push(assign(BEGUN_ANEW, Ex::Bool(true)));
+        }
+        out.extend(kept_values(&begins));
+        for (number, implemented) in automaton.implements.iter().enumerate() {
+            let interface = self.system.model.interface(implemented.interface);
+            let row = || name(&self.own().rows[number]);
+            for (cell, held) in
+                interface.cells.iter().zip(&self.names.interfaces[implemented.interface.0].cells)
+            {
+                let elements = self.system.model.elements(cell.ty.extent);
+                let values = self.shared.constants(cell.ty.scalar, cell.initial);
+                let there = held.iter().zip(values);
+                let there =
+                    there.filter(|(held, _)| globals.cells.iter().any(|table| table.variable.name == **held));
+                if elements == 1 {
+                    out.extend(there.map(|(held, value)| {
+                        Stmt::Assign(Ex::Element(held.clone(), Box::new(row())), value)
+                    }));
+                    continue;
+                }
+                let at = || sum(times(row(), elements as i32), name(ELEMENT));
+                let stores =
+                    there.map(|(held, value)| Stmt::Assign(Ex::Element(held.clone(), Box::new(at())), value));
+                let mut body: Vec<Stmt> = stores.collect();
+                if !body.is_empty() {
+                    body.push(advance(ELEMENT));
+                    let condition = binary("<", name(ELEMENT), Ex::Int(elements as i32));
+                    out.push(assign(ELEMENT, Ex::Int(0)));
+                    out.push(Stmt::While { condition, body, most: elements as u64 });
+                }
+            }
+        }
+        out
+    }
+}
+
+/// A value that the block of a robot keeps for its modes.
+pub fn field(shared: Shared, robot: usize, local: usize) -> Ex {
+    let own = &shared.names.automata[shared.system.instances[robot].automaton.0];
+    Ex::Field(shared.names.robots[robot].instance.clone(), own.locals[local][0].clone())
+}
+
+/// `hold` of a robot: also while the last command is not its own.
+pub fn hold(shared: Shared, robot: usize, Commands { commanded, abandoned }: Commands, runs: Ex) -> Ex {
+    let of = |local: usize| field(shared, robot, local);
+    let automaton = shared.system.automaton_of(robot);
+    let own = &shared.names.automata[shared.system.instances[robot].automaton.0].ports;
+    let cmd = automaton.device.ports.iter().position(|port| port.name == "cmd").unwrap_or_default();
+    let cmd = Ex::Field(shared.names.robots[robot].instance.clone(), own[cmd][0].clone());
+    let is_abandoned = and(vec![binary("<>", of(abandoned), Ex::Int(0)), binary("=", of(abandoned), cmd)]);
+    and(vec![not(of(commanded)), or(vec![not(runs), is_abandoned])])
+}
+
+/// What the panel gives for an output, one for each variable.
+pub fn by_hand(shared: Shared, robot: usize, by_hand: &ByHand) -> Option<Vec<Ex>> {
+    let ByHand::Panel(value) = by_hand else { return None };
+    let of = |expr: &Expr| match expr.kind {
+        ExprKind::Read(Place::Port { port, .. }) => {
+            Some(argument(shared, robot, "", &Origin::Input { port, part: 0 }))
+        }
+        _ => None,
+    };
+    match &value.kind {
+        ExprKind::MakePoint(parts) => parts.iter().map(of).collect(),
+        _ => Some(vec![of(value)?]),
+    }
+}
+
+/// Locals that the program reads.
+pub fn told(modes: &Modes) -> Vec<usize> {
+    let of_commands = modes.commands.iter().flat_map(|commands| [commands.commanded, commands.abandoned]);
+    modes.by_hand.into_iter().chain([modes.moved_by_hand]).chain(of_commands).collect()
+}
+
+/// The step ends here unless transitions are tested.
+pub fn without_steps(lowering: &Lowering) -> Option<Stmt> {
+    let modes = lowering.automaton().modes.as_ref()?;
+    Some(when(not(name(&lowering.own().locals[modes.steps][0])), vec![Stmt::Return]))
+}

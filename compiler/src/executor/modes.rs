@@ -1,0 +1,100 @@
+//! Operating modes: what a person does with one machine at its panel.
+
+use super::Executor;
+use crate::ir::{Action, ByHand, Commands, KeptBy, Modes, Value};
+use runtime_sim::device::{Direction, Stop};
+
+impl Executor<'_> {
+    /// The turn of an instance, before its step.
+    pub(super) fn operate(&mut self, robot: usize) {
+        let system = self.system;
+        if let Some(modes) = &system.automaton_of(robot).modes {
+            self.actions(robot, &modes.actions);
+        }
+    }
+
+    pub(super) fn is_set(&self, robot: usize, local: usize) -> bool {
+        self.robots[robot].locals[local][0] == Value::Bool(true)
+    }
+
+    pub(super) fn is_single(&mut self, robot: usize) -> bool {
+        let system = self.system;
+        system.automaton_of(robot).modes.as_ref().is_some_and(|modes| self.holds(robot, &modes.is_single))
+    }
+
+    /// Once it is stopped.
+    pub(super) fn may_go_on(&mut self, robot: usize) -> bool {
+        let system = self.system;
+        system.automaton_of(robot).modes.as_ref().is_none_or(|modes| self.holds(robot, &modes.may_go_on))
+    }
+
+    fn actions(&mut self, robot: usize, actions: &[Action]) {
+        for action in actions {
+            match action {
+                Action::Update(update) => {
+                    let done = self.update(robot, update);
+                    debug_assert!(done.is_ok(), "an update of a mode cannot fault");
+                }
+                Action::Stop => self.robots[robot].stopped = true,
+                Action::StayAnew => self.robots[robot].elapsed = 0,
+                Action::BeginAnew => self.begin_anew(robot),
+                Action::If { condition, then, otherwise, .. } => {
+                    let taken = if self.holds(robot, condition) { then } else { otherwise };
+                    self.actions(robot, taken);
+                }
+            }
+        }
+    }
+
+    fn begin_anew(&mut self, robot: usize) {
+        let system = self.system;
+        let automaton = system.automaton_of(robot);
+        let kept = &mut self.robots[robot];
+        kept.state = 0;
+        kept.elapsed = 0;
+        for (values, local) in kept.locals.iter_mut().zip(&automaton.locals) {
+            if local.kept_by != KeptBy::Modes {
+                values.fill(local.initial);
+            }
+        }
+        for port in automaton.outputs_that_begin_anew() {
+            kept.ports[port].fill(Self::first_value(automaton.device.ports[port].ty));
+        }
+        for (implemented, row) in automaton.implements.iter().zip(&system.instances[robot].rows) {
+            let cells = &system.model.interface(implemented.interface).cells;
+            let values = &mut self.cells[implemented.interface.0][*row];
+            values.iter_mut().zip(cells).for_each(|(values, cell)| values.fill(cell.initial));
+        }
+    }
+
+    /// Appends what an instance publishes. While it neither runs nor is moved by hand, that is stop values.
+    pub(super) fn outputs_of_mode(&mut self, robot: usize, modes: &Modes, runs: bool, image: &mut Vec<f64>) {
+        let runs = runs && !self.is_set(robot, modes.moved_by_hand);
+        let by_hand = modes.by_hand.is_some_and(|by_hand| self.is_set(robot, by_hand));
+        let commanded =
+            modes.commands.is_some_and(|Commands { commanded, .. }| self.is_set(robot, commanded));
+        let abandoned = modes.commands.is_some_and(|Commands { abandoned, .. }| {
+            let number = self.robots[robot].locals[abandoned][0];
+            number != Value::Int(0) && number == Value::Int(self.port_of(robot, "cmd"))
+        });
+        let ports = &self.system.automaton_of(robot).device.ports;
+        for (number, port) in ports.iter().enumerate().filter(|(_, port)| port.direction == Direction::Output)
+        {
+            let own = self.robots[robot].ports[number].clone();
+            match (port.stop, &modes.published[number]) {
+                (Stop::Value(stop), Some(ByHand::Hold)) => {
+                    let moves = (runs && !abandoned) || commanded;
+                    image.push(if moves { 0.0 } else { stop });
+                }
+                (Stop::Value(_), Some(ByHand::Panel(value))) if by_hand => {
+                    self.value(robot, value).push_words(image);
+                }
+                (Stop::Value(_), Some(ByHand::Argument)) if commanded => {
+                    own.iter().for_each(|value| value.push_words(image));
+                }
+                (Stop::Value(stop), _) if !runs => image.extend(own.iter().map(|_| stop)),
+                _ => own.iter().for_each(|value| value.push_words(image)),
+            }
+        }
+    }
+}
