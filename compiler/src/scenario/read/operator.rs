@@ -1,6 +1,7 @@
 //! What a person does at the panels.
 
 use super::LONGEST_S;
+use crate::diagnostic::Diagnostic;
 use crate::layout::decode::{Decoder, find};
 use crate::layout::json::Json;
 use crate::scenario::{Operated, Operation, Part};
@@ -25,18 +26,22 @@ impl Decoder {
         let at_s = at_s.and_then(|j| self.number_in(j, "at_s", 0.0..=LONGEST_S));
         let for_s = find(members, "for_s").map(|j| self.seconds(j, "for_s"));
         let robot = find(members, "robot");
-        let known: &[&str] = match robot {
-            Some(_) => &["robot", "part", "at_s", "for_s", "value"],
-            None => &["part", "at_s", "for_s"],
-        };
-        self.unknown_keys(members, known, "an operation");
+        let value = find(members, "value");
+        self.unknown_keys(members, &["robot", "part", "at_s", "for_s", "value"], "an operation");
+        if let (None, Some(value)) = (robot, value) {
+            let message = "a button of the line takes no \"value\"";
+            self.report(
+                Diagnostic::new("E0133", value.span, message)
+                    .help("remove it; or name the robot whose part is set by \"robot\""),
+            );
+            return None;
+        }
         let (part, value) = match robot {
             None => (self.one_of(part?, "a button of the line", &OF_LINE).map(Operated::OfLine), Some(1.0)),
             Some(robot) => {
                 let robot = self.text(robot, "robot");
                 let part = part.and_then(|part| self.text(part, "part"));
-                let value =
-                    find(members, "value").map(|j| (j.span, self.number_in(j, "value", -MOST..=MOST)));
+                let value = value.map(|j| (j.span, self.number_in(j, "value", -MOST..=MOST)));
                 let (span, value) = value.map_or((None, Some(1.0)), |(span, value)| (Some(span), value));
                 let both = robot.zip(part);
                 (both.map(|(robot, part)| Operated::OfRobot(Part { robot, part, value: span })), value)
