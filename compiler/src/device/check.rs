@@ -1,6 +1,7 @@
 //! From the tree of a device to a [`Device`]: its names, its parts and their settings.
 
 use super::evaluate::Found;
+use super::panel;
 use super::program::{Part, Program, Scope, Setting, Symbol};
 use super::{Constant, Device, Form, Handover, Parameter, settle};
 use crate::diagnostic::{Diagnostic, suggestion};
@@ -179,7 +180,7 @@ impl Checker<'_> {
         let names = &mut self.program.scopes[scope].names;
         if names.contains_key(&name.value) || BUILT_IN.contains(&name.value.as_str()) {
             let message = format!("`{}` names something here already", name.value);
-            self.report("E0701", name.span, message, "choose another name");
+            self.report("E0701", name.span, message, panel::another_name(&name.value));
             return;
         }
         names.insert(name.value.clone(), symbol);

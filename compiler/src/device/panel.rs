@@ -22,6 +22,16 @@ pub fn has(name: &str) -> bool {
     name.starts_with("panel_")
 }
 
+/// Help for a name that is taken.
+pub fn another_name(name: &str) -> &'static str {
+    match has(name) {
+        true => {
+            "choose another name: in a layout that has \"panel\": \"machines\" names that begin with `panel_` are those of the panel"
+        }
+        false => "choose another name",
+    }
+}
+
 /// The input that gives an output by hand; of a point, one for each coordinate.
 pub fn inputs_for(output: &str, is_point: bool) -> Vec<String> {
     let suffixes: &[&str] = if is_point { &["_x", "_y", "_z"] } else { &[""] };

@@ -2,7 +2,7 @@
 
 use super::check::Checker;
 use super::program::Symbol;
-use super::{Port, Verb, head, type_text};
+use super::{Port, Verb, head, panel, type_text};
 use crate::spec::ast::{self, ExprKind, Name, Scalar};
 use runtime_sim::device::{Direction, Extent, PortType, Stop};
 use runtime_sim::machine::MOST_ELEMENTS;
@@ -114,7 +114,7 @@ impl Checker<'_> {
                 || tree.constants.iter().any(|other| other.name.value == port.name.value);
             if is_twice || of_head.contains(&port.name.value) {
                 let message = format!("`{}` names something here already", port.name.value);
-                self.report("E0701", port.name.span, message, "choose another name");
+                self.report("E0701", port.name.span, message, panel::another_name(&port.name.value));
             }
         }
         let verbs = self.verbs(tree, &ports, &mut wiring);

@@ -2,6 +2,7 @@
 
 use super::machine::{Engine, Step, Target, Wanted};
 use super::{Failure, Time};
+use crate::device::panel;
 use crate::ir::{Element, Group, KeptBy, Named, System, Value};
 use crate::source::Span;
 use runtime_sim::device::Direction;
@@ -54,12 +55,21 @@ impl<'e, 'a, 's> Bench<'e, 'a, 's> {
         };
         let values = system.values_of(machine, begin).into_iter().filter(is_declared);
         let (command, values) = values.partition(is_of_command);
+        let mut inputs = images(Direction::Input);
+        for (number, image) in inputs.iter_mut().enumerate() {
+            // A panel is at rest: enabled, and in automatic.
+            if let Some(enable) = system.automaton_of(number).device.offset(panel::ENABLE, kinds)
+                && system.automaton_of(number).modes.is_some()
+            {
+                image[enable] = 1.0;
+            }
+        }
         Self {
             system,
             machine,
             engine,
             begin,
-            inputs: images(Direction::Input),
+            inputs,
             outputs: images(Direction::Output),
             trace: Vec::new(),
             now: -2,
