@@ -137,11 +137,13 @@ primitives! {
     process::Process,
     pusher::Pusher,
     route::Route,
+    scanner::Scanner,
     setpoint::Setpoint,
     sink::Sink,
     source::Source,
     stopper::Stopper,
     tank::Tank,
+    track::Track,
     zone::Zone,
 }
 
