@@ -16,6 +16,7 @@ pub mod searched;
 pub mod st;
 pub mod trace;
 pub mod wired;
+pub mod words;
 pub mod workspace;
 pub mod xml;
 
