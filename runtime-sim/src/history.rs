@@ -34,7 +34,7 @@ pub struct MachineHistory {
     pub stays: Vec<Stay>,
     /// Of a vehicle: where it is at the start. Of all else: its pose.
     pub position: Point,
-    /// Of a vehicle on a line, at the start: degrees.
+    /// Of a vehicle on a track, at the start: degrees.
     pub heading: Option<f64>,
     /// Of an arm, at the start.
     pub joints: Option<Joints>,

@@ -57,7 +57,7 @@ impl Machine {
             }
         }
         if self.route().is_some() && self.track().is_some() {
-            return Err("it moves along a route and along a line".into());
+            return Err("it moves along a route and along a track".into());
         }
         if self.chain().is_some() {
             let arm = self.arm().ok_or("there is no inverse kinematics for its chain on these axes")?;
@@ -288,7 +288,7 @@ impl Machine {
         self.track().map(Track::begin).or_else(at_stop)
     }
 
-    /// Points of the ground between which it moves as a whole: stops of a route, corners of a line.
+    /// Points of the ground between which it moves as a whole: stops of a route, corners of a track.
     pub fn turning_points(&self) -> Vec<Point> {
         self.track().map_or_else(|| self.stops().to_vec(), |track| track.course.corners())
     }

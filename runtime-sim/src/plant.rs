@@ -286,7 +286,7 @@ impl Plant {
         self.machines.get(machine).map(Working::position)
     }
 
-    /// Where a vehicle on a line is, and how it is turned.
+    /// Where a vehicle on a track is, and how it is turned.
     pub(crate) fn vehicle(&self, machine: usize) -> Option<Frame> {
         self.machines.get(machine)?.first_vehicle().map(Driving::frame_now)
     }

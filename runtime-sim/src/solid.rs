@@ -26,8 +26,8 @@ pub struct Solid {
 pub enum Link {
     /// Does not move; the frame is the world's.
     World,
-    /// Moves along the route or the line; the frame has its origin at the position, and of a route the world's axes, of a
-    /// line x ahead.
+    /// Moves along the route or the track; the frame has its origin at the position, and of a route the world's axes, of a
+    /// track x ahead.
     Route,
     /// Moves with a cylinder, a part of the machine; the frame is the world's at its inner end.
     Cylinder(usize),

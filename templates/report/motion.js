@@ -140,7 +140,7 @@ const Motion = (() => {
     return memory.frames.get(machine);
   }
 
-  /* The piece of its line that a vehicle is on, and seconds since it began. */
+  /* The piece of its track that a vehicle is on, and seconds since it began. */
   function rideAt(machine, ms) {
     const { rides } = machines[machine];
     const index = indexAt(rides.at, ms);

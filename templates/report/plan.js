@@ -79,13 +79,13 @@ const Plan = (() => {
         context.stroke();
         context.setLineDash([]);
       }
-      if (machine.line) drawLine(machine.line, colours);
+      if (machine.track) drawTrack(machine.track, colours);
       Conveyors.draw(machine, ms);
     }
   }
 
-  /* The line that a vehicle follows, with its places. */
-  function drawLine({ points, isClosed, places }, colours) {
+  /* The track that a vehicle follows, with its places. */
+  function drawTrack({ points, isClosed, places }, colours) {
     context.setLineDash([2, 5]);
     context.strokeStyle = colours.muted;
     trace(points, isClosed);
@@ -234,14 +234,14 @@ const Plan = (() => {
 
   /* Beside what of a machine moves as a whole. */
   function namePlace(machine, ms) {
-    const { number, links, stops, line } = machine;
+    const { number, links, stops, track } = machine;
     if (links) {
       // Before the six joints of the arm itself are those that carry it.
       const carrier = links.length > 6 ? Motion.framesAt(number, ms)[links.length - 7] : links[0].before;
       return [carrier[9], carrier[10] + Math.min(34 / view.scale, 0.5)];
     }
     const { low, high } = boxes[number];
-    if (line) {
+    if (track) {
       const [x, y] = Motion.positionAt(number, ms);
       return [x, y + (high[1] - low[1]) / 2 + 12 / view.scale];
     }

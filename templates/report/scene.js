@@ -94,7 +94,7 @@ const Scene = (() => {
   const extent = (() => {
     const all = machines.flatMap((machine) => [
       ...machine.stops,
-      ...(machine.line ? machine.line.points : []),
+      ...(machine.track ? machine.track.points : []),
       ...machine.rails.flatMap(({ points }) => points),
       ...boxes[machine.number].low[0] === Infinity ? [] : [boxes[machine.number].low, boxes[machine.number].high],
     ]);

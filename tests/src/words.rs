@@ -10,7 +10,9 @@ use std::collections::HashMap;
 /// A line without errors, and where its words are found by the names that the I/O trace has for them.
 pub fn with_words(texts: &Texts) -> (Project, HashMap<String, Source>) {
     let outcome = texts.compile();
-    let Some(project) = outcome.project else { panic!("{}", crate::plain(&outcome.sources, &outcome.diagnostics)) };
+    let Some(project) = outcome.project else {
+        panic!("{}", crate::plain(&outcome.sources, &outcome.diagnostics))
+    };
     let (_, columns) = st::mapped(&project.system, &outcome.sources, &IoMap::default());
     let words = columns.0.into_iter().map(|column| (column.name, column.source)).collect();
     (project, words)

@@ -52,7 +52,12 @@ impl Found {
     /// In an hour, from a time on.
     fn per_hour(&self, from_s: u32) -> f64 {
         let from = u64::from(from_s) * 100;
-        let before = self.transports.iter().take_while(|(scan, _)| *scan < from).last().map_or(0.0, |(_, count)| *count);
+        let before = self
+            .transports
+            .iter()
+            .take_while(|(scan, _)| *scan < from)
+            .last()
+            .map_or(0.0, |(_, count)| *count);
         let all = self.transports.last().map_or(0.0, |(_, count)| *count);
         3600.0 * (all - before) / (self.report.simulated_s - f64::from(from_s))
     }
@@ -61,8 +66,9 @@ impl Found {
 fn run(texts: &Texts) -> Found {
     let (project, words) = with_words(texts);
     let vehicles = project.plant.machines.iter().filter(|machine| machine.track().is_some());
-    let vehicles: Vec<[Source; 2]> =
-        vehicles.map(|machine| ["place", "stands"].map(|port| words[&format!("{}_{port}", machine.name)])).collect();
+    let vehicles: Vec<[Source; 2]> = vehicles
+        .map(|machine| ["place", "stands"].map(|port| words[&format!("{}_{port}", machine.name)]))
+        .collect();
     // Rows of the sections, in layout order: the passage, then two of each loop.
     let unloaded = ["section_served[2]", "section_served[4]"].map(|name| words[name]);
     let (mut transports, mut held, mut most_in_passage) = (vec![(0, 0.0)], 0, 0);
@@ -117,7 +123,12 @@ fn as_many_transports_as_the_model_has() {
         assert!(found.report.collisions.is_empty(), "{vehicles:?}: {:?}", found.report.collisions);
         assert_eq!(found.most_in_passage, 1, "{vehicles:?}");
         assert!((0.99..=1.01).contains(&ratio), "{vehicles:?}: {ratio} of what the model has");
-        assert_eq!(found.held > 0, vehicles[0] == vehicles[1] && vehicles[0] < 6, "{vehicles:?}: {} held", found.held);
+        assert_eq!(
+            found.held > 0,
+            vehicles[0] == vehicles[1] && vehicles[0] < 6,
+            "{vehicles:?}: {} held",
+            found.held
+        );
     }
 }
 
@@ -170,7 +181,8 @@ fn steppings_agree_on_vehicles() {
             let run = run_again(&line, &mut executor, stepping, &mut memory, &mut |_| {});
             run.unwrap_or_else(|error| panic!("{vehicles:?}, {name}: {error}"))
         };
-        let [events, every, checked] = [Stepping::Events, Stepping::EveryScan, Stepping::Checked].map(execute);
+        let [events, every, checked] =
+            [Stepping::Events, Stepping::EveryScan, Stepping::Checked].map(execute);
         println!("{vehicles:?}, {name}: {}", events.reason);
         assert_eq!(events, every, "{vehicles:?}, {name}");
         assert_eq!(events, checked, "{vehicles:?}, {name}");

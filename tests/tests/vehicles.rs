@@ -1,12 +1,13 @@
-//! A vehicle on a line of its own, by closed forms: how long it takes, where it brakes, what it refuses.
+//! A vehicle on a track, by closed forms: how long it takes, where it brakes, what it refuses.
 
 use autogen::executor::Executor;
-use autogen_tests::words::with_words;
 use autogen_tests::Texts;
+use autogen_tests::words::with_words;
+use runtime_sim::collision::Contact;
 use runtime_sim::memory::Memory;
 use runtime_sim::run::{Seen, Stepping, run_again};
 
-/// An open line of 10 m with a corner, and what drives on it.
+/// An open track of 10 m with a corner, and what drives on it.
 fn with_automaton(automaton: &str, scenario: &str) -> Texts {
     let device = "device cart {
         part drive = track {
@@ -41,7 +42,11 @@ fn rests(texts: &Texts) -> Vec<(f64, f64, [f64; 2])> {
         let mut observer = |seen: &Seen| {
             let stands = stands.value(seen) == 1.0;
             if stands && !stood {
-                rests.push((seen.scan as f64 / 100.0, place.value(seen), position.map(|word| word.value(seen))));
+                rests.push((
+                    seen.scan as f64 / 100.0,
+                    place.value(seen),
+                    position.map(|word| word.value(seen)),
+                ));
             }
             stood = stands;
         };
@@ -100,7 +105,9 @@ fn on_the_way_it_takes_another_goal_without_a_stop() {
 /// At 3 m it goes 1.5 m/s, and halts in 2.25 m. A place behind it, asked for on the way, is refused, and it brakes too.
 #[test]
 fn it_halts_in_its_braking_distance() {
-    for (order, why) in [("halt();", "done"), ("go(0);", "failed and error = 1"), ("go(9);", "failed and error = 1")] {
+    for (order, why) in
+        [("halt();", "done"), ("go(0);", "failed and error = 1"), ("go(9);", "failed and error = 1")]
+    {
         let rests = rests(&with_automaton(
             &format!(
                 "initial -> First {{ go(3); }}
@@ -133,6 +140,52 @@ fn held_it_brakes_and_goes_on_when_it_is_let_go() {
     assert!(is_near(end.0, 14.0 + 2.0 * (4.0_f64 / 0.5).sqrt(), 2.0 * SCANS), "{rests:?}");
 }
 
+/// The first contact of a vehicle that drives to the end of its track, beside what else is in the layout.
+fn contact(robots: &str, stationary: &str) -> Contact {
+    let mut texts = with_automaton(
+        "parameter goes: bool := true;
+        initial -> Waiting {}
+        state Waiting { when goes -> There { go(3); } }
+        state There { when done -> Ended; }
+        final state Ended;",
+        r#"{"time_limit_s": 60}"#,
+    );
+    texts.layout = format!(
+        r#"{{"robots": [{{"name": "cart", "type": "cart", "pose": [0, 0, 0]}}{robots}], "stationary": [{stationary}]}}"#
+    );
+    let (project, _) = with_words(&texts);
+    let execute = |stepping| {
+        let (mut executor, mut memory) = (Executor::new(&project.system), Memory::default());
+        run_again(&project.plant, &mut executor, stepping, &mut memory, &mut |_| {})
+            .expect("a line that runs")
+    };
+    let report = execute(Stepping::Events);
+    assert_eq!(report, execute(Stepping::EveryScan));
+    assert_eq!(report, execute(Stepping::Checked));
+    let [contact] = &report.collisions[..] else { panic!("{report:?}") };
+    contact.clone()
+}
+
+/// Middles are 5 m apart and the vehicles 0.8 m long: one drives 4.2 m until it touches, at full speed from 2.25 m on.
+#[test]
+fn it_runs_into_a_vehicle_that_stands_before_it() {
+    let other = r#", {"name": "other", "type": "cart", "pose": [5, 0, 0], "parameters": {"goes": false}}"#;
+    let found = contact(other, "");
+    assert_eq!(found.pair, ["cart", "other"]);
+    assert!(is_near(found.time_s, 4.2 / 1.5 + 1.5, SCANS), "{found:?}");
+    assert!(is_near(found.place.x, 4.6, 0.005), "{found:?}");
+}
+
+/// At its corner the vehicle turns at once: only then is its rear where the post stands, at the side of the straight.
+#[test]
+fn it_touches_with_its_rear_what_stands_beside_its_corner() {
+    let post =
+        |y: f64| format!(r#"{{"name": "post", "type": "box", "pose": [6, {y}, 0], "box": [0.1, 0.1, 0.5]}}"#);
+    let found = contact("", &post(-0.35));
+    assert_eq!(found.pair, ["cart", "post"]);
+    assert!(is_near(found.time_s, 6.0 / 1.5 + 1.5, SCANS), "{found:?}");
+}
+
 /// What a layout with a device of one vehicle is told.
 fn told(settings: &str) -> String {
     let device = format!(
@@ -155,25 +208,40 @@ fn told(settings: &str) -> String {
 }
 
 #[test]
-fn what_is_wrong_with_a_line_is_told() {
+fn what_is_wrong_with_a_track_is_told() {
     let line = "corners: [pose, pose + point(10, 0, 0)];";
     let runs = "speed: 1.5; acceleration: 0.5;";
     let right = told(&format!("{line} places: [at - 2.0]; {runs}"));
     assert_eq!(right, "");
     for (settings, wanted) in [
-        (format!("{line} places: [0.0, at]; {runs}"), "E0704 the part drive: place 1 is at 12.000 m of a line of 10.000 m"),
-        (format!("{line} places: [0.0]; begins: at; {runs}"), "E0704 the part drive: it begins at 12.000 m of a line of 10.000 m"),
+        (
+            format!("{line} places: [0.0, at]; {runs}"),
+            "E0704 the part drive: place 1 is at 12.000 m of a track of 10.000 m",
+        ),
+        (
+            format!("{line} places: [0.0]; begins: at; {runs}"),
+            "E0704 the part drive: it begins at 12.000 m of a track of 10.000 m",
+        ),
         (
             format!("corners: [pose, pose + point(at - 12.0, 0, 0)]; places: [0.0]; {runs}"),
-            "E0704 the part drive: the line has no length at corner 0",
+            "E0704 the part drive: the track has no length at corner 0",
         ),
-        (format!("corners: [pose + point(at, 0, 0)]; places: [0.0]; {runs}"), "E0704 the part drive: a line has two corners at least"),
+        (
+            format!("corners: [pose + point(at, 0, 0)]; places: [0.0]; {runs}"),
+            "E0704 the part drive: a track has two corners at least",
+        ),
         (
             format!("corners: [pose, pose + point(at, 0, 1)]; places: [0.0]; {runs}"),
-            "E0704 the part drive: the line rises at corner 0: all corners have the same z",
+            "E0704 the part drive: the track rises at corner 0: all corners have the same z",
         ),
-        (format!("{line} places: [0.0]; speed: 0.0 - at; acceleration: 0.5;"), "E0704 `speed` has to be a number over 0"),
-        (format!("{line} places: [0.0]; speed: 1.0; acceleration: at - 12.0;"), "E0704 `acceleration` has to be a number over 0"),
+        (
+            format!("{line} places: [0.0]; speed: 0.0 - at; acceleration: 0.5;"),
+            "E0704 `speed` has to be a number over 0",
+        ),
+        (
+            format!("{line} places: [0.0]; speed: 1.0; acceleration: at - 12.0;"),
+            "E0704 `acceleration` has to be a number over 0",
+        ),
     ] {
         assert_eq!(told(&settings), wanted, "{settings}");
     }

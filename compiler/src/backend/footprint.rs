@@ -112,7 +112,7 @@ fn of_axes(machine: &Machine) -> Vec<(Shape, &'static str)> {
     }
 }
 
-/// The line of a vehicle, its places, and the vehicle where it is at the start.
+/// The track of a vehicle, its places, and the vehicle where it is at the start.
 fn of_track(machine: &Machine, track: &Track) -> Vec<(Shape, &'static str)> {
     use runtime_sim::solid::Shape as Solid;
     let corners = track.course.corners();

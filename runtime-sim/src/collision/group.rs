@@ -421,7 +421,7 @@ fn path(
     }
 }
 
-/// What a vehicle's body takes at all of its stops and between them, or on all of its line.
+/// What a vehicle's body takes at all of its stops and between them, or on all of its track.
 fn at_stops(machine: &Machine, ball: &Ball) -> BoundingBox {
     if let Some(track) = machine.track() {
         let radius = ball.middle.length() + ball.radius;

@@ -87,7 +87,9 @@ impl Movement {
         match (self, body.anchor) {
             (Self::Still, _) | (_, Anchor::World) => 0.0,
             (Self::Slides { .. }, _) => to - from,
-            (Self::Rides { ride, .. }, _) => ride.path(body.ball.middle.length() + body.ball.radius, from, to),
+            (Self::Rides { ride, .. }, _) => {
+                ride.path(body.ball.middle.length() + body.ball.radius, from, to)
+            }
             (Self::Swings { .. }, _) => body.travel.to(to) - body.travel.to(from),
         }
     }

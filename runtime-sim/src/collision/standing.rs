@@ -31,9 +31,7 @@ pub fn overlaps(line: &Line, most: usize) -> Vec<Overlap> {
         let start = machine.start().unwrap_or_default().pose();
         let solids = machine.solids().into_iter().filter_map(|solid| match solid.link {
             Link::World => Some(solid),
-            Link::Route => {
-                Some(Solid { pose: start.then(&solid.pose), ..solid })
-            }
+            Link::Route => Some(Solid { pose: start.then(&solid.pose), ..solid }),
             Link::Cylinder(part) => {
                 let frame = at_begin(machine, part);
                 Some(Solid { pose: frame.pose().then(&solid.pose), ..solid })

@@ -275,7 +275,7 @@ pub trait Running: std::fmt::Debug + Send + Sync {
         None
     }
 
-    /// A vehicle on a line.
+    /// A vehicle on a track.
     fn vehicle(&self) -> Option<&track::Driving> {
         None
     }

@@ -1,4 +1,4 @@
-//! A vehicle on a line on the floor.
+//! A vehicle on a track.
 
 mod course;
 mod ride;
@@ -29,12 +29,12 @@ pub const SCHEMA: Schema = Schema {
     ],
     ..Schema::new(
         "track",
-        "A vehicle that follows a line on the floor, straight from corner to corner. It passes corners at speed and turns there at once. A closed line it goes round in one direction, on an open one it drives back too.",
+        "A vehicle that follows a track on the floor, straight from corner to corner. It passes corners at speed and turns there at once. A closed track it goes round in one direction, on an open one it drives back too.",
         &[
-            Setting::new("corners", Form::Points, "m", "of the line, all of the same z: where its middle goes"),
+            Setting::new("corners", Form::Points, "m", "of the track, all of the same z: where its middle goes"),
             Setting::new("closed", Form::Truth, "", "the last corner leads to the first").optional(),
-            Setting::new("places", Form::Numbers, "m", "along the line from the first corner, to which it may be sent, and which it tells of; 32 at most"),
-            Setting::new("begins", Form::Number, "m", "along the line, where it is at the start; without it at the first corner").optional(),
+            Setting::new("places", Form::Numbers, "m", "along the track from the first corner, to which it may be sent, and which it tells of; 32 at most"),
+            Setting::new("begins", Form::Number, "m", "along the track, where it is at the start; without it at the first corner").optional(),
             Setting::new("speed", Form::Positive, "m/s", "greatest velocity"),
             Setting::new("acceleration", Form::Positive, "m/s2", "greatest acceleration, to brake too"),
             Setting::new("mass", Form::Positive, "kg", "of all that moves, for the world"),
@@ -62,20 +62,20 @@ impl Described for Track {
         let places = settings.numbers("places")?;
         let begins = settings.optional("begins", Settings::number)?.unwrap_or(0.0);
         let length = course.length();
-        let is_on_line = |place: f64| (-SAME..=length + SAME).contains(&place);
-        if let Some((number, place)) = places.iter().enumerate().find(|(_, place)| !is_on_line(**place)) {
-            return Err(format!("place {number} is at {place:.3} m of a line of {length:.3} m"));
+        let is_on_track = |place: f64| (-SAME..=length + SAME).contains(&place);
+        if let Some((number, place)) = places.iter().enumerate().find(|(_, place)| !is_on_track(**place)) {
+            return Err(format!("place {number} is at {place:.3} m of a track of {length:.3} m"));
         }
-        if !is_on_line(begins) {
-            return Err(format!("it begins at {begins:.3} m of a line of {length:.3} m"));
+        if !is_on_track(begins) {
+            return Err(format!("it begins at {begins:.3} m of a track of {length:.3} m"));
         }
         if places.len() > MOST_PLACES as usize {
             return Err(format!("{} places, {MOST_PLACES} are the most", places.len()));
         }
-        let on_line = |place: f64| course.on_line(place);
+        let on_track = |place: f64| course.on_track(place);
         Ok(Self {
-            places: places.into_iter().map(on_line).collect(),
-            begins: on_line(begins),
+            places: places.into_iter().map(on_track).collect(),
+            begins: on_track(begins),
             course: Arc::new(course),
             speed: settings.positive("speed")?,
             acceleration: settings.positive("acceleration")?,
@@ -94,11 +94,11 @@ impl Track {
         self.course.frame(self.begins)
     }
 
-    /// The place that lies last behind this one; none on an open line before the first.
+    /// The place that lies last behind this one; none on an open track before the first.
     fn behind(&self, place: f64) -> Option<usize> {
         let gone = |other: f64| {
             let gone = place - other + SAME;
-            if self.course.is_closed() { self.course.on_line(gone) } else { gone }
+            if self.course.is_closed() { self.course.on_track(gone) } else { gone }
         };
         let behind = self.places.iter().map(|other| gone(*other)).enumerate().filter(|(_, gone)| *gone >= 0.0);
         behind.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(number, _)| number)
@@ -146,7 +146,7 @@ impl Driving {
         &self.track.course
     }
 
-    /// Where it is along the line at a time from now on, if no command changes anything.
+    /// Where it is along the track at a time from now on, if no command changes anything.
     fn place(&self, ms: f64) -> f64 {
         self.ride.as_ref().map_or(self.place, |ride| ride.place(ms))
     }
@@ -169,7 +169,7 @@ impl Driving {
         self.ride.as_ref().map_or(0.0, Ride::top_speed)
     }
 
-    /// How far a point is from the line within so many metres ahead of it at a time, m.
+    /// How far a point is from the track within so many metres ahead of it at a time, m.
     pub fn distance(&self, point: Point, range: f64, ms: f64) -> f64 {
         let place = self.place(ms);
         self.course().distance(point, place, place + range)
@@ -191,7 +191,7 @@ impl Driving {
         let now = self.now();
         let mut way = place - now.place;
         if self.course().is_closed() {
-            way = self.course().on_line(way);
+            way = self.course().on_track(way);
             if self.course().length() - way < SAME {
                 way = 0.0;
             }
@@ -219,7 +219,7 @@ impl Driving {
         for (number, place) in self.track.places.iter().enumerate() {
             let mut gone = (place - now.place) * ride.sign();
             if self.course().is_closed() {
-                gone = self.course().on_line(gone);
+                gone = self.course().on_track(gone);
                 // A place that is rounded to be behind it.
                 if length - gone < SAME {
                     gone = 0.0;
@@ -298,7 +298,7 @@ impl Running for Driving {
             self.passed = Some(number);
         }
         if let Some(ride) = self.ride.as_ref().filter(|ride| ride.end_ms() <= now_ms) {
-            self.place = self.course().on_line(ride.to());
+            self.place = self.course().on_track(ride.to());
             self.ride = None;
         }
         if self.ride.is_none() && !self.held && self.asked.take().is_some() {

@@ -19,7 +19,11 @@ impl Plant {
             for (part, scanning) in working.scanners() {
                 let Some(vehicle) = working.vehicle(scanning.scanner.track) else { continue };
                 let field = Field { vehicle, scanner: &scanning.scanner };
-                told.push((machine, part, self.others(machine).any(|other| field.outside(other, now_ms) <= 0.0)));
+                told.push((
+                    machine,
+                    part,
+                    self.others(machine).any(|other| field.outside(other, now_ms) <= 0.0),
+                ));
             }
         }
         for (machine, part, sees) in told {
@@ -32,7 +36,8 @@ impl Plant {
         let working = &self.machines[machine];
         let now_ms = self.now_ms() as f64;
         let next = working.scanners().filter_map(|(_, scanning)| {
-            let field = Field { vehicle: working.vehicle(scanning.scanner.track)?, scanner: &scanning.scanner };
+            let field =
+                Field { vehicle: working.vehicle(scanning.scanner.track)?, scanner: &scanning.scanner };
             self.others(machine).map(|other| field.next_change(other, now_ms)).reduce(f64::min)
         });
         next.fold(f64::INFINITY, f64::min)

@@ -15,7 +15,7 @@ pub enum Trajectory {
         from_ms: f64,
         until_ms: f64,
     },
-    /// Along a line on the floor.
+    /// Along a track.
     Rides(Ride),
     /// The joints of an arm; its times are seconds.
     Swings(Motion),

@@ -61,7 +61,7 @@ fn machine(machine: &Machine) -> Value {
         "lanes": of_parts(machine, lane),
         "places": of_parts(machine, place),
         "stops": machine.stops().iter().copied().map(point).collect::<Vec<_>>(),
-        "line": machine.track().map(line),
+        "track": machine.track().map(track),
         "cylinders": of_parts(machine, cylinder),
         "rails": rails(machine),
         "gates": of_parts(machine, gate),
@@ -152,8 +152,8 @@ fn place(machine: &Machine, part: usize) -> Option<Value> {
     }))
 }
 
-/// The line of a vehicle, from above.
-fn line(track: &Track) -> Value {
+/// The track of a vehicle, from above.
+fn track(track: &Track) -> Value {
     let flat = |point: Point| json!([point.x, point.y]);
     let corners = track.course.corners();
     let places = track.places.iter().map(|place| flat(track.course.frame(*place).position));

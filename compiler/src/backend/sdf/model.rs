@@ -115,6 +115,10 @@ impl Model {
             shapes: solids.iter().flat_map(|s| shapes(s, None, colour)).collect(),
             sensor: None,
         };
-        Self { is_static: false, pose: number::pose(&pose), ..Self::of_links(name, pose.position, vec![link]) }
+        Self {
+            is_static: false,
+            pose: number::pose(&pose),
+            ..Self::of_links(name, pose.position, vec![link])
+        }
     }
 }

@@ -1,4 +1,4 @@
-//! The line that a vehicle follows.
+//! The track that a vehicle follows.
 
 use crate::frame::Frame;
 use crate::point::Point;
@@ -36,18 +36,18 @@ impl Course {
         for (number, (from, to)) in corners.iter().zip(ends).enumerate() {
             let across = *to - *from;
             if across.z != 0.0 {
-                return Err(format!("the line rises at corner {number}: all corners have the same z"));
+                return Err(format!("the track rises at corner {number}: all corners have the same z"));
             }
             let length = across.length();
             if length < SHORTEST {
-                return Err(format!("the line has no length at corner {number}"));
+                return Err(format!("the track has no length at corner {number}"));
             }
             let from = Frame::new(*from, libm::atan2(across.y, across.x).to_degrees());
             sides.push(Side { from, ahead: across.scaled(1.0 / length), place, length });
             place += length;
         }
         if sides.is_empty() {
-            return Err("a line has two corners at least".into());
+            return Err("a track has two corners at least".into());
         }
         Ok(Self { sides, is_closed, length: place })
     }
@@ -60,8 +60,8 @@ impl Course {
         self.is_closed
     }
 
-    /// The same place, from 0 to the length; of an open line the nearest one.
-    pub fn on_line(&self, place: f64) -> f64 {
+    /// The same place, from 0 to the length; of an open track the nearest one.
+    pub fn on_track(&self, place: f64) -> f64 {
         if !self.is_closed {
             return place.clamp(0.0, self.length);
         }
@@ -70,21 +70,21 @@ impl Course {
         if rest < self.length { rest.max(0.0) } else { 0.0 }
     }
 
-    /// The side on which a place of the line lies; where two meet, the second one.
+    /// The side on which a place of the track lies; where two meet, the second one.
     fn side(&self, place: f64) -> usize {
         self.sides.partition_point(|side| side.place <= place).saturating_sub(1)
     }
 
-    /// The place in the world, x along the line.
+    /// The place in the world, x along the track.
     pub fn frame(&self, place: f64) -> Frame {
-        let place = self.on_line(place);
+        let place = self.on_track(place);
         let side = &self.sides[self.side(place)];
         Frame { position: side.from.position + side.ahead.scaled(place - side.place), ..side.from }
     }
 
-    /// Unit vector along the line.
+    /// Unit vector along the track.
     pub fn ahead(&self, place: f64) -> Point {
-        self.sides[self.side(self.on_line(place))].ahead
+        self.sides[self.side(self.on_track(place))].ahead
     }
 
     pub fn corners(&self) -> Vec<Point> {
@@ -95,9 +95,9 @@ impl Course {
         corners
     }
 
-    /// The next corner behind a place, and by how much the line turns there, degrees.
+    /// The next corner behind a place, and by how much the track turns there, degrees.
     fn next_corner(&self, place: f64) -> Option<(f64, f64)> {
-        let here = self.on_line(place);
+        let here = self.on_track(place);
         let side = self.side(here);
         let next = side + 1;
         let end = self.sides[side].place + self.sides[side].length;
@@ -109,7 +109,7 @@ impl Course {
         Some((place + (end - here).max(f64::EPSILON * self.length), turn))
     }
 
-    /// The corners between two places, the lower one first, and by how much the line turns at each.
+    /// The corners between two places, the lower one first, and by how much the track turns at each.
     pub fn corners_between(&self, from: f64, to: f64) -> impl Iterator<Item = (f64, f64)> {
         let first = self.next_corner(from);
         let all = std::iter::successors(first, |(place, _)| self.next_corner(*place));
@@ -123,7 +123,7 @@ impl Course {
         loop {
             let corner = self.next_corner(begin).map(|(place, _)| place).filter(|place| *place < to);
             let end = corner.unwrap_or(to);
-            let side = &self.sides[self.side(self.on_line(begin))];
+            let side = &self.sides[self.side(self.on_track(begin))];
             let start = self.frame(begin).position;
             let along = (point - start).dot(side.ahead).clamp(0.0, (end - begin).max(0.0));
             nearest = nearest.min((point - start - side.ahead.scaled(along)).length());
@@ -141,7 +141,7 @@ mod tests {
 
     fn square() -> Course {
         let corners = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]];
-        Course::new(&corners.map(|[x, y]| Point::new(x, y, 0.0)), true).expect("a line")
+        Course::new(&corners.map(|[x, y]| Point::new(x, y, 0.0)), true).expect("a track")
     }
 
     #[test]

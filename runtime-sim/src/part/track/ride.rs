@@ -1,4 +1,4 @@
-//! How a vehicle goes along its line, in closed form.
+//! How a vehicle goes along its track, in closed form.
 
 use super::course::Course;
 use crate::frame::Frame;
@@ -131,7 +131,7 @@ impl Ride {
         self.phase(ms).map_or(0.0, |(number, seconds)| self.phases[number].speed_after(seconds).max(0.0))
     }
 
-    /// Along the line; on a closed one it goes on beyond the length.
+    /// Along the track; on a closed one it goes on beyond the length.
     pub fn place(&self, ms: f64) -> f64 {
         let Some((number, seconds)) = self.phase(ms) else { return self.to };
         let before: f64 = self.phases[..number].iter().map(Phase::length).sum();
@@ -168,7 +168,7 @@ impl Ride {
     }
 
     /// The corners that it passes between two times, with both ends.
-    pub fn line(&self, from_ms: f64, to_ms: f64) -> Vec<Point> {
+    pub fn corners(&self, from_ms: f64, to_ms: f64) -> Vec<Point> {
         let [low, high] = self.span(from_ms, to_ms);
         let corners = self.course.corners_between(low, high).map(|(place, _)| place);
         let places = [low].into_iter().chain(corners).chain([high]);
@@ -217,7 +217,7 @@ mod tests {
 
     fn ride(length: f64, speed: f64) -> Ride {
         let corners = [Point::new(0.0, 0.0, 0.0), Point::new(100.0, 0.0, 0.0)];
-        let course = Arc::new(Course::new(&corners, false).expect("a line"));
+        let course = Arc::new(Course::new(&corners, false).expect("a track"));
         let begin = Begin { ms: 1000.0, place: 10.0, speed, top_speed: 1.5, acceleration: 0.5 };
         Ride::new(course, begin, 10.0 + length)
     }
@@ -263,7 +263,7 @@ mod tests {
     #[test]
     fn pieces_join() {
         let corners = [[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [0.0, 10.0]].map(|[x, y]| Point::new(x, y, 0.0));
-        let course = Arc::new(Course::new(&corners, true).expect("a line"));
+        let course = Arc::new(Course::new(&corners, true).expect("a track"));
         let begin = Begin { ms: 0.0, place: 35.0, speed: 0.0, top_speed: 1.5, acceleration: 0.5 };
         let ride = Ride::new(course, begin, 55.0);
         let pieces = ride.pieces();
