@@ -34,6 +34,8 @@ pub struct MachineHistory {
     pub stays: Vec<Stay>,
     /// Of a vehicle: where it is at the start. Of all else: its pose.
     pub position: Point,
+    /// Of a vehicle on a track, at the start: degrees.
+    pub heading: Option<f64>,
     /// Of an arm, at the start.
     pub joints: Option<Joints>,
     /// Each goes on until the next one begins, or until it comes to rest.
@@ -150,6 +152,7 @@ impl MachineHistory {
     fn look(&mut self, machine: usize, plant: &Plant, now_ms: u64) {
         if now_ms == 0 {
             self.position = plant.position(machine).unwrap_or_default();
+            self.heading = plant.vehicle(machine).map(|vehicle| vehicle.yaw);
             self.joints = plant.joints(machine);
         }
         let trajectory = plant.trajectory(machine).since(now_ms as f64);

@@ -1,6 +1,7 @@
 //! A machine of a line: the parts of its device with their settings, and how its I/O is wired to them.
 
 use crate::device::PortType;
+use crate::frame::Frame;
 use crate::kinematics::arm::Arm;
 use crate::line::State;
 use crate::monitor::Monitor;
@@ -9,6 +10,7 @@ use crate::part::chain::Chain;
 use crate::part::lane::Lane;
 use crate::part::place::Place;
 use crate::part::route::Route;
+use crate::part::track::Track;
 use crate::part::{Form, Part, Primitive};
 use crate::point::Point;
 use crate::value::Value;
@@ -49,10 +51,13 @@ impl Machine {
             self.check_references(index, part)?;
             self.check_on_lane(part)?;
         }
-        for primitive in ["chain", "route", "source"] {
+        for primitive in ["chain", "route", "track", "source"] {
             if self.parts.iter().filter(|part| part.schema().name == primitive).count() > 1 {
                 return Err(format!("two parts are a {primitive}"));
             }
+        }
+        if self.route().is_some() && self.track().is_some() {
+            return Err("it moves along a route and along a track".into());
         }
         if self.chain().is_some() {
             let arm = self.arm().ok_or("there is no inverse kinematics for its chain on these axes")?;
@@ -213,6 +218,13 @@ impl Machine {
         })
     }
 
+    pub fn track(&self) -> Option<&Track> {
+        self.first(|primitive| match primitive {
+            Primitive::Track(track) => Some(track),
+            _ => None,
+        })
+    }
+
     pub fn lane(&self) -> Option<&Lane> {
         self.first(|primitive| match primitive {
             Primitive::Lane(lane) => Some(lane),
@@ -272,7 +284,18 @@ impl Machine {
         Arm::new(&self.axes(), self.chain()?)
     }
 
-    /// Where it may stand, if it moves as a whole; the first is where it starts.
+    /// Where it is at the start, if it moves as a whole.
+    pub fn start(&self) -> Option<Frame> {
+        let at_stop = || self.stops().first().map(|stop| Frame::new(*stop, 0.0));
+        self.track().map(Track::begin).or_else(at_stop)
+    }
+
+    /// Points of the ground between which it moves as a whole: stops of a route, corners of a track.
+    pub fn turning_points(&self) -> Vec<Point> {
+        self.track().map_or_else(|| self.stops().to_vec(), |track| track.course.corners())
+    }
+
+    /// Where it may stand, if it goes from stop to stop; the first is where it starts.
     pub fn stops(&self) -> &[Point] {
         self.route().map_or(&[], |route| &route.stops)
     }

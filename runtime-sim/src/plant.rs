@@ -5,12 +5,14 @@ pub(crate) mod conveyed;
 mod conveying;
 mod delay;
 mod fall;
+mod sight;
 pub mod trajectory;
 mod working;
 
 pub(crate) use delay::{Arrived, Bus};
 
 use crate::carrier::Carrier;
+use crate::frame::Frame;
 use crate::item::Items;
 use crate::kinematics::arm::Joints;
 use crate::line::{Line, Obstacle};
@@ -18,6 +20,7 @@ use crate::memory::Memory;
 use crate::part::Looks;
 use crate::part::cylinder::Stroking;
 use crate::part::orders::Desk;
+use crate::part::track::Driving;
 use crate::point::Point;
 use conveyed::Conveyed;
 use conveying::{Among, Conveying, Falls};
@@ -75,6 +78,7 @@ impl Plant {
             desk,
             images,
         };
+        plant.sight();
         plant.write_images();
         Ok(plant)
     }
@@ -103,7 +107,8 @@ impl Plant {
         let now_ms = self.now_ms();
         let next = self.machines.iter().map(|machine| machine.next_change(&self.items, &self.desk, now_ms));
         let looks = (0..self.machines.len()).map(|machine| self.next_look(machine, now_ms));
-        let next_ms = next.chain(looks).fold(self.conveying.next_ms(), f64::min);
+        let sights = (0..self.machines.len()).map(|machine| self.next_sight(machine));
+        let next_ms = next.chain(looks).chain(sights).fold(self.conveying.next_ms(), f64::min);
         // What is rounded may be early.
         let scan = ((next_ms - EARLY_MS) / self.scan_ms as f64).ceil() as u64;
         next_ms.is_finite().then(|| scan.max(self.scan + 1))
@@ -167,6 +172,7 @@ impl Plant {
         }
         machines.iter_mut().for_each(|machine| machine.withdraw(&mut shared));
         self.scan = scan;
+        self.sight();
         self.write_images();
     }
 
@@ -278,6 +284,11 @@ impl Plant {
     /// Where a machine is: the tool of an arm, the position of a vehicle, the pose of what does not move.
     pub fn position(&self, machine: usize) -> Option<Point> {
         self.machines.get(machine).map(Working::position)
+    }
+
+    /// Where a vehicle on a track is, and how it is turned.
+    pub(crate) fn vehicle(&self, machine: usize) -> Option<Frame> {
+        self.machines.get(machine)?.first_vehicle().map(Driving::frame_now)
     }
 
     /// The joints of an arm.

@@ -26,7 +26,8 @@ pub struct Solid {
 pub enum Link {
     /// Does not move; the frame is the world's.
     World,
-    /// Moves along the route; the frame has its origin at the position and the world's axes.
+    /// Moves along the route or the track; the frame has its origin at the position, and of a route the world's axes, of a
+    /// track x ahead.
     Route,
     /// Moves with a cylinder, a part of the machine; the frame is the world's at its inner end.
     Cylinder(usize),
@@ -56,7 +57,7 @@ impl Machine {
             let (link, pose) = match body.on {
                 None => (Link::World, body.pose),
                 Some((other, frame)) => match (&self.parts[other].primitive, &arm) {
-                    (Primitive::Route(_), _) => (Link::Route, body.pose),
+                    (Primitive::Route(_) | Primitive::Track(_), _) => (Link::Route, body.pose),
                     (Primitive::Cylinder(_), _) => (Link::Cylinder(other), body.pose),
                     // The base is a part of what carries it.
                     (Primitive::Chain(_), Some(arm)) if frame == 0 && axes == 0 => {

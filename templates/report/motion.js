@@ -44,6 +44,7 @@ const Motion = (() => {
     joints: motion.joints,
     swings: rows(motion.swings, 3),
     drives: rows(motion.drives, 9),
+    rides: rows(motion.rides, 9),
     strokes: new Map(motion.strokes.map(([part, list]) => [part, rows(list, 3)])),
     surfaces: new Map(motion.surfaces.map(([part, list]) => [part, rows(list, 2)])),
   }));
@@ -139,9 +140,29 @@ const Motion = (() => {
     return memory.frames.get(machine);
   }
 
+  /* The piece of its track that a vehicle is on, and seconds since it began. */
+  function rideAt(machine, ms) {
+    const { rides } = machines[machine];
+    const index = indexAt(rides.at, ms);
+    if (index < 0) return null;
+    const piece = rides.list.slice(9 * index, 9 * index + 9);
+    return { piece, s: (Math.min(ms, piece[1]) - piece[0]) / 1000 };
+  }
+
+  /* How a vehicle is turned, rad. */
+  function headingAt(machine, ms) {
+    const ride = rideAt(machine, ms);
+    return radians(ride ? ride.piece[4] : machines[machine].start[3] || 0);
+  }
+
   /* Where a vehicle is. */
   function positionAt(machine, ms) {
     const { start, drives } = machines[machine];
+    const ride = rideAt(machine, ms);
+    if (ride) {
+      const { piece: [, , x, y, , vx, vy, ax, ay], s } = ride;
+      return [x + (vx + (ax * s) / 2) * s, y + (vy + (ay * s) / 2) * s, start[2]];
+    }
     const index = indexAt(drives.at, ms);
     if (index < 0) return start;
     const [begin, x, y, z, vx, vy, vz, from, until] = drives.list.slice(9 * index, 9 * index + 9);
@@ -313,7 +334,7 @@ const Motion = (() => {
   }
 
   return {
-    IDENTITY, items, kindAt, then, point, turned, jointsAt, framesAt, positionAt, cylinderFrame, travelAt, frameOn,
+    IDENTITY, items, kindAt, then, point, turned, jointsAt, framesAt, positionAt, headingAt, cylinderFrame, travelAt, frameOn,
     pointOn, endsOf, outAt, laneOf, itemAt, carrierOf, placeBy, yawOf,
   };
 })();

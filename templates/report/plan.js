@@ -79,7 +79,23 @@ const Plan = (() => {
         context.stroke();
         context.setLineDash([]);
       }
+      if (machine.track) drawTrack(machine.track, colours);
       Conveyors.draw(machine, ms);
+    }
+  }
+
+  /* The track that a vehicle follows, with its places. */
+  function drawTrack({ points, isClosed, places }, colours) {
+    context.setLineDash([2, 5]);
+    context.strokeStyle = colours.muted;
+    trace(points, isClosed);
+    context.stroke();
+    context.setLineDash([]);
+    context.fillStyle = colours.muted;
+    for (const place of places) {
+      context.beginPath();
+      context.arc(...toScreen(place), 2.5, 0, 2 * Math.PI);
+      context.fill();
     }
   }
 
@@ -218,13 +234,17 @@ const Plan = (() => {
 
   /* Beside what of a machine moves as a whole. */
   function namePlace(machine, ms) {
-    const { number, links, stops } = machine;
+    const { number, links, stops, track } = machine;
     if (links) {
       // Before the six joints of the arm itself are those that carry it.
       const carrier = links.length > 6 ? Motion.framesAt(number, ms)[links.length - 7] : links[0].before;
       return [carrier[9], carrier[10] + Math.min(34 / view.scale, 0.5)];
     }
     const { low, high } = boxes[number];
+    if (track) {
+      const [x, y] = Motion.positionAt(number, ms);
+      return [x, y + (high[1] - low[1]) / 2 + 12 / view.scale];
+    }
     const [dx, dy] = stops.length ? [0, 1].map((i) => Motion.positionAt(number, ms)[i] - stops[0][i]) : [0, 0];
     return [(low[0] + high[0]) / 2 + dx, high[1] + dy + 12 / view.scale];
   }

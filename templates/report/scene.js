@@ -40,7 +40,7 @@ const Scene = (() => {
 
   function frameOf(machine, on, ms) {
     if (on === 'world') return Motion.IDENTITY;
-    if (on === 'route') return Motion.turned(0, Motion.positionAt(machine, ms));
+    if (on === 'route') return Motion.turned(Motion.headingAt(machine, ms), Motion.positionAt(machine, ms));
     if (on.cylinder !== undefined) return Motion.cylinderFrame(machine, on.cylinder, ms);
     return Motion.framesAt(machine, ms)[on.joint];
   }
@@ -94,6 +94,7 @@ const Scene = (() => {
   const extent = (() => {
     const all = machines.flatMap((machine) => [
       ...machine.stops,
+      ...(machine.track ? machine.track.points : []),
       ...machine.rails.flatMap(({ points }) => points),
       ...boxes[machine.number].low[0] === Infinity ? [] : [boxes[machine.number].low, boxes[machine.number].high],
     ]);

@@ -16,6 +16,7 @@ pub mod searched;
 pub mod st;
 pub mod trace;
 pub mod wired;
+pub mod words;
 pub mod workspace;
 pub mod xml;
 
@@ -160,7 +161,10 @@ pub fn examples() -> Vec<(String, Texts)> {
     let sorting = side_by_side("sorting/sorting");
     let mut tending = side_by_side("tending/tending");
     tending.scenario = tending.scenario.map(|text| text.replace("41", "3"));
-    let lines = [("sorting".to_string(), sorting), ("tending".to_string(), tending)];
+    let mut crossing = side_by_side("crossing/crossing");
+    crossing.scenario = Some(r#"{"time_limit_s": 120}"#.into());
+    let lines = [("sorting", sorting), ("tending", tending), ("crossing", crossing)];
+    let lines = lines.map(|(name, texts)| (name.to_string(), texts));
     let fast = ["agv.capacity=4", "kitting.speed=1", "gantry.speed=1"];
     let prototype = fast.iter().fold(prototype("default"), |texts, setting| texts.set(setting));
     layouts

@@ -5,6 +5,7 @@ use runtime_sim::machine::Machine;
 use runtime_sim::part::axis::Motion;
 use runtime_sim::part::lane::{CentreLine, Lane};
 use runtime_sim::part::place::Place;
+use runtime_sim::part::track::Track;
 use runtime_sim::point::{Axis, Point};
 
 /// A part of a machine as it is drawn, in the world's x and y.
@@ -33,6 +34,9 @@ pub fn shapes(machine: &Machine) -> Vec<(Shape, &'static str)> {
     }
     if machine.chain().is_some() {
         return of_axes(machine);
+    }
+    if let Some(track) = machine.track() {
+        return of_track(machine, track);
     }
     let Some(place) = machine.places().next() else { return of_bodies(machine) };
     let [start, further @ ..] = machine.stops() else {
@@ -108,6 +112,23 @@ fn of_axes(machine: &Machine) -> Vec<(Shape, &'static str)> {
     }
 }
 
+/// The track of a vehicle, its places, and the vehicle where it is at the start.
+fn of_track(machine: &Machine, track: &Track) -> Vec<(Shape, &'static str)> {
+    use runtime_sim::solid::Shape as Solid;
+    let corners = track.course.corners();
+    let back = track.course.is_closed().then(|| corners[0]);
+    let ends = corners.iter().skip(1).copied().chain(back);
+    let sides = corners.iter().zip(ends).map(|(from, to)| (Shape::Line { from: *from, to }, "path"));
+    let at = |place: &f64| track.course.frame(*place).position;
+    let places = track.places.iter().map(|place| (Shape::Circle { centre: at(place), radius: 0.06 }, "stop"));
+    let start = track.begin().pose();
+    let bodies = machine.solids().into_iter().filter_map(|solid| match solid.shape {
+        Solid::Box { size } => Some((of_box(&start.then(&solid.pose), size), "vehicle")),
+        Solid::Capsule { .. } => None,
+    });
+    sides.chain(places).chain(bodies).collect()
+}
+
 /// Boxes that stand.
 fn of_bodies(machine: &Machine) -> Vec<(Shape, &'static str)> {
     use runtime_sim::solid::{Link, Shape as Solid};
@@ -131,6 +152,9 @@ fn of_box(pose: &Pose, size: Point) -> Shape {
 /// Where the name of a machine is written.
 pub fn label(machine: &Machine) -> Point {
     let pose = machine.pose;
+    if let Some(track) = machine.track() {
+        return track.begin().position + Point::new(0.0, 0.5, 0.0);
+    }
     if let Some(lane) = machine.lane() {
         return match lane.centre_line {
             CentreLine::Axis { along: Axis::X, range: [low, high], .. } => {

@@ -68,15 +68,20 @@ fn machine(name: String, machine: &Machine) -> Model {
     });
     let colour = material.map_or(OBSTACLE.to_string(), |m| format!("{} 1", number::list(&m.colour)));
     let solids = machine.solids();
-    let mut model = match machine.route() {
-        Some(route) => Model::vehicle(name, machine.pose, &solids, route.mass, &colour),
-        None => {
+    let mut model = match (machine.route(), machine.track()) {
+        (Some(route), _) => Model::vehicle(name, at(machine.pose), &solids, route.mass, &colour),
+        (_, Some(track)) => Model::vehicle(name, track.begin().pose(), &solids, track.mass, &colour),
+        (None, None) => {
             let friction = material.and_then(|material| material.friction);
             Model::standing(name, machine.pose, &solids, friction, &colour)
         }
     };
     model.links.extend(sensor::cameras_over(machine));
     model
+}
+
+fn at(position: Point) -> Pose {
+    Pose { position, ..Pose::IDENTITY }
 }
 
 /// None for an obstacle that takes no room.
@@ -108,8 +113,6 @@ fn places(machine: &Machine) -> Vec<Point> {
         }
         _ => Vec::new(),
     };
-    match machine.route() {
-        Some(route) => route.stops.clone(),
-        None => machine.solids().iter().flat_map(ends).collect(),
-    }
+    let turning = machine.turning_points();
+    if turning.is_empty() { machine.solids().iter().flat_map(ends).collect() } else { turning }
 }

@@ -207,7 +207,8 @@ impl Placed {
     pub fn ground(&self) -> [[f64; 2]; 2] {
         let at = |value: f64| [value, value];
         let mut ground = [at(self.pose.position.x), at(self.pose.position.y)];
-        for (_, part) in self.parts_of(&["axis", "route"]) {
+        for (_, part) in self.parts_of(&["axis", "route", "track"]) {
+            let with = |[low, high]: [f64; 2], value: f64| [low.min(value), high.max(value)];
             match &part.primitive {
                 Primitive::Axis(axis) => {
                     if let Motion::Slides { along, range } = axis.motion {
@@ -216,8 +217,12 @@ impl Placed {
                 }
                 Primitive::Route(route) => {
                     for stop in &route.stops {
-                        let with = |[low, high]: [f64; 2], value: f64| [low.min(value), high.max(value)];
                         ground = [with(ground[0], stop.x), with(ground[1], stop.y)];
+                    }
+                }
+                Primitive::Track(track) => {
+                    for corner in track.course.corners() {
+                        ground = [with(ground[0], corner.x), with(ground[1], corner.y)];
                     }
                 }
                 _ => {}

@@ -250,7 +250,9 @@ impl Checker<'_> {
             arguments.push(output);
             types.push(outputs[output].ty);
         }
-        if types != schema.actions[action].arguments || tree.arguments.len() != tree.given.len() {
+        let wanted = schema.actions[action].arguments;
+        let is_fit = types.len() == wanted.len() && types.iter().zip(wanted).all(|(ty, arg)| fits(*arg, *ty));
+        if !is_fit || tree.arguments.len() != tree.given.len() {
             let wanted: Vec<String> =
                 schema.actions[action].arguments.iter().map(|ty| type_text(*ty, Extent::One)).collect();
             let message = format!("`{}` takes other arguments", tree.action.value);

@@ -83,7 +83,10 @@ fn asked(machine: &Machine, command: &Command, reads_error: bool) -> (Asked, usi
         is_hold: signal_name(machine, then.part, then.signal) == ("grip", "holds"),
         error: then.error,
     });
-    (Asked { action, awaits, refusals: refusals(action, reads_error) }, points)
+    // A place that a vehicle is too near to.
+    let asks_place = (schema.name, schema.actions[command.action].name) == ("track", "to");
+    let refusals = refusals(if asks_place { Action::Trip } else { action }, reads_error);
+    (Asked { action, awaits, refusals }, points)
 }
 
 fn signal_name(machine: &Machine, part: usize, signal: usize) -> (&'static str, &'static str) {

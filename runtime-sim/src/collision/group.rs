@@ -250,7 +250,7 @@ impl Group {
     pub fn path_along(&self, body: &Body, [from, to]: [f64; 2]) -> f64 {
         let span = match &self.movement {
             Movement::Swings { .. } => [from, to],
-            Movement::Still | Movement::Slides { .. } => {
+            Movement::Still | Movement::Slides { .. } | Movement::Rides { .. } => {
                 let end = self.movement.end();
                 self.movement.span(end * from, end * to)
             }
@@ -363,6 +363,12 @@ impl Group {
             Anchor::World => Pose::IDENTITY,
             Anchor::Link(link) => self.frames(plant, time).map_or(Pose::IDENTITY, |frames| frames[link]),
             Anchor::Route => {
+                if let Movement::Rides { ride, now_ms } = &self.movement {
+                    return ride.frame(now_ms + 1000.0 * time).pose();
+                }
+                if let Some(vehicle) = self.machine().and_then(|index| plant.vehicle(index)) {
+                    return vehicle.pose();
+                }
                 let place = self.machine().and_then(|index| plant.position(index)).unwrap_or_default();
                 Pose { position: place + self.movement.shift(time), ..Pose::IDENTITY }
             }
@@ -387,7 +393,7 @@ impl Group {
         let Kind::Arm { index, arm, .. } = &self.kind else { return None };
         let joints = match &self.movement {
             Movement::Swings { motion, begin } => motion.at(begin + time),
-            Movement::Still | Movement::Slides { .. } => plant.joints(*index)?,
+            Movement::Still | Movement::Slides { .. } | Movement::Rides { .. } => plant.joints(*index)?,
         };
         if self.frames.as_ref().is_none_or(|(known, _)| *known != joints) {
             self.frames = Some((joints, arm.frames(&joints)));
@@ -415,8 +421,14 @@ fn path(
     }
 }
 
-/// What a vehicle's body takes at all of its stops and between them.
+/// What a vehicle's body takes at all of its stops and between them, or on all of its track.
 fn at_stops(machine: &Machine, ball: &Ball) -> BoundingBox {
+    if let Some(track) = machine.track() {
+        let radius = ball.middle.length() + ball.radius;
+        let corners = track.course.corners().into_iter();
+        let boxes = corners.map(|middle| BoundingBox::around(&Ball { middle, radius }));
+        return boxes.fold(BoundingBox::NOTHING, |all, next| all.with(&next));
+    }
     let boxes = machine.stops().iter().map(|stop| BoundingBox::around(&ball.shifted(*stop)));
     boxes.reduce(|a, b| a.with(&b)).unwrap_or(BoundingBox::around(ball))
 }

@@ -2,6 +2,7 @@
 
 use super::group::{Anchor, Body};
 use crate::motion::Motion;
+use crate::part::track::Ride;
 use crate::plant::trajectory::Trajectory;
 use crate::point::Point;
 
@@ -13,6 +14,11 @@ pub enum Movement {
         velocity: Point,
         from: f64,
         until: f64,
+    },
+    /// `now_ms` is now on the ride's clock.
+    Rides {
+        ride: Ride,
+        now_ms: f64,
     },
     /// `begin` is now on the motion's clock.
     Swings {
@@ -30,6 +36,7 @@ impl Movement {
                 from: (from_ms - now_ms) / 1000.0,
                 until: (until_ms - now_ms) / 1000.0,
             },
+            Trajectory::Rides(ride) => Self::Rides { ride, now_ms },
             Trajectory::Swings(motion) => Self::Swings { motion, begin: now_ms / 1000.0 },
         }
     }
@@ -38,7 +45,7 @@ impl Movement {
     /// is no arm and has set out.
     pub fn has_whole_path(&self) -> bool {
         match self {
-            Self::Still => false,
+            Self::Still | Self::Rides { .. } => false,
             Self::Slides { until, .. } => self.is_about_to_slide() && until.is_finite(),
             Self::Swings { .. } => true,
         }
@@ -48,7 +55,7 @@ impl Movement {
     pub fn end(&self) -> f64 {
         match self {
             Self::Slides { until, .. } => *until,
-            Self::Still | Self::Swings { .. } => 0.0,
+            Self::Still | Self::Rides { .. } | Self::Swings { .. } => 0.0,
         }
     }
 
@@ -65,11 +72,12 @@ impl Movement {
         )
     }
 
-    /// Between two times: metres of what slides, or both places on the path of an arm.
+    /// Between two times: metres of what slides, both times of what rides, or both places on the path of an arm.
     pub fn span(&self, from: f64, to: f64) -> [f64; 2] {
         match self {
             Self::Still => [0.0; 2],
             Self::Slides { .. } => [0.0, (self.shift(to) - self.shift(from)).length()],
+            Self::Rides { now_ms, .. } => [now_ms + 1000.0 * from, now_ms + 1000.0 * to],
             Self::Swings { motion, begin } => [motion.place(begin + from), motion.place(begin + to)],
         }
     }
@@ -79,6 +87,9 @@ impl Movement {
         match (self, body.anchor) {
             (Self::Still, _) | (_, Anchor::World) => 0.0,
             (Self::Slides { .. }, _) => to - from,
+            (Self::Rides { ride, .. }, _) => {
+                ride.path(body.ball.middle.length() + body.ball.radius, from, to)
+            }
             (Self::Swings { .. }, _) => body.travel.to(to) - body.travel.to(from),
         }
     }
@@ -88,6 +99,9 @@ impl Movement {
         match self {
             Self::Slides { velocity, from, until } => {
                 velocity.scaled((time.min(*until) - from.max(0.0)).max(0.0))
+            }
+            Self::Rides { ride, now_ms } => {
+                ride.frame(now_ms + 1000.0 * time).position - ride.frame(*now_ms).position
             }
             Self::Still | Self::Swings { .. } => Point::default(),
         }

@@ -28,13 +28,10 @@ struct Thing<'a> {
 /// that the layout allows to touch. The first pair of solids of each two, and `most` of them at most.
 pub fn overlaps(line: &Line, most: usize) -> Vec<Overlap> {
     let machines = line.machines.iter().map(|machine| {
-        let start = machine.stops().first().copied().unwrap_or_default();
+        let start = machine.start().unwrap_or_default().pose();
         let solids = machine.solids().into_iter().filter_map(|solid| match solid.link {
             Link::World => Some(solid),
-            Link::Route => {
-                let position = solid.pose.position + start;
-                Some(Solid { pose: Pose { position, ..solid.pose }, ..solid })
-            }
+            Link::Route => Some(Solid { pose: start.then(&solid.pose), ..solid }),
             Link::Cylinder(part) => {
                 let frame = at_begin(machine, part);
                 Some(Solid { pose: frame.pose().then(&solid.pose), ..solid })

@@ -137,12 +137,14 @@ primitives! {
     process::Process,
     pusher::Pusher,
     route::Route,
+    scanner::Scanner,
     selector::Selector,
     setpoint::Setpoint,
     sink::Sink,
     source::Source,
     stopper::Stopper,
     tank::Tank,
+    track::Track,
     zone::Zone,
 }
 

@@ -10,7 +10,7 @@ use crate::machine::Machine;
 use crate::memory::Memory;
 use crate::part::Primitive;
 use crate::part::orders::Desk;
-use crate::part::{cylinder, lane};
+use crate::part::{cylinder, lane, scanner, track};
 use crate::plant::trajectory::Trajectory;
 use crate::point::Point;
 
@@ -272,6 +272,19 @@ pub trait Running: std::fmt::Debug + Send + Sync {
     }
 
     fn cylinder(&self) -> Option<&cylinder::Working> {
+        None
+    }
+
+    /// A vehicle on a track.
+    fn vehicle(&self) -> Option<&track::Driving> {
+        None
+    }
+
+    fn scanner(&self) -> Option<&scanner::Scanning> {
+        None
+    }
+
+    fn scanner_mut(&mut self) -> Option<&mut scanner::Scanning> {
         None
     }
 

@@ -1,6 +1,7 @@
 //! How a machine is going to move, as far as its last command says.
 
 use crate::motion::Motion;
+use crate::part::track::Ride;
 use crate::point::Point;
 
 /// The movement of whatever lies or hangs on a machine, until a command, a hold or the end of it changes it.
@@ -14,6 +15,8 @@ pub enum Trajectory {
         from_ms: f64,
         until_ms: f64,
     },
+    /// Along a track.
+    Rides(Ride),
     /// The joints of an arm; its times are seconds.
     Swings(Motion),
 }
@@ -24,6 +27,7 @@ impl Trajectory {
         match self {
             Trajectory::Rests => false,
             Trajectory::Drives { until_ms, .. } => until_ms.is_finite() && *until_ms > ms,
+            Trajectory::Rides(ride) => ride.end_ms() > ms,
             Trajectory::Swings(motion) => motion.rests_at() * 1000.0 > ms,
         }
     }
@@ -32,6 +36,7 @@ impl Trajectory {
     pub fn speed(&self) -> f64 {
         match self {
             Trajectory::Drives { velocity, .. } => velocity.length(),
+            Trajectory::Rides(ride) => ride.top_speed(),
             Trajectory::Rests | Trajectory::Swings(_) => 0.0,
         }
     }
@@ -41,6 +46,7 @@ impl Trajectory {
         let is_over = match &self {
             Trajectory::Rests => true,
             Trajectory::Drives { until_ms, .. } => *until_ms <= ms,
+            Trajectory::Rides(ride) => ride.end_ms() <= ms,
             Trajectory::Swings(motion) => motion.rests_at() * 1000.0 <= ms,
         };
         if is_over { Trajectory::Rests } else { self }

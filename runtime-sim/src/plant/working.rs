@@ -11,6 +11,8 @@ use crate::memory::Memory;
 use crate::part::cylinder::Working as Cylinder;
 use crate::part::lane::Moving;
 use crate::part::orders::Desk;
+use crate::part::scanner::Scanning;
+use crate::part::track::Driving;
 use crate::part::{Begun, Looks, Part, Progress, Running, See, Start, World, milliseconds};
 use crate::plant::trajectory::Trajectory;
 use crate::point::Point;
@@ -229,6 +231,28 @@ impl Working {
 
     pub fn cylinder(&self, part: usize) -> Option<&Cylinder> {
         self.parts.get(part)?.as_ref()?.cylinder()
+    }
+
+    /// The vehicle that a part is.
+    pub fn vehicle(&self, part: usize) -> Option<&Driving> {
+        self.parts.get(part)?.as_ref()?.vehicle()
+    }
+
+    pub fn first_vehicle(&self) -> Option<&Driving> {
+        self.running().find_map(|part| part.vehicle())
+    }
+
+    /// All of its scanners, with their parts.
+    pub fn scanners(&self) -> impl Iterator<Item = (usize, &Scanning)> {
+        let all = self.parts.iter().enumerate();
+        all.filter_map(|(part, running)| Some((part, running.as_ref()?.scanner()?)))
+    }
+
+    /// What the scanner that a part is sees.
+    pub fn tell(&mut self, part: usize, sees: bool) {
+        if let Some(scanning) = self.parts[part].as_mut().and_then(|running| running.scanner_mut()) {
+            scanning.sees = sees;
+        }
     }
 
     /// How many items a source was asked for, if it is asked for each.

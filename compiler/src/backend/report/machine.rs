@@ -10,6 +10,7 @@ use runtime_sim::machine::Machine;
 use runtime_sim::part::Primitive;
 use runtime_sim::part::cylinder::Stroke;
 use runtime_sim::part::lane::CentreLine;
+use runtime_sim::part::track::Track;
 use runtime_sim::point::{Axis, Point};
 use runtime_sim::solid::{Link, Shape, Solid};
 use runtime_sim::wiring::{self, Drives};
@@ -60,6 +61,7 @@ fn machine(machine: &Machine) -> Value {
         "lanes": of_parts(machine, lane),
         "places": of_parts(machine, place),
         "stops": machine.stops().iter().copied().map(point).collect::<Vec<_>>(),
+        "track": machine.track().map(track),
         "cylinders": of_parts(machine, cylinder),
         "rails": rails(machine),
         "gates": of_parts(machine, gate),
@@ -148,6 +150,17 @@ fn place(machine: &Machine, part: usize) -> Option<Value> {
         "part": part, "carried": place.route.is_some(), "at": point(place.at), "x": [low_x, high_x],
         "y": [low_y, high_y], "z": place.floor.z, "orders": machine.is_place_of_orders(part)
     }))
+}
+
+/// The track of a vehicle, from above.
+fn track(track: &Track) -> Value {
+    let flat = |point: Point| json!([point.x, point.y]);
+    let corners = track.course.corners();
+    let places = track.places.iter().map(|place| flat(track.course.frame(*place).position));
+    json!({
+        "points": corners.into_iter().map(flat).collect::<Vec<_>>(), "isClosed": track.course.is_closed(),
+        "places": places.collect::<Vec<_>>()
+    })
 }
 
 fn cylinder(machine: &Machine, part: usize) -> Option<Value> {

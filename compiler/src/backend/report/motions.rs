@@ -4,6 +4,7 @@ use super::numbers::{List, list};
 use runtime_sim::history::{History, MachineHistory};
 use runtime_sim::motion::Motion;
 use runtime_sim::plant::trajectory::Trajectory;
+use runtime_sim::point::Point;
 use std::collections::HashMap;
 
 /// What all machines did, and what that refers to; each a value of JSON.
@@ -43,9 +44,20 @@ pub fn motions(history: &History, until_ms: f64) -> Motions {
 fn machine(history: &MachineHistory, until_ms: f64, trajectories: &mut Known) -> String {
     let mut swings = List::default();
     let mut drives = List::default();
-    for motion in history.motions.iter().take_while(|motion| motion.begin_ms as f64 <= until_ms) {
+    let mut rides = List::default();
+    let ends = history.motions.iter().skip(1).map(|next| next.begin_ms as f64).chain([f64::INFINITY]);
+    let all = history.motions.iter().zip(ends);
+    for (motion, end_ms) in all.take_while(|(motion, _)| motion.begin_ms as f64 <= until_ms) {
         let (from, begin_ms) = (motion.from, motion.begin_ms as f64);
         match &motion.trajectory {
+            Trajectory::Rides(ride) => {
+                for piece in ride.pieces().into_iter().filter(|piece| piece.begin_ms < end_ms) {
+                    let Point { x, y, .. } = piece.from.position;
+                    let (speed, gain) = (piece.velocity, piece.acceleration);
+                    rides.put_all([piece.begin_ms, piece.end_ms.min(end_ms), x, y, piece.from.yaw]);
+                    rides.put_all([speed.x, speed.y, gain.x, gain.y]);
+                }
+            }
             Trajectory::Swings(swing) => {
                 let number = trajectories.number(trajectory(swing));
                 swings.put(begin_ms).put(swing.since() * 1000.0 - begin_ms).put_whole(number);
@@ -59,13 +71,14 @@ fn machine(history: &MachineHistory, until_ms: f64, trajectories: &mut Known) ->
             Trajectory::Rests if history.joints.is_some() => {
                 swings.put(begin_ms).put_whole(0).put_whole(-1);
             }
+            Trajectory::Rests if history.heading.is_some() => {}
             Trajectory::Rests => {
                 drives.put_all([begin_ms, from.x, from.y, from.z, 0.0, 0.0, 0.0, begin_ms, begin_ms]);
             }
         }
     }
     let mut start = List::default();
-    start.put_all([history.position.x, history.position.y, history.position.z]);
+    start.put_all([history.position.x, history.position.y, history.position.z]).put_all(history.heading);
     let mut joints = List::default();
     joints.put_all(history.joints.iter().flat_map(|joints| joints.iter().copied()));
     let strokes = history.strokes.iter().map(|track| {
@@ -83,11 +96,12 @@ fn machine(history: &MachineHistory, until_ms: f64, trajectories: &mut Known) ->
         format!("[{},{}]", track.part, changes.end())
     });
     format!(
-        "{{\"start\":{},\"joints\":{},\"swings\":{},\"drives\":{},\"strokes\":{},\"surfaces\":{}}}",
+        "{{\"start\":{},\"joints\":{},\"swings\":{},\"drives\":{},\"rides\":{},\"strokes\":{},\"surfaces\":{}}}",
         start.end(),
         joints.end(),
         swings.end(),
         drives.end(),
+        rides.end(),
         list(strokes),
         list(surfaces)
     )

@@ -105,7 +105,7 @@ impl Model {
     }
 
     /// A vehicle of so many kg at its start, free to be moved.
-    pub fn vehicle(name: String, pose: Point, solids: &[Solid], mass: f64, colour: &str) -> Self {
+    pub fn vehicle(name: String, pose: Pose, solids: &[Solid], mass: f64, colour: &str) -> Self {
         let link = Link {
             name: "link".into(),
             relative_to: None,
@@ -115,6 +115,10 @@ impl Model {
             shapes: solids.iter().flat_map(|s| shapes(s, None, colour)).collect(),
             sensor: None,
         };
-        Self { is_static: false, ..Self::of_links(name, pose, vec![link]) }
+        Self {
+            is_static: false,
+            pose: number::pose(&pose),
+            ..Self::of_links(name, pose.position, vec![link])
+        }
     }
 }

@@ -28,7 +28,9 @@ impl Group {
                 }
                 (Movement::Swings { motion, .. }, None) => self.swept(motion),
                 // All that it can ever be in.
-                (Movement::Slides { .. }, _) => [self.around(|body| body.bounds)].into(),
+                (Movement::Slides { .. } | Movement::Rides { .. }, _) => {
+                    [self.around(|body| body.bounds)].into()
+                }
                 (Movement::Still, _) if self.moves_parts() => [self.around(|body| body.bounds)].into(),
                 (Movement::Still, _) => [self.present(plant)].into(),
             };
@@ -80,9 +82,18 @@ impl Group {
 
     /// What contains it for so many seconds from now on.
     pub fn box_for(&mut self, seconds: f64, plant: &Plant, memory: &mut Memory) -> BoundingBox {
+        if let Movement::Rides { ride, now_ms } = &self.movement {
+            let corners = ride.corners(*now_ms, now_ms + 1000.0 * seconds);
+            return self.around(|body| {
+                let radius = body.ball.middle.length() + body.ball.radius + NEAR;
+                let boxes =
+                    corners.iter().map(|corner| BoundingBox::around(&Ball { middle: *corner, radius }));
+                boxes.fold(BoundingBox::NOTHING, |all, next| all.with(&next))
+            });
+        }
         let [from, to] = match &self.movement {
             Movement::Swings { .. } => self.movement.span(0.0, seconds),
-            Movement::Still | Movement::Slides { .. } => [0.0; 2],
+            Movement::Still | Movement::Slides { .. } | Movement::Rides { .. } => [0.0; 2],
         };
         let boxes = self.boxes(plant, memory);
         let at = |place: f64| ((place * PIECES as f64) as usize).min(boxes.len() - 1);

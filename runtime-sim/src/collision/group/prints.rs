@@ -14,7 +14,7 @@ impl Group {
         }
         if self.moving.is_none() {
             let motion = match &self.movement {
-                Movement::Still => return None,
+                Movement::Still | Movement::Rides { .. } => return None,
                 Movement::Slides { until, .. } if until.is_infinite() => return None,
                 Movement::Slides { velocity, from, until } => {
                     let begin = self.position(plant) - velocity.scaled((-from).max(0.0));
@@ -37,7 +37,8 @@ impl Group {
             let place = match &self.kind {
                 Kind::Obstacle => Fingerprint::default(),
                 Kind::Machine { index, .. } => {
-                    near(Fingerprint::default(), plant.position(*index).unwrap_or_default())
+                    let place = near(Fingerprint::default(), plant.position(*index).unwrap_or_default());
+                    plant.vehicle(*index).map_or(place, |vehicle| place.near(vehicle.yaw))
                 }
                 Kind::Arm { index, .. } => {
                     let joints = plant.joints(*index);

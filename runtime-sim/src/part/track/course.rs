@@ -1,0 +1,176 @@
+//! The track that a vehicle follows.
+
+use crate::frame::Frame;
+use crate::point::Point;
+
+/// Straight from corner to corner. Places on it are metres along it, from the first corner on; on a closed one they go on
+/// beyond its length.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Course {
+    /// Each with its first corner as origin, x leading along it.
+    sides: Vec<Side>,
+    is_closed: bool,
+    length: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Side {
+    from: Frame,
+    /// Unit vector along it.
+    ahead: Point,
+    /// Where it begins.
+    place: f64,
+    length: f64,
+}
+
+/// Corners nearer to one another are none, m.
+const SHORTEST: f64 = 1e-3;
+
+impl Course {
+    /// An error says which corner is wrong.
+    pub fn new(corners: &[Point], is_closed: bool) -> Result<Self, String> {
+        let mut sides = Vec::new();
+        let mut place = 0.0;
+        let last = if is_closed { corners.first() } else { None };
+        let ends = corners.iter().skip(1).chain(last);
+        for (number, (from, to)) in corners.iter().zip(ends).enumerate() {
+            let across = *to - *from;
+            if across.z != 0.0 {
+                return Err(format!("the track rises at corner {number}: all corners have the same z"));
+            }
+            let length = across.length();
+            if length < SHORTEST {
+                return Err(format!("the track has no length at corner {number}"));
+            }
+            let from = Frame::new(*from, libm::atan2(across.y, across.x).to_degrees());
+            sides.push(Side { from, ahead: across.scaled(1.0 / length), place, length });
+            place += length;
+        }
+        if sides.is_empty() {
+            return Err("a track has two corners at least".into());
+        }
+        Ok(Self { sides, is_closed, length: place })
+    }
+
+    pub fn length(&self) -> f64 {
+        self.length
+    }
+
+    pub fn is_closed(&self) -> bool {
+        self.is_closed
+    }
+
+    /// The same place, from 0 to the length; of an open track the nearest one.
+    pub fn on_track(&self, place: f64) -> f64 {
+        if !self.is_closed {
+            return place.clamp(0.0, self.length);
+        }
+        let rest = place - self.length * (place / self.length).floor();
+        // What is rounded may come to the length.
+        if rest < self.length { rest.max(0.0) } else { 0.0 }
+    }
+
+    /// The side on which a place of the track lies; where two meet, the second one.
+    fn side(&self, place: f64) -> usize {
+        self.sides.partition_point(|side| side.place <= place).saturating_sub(1)
+    }
+
+    /// The place in the world, x along the track.
+    pub fn frame(&self, place: f64) -> Frame {
+        let place = self.on_track(place);
+        let side = &self.sides[self.side(place)];
+        Frame { position: side.from.position + side.ahead.scaled(place - side.place), ..side.from }
+    }
+
+    /// Unit vector along the track.
+    pub fn ahead(&self, place: f64) -> Point {
+        self.sides[self.side(self.on_track(place))].ahead
+    }
+
+    pub fn corners(&self) -> Vec<Point> {
+        let mut corners: Vec<Point> = self.sides.iter().map(|side| side.from.position).collect();
+        if !self.is_closed {
+            corners.push(self.frame(self.length).position);
+        }
+        corners
+    }
+
+    /// The next corner behind a place, and by how much the track turns there, degrees.
+    fn next_corner(&self, place: f64) -> Option<(f64, f64)> {
+        let here = self.on_track(place);
+        let side = self.side(here);
+        let next = side + 1;
+        let end = self.sides[side].place + self.sides[side].length;
+        if next == self.sides.len() && !self.is_closed {
+            return None;
+        }
+        let turn = self.sides[next % self.sides.len()].from.yaw - self.sides[side].from.yaw;
+        // A place that is rounded to its own corner has not passed it.
+        Some((place + (end - here).max(f64::EPSILON * self.length), turn))
+    }
+
+    /// The corners between two places, the lower one first, and by how much the track turns at each.
+    pub fn corners_between(&self, from: f64, to: f64) -> impl Iterator<Item = (f64, f64)> {
+        let first = self.next_corner(from);
+        let all = std::iter::successors(first, |(place, _)| self.next_corner(*place));
+        all.take_while(move |(place, _)| *place <= to)
+    }
+
+    /// How far a point is from the nearest place of a stretch that begins at `from` and ends at `to`, m.
+    pub fn distance(&self, point: Point, from: f64, to: f64) -> f64 {
+        let mut nearest = f64::INFINITY;
+        let mut begin = from;
+        loop {
+            let corner = self.next_corner(begin).map(|(place, _)| place).filter(|place| *place < to);
+            let end = corner.unwrap_or(to);
+            let side = &self.sides[self.side(self.on_track(begin))];
+            let start = self.frame(begin).position;
+            let along = (point - start).dot(side.ahead).clamp(0.0, (end - begin).max(0.0));
+            nearest = nearest.min((point - start - side.ahead.scaled(along)).length());
+            match corner {
+                Some(corner) => begin = corner,
+                None => return nearest,
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn square() -> Course {
+        let corners = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]];
+        Course::new(&corners.map(|[x, y]| Point::new(x, y, 0.0)), true).expect("a track")
+    }
+
+    #[test]
+    fn a_place_is_the_same_after_a_round() {
+        let course = square();
+        for place in [0.0, 3.0, 4.0, 9.5, 15.999] {
+            let (here, again) = (course.frame(place), course.frame(place + 32.0));
+            assert!((here.position - again.position).length() < 1e-12);
+            assert_eq!(here.yaw, again.yaw, "{place}");
+        }
+    }
+
+    #[test]
+    fn at_a_corner_the_line_turns() {
+        let course = square();
+        assert_eq!(course.frame(4.0).yaw, 90.0);
+        let corners: Vec<f64> = course.corners_between(3.0, 17.0).map(|(place, _)| place).collect();
+        assert_eq!(corners, [4.0, 8.0, 12.0, 16.0]);
+        assert_eq!(course.corners_between(4.0, 7.9).count(), 0);
+    }
+
+    #[test]
+    fn the_distance_is_that_of_the_nearest_place_round_corners() {
+        let course = square();
+        let point = Point::new(4.5, 2.0, 0.0);
+        assert!((course.distance(point, 3.0, 7.0) - 0.5).abs() < 1e-12);
+        // The stretch ends a metre before.
+        assert!((course.distance(point, 3.0, 5.0) - 1.25_f64.sqrt()).abs() < 1e-12);
+        // All round.
+        assert!((course.distance(Point::new(-1.0, 2.0, 0.0), 3.0, 15.0) - 1.0).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,248 @@
+//! A vehicle on a track, by closed forms: how long it takes, where it brakes, what it refuses.
+
+use autogen::executor::Executor;
+use autogen_tests::Texts;
+use autogen_tests::words::with_words;
+use runtime_sim::collision::Contact;
+use runtime_sim::memory::Memory;
+use runtime_sim::run::{Seen, Stepping, run_again};
+
+/// An open track of 10 m with a corner, and what drives on it.
+fn with_automaton(automaton: &str, scenario: &str) -> Texts {
+    let device = "device cart {
+        part drive = track {
+            corners: [pose, pose + point(6, 0, 0), pose + point(6, 4, 0)]; places: [0.0, 3.0, 8.0, 10.0];
+            speed: 1.5; acceleration: 0.5; mass: 10.0;
+        };
+        part hull = body { on: drive; low: point(-0.4, -0.2, 0); high: point(0.4, 0.2, 0.3); };
+        in pos: point = drive.position;
+        in place: int -1..3 = drive.place;
+        in stands: bool = drive.stands;
+        out goal: int 0..9;
+        command 1 go(goal) = drive.to(goal);
+        command 2 halt() = drive.halt();
+    }";
+    Texts {
+        layout: r#"{"robots": [{"name": "cart", "type": "cart", "pose": [0, 0, 0]}]}"#.into(),
+        specs: vec![format!("{device} automaton Cart on cart {{ {automaton} }}")],
+        scenario: Some(scenario.into()),
+        ..Texts::default()
+    }
+}
+
+/// Times, s, places by which it has come, and x and y at which it came to rest, each time that it did, with every scan.
+/// How it is stepped makes no difference.
+fn rests(texts: &Texts) -> Vec<(f64, f64, [f64; 2])> {
+    let (project, words) = with_words(texts);
+    let of = |name: &str| words[name];
+    let (stands, place) = (of("cart_stands"), of("cart_place"));
+    let position = ["cart_pos_x", "cart_pos_y"].map(of);
+    let execute = |stepping| {
+        let (mut rests, mut stood) = (Vec::new(), true);
+        let mut observer = |seen: &Seen| {
+            let stands = stands.value(seen) == 1.0;
+            if stands && !stood {
+                rests.push((
+                    seen.scan as f64 / 100.0,
+                    place.value(seen),
+                    position.map(|word| word.value(seen)),
+                ));
+            }
+            stood = stands;
+        };
+        let (mut executor, mut memory) = (Executor::new(&project.system), Memory::default());
+        let report = run_again(&project.plant, &mut executor, stepping, &mut memory, &mut observer);
+        (report.expect("a line that runs"), rests)
+    };
+    let [events, every, checked] = [Stepping::Events, Stepping::EveryScan, Stepping::Checked].map(execute);
+    assert_eq!(events.0, every.0);
+    assert_eq!(checked.0, every.0);
+    every.1
+}
+
+fn is_near(found: f64, wanted: f64, tolerance: f64) -> bool {
+    (found - wanted).abs() <= tolerance
+}
+
+/// The command is given in the scan after the start; a change is told in the first scan not before it.
+const SCANS: f64 = 0.05;
+
+#[test]
+fn it_drives_both_ways_round_its_corner() {
+    let rests = rests(&with_automaton(
+        "initial -> There { go(3); }
+        state There { when done -> Back { go(1); } }
+        state Back { when done -> Short { go(0); } }
+        state Short { when done -> Ended; }
+        final state Ended;",
+        r#"{"time_limit_s": 60}"#,
+    ));
+    let [there, back, short] = rests[..] else { panic!("{rests:?}") };
+    assert_eq!((there.1, there.2), (3.0, [6.0, 4.0]));
+    assert_eq!((back.1, back.2), (1.0, [3.0, 0.0]));
+    assert_eq!((short.1, short.2), (0.0, [0.0, 0.0]));
+    let way = |length: f64| if length < 4.5 { 2.0 * (length / 0.5).sqrt() } else { length / 1.5 + 3.0 };
+    assert!(is_near(there.0, way(10.0), SCANS), "{rests:?}");
+    assert!(is_near(back.0 - there.0, way(7.0), SCANS), "{rests:?}");
+    assert!(is_near(short.0 - back.0, way(3.0), SCANS), "{rests:?}");
+}
+
+/// At 3 m it is told to go on to the end, without a stop: it takes no longer than the way at once.
+#[test]
+fn on_the_way_it_takes_another_goal_without_a_stop() {
+    let rests = rests(&with_automaton(
+        "initial -> First { go(2); }
+        state First { when place = 1 -> Then { go(3); } }
+        state Then { when done -> Ended; }
+        final state Ended;",
+        r#"{"time_limit_s": 60}"#,
+    ));
+    let [end] = rests[..] else { panic!("{rests:?}") };
+    assert_eq!(end.2, [6.0, 4.0]);
+    assert!(is_near(end.0, 10.0 / 1.5 + 3.0, SCANS), "{rests:?}");
+}
+
+/// At 3 m it goes 1.5 m/s, and halts in 2.25 m. A place behind it, asked for on the way, is refused, and it brakes too.
+#[test]
+fn it_halts_in_its_braking_distance() {
+    for (order, why) in
+        [("halt();", "done"), ("go(0);", "failed and error = 1"), ("go(9);", "failed and error = 1")]
+    {
+        let rests = rests(&with_automaton(
+            &format!(
+                "initial -> First {{ go(3); }}
+                state First {{ when place = 1 -> Then {{ {order} }} }}
+                state Then {{ when stands and ({why}) -> Ended; }}
+                final state Ended;
+                invariant not stands or pos.x < 5.5 else \"too far\";"
+            ),
+            r#"{"time_limit_s": 60}"#,
+        ));
+        let [end] = rests[..] else { panic!("{order}: {rests:?}") };
+        assert_eq!(end.1, 1.0);
+        assert!(end.2[0] > 5.25 - 1e-9 && end.2[0] < 5.25 + 1.5 * SCANS, "{order}: {rests:?}");
+    }
+}
+
+/// Held after 4 s it has come 3.75 m and brakes in 2.25 m, to rest at 6 m; after the pause it has 4 m more.
+#[test]
+fn held_it_brakes_and_goes_on_when_it_is_let_go() {
+    let rests = rests(&with_automaton(
+        "initial -> There { go(3); }
+        state There { when done -> Ended; }
+        final state Ended;",
+        r#"{"time_limit_s": 60, "faults": {"pauses": [{"at_s": 4, "for_s": 10}]}}"#,
+    ));
+    let [held, end] = rests[..] else { panic!("{rests:?}") };
+    assert!(is_near(held.0, 7.0, SCANS), "{rests:?}");
+    assert!(is_near(held.2[0] + held.2[1], 6.0, 1.5 * SCANS), "{rests:?}");
+    assert_eq!(end.2, [6.0, 4.0]);
+    assert!(is_near(end.0, 14.0 + 2.0 * (4.0_f64 / 0.5).sqrt(), 2.0 * SCANS), "{rests:?}");
+}
+
+/// The first contact of a vehicle that drives to the end of its track, beside what else is in the layout.
+fn contact(robots: &str, stationary: &str) -> Contact {
+    let mut texts = with_automaton(
+        "parameter goes: bool := true;
+        initial -> Waiting {}
+        state Waiting { when goes -> There { go(3); } }
+        state There { when done -> Ended; }
+        final state Ended;",
+        r#"{"time_limit_s": 60}"#,
+    );
+    texts.layout = format!(
+        r#"{{"robots": [{{"name": "cart", "type": "cart", "pose": [0, 0, 0]}}{robots}], "stationary": [{stationary}]}}"#
+    );
+    let (project, _) = with_words(&texts);
+    let execute = |stepping| {
+        let (mut executor, mut memory) = (Executor::new(&project.system), Memory::default());
+        run_again(&project.plant, &mut executor, stepping, &mut memory, &mut |_| {})
+            .expect("a line that runs")
+    };
+    let report = execute(Stepping::Events);
+    assert_eq!(report, execute(Stepping::EveryScan));
+    assert_eq!(report, execute(Stepping::Checked));
+    let [contact] = &report.collisions[..] else { panic!("{report:?}") };
+    contact.clone()
+}
+
+/// Middles are 5 m apart and the vehicles 0.8 m long: one drives 4.2 m until it touches, at full speed from 2.25 m on.
+#[test]
+fn it_runs_into_a_vehicle_that_stands_before_it() {
+    let other = r#", {"name": "other", "type": "cart", "pose": [5, 0, 0], "parameters": {"goes": false}}"#;
+    let found = contact(other, "");
+    assert_eq!(found.pair, ["cart", "other"]);
+    assert!(is_near(found.time_s, 4.2 / 1.5 + 1.5, SCANS), "{found:?}");
+    assert!(is_near(found.place.x, 4.6, 0.005), "{found:?}");
+}
+
+/// At its corner the vehicle turns at once: only then is its rear where the post stands, at the side of the straight.
+#[test]
+fn it_touches_with_its_rear_what_stands_beside_its_corner() {
+    let post =
+        |y: f64| format!(r#"{{"name": "post", "type": "box", "pose": [6, {y}, 0], "box": [0.1, 0.1, 0.5]}}"#);
+    let found = contact("", &post(-0.35));
+    assert_eq!(found.pair, ["cart", "post"]);
+    assert!(is_near(found.time_s, 6.0 / 1.5 + 1.5, SCANS), "{found:?}");
+}
+
+/// What a layout with a device of one vehicle is told.
+fn told(settings: &str) -> String {
+    let device = format!(
+        "device cart {{ parameter at: real; part drive = track {{ {settings} mass: 10.0; }};
+        in stands: bool = drive.stands; }}
+        automaton Cart on cart {{ initial state S {{ when stands -> S {{}} }} }}"
+    );
+    let layout = r#"{"robots": [{"name": "cart", "type": "cart", "pose": [0, 0, 0], "at": 12}]}"#;
+    let texts = Texts { specs: vec![device], ..Texts::of_layout(layout) };
+    let outcome = texts.compile();
+    let all: Vec<String> = outcome
+        .diagnostics
+        .iter()
+        .map(|found| {
+            assert!(!found.help.is_empty(), "{found:?}");
+            format!("{} {}", found.code, found.message)
+        })
+        .collect();
+    all.join("; ")
+}
+
+#[test]
+fn what_is_wrong_with_a_track_is_told() {
+    let line = "corners: [pose, pose + point(10, 0, 0)];";
+    let runs = "speed: 1.5; acceleration: 0.5;";
+    let right = told(&format!("{line} places: [at - 2.0]; {runs}"));
+    assert_eq!(right, "");
+    for (settings, wanted) in [
+        (
+            format!("{line} places: [0.0, at]; {runs}"),
+            "E0704 the part drive: place 1 is at 12.000 m of a track of 10.000 m",
+        ),
+        (
+            format!("{line} places: [0.0]; begins: at; {runs}"),
+            "E0704 the part drive: it begins at 12.000 m of a track of 10.000 m",
+        ),
+        (
+            format!("corners: [pose, pose + point(at - 12.0, 0, 0)]; places: [0.0]; {runs}"),
+            "E0704 the part drive: the track has no length at corner 0",
+        ),
+        (
+            format!("corners: [pose + point(at, 0, 0)]; places: [0.0]; {runs}"),
+            "E0704 the part drive: a track has two corners at least",
+        ),
+        (
+            format!("corners: [pose, pose + point(at, 0, 1)]; places: [0.0]; {runs}"),
+            "E0704 the part drive: the track rises at corner 0: all corners have the same z",
+        ),
+        (
+            format!("{line} places: [0.0]; speed: 0.0 - at; acceleration: 0.5;"),
+            "E0704 `speed` has to be a number over 0",
+        ),
+        (
+            format!("{line} places: [0.0]; speed: 1.0; acceleration: at - 12.0;"),
+            "E0704 `acceleration` has to be a number over 0",
+        ),
+    ] {
+        assert_eq!(told(&settings), wanted, "{settings}");
+    }
+}
