@@ -1,7 +1,7 @@
 //! A line without its values, so that it is read and checked once for many of them.
 
 use super::setting::{self, Setting};
-use super::{Project, Verdict, bind, modes, overlap, plant, role};
+use super::{Project, Verdict, bind, collected, modes, overlap, plant, role};
 use crate::check::{self, Checked};
 use crate::device::panel;
 use crate::diagnostic::{self, Diagnostic};
@@ -11,6 +11,7 @@ use crate::scenario::{Number, Scenario};
 use crate::source::{FileId, Sources};
 use crate::spec::{ast, parser};
 use crate::{connect, lint, scenario};
+use runtime_sim::plant::ways;
 use runtime_sim::random::Random;
 use std::borrow::Cow;
 use std::collections::BTreeSet;
@@ -207,7 +208,7 @@ impl Parts {
             return;
         }
         let robot = |node: usize| line.robot_of(node);
-        let edges = report
+        let edges: Vec<connect::Edge> = report
             .edges
             .iter()
             .map(|e| connect::Edge { from: robot(e.from), to: robot(e.to), ..*e })
@@ -218,6 +219,11 @@ impl Parts {
         };
         let plant = plant::line(&system, &line, bound.obstacles, resolved, layout.scan_ms, machines);
         found.diagnostics.extend(overlap::overlaps(&layout, &plant));
+        let ways = ways(&plant);
+        found.diagnostics.extend(collected::out_of_reach(&scenario, &plant, &edges, &ways));
+        if let Some(verdict) = &mut found.verdict {
+            verdict.add_conveyors(&plant, &ways);
+        }
         found.warnings = lint::of_layout(&layout, &plant);
         let Layout { name, may_touch, .. } = &*layout;
         found.project =

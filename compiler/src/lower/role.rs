@@ -276,6 +276,8 @@ impl<'a> Line<'a> {
             edges: report.edges.iter().map(|e| (name(e.from), name(e.to), e.margin)).collect(),
             sources: those(|n| n.is_source),
             destinations: those(|n| n.is_destination),
+            joined: Vec::new(),
+            sinks: Vec::new(),
             single_points: report.single_points.iter().map(|n| name(*n)).collect(),
             unreachable: report.unreachable.iter().map(|n| name(*n)).collect(),
             dead_ends: report.dead_ends.iter().map(|n| name(*n)).collect(),
