@@ -34,6 +34,7 @@ pub struct Draft {
     warnings: Vec<Diagnostic>,
     name: Option<String>,
     orders: Option<usize>,
+    items: Option<u64>,
     parts: Option<Parts>,
 }
 
@@ -78,8 +79,10 @@ impl Draft {
         let checked = checked.and_then(|checked| checked.map_err(|found| diagnostics.extend(found)).ok());
         let listed = scenario.as_ref().filter(|s| s.orders.number == Number::Listed);
         let orders = listed.map(|s| s.orders.list.len());
+        let goal = scenario.as_ref().map(|s| s.goal.as_slice()).filter(|goal| !goal.is_empty());
+        let items = goal.map(|goal| goal.iter().flat_map(|sink| &sink.items).map(|n| u64::from(*n)).sum());
         let name = layout.as_ref().map(|l| l.name.clone());
-        let mut draft = Self { diagnostics, warnings: Vec::new(), name, orders, parts: None };
+        let mut draft = Self { diagnostics, warnings: Vec::new(), name, orders, items, parts: None };
         if let (Some(layout), Some(checked), Some(scenario)) = (layout, checked, scenario) {
             draft.warnings = lint::warnings(checked.model(), &files);
             let model = draft.bind(sources, &layout, &files, &checked, &scenario, settings);
@@ -148,6 +151,11 @@ impl Draft {
     /// Number of orders of the scenario, if it has one and that can be read.
     pub fn orders(&self) -> Option<usize> {
         self.orders
+    }
+
+    /// Number of items that the sinks of a goal should collect, if the scenario has one and can be read.
+    pub fn items(&self) -> Option<u64> {
+        self.items
     }
 
     /// The line with these values, and with its instances in layout order or in one drawn from `order`. Replication 0 is
