@@ -313,7 +313,7 @@ const Motion = (() => {
   }
 
   return {
-    IDENTITY, items, kindAt, then, point, turned, jointsAt, framesAt, positionAt, cylinderFrame, travelAt, frameOn,
+    IDENTITY, items, kindAt, then, point, turned, jointsAt, framesAt, positionAt, cylinderFrame, strokeFrame, travelAt, frameOn,
     pointOn, endsOf, outAt, laneOf, itemAt, carrierOf, placeBy, yawOf,
   };
 })();
