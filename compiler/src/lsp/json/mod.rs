@@ -7,6 +7,7 @@ mod tree;
 
 pub use tree::{Node, Wanted, parse};
 
+use super::completion::MOST_WORDS;
 use super::hover::escaped;
 use crate::ir::Model;
 use crate::schema;
@@ -83,7 +84,7 @@ pub fn completion(line: &Line, of: Of, text: &str, offset: usize) -> Option<Comp
     let place = tree.place(offset)?;
     let schema = schema(line, of);
     let rules = rules::at(&schema, &place.path, &place.around);
-    let named = names::names(line, of, &place).into_iter();
+    let named = names::names(line, of, &place).into_iter().take(MOST_WORDS);
     let mut words: Vec<Word> =
         named.map(|name| Word { value: name.into(), detail: "", doc: String::new() }).collect();
     match place.wanted {
