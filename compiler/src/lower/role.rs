@@ -463,7 +463,7 @@ impl<'a> Line<'a> {
             Diagnostic::new(
                 "E0506",
                 object.name.span,
-                format!("`{}` wants {wanted} `{}`, and has {found}", object.name.value, role.name),
+                format!("`{}` needs {wanted} `{}`, and has {found}", object.name.value, role.name),
             )
             .other(role.place, "the role is declared here")
             .help("add or move machines, or narrow the role with \"takes_from\" or \"hands_to\""),

@@ -198,7 +198,7 @@ fn a_point_that_fails_is_a_row_with_its_reason() {
     assert!(reason(0).starts_with("E0401: kitting cannot hand over to agv3"), "{}", reason(0));
     assert!(reason(1).starts_with("E0"), "{}", reason(1));
     assert!(reason(2).starts_with("time limit: "), "{}", reason(2));
-    assert_eq!(reason(3), "E0503: this is no value for `capacity`");
+    assert_eq!(reason(3), "E0503: this is not a value for `capacity`");
     assert!(reason(4).starts_with("E0102: ") && reason(5) == reason(4), "{}", reason(4));
     for (row, is_refused) in rows.iter().zip([true, true, false, true, true, true]) {
         assert_eq!(row["finished"], false);
@@ -228,10 +228,10 @@ fn rows_are_aligned_and_lists_may_hold_commas() {
         sweep("text", "agv.capacity=13,100"),
         "\
 layout    agv.capacity       orders    s/order     simulated  reason
-default             13       0 of 1          -             -  E0503: this is no value for `capacity`
-default            100       0 of 1          -             -  E0503: this is no value for `capacity`
-less_agv            13       0 of 1          -             -  E0503: this is no value for `capacity`
-less_agv           100       0 of 1          -             -  E0503: this is no value for `capacity`
+default             13       0 of 1          -             -  E0503: this is not a value for `capacity`
+default            100       0 of 1          -             -  E0503: this is not a value for `capacity`
+less_agv            13       0 of 1          -             -  E0503: this is not a value for `capacity`
+less_agv           100       0 of 1          -             -  E0503: this is not a value for `capacity`
 
 s/order by agv.capacity        13       100
 default                         -         -
@@ -242,10 +242,10 @@ less_agv                        -         -
         sweep("csv", "agv.capacity=[1,2],{\"a\":3}"),
         "\
 layout,agv.capacity,finished,reason,orders_done,orders,seconds_per_order,simulated_s,trace_hash
-default,\"[1,2]\",false,E0503: this is no value for `capacity`,0,1,,,
-default,\"{\"\"a\"\":3}\",false,E0503: this is no value for `capacity`,0,1,,,
-less_agv,\"[1,2]\",false,E0503: this is no value for `capacity`,0,1,,,
-less_agv,\"{\"\"a\"\":3}\",false,E0503: this is no value for `capacity`,0,1,,,
+default,\"[1,2]\",false,E0503: this is not a value for `capacity`,0,1,,,
+default,\"{\"\"a\"\":3}\",false,E0503: this is not a value for `capacity`,0,1,,,
+less_agv,\"[1,2]\",false,E0503: this is not a value for `capacity`,0,1,,,
+less_agv,\"{\"\"a\"\":3}\",false,E0503: this is not a value for `capacity`,0,1,,,
 "
     );
     let rows = sweep("jsonl", "agv.capacity=[1,2],many");

@@ -24,8 +24,8 @@ impl Context<'_, '_> {
             (_, other) => {
                 let name = self.checker.type_name(other);
                 self.report(
-                    Diagnostic::new("E0315", span, format!("a value of type {name} has no sign"))
-                        .help("negate numbers only"),
+                    Diagnostic::new("E0315", span, format!("a value of type {name} cannot be negated"))
+                        .help("`-` before a value is for numbers"),
                 );
                 None
             }
@@ -130,11 +130,11 @@ impl Context<'_, '_> {
             let help = match (a.ty, b.ty) {
                 (Scalar::Time, Scalar::Int { .. } | Scalar::Real) => unit_help(right),
                 (Scalar::Int { .. } | Scalar::Real, Scalar::Time) => unit_help(left),
-                _ => "numbers and times have an order; other values are equal or not".into(),
+                _ => "`<` and `>` are for two numbers or two times; values of one other type can be compared with `=` and `<>`".into(),
             };
             let (left, right) = (self.checker.type_name(a.ty), self.checker.type_name(b.ty));
             self.report(
-                Diagnostic::new("E0315", span, format!("{left} and {right} cannot be compared in this way"))
+                Diagnostic::new("E0315", span, format!("this comparison does not take {left} and {right}"))
                     .help(help),
             );
             return None;
@@ -174,11 +174,11 @@ impl Context<'_, '_> {
                 let help = match (a, b, operator) {
                     (Scalar::Time, Scalar::Int { .. } | Scalar::Real, Operator::Add) => unit_help(right),
                     (Scalar::Int { .. } | Scalar::Real, Scalar::Time, Operator::Add) => unit_help(left),
-                    _ => "`+ - * /` join numbers; `+ -` points; a time can be added to a time or multiplied by a whole number".into(),
+                    _ => "`+ - * /` are for numbers, `+ -` for points; a time can be added to a time or multiplied by a whole number".into(),
                 };
                 let (left, right) = (self.checker.type_name(a), self.checker.type_name(b));
                 self.report(
-                    Diagnostic::new("E0315", span, format!("{left} and {right} cannot be joined in this way"))
+                    Diagnostic::new("E0315", span, format!("this operator does not take {left} and {right}"))
                         .help(help),
                 );
                 None
@@ -195,7 +195,7 @@ impl Context<'_, '_> {
     fn time_product(&mut self, time: Expr, factor: Expr, lo: i32, span: Span) -> Option<Expr> {
         if lo < 0 {
             self.report(
-                Diagnostic::new("E0316", span, "this duration could be negative")
+                Diagnostic::new("E0316", span, "this time could be negative")
                     .help("multiply by a number that is 0 or more"),
             );
             return None;
