@@ -333,6 +333,9 @@ mod tests {
         assert_eq!(place("{\"a\": [{\"b\": 1, |], \"c\": 2}"), at("a/0", new.clone(), ""));
         assert_eq!(place("{\"a\": [|, \"c\": 2}"), at("a/0", Wanted::Value, ""));
         assert_eq!(place("{\"a\" |\n  \"b\": 1}"), at("", new, ""));
+        // The key behind a missing value is a key.
+        let old = Wanted::Key { has_colon: true };
+        assert_eq!(place("{\"a\":\n  \"b|c\": 1}"), at("", old, "\"bc\""));
     }
 
     #[test]
