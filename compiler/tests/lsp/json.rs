@@ -70,7 +70,7 @@ impl Open {
 fn keys_of_a_layout_are_those_that_are_not_there_yet() {
     let mut open = open("layout-keys", "line.json");
     let found = open.labels(&LAYOUT.replacen('|', "", 1).replacen('{', "{\n  ^", 1));
-    assert_eq!(found, ["$schema", "may_touch", "name", "scan_ms", "scenario"]);
+    assert_eq!(found, ["$schema", "may_touch", "name", "panel", "scan_ms", "scenario"]);
     assert_eq!(open.with_robot("{\"^"), ["hands_to", "name", "parameters", "pose", "takes_from", "type"]);
     // Of a type that is known its own keys too, wherever the type stands.
     let found = open.with_robot("{\"ori^\", \"name\": \"b\", \"type\": \"conveyor\"}");
