@@ -4,6 +4,8 @@
 mod client;
 #[path = "lsp/diagnostics.rs"]
 mod diagnostics;
+#[path = "lsp/json.rs"]
+mod json;
 #[path = "lsp/messages.rs"]
 mod messages;
 #[path = "lsp/names.rs"]

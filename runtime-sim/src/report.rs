@@ -28,6 +28,8 @@ pub struct Report {
     pub orders: usize,
     /// `None` if none was made.
     pub seconds_per_order: Option<f64>,
+    /// How many items of a goal the sinks have, and how many they should have; `None` without such a goal.
+    pub collected: Option<[u64; 2]>,
     /// Of orders without end those that have opened.
     pub order_times: Vec<OrderTimes>,
     /// Those that were raised, in layout order.
@@ -162,6 +164,7 @@ impl Report {
             orders_done,
             orders: if is_endless { orders_done } else { line.scenario.orders.len() },
             seconds_per_order: (orders_done > 0).then(|| simulated_s / orders_done as f64),
+            collected: collected(line, plant),
             order_times,
             machines: line
                 .machines
@@ -196,6 +199,10 @@ impl Report {
             json.put_int("orders_done", self.orders_done as u64);
             json.put_int("orders", self.orders as u64);
             json.put_real("seconds_per_order", self.seconds_per_order);
+            if let Some([collected, asked]) = self.collected {
+                json.put_int("items_collected", collected);
+                json.put_int("items_asked", asked);
+            }
             json.put_list("order_times", &self.order_times, |json, times| {
                 json.put_int("order", times.number as u64);
                 json.put_text("station", &times.station);
@@ -254,6 +261,22 @@ impl Report {
             }
         });
     }
+}
+
+/// Items that the sinks of a goal have of what they should have, and all that they should have.
+fn collected(line: &Line, plant: &Plant) -> Option<[u64; 2]> {
+    let Goal::Collected(sinks) = &line.scenario.goal else { return None };
+    let mut sums = [0, 0];
+    for sink in sinks {
+        let is_here = Carrier::Sink { machine: sink.machine, part: sink.part };
+        for (kind, &asked) in sink.items.iter().enumerate() {
+            let items = plant.items().all().iter();
+            let here = items.filter(|item| item.carrier == is_here && item.kind == kind).count() as u64;
+            sums[0] += here.min(u64::from(asked));
+            sums[1] += u64::from(asked);
+        }
+    }
+    Some(sums)
 }
 
 /// The alarms that a trace has as raised.

@@ -65,20 +65,34 @@ const Figures = (() => {
     const share = (key) => ({
       name: key, isNumber: true, show: (row) => percent(row[key + '_s'], whole), sort: (row) => row[key + '_s'],
     });
+    const piece = (className, title, s) => {
+      const part = element('span', className);
+      part.style.width = `${(100 * s) / whole}%`;
+      part.title = `${title} ${s.toFixed(2)} s`;
+      return part;
+    };
+    const states = ({ machine }) => machine.in_states.map(([state, s]) => [Data.stateName(machine.number, state), s]);
+    // What is counted as moving has a command under way: of a machine without commands the bar has its states.
     const bar = (row) => {
-      const parts = Data.COUNTED.map((key) => {
-        const part = element('span', key);
-        part.style.width = `${(100 * row[key + '_s']) / whole}%`;
-        part.title = `${key} ${row[key + '_s'].toFixed(2)} s`;
+      if (row.machine.has_commands) {
+        return element('div', 'stack', ...Data.COUNTED.map((key) => piece(key, key, row[key + '_s'])));
+      }
+      const parts = states(row).map(([name, s], i, all) => {
+        const part = piece('working', name, s);
+        part.style.opacity = String(1 - (0.8 * i) / all.length);
         return part;
       });
-      return element('div', 'stack', ...parts);
+      return element('div', 'stack', ...parts, piece('stopped', 'stopped', row.stopped_s));
     };
+    const longest = (row) => states(row).slice(0, 3).map(([name, s]) => `${name} ${percent(s, whole)}`).join(', ');
     const awaited = (row) => Object.entries(row.waiting_for || {}).sort((a, b) => b[1] - a[1]).map(([name]) => name);
     byId('use').append(sortedTable([
       { name: 'machine', show: (row) => row.machine.name, sort: (row) => row.machine.number },
       { name: 'time', show: bar, sort: (row) => row.moving_s + row.working_s },
-      ...Data.COUNTED.map(share),
+      ...Data.COUNTED.map(share).map((column) => (column.name !== 'moving' ? column : {
+        ...column, show: (row) => (row.machine.has_commands ? column.show(row) : 'no commands'),
+      })),
+      { name: 'longest in', show: longest },
       { name: 'waited for', show: (row) => awaited(row).slice(0, 4).join(', ') + (awaited(row).length > 4 ? ', …' : '') },
     ], rows, { chosen: (row) => Player.choose({ machine: row.machine.number }), empty: 'There are no machines.' }));
   }
@@ -86,11 +100,11 @@ const Figures = (() => {
   /* ---- Throughput ---- */
 
   function throughput() {
-    const width = 3, isOrders = raw.made.length > 0;
-    const list = isOrders ? raw.made : raw.collected;
+    const width = 3, { what } = raw.throughput;
+    const list = raw.made.length ? raw.made : raw.collected;
     const times = [];
     for (let i = 0; i < list.length; i += width) times.push(list[i] * Data.scanMs);
-    const box = byId('throughput'), what = isOrders ? 'orders made' : 'items collected';
+    const box = byId('throughput');
     if (!times.length) {
       box.append(element('p', 'muted', 'No order was made, and no item came into a sink.'));
       return;
@@ -103,14 +117,9 @@ const Figures = (() => {
   /* Bars: how many in each of some equal times, per hour. A line: how many so far. */
   function chart(times, what) {
     const [W, H, L, R, T, B] = [640, 250, 48, 48, 26, 30];
-    const spans = [1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600, 7200, 14400].map((s) => s * 1000);
-    const wanted = Math.min(Math.max(times.length, 6), 36);
-    const span = spans.find((ms) => Data.endMs / ms <= wanted) || spans[spans.length - 1];
-    const counts = new Array(Math.ceil(Data.endMs / span)).fill(0);
-    times.forEach((ms) => counts[Math.min(Math.floor(ms / span), counts.length - 1)]++);
+    const { steps, span_ms: span } = raw.throughput;
     const x = (ms) => L + (ms / Data.endMs) * (W - L - R);
-    // The last one may be shorter than the others.
-    const rates = counts.map((n, i) => n / ((Math.min((i + 1) * span, Data.endMs) - i * span) / 3600000));
+    const rates = steps.map(([begin, end, count]) => (count * 3600000) / (end - begin || 1));
     const [mostRate, mostCount] = [nice(Math.max(...rates)), nice(times.length)];
     const y = (share) => H - B - share * (H - T - B);
     const made = svg('svg', { viewBox: `0 0 ${W} ${H}`, class: 'chart', role: 'img' });
@@ -120,9 +129,10 @@ const Figures = (() => {
       made.append(svg('text', { x: W - R + 6, y: y(share) + 4 }, String(Math.round(mostCount * share * 100) / 100)));
     }
     rates.forEach((rate, i) => {
-      const [from, to] = [x(i * span), x(Math.min((i + 1) * span, Data.endMs))];
+      const [begin, end, count] = steps[i];
+      const [from, to] = [x(begin), x(end)];
       const bar = svg('rect', { x: from + 0.5, width: Math.max(to - from - 1, 0.5), y: y(rate / mostRate), height: (rate / mostRate) * (H - T - B), class: 'rate' });
-      bar.append(svg('title', {}, `${clock(i * span, 0)} to ${clock(Math.min((i + 1) * span, Data.endMs), 0)}: ${counts[i]}`));
+      bar.append(svg('title', {}, `${clock(begin, 0)} to ${clock(end, 0)}: ${count}`));
       made.append(bar);
     });
     let d = `M${x(0)} ${y(0)}`;

@@ -334,7 +334,8 @@ const Motion = (() => {
   }
 
   return {
-    IDENTITY, items, kindAt, then, point, turned, jointsAt, framesAt, positionAt, headingAt, cylinderFrame, travelAt, frameOn,
+    IDENTITY, items, kindAt, then, point, turned, jointsAt, framesAt, positionAt, headingAt, cylinderFrame, strokeFrame,
+    travelAt, frameOn,
     pointOn, endsOf, outAt, laneOf, itemAt, carrierOf, placeBy, yawOf,
   };
 })();

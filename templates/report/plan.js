@@ -292,6 +292,7 @@ const Plan = (() => {
     drawStill(true);
     drawTrail();
     drawn = drawMoving(ms);
+    machines.forEach((machine) => Cylinders.draw(machine, ms));
     drawItems(ms);
     machines.forEach((machine) => Conveyors.drawLamps(machine, ms));
     drawContacts(ms);

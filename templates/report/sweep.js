@@ -4,7 +4,9 @@
 (() => {
   const raw = JSON.parse(byId('data').textContent);
   const { names, rows } = raw;
-  const done = rows.filter((row) => row.finished && row.seconds_per_order !== null);
+  const { figure } = raw;
+  const figureOf = (row) => row[figure.key];
+  const done = rows.filter((row) => row.finished && figureOf(row) !== null);
 
   const nameOf = (row, name) => (name.kind === 'set' ? row.set[name.key] : row[name.key]);
   const textOf = (row, name) => {
@@ -29,8 +31,13 @@
     return sortedTable([
       { name: 'row', isNumber: true, show: link, sort: (row) => row.row },
       ...names.map((name) => ({ name: name.title, show: (row) => textOf(row, name), sort: (row) => (typeof nameOf(row, name) === 'number' ? nameOf(row, name) : textOf(row, name)) })),
-      { name: 'orders', isNumber: true, show: (row) => (row.orders === null ? '–' : `${row.orders_done} of ${row.orders}`), sort: (row) => row.orders_done },
-      { name: 'seconds per order', isNumber: true, show: (row) => number(row.seconds_per_order), sort: (row) => row.seconds_per_order },
+      ...(figure.key === 'goal_s' ? [
+        { name: 'items', isNumber: true, show: (row) => (row.items_asked === null ? '–' : `${row.items} of ${row.items_asked}`), sort: (row) => row.items },
+        { name: 'items per hour', isNumber: true, show: (row) => number(row.items_per_hour, 1), sort: (row) => row.items_per_hour },
+      ] : [
+        { name: 'orders', isNumber: true, show: (row) => (row.orders === null ? '–' : `${row.orders_done} of ${row.orders}`), sort: (row) => row.orders_done },
+      ]),
+      { name: figure.title.toLowerCase(), isNumber: true, show: (row) => number(figureOf(row)), sort: figureOf },
       ...more.map(([key, title, decimals]) => ({ name: title, isNumber: true, show: (row) => number(row[key], decimals), sort: (row) => row[key] })),
       { name: 'simulated, s', isNumber: true, show: (row) => number(row.simulated_s), sort: (row) => row.simulated_s },
       { name: 'reason', show: (row) => row.reason },
@@ -41,8 +48,8 @@
   function chart(name) {
     const [W, H, L, R, T, B] = [640, 270, 54, 16, 14, 46];
     const values = [...new Set(done.map((row) => textOf(row, name)))];
-    const low = Math.min(...done.map((row) => row.seconds_per_order - (row.half_width || 0)));
-    const high = Math.max(...done.map((row) => row.seconds_per_order + (row.half_width || 0)));
+    const low = Math.min(...done.map((row) => figureOf(row) - (row.half_width || 0)));
+    const high = Math.max(...done.map((row) => figureOf(row) + (row.half_width || 0)));
     const room = (high - low || high * 0.1 || 1) * 0.12;
     const [from, to] = [Math.max(0, low - room), high + room];
     const x = (i) => L + ((i + 0.5) / values.length) * (W - L - R);
@@ -58,15 +65,15 @@
       const own = done.filter((row) => textOf(row, name) === value);
       own.forEach((row) => {
         if (row.half_width) {
-          const [top, bottom] = [row.seconds_per_order + row.half_width, row.seconds_per_order - row.half_width];
+          const [top, bottom] = [figureOf(row) + row.half_width, figureOf(row) - row.half_width];
           made.append(svg('line', { x1: x(i), x2: x(i), y1: y(top), y2: y(bottom), class: 'whisker' }));
         }
-        const dot = svg('circle', { cx: x(i), cy: y(row.seconds_per_order), r: 4, class: 'dot' });
+        const dot = svg('circle', { cx: x(i), cy: y(figureOf(row)), r: 4, class: 'dot' });
         const about = names.map((other) => `${other.title} ${textOf(row, other)}`).join(', ');
-        dot.append(svg('title', {}, `row ${row.row}: ${about}: ${number(row.seconds_per_order)} s`));
+        dot.append(svg('title', {}, `row ${row.row}: ${about}: ${number(figureOf(row))} s`));
         made.append(dot);
       });
-      means.push([x(i), y(own.reduce((sum, row) => sum + row.seconds_per_order, 0) / own.length)]);
+      means.push([x(i), y(own.reduce((sum, row) => sum + figureOf(row), 0) / own.length)]);
       const step = Math.ceil(values.length / 12);
       if (i % step === 0) made.append(svg('text', { x: x(i), y: H - B + 18, class: 'middle' }, value.length > 18 ? value.slice(0, 17) + '…' : value));
     });
@@ -77,15 +84,15 @@
 
   function draw() {
     document.title = 'Sweep – report';
-    const best = done.reduce((least, row) => (!least || row.seconds_per_order < least.seconds_per_order ? row : least), null);
-    const figures = [['rows', String(rows.length)], ['all orders made', String(rows.filter((row) => row.finished).length)]];
-    if (best) figures.push(['least seconds per order', `${number(best.seconds_per_order)}, row ${best.row}`]);
+    const best = done.reduce((least, row) => (!least || figureOf(row) < figureOf(least) ? row : least), null);
+    const figures = [['rows', String(rows.length)], [figure.done, String(rows.filter((row) => row.finished).length)]];
+    if (best) figures.push([`least ${figure.title.toLowerCase()}`, `${number(figureOf(best))}, row ${best.row}`]);
     byId('figures').append(...figures.map(([name, value]) =>
       element('div', 'figure', element('dt', '', name), element('dd', '', value))));
     byId('rows').append(table());
     const varied = names.filter((name) => new Set(done.map((row) => textOf(row, name))).size > 1);
     byId('charts').append(...varied.map((name) =>
-      element('section', 'panel', element('h2', '', `Seconds per order by ${name.title}`), chart(name))));
+      element('section', 'panel', element('h2', '', `${figure.title} by ${name.title}`), chart(name))));
     byId('tool').textContent = raw.tool;
   }
 

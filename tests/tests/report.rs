@@ -140,6 +140,12 @@ fn the_page_draws_plays_and_zooms_and_shows_the_places_of_the_run() {
         assert!((ratio - 2.0).abs() < 1e-9 && zoomed["plan"] == true, "{name}: {zoomed}");
         let machine = data(&run.page)["machines"][0]["name"].as_str().expect("a name").to_string();
         assert!(found["inspector"].as_str().is_some_and(|text| text.starts_with(&machine)), "{name}");
+        let steps = data(&run.page)["throughput"]["steps"].as_array().map(Vec::len);
+        assert_eq!(found["bars"].as_u64(), steps.map(|steps| steps as u64), "{name}");
+        // Only the default line and the tending cell have machines with commands.
+        let moving = found["moving"].as_array().expect("cells");
+        let has_commands = moving.iter().any(|cell| cell != "no commands");
+        assert_eq!(has_commands, ["default", "tending"].contains(&name), "{name}: {moving:?}");
         let percent = |value: &Value| -> f64 {
             value.as_str().and_then(|text| text.strip_suffix(" %")?.parse().ok()).expect("a percentage")
         };
@@ -241,5 +247,10 @@ fn times_in_states_add_up_to_the_accounts() {
         for (sum, key) in sums.iter().zip(["moving_s", "working_s", "waiting_s", "stopped_s"]) {
             assert!((sum - account[key].as_f64().expect("a number")).abs() < 1e-6, "{name} {key}: {sum}");
         }
+        let in_states: Vec<(usize, f64)> =
+            serde_json::from_value(data["machines"][machine]["in_states"].clone()).expect("times in states");
+        let sum: f64 = in_states.iter().map(|(_, s)| s).sum();
+        assert!((sum - (sums[0] + sums[1] + sums[2])).abs() < 1e-6, "{name}: {sum}");
+        assert!(in_states.is_sorted_by(|a, b| a.1 >= b.1), "{name}: {in_states:?}");
     }
 }

@@ -19,7 +19,9 @@ mod motions;
 mod numbers;
 mod paths;
 mod signals;
+mod states;
 pub mod sweep;
+mod throughput;
 
 use crate::ir::System;
 use crate::lower::Project;
@@ -54,6 +56,7 @@ const SCRIPTS: &[&str] = &[
     part!("scene.js"),
     part!("pen.js"),
     part!("conveyors.js"),
+    part!("cylinders.js"),
     part!("plan.js"),
     part!("timeline.js"),
     part!("gantt.js"),
@@ -109,6 +112,13 @@ fn data(project: &Project, sources: &Sources, line: &Line, recorded: &Recorded, 
         });
     let items: Vec<Value> = items.collect();
     let long = Long::new(line, recorded, &signals);
+    let mut machines = machine::machines(line, &signals);
+    for (number, machine) in machines.iter_mut().enumerate() {
+        let times = states::times(&history.machines[number], report.scans).into_iter();
+        let seconds = |scans: u64| (scans * u64::from(line.scan_ms)) as f64 / 1000.0;
+        machine["in_states"] = times.map(|(state, scans)| json!([state, seconds(scans)])).collect();
+        machine["has_commands"] = json!(system.automaton_of(number).device.is_commanded());
+    }
     let head = json!({
         "format": FORMAT,
         "tool": format!("autogen {}", version::NUMBER),
@@ -120,7 +130,8 @@ fn data(project: &Project, sources: &Sources, line: &Line, recorded: &Recorded, 
         }).collect::<Vec<_>>(),
         "automata": automata::automata(system, sources),
         "types": types,
-        "machines": machine::machines(line, &signals),
+        "machines": machines,
+        "throughput": throughput::throughput(&history.events, u64::from(line.scan_ms), report.scans * u64::from(line.scan_ms)),
         "obstacles": machine::obstacles(line),
         "signals": signals::signals_json(&signals),
         "words_until_s": history.words_until.map(|scan| (scan * u64::from(line.scan_ms)) as f64 / 1000.0),

@@ -244,7 +244,10 @@ impl Context<'_, '_> {
         };
         let is_active = matches!(kind, ir::RoleKind::Takes | ir::RoleKind::Hands);
         if is_active && !self.automaton.device.is_arm() {
-            let message = format!("a `{}` has no arm to take or to put with", self.automaton.device.name);
+            let message = format!(
+                "a `{}` has no arm, so it takes nothing and hands nothing over",
+                self.automaton.device.name
+            );
             self.report(
                 Diagnostic::new("E0322", tree.name.span, message)
                     .help("`takes from` and `hands to` belong to the arm; a passive place says `is ... accepts at` or `offers at`"),
@@ -290,7 +293,7 @@ impl Context<'_, '_> {
                 _ if self.broken.contains(&parameter.name) => continue,
                 _ => {
                     let message = format!(
-                        "`{}` shows no `{}`, which `{}` has",
+                        "`{}` has no parameter `{}`, which the interface `{}` asks for",
                         self.automaton.name, parameter.name, clause.value
                     );
                     self.report(Diagnostic::new("E0323", clause.span, message).help(format!(
@@ -315,7 +318,10 @@ impl Context<'_, '_> {
                     Diagnostic::new(
                         "E0323",
                         clause.span,
-                        format!("`{}` is {have}, `{}` wants {want}", parameter.name, clause.value),
+                        format!(
+                            "`{}` is {have}, and the interface `{}` asks for {want}",
+                            parameter.name, clause.value
+                        ),
                     )
                     .other(place, "declared here")
                     .help("give both the same type and size"),
@@ -342,12 +348,12 @@ impl Context<'_, '_> {
         let Some(found) = known.iter().find(|h| h.name == tree.place.value) else {
             let names: Vec<&str> = known.iter().map(|h| h.name.as_str()).collect();
             let help = if names.is_empty() {
-                "this device hands nothing over".into()
+                "this device has no place for handovers".into()
             } else {
                 format!("its places are {}", names.join(", "))
             };
             let message = format!(
-                "a `{}` has no place `{}` at which items change hands",
+                "a `{}` has no place `{}` for handovers",
                 self.automaton.device.name, tree.place.value
             );
             self.report(Diagnostic::new("E0324", tree.place.span, message).help(help));
@@ -430,7 +436,7 @@ impl Context<'_, '_> {
                         "E0211",
                         define.name.span,
                         format!(
-                            "`{}` is the end of a chain of {DEEPEST_DEFINE} definitions",
+                            "`{}` is built on a chain of {DEEPEST_DEFINE} definitions, the most that are read",
                             define.name.value
                         ),
                     )

@@ -19,7 +19,7 @@ impl Context<'_, '_> {
             Tree::Error => None,
             Tree::List(_) => {
                 self.report(
-                    Diagnostic::new("E0312", tree.span, "a list stands in devices only")
+                    Diagnostic::new("E0312", tree.span, "a list can be written in devices only")
                         .help("an automaton has arrays: write one value for each element"),
                 );
                 None
@@ -88,8 +88,11 @@ impl Context<'_, '_> {
     /// `done` or `failed`.
     pub(super) fn answer(&mut self, name: &str, span: Span) -> Option<Expr> {
         if !self.automaton.device.is_commanded() {
-            let message = format!("the device `{}` obeys no commands", self.automaton.device.name);
-            self.report(Diagnostic::new("E0314", span, message).help("`done` and `failed` answer a command"));
+            let message = format!("the device `{}` has no commands", self.automaton.device.name);
+            self.report(
+                Diagnostic::new("E0314", span, message)
+                    .help("`done` and `failed` say how a command has ended"),
+            );
             return None;
         }
         let kind = if name == "done" { ExprKind::Done } else { ExprKind::Failed };
@@ -103,8 +106,8 @@ impl Context<'_, '_> {
         }
         let name = self.checker.type_name(expr.ty);
         self.report(
-            Diagnostic::new("E0315", tree.span, format!("this has type {name}, a robot is wanted"))
-                .help("`reaches` stands between two robots"),
+            Diagnostic::new("E0315", tree.span, format!("this has type {name}, and a robot is expected"))
+                .help("write the names of two robots, one on each side of `reaches`"),
         );
         None
     }
@@ -119,8 +122,12 @@ impl Context<'_, '_> {
             (found, _) => {
                 let (found, wanted) = (self.checker.type_name(found), self.checker.type_name(wanted));
                 self.report(
-                    Diagnostic::new("E0315", tree.span, format!("this has type {found}, {wanted} is wanted"))
-                        .help(type_help(&found, &wanted, tree)),
+                    Diagnostic::new(
+                        "E0315",
+                        tree.span,
+                        format!("this has type {found}, and {wanted} is expected"),
+                    )
+                    .help(type_help(&found, &wanted, tree)),
                 );
                 None
             }
@@ -189,7 +196,7 @@ fn type_help(found: &str, wanted: &str, tree: &ast::Expr) -> String {
     match (found, wanted) {
         (_, "time") => unit_help(tree),
         ("real", _) if wanted.starts_with("int") => {
-            "a real does not become a whole number; compute with whole numbers".into()
+            "a real is not rounded to a whole number; compute with whole numbers".into()
         }
         _ => format!("write a value of type {wanted}"),
     }

@@ -63,6 +63,15 @@ impl Facts {
             ExprKind::Binary(Operator::Multiply, a, b) if expr.ty == Scalar::Time => {
                 Interval::new(0.0, self.of(a).hi * self.of(b).hi)
             }
+            // Of reals one may be NaN, and then both say nothing.
+            ExprKind::Min(a, b) if expr.ty != Scalar::Real => {
+                let (a, b) = (self.of(a), self.of(b));
+                Interval::new(a.lo.min(b.lo), a.hi.min(b.hi))
+            }
+            ExprKind::Max(a, b) if expr.ty != Scalar::Real => {
+                let (a, b) = (self.of(a), self.of(b));
+                Interval::new(a.lo.max(b.lo), a.hi.max(b.hi))
+            }
             _ => {
                 let declared = of_type(expr.ty);
                 key(expr).and_then(|k| self.known.get(&k)).map_or(declared, |known| declared.meet(*known))

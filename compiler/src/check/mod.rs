@@ -132,8 +132,12 @@ fn declarations(files: &[(FileId, ast::File)], diagnostics: &mut Vec<Diagnostic>
         for name in names {
             if name.value == "Kind" {
                 diagnostics.push(
-                    Diagnostic::new("E0301", name.span, "`Kind` is the enumeration of the parts")
-                        .help("the scenario declares the kinds; choose another name"),
+                    Diagnostic::new(
+                        "E0301",
+                        name.span,
+                        "`Kind` is the name of the enumeration of the kinds of part",
+                    )
+                    .help("the scenario declares the kinds; choose another name"),
                 );
             }
             match seen.get(&name.value) {
@@ -415,7 +419,7 @@ impl Checker<'_> {
                 let diagnostic = Diagnostic::new(
                     "E0303",
                     name.span,
-                    format!("`{}` is no value of `{}`", name.value, cell.name.value),
+                    format!("`{}` is not a value of `{}`", name.value, cell.name.value),
                 )
                 .help(format!("its values are {}", members.join(", ")));
                 self.report(diagnostic);
@@ -455,7 +459,7 @@ impl Checker<'_> {
                 Diagnostic::new(
                     "E0304",
                     name.span,
-                    format!("no automaton is `{}`, which a role asks for", name.value),
+                    format!("no automaton has the interface `{}`, which a role asks for", name.value),
                 )
                 .help(format!("write `automaton ... is {}`", name.value)),
             );

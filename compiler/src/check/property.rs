@@ -123,8 +123,8 @@ impl Context<'_, '_> {
             Some(Expr { ty, kind: ExprKind::Read(Place::Port { port, index: None }) })
         };
         let Some((command, answered)) = read("cmd").zip(read("ack")) else {
-            let message = format!("a `{}` is given no commands", self.automaton.device.name);
-            let help = "say `answer within` in an automaton whose device has commands";
+            let message = format!("the device `{}` has no commands", self.automaton.device.name);
+            let help = "write `answer within` in an automaton whose device has commands";
             self.report(Diagnostic::new("E0335", place, message).help(help));
             return None;
         };

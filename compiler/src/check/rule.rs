@@ -22,22 +22,23 @@ impl Context<'_, '_> {
         let known = self.known(place);
         let diagnostic = match (&rule, side) {
             (Rule::Owner, Side::Others) => wrong(
-                format!("only its owner writes `{name}`"),
+                format!("only its owner may write `{name}`"),
                 "ask the owner through a cell that others may set, or change the rule of the cell with `by ...`",
             ),
             (Rule::Handshake, Side::Others) if constant != Some(true) => {
-                wrong(format!("others only set `{name}`"), "write `:= true`; the owner resets it")
+                wrong(format!("others may only set `{name}` to true"), "write `:= true`; the owner resets it")
             }
-            (Rule::Handshake, Side::Owner) if constant != Some(false) => {
-                wrong(format!("the owner only resets `{name}`"), "write `:= false`; others set it")
-            }
+            (Rule::Handshake, Side::Owner) if constant != Some(false) => wrong(
+                format!("the owner may only reset `{name}` to false"),
+                "write `:= false`; others set it",
+            ),
             (Rule::Lock, _) => match constant {
                 Some(true) if known.holds(1.0) => wrong(
-                    format!("`{name}` may be held by somebody else here"),
+                    format!("another machine may hold the lock `{name}` here"),
                     "a lock is taken when it is free: add `not` of it to the guard of this transition",
                 ),
                 None => wrong(
-                    format!("a lock is taken or given back: `{name}` is true or false"),
+                    format!("the lock `{name}` is written with `true` or `false` only"),
                     "write `:= true` or `:= false`",
                 ),
                 _ => None,
@@ -96,7 +97,7 @@ impl Context<'_, '_> {
         };
         let value =
             possible.first().map(|v| self.checker.model.enums[id.0].members[*v].clone()).unwrap_or_default();
-        let who = if side == Side::Owner { "others write" } else { "the owner writes" };
+        let who = if side == Side::Owner { "only others may write" } else { "only the owner may write" };
         Some(Diagnostic::new("E0333", span, format!("while the token is `{value}`, {who} `{name}`")).help(
             "wait in the guard for a value that gives the right to write, or change the rule of the token",
         ))

@@ -49,7 +49,7 @@ pub(super) fn check(context: &mut Context, tree: &ast::Automaton) {
                 Diagnostic::new(
                     "E0301",
                     state.name.span,
-                    format!("`{BEGINNING}` is the name of the beginning"),
+                    format!("`{BEGINNING}` is the name of the state before the first step"),
                 )
                 .help("choose another name for this state"),
             );
@@ -68,12 +68,8 @@ pub(super) fn check(context: &mut Context, tree: &ast::Automaton) {
     }
     if tree.initial.is_none() {
         context.report(
-            Diagnostic::new(
-                "E0326",
-                tree.name.span,
-                format!("`{}` does not say where it begins", tree.name.value),
-            )
-            .help("write `initial state ...`, or `initial -> State { updates }`"),
+            Diagnostic::new("E0326", tree.name.span, format!("`{}` has no initial state", tree.name.value))
+                .help("write `initial state ...`, or `initial -> State { updates }`"),
         );
     }
     let states = plain(context, tree);
@@ -310,8 +306,12 @@ impl Context<'_, '_> {
                 if !matches!(expr.ty, Scalar::Int { .. } | Scalar::Real | Scalar::Time) {
                     let name = self.checker.type_name(expr.ty);
                     self.report(
-                        Diagnostic::new("E0315", key.span, format!("values of type {name} have no order"))
-                            .help("choose the least of numbers or times"),
+                        Diagnostic::new(
+                            "E0315",
+                            key.span,
+                            format!("values of type {name} cannot be ordered"),
+                        )
+                        .help("write a number or a time behind `by`"),
                     );
                     return None;
                 }

@@ -24,7 +24,7 @@ impl Checker<'_> {
                         Diagnostic::new(
                             "E0305",
                             tree.span,
-                            format!("the bounds {low}..{high} hold no number"),
+                            format!("no number is within the bounds {low}..{high}"),
                         )
                         .help("write the lower bound first"),
                     );
@@ -96,7 +96,7 @@ impl Checker<'_> {
                 return Some(Extent::By(id));
             }
             self.report(
-                Diagnostic::new("E0305", expr.span, format!("`{name}` is no size of an array"))
+                Diagnostic::new("E0305", expr.span, format!("`{name}` cannot be the size of an array"))
                     .help("write a whole number, or the name of an enumeration"),
             );
             return None;
@@ -126,7 +126,7 @@ impl Checker<'_> {
 
     fn not_whole(&mut self, expr: &ast::Expr) -> Option<i32> {
         self.report(
-            Diagnostic::new("E0305", expr.span, "a whole number must stand here")
+            Diagnostic::new("E0305", expr.span, "a whole number is expected here")
                 .help("bounds and sizes are written as numbers, such as 12 or -1"),
         );
         None
@@ -216,7 +216,7 @@ impl Checker<'_> {
                 .into(),
         };
         self.report(
-            Diagnostic::new("E0305", expr.span, format!("this is no constant of type {name}")).help(help),
+            Diagnostic::new("E0305", expr.span, format!("this is not a constant of type {name}")).help(help),
         );
         None
     }

@@ -63,7 +63,7 @@ impl Context<'_, '_> {
     ) -> Option<UpdateKind> {
         if how != Assign::Set {
             self.report(
-                Diagnostic::new("E0330", span, "a whole array can be assigned only")
+                Diagnostic::new("E0330", span, "`+=` and `-=` do not take a whole array")
                     .help("write an index, or `:=`"),
             );
             return None;
@@ -188,7 +188,7 @@ impl Context<'_, '_> {
             let names: Vec<&str> = device.verbs.iter().map(|v| v.name.as_str()).collect();
             let help = match suggestion(&verb.value, names.iter().copied()) {
                 Some(near) => format!("is `{near}` meant?"),
-                None if names.is_empty() => format!("a `{}` obeys no commands", device.name),
+                None if names.is_empty() => format!("the device `{}` has no commands", device.name),
                 None => format!("a `{}` obeys {}", device.name, names.join(", ")),
             };
             self.report(

@@ -64,6 +64,17 @@ pub fn texts(
     scenario: Option<&Path>,
 ) -> Result<Texts, Failure> {
     let layout = object(sources, path, "layout")?;
+    texts_of(sources, path, layout, given, scenario)
+}
+
+/// The same of a layout whose text has been read; the path says where it stands.
+pub fn texts_of(
+    sources: &mut Sources,
+    path: &Path,
+    layout: FileId,
+    given: &[PathBuf],
+    scenario: Option<&Path>,
+) -> Result<Texts, Failure> {
     let mut specs: Vec<FileId> =
         library::FILES.iter().map(|(name, text)| sources.add(*name, *text)).collect();
     // What is wrong with the layout the compiler reports; here only the files it names are of interest.

@@ -135,6 +135,8 @@ pub fn verdict_json(verdict: Option<&Verdict>, sources: &Sources, found: &[Diagn
         "edges": v.edges.iter().map(|(a, b, m)| json!([a, b, m])).collect::<Vec<_>>(),
         "sources": v.sources,
         "destinations": v.destinations,
+        "joined": v.joined.iter().map(|(from, to)| json!([from, to])).collect::<Vec<_>>(),
+        "sinks": v.sinks,
         "single_points": v.single_points,
         "unreachable": v.unreachable,
         "dead_ends": v.dead_ends,
@@ -160,25 +162,41 @@ fn apart_json(apart: &Apart) -> Value {
 
 /// The verdict in text.
 pub fn verdict(v: &Verdict) -> String {
-    let step_order = format!("step order    {}\n", list(&v.robots));
-    if v.edges.is_empty() && v.sources.is_empty() && v.destinations.is_empty() {
-        return format!("no machine hands anything over to another\n{step_order}");
-    }
     let mut text = String::new();
+    let has_ends = !v.sources.is_empty() || !v.destinations.is_empty();
+    if v.edges.is_empty() && v.joined.is_empty() {
+        text += "no machine hands anything over to another\n";
+    }
+    if !v.edges.is_empty() || !v.destinations.is_empty() {
+        text += &format!(
+            "{} edges (margin: how far the arm stays within its reach at the worst pose)\n",
+            v.edges.len()
+        );
+    }
     let width = v.edges.iter().map(|(a, _, _)| a.len()).max().unwrap_or(0);
     let to_width = v.edges.iter().map(|(_, b, _)| b.len()).max().unwrap_or(0);
-    text += &format!(
-        "{} edges (margin: how far the arm stays within its reach at the worst pose)\n",
-        v.edges.len()
-    );
     for (from, to, margin) in &v.edges {
         text += &format!("  {from:width$} -> {to:to_width$}  {margin:6.3} m\n");
     }
-    text += &format!("sources       {}\n", list(&v.sources));
-    text += &format!("destinations  {}\n", list(&v.destinations));
-    let passed = if v.single_points.is_empty() { "" } else { " (every item passes each of them)" };
-    text += &format!("single points {}{passed}\n", list(&v.single_points));
-    text + &step_order
+    if !v.joined.is_empty() {
+        text += "joined conveyors\n";
+        let width = v.joined.iter().map(|(from, _)| from.len()).max().unwrap_or(0);
+        v.joined.iter().for_each(|(from, to)| text += &format!("  {from:width$} -> {to}\n"));
+    }
+    if has_ends {
+        text += &format!("sources       {}\n", list(&v.sources));
+    }
+    if !v.destinations.is_empty() || has_ends && v.sinks.is_empty() {
+        text += &format!("destinations  {}\n", list(&v.destinations));
+    }
+    if !v.sinks.is_empty() {
+        text += &format!("sinks         {}\n", list(&v.sinks));
+    }
+    if !v.edges.is_empty() {
+        let passed = if v.single_points.is_empty() { "" } else { " (every item passes each of them)" };
+        text += &format!("single points {}{passed}\n", list(&v.single_points));
+    }
+    text + &format!("step order    {}\n", list(&v.robots))
 }
 
 fn list(names: &[String]) -> String {

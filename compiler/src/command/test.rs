@@ -33,6 +33,13 @@ pub struct OfFile {
     pub results: Vec<Result>,
 }
 
+/// A file of tests that has errors, or whose line has.
+pub struct NotRun {
+    pub name: String,
+    /// The first error, on one line.
+    pub first: String,
+}
+
 pub fn run(options: &TestOptions) -> Status {
     let refused = |why: String| {
         complain!("autogen: {why}");
@@ -49,7 +56,7 @@ pub fn run(options: &TestOptions) -> Status {
         Err(why) => return refused(why),
     };
     let mut all = Vec::new();
-    let mut is_wrong = false;
+    let mut not_run = Vec::new();
     for path in &paths {
         match run::file(options, path) {
             Ok(of_file) => {
@@ -58,13 +65,15 @@ pub fn run(options: &TestOptions) -> Status {
             }
             Err(run::End::Wrong(sources, found)) => {
                 print::diagnostics(&sources, &found);
-                is_wrong = true;
+                let name = path.display().to_string();
+                let first = found.first().map(|error| format!("error[{}]: {}", error.code, error.message));
+                not_run.push(NotRun { name, first: first.unwrap_or_default() });
             }
             Err(run::End::Failed(why)) => return refused(why),
         }
     }
     if let Some(junit_file) = junit {
-        let kept = junit_file.write(&junit::text(&all)).and_then(|()| junit_file.keep());
+        let kept = junit_file.write(&junit::text(&all, &not_run)).and_then(|()| junit_file.keep());
         if let Err(why) = kept {
             return refused(why);
         }
@@ -77,12 +86,21 @@ pub fn run(options: &TestOptions) -> Status {
         let (passed, skipped) =
             (count(|o| matches!(o, Outcome::Passed)), count(|o| matches!(o, Outcome::Skipped(_))));
         let skipped = if skipped == 0 { String::new() } else { format!(", {skipped} skipped") };
-        say!("{passed} passed, {failed} failed{skipped}");
+        let files = match not_run.as_slice() {
+            [] => String::new(),
+            [one] => format!("the tests of {} were not run: see the errors", one.name),
+            many => format!("the tests of {} files were not run: see the errors", many.len()),
+        };
+        match (all.is_empty(), not_run.is_empty()) {
+            (true, false) => say!("no test was run; {files}"),
+            (false, false) => say!("{passed} passed, {failed} failed{skipped}; {files}"),
+            (_, true) => say!("{passed} passed, {failed} failed{skipped}"),
+        }
     }
-    match (is_wrong, failed) {
-        (true, _) => Status::WrongInput,
-        (false, 0) => Status::Done,
-        (false, _) => Status::NotReached,
+    match (not_run.is_empty(), failed) {
+        (false, _) => Status::WrongInput,
+        (true, 0) => Status::Done,
+        (true, _) => Status::NotReached,
     }
 }
 

@@ -5,11 +5,14 @@ use super::options::{Format, WhyOptions};
 use super::progress::Progress;
 use super::{load, print};
 use crate::Status;
-use autogen::ir::FaultKind;
+use autogen::ir::{FaultKind, Severity};
 use autogen::lower::{Project, compile};
-use autogen::source::Sources;
-use autogen::why::{self, Await, Later, Node, Picture, Read, Verdict, Waits, Watch};
-use runtime_sim::line::IoDelay;
+use autogen::source::{Sources, Span};
+use autogen::why::{self, Await, Later, Node, Picture, Promise, Read, Standing, Verdict, Waits, Watch};
+use runtime_sim::carrier::Carrier;
+use runtime_sim::line::{IoDelay, Line};
+use runtime_sim::machine::Machine;
+use runtime_sim::part::{Primitive, source};
 use runtime_sim::report::Report;
 use runtime_sim::run::{Seen as SeenScan, Stepping, run as simulate};
 use serde_json::{Value, json};
@@ -97,6 +100,40 @@ fn question(options: &WhyOptions, project: &Project) -> Result<Question, String>
     Ok(Question { at: at.transpose()?, machines, is_until: options.until, delay })
 }
 
+/// Which sources of a line have no more parts, and since when, ms.
+struct Supplies(Vec<(usize, Option<usize>, Option<u64>)>);
+
+impl Supplies {
+    /// Each machine with a source, and the last item that it brings.
+    fn of(line: &Line) -> Self {
+        let has_source = |machine: &Machine| {
+            machine.parts.iter().any(|part| matches!(part.primitive, Primitive::Source(_)))
+        };
+        let machines = line.machines.iter().enumerate().filter(|(_, machine)| has_source(machine));
+        Self(
+            machines
+                .map(|(number, _)| (number, source::supply(line, number).last().copied(), None))
+                .collect(),
+        )
+    }
+
+    fn look(&mut self, seen: &SeenScan, ms: u64) {
+        let items = seen.plant.items().all();
+        for (_, last, since) in self.0.iter_mut().filter(|(.., since)| since.is_none()) {
+            match last {
+                None => *since = Some(0),
+                Some(last) if items[*last].carrier != Carrier::Supply => *since = Some(ms),
+                Some(_) => {}
+            }
+        }
+    }
+
+    fn empty_at(&self, ms: u64) -> Vec<(usize, u64)> {
+        let empty = self.0.iter().filter_map(|(machine, _, since)| Some((*machine, (*since)?)));
+        empty.filter(|(_, since)| *since <= ms).collect()
+    }
+}
+
 fn look(project: &Project, question: Question, mut progress: Progress) -> Result<Seen, String> {
     let Question { at, machines, is_until, delay } = question;
     let mut line = project.plant.clone();
@@ -108,11 +145,17 @@ fn look(project: &Project, question: Question, mut progress: Progress) -> Result
         let limit_s = (at + 1) as f64 * f64::from(line.scan_ms) / 1000.0;
         line.scenario.time_limit_s = line.scenario.time_limit_s.min(limit_s);
     }
-    let mut observe = |seen: &SeenScan| progress.show(seen.scan * u64::from(line.scan_ms) / 1000);
+    let mut sources = Supplies::of(&line);
+    let mut observe = |seen: &SeenScan| {
+        let ms = seen.scan * u64::from(line.scan_ms);
+        progress.show(ms / 1000);
+        sources.look(seen, ms);
+    };
     let report = simulate(&line, &mut watch, Stepping::Events, &mut observe)?;
     progress.end();
     let is_end = at.is_none_or(|at| at + 1 >= report.scans);
-    let (picture, later) = watch.finish(report.scans);
+    let (mut picture, later) = watch.finish(report.scans);
+    picture.empty = sources.empty_at(picture.at_ms);
     Ok(Seen { picture, machines, later, report, is_end })
 }
 
@@ -140,6 +183,7 @@ pub fn at_the_end(project: &Project, delay: IoDelay, report: &Value) -> Result<O
         Some(machine) => why::chain_of(&seen.picture, &waits, machine),
         None => why::chains(&seen.picture, &waits),
     };
+    let text = text + &why::empty_sources(&seen.picture);
     Ok(Some(text.lines().map(String::from).collect()))
 }
 
@@ -150,7 +194,10 @@ fn say_text(options: &WhyOptions, seen: &Seen, sources: &Sources) {
     if *is_end && (options.at.is_none() || picture.at_ms + 1000 < asked_ms(options)) {
         say!("the run ends here: {}", report.reason);
     }
-    if !picture.is_running {
+    if let Some(fault) = &picture.fault {
+        let (name, at) = (&picture.machines[fault.machine].name, fault.at_ms as f64 / 1000.0);
+        say!("the line stands since {at:.2} s in a fault of {name}: {}", fault.text);
+    } else if !picture.is_running {
         say!("the line does not run: no transition is tested until it is started");
     }
     for machine in machines {
@@ -163,6 +210,7 @@ fn say_text(options: &WhyOptions, seen: &Seen, sources: &Sources) {
             machines.iter().for_each(|machine| say_part!("{}", why::chain_of(picture, &waits, *machine)))
         }
     }
+    say_part!("{}", why::empty_sources(picture));
     if let Some(later) = later {
         say_part!("\n{}", why::later(picture, later));
     }
@@ -179,7 +227,7 @@ fn json_of(seen: &Seen, sources: &Sources) -> Value {
     let shown = machines.iter().map(|machine| {
         let seen = &picture.machines[*machine];
         let transitions = seen.transitions.iter().map(|tested| {
-            let place = format!("{}:{}", sources.file(tested.place.file).name, sources.position(tested.place).0);
+            let place = place_text(sources, tested.place);
             let clauses: Vec<Value> = tested.clauses.iter().map(node_json).collect();
             json!({ "guard": tested.title, "target": tested.target, "place": place, "holds": tested.holds, "clauses": clauses })
         });
@@ -187,20 +235,53 @@ fn json_of(seen: &Seen, sources: &Sources) -> Value {
         let chain: Vec<&String> = chain.iter().map(|(machine, _)| name(*machine)).collect();
         json!({
             "name": seen.name, "state": seen.state, "stay_s": seen.stay_ms as f64 / 1000.0,
+            "stopped": seen.is_stopped,
+            "properties": seen.properties.iter().map(|promise| promise_json(promise, sources)).collect::<Vec<_>>(),
             "transitions": transitions.collect::<Vec<_>>(),
             "waits_for": seen.awaits.iter().map(|awaited| await_json(picture, awaited)).collect::<Vec<_>>(),
             "chain": chain,
         })
     });
+    let fault = picture.fault.as_ref().map(|fault| {
+        json!({ "robot": name(fault.machine), "at_s": fault.at_ms as f64 / 1000.0, "text": fault.text })
+    });
+    let empty = picture.empty.iter();
+    let empty = empty.map(|(at, ms)| json!({ "robot": name(*at), "since_s": *ms as f64 / 1000.0 }));
     let circles = waits.circles().into_iter();
     let circles = circles.map(|circle| circle.into_iter().map(name).collect::<Vec<_>>());
     let mut answer = json!({
-        "at_s": picture.at_ms as f64 / 1000.0, "running": picture.is_running,
+        "at_s": picture.at_ms as f64 / 1000.0, "running": picture.is_running, "fault": fault,
         "ended": is_end.then_some(&report.reason), "machines": shown.collect::<Vec<_>>(),
-        "deadlocks": circles.collect::<Vec<_>>(), "diagnostics": [],
+        "deadlocks": circles.collect::<Vec<_>>(), "empty_sources": empty.collect::<Vec<_>>(), "diagnostics": [],
     });
     if let Some(later) = later {
         answer["until"] = later.machines.iter().map(|became| later_json(picture, became)).collect();
+    }
+    answer
+}
+
+fn place_text(sources: &Sources, place: Span) -> String {
+    format!("{}:{}", sources.file(place.file).name, sources.position(place).0)
+}
+
+fn promise_json(promise: &Promise, sources: &Sources) -> Value {
+    let seconds = |ms: u64| ms as f64 / 1000.0;
+    let standing = match promise.standing {
+        Standing::Fault { at_ms } => json!({ "fault_s": seconds(at_ms) }),
+        Standing::Alarm { severity, raised_ms, active, acknowledged } => json!({
+            "alarm_s": seconds(raised_ms), "active": active, "acknowledged": acknowledged,
+            "stops": severity == Severity::Machine,
+        }),
+        Standing::Waits { since_ms, until_ms } => {
+            json!({ "waits_since_s": seconds(since_ms), "waits_until_s": seconds(until_ms) })
+        }
+    };
+    let mut answer = json!({
+        "property": promise.text, "text": promise.told, "place": place_text(sources, promise.place),
+        "clauses": promise.clauses.iter().map(node_json).collect::<Vec<_>>(),
+    });
+    if let (Value::Object(answer), Value::Object(standing)) = (&mut answer, standing) {
+        answer.extend(standing);
     }
     answer
 }

@@ -116,7 +116,7 @@ impl Checker<'_> {
             self.report(
                 "E0701",
                 parameter.ty.span,
-                format!("the layout cannot give `{}` this type", parameter.name.value),
+                format!("a layout has no value of this type for `{}`", parameter.name.value),
                 "types are `axis`, `range`, `real`, `time`, `point` and `point[2] of \"first\", \"second\"`",
             );
         }
@@ -301,7 +301,7 @@ impl Checker<'_> {
                 let is_itself = *other == part.name.value;
                 if is_itself || !known.contains_key(other) {
                     let message = match is_itself {
-                        true => format!("`{other}` hangs on itself"),
+                        true => format!("`{other}` is carried by itself"),
                         false => format!("there is no part `{other}` before this one"),
                     };
                     let help =
@@ -344,7 +344,7 @@ impl Checker<'_> {
                     self.report(
                         "E0709",
                         expr.span,
-                        "this is no number of places".into(),
+                        "this is not a number of places".into(),
                         "write a whole number",
                     );
                     None

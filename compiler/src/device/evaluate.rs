@@ -55,7 +55,7 @@ impl Environment<'_> {
         match self.at(scope, expr, 0)? {
             Found::Value(value) => Ok(value),
             Found::Duration(_) => Err(wrong(expr.span, "a time cannot stand here")),
-            Found::Assembly(_) => Err(wrong(expr.span, "an assembly is no value")),
+            Found::Assembly(_) => Err(wrong(expr.span, "an assembly is not a value")),
         }
     }
 
@@ -90,7 +90,7 @@ impl Environment<'_> {
                     .help("write the unit behind the number, such as `750 ms`")
                     .into());
             }
-            Found::Assembly(_) => return Err(wrong(expr.span, "an assembly is no value")),
+            Found::Assembly(_) => return Err(wrong(expr.span, "an assembly is not a value")),
             Found::Value(value) => value,
         };
         match self.fits(setting.form, &found) {
@@ -134,7 +134,7 @@ impl Environment<'_> {
 
     fn at(&self, scope: usize, expr: &ast::Expr, depth: usize) -> Evaluated {
         if depth > DEEPEST {
-            return Err(wrong(expr.span, "this is defined by itself"));
+            return Err(wrong(expr.span, "this definition refers to itself"));
         }
         let at = |expr: &ast::Expr| self.at(scope, expr, depth + 1);
         let number = |expr: &ast::Expr| number(at(expr)?, expr.span);
@@ -156,13 +156,13 @@ impl Environment<'_> {
             }
             ExprKind::Negate(inner) => match at(inner)? {
                 Found::Value(Value::Number(number)) => value(Value::Number(-number)),
-                _ => Err(wrong(expr.span, "only a number has a sign")),
+                _ => Err(wrong(expr.span, "only a number can be negated")),
             },
             ExprKind::Binary(operator, left, right) => {
                 combined(*operator, at(left)?, at(right)?).ok_or_else(|| {
-                    let wrong = *wrong(expr.span, "this operator does not join these values");
+                    let wrong = *wrong(expr.span, "this operator does not take these values");
                     wrong
-                        .note("+ and - join numbers and points, * and / a number with a number, * a frame with what is given in it")
+                        .note("+ and - are for numbers and points, * and / for two numbers, * for a frame and what is given in it")
                         .note("a point and a list of points are added element by element; nothing is divided by 0")
                         .into()
                 })
@@ -189,7 +189,7 @@ impl Environment<'_> {
                 call(name, &found?)
             }
             ExprKind::Error => Err(wrong(expr.span, "this could not be read")),
-            _ => Err(wrong(expr.span, "this cannot stand in a device")),
+            _ => Err(wrong(expr.span, "this cannot be written in a device")),
         }
     }
 
@@ -434,7 +434,8 @@ fn call(name: &ast::Name, arguments: &[Found]) -> Evaluated {
                 ("laid", "laid(axis, along it, across it, z)"),
                 ("grid", "grid(first point, rows, their distance along x, columns, their distance along y)"),
             ];
-            let diagnostic = Diagnostic::new("E0710", name.span, format!("`{known}` cannot be called so"));
+            let diagnostic =
+                Diagnostic::new("E0710", name.span, format!("`{known}` does not take these arguments"));
             return Err(Wrong::from(match FUNCTIONS.iter().find(|(name, _)| *name == known) {
                 Some((_, form)) => diagnostic.help(format!("write `{form}`")),
                 None => {

@@ -92,9 +92,10 @@ pub fn wrong(
     for require in &program.requires {
         match environment.value(0, &require.condition) {
             Ok(Value::Truth(_)) => {}
-            Ok(_) => {
-                found.push(*super::evaluate::wrong(require.condition.span, "this is neither true nor false"))
-            }
+            Ok(_) => found.push(*super::evaluate::wrong(
+                require.condition.span,
+                "this is not a condition: it is neither true nor false",
+            )),
             Err(diagnostic) => found.push(*diagnostic),
         }
         for part in &require.text {

@@ -160,7 +160,7 @@ impl Checker<'_> {
             Some(ExprKind::Real(value)) => Stop::Value(*value),
             Some(_) => {
                 let span = port.stop.as_ref().map_or(port.name.span, |stop| stop.span);
-                let message = "what is published while the system does not run is a number".to_string();
+                let message = "the value behind `stop` has to be a number or a truth value".to_string();
                 self.report("E0707", span, message, "write `stop false` or `stop 0`");
                 Stop::Hold
             }
@@ -274,7 +274,7 @@ impl Checker<'_> {
         };
         let signal = schema.signals.iter().position(|signal| signal.name == name.value);
         let Some(signal) = signal.filter(|signal| is_truth(*signal)) else {
-            let message = format!("a {} has no signal `{}` that is true or false", schema.name, name.value);
+            let message = format!("a {} has no signal `{}` of type `bool`", schema.name, name.value);
             self.report("E0708", name.span, message, "await a signal of type `bool`");
             return None;
         };
@@ -287,7 +287,7 @@ impl Checker<'_> {
                 Some(Await { part, signal, within_ms: within_ms as u64, error: error as i32 })
             }
             _ => {
-                let message = "this is no error that a command can end in".to_string();
+                let message = "a command cannot end in this error".to_string();
                 self.report("E0708", tree.error.span, message, "write a number from 1 to 255; 2 is: no part");
                 None
             }

@@ -55,7 +55,7 @@ impl Decoder {
             let message = format!("\"{}\" stands twice in one pair", pair[0].value);
             self.report(
                 Diagnostic::new("E0128", pair[1].span, message)
-                    .note("an arm that touches itself is not excused")
+                    .note("contact of an arm with itself always ends the run")
                     .help("name the other one"),
             );
             return None;
@@ -68,7 +68,7 @@ impl Decoder {
         if !says {
             self.report(
                 Diagnostic::new("E0128", reason.span, "the reason is empty")
-                    .note("contact is a fault, unless somebody knows why it is none")
+                    .note("contact ends a run, unless the layout says why it does no harm")
                     .help("say why the two may touch"),
             );
         }

@@ -14,7 +14,7 @@ impl Decoder {
         if leads_out(&path.value) {
             self.report(
                 Diagnostic::new(OUTSIDE, path.span, format!("`{key}` leads out of the folder of the layout"))
-                    .note("a layout from elsewhere must not read what it likes")
+                    .note("a layout reads no files outside its own folder")
                     .help(format!("put it below the folder of the layout, or give it by --{key}")),
             );
         }

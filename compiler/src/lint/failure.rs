@@ -43,7 +43,8 @@ pub fn check(automaton: &Automaton, found: &mut Vec<Diagnostic>) {
             continue;
         }
         if let Some(waits) = state.transitions.iter().find(|transition| done.guard(transition)) {
-            let message = format!("`{}` waits for the end of a command, and not for its failure", state.name);
+            let message =
+                format!("`{}` waits until a command is done, and does nothing if it fails", state.name);
             found.push(
                 Diagnostic::new("W0106", waits.place, message)
                     .note("a command that fails is never `done`: the machine would stay in this state")
@@ -52,8 +53,10 @@ pub fn check(automaton: &Automaton, found: &mut Vec<Diagnostic>) {
         } else if let Some(place) = commands[number]
             && !handled[number]
         {
-            let message =
-                format!("a command is given for `{}`, and no state looks whether it fails", state.name);
+            let message = format!(
+                "a command is given on the way to `{}`, and no state tests whether it failed",
+                state.name
+            );
             found.push(
                 Diagnostic::new("W0106", place, message)
                     .note("a command that fails has moved nothing, or not all the way")

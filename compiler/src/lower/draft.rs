@@ -1,7 +1,7 @@
 //! A line without its values, so that it is read and checked once for many of them.
 
 use super::setting::{self, Setting};
-use super::{Project, Verdict, bind, modes, overlap, plant, role};
+use super::{Project, Verdict, bind, collected, modes, overlap, plant, role};
 use crate::check::{self, Checked};
 use crate::device::panel;
 use crate::diagnostic::{self, Diagnostic};
@@ -11,6 +11,7 @@ use crate::scenario::{Number, Scenario};
 use crate::source::{FileId, Sources};
 use crate::spec::{ast, parser};
 use crate::{connect, lint, scenario};
+use runtime_sim::plant::ways;
 use runtime_sim::random::Random;
 use std::borrow::Cow;
 use std::collections::BTreeSet;
@@ -33,6 +34,7 @@ pub struct Draft {
     warnings: Vec<Diagnostic>,
     name: Option<String>,
     orders: Option<usize>,
+    items: Option<u64>,
     parts: Option<Parts>,
 }
 
@@ -77,8 +79,10 @@ impl Draft {
         let checked = checked.and_then(|checked| checked.map_err(|found| diagnostics.extend(found)).ok());
         let listed = scenario.as_ref().filter(|s| s.orders.number == Number::Listed);
         let orders = listed.map(|s| s.orders.list.len());
+        let goal = scenario.as_ref().map(|s| s.goal.as_slice()).filter(|goal| !goal.is_empty());
+        let items = goal.map(|goal| goal.iter().flat_map(|sink| &sink.items).map(|n| u64::from(*n)).sum());
         let name = layout.as_ref().map(|l| l.name.clone());
-        let mut draft = Self { diagnostics, warnings: Vec::new(), name, orders, parts: None };
+        let mut draft = Self { diagnostics, warnings: Vec::new(), name, orders, items, parts: None };
         if let (Some(layout), Some(checked), Some(scenario)) = (layout, checked, scenario) {
             draft.warnings = lint::warnings(checked.model(), &files);
             let model = draft.bind(sources, &layout, &files, &checked, &scenario, settings);
@@ -149,6 +153,11 @@ impl Draft {
         self.orders
     }
 
+    /// Number of items that the sinks of a goal should collect, if the scenario has one and can be read.
+    pub fn items(&self) -> Option<u64> {
+        self.items
+    }
+
     /// The line with these values, and with its instances in layout order or in one drawn from `order`. Replication 0 is
     /// that of the scenario; another one adds its number to the seed of the supply.
     pub fn line(&self, settings: &[Setting], order: Option<u64>, replication: u32) -> Line {
@@ -207,7 +216,7 @@ impl Parts {
             return;
         }
         let robot = |node: usize| line.robot_of(node);
-        let edges = report
+        let edges: Vec<connect::Edge> = report
             .edges
             .iter()
             .map(|e| connect::Edge { from: robot(e.from), to: robot(e.to), ..*e })
@@ -218,6 +227,11 @@ impl Parts {
         };
         let plant = plant::line(&system, &line, bound.obstacles, resolved, layout.scan_ms, machines);
         found.diagnostics.extend(overlap::overlaps(&layout, &plant));
+        let ways = ways(&plant);
+        found.diagnostics.extend(collected::out_of_reach(&scenario, &plant, &edges, &ways));
+        if let Some(verdict) = &mut found.verdict {
+            verdict.add_conveyors(&plant, &ways);
+        }
         found.warnings = lint::of_layout(&layout, &plant);
         let Layout { name, may_touch, .. } = &*layout;
         found.project =

@@ -2,6 +2,7 @@
 //! connectivity, roles. The hinge between what knows source text and what does not.
 
 pub(crate) mod bind;
+mod collected;
 mod draft;
 pub mod modes;
 mod overlap;
@@ -18,6 +19,8 @@ use crate::diagnostic::Diagnostic;
 use crate::layout::{MayTouch, Reading};
 use crate::source::{FileId, Sources};
 use crate::{connect, ir};
+use runtime_sim::part::Primitive;
+use runtime_sim::plant::{By, Way};
 
 /// What is to be compiled; every text is in `sources` already, and the layout is read.
 #[derive(Clone, Debug)]
@@ -55,6 +58,11 @@ pub struct Verdict {
     pub edges: Vec<(String, String, f64)>,
     pub sources: Vec<String>,
     pub destinations: Vec<String>,
+    /// Conveyors of different machines of which the second begins where the first ends, as `belt.lane`; known of a
+    /// line that has no other errors.
+    pub joined: Vec<(String, String)>,
+    /// Where items of a goal are collected, as `station.sink`; known of such a line too.
+    pub sinks: Vec<String>,
     /// Machines between sources and destinations that every item passes, in the order in which it does.
     pub single_points: Vec<String>,
     pub unreachable: Vec<String>,
@@ -73,6 +81,29 @@ pub struct Apart {
     pub misses: Vec<connect::Miss>,
     /// Robot, path of the number, present and new value.
     pub suggestion: Option<(String, String, f64, f64)>,
+}
+
+impl Verdict {
+    /// What items do without an arm: conveyors that go on as others, and sinks.
+    fn add_conveyors(&mut self, line: &runtime_sim::line::Line, ways: &[Way]) {
+        let name = |(machine, part): (usize, usize)| {
+            let machine = &line.machines[machine];
+            format!("{}.{}", machine.name, machine.parts[part].name)
+        };
+        let joined = ways.iter().filter(|way| way.by == By::Joint && way.from.0 != way.to.0);
+        self.joined = joined.map(|way| (name(way.from), name(way.to))).collect();
+        for (number, machine) in line.machines.iter().enumerate() {
+            for (part, of) in machine.parts.iter().enumerate() {
+                match of.primitive {
+                    Primitive::Sink(_) => self.sinks.push(name((number, part))),
+                    Primitive::Source(_) if !self.sources.contains(&machine.name) => {
+                        self.sources.push(machine.name.clone());
+                    }
+                    _ => {}
+                }
+            }
+        }
+    }
 }
 
 /// The result of a compilation: `project` is there exactly when `diagnostics` is empty.

@@ -61,7 +61,10 @@ impl Line<'_> {
                     Diagnostic::new(
                         "E0502",
                         object.name.span,
-                        format!("`{}` lacks the parameter `{}`", object.name.value, parameter.name),
+                        format!(
+                            "`{}` does not set the parameter `{}`, which has no default",
+                            object.name.value, parameter.name
+                        ),
                     )
                     .other(parameter.place, "declared here, without a default")
                     .help(format!("add \"parameters\": {{\"{}\": ...}} to it", parameter.name)),
@@ -210,7 +213,7 @@ impl Line<'_> {
             };
             collect(
                 &mut self.diagnostics,
-                Diagnostic::new("E0503", json.span, format!("this is no value for `{name}`"))
+                Diagnostic::new("E0503", json.span, format!("this is not a value for `{name}`"))
                     .help(format!("write {wanted}")),
             );
             first(ty)

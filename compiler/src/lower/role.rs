@@ -276,6 +276,8 @@ impl<'a> Line<'a> {
             edges: report.edges.iter().map(|e| (name(e.from), name(e.to), e.margin)).collect(),
             sources: those(|n| n.is_source),
             destinations: those(|n| n.is_destination),
+            joined: Vec::new(),
+            sinks: Vec::new(),
             single_points: report.single_points.iter().map(|n| name(*n)).collect(),
             unreachable: report.unreachable.iter().map(|n| name(*n)).collect(),
             dead_ends: report.dead_ends.iter().map(|n| name(*n)).collect(),
@@ -461,7 +463,7 @@ impl<'a> Line<'a> {
             Diagnostic::new(
                 "E0506",
                 object.name.span,
-                format!("`{}` wants {wanted} `{}`, and has {found}", object.name.value, role.name),
+                format!("`{}` needs {wanted} `{}`, and has {found}", object.name.value, role.name),
             )
             .other(role.place, "the role is declared here")
             .help("add or move machines, or narrow the role with \"takes_from\" or \"hands_to\""),

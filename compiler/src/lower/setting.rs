@@ -78,7 +78,7 @@ pub fn apply(
                 scenario.supply.seed = *n as u32;
             }
             _ => diagnostics.push(
-                Diagnostic::new("E0503", setting.value.span, format!("this is no value for `{SEED}`"))
+                Diagnostic::new("E0503", setting.value.span, format!("this is not a value for `{SEED}`"))
                     .help(format!("write a whole number from 0 to {}", u32::MAX)),
             ),
         }

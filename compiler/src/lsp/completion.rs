@@ -3,7 +3,7 @@
 
 mod words;
 
-pub use words::Word;
+pub use words::{MOST_WORDS, Word};
 
 use super::specs::Specs;
 use crate::check::names::What;

@@ -67,7 +67,7 @@ fn owner(declaration: &Declaration) -> Option<String> {
 }
 
 /// Text as Markdown shows it as it is; what stands in pairs of backticks is code.
-fn escaped(text: &str) -> String {
+pub fn escaped(text: &str) -> String {
     let pieces: Vec<&str> = text.split('`').collect();
     if pieces.len().is_multiple_of(2) {
         return plain(text);

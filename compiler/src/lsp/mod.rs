@@ -6,6 +6,7 @@ pub use gen_lsp_types as protocol;
 pub mod completion;
 pub mod diagnostics;
 pub mod hover;
+pub mod json;
 pub mod lines;
 pub mod rename;
 pub mod specs;

@@ -48,12 +48,12 @@ pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec
     });
     let slips = slips.collect();
     let refusals = refusals.iter().filter_map(|r| {
-        let robot = resolver.named(&r.robot, line.commanded, "robot that obeys commands")?;
+        let robot = resolver.named(&r.robot, line.commanded, "robot that takes commands")?;
         Some(Refusal { robot, command: r.command })
     });
     let refusals = refusals.collect();
     let answers = answers.iter().filter_map(|a| {
-        let robot = resolver.named(&a.robot, line.commanded, "robot that obeys commands")?;
+        let robot = resolver.named(&a.robot, line.commanded, "robot that takes commands")?;
         Some(Answer { robot, command: a.command, late_s: a.late_s, error: a.error })
     });
     let answers = answers.collect();
@@ -140,9 +140,10 @@ impl<'a> Resolver<'a> {
         let of_robot = || all.iter().filter(|panel| panel.robot == robot.value);
         let Some(found) = of_robot().find(|panel| panel.part == part.value) else {
             let names: Vec<&str> = of_robot().map(|panel| panel.part).collect();
-            let message = format!("nobody operates \"{}\" of {}", part.value, robot.value);
+            let message =
+                format!("\"{}\" of {} is not a button, a selector or a set-point", part.value, robot.value);
             self.wrong_operation(part.span, message, |d| {
-                d.note(format!("buttons, selectors and set-points of it: {}", listing(&names)))
+                d.note(format!("its buttons, selectors and set-points are: {}", listing(&names)))
                     .help(instead(&part.value, &names))
             });
             return None;
@@ -154,7 +155,7 @@ impl<'a> Resolver<'a> {
                 return None;
             }
             (Operated::SetNumber, None) => {
-                let message = format!("\"{}\" is a set-point and gets no number", part.value);
+                let message = format!("\"{}\" is a set-point and needs a number", part.value);
                 self.wrong_operation(part.span, message, |d| d.help("add the number: \"value\": 1.5"));
                 return None;
             }

@@ -1,9 +1,9 @@
 //! Guards taken apart: which clauses fail, and what they read.
 
 use super::text::Words;
-use super::watch::Watch;
+use super::watch::{Stopped, Watch};
 use super::writers::Writers;
-use super::{Await, Machine, Node, Picture, Read, Tested, Verdict};
+use super::{Await, Fault, Machine, Node, Picture, Read, Tested, Verdict};
 use crate::ir::{Binder, Clause, Domain, Expr, ExprKind, Operator, Value, VariableId};
 use runtime_sim::scan::Controllers;
 
@@ -16,11 +16,22 @@ const MOST_NODES: usize = 500;
 pub fn picture(watch: &mut Watch, scan: u64) -> Picture {
     let writers = Writers::new(watch.system);
     let machines = (0..watch.system.instances.len()).map(|robot| {
-        let mut look = Look { watch, writers: &writers, robot, awaits: Vec::new(), nodes: 0 };
+        let mut look = Look { watch, writers: &writers, robot, scan, awaits: Vec::new(), nodes: 0 };
         look.machine()
     });
     let machines = machines.collect();
-    Picture { at_ms: watch.ms(scan), is_running: watch.executor.is_running(), machines }
+    let fault = watch.fault.map(|Stopped { site, robot, scan }| Fault {
+        machine: robot,
+        at_ms: watch.ms(scan),
+        text: watch.system.model.faults[site.0].text.clone(),
+    });
+    Picture {
+        at_ms: watch.ms(scan),
+        is_running: watch.executor.is_running(),
+        fault,
+        empty: Vec::new(),
+        machines,
+    }
 }
 
 /// One machine, and what it was found to wait for.
@@ -28,6 +39,7 @@ pub(super) struct Look<'w, 'a> {
     pub(super) watch: &'w mut Watch<'a>,
     pub(super) writers: &'w Writers,
     pub(super) robot: usize,
+    pub(super) scan: u64,
     pub(super) awaits: Vec<Await>,
     nodes: usize,
 }
@@ -72,14 +84,19 @@ impl<'a> Look<'_, 'a> {
                 clauses: self.guard(&transition.clauses),
             }
         });
-        let transitions = transitions.collect();
+        let transitions: Vec<Tested> = transitions.collect();
+        let awaits = std::mem::take(&mut self.awaits);
+        let is_stopped = self.watch.executor.is_stopped(robot);
         Machine {
             name: system.instances[robot].name.clone(),
             state: state.name.clone(),
             stay_ms: self.watch.executor.elapsed(robot) as u64,
             is_final: state.is_final,
-            transitions,
-            awaits: std::mem::take(&mut self.awaits),
+            is_stopped,
+            properties: self.promises(),
+            // It makes no steps, so nothing that its guards read brings it on.
+            transitions: if is_stopped { Vec::new() } else { transitions },
+            awaits: if is_stopped { Vec::new() } else { awaits },
         }
     }
 
@@ -178,7 +195,7 @@ impl<'a> Look<'_, 'a> {
     }
 
     /// A condition that should be `wanted`.
-    fn condition(&mut self, expr: &'a Expr, wanted: bool) -> Node {
+    pub(super) fn condition(&mut self, expr: &'a Expr, wanted: bool) -> Node {
         let text = match wanted {
             true => self.words().expr(expr),
             false => self.words().negated(expr),

@@ -5,6 +5,7 @@
 
 mod chain;
 mod guard;
+mod property;
 mod reads;
 mod report;
 mod text;
@@ -13,10 +14,11 @@ mod watch;
 mod writers;
 
 pub use chain::Waits;
-pub use report::{chain_of, chains, later, machine};
+pub use report::{chain_of, chains, empty_sources, later, machine};
 pub use until::{Became, Later};
 pub use watch::Watch;
 
+use crate::ir::Severity;
 use crate::source::Span;
 
 /// What all machines wait for at a time, in the order of their steps.
@@ -25,7 +27,18 @@ pub struct Picture {
     pub at_ms: u64,
     /// The system runs: otherwise no transition is tested.
     pub is_running: bool,
+    /// In which the line stands.
+    pub fault: Option<Fault>,
+    /// Machines whose source has no more parts, and since when, ms.
+    pub empty: Vec<(usize, u64)>,
     pub machines: Vec<Machine>,
+}
+
+#[derive(Clone, Debug)]
+pub struct Fault {
+    pub machine: usize,
+    pub at_ms: u64,
+    pub text: String,
 }
 
 #[derive(Clone, Debug)]
@@ -35,7 +48,11 @@ pub struct Machine {
     /// Time in its state, ms.
     pub stay_ms: u64,
     pub is_final: bool,
-    /// Those of its state, in the order in which they are tested.
+    /// By an alarm: it makes no steps.
+    pub is_stopped: bool,
+    /// Those of its properties that are violated or wait.
+    pub properties: Vec<Promise>,
+    /// Those of its state, in the order in which they are tested; none of a machine that is stopped.
     pub transitions: Vec<Tested>,
     /// What would have to change before one of them fires.
     pub awaits: Vec<Await>,
@@ -50,6 +67,28 @@ pub struct Tested {
     pub place: Span,
     pub holds: bool,
     pub clauses: Vec<Node>,
+}
+
+/// A property of which there is something to say.
+#[derive(Clone, Debug)]
+pub struct Promise {
+    /// `invariant not is_open`
+    pub text: String,
+    /// What its violation tells the operator.
+    pub told: String,
+    pub place: Span,
+    pub standing: Standing,
+    pub clauses: Vec<Node>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Standing {
+    /// The line stands, since this time.
+    Fault { at_ms: u64 },
+    /// Its alarm is active or not acknowledged.
+    Alarm { severity: Severity, raised_ms: u64, active: bool, acknowledged: bool },
+    /// A `whenever` whose goal is awaited. It is violated if it does not hold by then, the line running all the time.
+    Waits { since_ms: u64, until_ms: u64 },
 }
 
 /// A part of a guard.

@@ -1,7 +1,8 @@
 //! A picture as text.
 
 use super::reads::{COMMAND, STAY};
-use super::{Await, Changed, Later, Machine, Node, Picture, Read, Tested, Verdict, Waits};
+use super::{Await, Changed, Later, Machine, Node, Picture, Promise, Read, Standing, Tested, Verdict, Waits};
+use crate::ir::Severity;
 use crate::source::{Sources, Span};
 use std::fmt::Write;
 
@@ -15,8 +16,12 @@ fn place(sources: &Sources, span: Span) -> String {
 
 /// A machine with every transition of its state, and every clause of them.
 pub fn machine(machine: &Machine, sources: &Sources) -> String {
-    let Machine { name, state, stay_ms, transitions, is_final, .. } = machine;
-    let mut out = format!("{name} is in {state}, for {}\n", seconds(*stay_ms));
+    let Machine { name, state, stay_ms, transitions, properties, is_final, is_stopped, .. } = machine;
+    let mut out = match is_stopped {
+        true => format!("{name} is stopped by an alarm, in {state}\n"),
+        false => format!("{name} is in {state}, for {}\n", seconds(*stay_ms)),
+    };
+    properties.iter().for_each(|promise| self::promise(promise, sources, &mut out));
     if *is_final {
         out += "  a final state: nothing leads on from here\n";
     }
@@ -28,6 +33,64 @@ pub fn machine(machine: &Machine, sources: &Sources) -> String {
         clauses.iter().for_each(|clause| node(clause, 2, &mut out));
     }
     out
+}
+
+fn promise(promise: &Promise, sources: &Sources, out: &mut String) {
+    let Promise { text, told, place: span, standing, clauses } = promise;
+    let place = place(sources, *span);
+    let _ = match standing {
+        Standing::Fault { at_ms } => writeln!(out, "  fault since {}: {told} ({place})", seconds(*at_ms)),
+        Standing::Alarm { raised_ms, .. } => {
+            writeln!(
+                out,
+                "  alarm raised at {}, {}: {told} ({place})",
+                seconds(*raised_ms),
+                of_alarm(standing)
+            )
+        }
+        Standing::Waits { since_ms, until_ms } => writeln!(
+            out,
+            "  waits since {}, until {} at the latest, or: {told} ({place})",
+            seconds(*since_ms),
+            seconds(*until_ms)
+        ),
+    };
+    let _ = writeln!(out, "    {text}");
+    clauses.iter().for_each(|clause| node(clause, 3, out));
+}
+
+/// `active, not acknowledged; it stops the machine`
+fn of_alarm(standing: &Standing) -> String {
+    let Standing::Alarm { severity, active, acknowledged, .. } = standing else { return String::new() };
+    let active = if *active { "active" } else { "no longer active" };
+    let acknowledged = if *acknowledged { "acknowledged" } else { "not acknowledged" };
+    let stops = match severity {
+        Severity::Machine => "it stops the machine",
+        Severity::Warning | Severity::Line => "it stops nothing",
+    };
+    format!("{active}, {acknowledged}; {stops}")
+}
+
+/// What a machine that is stopped needs to go on, from its alarms.
+fn stopped(machine: &Machine) -> String {
+    let alarms = machine.properties.iter().filter_map(|promise| match promise.standing {
+        Standing::Alarm { severity: Severity::Machine, active, acknowledged, .. } => {
+            Some((promise.told.as_str(), active, acknowledged))
+        }
+        _ => None,
+    });
+    let alarms: Vec<_> = alarms.collect();
+    let texts: Vec<&str> = alarms.iter().map(|(told, ..)| *told).collect();
+    let steps = [
+        (alarms.iter().any(|(_, active, _)| *active), "take away the cause"),
+        (alarms.iter().any(|(.., acknowledged)| !*acknowledged), "acknowledge"),
+        (true, "start"),
+    ];
+    let steps: Vec<&str> = steps.into_iter().filter(|(is_due, _)| *is_due).map(|(_, step)| step).collect();
+    match texts.is_empty() {
+        true => format!("is stopped, its alarms are over: {}", steps.join(", ")),
+        false => format!("is stopped by its alarm: {}; to go on: {}", texts.join("; "), steps.join(", ")),
+    }
 }
 
 fn node(part: &Node, depth: usize, out: &mut String) {
@@ -73,6 +136,9 @@ fn alone(machine: &Machine) -> String {
         let target = tested.target.as_ref().map_or(String::new(), |target| format!(" to {target}"));
         return format!("goes on{target} in its next step: {} holds", tested.title);
     }
+    if machine.is_stopped {
+        return stopped(machine);
+    }
     if machine.is_final {
         return format!("waits for nobody: {} is a final state", machine.state);
     }
@@ -116,6 +182,19 @@ pub fn chain_of(picture: &Picture, waits: &Waits, machine: usize) -> String {
                 writeln!(out, "and {name} waits, as above: a circle")
             }
             _ => writeln!(out, "{name} ({state}) {}", alone(&picture.machines[*at])),
+        };
+    }
+    out
+}
+
+/// Who waits for parts of these waits for nothing.
+pub fn empty_sources(picture: &Picture) -> String {
+    let mut out = String::new();
+    for (machine, since_ms) in picture.empty.iter().take(MOST_LINES) {
+        let name = &picture.machines[*machine].name;
+        let _ = match since_ms {
+            0 => writeln!(out, "{name}: the source has no parts in this scenario"),
+            ms => writeln!(out, "{name}: the source has no more parts, since {}", seconds(*ms)),
         };
     }
     out

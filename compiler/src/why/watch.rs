@@ -3,8 +3,7 @@
 use super::until::Later;
 use super::{Picture, guard};
 use crate::executor::{Entry, Executor};
-use crate::ir::Element;
-use crate::ir::System;
+use crate::ir::{Element, FaultId, System};
 use runtime_sim::scan::{Controllers, SystemInputs, SystemOutputs};
 use std::collections::HashMap;
 
@@ -15,11 +14,20 @@ pub struct Change {
     pub robot: usize,
 }
 
+/// The fault in which the line stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Stopped {
+    pub site: FaultId,
+    pub robot: usize,
+    pub scan: u64,
+}
+
 /// Controllers that look at themselves after a scan.
 pub struct Watch<'a> {
     pub(super) system: &'a System,
     pub(super) executor: Executor<'a>,
     pub(super) last: HashMap<Element, Change>,
+    pub(super) fault: Option<Stopped>,
     /// After this scan the picture is taken.
     at: u64,
     /// The last scan that was executed.
@@ -36,7 +44,7 @@ impl<'a> Watch<'a> {
         let mut executor = Executor::new(system);
         executor.keep_journal();
         let last = HashMap::new();
-        Self { system, executor, last, at, scan: None, skipped: 0, picture: None, later: None }
+        Self { system, executor, last, fault: None, at, scan: None, skipped: 0, picture: None, later: None }
     }
 
     /// Also looks on, until each of these machines has left the state in which it is then.
@@ -94,6 +102,12 @@ impl Controllers for Watch<'_> {
         self.executor.skip(skipped);
         let answer = self.executor.scan(system, inputs, outputs);
         self.scan = Some(scan);
+        let stopped = (answer.fault && self.fault.is_none()).then(|| Stopped {
+            site: FaultId((answer.fault_code - 1) as usize),
+            robot: answer.fault_robot as usize,
+            scan,
+        });
+        self.fault = stopped.or(self.fault.filter(|_| answer.fault));
         let journal = self.executor.take_journal();
         for entry in &journal {
             if let Entry::Changed { robot, what } = *entry {

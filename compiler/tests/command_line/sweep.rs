@@ -198,7 +198,7 @@ fn a_point_that_fails_is_a_row_with_its_reason() {
     assert!(reason(0).starts_with("E0401: kitting cannot hand over to agv3"), "{}", reason(0));
     assert!(reason(1).starts_with("E0"), "{}", reason(1));
     assert!(reason(2).starts_with("time limit: "), "{}", reason(2));
-    assert_eq!(reason(3), "E0503: this is no value for `capacity`");
+    assert_eq!(reason(3), "E0503: this is not a value for `capacity`");
     assert!(reason(4).starts_with("E0102: ") && reason(5) == reason(4), "{}", reason(4));
     for (row, is_refused) in rows.iter().zip([true, true, false, true, true, true]) {
         assert_eq!(row["finished"], false);
@@ -228,10 +228,10 @@ fn rows_are_aligned_and_lists_may_hold_commas() {
         sweep("text", "agv.capacity=13,100"),
         "\
 layout    agv.capacity       orders    s/order     simulated  reason
-default             13       0 of 1          -             -  E0503: this is no value for `capacity`
-default            100       0 of 1          -             -  E0503: this is no value for `capacity`
-less_agv            13       0 of 1          -             -  E0503: this is no value for `capacity`
-less_agv           100       0 of 1          -             -  E0503: this is no value for `capacity`
+default             13       0 of 1          -             -  E0503: this is not a value for `capacity`
+default            100       0 of 1          -             -  E0503: this is not a value for `capacity`
+less_agv            13       0 of 1          -             -  E0503: this is not a value for `capacity`
+less_agv           100       0 of 1          -             -  E0503: this is not a value for `capacity`
 
 s/order by agv.capacity        13       100
 default                         -         -
@@ -242,10 +242,10 @@ less_agv                        -         -
         sweep("csv", "agv.capacity=[1,2],{\"a\":3}"),
         "\
 layout,agv.capacity,finished,reason,orders_done,orders,seconds_per_order,simulated_s,trace_hash
-default,\"[1,2]\",false,E0503: this is no value for `capacity`,0,1,,,
-default,\"{\"\"a\"\":3}\",false,E0503: this is no value for `capacity`,0,1,,,
-less_agv,\"[1,2]\",false,E0503: this is no value for `capacity`,0,1,,,
-less_agv,\"{\"\"a\"\":3}\",false,E0503: this is no value for `capacity`,0,1,,,
+default,\"[1,2]\",false,E0503: this is not a value for `capacity`,0,1,,,
+default,\"{\"\"a\"\":3}\",false,E0503: this is not a value for `capacity`,0,1,,,
+less_agv,\"[1,2]\",false,E0503: this is not a value for `capacity`,0,1,,,
+less_agv,\"{\"\"a\"\":3}\",false,E0503: this is not a value for `capacity`,0,1,,,
 "
     );
     let rows = sweep("jsonl", "agv.capacity=[1,2],many");
@@ -375,4 +375,77 @@ fn wrong_command_lines_are_status_2() {
         assert_eq!(status(&output), 2, "{case:?}: {}", errors(&output));
         assert!(!output.stderr.is_empty() && output.stdout.is_empty(), "{case:?}");
     }
+}
+
+/// The line of a goal of items, and a scenario of it that ends sooner.
+fn a_to_b(folder: &Path) -> String {
+    let scenario = fs::read_to_string(example("scenes/from_a_to_b.scenario.json")).expect("the example");
+    put(folder, "short.json", &scenario.replacen('{', "{\"time_limit_s\": 20,", 1));
+    example("scenes/from_a_to_b.json")
+}
+
+#[test]
+fn of_a_goal_of_items_rows_have_the_time_until_it_and_the_items() {
+    let folder = folder("sweep_goal");
+    let layout = a_to_b(&folder);
+    let set = ["--set", "from_a_to_b.work=1,4"];
+    let sweep = |more: &[&str]| autogen(&folder, &[&["sweep", &layout][..], &set, more].concat());
+    let output = sweep(&["--format", "json", "--report", "page.html"]);
+    assert_eq!(status(&output), 0, "{}", errors(&output));
+    let commission = ["commission", &layout, "--set", "from_a_to_b.work=4", "--format", "json"];
+    let slow = json(&autogen(&folder, &commission));
+    let found = rows(&output);
+    assert_eq!(found[1]["goal_s"], slow["simulated_s"]);
+    assert!(found[0]["goal_s"].as_f64() < found[1]["goal_s"].as_f64(), "{found:?}");
+    let asked = slow["items_asked"].as_u64().expect("a number");
+    assert!(asked > 0);
+    for row in &found {
+        assert_eq!((&row["items"], &row["items_asked"]), (&asked.into(), &asked.into()));
+        let per_hour = asked as f64 * 3600.0 / row["goal_s"].as_f64().expect("a time");
+        assert!((row["items_per_hour"].as_f64().expect("a number") - per_hour).abs() < 1e-9);
+    }
+    let page = fs::read_to_string(folder.join("page.html")).expect("a page");
+    assert!(page.contains("\"Seconds until the goal\"") && page.contains("\"goal_s\":"));
+
+    let text = printed(&sweep(&[]));
+    let head = text.lines().next().expect("a line");
+    assert!(head.contains("      items  goal at s   items/h     simulated  reason"), "{text}");
+    assert!(text.contains("goal at, s, by from_a_to_b.work"), "{text}");
+    // A run that ends before the goal has its items, and no time.
+    let output = sweep(&["--format", "json", "--scenario", "short.json"]);
+    assert_eq!(status(&output), 3);
+    let row = rows(&output)[1].clone();
+    assert!(row["items"].as_u64() < Some(asked) && row["goal_s"] == Value::Null, "{row}");
+}
+
+#[test]
+fn means_differences_and_parts_of_a_goal_are_those_of_its_time() {
+    let folder = folder("sweep_goal_means");
+    let layout = a_to_b(&folder);
+    let sweep = |more: &[&str]| {
+        let fixed = ["sweep", &layout, "--set", "from_a_to_b.work=1,4", "--replications", "3"];
+        autogen(&folder, &[&fixed[..], more].concat())
+    };
+    let output = sweep(&["--format", "json", "--compare"]);
+    let found = rows(&output);
+    let goal = |row: usize| found[row]["goal_s"].as_f64().expect("a time");
+    // Nothing is drawn in this line: all replications are one run.
+    assert_eq!(found[1]["half_width"], 0.0);
+    let difference = found[1]["difference"].as_f64().expect("a difference");
+    assert!((difference - (goal(1) - goal(0))).abs() < 1e-9, "{found:?}");
+    let files: Vec<String> = (1..=2)
+        .map(|number| {
+            let name = format!("part{number}.jsonl");
+            put(&folder, &name, &printed(&sweep(&["--part", &format!("{number}/2")])));
+            name
+        })
+        .collect();
+    for format in ["json", "csv", "text"] {
+        let merged = autogen(&folder, &["merge", &files[0], &files[1], "--format", format]);
+        let whole = sweep(&["--format", format]);
+        assert_eq!(printed(&merged), printed(&whole), "{}", errors(&merged));
+    }
+    let output = sweep(&["--warm-up", "auto"]);
+    assert_eq!(status(&output), 2);
+    assert!(errors(&output).contains("--warm-up cuts orders, and these scenarios have none"));
 }

@@ -137,6 +137,30 @@ fn wrong_tests_are_refused_with_their_places() {
 }
 
 #[test]
+fn files_with_errors_are_named_behind_the_results() {
+    let folder = changed("test_not_run", "specs/stamp.aut", "hold_time: time", "hold_time: tim");
+    let output = autogen(&folder, &["test", "line", "--junit", "results.xml"]);
+    assert_eq!(status(&output), 1, "{}", errors(&output));
+    assert!(errors(&output).contains("error[E0306]"), "{}", errors(&output));
+    let last = "no test was run; the tests of line/station.test were not run: see the errors\n";
+    assert_eq!(said(&output), last);
+    let xml = fs::read_to_string(folder.join("results.xml")).expect("a file");
+    assert!(xml.contains("errors=\"1\"") && xml.contains("<error message=\"error[E0306]: "), "{xml}");
+
+    // The tests of another file are run.
+    let folder = changed("test_some_run", "station.test", "-> Stopped;", "-> Stopped;");
+    fs::write(folder.join("line/wrong.test"), "test").expect("a file");
+    let output = autogen(&folder, &["test", "line"]);
+    assert_eq!(status(&output), 1, "{}", errors(&output));
+    let last = "4 passed, 0 failed; the tests of line/wrong.test were not run: see the errors\n";
+    assert!(said(&output).ends_with(last), "{}", said(&output));
+    fs::write(folder.join("line/worse.test"), "test").expect("a file");
+    let output = autogen(&folder, &["test", "line"]);
+    let last = "4 passed, 0 failed; the tests of 2 files were not run: see the errors\n";
+    assert!(said(&output).ends_with(last), "{}", said(&output));
+}
+
+#[test]
 fn the_compiled_controllers_and_the_text_pass_the_same_tests() {
     let folder = folder("test_rust");
     assert_eq!(status(&autogen(&folder, &["new", "line", "-q"])), 0);

@@ -59,3 +59,118 @@ fn a_time_after_the_end_is_the_end() {
     let text = String::from_utf8_lossy(&output.stdout);
     assert!(text.starts_with("at 39.99 s\nthe run ends here: time limit reached\n"), "{text}");
 }
+
+/// What is said of a press whose door is open from 2 s on, and of a clerk who waits for it.
+fn of_press(name: &str, property: &str, more: &[&str]) -> Output {
+    let folder = folder(name);
+    let automata = format!(
+        "device post {{
+    part door = button {{}};
+    part glow = lamp {{ at: pose; colour: red; }};
+    /// the door is open
+    in is_open: bool = door.on;
+    /// it glows
+    out glows: bool = glow.on stop false;
+}}
+interface Machine {{ shared is_ready: bool := false by owner; }}
+automaton Press on post is Machine {{
+    {property}
+    initial -> Idle {{}}
+    state Idle {{ when after 1 s -> Pressing {{ glows := true; }} }}
+    state Pressing {{ when after 3 s -> Idle {{ glows := false; is_ready := true; }} }}
+}}
+automaton Clerk on bin {{
+    knows presses: Machine[1];
+    initial state Waiting {{ when exists p in presses: p.is_ready -> Waiting {{}} }}
+}}
+"
+    );
+    fs::write(folder.join("press.aut"), automata).expect("a file");
+    let layout = r#"{"specs": "press.aut",
+        "robots": [{"name": "press", "type": "press", "pose": [0, 0, 0]}],
+        "stationary": [{"name": "clerk", "type": "clerk", "pose": [5, 0, 0]}]}"#;
+    fs::write(folder.join("line.json"), layout).expect("a file");
+    let scenario = r#"{"time_limit_s": 6, "operator": [{"robot": "press", "part": "door", "at_s": 2}]}"#;
+    fs::write(folder.join("scenario.json"), scenario).expect("a file");
+    let output = autogen(&folder, &[&["why", "line.json"][..], more].concat());
+    assert_eq!(status(&output), 0, "{}", errors(&output));
+    output
+}
+
+fn assert_says(output: &Output, lines: &[&str]) {
+    let text = String::from_utf8_lossy(&output.stdout);
+    for line in lines {
+        assert!(text.contains(line), "{line}\n---\n{text}");
+    }
+}
+
+const STOPS_MACHINE: &str = "invariant not is_open else stop machine \"the door is open: close it\";";
+
+#[test]
+fn a_machine_that_is_stopped_tells_of_its_alarm() {
+    let output = of_press("why_stopped", STOPS_MACHINE, &[]);
+    assert_says(
+        &output,
+        &[
+            "press is stopped by an alarm, in Pressing\n",
+            "  alarm raised at 2.00 s, active, not acknowledged; it stops the machine: the door is open: close it (press.aut:11)\n",
+            "    invariant not is_open\n      FAILS  not is_open\n",
+            "is_open is true, by the device of press at 2.00 s\n",
+            "clerk (Waiting) waits for press: press.is_ready is false",
+            "press (Pressing) is stopped by its alarm: the door is open: close it; to go on: take away the cause, acknowledge, start\n",
+        ],
+    );
+    let output = of_press("why_stopped_json", STOPS_MACHINE, &["--format", "json"]);
+    let answer = json(&output);
+    let press = &answer["machines"][0];
+    assert_eq!((&press["stopped"], &press["transitions"]), (&true.into(), &serde_json::json!([])));
+    let property = &press["properties"][0];
+    assert_eq!(property["property"], "invariant not is_open");
+    assert_eq!((&property["active"], &property["stops"]), (&true.into(), &true.into()));
+    assert_eq!(property["clauses"][0]["reads"][0]["changed_by"], "the device of press");
+}
+
+#[test]
+fn a_line_in_a_fault_tells_of_its_property() {
+    let output = of_press("why_fault", "invariant not is_open else \"the door is open\";", &[]);
+    assert_says(
+        &output,
+        &[
+            "the line stands since 2.00 s in a fault of press: the door is open\n",
+            "  fault since 2.00 s: the door is open (press.aut:11)\n    invariant not is_open\n      FAILS  not is_open\n",
+        ],
+    );
+}
+
+#[test]
+fn a_property_that_waits_says_since_when_and_until_when() {
+    let property = "whenever glows then is_ready or is_open within 2 s else warn \"it takes too long\";";
+    let output = of_press("why_waits", property, &["--at", "1.5"]);
+    assert_says(
+        &output,
+        &[
+            "  waits since 1.02 s, until 3.02 s at the latest, or: it takes too long (press.aut:11)\n",
+            "    whenever glows then is_ready or is_open within 2 s\n      FAILS  then is_ready or is_open\n",
+            "      -      whenever glows\n",
+            "glows is true, by press at 1.02 s\n",
+        ],
+    );
+    // It held before its time was over.
+    let output = of_press("why_waits_no_more", property, &["--at", "3.5"]);
+    assert!(!String::from_utf8_lossy(&output.stdout).contains("waits since"));
+}
+
+#[test]
+fn a_property_over_kept_values_says_who_wrote_them() {
+    let property = "keep glows while not is_open else warn \"somebody touched the lamp\";";
+    let output = of_press("why_kept", property, &["--at", "1.5"]);
+    assert_says(
+        &output,
+        &[
+            "  alarm raised at 1.02 s, no longer active, not acknowledged; it stops nothing: somebody touched",
+            "      ok     while not is_open\n",
+            "      -      keep glows\n",
+            "glows is true, by press at 1.02 s\n",
+        ],
+    );
+}

@@ -9,8 +9,10 @@ mod gap;
 #[cfg(test)]
 mod tests;
 mod tracks;
+mod ways;
 
 pub use gap::{Gap, gaps};
+pub use ways::{By, Way, ways};
 
 use super::working::Working;
 use crate::carrier::Carrier;

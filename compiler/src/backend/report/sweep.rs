@@ -37,7 +37,15 @@ pub fn html(names: &[Name], rows: &[Value], kept: &BTreeMap<usize, String>) -> S
         row["row"] = json!(index + 1);
         row
     });
+    let has_goal = rows.iter().any(|row| row.get("goal_s").is_some());
+    let figure = match has_goal {
+        true => json!({ "key": "goal_s", "title": "Seconds until the goal", "done": "goals reached" }),
+        false => {
+            json!({ "key": "seconds_per_order", "title": "Seconds per order", "done": "all orders made" })
+        }
+    };
     let data = json!({
+        "figure": figure,
         "tool": format!("autogen {}", version::NUMBER),
         "names": names.collect::<Vec<_>>(),
         "rows": numbered.collect::<Vec<_>>(),

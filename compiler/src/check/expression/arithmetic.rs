@@ -4,7 +4,7 @@ use super::{binary, constant, to_real, unit_help};
 use crate::check::context::Context;
 use crate::check::facts::Interval;
 use crate::diagnostic::Diagnostic;
-use crate::ir::{self, Expr, ExprKind, Scalar, Value};
+use crate::ir::{self, Expr, ExprKind, Place, Scalar, Value};
 use crate::source::Span;
 use crate::spec::ast::{self, Operator};
 
@@ -24,8 +24,8 @@ impl Context<'_, '_> {
             (_, other) => {
                 let name = self.checker.type_name(other);
                 self.report(
-                    Diagnostic::new("E0315", span, format!("a value of type {name} has no sign"))
-                        .help("negate numbers only"),
+                    Diagnostic::new("E0315", span, format!("a value of type {name} cannot be negated"))
+                        .help("`-` before a value is for numbers"),
                 );
                 None
             }
@@ -130,11 +130,11 @@ impl Context<'_, '_> {
             let help = match (a.ty, b.ty) {
                 (Scalar::Time, Scalar::Int { .. } | Scalar::Real) => unit_help(right),
                 (Scalar::Int { .. } | Scalar::Real, Scalar::Time) => unit_help(left),
-                _ => "numbers and times have an order; other values are equal or not".into(),
+                _ => "`<` and `>` are for two numbers or two times; values of one other type can be compared with `=` and `<>`".into(),
             };
             let (left, right) = (self.checker.type_name(a.ty), self.checker.type_name(b.ty));
             self.report(
-                Diagnostic::new("E0315", span, format!("{left} and {right} cannot be compared in this way"))
+                Diagnostic::new("E0315", span, format!("this comparison does not take {left} and {right}"))
                     .help(help),
             );
             return None;
@@ -174,16 +174,12 @@ impl Context<'_, '_> {
                 let help = match (a, b, operator) {
                     (Scalar::Time, Scalar::Int { .. } | Scalar::Real, Operator::Add) => unit_help(right),
                     (Scalar::Int { .. } | Scalar::Real, Scalar::Time, Operator::Add) => unit_help(left),
-                    _ => "`+ - * /` join numbers; `+ -` points; a time can be added to a time or multiplied by a whole number".into(),
+                    _ => "`+ - * /` are for numbers, `+ -` for points; a time can be added to a time or multiplied by a whole number".into(),
                 };
                 let (left, right) = (self.checker.type_name(a), self.checker.type_name(b));
                 self.report(
-                    Diagnostic::new(
-                        "E0315",
-                        span,
-                        format!("{left} and {right} cannot be joined in this way"),
-                    )
-                    .help(help),
+                    Diagnostic::new("E0315", span, format!("this operator does not take {left} and {right}"))
+                        .help(help),
                 );
                 None
             }
@@ -192,21 +188,60 @@ impl Context<'_, '_> {
 
     fn time_sum(&mut self, a: Expr, b: Expr, span: Span) -> Option<Expr> {
         let (x, y) = (self.facts.of(&a), self.facts.of(&b));
-        self.fitting(0, (x.hi + y.hi) as i64, span)?;
+        self.time_fits(x.hi + y.hi, [&a, &b], span)?;
         Some(binary(ir::Operator::Add, Scalar::Time, a, b))
     }
 
     fn time_product(&mut self, time: Expr, factor: Expr, lo: i32, span: Span) -> Option<Expr> {
         if lo < 0 {
             self.report(
-                Diagnostic::new("E0316", span, "this duration could be negative")
+                Diagnostic::new("E0316", span, "this time could be negative")
                     .help("multiply by a number that is 0 or more"),
             );
             return None;
         }
         let (x, y) = (self.facts.of(&time), self.facts.of(&factor));
-        self.fitting(0, (x.hi * y.hi) as i64, span)?;
+        self.time_fits(x.hi * y.hi, [&time, &factor], span)?;
         Some(binary(ir::Operator::Multiply, Scalar::Time, time, factor))
+    }
+
+    /// Times are counted in milliseconds, of 32 bits.
+    fn time_fits(&mut self, most_ms: f64, of: [&Expr; 2], span: Span) -> Option<()> {
+        if most_ms <= f64::from(i32::MAX) {
+            return Some(());
+        }
+        let parameter = of.into_iter().find_map(|part| self.unbounded_parameter(part));
+        let help = match parameter {
+            Some(name) => format!("bound the parameter: `require {name} <= 60 min else \"{name} is over an hour\";`"),
+            None => "bound what it is made of: compare it in the guard, such as `t <= 60 min`, or write `min(t, 60 min)`".into(),
+        };
+        let label = match most_ms < f64::from(i32::MAX) * 2.0 {
+            true => "one of the two may be as long as a time can be".to_string(),
+            false => "for all that is known it may be too long".to_string(),
+        };
+        self.report(
+            Diagnostic::new(
+                "E0316",
+                span,
+                "this time is not proved to stay below 2147483648 ms, about 24 days",
+            )
+            .label(label)
+            .help(help),
+        );
+        None
+    }
+
+    /// The name of a time that is a parameter, of which nothing bounds it.
+    fn unbounded_parameter(&self, expr: &Expr) -> Option<String> {
+        if expr.ty == Scalar::Time && self.facts.of(expr).hi >= f64::from(i32::MAX) {
+            match &expr.kind {
+                ExprKind::Read(Place::Parameter { parameter, .. }) => {
+                    return Some(self.automaton.parameters[*parameter].name.clone());
+                }
+                _ => return expr.parts().into_iter().find_map(|part| self.unbounded_parameter(part)),
+            }
+        }
+        None
     }
 
     fn prove_divisor(&mut self, divisor: &Expr, span: Span) -> Option<()> {

@@ -61,7 +61,7 @@ impl Context<'_, '_> {
                             Diagnostic::new(
                                 "E0315",
                                 variable.span,
-                                format!("values of type {name} have no sum"),
+                                format!("values of type {name} cannot be added up"),
                             )
                             .help("sum numbers, or count with `count x in ...: condition`"),
                         );

@@ -1,13 +1,15 @@
 //! What the client asks about a place in a text.
 
 use super::documents::Documents;
-use super::layouts::Layouts;
+use super::layouts::{self, Layouts};
 use super::published::Files;
 use super::root::{self, Root};
 use autogen::check::names::What;
 use autogen::lsp::completion::completion;
 use autogen::lsp::diagnostics::Located;
 use autogen::lsp::hover::hover;
+use autogen::lsp::json::{self, Completion, Of, Wanted};
+use autogen::lsp::lines::Lines;
 use autogen::lsp::protocol::{
     CompletionItem, CompletionItemKind, Hover, Location, MarkupContent, MarkupKind, Position, Range,
     TextEdit, Uri, WorkspaceEdit,
@@ -39,6 +41,59 @@ impl At<'_> {
 
     fn range(&self, span: Span) -> Range {
         self.files.lines(span.file).range(span)
+    }
+}
+
+/// A layout or a scenario that is open.
+struct OpenJson<'a> {
+    of: Of,
+    line: json::Line,
+    text: &'a str,
+    lines: Lines<'a>,
+}
+
+impl<'a> OpenJson<'a> {
+    /// With what is known of its line, or of the nearest of its lines.
+    fn of(asked: &Asked<'a>, layouts: &mut Layouts) -> Option<Self> {
+        let (path, document) = asked.documents.get(asked.uri)?;
+        let text = document.text.as_deref()?;
+        path.extension().filter(|extension| *extension == "json")?;
+        let root = Root::all(path, text, layouts, asked.folders).into_iter().next()?;
+        let of = if layouts::is_layout(text) { Of::Layout } else { Of::Scenario };
+        Some(Self { of, line: root::line(&root)?, text, lines: Lines::new(text) })
+    }
+
+    fn offset(&self, asked: &Asked) -> usize {
+        self.lines.offset(asked.position)
+    }
+
+    fn range(&self, place: std::ops::Range<usize>) -> Range {
+        Range { start: self.lines.position(place.start), end: self.lines.position(place.end) }
+    }
+
+    /// Each replaces what is typed, with its quotes: an editor takes them for a part of the word or not.
+    fn completion(&self, asked: &Asked) -> Vec<CompletionItem> {
+        let found = json::completion(&self.line, self.of, self.text, self.offset(asked));
+        let Some(Completion { span, wanted, words }) = found else { return Vec::new() };
+        let range = self.range(span);
+        let words = words.into_iter().map(|word| {
+            let (kind, behind) = match wanted {
+                Wanted::Key { has_colon: false } => (CompletionItemKind::Property, ": "),
+                Wanted::Key { has_colon: true } => (CompletionItemKind::Property, ""),
+                Wanted::Value => (CompletionItemKind::Value, ""),
+            };
+            let new_text = format!("{}{behind}", word.value);
+            CompletionItem {
+                label: word.value.as_str().map_or_else(|| word.value.to_string(), str::to_string),
+                kind: Some(kind),
+                detail: Some(word.detail.to_string()).filter(|detail| !detail.is_empty()),
+                documentation: Some(word.doc).filter(|doc| !doc.is_empty()).map(Into::into),
+                filter_text: Some(word.value.to_string()),
+                text_edit: Some(TextEdit { range, new_text }.into()),
+                ..CompletionItem::default()
+            }
+        });
+        words.collect()
     }
 }
 
@@ -78,11 +133,17 @@ impl Questions {
     }
 
     pub fn hover(&mut self, asked: &Asked, layouts: &mut Layouts) -> Option<Hover> {
-        self.at(asked, layouts).iter().find_map(|at| {
+        let of_name = self.at(asked, layouts).iter().find_map(|at| {
             let (value, place) = hover(at.specs, at.span())?;
-            let contents = MarkupContent { kind: MarkupKind::Markdown, value };
-            Some(Hover { contents: contents.into(), range: Some(at.range(place)) })
-        })
+            Some((value, at.range(place)))
+        });
+        let (value, range) = of_name.or_else(|| {
+            let open = OpenJson::of(asked, layouts)?;
+            let (value, place) = json::hover(&open.line, open.of, open.text, open.offset(asked))?;
+            Some((value, open.range(place)))
+        })?;
+        let contents = MarkupContent { kind: MarkupKind::Markdown, value };
+        Some(Hover { contents: contents.into(), range: Some(range) })
     }
 
     /// None of what is declared in the library, which is in no file of this machine.
@@ -149,6 +210,9 @@ impl Questions {
     }
 
     pub fn completion(&mut self, asked: &Asked, layouts: &mut Layouts) -> Vec<CompletionItem> {
+        if let Some(open) = OpenJson::of(asked, layouts) {
+            return open.completion(asked);
+        }
         let all = self.at(asked, layouts);
         let Some(at) = all.first().filter(|at| at.specs.files.iter().any(|(file, _)| *file == at.file))
         else {

@@ -6,9 +6,11 @@ use crate::command::{named, read};
 use autogen::check;
 use autogen::diagnostic::Diagnostic;
 use autogen::lower::{Input, compile};
+use autogen::lsp::json;
 use autogen::lsp::specs::{Specs, trees};
 use autogen::source::{FileId, Sources};
 use autogen::{library, lint, scenario, testing};
+use serde_json::json;
 use std::path::{Path, PathBuf};
 
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -93,8 +95,7 @@ fn one(path: &Path, check: impl Fn(&Sources, FileId) -> Vec<Diagnostic>) -> Foun
 /// The texts of the library, then those of a folder, and the kinds of part of its scenario.
 fn texts(folder: &Path) -> Result<(Sources, Vec<FileId>, Vec<String>), String> {
     let mut sources = Sources::default();
-    let mut files: Vec<FileId> =
-        library::FILES.iter().map(|(name, text)| sources.add(*name, *text)).collect();
+    let mut files = of_library(&mut sources);
     for path in named::automata(folder).map_err(|why| why.to_string())? {
         let file = load::add(&mut sources, &path);
         files.push(file.map_err(|_| format!("{}: this file cannot be read", path.display()))?);
@@ -120,6 +121,58 @@ pub fn specs(root: &Root) -> Option<Specs> {
         }
         Root::Scenario(_) | Root::Tests(_) => None,
     }
+}
+
+/// What is known of the line to which a layout or a scenario belongs, however wrong its texts are just now.
+pub fn line(root: &Root) -> Option<json::Line> {
+    let path = match root {
+        Root::Layout(path) | Root::Scenario(path) => path,
+        Root::Folder(_) | Root::Tests(_) => return None,
+    };
+    let text = read::text(path).ok()?;
+    let tree = json::parse(&text);
+    let mut sources = Sources::default();
+    let (specs, kinds) = match root {
+        Root::Scenario(_) => (of_library(&mut sources), json::kinds(&tree)),
+        _ => match texts_named(&mut sources, path, &tree) {
+            Some(texts) => {
+                let kinds = json::kinds(&json::parse(&sources.file(texts.scenario).text));
+                (texts.specs, kinds)
+            }
+            None => (of_library(&mut sources), Vec::new()),
+        },
+    };
+    let (mut trees, _) = trees(&sources, &specs);
+    let automata = trees.iter().flat_map(|(_, file)| &file.automata);
+    let declared = automata.map(|automaton| automaton.name.value.clone()).collect();
+    let some = if kinds.is_empty() { vec!["part".into()] } else { kinds.clone() };
+    let checked = check::check(&sources, &trees, &some).or_else(|_| {
+        trees.truncate(library::FILES.len());
+        check::check(&sources, &trees, &some)
+    });
+    let model = checked.ok()?.into_model();
+    Some(json::Line { model, declared, kinds, things: json::things(&tree) })
+}
+
+fn of_library(sources: &mut Sources) -> Vec<FileId> {
+    library::FILES.iter().map(|(name, text)| sources.add(*name, *text)).collect()
+}
+
+/// The other texts of a layout, by what can be read of it.
+fn texts_named(sources: &mut Sources, path: &Path, layout: &json::Node) -> Option<load::Texts> {
+    let specs = layout.get("specs");
+    let specs: Vec<&str> = specs
+        .into_iter()
+        .flat_map(|specs| specs.items().iter().chain([specs]))
+        .filter_map(json::Node::text)
+        .collect();
+    let scenario = layout.get("scenario").and_then(json::Node::text);
+    let mut named = json!({"robots": [], "specs": specs});
+    if let Some(scenario) = scenario {
+        named["scenario"] = scenario.into();
+    }
+    let file = sources.add(path.display().to_string(), named.to_string());
+    load::texts_of(sources, path, file, &[], None).ok()
 }
 
 fn kinds(sources: &Sources, scenario: FileId) -> Vec<String> {

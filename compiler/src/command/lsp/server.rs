@@ -306,8 +306,8 @@ fn capabilities() -> InitializeResult {
         ..TextDocumentSyncOptions::default()
     };
     let rename = RenameOptions { prepare_provider: Some(true), ..RenameOptions::default() };
-    let completion =
-        CompletionOptions { trigger_characters: Some(vec![".".into()]), ..CompletionOptions::default() };
+    let trigger_characters = Some(vec![".".into(), "\"".into()]);
+    let completion = CompletionOptions { trigger_characters, ..CompletionOptions::default() };
     InitializeResult {
         capabilities: ServerCapabilities {
             position_encoding: Some(PositionEncodingKind::UTF16),

@@ -1,5 +1,6 @@
 //! Columns that stand in a table only if they are asked for.
 
+use super::design::Asked;
 use super::measured::Beside;
 use super::rows::Row;
 use serde_json::{Value, json};
@@ -13,6 +14,18 @@ pub struct Columns {
 }
 
 impl Columns {
+    /// Of a goal of items; their text stands where that of orders does.
+    pub fn of_items(row: &Row) -> Self {
+        let outcome = &row.outcome;
+        let values = vec![
+            ("items", json!(outcome.items)),
+            ("items_asked", json!(outcome.items_asked)),
+            ("goal_s", json!(outcome.figure(Asked::Items))),
+            ("items_per_hour", json!(row.items_per_hour)),
+        ];
+        Self { values, texts: Vec::new() }
+    }
+
     /// Of several runs of each point.
     pub fn of_runs(row: &Row) -> Self {
         Self {

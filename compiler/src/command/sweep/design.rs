@@ -5,11 +5,21 @@ use super::precision::Precision;
 use super::warm_up::WarmUp;
 use serde_json::{Map, Value, json};
 
+/// What the scenarios of a sweep ask for. It decides which figure a run comes to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Asked {
+    /// The figure is the seconds per order.
+    Orders,
+    /// Sinks should collect items: the figure is the time until they have, s.
+    Items,
+}
+
 /// Nothing of it needs the layouts: a part of a sweep carries it in its first line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Design {
     /// How rows name the layouts.
     pub layouts: Vec<String>,
+    pub asked: Asked,
     pub axes: Vec<Axis>,
     /// Seeds of orders of the steps; empty: layout order.
     pub orders: Vec<u64>,
@@ -97,6 +107,7 @@ impl Design {
             self.axes.iter().map(|axis| json!({ "name": axis.name, "values": axis.values })).collect();
         let design = [
             ("layouts", json!(self.layouts)),
+            ("goal_of_items", json!(self.asked == Asked::Items)),
             ("set", Value::Array(axes)),
             ("order", json!(self.orders)),
             ("io_delay", json!(self.delays)),
@@ -120,6 +131,7 @@ impl Design {
         };
         let design = Self {
             layouts: texts(&json["layouts"])?,
+            asked: if json["goal_of_items"].as_bool()? { Asked::Items } else { Asked::Orders },
             axes: json["set"].as_array()?.iter().map(axis).collect::<Option<_>>()?,
             orders: json["order"].as_array()?.iter().map(Value::as_u64).collect::<Option<_>>()?,
             delays: texts(&json["io_delay"])?,

@@ -1,13 +1,14 @@
 //! The rows of one parameter beside one another: layouts by values.
 
-use super::design::Design;
+use super::design::{Asked, Design};
 use super::rows::Row;
 
 /// Values that fit beside one another on a page.
 const MOST_VALUES: usize = 12;
 
-/// Seconds per order of each layout and value; `None` where not all orders were made.
+/// The figure of each layout and value; `None` where not all was done.
 pub struct Grid {
+    asked: Asked,
     cells: Vec<Vec<Option<f64>>>,
 }
 
@@ -20,21 +21,28 @@ impl Grid {
             && axis.values.iter().all(is_number)
             && design.orders.len() <= 1
             && design.delays.len() <= 1;
-        fits.then(|| Self { cells: vec![vec![None; axis.values.len()]; design.layouts.len()] })
+        fits.then(|| Self {
+            asked: design.asked,
+            cells: vec![vec![None; axis.values.len()]; design.layouts.len()],
+        })
     }
 
     pub fn take(&mut self, row: &Row) {
         if row.outcome.finished
             && let [value] = row.point.values[..]
         {
-            self.cells[row.point.layout][value] = row.outcome.seconds_per_order;
+            self.cells[row.point.layout][value] = row.outcome.figure(self.asked);
         }
     }
 
     pub fn text(&self, design: &Design) -> String {
         let Some(axis) = design.axes.first() else { return String::new() };
         let titles = design.layouts.iter().map(|title| title.chars().count());
-        let heading = format!("s/order by {}", axis.name);
+        let figure = match self.asked {
+            Asked::Orders => "s/order",
+            Asked::Items => "goal at, s,",
+        };
+        let heading = format!("{figure} by {}", axis.name);
         let first = titles.chain([heading.len()]).max().unwrap_or(0);
         let widths: Vec<usize> = axis.values.iter().map(|value| value.len().max(8)).collect();
         let row = |title: &str, cells: Vec<String>| {

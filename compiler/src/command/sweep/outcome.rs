@@ -1,6 +1,6 @@
 //! What came of one run.
 
-use super::design::{Design, RunNumber};
+use super::design::{Asked, Design, RunNumber};
 use super::warm_up::{WarmUp, seconds_per_order};
 use crate::Status;
 use serde_json::{Map, Value, json};
@@ -15,6 +15,10 @@ pub struct Outcome {
     pub orders: Option<u64>,
     /// `None` if no order was made, or all were cut.
     pub seconds_per_order: Option<f64>,
+    /// Items that the sinks of a goal have; 0 without such a goal.
+    pub items: u64,
+    /// Number that they should have; `None` without such a goal.
+    pub items_asked: Option<u64>,
     /// Orders of the warm-up, which are not in [`Self::seconds_per_order`].
     pub cut_orders: u64,
     /// `None` if there was no run.
@@ -28,13 +32,15 @@ pub struct Outcome {
 
 impl Outcome {
     /// Nothing has come of it yet.
-    pub fn new(orders: Option<usize>) -> Self {
+    pub fn new(orders: Option<usize>, items_asked: Option<u64>) -> Self {
         Self {
             finished: false,
             reason: String::new(),
             orders_done: 0,
             orders: orders.map(|n| n as u64),
             seconds_per_order: None,
+            items: 0,
+            items_asked,
             cut_orders: 0,
             simulated_s: None,
             trace_hash: None,
@@ -50,6 +56,8 @@ impl Outcome {
         self.orders_done = report["orders_done"].as_u64().unwrap_or(0);
         self.orders = report["orders"].as_u64();
         self.seconds_per_order = report["seconds_per_order"].as_f64();
+        self.items = report["items_collected"].as_u64().unwrap_or(0);
+        self.items_asked = report["items_asked"].as_u64();
         if let Some(warm_up) = warm_up {
             let times = report["order_times"].as_array().into_iter().flatten();
             let mut made: Vec<f64> = times.filter_map(|times| times["made_s"].as_f64()).collect();
@@ -65,6 +73,21 @@ impl Outcome {
             false if self.reason.starts_with("bug: ") => Status::Bug,
             false => Status::NotReached,
         };
+    }
+
+    /// The figure of a run that has done what was asked for, and of means of such runs.
+    pub fn figure(&self, asked: Asked) -> Option<f64> {
+        match asked {
+            Asked::Orders => self.seconds_per_order,
+            Asked::Items => self.simulated_s,
+        }
+        .filter(|_| self.finished)
+    }
+
+    /// Items that sinks collect in an hour, as a mean over the run.
+    pub fn items_per_hour(&self) -> Option<f64> {
+        let simulated_s = self.simulated_s.filter(|s| *s > 0.0)?;
+        self.items_asked.map(|_| self.items as f64 * 3600.0 / simulated_s)
     }
 
     /// The point cannot be run, whatever the seeds are.
@@ -92,6 +115,10 @@ impl Outcome {
         let mut line = design.names(&design.point(run.point));
         line.insert("replication".into(), json!(run.replication));
         line.extend(self.to_json());
+        if design.asked == Asked::Items {
+            line.insert("items".into(), json!(self.items));
+            line.insert("items_asked".into(), json!(self.items_asked));
+        }
         line.insert("cut_orders".into(), json!(self.cut_orders));
         line.insert("status".into(), json!(self.status as u8));
         line
@@ -110,6 +137,8 @@ impl Outcome {
             orders_done: number("orders_done").unwrap_or(0),
             orders: number("orders"),
             seconds_per_order: value("seconds_per_order").as_f64(),
+            items: number("items").unwrap_or(0),
+            items_asked: number("items_asked"),
             cut_orders: number("cut_orders").unwrap_or(0),
             simulated_s: value("simulated_s").as_f64(),
             trace_hash: value("trace_hash").as_str().map(String::from),

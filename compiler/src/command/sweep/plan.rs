@@ -6,7 +6,7 @@ use super::super::controllers::{self, Notice, SharedLibrary};
 use super::super::load::{self, Failure};
 use super::super::options::SweepOptions;
 use super::axis::Axis;
-use super::design::Design;
+use super::design::{Asked, Design};
 use super::precision::{self, Precision};
 use super::warm_up::WarmUp;
 use autogen::ir::System;
@@ -95,7 +95,14 @@ impl Plan {
         let most = if precision.is_some() { precision::MOST } else { 1 };
         let replications = options.replications.map_or(most, NonZeroU32::get);
         seeds_are_apart(&axes, replications)?;
+        let asked = asked(&lines);
+        if asked == Asked::Items && options.warm_up.is_some() {
+            return Err(Refusal::Said(
+                "--warm-up cuts orders, and these scenarios have none: their goal is items that sinks collect".into(),
+            ));
+        }
         let design = Design {
+            asked,
             layouts: titles(&lines, &options.layouts),
             axes,
             orders: options.order.clone(),
@@ -107,6 +114,13 @@ impl Plan {
         let runs = design.runs().ok_or_else(|| Refusal::Said("there are too many runs to count".into()))?;
         Ok(Self { design, lines, delays, runs })
     }
+}
+
+/// Items only if no layout has orders: else rows have one figure for all.
+fn asked(lines: &[Line]) -> Asked {
+    let has_items = lines.iter().any(|line| line.draft.items().is_some());
+    let has_orders = lines.iter().any(|line| line.draft.orders().is_some());
+    if has_items && !has_orders { Asked::Items } else { Asked::Orders }
 }
 
 fn precision(text: &str) -> Result<Precision, Refusal> {

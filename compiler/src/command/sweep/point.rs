@@ -25,7 +25,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 pub fn outcome(plan: &Plan, number: RunNumber, notice: Notice) -> Outcome {
     let point = plan.design.point(number.point);
     let line = &plan.lines[point.layout];
-    let mut outcome = Outcome::new(line.draft.orders());
+    let mut outcome = Outcome::new(line.draft.orders(), line.draft.items());
     match catch_unwind(AssertUnwindSafe(|| run(plan, &point, number.replication, notice))) {
         Ok(Ok(report)) => outcome.reported(&report, plan.design.warm_up),
         Ok(Err(End::Refused(found))) => {

@@ -1,6 +1,6 @@
 //! Runs, taken in order, become rows.
 
-use super::design::{Design, Point, RunNumber};
+use super::design::{Asked, Design, Point, RunNumber};
 use super::interval::Sample;
 use super::outcome::Outcome;
 use super::table::Table;
@@ -16,11 +16,13 @@ pub struct Row {
     /// Runs, and those of them in which all orders were made.
     pub runs: u32,
     pub finished_runs: usize,
-    /// Half of the width of the 95 % interval of the seconds per order; `None` of less than two runs.
+    /// Half of the width of the 95 % interval of the figure; `None` of less than two runs.
     pub half_width: Option<f64>,
     /// Mean over the runs in which all orders were made.
     pub cut_orders: Option<f64>,
-    /// Seconds per order less those of the first point with the same seeds.
+    /// Mean over all runs; `None` without a goal of items.
+    pub items_per_hour: Option<f64>,
+    /// The figure less that of the first point with the same seeds.
     pub differences: Sample,
 }
 
@@ -29,11 +31,12 @@ impl Row {
     pub fn empty(design: &Design) -> Self {
         Self {
             point: design.point(0),
-            outcome: Outcome::new(None),
+            outcome: Outcome::new(None, None),
             runs: 0,
             finished_runs: 0,
             half_width: None,
             cut_orders: None,
+            items_per_hour: None,
             differences: Sample::default(),
         }
     }
@@ -44,19 +47,23 @@ impl Row {
 struct Tally {
     runs: u32,
     orders_done: Option<u64>,
+    items: Option<u64>,
     shown: Option<Outcome>,
-    seconds_per_order: Sample,
+    figure: Sample,
     simulated_s: Sample,
     cut_orders: Sample,
+    items_per_hour: Sample,
     differences: Sample,
 }
 
 impl Tally {
-    fn take(&mut self, replication: u32, mut outcome: Outcome) {
+    fn take(&mut self, replication: u32, mut outcome: Outcome, asked: Asked) {
         self.runs += 1;
         self.orders_done = self.orders_done.into_iter().chain([outcome.orders_done]).min();
+        self.items = self.items.into_iter().chain([outcome.items]).min();
+        outcome.items_per_hour().into_iter().for_each(|n| self.items_per_hour.take(n));
         if outcome.finished {
-            outcome.seconds_per_order.into_iter().for_each(|s| self.seconds_per_order.take(s));
+            outcome.figure(asked).into_iter().for_each(|s| self.figure.take(s));
             outcome.simulated_s.into_iter().for_each(|s| self.simulated_s.take(s));
             self.cut_orders.take(outcome.cut_orders as f64);
         } else {
@@ -67,10 +74,11 @@ impl Tally {
         }
     }
 
-    fn row(self, point: Point) -> Option<Row> {
+    fn row(self, point: Point, asked: Asked) -> Option<Row> {
         let mut outcome = self.shown?;
         outcome.orders_done = self.orders_done?;
-        outcome.seconds_per_order = self.seconds_per_order.mean();
+        outcome.items = self.items?;
+        outcome.seconds_per_order = self.figure.mean().filter(|_| asked == Asked::Orders);
         outcome.simulated_s = self.simulated_s.mean();
         outcome.trace_hash = None;
         Some(Row {
@@ -78,8 +86,9 @@ impl Tally {
             outcome,
             runs: self.runs,
             finished_runs: self.cut_orders.count,
-            half_width: self.seconds_per_order.half_width(),
+            half_width: self.figure.half_width(),
             cut_orders: self.cut_orders.mean(),
+            items_per_hour: self.items_per_hour.mean(),
             differences: self.differences,
         })
     }
@@ -90,7 +99,7 @@ pub struct Rows<'a> {
     design: &'a Design,
     table: Table<'a>,
     tally: Tally,
-    /// Of the first point, for each replication: seconds per order, if all orders were made. Empty unless the table
+    /// Of the first point, for each replication: the figure, if all was done. Empty unless the table
     /// compares.
     first: Vec<Option<f64>>,
     /// What all runs so far came to.
@@ -108,7 +117,7 @@ impl<'a> Rows<'a> {
     pub fn take(&mut self, run: RunNumber, outcome: Outcome) -> bool {
         self.status = worse(self.status, outcome.status);
         if self.table.compares() {
-            self.compare(run, outcome.seconds_per_order.filter(|_| outcome.finished));
+            self.compare(run, outcome.figure(self.design.asked));
         }
         let is_refused = outcome.is_refused();
         if !self.design.has_means() {
@@ -118,29 +127,33 @@ impl<'a> Rows<'a> {
                 finished_runs: usize::from(outcome.finished),
                 half_width: None,
                 cut_orders: outcome.finished.then_some(outcome.cut_orders as f64),
+                items_per_hour: outcome.items_per_hour(),
                 differences: std::mem::take(&mut self.tally).differences,
                 outcome,
             };
             self.table.row(&row);
             return true;
         }
-        self.tally.take(run.replication, outcome);
+        self.tally.take(run.replication, outcome, self.design.asked);
         let is_enough = self
             .design
             .precision
-            .is_some_and(|precision| is_refused || precision.is_reached(&self.tally.seconds_per_order));
+            .is_some_and(|precision| is_refused || precision.is_reached(&self.tally.figure));
         let is_last = is_enough || self.tally.runs == self.design.replications;
-        if is_last && let Some(row) = std::mem::take(&mut self.tally).row(self.design.point(run.point)) {
+        if is_last
+            && let Some(row) =
+                std::mem::take(&mut self.tally).row(self.design.point(run.point), self.design.asked)
+        {
             self.table.row(&row);
         }
         is_last
     }
 
-    fn compare(&mut self, run: RunNumber, seconds_per_order: Option<f64>) {
+    fn compare(&mut self, run: RunNumber, figure: Option<f64>) {
         if run.point == 0 {
-            self.first.push(seconds_per_order);
+            self.first.push(figure);
         } else if let Some(first) = self.first.get(run.replication as usize).copied().flatten()
-            && let Some(here) = seconds_per_order
+            && let Some(here) = figure
         {
             self.tally.differences.take(here - first);
         }

@@ -2,7 +2,7 @@
 
 use super::super::options::{TableFormat, TableOptions};
 use super::columns::{Columns, seconds};
-use super::design::Design;
+use super::design::{Asked, Design};
 use super::grid::Grid;
 use super::measured::{Beside, Measured};
 use super::plan::Refusal;
@@ -81,6 +81,9 @@ impl<'a> Table<'a> {
     /// Those that are asked for. `beside` is there if there are figures from elsewhere.
     fn columns(&self, row: &Row, beside: Option<Beside>) -> Vec<Columns> {
         let mut columns = Vec::new();
+        if self.design.asked == Asked::Items {
+            columns.push(Columns::of_items(row));
+        }
         if self.design.has_means() {
             columns.push(Columns::of_runs(row));
         }
@@ -106,12 +109,16 @@ impl<'a> Table<'a> {
                 say!("{}", names.chain(values).map(csv::field).collect::<Vec<_>>().join(","));
             }
             TableFormat::Text if !self.quiet => {
-                let (orders, each, simulated) = ("orders", "s/order", "simulated");
+                let figures = match self.design.asked {
+                    Asked::Orders => format!("{:>11}  {:>9}", "orders", "s/order"),
+                    Asked::Items => format!("{:>11}  {:>9}  {:>8}", "items", "goal at s", "items/h"),
+                };
+                let simulated = "simulated";
                 let names = self.text(|name| name.title.into());
                 let more: String = (columns.iter().flat_map(|columns| &columns.texts))
                     .map(|(title, width, _)| format!("  {title:>width$}"))
                     .collect();
-                say!("{names}  {orders:>11}  {each:>9}{more}  {simulated:>12}  reason");
+                say!("{names}  {figures}{more}  {simulated:>12}  reason");
             }
             TableFormat::Text | TableFormat::Jsonl => {}
         }
@@ -143,13 +150,24 @@ impl<'a> Table<'a> {
             TableFormat::Text => {
                 let outcome = &row.outcome;
                 let point = self.text(|name| (name.cell)(row));
-                let orders =
-                    outcome.orders.map_or_else(|| "-".into(), |n| format!("{} of {n}", outcome.orders_done));
-                let (each, simulated) = (seconds(outcome.seconds_per_order), seconds(outcome.simulated_s));
+                let of =
+                    |done: u64, all: Option<u64>| all.map_or("-".into(), |all| format!("{done} of {all}"));
+                let figures = match self.design.asked {
+                    Asked::Orders => {
+                        let orders = of(outcome.orders_done, outcome.orders);
+                        format!("{orders:>11}  {:>9}", seconds(outcome.seconds_per_order))
+                    }
+                    Asked::Items => {
+                        let items = of(outcome.items, outcome.items_asked);
+                        let per_hour = row.items_per_hour.map_or("-".into(), |n| format!("{n:.1}"));
+                        format!("{items:>11}  {:>9}  {per_hour:>8}", seconds(outcome.figure(Asked::Items)))
+                    }
+                };
+                let simulated = seconds(outcome.simulated_s);
                 let more: String = (columns.iter().flat_map(|columns| &columns.texts))
                     .map(|(_, width, cell)| format!("  {cell:>width$}"))
                     .collect();
-                say!("{point}  {orders:>11}  {each:>9}{more}  {simulated:>12}  {}", outcome.reason);
+                say!("{point}  {figures}{more}  {simulated:>12}  {}", outcome.reason);
             }
         }
         if let Some(grid) = &mut self.grid {

@@ -1,6 +1,6 @@
 //! Results as XML in the form of JUnit, as servers for continuous integration read it.
 
-use super::{OfFile, Outcome, Result, place_text};
+use super::{NotRun, OfFile, Outcome, Result, place_text};
 use autogen::plain;
 use std::fmt::Write;
 
@@ -8,7 +8,7 @@ use std::fmt::Write;
 pub const HEAD: &str = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites";
 
 /// No times: the same results are the same bytes.
-pub fn text(files: &[OfFile]) -> String {
+pub fn text(files: &[OfFile], not_run: &[NotRun]) -> String {
     let count = |file: &OfFile, wanted: fn(&Outcome) -> bool| {
         file.results.iter().filter(|result| wanted(&result.outcome)).count()
     };
@@ -48,6 +48,14 @@ pub fn text(files: &[OfFile]) -> String {
             }
         }
         out += "  </testsuite>\n";
+    }
+    for NotRun { name, first } in not_run {
+        let (name, first) = (escaped(name), escaped(first));
+        let _ = writeln!(
+            out,
+            "  <testsuite name=\"{name}\" tests=\"1\" failures=\"0\" errors=\"1\" skipped=\"0\">\n    <testcase \
+             classname=\"{name}\" name=\"can be run\"><error message=\"{first}\"/></testcase>\n  </testsuite>"
+        );
     }
     out + "</testsuites>\n"
 }

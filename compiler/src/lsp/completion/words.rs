@@ -17,7 +17,7 @@ pub struct Word {
 }
 
 /// Names of one kind that are offered.
-const MOST_WORDS: usize = 1000;
+pub const MOST_WORDS: usize = 1000;
 
 const TYPES: &[&str] = &["bool", "int", "real", "time", "point"];
 

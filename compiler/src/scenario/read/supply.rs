@@ -32,7 +32,7 @@ impl Decoder {
         if let Some(surplus) = members.iter().find(|m| m.key.value == "surplus") {
             self.report(
                 Diagnostic::new("E0133", surplus.key.span, "\"surplus\" has no effect beside \"items\"")
-                    .other(items.span, "these parts are brought as they stand")
+                    .other(items.span, "the belt brings just these parts")
                     .note("it makes a list of parts where none is given")
                     .help("remove \"surplus\" or \"items\""),
             );

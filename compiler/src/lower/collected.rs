@@ -1,0 +1,125 @@
+//! Whether items can get to the sinks that should collect them.
+
+use crate::connect::Edge;
+use crate::diagnostic::Diagnostic;
+use crate::layout::decode::listing;
+use crate::scenario::Scenario;
+use runtime_sim::line::{self, Goal, Line};
+use runtime_sim::part::Primitive;
+use runtime_sim::plant::Way;
+use std::collections::HashSet;
+
+/// Where an item may be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+enum Spot {
+    /// On a conveyor: machine and part.
+    Lane(usize, usize),
+    /// Elsewhere on a machine.
+    Machine(usize),
+}
+
+/// One for each kind that a sink should collect, and that cannot get there. `edges` are those between machines.
+pub fn out_of_reach(scenario: &Scenario, line: &Line, edges: &[Edge], ways: &[Way]) -> Vec<Diagnostic> {
+    let Goal::Collected(goal) = &line.scenario.goal else { return Vec::new() };
+    // What falls from a gripper, and what an arm takes that knows no handovers, may get anywhere.
+    let is_free =
+        |machine: usize| has_grip(line, machine) && !edges.iter().any(|e| [e.from, e.to].contains(&machine));
+    if !line.scenario.slips.is_empty() || (0..line.machines.len()).any(is_free) {
+        return Vec::new();
+    }
+    let reached = reached(line, edges, ways);
+    let asked = goal.iter().zip(&scenario.goal);
+    let lacking = asked.flat_map(|(collected, written)| {
+        let kinds = (0..line.kinds.len()).filter(|kind| collected.items[*kind] > 0);
+        let missed = kinds.filter(|kind| !comes_to(line, &reached, collected, *kind));
+        missed.map(|kind| diagnostic(line, &reached, kind, written)).collect::<Vec<_>>()
+    });
+    lacking.collect()
+}
+
+fn has_grip(line: &Line, machine: usize) -> bool {
+    line.machines[machine].parts.iter().any(|part| matches!(part.primitive, Primitive::Grip(_)))
+}
+
+fn comes_to(line: &Line, reached: &HashSet<(Spot, usize)>, sink: &line::Collected, kind: usize) -> bool {
+    match &line.machines[sink.machine].parts[sink.part].primitive {
+        Primitive::Sink(found) => reached.contains(&(Spot::Lane(sink.machine, found.lane), kind)),
+        _ => true,
+    }
+}
+
+/// Where items of each kind may get to, whatever is commanded.
+fn reached(line: &Line, edges: &[Edge], ways: &[Way]) -> HashSet<(Spot, usize)> {
+    let lanes = |machine: usize| {
+        let parts = line.machines[machine].parts.iter().enumerate();
+        let lanes = parts.filter(|(_, part)| matches!(part.primitive, Primitive::Lane(_)));
+        lanes.map(move |(part, _)| Spot::Lane(machine, part))
+    };
+    let mut open: Vec<(Spot, usize)> = Vec::new();
+    for supply in &line.scenario.supply {
+        for part in &line.machines[supply.belt].parts {
+            if let Primitive::Source(source) = &part.primitive {
+                open.extend(supply.items.iter().map(|kind| (Spot::Lane(supply.belt, source.lane), *kind)));
+            }
+        }
+    }
+    let mut reached = HashSet::new();
+    while let Some((spot, kind)) = open.pop() {
+        if !reached.insert((spot, kind)) {
+            continue;
+        }
+        let machine = match spot {
+            Spot::Lane(machine, part) => {
+                let ways = ways.iter().filter(|way| way.from == (machine, part));
+                open.extend(ways.map(|way| (Spot::Lane(way.to.0, way.to.1), kind)));
+                open.push((Spot::Machine(machine), kind));
+                machine
+            }
+            Spot::Machine(machine) => {
+                for edge in edges.iter().filter(|edge| edge.from == machine) {
+                    open.push((Spot::Machine(edge.to), kind));
+                    open.extend(lanes(edge.to).map(|lane| (lane, kind)));
+                }
+                if has_grip(line, machine) {
+                    open.extend(lanes(machine).map(|lane| (lane, kind)));
+                }
+                machine
+            }
+        };
+        open.extend(made_of(line, machine, kind).map(|made| (spot, made)));
+    }
+    reached
+}
+
+/// The kinds into which a machine makes one.
+fn made_of(line: &Line, machine: usize, kind: usize) -> impl Iterator<Item = usize> {
+    let name = &line.kinds[kind].name;
+    let processes = line.machines[machine].parts.iter().filter_map(|part| match &part.primitive {
+        Primitive::Process(process) => Some(&process.makes),
+        _ => None,
+    });
+    let made = processes.flatten().filter(move |[from, _]| from == name);
+    made.filter_map(|[_, to]| line.kinds.iter().position(|kind| kind.name == *to))
+}
+
+fn diagnostic(
+    line: &Line,
+    reached: &HashSet<(Spot, usize)>,
+    kind: usize,
+    written: &crate::scenario::Collected<crate::source::Spanned<String>>,
+) -> Diagnostic {
+    let (name, sink) = (&line.kinds[kind].name, &written.sink);
+    let message = format!("no `{name}` can get to the sink {}", sink.value);
+    let diagnostic = Diagnostic::new("E0410", sink.span, message);
+    let machines = line.machines.iter().enumerate();
+    let passed = machines.filter(|(number, _)| reached.contains(&(Spot::Machine(*number), kind)));
+    let passed: Vec<&str> = passed.map(|(_, machine)| machine.name.as_str()).collect();
+    if passed.is_empty() {
+        return diagnostic
+            .note(format!("no source brings a `{name}`"))
+            .help(format!("add `{name}` to `items` of `supply`, or take it out of the goal"));
+    }
+    diagnostic
+        .note(format!("machines that a `{name}` can get to: {}", listing(&passed)))
+        .help("let a conveyor begin where the one before it ends, or let the goal name a sink behind these machines")
+}

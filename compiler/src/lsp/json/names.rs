@@ -1,0 +1,111 @@
+//! Where a file names what another key or another file has: machines, their parts, kinds of part.
+
+use super::tree::{Place, Step, Wanted};
+use super::{Line, Of, Thing};
+use crate::ir::{Automaton, Scalar};
+use crate::lower::bind::{automaton_name, json_type};
+
+/// The names that a place asks for.
+pub fn names(line: &Line, of: Of, place: &Place) -> Vec<String> {
+    let path: Vec<&str> = place
+        .path
+        .iter()
+        .map(|step| match step {
+            Step::Key(key) => key.as_str(),
+            Step::Index(_) => "*",
+        })
+        .collect();
+    let is_key = matches!(place.wanted, Wanted::Key { .. });
+    match (of, is_key) {
+        (Of::Layout, false) => in_layout(line, &path, place),
+        (Of::Layout, true) => Vec::new(),
+        (Of::Scenario, true) => keys_of_scenario(line, &path),
+        (Of::Scenario, false) => in_scenario(line, &path, place),
+    }
+}
+
+fn in_layout(line: &Line, path: &[&str], place: &Place) -> Vec<String> {
+    let own = || place.around.get(2).copied();
+    let text = |key: &str| own().and_then(|own| own.get(key)?.text());
+    match path {
+        ["robots" | "stationary", "*", "type"] => line.declared.iter().map(|name| json_type(name)).collect(),
+        ["robots" | "stationary", "*", "takes_from" | "hands_to", "*"] => {
+            let name = text("name");
+            of_things(line, |thing, automaton| automaton.is_some() && Some(thing.name.as_str()) != name)
+        }
+        ["may_touch", "*", "pair", "*"] => of_things(line, |_, _| true),
+        ["robots" | "stationary", "*", "parameters", parameter, ..] => {
+            let automaton = text("type").and_then(|kind| line.automaton(kind));
+            let parameters = automaton.map(|automaton| automaton.parameters.as_slice()).unwrap_or_default();
+            let found = parameters.iter().find(|known| known.name == *parameter);
+            match found.map(|parameter| parameter.ty.scalar) {
+                Some(Scalar::Ref(interface)) => of_things(line, |_, automaton| {
+                    automaton.is_some_and(|automaton| automaton.implementing(interface).is_some())
+                }),
+                _ => Vec::new(),
+            }
+        }
+        _ => Vec::new(),
+    }
+}
+
+fn keys_of_scenario(line: &Line, path: &[&str]) -> Vec<String> {
+    match path {
+        ["orders", "parts"] | ["orders", "*", "parts"] | ["goal", _] => line.kinds.clone(),
+        ["supply", "items"] => having(line, "source"),
+        ["goal"] => machines(line)
+            .flat_map(|(thing, automaton)| {
+                let sinks = automaton.device.parts_called("sink");
+                sinks.map(|(_, sink)| format!("{}.{sink}", thing.name))
+            })
+            .collect(),
+        _ => Vec::new(),
+    }
+}
+
+fn in_scenario(line: &Line, path: &[&str], place: &Place) -> Vec<String> {
+    match path {
+        ["supply", "items", "*"] | ["supply", "items", _, "*"] => line.kinds.clone(),
+        ["orders", "stations", "*"]
+        | ["orders", "*", "station"]
+        | ["orders", "*", "station" | "stations", "*"] => having(line, "orders"),
+        ["faults", "slips", "*", "robot"] => having(line, "grip"),
+        ["faults", _, "*", "robot"] => of_machines(line, |automaton| automaton.device.is_commanded()),
+        ["operator", "*", "robot"] => of_machines(line, |automaton| automaton.device.operated().count() > 0),
+        ["operator", "*", "part"] => {
+            let robot = place.around.last().and_then(|own| own.get("robot")?.text());
+            let robot = machines(line).find(|(thing, _)| Some(thing.name.as_str()) == robot);
+            let parts = robot.into_iter().flat_map(|(_, automaton)| automaton.device.operated());
+            parts.map(|(_, part, _)| part.to_string()).collect()
+        }
+        _ => Vec::new(),
+    }
+}
+
+fn of_things(line: &Line, is_wanted: impl Fn(&Thing, Option<&Automaton>) -> bool) -> Vec<String> {
+    let wanted = line.things.iter().filter(|thing| is_wanted(thing, line.automaton(&thing.kind)));
+    wanted.map(|thing| thing.name.clone()).collect()
+}
+
+fn machines(line: &Line) -> impl Iterator<Item = (&Thing, &Automaton)> {
+    line.things.iter().filter_map(|thing| Some((thing, line.automaton(&thing.kind)?)))
+}
+
+fn of_machines(line: &Line, is_wanted: impl Fn(&Automaton) -> bool) -> Vec<String> {
+    machines(line)
+        .filter(|(_, automaton)| is_wanted(automaton))
+        .map(|(thing, _)| thing.name.clone())
+        .collect()
+}
+
+/// Machines with a part of this primitive.
+fn having(line: &Line, primitive: &str) -> Vec<String> {
+    of_machines(line, |automaton| automaton.device.has(primitive))
+}
+
+impl Line {
+    fn automaton(&self, kind: &str) -> Option<&Automaton> {
+        let name = automaton_name(kind);
+        self.model.automata.iter().find(|automaton| automaton.name == name)
+    }
+}

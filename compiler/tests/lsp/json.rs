@@ -1,0 +1,181 @@
+//! Completion and hover in layouts and scenarios.
+
+use super::client::{Client, uri};
+use super::{new_line, read};
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
+
+const LAYOUT: &str = r#"{
+  "specs": "specs",
+  "robots": [
+    {"name": "station", "type": "stamping_station", "pose": [0, 0, 0], "parameters": {"hold_time": 0.5}},
+    {"name": "belt", "type": "conveyor", "pose": [-0.573076, 0, 0], "orient": "y", "orient_range": [-5, 5]},
+    {"name": "arm", "type": "kitting", "pose": [-1.3, 0, 1.127], "rail_dim": "y", "rail_range": [-4.8, 4.8]},
+    |
+  ],
+  "stationary": [
+    {"name": "as1", "type": "station", "pose": [-7.3, 3, 0]}
+  ]
+}
+"#;
+
+struct Open {
+    client: Client,
+    file: PathBuf,
+}
+
+fn open(name: &str, file: &str) -> Open {
+    let folder = new_line(name);
+    let mut client = Client::in_folder(&folder);
+    let file = folder.join(file);
+    client.open(&file, &read(&file));
+    Open { client, file }
+}
+
+fn at(path: &Path, text: &str, offset: usize) -> Value {
+    let line = text[..offset].matches('\n').count();
+    let column = text[..offset].rsplit('\n').next().expect("a line").encode_utf16().count();
+    json!({"textDocument": {"uri": uri(path)}, "position": {"line": line, "character": column}})
+}
+
+impl Open {
+    /// What is offered at the mark `^` of a text.
+    fn offered(&mut self, text: &str) -> Vec<Value> {
+        let offset = text.find('^').expect("a mark");
+        let text = text.replacen('^', "", 1);
+        self.client.change(&self.file, &text);
+        let found = self.client.result("textDocument/completion", at(&self.file, &text, offset));
+        found.as_array().expect("a list").clone()
+    }
+
+    fn labels(&mut self, text: &str) -> Vec<String> {
+        let offered = self.offered(text);
+        offered.iter().map(|item| item["label"].as_str().expect("a label").to_string()).collect()
+    }
+
+    /// With a robot more in the layout.
+    fn with_robot(&mut self, robot: &str) -> Vec<String> {
+        self.labels(&LAYOUT.replacen('|', robot, 1))
+    }
+
+    fn hover(&mut self, text: &str) -> Value {
+        let offset = text.find('^').expect("a mark");
+        let text = text.replacen('^', "", 1);
+        self.client.change(&self.file, &text);
+        self.client.result("textDocument/hover", at(&self.file, &text, offset))["contents"]["value"].clone()
+    }
+}
+
+#[test]
+fn keys_of_a_layout_are_those_that_are_not_there_yet() {
+    let mut open = open("layout-keys", "line.json");
+    let found = open.labels(&LAYOUT.replacen('|', "", 1).replacen('{', "{\n  ^", 1));
+    assert_eq!(found, ["$schema", "may_touch", "name", "panel", "scan_ms", "scenario"]);
+    assert_eq!(open.with_robot("{\"^"), ["hands_to", "name", "parameters", "pose", "takes_from", "type"]);
+    // Of a type that is known its own keys too, wherever the type stands.
+    let found = open.with_robot("{\"ori^\", \"name\": \"b\", \"type\": \"conveyor\"}");
+    assert_eq!(found, ["hands_to", "orient", "orient_range", "parameters", "pose", "takes_from"]);
+}
+
+#[test]
+fn types_and_their_parameters_are_offered() {
+    let mut open = open("layout-types", "line.json");
+    let found = open.with_robot("{\"name\": \"b\", \"type\": \"^\"}");
+    assert_eq!(found, ["agv", "conveyor", "gantry", "kitting", "stamping_station", "station"]);
+    assert_eq!(open.with_robot("{\"name\": \"b\", \"type\": ^"), found);
+    let found = open.with_robot("{\"type\": \"stamping_station\", \"parameters\": {^}}");
+    assert_eq!(found, ["hold_time"]);
+    assert_eq!(open.with_robot("{\"type\": \"kitting\", \"rail_dim\": \"^"), ["x", "y"]);
+}
+
+#[test]
+fn types_are_known_while_their_files_have_errors() {
+    let mut open = open("layout-wrong", "line.json");
+    let automata = open.file.with_file_name("specs").join("stamp.aut");
+    open.client.open(&automata, &read(&automata).replacen("hold_time", "hold_tim", 1));
+    let found = open.with_robot("{\"name\": \"b\", \"type\": \"^\"}");
+    assert!(found.contains(&"stamping_station".to_string()), "{found:?}");
+    assert!(found.contains(&"agv".to_string()), "{found:?}");
+}
+
+#[test]
+fn names_of_machines_are_offered() {
+    let mut open = open("layout-names", "line.json");
+    let found =
+        open.with_robot("{\"name\": \"arm2\", \"type\": \"kitting\", \"takes_from\": [\"belt\", \"^\"]}");
+    assert_eq!(found, ["arm", "as1", "belt", "station"]);
+    let text = LAYOUT.replacen('|', "", 1).replacen('{', "{\"may_touch\": [{\"pair\": [\"arm\", ^]}],", 1);
+    assert_eq!(open.labels(&text), ["arm", "as1", "belt", "station"]);
+}
+
+#[test]
+fn a_word_replaces_what_is_typed_with_its_quotes() {
+    let mut open = open("layout-edits", "line.json");
+    let text = "{\"robots\": [{\"po^\n\"name\": \"a\"}]}";
+    let pose = open.offered(text).into_iter().find(|item| item["label"] == "pose").expect("it is offered");
+    assert_eq!(pose["textEdit"]["newText"], "\"pose\": ");
+    assert_eq!(pose["textEdit"]["range"]["start"], json!({"line": 0, "character": 13}));
+    assert_eq!(pose["textEdit"]["range"]["end"], json!({"line": 0, "character": 16}));
+    assert_eq!(pose["filterText"], "\"pose\"");
+    assert_eq!(pose["detail"], "needed");
+    let text = "{\"robots\": [{\"p^\": [0, 0, 0]}]}";
+    let pose = open.offered(text).into_iter().find(|item| item["label"] == "pose").expect("it is offered");
+    assert_eq!(pose["textEdit"]["newText"], "\"pose\"");
+}
+
+#[test]
+fn scenarios_know_the_machines_of_their_layout() {
+    let mut open = open("scenario-names", "scenario.json");
+    let layout = open.file.with_file_name("line.json");
+    open.client.open(&layout, &LAYOUT.replacen(",\n    |", "", 1));
+    assert_eq!(
+        open.labels("{\"kinds\": [], \"or^\"}"),
+        ["$schema", "faults", "goal", "operator", "orders", "supply", "time_limit_s"]
+    );
+    let kinds = "{\"kinds\": [{\"name\": \"bolt\", \"height\": 1}, {\"name\": \"nut\", \"height\": 1}]";
+    let mut labels = |rest: &str| open.labels(&format!("{kinds}, {rest}"));
+    assert_eq!(labels("\"orders\": {\"stations\": ^"), ["in turn"]);
+    assert_eq!(labels("\"orders\": {\"stations\": [\"^"), ["as1"]);
+    assert_eq!(labels("\"orders\": [{\"station\": \"^\", \"parts\": {}}]}"), ["as1"]);
+    assert_eq!(labels("\"orders\": {\"parts\": {\"bolt\": 1, ^"), ["nut"]);
+    assert_eq!(labels("\"supply\": {\"items\": [\"^"), ["bolt", "nut"]);
+    assert_eq!(labels("\"supply\": {\"items\": {\"^"), ["belt", "station"]);
+    assert_eq!(labels("\"faults\": {\"slips\": [{\"robot\": \"^"), ["arm"]);
+    assert_eq!(labels("\"faults\": {\"answers\": [{\"robot\": \"^"), ["arm", "belt"]);
+    // A scenario has either of two, never both.
+    let found = labels("\"supply\": {\"surplus\": [1, 3], ^");
+    assert_eq!(found, ["every_s", "first_s", "seed", "times"]);
+}
+
+#[test]
+fn buttons_and_sinks_are_offered() {
+    let mut open = open("scenario-parts", "scenario.json");
+    let folder = open.file.with_file_name("specs");
+    let text = r#"device desk {
+    part go = button {};
+    part way = lane { from: origin * frame(0, 0, 0.7, 0); length: 1; width: 0.4; speed: 0.3; };
+    part out = sink { of: way; inset: 0; };
+    /// it is pressed
+    in pressed: bool = go.on;
+}
+automaton Desk on desk { initial state S { when pressed -> S {} } }"#;
+    open.client.open(&folder.join("desk.aut"), text);
+    let layout = open.file.with_file_name("line.json");
+    let robot = ", {\"name\": \"d1\", \"type\": \"desk\", \"pose\": [9, 0, 0]}";
+    open.client.open(&layout, &LAYOUT.replacen(",\n    |", robot, 1));
+    let robots = open.labels("{\"operator\": [{\"robot\": \"^");
+    assert!(robots.contains(&"d1".to_string()) && !robots.contains(&"arm".to_string()), "{robots:?}");
+    assert_eq!(open.labels("{\"operator\": [{\"robot\": \"d1\", \"part\": \"^"), ["go"]);
+    assert_eq!(open.labels("{\"goal\": {\"^"), ["belt.end", "d1.out", "station.store"]);
+}
+
+#[test]
+fn hover_shows_what_a_key_means() {
+    let mut open = open("layout-hover", "line.json");
+    let text = LAYOUT.replacen('|', "{}", 1);
+    let found = open.hover(&text.replacen("\"po", "\"p^o", 1));
+    assert_eq!(found, "Where it stands\\: x\\, y\\, z in m\\, and degrees if it is turned");
+    let found = open.hover(&text.replacen("kitting", "kitt^ing", 1));
+    assert!(found.as_str().is_some_and(|text| text.contains("automaton Kitting on rail_arm")), "{found}");
+    assert_eq!(open.hover("{\"robots\": [{\"name\": \"a\", \"ex^tra\": 1}]}"), Value::Null);
+}

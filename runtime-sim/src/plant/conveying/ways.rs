@@ -1,0 +1,73 @@
+//! Where items of each conveyor may get from there, whatever is commanded.
+
+use super::branch::Kind;
+use super::tracks::{Track, centre_lines, tracks};
+use crate::line::Line;
+use crate::part::Primitive;
+
+/// From one conveyor to another one; machine and part of each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Way {
+    pub from: (usize, usize),
+    pub to: (usize, usize),
+    pub by: By,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum By {
+    /// One begins where the other one ends, at some end of their cylinders.
+    Joint,
+    /// A diverter or a pusher.
+    Branch,
+    /// One ends over the other one.
+    Fall,
+}
+
+/// Beyond the end of a conveyor, where the middle of an item may be that falls there, m.
+const FALLS_AT: [f64; 5] = [0.0, 0.1, 0.2, 0.4, 0.8];
+
+/// All ways of a line, in the order of their conveyors.
+pub fn ways(line: &Line) -> Vec<Way> {
+    let tracks = tracks(line);
+    let mut ways = Vec::new();
+    for track in &tracks {
+        let from = (track.machine, track.part);
+        for (number, other) in tracks.iter().enumerate() {
+            let to = (other.machine, other.part);
+            let ends = track.sink.is_none() && to != from;
+            if ends && track.leads_onto(number) {
+                ways.push(Way { from, to, by: By::Joint });
+            }
+            if branches_onto(track, number) {
+                ways.push(Way { from, to, by: By::Branch });
+            }
+            if ends && is_over(line, from, to) {
+                ways.push(Way { from, to, by: By::Fall });
+            }
+        }
+    }
+    ways
+}
+
+fn branches_onto(track: &Track, number: usize) -> bool {
+    track.branches.iter().any(|branch| match branch.kind {
+        Kind::Diverter { onto } | Kind::Pusher { onto, .. } => onto == number,
+        Kind::Stopper => false,
+    })
+}
+
+/// Whether a conveyor ends over another one.
+fn is_over(line: &Line, from: (usize, usize), to: (usize, usize)) -> bool {
+    let lane = |(machine, part): (usize, usize)| match &line.machines[machine].parts[part].primitive {
+        Primitive::Lane(lane) => Some((centre_lines(&line.machines[machine], lane), lane.width)),
+        _ => None,
+    };
+    let (Some((above, _)), Some((below, width))) = (lane(from), lane(to)) else { return false };
+    above.iter().any(|(_, line)| {
+        let mut points = FALLS_AT.iter().map(|beyond| line.point(line.end() - beyond, 0.0));
+        points.any(|point| {
+            let mut places = below.iter().filter_map(|(_, under)| under.find(point));
+            places.any(|(_, across)| across.abs() <= width)
+        })
+    })
+}
