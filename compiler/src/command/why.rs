@@ -236,6 +236,7 @@ fn json_of(seen: &Seen, sources: &Sources) -> Value {
         json!({
             "name": seen.name, "state": seen.state, "stay_s": seen.stay_ms as f64 / 1000.0,
             "stopped": seen.is_stopped,
+            "at_panel": seen.at_panel,
             "properties": seen.properties.iter().map(|promise| promise_json(promise, sources)).collect::<Vec<_>>(),
             "transitions": transitions.collect::<Vec<_>>(),
             "waits_for": seen.awaits.iter().map(|awaited| await_json(picture, awaited)).collect::<Vec<_>>(),

@@ -222,6 +222,13 @@ impl Executor<'_> {
         command != 0 && self.port_of(robot, "ack") == command
     }
 
+    /// Whether a port of type `bool` is there and true.
+    pub(crate) fn is_true(&self, robot: usize, name: &str) -> bool {
+        let ports = &self.system.automaton_of(robot).device.ports;
+        let found = ports.iter().position(|port| port.name == name);
+        found.is_some_and(|port| self.robots[robot].ports[port][0] == Value::Bool(true))
+    }
+
     pub(crate) fn port_of(&self, robot: usize, name: &str) -> i32 {
         let ports = &self.system.automaton_of(robot).device.ports;
         match ports.iter().position(|p| p.name == name).map(|p| self.robots[robot].ports[p][0]) {

@@ -4,6 +4,7 @@ use super::text::Words;
 use super::watch::{Stopped, Watch};
 use super::writers::Writers;
 use super::{Await, Fault, Machine, Node, Picture, Read, Tested, Verdict};
+use crate::device::panel;
 use crate::ir::{Binder, Clause, Domain, Expr, ExprKind, Operator, Value, VariableId};
 use runtime_sim::scan::Controllers;
 
@@ -93,11 +94,30 @@ impl<'a> Look<'_, 'a> {
             stay_ms: self.watch.executor.elapsed(robot) as u64,
             is_final: state.is_final,
             is_stopped,
+            at_panel: self.at_panel(),
             properties: self.promises(),
             // It makes no steps, so nothing that its guards read brings it on.
             transitions: if is_stopped { Vec::new() } else { transitions },
             awaits: if is_stopped { Vec::new() } else { awaits },
         }
+    }
+
+    fn at_panel(&self) -> Vec<&'static str> {
+        let (executor, robot) = (&self.watch.executor, self.robot);
+        if self.watch.system.automaton_of(robot).modes.is_none() {
+            return Vec::new();
+        }
+        let is_enabled = executor.is_true(robot, panel::ENABLE);
+        let mode = executor.port_of(robot, panel::MODE);
+        let steps = [
+            (!is_enabled, "set `panel_enable`"),
+            (mode == panel::MANUAL, "leave manual, `panel_mode` 2"),
+            (
+                mode == panel::SINGLE_STEP,
+                "press `panel_step` for each transition, or leave single step, `panel_mode` 1",
+            ),
+        ];
+        steps.into_iter().filter(|(is_due, _)| *is_due).map(|(_, step)| step).collect()
     }
 
     fn guard(&mut self, clauses: &'a [Clause]) -> Vec<Node> {

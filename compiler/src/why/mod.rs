@@ -48,8 +48,10 @@ pub struct Machine {
     /// Time in its state, ms.
     pub stay_ms: u64,
     pub is_final: bool,
-    /// By an alarm: it makes no steps.
+    /// By an alarm or at its panel: it makes no steps.
     pub is_stopped: bool,
+    /// What has to be done at its panel before it steps: nothing if it is enabled and in automatic, or has no panel.
+    pub at_panel: Vec<&'static str>,
     /// Those of its properties that are violated or wait.
     pub properties: Vec<Promise>,
     /// Those of its state, in the order in which they are tested; none of a machine that is stopped.

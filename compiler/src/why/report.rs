@@ -16,11 +16,13 @@ fn place(sources: &Sources, span: Span) -> String {
 
 /// A machine with every transition of its state, and every clause of them.
 pub fn machine(machine: &Machine, sources: &Sources) -> String {
-    let Machine { name, state, stay_ms, transitions, properties, is_final, is_stopped, .. } = machine;
+    let Machine { name, state, stay_ms, transitions, properties, is_final, is_stopped, at_panel, .. } =
+        machine;
     let mut out = match is_stopped {
-        true => format!("{name} is stopped by an alarm, in {state}\n"),
+        true => format!("{name} is stopped, in {state}\n"),
         false => format!("{name} is in {state}, for {}\n", seconds(*stay_ms)),
     };
+    at_panel.iter().for_each(|step| out += &format!("  at its panel: {step}\n"));
     properties.iter().for_each(|promise| self::promise(promise, sources, &mut out));
     if *is_final {
         out += "  a final state: nothing leads on from here\n";
@@ -71,7 +73,7 @@ fn of_alarm(standing: &Standing) -> String {
     format!("{active}, {acknowledged}; {stops}")
 }
 
-/// What a machine that is stopped needs to go on, from its alarms.
+/// What a machine that is stopped needs to go on, from its alarms and its panel.
 fn stopped(machine: &Machine) -> String {
     let alarms = machine.properties.iter().filter_map(|promise| match promise.standing {
         Standing::Alarm { severity: Severity::Machine, active, acknowledged, .. } => {
@@ -86,9 +88,13 @@ fn stopped(machine: &Machine) -> String {
         (alarms.iter().any(|(.., acknowledged)| !*acknowledged), "acknowledge"),
         (true, "start"),
     ];
-    let steps: Vec<&str> = steps.into_iter().filter(|(is_due, _)| *is_due).map(|(_, step)| step).collect();
+    let steps = steps.into_iter().filter(|(is_due, _)| *is_due).map(|(_, step)| step);
+    let steps: Vec<&str> = machine.at_panel.iter().copied().chain(steps).collect();
     match texts.is_empty() {
-        true => format!("is stopped, its alarms are over: {}", steps.join(", ")),
+        true if !machine.at_panel.is_empty() => {
+            format!("is stopped at its panel; to go on: {}", steps.join(", "))
+        }
+        true => format!("is stopped, what stopped it is over: {}", steps.join(", ")),
         false => format!("is stopped by its alarm: {}; to go on: {}", texts.join("; "), steps.join(", ")),
     }
 }

@@ -170,6 +170,14 @@ fn the_compiled_controllers_and_the_text_pass_the_same_tests() {
 }
 
 #[test]
+fn a_machine_with_a_panel_passes_the_same_tests() {
+    let folder = changed("test_panel", "line.json", "\"specs\"", "\"panel\": \"machines\", \"specs\"");
+    let output = autogen(&folder, &["test", "line", "--on", "executor,st"]);
+    assert_eq!(status(&output), 0, "{}{}", said(&output), errors(&output));
+    assert!(said(&output).contains("8 passed, 0 failed\n"), "{}", said(&output));
+}
+
+#[test]
 fn schemas_are_json_and_know_types_of_ones_own() {
     let folder = folder("schema");
     let of = |arguments: &[&str]| {

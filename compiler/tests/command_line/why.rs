@@ -112,7 +112,7 @@ fn a_machine_that_is_stopped_tells_of_its_alarm() {
     assert_says(
         &output,
         &[
-            "press is stopped by an alarm, in Pressing\n",
+            "press is stopped, in Pressing\n",
             "  alarm raised at 2.00 s, active, not acknowledged; it stops the machine: the door is open: close it (press.aut:11)\n",
             "    invariant not is_open\n      FAILS  not is_open\n",
             "is_open is true, by the device of press at 2.00 s\n",
@@ -173,4 +173,30 @@ fn a_property_over_kept_values_says_who_wrote_them() {
             "glows is true, by press at 1.02 s\n",
         ],
     );
+}
+
+#[test]
+fn a_machine_at_its_panel_says_what_has_to_be_done_there() {
+    let layout = example("scenes/by_hand.json");
+    for (at, lines) in [
+        (
+            "7.5",
+            &[
+                "at its panel: press `panel_step` for each transition",
+                "when is_down -> Lifting: does not hold",
+            ][..],
+        ),
+        (
+            "14.2",
+            &[
+                "drill is stopped, in Idle",
+                "drill (Idle) is stopped at its panel; to go on: leave manual, `panel_mode` 2, start",
+            ],
+        ),
+        ("27.5", &["drill (Lowering) is stopped at its panel; to go on: set `panel_enable`, start"]),
+        ("29", &["drill (Lowering) is stopped, what stopped it is over: start"]),
+    ] {
+        let output = autogen(&folder("why_panel"), &["why", &layout, "--at", at]);
+        assert_says(&output, lines);
+    }
 }
