@@ -166,6 +166,7 @@ automaton Desk on desk { initial state S { when pressed -> S {} } }"#;
     let robots = open.labels("{\"operator\": [{\"robot\": \"^");
     assert!(robots.contains(&"d1".to_string()) && !robots.contains(&"arm".to_string()), "{robots:?}");
     assert_eq!(open.labels("{\"operator\": [{\"robot\": \"d1\", \"part\": \"^"), ["go"]);
+    assert_eq!(open.labels("{\"operator\": [{\"part\": \"^"), ["reset", "start"]);
     assert_eq!(open.labels("{\"goal\": {\"^"), ["belt.end", "d1.out", "station.store"]);
 }
 

@@ -4,6 +4,7 @@ use super::tree::{Place, Step, Wanted};
 use super::{Line, Of, Thing};
 use crate::ir::{Automaton, Scalar};
 use crate::lower::bind::{automaton_name, json_type};
+use crate::scenario::read::operator::OF_LINE;
 
 /// The names that a place asks for.
 pub fn names(line: &Line, of: Of, place: &Place) -> Vec<String> {
@@ -74,6 +75,9 @@ fn in_scenario(line: &Line, path: &[&str], place: &Place) -> Vec<String> {
         ["operator", "*", "robot"] => of_machines(line, |automaton| automaton.device.operated().count() > 0),
         ["operator", "*", "part"] => {
             let robot = place.around.last().and_then(|own| own.get("robot")?.text());
+            if robot.is_none() {
+                return OF_LINE.iter().map(|(button, _)| button.to_string()).collect();
+            }
             let robot = machines(line).find(|(thing, _)| Some(thing.name.as_str()) == robot);
             let parts = robot.into_iter().flat_map(|(_, automaton)| automaton.device.operated());
             parts.map(|(_, part, _)| part.to_string()).collect()
