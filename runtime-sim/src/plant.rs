@@ -24,7 +24,7 @@ use crate::part::track::Driving;
 use crate::point::Point;
 use conveyed::Conveyed;
 use conveying::{Among, Conveying, Falls};
-pub use conveying::{By, Gap, Way, gaps, ways};
+pub use conveying::{By, Gap, Transfer, gaps, transfers};
 use trajectory::Trajectory;
 use working::{Shared, Working};
 

@@ -6,7 +6,7 @@ use crate::layout::decode::listing;
 use crate::scenario::Scenario;
 use runtime_sim::line::{self, Goal, Line};
 use runtime_sim::part::Primitive;
-use runtime_sim::plant::Way;
+use runtime_sim::plant::Transfer;
 use std::collections::HashSet;
 
 /// Where an item may be.
@@ -19,7 +19,12 @@ enum Spot {
 }
 
 /// One for each kind that a sink should collect, and that cannot get there. `edges` are those between machines.
-pub fn out_of_reach(scenario: &Scenario, line: &Line, edges: &[Edge], ways: &[Way]) -> Vec<Diagnostic> {
+pub fn out_of_reach(
+    scenario: &Scenario,
+    line: &Line,
+    edges: &[Edge],
+    transfers: &[Transfer],
+) -> Vec<Diagnostic> {
     let Goal::Collected(goal) = &line.scenario.goal else { return Vec::new() };
     // What falls from a gripper, and what an arm takes that knows no handovers, may get anywhere.
     let is_free =
@@ -27,7 +32,7 @@ pub fn out_of_reach(scenario: &Scenario, line: &Line, edges: &[Edge], ways: &[Wa
     if !line.scenario.slips.is_empty() || (0..line.machines.len()).any(is_free) {
         return Vec::new();
     }
-    let reached = reached(line, edges, ways);
+    let reached = reached(line, edges, transfers);
     let asked = goal.iter().zip(&scenario.goal);
     let lacking = asked.flat_map(|(collected, written)| {
         let kinds = (0..line.kinds.len()).filter(|kind| collected.items[*kind] > 0);
@@ -49,7 +54,7 @@ fn comes_to(line: &Line, reached: &HashSet<(Spot, usize)>, sink: &line::Collecte
 }
 
 /// Where items of each kind may get to, whatever is commanded.
-fn reached(line: &Line, edges: &[Edge], ways: &[Way]) -> HashSet<(Spot, usize)> {
+fn reached(line: &Line, edges: &[Edge], transfers: &[Transfer]) -> HashSet<(Spot, usize)> {
     let lanes = |machine: usize| {
         let parts = line.machines[machine].parts.iter().enumerate();
         let lanes = parts.filter(|(_, part)| matches!(part.primitive, Primitive::Lane(_)));
@@ -70,8 +75,8 @@ fn reached(line: &Line, edges: &[Edge], ways: &[Way]) -> HashSet<(Spot, usize)> 
         }
         let machine = match spot {
             Spot::Lane(machine, part) => {
-                let ways = ways.iter().filter(|way| way.from == (machine, part));
-                open.extend(ways.map(|way| (Spot::Lane(way.to.0, way.to.1), kind)));
+                let transfers = transfers.iter().filter(|transfer| transfer.from == (machine, part));
+                open.extend(transfers.map(|transfer| (Spot::Lane(transfer.to.0, transfer.to.1), kind)));
                 open.push((Spot::Machine(machine), kind));
                 machine
             }

@@ -11,7 +11,7 @@ use crate::scenario::{Number, Scenario};
 use crate::source::{FileId, Sources};
 use crate::spec::{ast, parser};
 use crate::{connect, lint, scenario};
-use runtime_sim::plant::ways;
+use runtime_sim::plant::transfers;
 use runtime_sim::random::Random;
 use std::borrow::Cow;
 use std::collections::BTreeSet;
@@ -227,10 +227,10 @@ impl Parts {
         };
         let plant = plant::line(&system, &line, bound.obstacles, resolved, layout.scan_ms, machines);
         found.diagnostics.extend(overlap::overlaps(&layout, &plant));
-        let ways = ways(&plant);
-        found.diagnostics.extend(collected::out_of_reach(&scenario, &plant, &edges, &ways));
+        let transfers = transfers(&plant);
+        found.diagnostics.extend(collected::out_of_reach(&scenario, &plant, &edges, &transfers));
         if let Some(verdict) = &mut found.verdict {
-            verdict.add_conveyors(&plant, &ways);
+            verdict.add_conveyors(&plant, &transfers);
         }
         found.warnings = lint::of_layout(&layout, &plant);
         let Layout { name, may_touch, .. } = &*layout;

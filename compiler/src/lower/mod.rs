@@ -20,7 +20,7 @@ use crate::layout::{MayTouch, Reading};
 use crate::source::{FileId, Sources};
 use crate::{connect, ir};
 use runtime_sim::part::Primitive;
-use runtime_sim::plant::{By, Way};
+use runtime_sim::plant::{By, Transfer};
 
 /// What is to be compiled; every text is in `sources` already, and the layout is read.
 #[derive(Clone, Debug)]
@@ -85,13 +85,14 @@ pub struct Apart {
 
 impl Verdict {
     /// What items do without an arm: conveyors that go on as others, and sinks.
-    fn add_conveyors(&mut self, line: &runtime_sim::line::Line, ways: &[Way]) {
+    fn add_conveyors(&mut self, line: &runtime_sim::line::Line, transfers: &[Transfer]) {
         let name = |(machine, part): (usize, usize)| {
             let machine = &line.machines[machine];
             format!("{}.{}", machine.name, machine.parts[part].name)
         };
-        let joined = ways.iter().filter(|way| way.by == By::Joint && way.from.0 != way.to.0);
-        self.joined = joined.map(|way| (name(way.from), name(way.to))).collect();
+        let joined =
+            transfers.iter().filter(|transfer| transfer.by == By::Joint && transfer.from.0 != transfer.to.0);
+        self.joined = joined.map(|transfer| (name(transfer.from), name(transfer.to))).collect();
         for (number, machine) in line.machines.iter().enumerate() {
             for (part, of) in machine.parts.iter().enumerate() {
                 match of.primitive {

@@ -171,7 +171,7 @@ fn the_compiled_controllers_and_the_text_pass_the_same_tests() {
 
 #[test]
 fn a_machine_with_a_panel_passes_the_same_tests() {
-    let folder = changed("test_panel", "line.json", "\"specs\"", "\"panel\": \"machines\", \"specs\"");
+    let folder = changed("test_panel", "line.json", "\"robots\"", "\"panel\": \"machines\", \"robots\"");
     let output = autogen(&folder, &["test", "line", "--on", "executor,st"]);
     assert_eq!(status(&output), 0, "{}{}", said(&output), errors(&output));
     assert!(said(&output).contains("8 passed, 0 failed\n"), "{}", said(&output));

@@ -294,7 +294,7 @@ impl Running for Driving {
         self.now_ms = world.next_ms();
         let now_ms = self.now_ms as f64;
         let gone = self.ahead.partition_point(|(ms, _)| *ms <= now_ms);
-        if let Some((_, number)) = self.ahead.drain(..gone).last() {
+        if let Some((_, number)) = self.ahead.drain(..gone).next_back() {
             self.passed = Some(number);
         }
         if let Some(ride) = self.ride.as_ref().filter(|ride| ride.end_ms() <= now_ms) {

@@ -9,10 +9,10 @@ mod gap;
 #[cfg(test)]
 mod tests;
 mod tracks;
-mod ways;
+mod transfer;
 
 pub use gap::{Gap, gaps};
-pub use ways::{By, Way, ways};
+pub use transfer::{By, Transfer, transfers};
 
 use super::working::Working;
 use crate::carrier::Carrier;

@@ -7,7 +7,7 @@ use crate::part::Primitive;
 
 /// From one conveyor to another one; machine and part of each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Way {
+pub struct Transfer {
     pub from: (usize, usize),
     pub to: (usize, usize),
     pub by: By,
@@ -26,27 +26,27 @@ pub enum By {
 /// Beyond the end of a conveyor, where the middle of an item may be that falls there, m.
 const FALLS_AT: [f64; 5] = [0.0, 0.1, 0.2, 0.4, 0.8];
 
-/// All ways of a line, in the order of their conveyors.
-pub fn ways(line: &Line) -> Vec<Way> {
+/// All transfers of a line, in the order of their conveyors.
+pub fn transfers(line: &Line) -> Vec<Transfer> {
     let tracks = tracks(line);
-    let mut ways = Vec::new();
+    let mut transfers = Vec::new();
     for track in &tracks {
         let from = (track.machine, track.part);
         for (number, other) in tracks.iter().enumerate() {
             let to = (other.machine, other.part);
             let ends = track.sink.is_none() && to != from;
             if ends && track.leads_onto(number) {
-                ways.push(Way { from, to, by: By::Joint });
+                transfers.push(Transfer { from, to, by: By::Joint });
             }
             if branches_onto(track, number) {
-                ways.push(Way { from, to, by: By::Branch });
+                transfers.push(Transfer { from, to, by: By::Branch });
             }
             if ends && is_over(line, from, to) {
-                ways.push(Way { from, to, by: By::Fall });
+                transfers.push(Transfer { from, to, by: By::Fall });
             }
         }
     }
-    ways
+    transfers
 }
 
 fn branches_onto(track: &Track, number: usize) -> bool {
