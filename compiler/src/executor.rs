@@ -3,8 +3,10 @@
 mod evaluate;
 mod modes;
 mod properties;
+mod restart;
 mod step;
 
+use crate::device::Port;
 use crate::ir::{Element, FaultId, Scalar, System, Type, Value, VariableId};
 pub use properties::Alarm;
 use runtime_sim::device::{Direction, PortType, Stop};
@@ -61,6 +63,10 @@ struct Status {
     reset_before: bool,
 }
 
+impl Status {
+    const NEW: Self = Self { running: false, fault: None, start_before: true, reset_before: true };
+}
+
 impl<'a> Executor<'a> {
     pub fn new(system: &'a System) -> Self {
         let model = &system.model;
@@ -100,8 +106,17 @@ impl<'a> Executor<'a> {
             .iter()
             .map(|a| a.states.iter().map(|s| vec![0; s.transitions.len()]).collect())
             .collect();
-        let status = Status { running: false, fault: None, start_before: true, reset_before: true };
-        Self { system, robots, cells, status, permit: false, scan: 0, fired, journal: None, only: None }
+        Self {
+            system,
+            robots,
+            cells,
+            status: Status::NEW,
+            permit: false,
+            scan: 0,
+            fired,
+            journal: None,
+            only: None,
+        }
     }
 
     /// What a port is at power-up.
@@ -207,22 +222,28 @@ impl<'a> Executor<'a> {
             let runs = self.status.running && !self.robots[index].stopped;
             match &self.system.automaton_of(index).modes {
                 Some(modes) => self.outputs_of_mode(index, modes, runs, image),
-                None => self.outputs(index, runs, image),
+                None => self.published(index, runs, image),
             }
         }
     }
 
-    /// Appends the outputs of an instance; with their stop values unless it runs.
-    fn outputs(&self, index: usize, running: bool, image: &mut Vec<f64>) {
-        let ports = self.system.automaton_of(index).device.ports.iter();
-        for (port, values) in
-            ports.zip(&self.robots[index].ports).filter(|(p, _)| p.direction == Direction::Output)
-        {
+    /// Appends what an instance without a panel publishes: stop values unless it runs.
+    fn published(&self, index: usize, runs: bool, image: &mut Vec<f64>) {
+        let is_held = !runs || self.is_abandoned(index);
+        for (port, values) in self.outputs(index) {
             match port.stop {
-                Stop::Value(stop) if !running => image.extend(values.iter().map(|_| stop)),
+                Stop::Value(stop) if !runs || is_held && port.name == "hold" => {
+                    image.extend(values.iter().map(|_| stop));
+                }
                 _ => values.iter().for_each(|v| v.push_words(image)),
             }
         }
+    }
+
+    /// The outputs of an instance as its automaton has them.
+    fn outputs(&self, index: usize) -> impl Iterator<Item = (&Port, &Vec<Value>)> {
+        let ports = self.system.automaton_of(index).device.ports.iter().zip(&self.robots[index].ports);
+        ports.filter(|(port, _)| port.direction == Direction::Output)
     }
 
     /// Modes and steps in layout order, then properties, up to the first fault. Modes are looked at whatever happens.
@@ -313,6 +334,10 @@ impl Controllers for Executor<'_> {
         }
     }
 
+    fn power_up(&mut self) {
+        self.begin_with_what_is_retained();
+    }
+
     fn trace(&self, out: &mut Vec<f64>) {
         (0..self.robots.len()).for_each(|index| self.trace_of(index, out));
     }
@@ -328,7 +353,7 @@ impl Executor<'_> {
         for (implemented, row) in automaton.implements.iter().zip(&self.system.instances[index].rows) {
             self.cells[implemented.interface.0][*row].iter().flatten().for_each(|v| v.push_words(out));
         }
-        self.outputs(index, true, out);
+        self.outputs(index).flat_map(|(_, values)| values).for_each(|v| v.push_words(out));
         if automaton.can_stop() {
             out.push(f64::from(u8::from(robot.stopped)));
         }

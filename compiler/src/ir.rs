@@ -13,17 +13,21 @@
 //! - Every place at which a step can fault has a code, from 1, unique in the model.
 //! - Values are in SI units, times in whole milliseconds.
 
+mod asking;
 mod element;
 mod expression;
 mod modes;
 mod property;
+mod retained;
 mod system;
 mod value;
 
+pub use asking::Asking;
 pub use element::{Element, Group, Named};
 pub use expression::{Expr, ExprKind, Operator, Place};
-pub use modes::{Action, ByHand, Commands, Modes};
+pub use modes::{Action, ByHand, Modes};
 pub use property::{Entry, Kept, Property, PropertyKind, Severity};
+pub use retained::Retained;
 pub use system::{Instance, System};
 pub use value::{Extent, Scalar, Type, Value};
 
@@ -150,6 +154,13 @@ pub struct Automaton {
     pub states: Vec<State>,
     /// Looked at behind the steps of every scan, in this order.
     pub properties: Vec<Property>,
+    /// What of each instance outlasts a loss of power.
+    pub retained: Retained,
+    /// A local: the answer to the last command does not count, since a person has moved the machine or power was lost.
+    /// The device is held until the next command.
+    pub abandoned: Option<usize>,
+    /// A local, there with that one: an instance has gone on in its state since. Until the next command it is `failed`.
+    pub interrupted: Option<usize>,
     /// How a person operates each instance, if the layout gives the machines panels.
     pub modes: Option<Modes>,
     pub requires: Vec<Require>,
@@ -245,7 +256,7 @@ pub enum KeptBy {
     Steps,
     /// A property needs it from scan to scan.
     Properties,
-    /// The operating modes need it from scan to scan.
+    /// The operating modes, or going on after a loss of power, need it from scan to scan.
     Modes,
 }
 
@@ -272,7 +283,7 @@ pub struct State {
     pub doc: Vec<String>,
     pub place: Span,
     pub is_final: bool,
-    /// Its machine may go on from here after it was moved by hand.
+    /// Its machine may go on from here after it was moved by hand, or power was lost.
     pub is_resumable: bool,
     /// Longest stay, ms; the fault if it is exceeded.
     pub within: Option<(Expr, FaultId)>,

@@ -78,6 +78,9 @@ pub struct Scenario {
     pub refusals: Vec<Refusal>,
     pub answers: Vec<Answer>,
     pub pauses: Vec<Pause>,
+    /// As pauses; beside the permit, in the first scan, the controller loses its power, and has it again in the scan in
+    /// which the permit is back.
+    pub power_offs: Vec<Pause>,
     pub operations: Vec<Operation>,
     pub presses: Vec<Press>,
     /// Of all times that are drawn.
@@ -197,7 +200,28 @@ impl Press {
     }
 }
 
+impl Pause {
+    /// The scan in which it is over.
+    pub fn end(&self) -> u64 {
+        self.at_scan.saturating_add(self.scans)
+    }
+
+    pub fn holds(&self, scan: u64) -> bool {
+        (self.at_scan..self.end()).contains(&scan)
+    }
+}
+
 impl Scenario {
+    /// Whether the controller executes this scan: its power is on.
+    pub fn is_powered(&self, scan: u64) -> bool {
+        !self.power_offs.iter().any(|off| off.at_scan < scan && off.holds(scan))
+    }
+
+    /// Whether power is back from this scan on.
+    pub fn powers_up(&self, scan: u64) -> bool {
+        self.is_powered(scan) && self.power_offs.iter().any(|off| off.end() == scan)
+    }
+
     /// Whether somebody presses a button of the line in this scan.
     pub fn presses(&self, button: LineButton, scan: u64) -> bool {
         self.presses.iter().any(|press| press.button == button && press.holds(scan))
@@ -237,6 +261,7 @@ impl Default for Scenario {
             refusals: Vec::new(),
             answers: Vec::new(),
             pauses: Vec::new(),
+            power_offs: Vec::new(),
             operations: Vec::new(),
             presses: Vec::new(),
             seed: 1,

@@ -10,7 +10,7 @@ mod plane;
 mod scene;
 mod timing;
 
-use crate::kinematics::arm::{Arm, Joints, LINE_STEP, Limits};
+use crate::kinematics::arm::{Arm, FINEST_TURN, Joints, LINE_STEP, Limits};
 use crate::kinematics::gantry::{Stance, Wrist};
 use crate::kinematics::{nearest_equivalent, nearest_turn};
 use crate::motion::{Knot, Motion, Path, Section};
@@ -175,8 +175,15 @@ impl Planner {
         Some(Self { arm, scene, area })
     }
 
-    /// None if no path keeps off all obstacles. With a part on the tool the wrist stays on its side.
-    pub fn path(&self, from: &Joints, load: Load, transfer: &Transfer, limits: &Limits) -> Option<Path> {
+    /// None if no path keeps off all obstacles. With a part on the tool the wrist stays on its side, and the part gets
+    /// the direction that it has at `directed`, the same joints as those of the begin but for the last one.
+    pub fn path(
+        &self,
+        [from, directed]: [&Joints; 2],
+        load: Load,
+        transfer: &Transfer,
+        limits: &Limits,
+    ) -> Option<Path> {
         let low = self.arm.tool(from).z.max(transfer.via.z);
         let mut tops = vec![low, low.max(self.scene.over_all)];
         tops.dedup();
@@ -185,7 +192,7 @@ impl Planner {
         let present = Wrist::of_angle(from[7]);
         let mut wrists = WRISTS.into_iter().filter(|wrist| load == Load::None || *wrist == present);
         wrists.find_map(|wrist| {
-            let candidates = self.candidates(from, wrist, transfer);
+            let candidates = self.candidates(directed, wrist, transfer);
             EFFORTS.iter().find_map(|effort| {
                 candidates.iter().find_map(|candidates| self.quickest(&task, candidates, effort))
             })
@@ -264,12 +271,12 @@ impl Planner {
 
     /// All stances that the reach allows. Those in which the torso stands as far off obstacles as it keeps on its path
     /// are enough where there are any: it gets out of them again.
-    fn candidates(&self, from: &Joints, wrist: Wrist, transfer: &Transfer) -> [Vec<Candidate>; 2] {
+    fn candidates(&self, directed: &Joints, wrist: Wrist, transfer: &Transfer) -> [Vec<Candidate>; 2] {
         let (mut wide, mut narrow) = (Vec::new(), Vec::new());
         for turn in (-TURNS..=TURNS).map(|step| f64::from(step) * PI / f64::from(TURNS)) {
             for beyond in BEYOND {
                 let stance = Stance { turn, beyond, wrist };
-                let joints = |tool| self.arm.solve_stance(tool, &stance, from);
+                let joints = |tool| self.arm.solve_stance(tool, &stance, directed);
                 let (Some(over), Some(at)) = (joints(transfer.via), joints(transfer.goal)) else { continue };
                 let list = if keeps_off(axis(&over), &self.scene.blocks) { &mut wide } else { &mut narrow };
                 list.push(Candidate { stance, over, at });
@@ -321,7 +328,8 @@ impl Planner {
         let reached = knots.last().map_or(from[tool], |knot| knot.joints[tool]);
         let end = to.map(|i, value| if i == tool { nearest_turn(value, reached) } else { value });
         let back = nearest_equivalent(end[tool], reached);
-        let turns = end[tool] - back;
+        // After a motion that was broken off it turns to the direction that the part should have.
+        let turns = end[tool] - if (back - reached).abs() < 4.0 * FINEST_TURN { back } else { reached };
         for (i, knot) in (1..count).zip(&mut knots) {
             let part = plan.passed(time(i));
             knot.joints = knot.joints.map(|i, value| if i == tool { value + part * turns } else { value });

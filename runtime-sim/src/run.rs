@@ -144,9 +144,14 @@ fn simulate(
     let (finished, reason) = loop {
         let arrived = bus.exchange(scan, plant.images(), |machine| plant.moves(machine), &mut inputs);
         let system = operator.inputs(scan, &line.scenario);
-        let is_due = agenda.is_due(scan, system, &inputs, &states, &changes);
+        let is_powered = line.scenario.is_powered(scan);
+        if line.scenario.powers_up(scan) {
+            controllers.power_up();
+            agenda.power_up();
+        }
+        let is_due = is_powered && agenda.is_due(scan, system, &inputs, &states, &changes);
         let mut acted = false;
-        if is_due || stepping != Stepping::Events {
+        if is_due || is_powered && stepping != Stepping::Events {
             let scans = agenda.scans_since(scan);
             controllers.skip(scans - 1);
             let before = std::mem::replace(&mut answer, controllers.scan(system, &inputs, &mut outputs));

@@ -1,6 +1,6 @@
 //! The inputs of the system, as the scenario has them given.
 
-use crate::line::{LineButton, Scenario};
+use crate::line::{LineButton, Pause, Scenario};
 use crate::scan::SystemInputs;
 
 /// Takes the permit away in the pauses, and gives an edge of `start` one scan after it has come back.
@@ -17,10 +17,7 @@ impl Operator {
     }
 
     pub fn inputs(&mut self, scan: u64, scenario: &Scenario) -> SystemInputs {
-        let run_permit = !scenario
-            .pauses
-            .iter()
-            .any(|pause| (pause.at_scan..pause.at_scan.saturating_add(pause.scans)).contains(&scan));
+        let run_permit = !pauses(scenario).any(|pause| pause.holds(scan));
         if scan == scenario.start_scan || (!run_permit && scan > scenario.start_scan) {
             self.owes_start = true;
         }
@@ -42,8 +39,7 @@ impl Operator {
         if self.clone().inputs(scan + 1, scenario) != self.last {
             return Some(scan + 1);
         }
-        let pauses = scenario.pauses.iter();
-        let ends = pauses.flat_map(|pause| [pause.at_scan, pause.at_scan.saturating_add(pause.scans)]);
+        let ends = pauses(scenario).flat_map(|pause| [pause.at_scan, pause.end()]);
         ends.chain([scenario.start_scan]).chain(scenario.press_changes()).filter(|at| *at > scan).min()
     }
 
@@ -54,10 +50,14 @@ impl Operator {
     }
 }
 
+/// Whatever takes the permit away.
+fn pauses(scenario: &Scenario) -> impl Iterator<Item = &Pause> {
+    scenario.pauses.iter().chain(&scenario.power_offs)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::line::Pause;
 
     fn given(pauses: Vec<Pause>) -> (Vec<u64>, Vec<u64>) {
         let scenario = Scenario { pauses, ..Scenario::default() };

@@ -83,6 +83,8 @@ impl Controllers for Restless {
         Vec::new()
     }
 
+    fn power_up(&mut self) {}
+
     fn skip(&mut self, _: u64) {}
 }
 
@@ -134,6 +136,8 @@ impl Controllers for Pensive {
     fn stays(&self) -> Vec<usize> {
         Vec::new()
     }
+
+    fn power_up(&mut self) {}
 
     fn skip(&mut self, _: u64) {}
 }

@@ -31,6 +31,8 @@ pub struct Machine {
     units: Vec<(String, Span)>,
     /// Every value takes one word.
     memory: Vec<u64>,
+    /// The memory at power-up.
+    initial: Vec<u64>,
     counters: Counters,
 }
 
@@ -95,7 +97,15 @@ impl Machine {
             scans: 0,
         };
         let units = checked.text.units.iter().map(|unit| (unit.name.text.clone(), unit.span)).collect();
-        Ok(Self { source: source.into(), code, layouts, units, memory, counters })
+        Ok(Self { source: source.into(), code, layouts, units, initial: memory.clone(), memory, counters })
+    }
+
+    /// Power was lost after the last scan: variables that are not `RETAIN` have their initial values again.
+    pub fn power_up(&mut self) {
+        let before = std::mem::replace(&mut self.memory, self.initial.clone());
+        for word in self.layouts.retained() {
+            self.memory[*word] = before[*word];
+        }
     }
 
     /// Runs every program once.

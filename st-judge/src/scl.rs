@@ -110,11 +110,15 @@ pub fn portable(source: &str) -> Result<String, Finding> {
         }
         text += &format!("{}\nEND_{word}\n", block.body);
     }
-    let globals: String =
-        shared.iter().map(|(name, v)| format!("{name} : {}{};\n", v.ty, v.initial)).collect();
+    let globals = |keyword: &str, is_retained: bool| {
+        let of = shared.iter().filter(|(_, v)| v.is_retained == is_retained);
+        let lines: String = of.map(|(name, v)| format!("{name} : {}{};\n", v.ty, v.initial)).collect();
+        if lines.is_empty() { lines } else { format!("{keyword}\n{lines}END_VAR\n") }
+    };
+    let globals = globals("VAR_GLOBAL", false) + &globals("VAR_GLOBAL RETAIN", true);
     Ok(text
         + &format!(
-            "CONFIGURATION Config0\nVAR_GLOBAL\n{globals}END_VAR\nRESOURCE Res0 ON PLC\n\
+            "CONFIGURATION Config0\n{globals}RESOURCE Res0 ON PLC\n\
              TASK Scan(INTERVAL := T#10ms, PRIORITY := 0);\nPROGRAM Main_program WITH Scan : {program};\n\
              END_RESOURCE\nEND_CONFIGURATION\n"
         ))
@@ -135,6 +139,7 @@ struct Declared {
     ty: String,
     /// With its `:=`.
     initial: String,
+    is_retained: bool,
 }
 
 struct Block {
@@ -213,7 +218,8 @@ impl<'a> Reader<'a> {
     /// The one that is shared, or the instance of a block.
     fn data_block(&mut self, name: Token) -> Result<(), Finding> {
         self.head()?;
-        self.expect(Kind::Word, "NON_RETAIN")?;
+        let is_non_retain = self.peek().is_some_and(|token| token.is(Kind::Word, "NON_RETAIN"));
+        self.next += usize::from(is_non_retain);
         let token = self.take()?;
         if token.kind == Kind::Global {
             if !self.known.blocks.iter().any(|known| known == token.text) || self.known.program.is_some() {
@@ -222,8 +228,18 @@ impl<'a> Reader<'a> {
             self.known.program = Some(token.text.into());
         } else if token.is(Kind::Word, "VAR") && self.known.shared.is_none() {
             let mut declared = BTreeMap::new();
-            for (name, variable) in self.declarations()? {
-                declared.insert(name, variable);
+            loop {
+                let is_retained = self.is_retain();
+                if is_retained && is_non_retain {
+                    return Err(wrong(token, "a section that is retained, in a block that is not"));
+                }
+                for (name, variable) in self.declarations()? {
+                    declared.insert(name, Declared { is_retained, ..variable });
+                }
+                if !self.peek().is_some_and(|token| token.is(Kind::Word, "VAR")) {
+                    break;
+                }
+                self.next += 1;
             }
             (self.known.shared, self.known.shared_name) = (Some(declared), name.text.into());
         } else {
@@ -242,6 +258,13 @@ impl<'a> Reader<'a> {
             true => Ok(token),
             false => Err(wrong(token, "a name is wanted; words of SCL stand in quotes")),
         }
+    }
+
+    /// `RETAIN` behind the begin of a section.
+    fn is_retain(&mut self) -> bool {
+        let is_retain = self.peek().is_some_and(|token| token.is(Kind::Word, "RETAIN"));
+        self.next += usize::from(is_retain);
+        is_retain
     }
 
     /// Up to `END_VAR`.
@@ -275,7 +298,7 @@ impl<'a> Reader<'a> {
                     _ => ty += token.text,
                 }
             }
-            found.push((name.text.into(), Declared { ty, initial }));
+            found.push((name.text.into(), Declared { ty, initial, is_retained: false }));
         }
     }
 
@@ -297,6 +320,7 @@ impl<'a> Reader<'a> {
             let is_constant =
                 section.text == "VAR" && self.peek().is_some_and(|t| t.is(Kind::Word, "CONSTANT"));
             self.next += usize::from(is_constant);
+            let retain = if self.is_retain() { " RETAIN" } else { "" };
             let declared = self.declarations()?;
             for (name, variable) in &declared {
                 let value = is_constant.then(|| variable.initial.replace(" := ", ""));
@@ -312,7 +336,7 @@ impl<'a> Reader<'a> {
             if !is_constant {
                 let lines: String =
                     declared.iter().map(|(name, v)| format!("{name} : {}{};\n", v.ty, v.initial)).collect();
-                sections += &format!("{keyword}\n{lines}END_VAR\n");
+                sections += &format!("{keyword}{retain}\n{lines}END_VAR\n");
             }
         }
         let (globals, body) = self.body(&format!("END_{word}"), &names)?;

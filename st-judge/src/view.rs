@@ -55,6 +55,8 @@ pub enum Section {
 #[derive(Clone, Debug)]
 pub struct Variable {
     pub section: Section,
+    /// `RETAIN`: it outlasts a loss of power.
+    pub is_retained: bool,
     pub name: Name,
     /// Such as `%IX0.3`, as written.
     pub address: Option<Name>,

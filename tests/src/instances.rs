@@ -4,7 +4,7 @@ use autogen::check::check;
 use autogen::device;
 use autogen::ir::{Automaton, Extent, Instance, Model, ParameterSource, Scalar, System, Value};
 use autogen::layout::Panel;
-use autogen::lower::modes;
+use autogen::lower::{modes, restart};
 use autogen::source::Sources;
 use autogen::spec::parser;
 use runtime_sim::random::Random;
@@ -38,6 +38,7 @@ pub fn panelled(files: &[(String, String)], panel: Panel) -> (System, Sources) {
             panic!("{}", crate::plain(&sources, &diagnostics))
         }
     };
+    restart::add(&mut model);
     if panel == Panel::Machines {
         modes::add(&mut model);
     }

@@ -13,6 +13,8 @@ pub struct Lots {
     scan: u32,
     /// One in how many inputs changes when little happens, and one in how many commands is answered.
     calm: (u32, u32),
+    /// Power is lost before one in so many scans; 0: never.
+    losses: u32,
 }
 
 impl Lots {
@@ -23,12 +25,18 @@ impl Lots {
             images: (0..system.instances.len()).map(|i| vec![0.0; words(i)]).collect(),
             scan: 0,
             calm: (150, 60),
+            losses: 150,
         }
     }
 
     /// Something happens always.
     pub fn lively(system: &System, seed: u64) -> Self {
         Self { calm: (20, 5), ..Self::new(system, seed) }
+    }
+
+    /// Power is never lost.
+    pub fn powered(system: &System, seed: u64) -> Self {
+        Self { losses: 0, ..Self::new(system, seed) }
     }
 
     fn one_in(&mut self, count: u32) -> bool {
@@ -63,6 +71,11 @@ impl Lots {
         {
             self.images[robot][mode] = if self.one_in(3) { f64::from(self.random.up_to(3)) } else { 0.0 };
         }
+    }
+
+    /// Whether power is lost before the next scan.
+    pub fn powers_up(&mut self) -> bool {
+        self.losses > 0 && self.one_in(self.losses)
     }
 
     /// Inputs of the next scan; devices often answer the command that they see in the outputs.

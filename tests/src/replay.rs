@@ -26,6 +26,12 @@ pub struct Recording {
 }
 
 impl Recording {
+    /// Power is lost and comes back.
+    pub fn power_up(&mut self, engine: &mut dyn Controllers) {
+        engine.power_up();
+        self.inputs += "power\n";
+    }
+
     /// One scan of an engine.
     pub fn scan(
         &mut self,
@@ -70,6 +76,9 @@ pub fn record(executor: &mut Executor, system: &System, scans: usize, mut lots: 
     let mut recording = Recording::default();
     let mut outputs = vec![Vec::new(); system.instances.len()];
     for _ in 0..scans {
+        if lots.powers_up() {
+            recording.power_up(executor);
+        }
         let given = lots.next(system, &outputs);
         recording.scan(executor, given, &lots.images, &mut outputs);
     }
@@ -81,6 +90,9 @@ pub fn record_trace(engine: &mut dyn Controllers, fixture: &trace::Fixture) -> R
     let mut recording = Recording::default();
     let mut outputs = vec![Vec::new(); fixture.system.instances.len()];
     for scan in &fixture.scans {
+        if scan.powers_up {
+            recording.power_up(engine);
+        }
         recording.scan(engine, scan.system, &scan.inputs, &mut outputs);
     }
     recording

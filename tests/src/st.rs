@@ -79,6 +79,11 @@ impl Controllers for Beside<'_> {
         answer
     }
 
+    fn power_up(&mut self) {
+        self.executor.power_up();
+        self.text.power_up();
+    }
+
     fn state(&self, machine: usize) -> usize {
         self.executor.state(machine)
     }

@@ -14,7 +14,7 @@
 //! ```
 //!
 //! A scan begins with a line `scan`, behind it those of `permit start reset` that
-//! are true; `run N` stands for N scans that are not compared. Then, as needed:
+//! are true, and `power` if power was lost before it; `run N` stands for N scans that are not compared. Then, as needed:
 //!
 //! ```text
 //! in a1.ack=1 a1.error=2          # input ports; they stay so
@@ -35,7 +35,7 @@
 use crate::plain;
 use autogen::ir::{self, InterfaceId, RoleKind, Scalar, Value};
 use autogen::layout::Panel;
-use autogen::lower::modes;
+use autogen::lower::{modes, restart};
 use autogen::source::Sources;
 use autogen::{check, device, spec};
 use runtime_sim::device::{Direction, Stop};
@@ -51,6 +51,8 @@ pub struct Fixture {
 /// One scan: what comes in, and what must come out unless it is not compared.
 pub struct Scan {
     pub line: usize,
+    /// Power was lost before it, and is back.
+    pub powers_up: bool,
     pub system: SystemInputs,
     pub inputs: Vec<Vec<f64>>,
     pub expected: Option<Expected>,
@@ -74,6 +76,9 @@ pub fn compare(fixture: &Fixture, engine: &mut dyn Controllers) -> Result<(), St
         })
         .collect();
     for (number, scan) in fixture.scans.iter().enumerate() {
+        if scan.powers_up {
+            engine.power_up();
+        }
         let outputs = engine.scan(scan.system, &scan.inputs, &mut images);
         let Some(expected) = &scan.expected else { continue };
         let mut trace = Vec::new();
@@ -141,6 +146,7 @@ fn panelled(spec_text: &str, kinds: &[String], panel: Panel) -> Result<(Sources,
     }
     let checked = check::check(&sources, &trees, kinds).map_err(|d| plain(&sources, &d))?;
     let mut model = checked.into_model();
+    restart::add(&mut model);
     if panel == Panel::Machines {
         modes::add(&mut model);
     }
@@ -391,7 +397,7 @@ impl<'a> Script<'a> {
                 "run" => (head[1].parse::<usize>().map_err(|_| at("run how often?".into()))?, &head[2..]),
                 _ => (1, &head[1..]),
             };
-            if let Some(odd) = flags.iter().find(|f| !["permit", "start", "reset"].contains(f)) {
+            if let Some(odd) = flags.iter().find(|f| !["permit", "start", "reset", "power"].contains(f)) {
                 return Err(at(format!("`{odd}` is no input of the system")));
             }
             let system = SystemInputs {
@@ -404,13 +410,14 @@ impl<'a> Script<'a> {
                 self.line(words, &mut published).map_err(at)?;
             }
             let is_compared = head[0] == "scan";
-            for _ in 0..count {
+            for number in 0..count {
+                let powers_up = number == 0 && flags.contains(&"power");
                 let mut expected = is_compared.then(|| self.expected());
                 if let Some(expected) = &mut expected {
                     self.published(&published, expected).map_err(at)?;
                 }
                 let inputs = self.machines.iter().map(|m| image(&m.inputs, true)).collect();
-                scans.push(Scan { line, system, inputs, expected });
+                scans.push(Scan { line, powers_up, system, inputs, expected });
             }
         }
         Ok(scans)
@@ -504,7 +511,11 @@ impl<'a> Script<'a> {
                 matches!(v.name.as_str(), "stopped" | "moved_by_hand") && v.elements == [Value::Bool(true)]
             };
             let runs = self.outputs.running && !machine.variables.iter().any(is_stopped);
-            images.push(image(&ports, runs));
+            let is_abandoned =
+                machine.variables.iter().any(|v| v.name == "abandoned" && v.elements == [Value::Bool(true)]);
+            let published =
+                |v: &Variable| image(std::slice::from_ref(v), runs && !(is_abandoned && v.name == "hold"));
+            images.push(ports.iter().flat_map(published).collect());
         }
         Expected { outputs: self.outputs, trace, images }
     }

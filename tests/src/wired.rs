@@ -268,6 +268,10 @@ impl Controllers for Wired<'_> {
         answer
     }
 
+    fn power_up(&mut self) {
+        self.beside.power_up();
+    }
+
     fn state(&self, machine: usize) -> usize {
         self.beside.state(machine)
     }

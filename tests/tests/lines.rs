@@ -201,6 +201,35 @@ fn the_line_may_be_stopped_at_any_moment() {
     println!("{} stops, nothing changed and nothing was lost", scans.len());
 }
 
+/// The controller loses its power at some moment, and begins again with what it retained: all orders are made, or the
+/// line stops and says what somebody has to do. Nothing falls and nothing is touched. The long form: 1,000 times.
+#[test]
+fn power_may_be_lost_at_any_moment() {
+    let mut random = Random::new(11);
+    let scans: Vec<u64> = (0..campaign(16, 1000)).map(|_| u64::from(random.up_to(69_000)) + 3).collect();
+    let project = ariac("default").project();
+    let reports = on_all_processors(&scans, |scan| {
+        let mut project = project.clone();
+        project.plant.may_touch.clear();
+        project.plant.scenario.power_offs = vec![Pause { at_scan: *scan, scans: 1 + scan % 500 }];
+        execute(&project)
+    });
+    let (mut stopped, mut wrong) = (0, Vec::new());
+    for (scan, report) in scans.iter().zip(&reports) {
+        let is_told = report.fault.is_some();
+        stopped += usize::from(is_told);
+        if !is_told {
+            wrong.extend(failure(&format!("without power from scan {scan}"), report));
+        }
+        let lost = report.items.iter().filter(|item| item.carrier.contains("floor")).count();
+        if lost > 0 {
+            wrong.push(format!("without power from scan {scan}: {lost} items on the floor"));
+        }
+    }
+    println!("{} losses of power, {stopped} of them with a stop", scans.len());
+    assert!(wrong.is_empty(), "{} of {}:\n{}", wrong.len(), scans.len(), wrong.join("\n"));
+}
+
 /// A part falls at some moment of its transport: all orders are made, or the line stops and says what somebody has to
 /// do. Nothing is touched, and no order is left that could not be made any more.
 #[test]

@@ -56,7 +56,8 @@ fn declared(text: &str) -> (Vec<Declared>, String) {
     let mut section = None;
     let mut body = String::new();
     for line in text.lines() {
-        match (line, section) {
+        let keyword = line.strip_suffix(" RETAIN").unwrap_or(line);
+        match (keyword, section) {
             ("VAR" | "VAR_INPUT" | "VAR_OUTPUT" | "VAR_EXTERNAL" | "VAR_GLOBAL", None) => {
                 section = Some(line)
             }
@@ -129,7 +130,9 @@ fn variable(section: &str, node: Node) -> Declared {
 }
 
 fn variables(section: &str, list: Node) -> Vec<Declared> {
-    list.children().filter(|n| n.tag_name().name() == "variable").map(|n| variable(section, n)).collect()
+    let retain = if list.attribute("retain") == Some("true") { " RETAIN" } else { "" };
+    let section = format!("{section}{retain}");
+    list.children().filter(|n| n.tag_name().name() == "variable").map(|n| variable(&section, n)).collect()
 }
 
 fn of_pou(pou: Node) -> Vec<Declared> {
@@ -197,7 +200,7 @@ fn globals_in_xml_are_those_of_the_text() {
             let wanted: Vec<_> = (files.iter())
                 .filter(|(path, _)| path.starts_with(flavour) && path.ends_with(".st"))
                 .flat_map(|(_, text)| declared(text).0)
-                .filter(|declared| declared.0 == "VAR_GLOBAL")
+                .filter(|declared| declared.0.starts_with("VAR_GLOBAL"))
                 .collect();
             assert!(!wanted.is_empty(), "{at}");
             assert_eq!(sorted(found), sorted(wanted), "{at}");

@@ -125,6 +125,7 @@ fn fixtures_run_as_on_the_executor() {
     assert_eq!(difference(&system, &recording.answers, &found), None);
 
     // The constants of the layout make the same controllers as the words.
+    let recording = record(&mut Executor::new(&system), &system, 30_000, Lots::powered(&system, 1));
     let host = run(&workspace.program("examples/host"), &[], &workspace.folder, &recording.inputs);
     let outputs: usize = (0..system.instances.len())
         .map(|i| system.automaton_of(i).device.words(Direction::Output, system.kinds()))

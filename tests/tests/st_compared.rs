@@ -42,6 +42,9 @@ fn name(path: &std::path::Path) -> String {
 fn drawn(beside: &mut Beside, text: &Text, mut lots: Lots, scans: usize) {
     let mut outputs = vec![Vec::new(); text.system.instances.len()];
     for _ in 0..scans {
+        if lots.powers_up() {
+            beside.power_up();
+        }
         let given = lots.next(text.system, &outputs);
         beside.scan(given, &lots.images, &mut outputs);
     }
@@ -59,8 +62,9 @@ fn coverage(job: &Job) -> Coverage {
                     .expect("a line that can be run");
             });
             for seed in 1..=3 {
-                coverage.take(&text, |beside| drawn(beside, &text, Lots::new(text.system, seed), 3000));
+                coverage.take(&text, |beside| drawn(beside, &text, Lots::powered(text.system, seed), 3000));
             }
+            coverage.take(&text, |beside| drawn(beside, &text, Lots::new(text.system, 4), 3000));
         }
         Job::Fixture(path) => {
             let file = (name(path), std::fs::read_to_string(path).expect("a text"));
@@ -79,6 +83,9 @@ fn coverage(job: &Job) -> Coverage {
             coverage.take(&text, |beside| {
                 let mut outputs = vec![Vec::new(); text.system.instances.len()];
                 for scan in &fixture.scans {
+                    if scan.powers_up {
+                        beside.power_up();
+                    }
                     beside.scan(scan.system, &scan.inputs, &mut outputs);
                 }
             });

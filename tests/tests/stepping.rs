@@ -43,6 +43,10 @@ fn cases() -> Vec<Case> {
     }));
     cases.push(case("rack", own_line("rack"), |_| {}));
     cases.push(case("order 5", Texts { order: Some(5), ..ariac("spaced") }.set("agv.capacity=3"), |_| {}));
+    cases.push(case("losses of power", ariac("default"), |line| {
+        let off = |at_scan| Pause { at_scan, scans: 1 + at_scan % 300 };
+        line.scenario.power_offs = [1, 5000, 5701, 9000, 12_000, 33_333].map(off).into();
+    }));
     cases.push(case("pauses", ariac("default"), |line| {
         let pause = |at_scan| Pause { at_scan, scans: 700 };
         line.scenario.pauses = [3, 5000, 5701, 9000, 12_000].map(pause).into();

@@ -39,6 +39,38 @@ fn a_state_that_there_is_not_is_a_fault() {
     }
 }
 
+/// What was retained counts if it is of this program and of one scan. Otherwise all is as at first, and there is a fault,
+/// but for the first power-up ever.
+#[test]
+fn what_is_retained_is_of_this_program_and_of_one_scan() {
+    let (_, text) = of_layout("default");
+    let mut machine = Machine::new(&text.main).expect("a clean text");
+    machine.set("run_permit", 1.0);
+    machine.scan().expect("a scan");
+    assert_eq!([machine.get("warm_start"), machine.get("fault_code")], [0.0, 0.0], "the first power-up");
+    machine.set("start", 1.0);
+    (0..500).for_each(|_| machine.scan().expect("a scan"));
+    machine.set("tray_slot[3]", 2.0);
+    for (name, value, is_kept) in
+        [("fault_code", 0.0, true), ("retained_of", 77.0, false), ("retained_whole", 0.0, false)]
+    {
+        let mut machine = machine.clone();
+        machine.set(name, value);
+        machine.power_up();
+        machine.set("run_permit", 1.0);
+        machine.scan().expect("a scan");
+        let found = ["warm_start", "tray_slot[3]", "agv1.state", "fault_code", "fault_robot", "running"]
+            .map(|name| machine.get(name));
+        let expected = match is_kept {
+            // It returns to its start, with its command abandoned.
+            true => [1.0, 2.0, 4.0, 0.0, -1.0, 0.0],
+            false => [0.0, 0.0, 0.0, 32766.0, -1.0, 0.0],
+        };
+        assert_eq!(found, expected, "{name}");
+        assert_eq!(machine.get("agv1.abandoned"), f64::from(u8::from(is_kept)), "{name}");
+    }
+}
+
 /// Most of its vehicles get to none of most stations: a loop gives that to all, and the others get theirs behind it.
 #[test]
 fn a_long_table_has_all_its_values_after_the_first_scan() {

@@ -15,6 +15,7 @@ mod modes;
 mod names;
 mod parameters;
 mod property;
+mod retained;
 mod robots;
 mod shared;
 mod state;
@@ -93,6 +94,9 @@ fn crates(system: &System, sources: &Sources) -> Files {
     put("controllers/src/cells.rs".into(), shared::cells(shared));
     put("controllers/src/system.rs".into(), shared::system(shared));
     put("controllers/src/robot.rs".into(), shared::robot(shared));
+    if retained::retains(shared) {
+        put("controllers/src/retained.rs".into(), retained::module(shared));
+    }
     for id in 0..system.model.automata.len() {
         let context = Context::new(shared, AutomatonId(id));
         put(format!("controllers/src/{}.rs", context.own().module), automaton::module(&context));

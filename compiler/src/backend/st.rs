@@ -30,6 +30,7 @@ mod points;
 mod print;
 mod program;
 mod property;
+mod restart;
 mod role;
 mod siemens;
 mod state;

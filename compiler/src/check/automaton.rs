@@ -27,6 +27,9 @@ pub(super) fn check(checker: &mut Checker, tree: &ast::Automaton) {
         variables: Vec::new(),
         states: Vec::new(),
         properties: Vec::new(),
+        retained: ir::Retained::default(),
+        abandoned: None,
+        interrupted: None,
         modes: None,
         requires: Vec::new(),
     };
@@ -58,6 +61,9 @@ pub(super) fn check(checker: &mut Checker, tree: &ast::Automaton) {
     context.defines(tree);
     for require in &tree.requires {
         context.require(require);
+    }
+    if let Some(retain) = &tree.retain {
+        context.retain(retain);
     }
     state::check(&mut context, tree);
     context.properties(tree);

@@ -8,7 +8,7 @@ use crate::source::Span;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What a name means in an automaton.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub enum Symbol {
     Local(usize),
     Cell(ir::InterfaceId, usize),

@@ -9,6 +9,7 @@ mod facts;
 pub mod names;
 mod path;
 mod property;
+mod retain;
 mod rule;
 mod sequence;
 mod state;

@@ -70,7 +70,7 @@ pub(super) fn expand(context: &mut Context, state: &State, sequence: &ast::Seque
                 doc: if i == 0 && !state.doc.is_empty() { state.doc.clone() } else { vec![doc] },
                 name: ast::Name { value: name(i), span: state.name.span },
                 is_final: false,
-                is_resumable: false,
+                is_resumable: state.is_resumable,
                 within: state.within.clone(),
                 body: Body::Transitions(transitions),
             }

@@ -4,8 +4,7 @@ use super::context::Context;
 use super::names::Space;
 use super::sequence;
 use crate::diagnostic::{Diagnostic, suggestion};
-use crate::ir::{self, Scalar, StateId};
-use crate::reads::Reads;
+use crate::ir::{self, Asking, ExprKind, Place, Scalar, StateId};
 use crate::spec::ast;
 use std::collections::BTreeMap;
 
@@ -138,29 +137,36 @@ pub(super) fn check(context: &mut Context, tree: &ast::Automaton) {
     }
 }
 
-/// From a state that a machine may go on from after it was moved by hand: by then its device has ended other commands.
+/// A machine that goes on after it was moved by hand, or power was lost, has no command under way any more.
 fn resumable(context: &mut Context, state: &ast::State) {
     let automaton = &context.automaton;
+    let asks_failed = Asking::new(automaton, |kind| *kind == ExprKind::Failed);
+    let waits = Asking::new(automaton, |kind| match kind {
+        ExprKind::Done => true,
+        ExprKind::Read(Place::Port { port, .. }) => {
+            matches!(automaton.device.ports[*port].name.as_str(), "got" | "ack" | "error")
+        }
+        _ => false,
+    });
     let found = automaton.states.iter().find(|found| found.name == state.name.value);
-    let waits = found.is_some_and(|found| {
-        let inputs = Reads::of_guards(automaton, found).inputs;
-        inputs
-            .iter()
-            .any(|port| matches!(automaton.device.ports[*port].name.as_str(), "got" | "ack" | "error"))
+    let is_stuck = found.is_some_and(|found| {
+        found.transitions.iter().any(|t| waits.guard(t))
+            && !found.transitions.iter().any(|t| asks_failed.guard(t))
     });
     let reason = match &state.body {
-        ast::Body::Sequence(_) => "it is a sequence, of which nobody knows how far it has come",
         _ if state.is_final => "it is a final state",
-        _ if waits => "it waits for the answer to a command, and may take that to one given by hand for it",
+        ast::Body::Transitions(_) if is_stuck => {
+            "it waits for the answer to a command, and has no transition for `failed`"
+        }
         _ => return,
     };
     context.report(
         Diagnostic::new(
             "E0336",
             state.name.span,
-            format!("a machine that was moved by hand cannot go on in `{}`: {reason}", state.name.value),
+            format!("a machine cannot go on in `{}` after it was moved by hand: {reason}", state.name.value),
         )
-        .help("remove `resume`: the machine then begins anew; or mark a state that waits for something else"),
+        .help("remove `resume`: the machine then begins anew; or add `when failed -> ...`, which then holds"),
     );
 }
 

@@ -46,7 +46,7 @@ pub fn add(files: &mut [(FileId, ast::File)]) {
 
 fn equip(device: &mut Device) {
     let place = device.name.span;
-    let highest = device.commands.iter().map(|command| command.number.value).max();
+    let has_commands = !device.commands.is_empty();
     let is_output = |port: &&ast::Port| port.direction == Direction::Output;
     let outputs: Vec<ast::Port> = device.ports.iter().filter(is_output).cloned().collect();
     let mut panel = Panel { device, place };
@@ -62,8 +62,8 @@ fn equip(device: &mut Device) {
         false,
         "panel: in manual its rising edge gives the command, and outputs are given while it is true",
     );
-    if let Some(highest) = highest {
-        panel.whole(VERB, int(place, 0, highest.clamp(0, 9)), "panel: number of the command by hand; 0 none");
+    if has_commands {
+        panel.whole(VERB, int(place, 0, 32767), "panel: number of the command by hand; 0 none");
     }
     for output in &outputs {
         panel.output(output);

@@ -46,7 +46,9 @@ impl Executor<'_> {
             }
             ExprKind::After(time) => Value::Bool(self.robots[robot].elapsed >= self.int(robot, time)),
             ExprKind::Done => Value::Bool(self.answered(robot) && self.port_of(robot, "error") == 0),
-            ExprKind::Failed => Value::Bool(self.answered(robot) && self.port_of(robot, "error") != 0),
+            ExprKind::Failed => Value::Bool(
+                self.is_interrupted(robot) || self.answered(robot) && self.port_of(robot, "error") != 0,
+            ),
             ExprKind::Permit => Value::Bool(self.permit),
             ExprKind::Stopped => Value::Bool(self.robots[robot].stopped),
             ExprKind::InState(states) => {
@@ -219,7 +221,7 @@ impl Executor<'_> {
     /// The device has ended the last command.
     fn answered(&self, robot: usize) -> bool {
         let command = self.port_of(robot, "cmd");
-        command != 0 && self.port_of(robot, "ack") == command
+        !self.is_abandoned(robot) && command != 0 && self.port_of(robot, "ack") == command
     }
 
     /// Whether a port of type `bool` is there and true.

@@ -1,7 +1,7 @@
 //! Operating modes: what a person does with one machine at its panel.
 
 use super::Executor;
-use crate::ir::{Action, ByHand, Commands, KeptBy, Modes, Value};
+use crate::ir::{Action, ByHand, KeptBy, Modes, Value};
 use runtime_sim::device::{Direction, Stop};
 
 impl Executor<'_> {
@@ -52,31 +52,23 @@ impl Executor<'_> {
         let kept = &mut self.robots[robot];
         kept.state = 0;
         kept.elapsed = 0;
-        for (values, local) in kept.locals.iter_mut().zip(&automaton.locals) {
-            if local.kept_by != KeptBy::Modes {
+        for (number, (values, local)) in kept.locals.iter_mut().zip(&automaton.locals).enumerate() {
+            if local.kept_by != KeptBy::Modes && !automaton.retained.locals.contains(&number) {
                 values.fill(local.initial);
             }
         }
         for port in automaton.outputs_that_begin_anew() {
             kept.ports[port].fill(Self::first_value(automaton.device.ports[port].ty));
         }
-        for (implemented, row) in automaton.implements.iter().zip(&system.instances[robot].rows) {
-            let cells = &system.model.interface(implemented.interface).cells;
-            let values = &mut self.cells[implemented.interface.0][*row];
-            values.iter_mut().zip(cells).for_each(|(values, cell)| values.fill(cell.initial));
-        }
+        self.cells_begin_anew(robot);
     }
 
     /// Appends what an instance publishes. While it neither runs nor is moved by hand, that is stop values.
     pub(super) fn outputs_of_mode(&mut self, robot: usize, modes: &Modes, runs: bool, image: &mut Vec<f64>) {
         let runs = runs && !self.is_set(robot, modes.moved_by_hand);
         let by_hand = modes.by_hand.is_some_and(|by_hand| self.is_set(robot, by_hand));
-        let commanded =
-            modes.commands.is_some_and(|Commands { commanded, .. }| self.is_set(robot, commanded));
-        let abandoned = modes.commands.is_some_and(|Commands { abandoned, .. }| {
-            let number = self.robots[robot].locals[abandoned][0];
-            number != Value::Int(0) && number == Value::Int(self.port_of(robot, "cmd"))
-        });
+        let commanded = modes.commanded.is_some_and(|commanded| self.is_set(robot, commanded));
+        let abandoned = self.is_abandoned(robot);
         let ports = &self.system.automaton_of(robot).device.ports;
         for (number, port) in ports.iter().enumerate().filter(|(_, port)| port.direction == Direction::Output)
         {

@@ -124,6 +124,7 @@ impl Executor<'_> {
                 let number = self.next_command(robot);
                 self.set_port(robot, "verb", *verb);
                 self.set_port(robot, "cmd", number);
+                self.commanded(robot);
                 Ok(())
             }
         }

@@ -18,19 +18,10 @@ pub struct Modes {
     pub by_hand: Option<usize>,
     /// A local: something was done by hand since the instance made its last step.
     pub moved_by_hand: usize,
-    /// Of a device with commands.
-    pub commands: Option<Commands>,
+    /// A local of a device with commands: the panel has given one since its button is pressed.
+    pub commanded: Option<usize>,
     /// For each port of the device that is an output with a stop value, what is published by hand instead of it.
     pub published: Vec<Option<ByHand>>,
-}
-
-#[derive(Clone, Copy, Debug)]
-pub struct Commands {
-    /// A local: the panel has given a command since its button is pressed.
-    pub commanded: usize,
-    /// A local: the number of the last command if it is not the automaton's any more, else 0. The device is held
-    /// until the automaton gives one.
-    pub abandoned: usize,
 }
 
 #[derive(Clone, Debug)]
@@ -52,7 +43,7 @@ pub enum Action {
     Stop,
     /// The time in its state becomes 0.
     StayAnew,
-    /// State, locals, cells of its own and outputs with stop values are those of power-up.
+    /// State, locals, cells of its own and outputs with stop values are those of power-up, but for what is retained.
     BeginAnew,
     If {
         /// Why, in a sentence; empty if the condition says it.
@@ -64,12 +55,15 @@ pub enum Action {
 }
 
 impl Automaton {
-    /// Outputs of the device, by their numbers, that are as at power-up when an instance begins anew.
+    /// Outputs of the device, by their numbers, that are as at power-up when an instance begins anew by hand.
     pub fn outputs_that_begin_anew(&self) -> impl Iterator<Item = usize> {
         let has_stop =
             |port: &crate::device::Port| port.direction == Direction::Output && port.stop != Stop::Hold;
         let is_hold = |port: &crate::device::Port| self.device.is_commanded() && port.name == "hold";
         let ports = self.device.ports.iter().enumerate();
-        ports.filter(move |(_, port)| has_stop(port) && !is_hold(port)).map(|(number, _)| number)
+        let begins = move |(number, port): &(usize, &crate::device::Port)| {
+            has_stop(port) && !is_hold(port) && !self.retained.ports.contains(number)
+        };
+        ports.filter(begins).map(|(number, _)| number)
     }
 }

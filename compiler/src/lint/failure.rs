@@ -1,40 +1,12 @@
 //! Commands whose failure nobody handles.
 
 use crate::diagnostic::Diagnostic;
-use crate::ir::{Automaton, Clause, Domain, Expr, ExprKind, StateId, Transition, Update, UpdateKind};
+use crate::ir::{Asking, Automaton, ExprKind, StateId, Transition, Update, UpdateKind};
 use crate::source::Span;
 
-/// Expressions that consist of one of a kind somewhere.
-struct Asking {
-    wanted: ExprKind,
-    /// Of each definition. It reads those before it only.
-    defines: Vec<bool>,
-}
-
-impl Asking {
-    fn new(automaton: &Automaton, wanted: ExprKind) -> Self {
-        let mut asking = Self { wanted, defines: Vec::new() };
-        for define in &automaton.defines {
-            let asks = asking.of(&define.value);
-            asking.defines.push(asks);
-        }
-        asking
-    }
-
-    fn of(&self, expr: &Expr) -> bool {
-        match &expr.kind {
-            ExprKind::Define(define) => self.defines.get(*define).is_some_and(|asks| *asks),
-            kind => *kind == self.wanted || expr.parts().into_iter().any(|part| self.of(part)),
-        }
-    }
-
-    fn guard(&self, transition: &Transition) -> bool {
-        expressions(transition).any(|expr| self.of(expr))
-    }
-}
-
 pub fn check(automaton: &Automaton, found: &mut Vec<Diagnostic>) {
-    let [done, failed] = [ExprKind::Done, ExprKind::Failed].map(|kind| Asking::new(automaton, kind));
+    let done = Asking::new(automaton, |kind| *kind == ExprKind::Done);
+    let failed = Asking::new(automaton, |kind| *kind == ExprKind::Failed);
     let handles: Vec<bool> =
         automaton.states.iter().map(|state| state.transitions.iter().any(|t| failed.guard(t))).collect();
     let (handled, commands) = (handled(automaton, &handles), commands(automaton));
@@ -102,17 +74,4 @@ fn handled(automaton: &Automaton, handles: &[bool]) -> Vec<bool> {
         }
     }
     handled
-}
-
-fn expressions(transition: &Transition) -> impl Iterator<Item = &Expr> {
-    transition.clauses.iter().flat_map(|clause| match clause {
-        Clause::Condition(condition) => vec![condition],
-        Clause::Bind(binder) => {
-            let mut all: Vec<&Expr> = binder.condition.iter().chain(&binder.key).collect();
-            if let Domain::Range(low, high) = &binder.domain {
-                all.extend([low, high]);
-            }
-            all
-        }
-    })
 }

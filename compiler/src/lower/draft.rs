@@ -1,7 +1,7 @@
 //! A line without its values, so that it is read and checked once for many of them.
 
 use super::setting::{self, Setting};
-use super::{Project, Verdict, bind, collected, modes, overlap, plant, role};
+use super::{Project, Verdict, bind, collected, modes, overlap, plant, restart, role};
 use crate::check::{self, Checked};
 use crate::device::panel;
 use crate::diagnostic::{self, Diagnostic};
@@ -121,6 +121,7 @@ impl Draft {
         match check::check(sources, &used, &kinds(scenario)) {
             Ok(checked) => {
                 let mut model = checked.into_model();
+                restart::add(&mut model);
                 if layout.panel == Panel::Machines {
                     modes::add(&mut model);
                 }

@@ -8,6 +8,7 @@ pub mod modes;
 mod overlap;
 mod parameter;
 mod plant;
+pub mod restart;
 mod role;
 mod setting;
 mod size;

@@ -1,12 +1,13 @@
 //! The operating modes of a model whose machines have panels, as `docs/semantics.md` says.
 
+use super::restart;
 use crate::device::{Port, panel};
 use crate::ir::{
-    Action, Argument, Automaton, ByHand, Commands, Expr, ExprKind, Extent, KeptBy, Local, Model, Modes,
-    Operator, Place, Scalar, StateId, Target, Type, Update, UpdateKind, Value,
+    Action, Argument, Automaton, ByHand, Expr, ExprKind, Extent, Model, Modes, Operator, Place, Scalar,
+    StateId, Target, Type, Update, UpdateKind, Value,
 };
 use crate::source::Span;
-use runtime_sim::device::{Direction, LAST_COMMAND, PortType, Stop};
+use runtime_sim::device::{Direction, PortType, Stop};
 
 /// Adds the modes to every automaton; its device has a panel, see [`panel::add`].
 pub fn add(model: &mut Model) {
@@ -33,7 +34,11 @@ impl Builder<'_> {
         let step_before = self.truth("step_before", true, "`panel_step` in the scan before.");
         let single_before =
             self.truth("single_before", false, "Single step was selected in the scan before.");
-        let jog_before = self.truth("jog_before", true, "`panel_jog` in the scan before.");
+        let jog_ready = self.truth(
+            "jog_ready",
+            false,
+            "`panel_jog` was released in the scan before, where pressing it would have counted.",
+        );
         let has_levels = self.automaton.device.ports.iter().any(|port| self.is_level(port));
         let by_hand = has_levels.then(|| self.truth("by_hand", false, "Outputs are those of the panel."));
         let moved_by_hand = self.truth(
@@ -41,15 +46,14 @@ impl Builder<'_> {
             false,
             "Something was done by hand: it goes on from a state that says so only, or begins anew.",
         );
-        let commands = self.automaton.device.is_commanded().then(|| Commands {
-            commanded: self.truth("commanded_by_hand", false, "The panel has given a command since its button is pressed."),
-            abandoned: self.local(
-                "abandoned",
-                Scalar::Int { lo: 0, hi: LAST_COMMAND },
-                Value::Int(0),
-                "Number of the last command if a person gave it, or one after it: the device is held until the next. Else 0.",
-            ),
+        let commanded = self.automaton.device.is_commanded().then(|| {
+            self.truth(
+                "commanded_by_hand",
+                false,
+                "The panel has given a command since its button is pressed.",
+            )
         });
+        restart::add_abandoned(self.automaton);
         let mut actions = vec![
             when(
                 "Not enabled, or in manual: it is stopped until start.",
@@ -70,27 +74,26 @@ impl Builder<'_> {
         ]);
         let mut allowed = vec![jog.clone(), enable.clone(), is_manual.clone(), truth_of(ExprKind::Permit)];
         allowed.extend(self.reals_by_hand());
-        let begins = self.begin_by_hand(by_hand, moved_by_hand, commands);
+        let begins = self.begin_by_hand(by_hand, moved_by_hand, commanded);
         let mut ends: Vec<Action> =
             by_hand.map(|by_hand| self.set(by_hand, constant(false))).into_iter().collect();
-        ends.extend(commands.map(|commands| self.set(commands.commanded, constant(false))));
+        ends.extend(commanded.map(|commanded| self.set(commanded, constant(false))));
         actions.push(Action::If {
             about: "By hand: from the edge of the button on, as long as it is pressed.",
             condition: and(allowed),
-            then: vec![when("", not(self.read(jog_before)), begins)],
+            then: vec![when("", self.read(jog_ready), begins)],
             otherwise: ends,
         });
-        actions.push(self.set(jog_before, jog));
+        let is_ready = and(vec![not(jog), enable.clone(), is_manual, truth_of(ExprKind::Permit)]);
+        actions.push(self.set(jog_ready, is_ready));
         let kept = self.outputs_that_stay();
         if let Some(by_hand) = by_hand
             && !kept.is_empty()
         {
-            actions.push(when("Outputs that stay as they are.", self.read(by_hand), kept));
-        }
-        if let Some(Commands { abandoned, .. }) = commands {
-            let given = binary(Operator::NotEqual, self.output("cmd"), self.read(abandoned));
-            let forget = self.set(abandoned, whole(0));
-            actions.push(when("The automaton has given a command.", given, vec![forget]));
+            let without_command =
+                commanded.map(|commanded| not(self.read(commanded))).into_iter().chain([self.read(by_hand)]);
+            let condition = and(without_command.collect());
+            actions.push(when("Outputs that stay as they are, unless a command is given.", condition, kept));
         }
         actions.push(self.go_on(moved_by_hand));
         Modes {
@@ -100,16 +103,20 @@ impl Builder<'_> {
             may_go_on: and(vec![enable, is_not_manual]),
             by_hand,
             moved_by_hand,
-            commands,
+            commanded,
             published: self.published(),
         }
     }
 
     /// At the edge of the button.
-    fn begin_by_hand(&self, by_hand: Option<usize>, moved: usize, commands: Option<Commands>) -> Vec<Action> {
+    fn begin_by_hand(&self, by_hand: Option<usize>, moved: usize, commanded: Option<usize>) -> Vec<Action> {
         let begun = by_hand.into_iter().chain([moved]);
         let mut actions: Vec<Action> = begun.map(|local| self.set(local, constant(true))).collect();
-        let Some(Commands { commanded, abandoned }) = commands else { return actions };
+        let (Some(commanded), Some(abandoned), Some(interrupted)) =
+            (commanded, self.automaton.abandoned, self.automaton.interrupted)
+        else {
+            return actions;
+        };
         let verb = self.input(panel::VERB);
         for known in &self.automaton.device.verbs {
             let arguments = known.arguments.iter().filter_map(|name| {
@@ -120,7 +127,8 @@ impl Builder<'_> {
             let given = vec![self.update(command), self.set(commanded, constant(true))];
             actions.push(when("", equal(verb.clone(), known.number), given));
         }
-        actions.push(self.set(abandoned, self.output("cmd")));
+        actions.push(self.set(abandoned, unequal(self.output("cmd"), 0)));
+        actions.push(self.set(interrupted, constant(false)));
         actions
     }
 
@@ -144,12 +152,21 @@ impl Builder<'_> {
     }
 
     fn go_on(&self, moved_by_hand: usize) -> Action {
-        let states = self.automaton.states.iter().enumerate();
-        let resumable: Vec<StateId> =
-            states.filter(|(_, state)| state.is_resumable).map(|(number, _)| StateId(number)).collect();
-        let begins = match resumable.is_empty() {
-            true => Action::BeginAnew,
-            false => when("", not(truth_of(ExprKind::InState(resumable))), vec![Action::BeginAnew]),
+        let resumable: Vec<StateId> = self.automaton.resumable().map(StateId).collect();
+        let goes_on = match (self.automaton.abandoned, self.automaton.interrupted) {
+            (Some(abandoned), Some(interrupted)) => vec![self.set(interrupted, self.read(abandoned))],
+            _ => Vec::new(),
+        };
+        let is_resumable = truth_of(ExprKind::InState(resumable.clone()));
+        let begins = match (resumable.is_empty(), goes_on.is_empty()) {
+            (true, _) => Action::BeginAnew,
+            (false, true) => when("", not(is_resumable), vec![Action::BeginAnew]),
+            (false, false) => Action::If {
+                about: "",
+                condition: is_resumable,
+                then: goes_on,
+                otherwise: vec![Action::BeginAnew],
+            },
         };
         when(
             "It goes on after it was moved by hand.",
@@ -208,31 +225,7 @@ impl Builder<'_> {
     }
 
     fn truth(&mut self, name: &str, initial: bool, about: &str) -> usize {
-        self.local(name, Scalar::Bool, Value::Bool(initial), about)
-    }
-
-    /// A local under a name that is still free.
-    fn local(&mut self, wanted: &str, scalar: Scalar, initial: Value, about: &str) -> usize {
-        let automaton = &self.automaton;
-        let is_taken = |name: &str| {
-            automaton.locals.iter().any(|local| local.name == name)
-                || automaton.parameters.iter().any(|parameter| parameter.name == name)
-                || automaton.device.ports.iter().any(|port| port.name == name)
-        };
-        let mut name = wanted.to_string();
-        let mut number = 2;
-        while is_taken(&name) {
-            name = format!("{wanted}_{number}");
-            number += 1;
-        }
-        self.automaton.locals.push(Local {
-            name,
-            doc: vec![about.into()],
-            ty: one(scalar),
-            initial,
-            kept_by: KeptBy::Modes,
-        });
-        self.automaton.locals.len() - 1
+        restart::add_local(self.automaton, name, Scalar::Bool, Value::Bool(initial), about)
     }
 
     fn read(&self, local: usize) -> Expr {

@@ -56,6 +56,7 @@ pub fn line(
 ) -> line::Line {
     let asks_nothing = scenario.number == Number::None && scenario.goal.is_empty();
     let scans = |seconds: f64| (seconds * 1000.0 / f64::from(scan_ms)).round() as u64;
+    let pause = |p: &scenario::Pause| line::Pause { at_scan: scans(p.at_s), scans: scans(p.for_s) };
     let arms = arms(system);
     let mut executor = Executor::new(system);
     let traces = system.traces();
@@ -122,9 +123,8 @@ pub fn line(
                     error: a.error,
                 })
                 .collect(),
-            pauses: (scenario.pauses.iter())
-                .map(|p| line::Pause { at_scan: scans(p.at_s), scans: scans(p.for_s) })
-                .collect(),
+            pauses: scenario.pauses.iter().map(pause).collect(),
+            power_offs: scenario.power_offs.iter().map(pause).collect(),
             operations: (scenario.operations.iter())
                 .map(|o| line::Operation {
                     machine: o.part[0],

@@ -25,6 +25,7 @@ const OF_AUTOMATON: &[&str] = &[
     "serves",
     "knows",
     "require",
+    "retain",
     "invariant",
     "keep",
     "whenever",

@@ -159,6 +159,7 @@ pub struct Faults {
     pub refusals: Vec<Refusal<Spanned<String>>>,
     pub answers: Vec<Answer<Spanned<String>>>,
     pub pauses: Vec<Pause>,
+    pub power_offs: Vec<Pause>,
 }
 
 /// What a person operates.
@@ -236,6 +237,7 @@ pub struct ResolvedScenario {
     pub refusals: Vec<Refusal<usize>>,
     pub answers: Vec<Answer<usize>>,
     pub pauses: Vec<Pause>,
+    pub power_offs: Vec<Pause>,
     /// By numbers of the machine and of its part.
     pub operations: Vec<Operation<[usize; 2]>>,
     pub presses: Vec<Operation<LineButton>>,

@@ -41,7 +41,7 @@ pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec
     let mut resolver = Resolver { scenario, line, by_name: HashMap::new(), diagnostics: Vec::new() };
     let orders = resolver.orders();
     let supply = resolver.supply();
-    let Faults { slips, refusals, answers, pauses } = &scenario.faults;
+    let Faults { slips, refusals, answers, pauses, power_offs } = &scenario.faults;
     let slips = slips.iter().filter_map(|s| {
         let robot = resolver.named(&s.robot, line.arms, "robot with a gripper")?;
         Some(Slip { robot, pick: s.pick, after_s: s.after_s })
@@ -91,6 +91,7 @@ pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec
             refusals,
             answers,
             pauses: pauses.clone(),
+            power_offs: power_offs.clone(),
             operations,
             presses,
             goal,

@@ -147,7 +147,7 @@ fn faults() -> Value {
     );
     let pause = object(
         vec![
-            property("at_s", seconds_from_0(), "When the permit to run is taken away, s"),
+            property("at_s", seconds_from_0(), "When it is taken away, s"),
             property("for_s", seconds(), "For how long, s"),
         ],
         &["at_s", "for_s"],
@@ -156,7 +156,16 @@ fn faults() -> Value {
         property("slips", list(slip), "Parts that fall off a gripper"),
         property("refusals", list(refusal), "Commands that a machine refuses"),
         property("answers", list(answer), "How commands end, and how late"),
-        property("pauses", list(pause), "The permit to run is taken away, then the line is started again"),
+        property(
+            "pauses",
+            list(pause.clone()),
+            "The permit to run is taken away, then the line is started again",
+        ),
+        property(
+            "power_offs",
+            list(pause),
+            "The controller loses its power; when it has it again, the line is started again",
+        ),
     ];
     object(all, &[])
 }

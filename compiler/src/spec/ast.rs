@@ -190,6 +190,7 @@ pub struct Automaton {
     pub locals: Vec<Local>,
     pub defines: Vec<Define>,
     pub requires: Vec<Require>,
+    pub retain: Option<Retain>,
     pub properties: Vec<Property>,
     pub initial: Option<Initial>,
     pub any: Vec<AnyState>,
@@ -303,6 +304,14 @@ pub enum TextPart {
     Value(Expr),
 }
 
+/// What outlasts a loss of power.
+#[derive(Clone, Debug)]
+pub struct Retain {
+    pub span: Span,
+    /// `all`, `state`, or a local, a shared variable or an output.
+    pub names: Vec<Name>,
+}
+
 #[derive(Clone, Debug)]
 pub struct Initial {
     pub span: Span,
@@ -322,7 +331,7 @@ pub struct State {
     pub doc: Vec<String>,
     pub name: Name,
     pub is_final: bool,
-    /// Its machine may go on from here after it was moved by hand.
+    /// Its machine may go on from here after it was moved by hand, or power was lost.
     pub is_resumable: bool,
     pub within: Option<Expr>,
     pub body: Body,

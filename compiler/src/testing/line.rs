@@ -62,6 +62,10 @@ impl Controllers for Watched<'_> {
         answer
     }
 
+    fn power_up(&mut self) {
+        self.controllers.power_up();
+    }
+
     fn state(&self, machine: usize) -> usize {
         self.controllers.state(machine)
     }

@@ -263,6 +263,10 @@ impl Controllers for StructuredText {
         }
     }
 
+    fn power_up(&mut self) {
+        self.machine.power_up();
+    }
+
     fn state(&self, machine: usize) -> usize {
         self.machine.read(self.states[machine]) as usize
     }

@@ -125,6 +125,10 @@ impl Controllers for Watch<'_> {
         answer
     }
 
+    fn power_up(&mut self) {
+        self.executor.power_up();
+    }
+
     fn state(&self, machine: usize) -> usize {
         self.executor.state(machine)
     }

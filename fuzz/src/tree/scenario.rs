@@ -95,11 +95,21 @@ fn faults(u: &mut Unstructured) -> Result<String> {
         ];
         object(u, &members)
     })?;
-    let pauses = list(u, 2, |u| {
-        let members = [("at_s", seconds(u)?), ("for_s", seconds(u)?)];
-        object(u, &members)
-    })?;
-    object(u, &[("slips", slips), ("refusals", refusals), ("answers", answers), ("pauses", pauses)])
+    let mut pauses = || {
+        list(u, 2, |u| {
+            let members = [("at_s", seconds(u)?), ("for_s", seconds(u)?)];
+            object(u, &members)
+        })
+    };
+    let (pauses, power_offs) = (pauses()?, pauses()?);
+    let members = [
+        ("slips", slips),
+        ("refusals", refusals),
+        ("answers", answers),
+        ("pauses", pauses),
+        ("power_offs", power_offs),
+    ];
+    object(u, &members)
 }
 
 fn whole(u: &mut Unstructured, most: u32) -> Result<String> {

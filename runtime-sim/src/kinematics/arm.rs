@@ -69,7 +69,7 @@ enum Solver {
 }
 
 /// Turns of the last joint differ by a multiple of this, rad: 0.2 um at a metre.
-const FINEST_TURN: f64 = PI / 16_777_216.0;
+pub const FINEST_TURN: f64 = PI / 16_777_216.0;
 
 impl Joints {
     /// # Panics
@@ -221,15 +221,29 @@ impl Arm {
         Some(all)
     }
 
-    /// The same place of the tool, and a part on it with the direction that it has at `from`.
-    fn with_direction_of(&self, from: &Joints, joints: Joints) -> Joints {
-        let direction = |joints: &Joints| {
-            let along = self.tool_pose(joints).axis(0);
-            libm::atan2(along.y, along.x)
-        };
+    /// The direction of a part on the tool, seen from above, rad.
+    pub fn direction(&self, joints: &Joints) -> f64 {
+        let along = self.tool_pose(joints).axis(0);
+        libm::atan2(along.y, along.x)
+    }
+
+    /// The same joints but for the last one, which gives a part on the tool this direction. For an arm that keeps the
+    /// direction of a part.
+    pub fn directed(&self, joints: &Joints, direction: f64) -> Joints {
+        let off = self.direction(joints) - direction;
+        if off == 0.0 || matches!(self.solver, Solver::Fixed(_)) {
+            return *joints;
+        }
         let last = joints.len() - 1;
         // The last joint's axis points down.
-        let angle = joints[last] + direction(&joints) - direction(from);
+        joints.map(|i, value| if i == last { nearest_equivalent(value + off, value) } else { value })
+    }
+
+    /// The same place of the tool, and a part on it with the direction that it has at `from`.
+    fn with_direction_of(&self, from: &Joints, joints: Joints) -> Joints {
+        let last = joints.len() - 1;
+        // The last joint's axis points down.
+        let angle = joints[last] + self.direction(&joints) - self.direction(from);
         // As far as the torso turns, the last joint turns too.
         let turned = if self.has_torso() { joints[TORSO] - from[TORSO] } else { 0.0 };
         let kept = nearest_equivalent(angle, from[last] + turned);

@@ -22,7 +22,7 @@ impl Line {
             out.push_str(entry.trim_end());
             out.push('\n');
         };
-        put("line 6".into());
+        put("line 7".into());
         put(format!("scan_ms {}", self.scan_ms));
         put(match self.io_delay {
             IoDelay::Fixed(scans) => format!("io_delay fixed {scans}"),
@@ -127,9 +127,11 @@ impl Line {
         for Answer { machine, command, late_s, error } in &scenario.answers {
             put(format!("  {machine} {command} {late_s:?} {}", error.unwrap_or(0)));
         }
-        put(format!("pauses {}", scenario.pauses.len()));
-        for pause in &scenario.pauses {
-            put(format!("  {} {}", pause.at_scan, pause.scans));
+        for (name, pauses) in [("pauses", &scenario.pauses), ("power_offs", &scenario.power_offs)] {
+            put(format!("{name} {}", pauses.len()));
+            for pause in pauses {
+                put(format!("  {} {}", pause.at_scan, pause.scans));
+            }
         }
         put(format!("operations {}", scenario.operations.len()));
         for Operation { machine, part, at_s, for_s, value } in &scenario.operations {
@@ -165,7 +167,7 @@ impl Line {
     /// Reads the text form, and leaves what follows it.
     pub fn read(words: &mut Words) -> Result<Line, String> {
         words.expect("line")?;
-        words.expect("6")?;
+        words.expect("7")?;
         words.expect("scan_ms")?;
         let scan_ms = words.int()?;
         words.expect("io_delay")?;
@@ -314,7 +316,9 @@ fn read_scenario(words: &mut Words) -> Result<Scenario, String> {
         Ok(Answer { machine, command, late_s, error: (error != 0).then_some(error) })
     })?;
     words.expect("pauses")?;
-    let pauses = words.list(|w| Ok(Pause { at_scan: w.int()?, scans: w.int()? }))?;
+    let pauses = words.list(read_pause)?;
+    words.expect("power_offs")?;
+    let power_offs = words.list(read_pause)?;
     words.expect("operations")?;
     let operations = words.list(read_operation)?;
     words.expect("presses")?;
@@ -334,10 +338,15 @@ fn read_scenario(words: &mut Words) -> Result<Scenario, String> {
         refusals,
         answers,
         pauses,
+        power_offs,
         operations,
         presses,
         seed,
     })
+}
+
+fn read_pause(words: &mut Words) -> Result<Pause, String> {
+    Ok(Pause { at_scan: words.int()?, scans: words.int()? })
 }
 
 fn read_operation(words: &mut Words) -> Result<Operation, String> {

@@ -33,6 +33,11 @@ impl<'a> Agenda<'a> {
         Self { line, stays, last: None, latched: inputs.to_vec(), analogue }
     }
 
+    /// The controllers have lost their power and have it again: the next scan is their first one.
+    pub fn power_up(&mut self) {
+        self.last = None;
+    }
+
     /// Scans since the controllers were stepped last.
     pub fn scans_since(&self, scan: u64) -> u64 {
         self.last.as_ref().map_or(1, |last| scan - last.scan)

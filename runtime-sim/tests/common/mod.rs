@@ -294,6 +294,8 @@ impl Controllers for Script {
         Vec::new()
     }
 
+    fn power_up(&mut self) {}
+
     fn skip(&mut self, _: u64) {}
 }
 

@@ -26,7 +26,7 @@ pub(super) const FAULTS: &[Entry] = &[
     ("array of one element", |s| types(s, array_of_one)),
     ("initial value of an array", |s| arrays(s, " := [1]")),
     ("CONSTANT", |s| sections(s, "VAR CONSTANT")),
-    ("RETAIN", |s| sections(s, "VAR RETAIN")),
+    ("NON_RETAIN", |s| sections(s, "VAR NON_RETAIN")),
     ("VAR_TEMP", |s| sections(s, "VAR_TEMP")),
 ];
 

@@ -18,6 +18,7 @@ pub(super) struct Layouts {
     bases: HashMap<String, usize>,
     programs: Vec<String>,
     size: usize,
+    retained: Vec<usize>,
 }
 
 /// The words of one instance of a unit.
@@ -25,6 +26,8 @@ pub(super) struct Layouts {
 pub(super) struct Frame {
     pub(super) variables: HashMap<String, Spot>,
     pub(super) size: usize,
+    /// Those of its words that outlast a loss of power.
+    retained: Vec<usize>,
 }
 
 #[derive(Clone, Debug)]
@@ -48,6 +51,8 @@ impl Layouts {
             let ty = type_of(variable);
             let (key, offset) = (variable.name.key(), layouts.size);
             layouts.size += layouts.words(&ty);
+            let retained = layouts.retained_of(variable, &ty);
+            layouts.retained.extend(retained.into_iter().map(|word| offset + word));
             if let Some(address) = &variable.address {
                 layouts.addresses.insert(address.text.clone(), key.clone());
             }
@@ -57,6 +62,8 @@ impl Layouts {
             let frame = layouts.frame(unit);
             if unit.kind != UnitKind::Block {
                 layouts.bases.insert(unit.name.key(), layouts.size);
+                let base = layouts.size;
+                layouts.retained.extend(frame.retained.iter().map(|word| base + word));
                 layouts.size += frame.size;
             }
             if unit.kind == UnitKind::Program {
@@ -91,11 +98,27 @@ impl Layouts {
             } else {
                 let offset = frame.size;
                 frame.size += self.words(&ty);
+                let retained = self.retained_of(variable, &ty);
+                frame.retained.extend(retained.into_iter().map(|word| offset + word));
                 Spot { base: Base::Frame, offset, ty, section }
             };
             frame.variables.insert(key, spot);
         }
         frame
+    }
+
+    /// The words of a variable that outlast a loss of power.
+    fn retained_of(&self, variable: &Variable, ty: &Type) -> Vec<usize> {
+        match ty {
+            Type::Block(block) if !variable.is_retained => self.units[block].retained.clone(),
+            ty if variable.is_retained => (0..self.words(ty)).collect(),
+            _ => Vec::new(),
+        }
+    }
+
+    /// All words that outlast a loss of power.
+    pub(super) fn retained(&self) -> &[usize] {
+        &self.retained
     }
 
     fn global(&self, key: &str) -> Option<(&Type, usize)> {

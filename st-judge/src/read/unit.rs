@@ -53,9 +53,11 @@ impl Reader<'_> {
                 }
                 _ => continue,
             };
+            let mut is_retained = false;
             for line in children(block).into_iter().filter(|n| n.is_named() && n.kind() != "comment") {
                 match line.kind() {
-                    "variable_declaration" => self.variables(line, section, &mut variables),
+                    "var_qualifier_list" if self.is_retain(line, section) => is_retained = true,
+                    "variable_declaration" => self.variables(line, section, is_retained, &mut variables),
                     kind => self.outside(line, kind),
                 }
             }
@@ -66,7 +68,12 @@ impl Reader<'_> {
         variables
     }
 
-    fn variables(&mut self, line: Node, section: Section, variables: &mut Vec<Variable>) {
+    fn is_retain(&self, qualifiers: Node, section: Section) -> bool {
+        let keeps = matches!(section, Section::Local | Section::Output | Section::Global);
+        keeps && self.text(qualifiers).eq_ignore_ascii_case("RETAIN")
+    }
+
+    fn variables(&mut self, line: Node, section: Section, is_retained: bool, variables: &mut Vec<Variable>) {
         if let Some(address) = line.child_by_field_name("address")
             && section != Section::Global
         {
@@ -86,7 +93,7 @@ impl Reader<'_> {
         for name in fields(line, "names").into_iter().filter(|n| n.kind() == "identifier") {
             let name = self.name(name);
             let (address, ty, initial) = (address.clone(), ty.clone(), initial.clone());
-            variables.push(Variable { section, name, address, ty, initial, span: span(line) });
+            variables.push(Variable { section, is_retained, name, address, ty, initial, span: span(line) });
         }
     }
 

@@ -9,7 +9,7 @@ use crate::read::Reader;
 use controllers::system::{System, SystemInputs};
 
 /// Changes with the functions below.
-pub const VERSION: u32 = 3;
+pub const VERSION: u32 = 4;
 
 pub struct Session {
     layout: Layout,
@@ -170,6 +170,17 @@ pub unsafe extern "C" fn autogen_scan(
 pub unsafe extern "C" fn autogen_state(session: *const Session, robot: usize) -> usize {
     // SAFETY: as the caller promises.
     unsafe { &*session }.layout.robots.get(robot).map_or(usize::MAX, |robot| robot.state())
+}
+
+/// Power was lost after the last scan and is back before the next.
+///
+/// # Safety
+/// `session` is open.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn autogen_power_up(session: *mut Session) {
+    // SAFETY: as the caller promises.
+    let Session { layout, system, .. } = unsafe { &mut *session };
+    layout.power_up(system);
 }
 
 /// So many scans pass in which nothing happens.

@@ -203,6 +203,22 @@ impl Layout {
         system.scan(inputs, &self.wiring, &mut self.robots{% if uses_cells %}, &mut self.cells{% endif %})
     }
 
+    /// Power was lost and is back: what is retained stays, all else is as at first.
+    pub fn power_up(&mut self, system: &mut System) {
+        {%- if retains %}
+        let mut words = Vec::new();
+        system.retain(&self.robots, {% if has_cells %}&self.cells, {% endif %}&mut |word| words.push(word));
+        {%- endif %}
+        *system = System::new();
+        for robot in &mut self.robots {
+            robot.forget({% if has_cells %}&mut self.cells{% endif %});
+        }
+        {%- if retains %}
+        let mut words = words.into_iter();
+        system.restore(&mut self.robots, {% if has_cells %}&mut self.cells, {% endif %}&mut || words.next());
+        {%- endif %}
+    }
+
     pub fn skip(&mut self, system: &mut System, scans: u64) {
         system.skip(scans, &self.wiring, &mut self.robots);
     }

@@ -51,6 +51,10 @@ impl Controllers for Deployed {
         SystemOutputs { running, fault, fault_code, fault_robot, alarm, alarm_code, alarm_robot }
     }
 
+    fn power_up(&mut self) {
+        self.layout.power_up(&mut self.system);
+    }
+
     fn state(&self, machine: usize) -> usize {
         self.layout.robots[machine].state()
     }

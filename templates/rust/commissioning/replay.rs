@@ -6,13 +6,17 @@ use runtime_sim::words::Words;
 use std::io::{self, BufRead, BufWriter, Write};
 
 /// Each line of the standard input holds a scan: `run_permit start reset`, then the inputs of all robots, the
-/// number of each robot's words before them. Answered with a line of the bits, in hexadecimal, of the
+/// number of each robot's words before them; or `power`: it was lost and is back. A scan is answered with a line of the bits, in hexadecimal, of the
 /// system's outputs, the published outputs and the trace.
 pub fn replay(deployed: &mut Deployed) -> Result<(), String> {
     let mut out = BufWriter::new(io::stdout().lock());
     let mut outputs = vec![Vec::new(); deployed.robots()];
     for line in io::stdin().lock().lines() {
         let line = line.map_err(|e| e.to_string())?;
+        if line == "power" {
+            deployed.power_up();
+            continue;
+        }
         let mut words = Words::new(&line);
         let mut flag = || Ok::<bool, String>(words.int::<u8>()? != 0);
         let system = SystemInputs { run_permit: flag()?, start: flag()?, reset: flag()? };

@@ -154,6 +154,30 @@ impl<'a> {{ ty }}<'a> {
         }
     }
 
+    /// All is as at first.
+    pub fn forget(&mut self{{ cells_parameter }}) {
+        *self = Self::new(self.parameters);
+        {%- for cells in own_cells %}
+        {{ cells }}
+        {%- endfor %}
+    }
+    {%- if let Some(retained) = retained %}
+
+    /// Writes what outlasts a loss of power.
+    pub fn retain(&self{{ retained.cells_read }}, put: &mut dyn FnMut(f64)) {
+        {%- for statement in retained.put %}
+        {{ statement }}
+        {%- endfor %}
+    }
+
+    /// Begins with that again, all else being as at first; `None` if the words are not those of such a robot.
+    pub fn restore(&mut self{{ retained.cells_write }}, words: &mut Words) -> Option<()> {
+        {%- for statement in retained.take %}
+        {{ statement }}
+        {%- endfor %}
+        Some(())
+    }
+    {%- endif %}
     {%- if let Some(modes) = modes %}
 
     /// What a person does at the panel, before the step of every scan.
@@ -163,7 +187,7 @@ impl<'a> {{ ty }}<'a> {
         {%- endfor %}
     }
 
-    /// As at power-up, but for what stays as it is without power.
+    /// As at power-up, but for what is retained and outputs that stay as they are while it does not run.
     fn begin_anew(&mut self{% if !modes.parameters.is_empty() %}, {{ modes.parameters }}{% endif %}) {
         {%- for statement in modes.begin_anew %}
         {{ statement }}
@@ -189,6 +213,10 @@ impl<'a> {{ ty }}<'a> {
         {%- endfor %}
         outputs
         {%- endif %}
+        {%- else if let Some(abandoned) = abandoned %}
+        let mut outputs = if running{% if can_stop %} && !self.stopped{% endif %} { self.outputs } else { self.outputs.stopped() };
+        outputs.hold |= self.{{ abandoned }};
+        outputs
         {%- else %}
         if running{% if can_stop %} && !self.stopped{% endif %} { self.outputs } else { self.outputs.stopped() }
         {%- endif %}
@@ -248,20 +276,26 @@ impl<'a> {{ ty }}<'a> {
     fn command(&mut self, verb: Verb) {
         self.outputs.verb = verb as i32;
         self.outputs.cmd = next_command(self.outputs.cmd, self.inputs.got, self.inputs.ack);
+        {%- if let Some(abandoned) = abandoned %}
+        self.{{ abandoned }} = false;
+        {%- if let Some(interrupted) = interrupted %}
+        self.{{ interrupted }} = false;
+        {%- endif %}
+        {%- endif %}
     }
     {%- endif %}
     {%- if done %}
 
     /// The last command has ended well.
     fn command_done(&self) -> bool {
-        self.outputs.cmd != 0 && self.inputs.ack == self.outputs.cmd && self.inputs.error == 0
+        {% if let Some(abandoned) = abandoned %}!self.{{ abandoned }} && {% endif %}self.outputs.cmd != 0 && self.inputs.ack == self.outputs.cmd && self.inputs.error == 0
     }
     {%- endif %}
     {%- if failed %}
 
     /// The last command has ended in error.
     fn command_failed(&self) -> bool {
-        self.outputs.cmd != 0 && self.inputs.ack == self.outputs.cmd && self.inputs.error != 0
+        {% if let Some(interrupted) = interrupted %}self.{{ interrupted }} || {% endif %}{% if let Some(abandoned) = abandoned %}!self.{{ abandoned }} && {% endif %}self.outputs.cmd != 0 && self.inputs.ack == self.outputs.cmd && self.inputs.error != 0
     }
     {%- endif %}
 }

@@ -47,6 +47,43 @@ impl Robot<'_> {
     }
     {%- endif %}
 
+    /// All is as at first.
+    pub fn forget(&mut self{{ forget_parameters }}) {
+        match self {
+            {%- for robot in robots %}
+            Self::{{ robot.ty }}(robot) => robot.forget({{ robot.forget_arguments }}),
+            {%- endfor %}
+        }
+    }
+    {%- if retains %}
+
+    /// Writes what outlasts a loss of power.
+    pub fn retain(&self{{ retain_parameters }}, put: &mut dyn FnMut(f64)) {
+        match self {
+            {%- for robot in robots %}
+            {%- if robot.retains %}
+            Self::{{ robot.ty }}(robot) => robot.retain({{ robot.retain_arguments }}put),
+            {%- else %}
+            Self::{{ robot.ty }}(_) => {}
+            {%- endif %}
+            {%- endfor %}
+        }
+    }
+
+    /// Begins with that again; `None` if the words are not those of such a robot.
+    pub fn restore(&mut self{{ restore_parameters }}, words: &mut Words) -> Option<()> {
+        match self {
+            {%- for robot in robots %}
+            {%- if robot.retains %}
+            Self::{{ robot.ty }}(robot) => robot.restore({{ robot.retain_arguments }}words),
+            {%- else %}
+            Self::{{ robot.ty }}(_) => Some(()),
+            {%- endif %}
+            {%- endfor %}
+        }
+    }
+    {%- endif %}
+
     pub fn step(&mut self, {{ step_parameters }}) -> Result<(), Fault> {
         match self {
             {%- for robot in robots %}

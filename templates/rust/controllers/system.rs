@@ -4,8 +4,9 @@
 //! published. After power-up nothing moves before a rising edge of `start`. This is no safety function.
 
 {% if alarms %}use crate::alarm::Alarm;
-{% endif %}use crate::cells::{% if uses_cells %}{Cells, Wiring}{% else %}Wiring{% endif %};
-use crate::robot::Robot;
+{% endif %}use crate::cells::{% if uses_cells || retains && has_cells %}{Cells, Wiring}{% else %}Wiring{% endif %};
+{% if retains %}use crate::retained::{Retained, Words, shape_of};
+{% endif %}use crate::robot::Robot;
 use crate::types::Fault;
 
 /// Inputs of the system as a whole.
@@ -135,6 +136,62 @@ impl System {
     }
 }
 
+{%- if retains %}
+/// Of the fault with which the line begins if what was kept is not what it retains: all is as at first.
+pub const NOT_RETAINED: i32 = 32766;
+/// Changes when the words do that [`System::retain`] writes.
+const SHAPE: u32 = {{ shape }};
+
+impl System {
+    /// Writes what outlasts a loss of power. Keep all words of one scan, or none of it.
+    pub fn retain(&self, robots: &[Robot]{% if has_cells %}, cells: &Cells{% endif %}, put: &mut dyn FnMut(f64)) {
+        put(f64::from(SHAPE));
+        (robots.len() as i32).put(put);
+        self.fault.map_or(0, |(fault, _)| fault.code).put(put);
+        self.fault.map_or(-1, |(_, robot)| robot as i32).put(put);
+        for robot in robots {
+            put(f64::from(shape_of(robot.name())));
+            robot.retain({% if has_cells %}cells, {% endif %}put);
+        }
+    }
+
+    /// Begins after power-up with what was kept; all else is as at first. If the words are not those that this line
+    /// retains, it begins as at first and has the fault [`NOT_RETAINED`]: a person clears the machines, then resets it.
+    pub fn restore(&mut self, robots: &mut [Robot]{% if has_cells %}, cells: &mut Cells{% endif %}, words: &mut Words) {
+        *self = Self::new();
+        if self.restored(robots{% if has_cells %}, cells{% endif %}, words).is_none() {
+            robots.iter_mut().for_each(|robot| robot.forget({% if has_cells %}cells{% endif %}));
+            self.fault = Some((Fault::new(NOT_RETAINED, "what was kept is not of this line"), usize::MAX));
+        }
+    }
+
+    fn restored(
+        &mut self,
+        robots: &mut [Robot],
+        {%- if has_cells %}
+        cells: &mut Cells,
+        {%- endif %}
+        words: &mut Words,
+    ) -> Option<()> {
+        if words()? != f64::from(SHAPE) || i32::take(words)? != robots.len() as i32 {
+            return None;
+        }
+        let (code, robot) = (i32::take(words)?, i32::take(words)?);
+        if code != 0 {
+            let number = usize::try_from(robot).unwrap_or(usize::MAX);
+            self.fault = Some((Fault::new(code, "it was there when power was lost"), number));
+        }
+        for robot in robots {
+            if words()? != f64::from(shape_of(robot.name())) {
+                return None;
+            }
+            robot.restore({% if has_cells %}cells, {% endif %}words)?;
+        }
+        words().is_none().then_some(())
+    }
+}
+
+{% endif -%}
 impl Default for System {
     fn default() -> Self {
         Self::new()

@@ -76,11 +76,43 @@ fn text(lot: &mut Lot, world: &World, name: &str, device: &Arc<Device>, own: &[&
         let _ = writeln!(out, "    {line}");
     }
     out += &requirement(writer.lot, own);
-    out += &writer.definitions();
-    out += &writer.states();
+    let (definitions, states) = (writer.definitions(), writer.states());
+    out += &retained(writer.lot, &out);
+    // What waits for the answer to a command could wait for ever.
+    let asks = ["done", "ack", "got", "error"].iter().any(|w| definitions.contains(w) || states.contains(w));
+    let resumed = match writer.lot.below(3) {
+        0 => String::new(),
+        1 => "    state Q".into(),
+        _ if asks => "    state Q0".into(),
+        _ => "    state ".into(),
+    };
+    out += &definitions;
+    if resumed.is_empty() {
+        out += &states;
+    } else {
+        out += &states.replace(&resumed, &format!("    resume {}", resumed.trim_start()));
+    }
     out += &writer.invariants();
     out += &writer.properties();
     out + "}\n"
+}
+
+/// Sometimes all, sometimes the state and some locals of these declarations.
+fn retained(lot: &mut Lot, declarations: &str) -> String {
+    match lot.below(4) {
+        0 => return "    retain all;\n".into(),
+        1 => return String::new(),
+        _ => {}
+    }
+    let mut names = vec!["state"];
+    if lot.one_in(3) {
+        names.clear();
+    }
+    for line in declarations.lines() {
+        let local = line.trim().strip_prefix("local ").and_then(|rest| rest.split(':').next());
+        names.extend(local.filter(|_| lot.one_in(2)));
+    }
+    if names.is_empty() { String::new() } else { format!("    retain {};\n", names.join(", ")) }
 }
 
 fn of_device(device: &Device) -> Vec<Named> {

@@ -1,6 +1,7 @@
 //! Between process images or texts and the controllers.
 
 use super::context::Shared;
+use super::retained;
 use super::shared::{has_alarms, uses_cells};
 use super::{format, render};
 use askama::Template;
@@ -17,6 +18,7 @@ struct Adapters {
     uses_cells: bool,
     has_wiring: bool,
     alarms: bool,
+    retains: bool,
 }
 
 struct InterfaceView {
@@ -76,6 +78,7 @@ pub fn adapters(shared: Shared) -> String {
         uses_cells: uses_cells(shared),
         has_wiring,
         alarms: has_alarms(shared),
+        retains: retained::retains(shared),
     };
     let mut importable = shared.importable("controllers");
     importable.push(("crate::image".into(), ["Image", "Latch", "Put"].map(String::from).into()));

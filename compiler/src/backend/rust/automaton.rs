@@ -5,6 +5,7 @@ use super::format;
 use super::modes;
 use super::property;
 use super::render;
+use super::retained;
 use super::walk::Uses;
 use crate::device::Port;
 use crate::ir::{Extent, KeptBy, RoleKind, Scalar, Type, Value};
@@ -44,6 +45,15 @@ struct Module {
     alarms: Vec<String>,
     can_stop: bool,
     modes: Option<modes::Methods>,
+    /// A local.
+    abandoned: Option<String>,
+    /// The same.
+    interrupted: Option<String>,
+    retained: Option<retained::Methods>,
+    /// With a comma before it.
+    cells_parameter: &'static str,
+    /// Statements that make its own cells as at first.
+    own_cells: Vec<String>,
 }
 
 struct Field {
@@ -138,6 +148,11 @@ pub fn module(context: &Context) -> String {
         alarms: property::alarms(context),
         can_stop: automaton.can_stop(),
         modes: modes::methods(context),
+        abandoned: automaton.abandoned.map(|local| names.locals[local].clone()),
+        interrupted: automaton.interrupted.map(|local| names.locals[local].clone()),
+        retained: retained::methods(context),
+        cells_parameter: retained::cells_parameter(context, "&mut "),
+        own_cells: retained::own_cells(context),
     };
     format::module(&render(&module), &context.importable("crate"))
 }

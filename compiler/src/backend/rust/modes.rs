@@ -4,7 +4,7 @@ use super::context::Context;
 use super::format::comment;
 use super::property;
 use super::walk::{Access, Uses};
-use crate::ir::{Action, Automaton, ByHand, Commands, KeptBy, Modes};
+use crate::ir::{Action, Automaton, ByHand, KeptBy, Modes};
 
 /// What a robot that has modes is given as methods.
 pub struct Methods {
@@ -32,10 +32,13 @@ pub fn uses(context: &Context) -> Uses {
     uses
 }
 
+/// Some of its cells are not retained.
 fn has_cells(context: &Context) -> bool {
-    let interfaces =
-        context.automaton().implements.iter().map(|i| context.system.model.interface(i.interface));
-    interfaces.into_iter().any(|interface| !interface.cells.is_empty())
+    let automaton = context.automaton();
+    automaton.implements.iter().any(|implemented| {
+        let cells = context.system.model.interface(implemented.interface).cells.len();
+        (0..cells).any(|number| !automaton.retained.cells.contains(&(implemented.interface, number)))
+    })
 }
 
 pub fn methods(context: &Context) -> Option<Methods> {
@@ -84,8 +87,9 @@ impl Context<'_> {
             "self.state = new.state;".into(),
             "self.elapsed = 0;".into(),
         ];
-        for (local, name) in automaton.locals.iter().zip(&self.own().locals) {
-            if local.kept_by != KeptBy::Modes {
+        let retained = &automaton.retained;
+        for (number, (local, name)) in automaton.locals.iter().zip(&self.own().locals).enumerate() {
+            if local.kept_by != KeptBy::Modes && !retained.locals.contains(&number) {
                 texts.push(format!("self.{name} = new.{name};"));
             }
         }
@@ -95,30 +99,39 @@ impl Context<'_> {
         }
         for implemented in &automaton.implements {
             let names = &self.names.interfaces[implemented.interface.0];
-            if !self.system.model.interface(implemented.interface).cells.is_empty() {
-                let row = self.own_row(implemented.interface);
+            let cells = &self.system.model.interface(implemented.interface).cells;
+            let row = self.own_row(implemented.interface);
+            let is_retained = |number: usize| retained.cells.contains(&(implemented.interface, number));
+            let anew = (0..cells.len()).filter(|number| !is_retained(*number));
+            let anew: Vec<&String> = anew.map(|number| &names.cell[number]).collect();
+            if anew.len() == cells.len() && !cells.is_empty() {
                 texts.push(format!("cells.{}[{row}] = {}::NEW;", names.field, names.cells));
+            } else {
+                texts.extend(anew.iter().map(|cell| {
+                    format!("cells.{}[{row}].{cell} = {}::NEW.{cell};", names.field, names.cells)
+                }));
             }
         }
         texts
     }
 
     fn published(&self, modes: &Modes) -> Vec<String> {
+        let automaton = self.automaton();
         let field = |local: usize| format!("self.{}", self.own().locals[local]);
         let (mut by_hand, mut with_command, mut texts) = (String::new(), String::new(), Vec::new());
         for (published, name) in modes.published.iter().zip(&self.own().ports) {
-            match (published, modes.commands) {
+            match (published, modes.commanded) {
                 (Some(ByHand::Panel(value)), _) => {
                     by_hand += &format!("outputs.{name} = {};", self.expr(value));
                 }
                 (Some(ByHand::Argument), _) => {
                     with_command += &format!("outputs.{name} = self.outputs.{name};")
                 }
-                (Some(ByHand::Hold), Some(Commands { commanded, abandoned })) => {
-                    let (commanded, abandoned) = (field(commanded), field(abandoned));
-                    texts.push(format!(
-                        "outputs.{name} = !{commanded} && (!runs || ({abandoned} != 0 && {abandoned} == self.outputs.cmd));"
-                    ));
+                (Some(ByHand::Hold), Some(commanded)) => {
+                    let commanded = field(commanded);
+                    let abandoned =
+                        automaton.abandoned.map_or(String::new(), |local| format!(" || {}", field(local)));
+                    texts.push(format!("outputs.{name} = !{commanded} && (!runs{abandoned});"));
                 }
                 (Some(ByHand::Hold), None) | (None, _) => {}
             }
@@ -128,7 +141,7 @@ impl Context<'_> {
         {
             texts.push(format!("if {} {{ {by_hand} }}", field(local)));
         }
-        if let Some(Commands { commanded, .. }) = modes.commands
+        if let Some(commanded) = modes.commanded
             && !with_command.is_empty()
         {
             texts.push(format!("if {} {{ {with_command} }}", field(commanded)));

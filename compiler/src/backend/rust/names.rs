@@ -36,6 +36,7 @@ const TYPES: &[&str] = &[
     "Verb",
     "Wiring",
     "Words",
+    "Retained",
     "Memory",
     "Deployed",
 ];
@@ -51,6 +52,7 @@ const MODULES: &[&str] = &[
     "main",
     "nul",
     "prn",
+    "retained",
     "runtime_sim",
     "str",
     "u16",
@@ -81,6 +83,12 @@ const METHODS: &[&str] = &[
     "command",
     "command_done",
     "command_failed",
+    "operate",
+    "begin_anew",
+    "is_single",
+    "forget",
+    "retain",
+    "restore",
     "fmt",
     "clone",
 ];
@@ -98,6 +106,7 @@ const VARIABLES: &[&str] = &[
     "lesser",
     "next_command",
     "place",
+    "put",
     "quotient",
     "remainder",
     "row",
@@ -113,6 +122,7 @@ const VARIABLES: &[&str] = &[
     "waited",
     "wiring",
     "within",
+    "words",
 ];
 const CELLS: &[&str] =
     &["cells", "leak", "relation", "robot", "robots", "rows", "scan_ms", "wiring", "words"];

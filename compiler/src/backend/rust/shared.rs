@@ -4,6 +4,7 @@ use super::automaton::step_uses;
 use super::context::{Context, Shared, doc};
 use super::modes;
 use super::property;
+use super::retained;
 use super::walk::{Access, Uses};
 use super::{format, render};
 use crate::ir::{Automaton, AutomatonId, InterfaceId, Variable};
@@ -28,9 +29,14 @@ pub fn library(shared: Shared) -> String {
     files.sort_unstable();
     files.dedup();
     let alarm = has_alarm_module(shared).then(|| "alarm".to_string());
+    let retained = retained::retains(shared).then(|| "retained".to_string());
     let own = ["cells", "kinds", "line", "robot", "robots", "system", "types"].map(String::from);
-    let mut modules: Vec<String> =
-        alarm.into_iter().chain(own).chain(shared.names.automata.iter().map(|a| a.module.clone())).collect();
+    let mut modules: Vec<String> = alarm
+        .into_iter()
+        .chain(retained)
+        .chain(own)
+        .chain(shared.names.automata.iter().map(|a| a.module.clone()))
+        .collect();
     modules.sort();
     format::print(&render(&Library { files: crate::plain::line(&files.join(", ")), modules }))
 }
@@ -161,6 +167,9 @@ struct SystemView {
     start: bool,
     modes: bool,
     operate_writes_cells: bool,
+    retains: bool,
+    has_cells: bool,
+    shape: u32,
 }
 
 #[derive(Template)]
@@ -176,6 +185,11 @@ struct RobotView {
     properties_parameters: String,
     alarms: bool,
     modes: bool,
+    retains: bool,
+    /// With a comma before them.
+    forget_parameters: &'static str,
+    retain_parameters: &'static str,
+    restore_parameters: &'static str,
 }
 
 struct Variant {
@@ -190,6 +204,9 @@ struct Variant {
     begins_anew: bool,
     has_alarms: bool,
     operate_arguments: String,
+    forget_arguments: &'static str,
+    retains: bool,
+    retain_arguments: &'static str,
 }
 
 fn contexts<'a>(shared: Shared<'a>) -> impl Iterator<Item = Context<'a>> {
@@ -258,6 +275,9 @@ pub fn system(shared: Shared) -> String {
         start: properties.start,
         modes: has_modes(shared),
         operate_writes_cells: operate_writes_cells(shared),
+        retains: retained::retains(shared),
+        has_cells: retained::has_cells(shared),
+        shape: shared.system.model.shape_of_retained(),
     };
     format::print(&render(&view))
 }
@@ -275,6 +295,9 @@ pub fn robot(shared: Shared) -> String {
             begins_anew: !property::anew(&context).is_empty(),
             has_alarms: context.automaton().alarms().next().is_some(),
             operate_arguments: context.arguments(&modes::uses(&context)),
+            forget_arguments: retained::cells_argument(&context),
+            retains: !context.automaton().retained.is_empty(),
+            retain_arguments: retained::argument(&context),
             properties_arguments: context.arguments(&property::uses(&context)),
         })
         .collect();
@@ -290,6 +313,10 @@ pub fn robot(shared: Shared) -> String {
         properties_change: remembers(shared),
         alarms: has_alarms(shared),
         modes: has_modes(shared),
+        retains: retained::retains(shared),
+        forget_parameters: if retained::has_cells(shared) { ", cells: &mut Cells" } else { "" },
+        retain_parameters: if retained::has_cells(shared) { ", cells: &Cells" } else { "" },
+        restore_parameters: if retained::has_cells(shared) { ", cells: &mut Cells" } else { "" },
         operate_parameters: if operate_writes_cells(shared) { ", cells: &mut Cells" } else { "" },
         properties_parameters: contexts(shared).next().map(|c| c.parameters(&properties)).unwrap_or_default(),
         robots,
@@ -310,8 +337,13 @@ impl Shared<'_> {
         kinds.sort();
         let mut all = vec![(format!("{name}::cells"), cells), (format!("{name}::kinds"), kinds)];
         all.extend(
-            [("alarm", own(&["Alarm", "waited"])), ("robot", own(&["Robot"])), ("types", own(TYPES))]
-                .map(|(m, names)| (format!("{name}::{m}"), names)),
+            [
+                ("alarm", own(&["Alarm", "waited"])),
+                ("retained", own(&["Retained", "Words"])),
+                ("robot", own(&["Robot"])),
+                ("types", own(TYPES)),
+            ]
+            .map(|(m, names)| (format!("{name}::{m}"), names)),
         );
         all
     }

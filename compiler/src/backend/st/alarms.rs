@@ -1,8 +1,9 @@
 //! What the code of a fault or an alarm means to who stands before the line.
 
 use super::context::Shared;
+use super::restart;
 use super::table::row;
-use super::value::NO_SUCH_STATE;
+use super::value::{NO_SUCH_STATE, NOT_RETAINED};
 use crate::ir::{Automaton, FaultId, FaultKind, Severity, Transition, UpdateKind};
 
 /// `alarms.csv`: the codes that are published with a fault or an alarm. Robots have the numbers that `fault_robot` gives.
@@ -58,6 +59,11 @@ pub fn table(shared: Shared) -> String {
                 Severity::Warning => "nothing",
             },
         ]);
+    }
+    if restart::retains(shared) {
+        let remedy = "The program was changed while power was off, or power was lost within a scan. The line begins as at first: secure the parts on the grippers, empty trays and briefcases, then reset and start.";
+        let about = "what was retained is not of this program, or not of one scan";
+        text += &row(&[&NOT_RETAINED.to_string(), "", "", "", "", about, remedy, "line"]);
     }
     let remedy = "The memory of the controller is damaged: only a cold start helps. Secure the parts on the grippers first: without power they are let go. Empty trays and briefcases: the controller forgets what lies there.";
     text + &row(&[

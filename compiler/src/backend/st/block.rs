@@ -92,10 +92,11 @@ pub fn steps(shared: Shared, id: AutomatonId, globals: &Globals) -> Block {
     let used = code::names(&body);
     let asked = code::names(&property::body(&mut Lowering::new(shared, id)));
     let is_kept = |c: &&Candidate| {
-        c.is_of_steps() && (used.contains(&c.variable.name) || asked.contains(&c.variable.name))
+        let is_used = used.contains(&c.variable.name) || asked.contains(&c.variable.name);
+        c.is_of_steps() && (is_used || c.kept_by == KeptBy::Modes)
     };
     let kept: Vec<&Candidate> = candidates.iter().filter(is_kept).collect();
-    body.insert(0, when(not(name("init_done")), power_up(shared.state(id, 0), &kept)));
+    body.insert(0, when(not(name("init_done")), lowering.power_up(&kept, globals)));
     let used = code::names(&body);
     let mut outputs = vec![
         state_variable(shared, id),
@@ -149,20 +150,14 @@ fn elapse() -> Stmt {
 
 fn state_variable(shared: Shared, id: AutomatonId) -> Variable {
     let states = &shared.system.model.automaton(id).states;
-    let mut variable = Variable::new("state", Basic::Dint);
+    let retained = &shared.system.model.automaton(id).retained;
+    let mut variable = Variable::new("state", Basic::Dint).retained(retained.state);
     for (number, state) in states.iter().enumerate() {
         let about = if number == 0 { "nothing was done yet".into() } else { state.doc.join(" ") };
         let about = if about.is_empty() { about } else { format!(": {}", about.trim()) };
         variable = variable.with_comment(format!("{number} {}{about}", state.name));
     }
     variable
-}
-
-/// Values at power-up.
-fn power_up(beginning: Member, kept: &[&Candidate]) -> Vec<Stmt> {
-    let mut body = vec![assign("state", Ex::Member(beginning)), assign("elapsed", Ex::Int(0))];
-    body.extend(kept_values(kept));
-    body
 }
 
 /// What these hold at power-up.
@@ -224,12 +219,13 @@ pub fn candidates(shared: Shared, id: AutomatonId) -> Vec<Candidate> {
         all.push(given(count, Origin::MemberCount(i)));
     }
     all.extend(ports(shared, automaton, id));
-    let told = automaton.modes.as_ref().map(modes::told).unwrap_or_default();
+    let told = modes::told(automaton);
     for (i, local) in automaton.locals.iter().enumerate() {
         let initial = shared.constants(local.ty.scalar, local.initial);
         for (part, (held, initial)) in own.locals[i].iter().zip(initial).enumerate() {
             let mut variable =
                 Variable::new(held, Basic::of(local.ty.scalar)).with_elements(array(shared, local.ty.extent));
+            variable.is_retained = automaton.retained.locals.contains(&i);
             if part == 0 {
                 variable.comments = about(&local.doc, meaning(shared, local.ty.scalar));
             }
@@ -262,7 +258,7 @@ fn ports(shared: Shared, automaton: &Automaton, id: AutomatonId) -> Vec<Candidat
             all.push(match port.direction {
                 Direction::Input => Candidate::given(variable, Origin::Input { port: i, part }),
                 Direction::Output => Candidate {
-                    variable,
+                    variable: variable.retained(is_retained(automaton, i)),
                     origin: Origin::Kept,
                     initial: Some(first),
                     is_output: true,
@@ -272,6 +268,13 @@ fn ports(shared: Shared, automaton: &Automaton, id: AutomatonId) -> Vec<Candidat
         }
     }
     all
+}
+
+/// Whether an output outlasts a loss of power.
+fn is_retained(automaton: &Automaton, port: usize) -> bool {
+    let name = automaton.device.ports[port].name.as_str();
+    let is_command = automaton.device.is_commanded() && matches!(name, "cmd" | "verb");
+    automaton.retained.ports.contains(&port) || automaton.retained.state && is_command
 }
 
 /// Names of variables that no specification declares.
@@ -324,7 +327,7 @@ pub fn inputs_and_kept(
     candidates
         .into_iter()
         .filter(|c| used.contains(&c.variable.name))
-        .map(|c| (c.variable.clone(), (c.variable.name, c.origin)))
+        .map(|c| (c.variable.clone().retained(false), (c.variable.name, c.origin)))
         .unzip()
 }
 

@@ -30,6 +30,8 @@ pub struct Variable {
     pub initial: Option<Ex>,
     /// The first line stands behind the declaration, the others below it.
     pub comments: Vec<String>,
+    /// It outlasts a loss of power.
+    pub is_retained: bool,
 }
 
 /// An instance of a function block.
@@ -101,7 +103,15 @@ impl From<Raw> for Basic {
 impl Variable {
     pub fn new(name: impl Into<String>, basic: Basic) -> Self {
         let name = name.into();
-        Self { name, basic, address: None, elements: None, initial: None, comments: Vec::new() }
+        Self {
+            name,
+            basic,
+            address: None,
+            elements: None,
+            initial: None,
+            comments: Vec::new(),
+            is_retained: false,
+        }
     }
 
     pub fn with_address(mut self, address: String) -> Self {
@@ -119,6 +129,11 @@ impl Variable {
 
     pub fn with_initial(mut self, value: Ex) -> Self {
         self.initial = Some(value);
+        self
+    }
+
+    pub fn retained(mut self, is_retained: bool) -> Self {
+        self.is_retained = is_retained;
         self
     }
 
@@ -143,11 +158,11 @@ impl Variable {
     /// The same variable without initial value, as it is declared where it is used.
     pub fn external(&self) -> Self {
         let comments = self.comments.iter().take(1).cloned().collect();
-        Self { address: None, initial: None, comments, ..self.clone() }
+        Self { address: None, initial: None, comments, is_retained: false, ..self.clone() }
     }
 
     pub fn uncommented(&self) -> Self {
-        Self { address: None, initial: None, comments: Vec::new(), ..self.clone() }
+        Self { address: None, initial: None, comments: Vec::new(), is_retained: false, ..self.clone() }
     }
 
     /// The declaration, with its comments.
@@ -175,13 +190,11 @@ impl Unit {
     /// All sections of declarations.
     pub fn declarations(&self, dialect: Dialect) -> String {
         let state = self.state.as_ref().filter(|_| dialect == Dialect::Codesys);
-        let section = |keyword: &str, variables: &[Variable]| {
-            let lines = variables.iter().map(|v| match state {
-                Some((name, ty)) if *name == v.name => v.line(dialect, ty),
-                _ => v.line(dialect, &v.ty()),
-            });
-            block(keyword, lines.collect())
+        let line = |v: &Variable| match state {
+            Some((name, ty)) if *name == v.name => v.line(dialect, ty),
+            _ => v.line(dialect, &v.ty()),
         };
+        let section = |keyword: &str, variables: &[Variable]| sections(keyword, variables, line);
         let instances = self.instances.iter().map(|i| {
             let about =
                 if i.comment.is_empty() { String::new() } else { format!(" {}", comment(&i.comment)) };
@@ -203,9 +216,17 @@ fn block(keyword: &str, lines: Vec<String>) -> String {
     if lines.is_empty() { String::new() } else { format!("{keyword}\n{}END_VAR\n", lines.concat()) }
 }
 
+/// Those that are retained in a section of their own.
+pub fn sections(keyword: &str, variables: &[Variable], line: impl Fn(&Variable) -> String) -> String {
+    let of = |is_retained: bool| {
+        variables.iter().filter(move |v| v.is_retained == is_retained).map(&line).collect::<Vec<_>>()
+    };
+    block(keyword, of(false)) + &block(&format!("{keyword} RETAIN"), of(true))
+}
+
 /// Declarations of globals.
 pub fn globals(variables: &[Variable], dialect: Dialect) -> String {
-    block("VAR_GLOBAL", variables.iter().map(|v| v.line(dialect, &v.ty())).collect())
+    sections("VAR_GLOBAL", variables, |v| v.line(dialect, &v.ty()))
 }
 
 /// The suffixes of the variables that hold one value.

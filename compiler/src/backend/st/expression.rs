@@ -77,7 +77,7 @@ impl Lowering<'_> {
             ExprKind::Done if self.phase == Phase::Guard => name("done"),
             ExprKind::Failed if self.phase == Phase::Guard => name("failed"),
             ExprKind::Done => self.answered("="),
-            ExprKind::Failed => self.answered("<>"),
+            ExprKind::Failed => self.failed(),
             ExprKind::Permit => name("run_permit"),
             ExprKind::Stopped => own_stop(),
             ExprKind::InState(states) => {
@@ -161,28 +161,36 @@ impl Lowering<'_> {
         }
     }
 
-    fn answered(&mut self, operator: &'static str) -> Ex {
+    fn failed(&self) -> Ex {
+        or(self.is_interrupted().into_iter().chain([self.answered("<>")]).collect())
+    }
+
+    fn answered(&self, operator: &'static str) -> Ex {
         let port = |wanted: &str| {
             let position = self.automaton().device.ports.iter().position(|p| p.name == wanted);
             position.map_or(Ex::Int(0), |p| name(&self.own().ports[p][0]))
         };
-        and(vec![
+        let counts = self.is_abandoned().map(not);
+        let answered = [
             binary("<>", port("cmd"), Ex::Int(0)),
             binary("=", port("ack"), port("cmd")),
             binary(operator, port("error"), Ex::Int(0)),
-        ])
+        ];
+        and(counts.into_iter().chain(answered).collect())
     }
 
     /// The variables from which `done` and `failed` are computed.
     pub fn answer_names(&self) -> Vec<String> {
         let ports = self.automaton().device.ports.iter().zip(&self.own().ports);
         let ports = ports.filter(|(port, _)| ["cmd", "ack", "error"].contains(&port.name.as_str()));
-        ports.map(|(_, held)| held[0].clone()).collect()
+        let locals = self.automaton().abandoned.into_iter().chain(self.automaton().interrupted);
+        let locals = locals.map(|local| self.own().locals[local][0].clone());
+        ports.map(|(_, held)| held[0].clone()).chain(locals).collect()
     }
 
     /// Statements that set `done` and `failed`.
     pub fn answer(&mut self) -> [Stmt; 2] {
-        [assign("done", self.answered("=")), assign("failed", self.answered("<>"))]
+        [assign("done", self.answered("=")), assign("failed", self.failed())]
     }
 
     /// A define has its own variable, which is computed once for all that reads it.

@@ -10,6 +10,7 @@ use super::code::{Ex, Stmt, advance, binary, name};
 use super::context::Shared;
 use super::declaration::{Basic, Variable, constants};
 use super::image::Image;
+use super::restart;
 use super::role::Members;
 use super::value::{first_value, stop_value};
 use crate::ir::{AutomatonId, Extent, InterfaceId, RoleId, Scalar, Type};
@@ -39,6 +40,8 @@ pub struct List {
     pub about: &'static str,
     pub attributes: &'static [Attribute],
     pub variables: Vec<Variable>,
+    /// They outlast a loss of power.
+    pub is_retained: bool,
 }
 
 impl Globals {
@@ -67,9 +70,20 @@ impl Globals {
     /// The globals as lists that have a name.
     pub fn lists(&self) -> Vec<List> {
         let tables = |tables: &[Table]| tables.iter().map(|t| t.variable.clone()).collect::<Vec<_>>();
-        let list = |name, about, attributes, variables| List { name, about, attributes, variables };
+        let list = |name, about, attributes, mut variables: Vec<Variable>| {
+            variables.retain(|variable| !variable.is_retained);
+            List { name, about, attributes, variables, is_retained: false }
+        };
+        let retained = self.all().filter(|variable| variable.is_retained).cloned().collect();
         let lists = [
             list("GVL_System", "inputs and outputs of the line", OF_WHAT_IS_SHOWN, self.system.clone()),
+            List {
+                name: "GVL_Retained",
+                about: "what outlasts a loss of power",
+                attributes: OF_WHAT_IS_SHOWN,
+                variables: retained,
+                is_retained: true,
+            },
             list("GVL_Ports", "ports of the robots", OF_WHAT_IS_SHOWN, self.ports.concat()),
             list("GVL_Raw", "raw values of the process image", &[], self.raw.clone()),
             list("GVL_Cells", "shared cells", OF_WHAT_IS_SHOWN, tables(&self.cells)),
@@ -117,6 +131,11 @@ fn system(shared: Shared) -> Vec<Variable> {
         variable("init_done", Ex::Bool(false), "false in the first scan"),
         variable("dt_ms", Ex::Int(shared.system.scan_ms), "length of a scan, ms: the INTERVAL of the task"),
     ];
+    let retains = restart::retains(shared);
+    for variable in variables.iter_mut().filter(|v| matches!(v.name.as_str(), "fault_code" | "fault_robot")) {
+        variable.is_retained = retains;
+    }
+    variables.extend(restart::variables(shared));
     if alarm::any(shared) {
         variables.extend([
             variable("alarm", Ex::Bool(false), "output: an alarm is active, or not acknowledged"),
@@ -205,14 +224,17 @@ fn cells(shared: Shared) -> Vec<Table> {
     let mut tables = Vec::new();
     for (i, interface) in shared.system.model.interfaces.iter().enumerate() {
         let members = shared.system.members[i].len().max(1);
-        for (cell, held) in interface.cells.iter().zip(&shared.names.interfaces[i].cells) {
+        for (number, (cell, held)) in
+            interface.cells.iter().zip(&shared.names.interfaces[i].cells).enumerate()
+        {
+            let is_retained = restart::retains_cell(shared, InterfaceId(i), number);
             let n = members * shared.system.model.elements(cell.ty.extent);
             let mut comments = about(&cell.doc, rows(shared, InterfaceId(i), each(shared, cell.ty)));
             comments.extend(about(&[], meaning(shared, cell.ty.scalar)));
             for (name, first) in held.iter().zip(shared.constants(cell.ty.scalar, cell.initial)) {
                 let variable = Variable::new(name, Basic::of(cell.ty.scalar)).with_elements(Some(n));
                 let comments = if *name == held[0] { comments.clone() } else { Vec::new() };
-                let variable = Variable { comments, ..variable };
+                let variable = Variable { comments, ..variable }.retained(is_retained);
                 tables.push(Table { variable, values: vec![first; n] });
             }
         }

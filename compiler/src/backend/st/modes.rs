@@ -3,10 +3,10 @@
 use super::block::{Candidate, Origin, argument, kept_values};
 use super::code::{Arm, Ex, Stmt, advance, and, assign, binary, name, not, or, sum, times, when};
 use super::context::{Lowering, Phase, Shared};
-use super::globals::Globals;
+use super::globals::{Globals, Table};
 use super::names::ELEMENT;
 use super::property::own_stop;
-use crate::ir::{Action, Automaton, ByHand, Commands, Expr, ExprKind, KeptBy, Modes, Place};
+use crate::ir::{Action, Automaton, ByHand, Expr, ExprKind, KeptBy, Modes, Place};
 
 /// The robot begins anew in this scan: properties are told so.
 pub const BEGUN_ANEW: &str = "begun_anew";
@@ -68,7 +68,9 @@ impl Lowering<'_> {
         let begins = |candidate: &&&Candidate| {
             let name = &candidate.variable.name;
             let is_port = own_ports().flatten().any(|port| port == name);
-            candidate.kept_by == KeptBy::Steps && (!is_port || anew.contains(&name))
+            candidate.kept_by == KeptBy::Steps
+                && !candidate.variable.is_retained
+                && (!is_port || anew.contains(&name))
         };
         let begins: Vec<&Candidate> = kept.iter().filter(begins).copied().collect();
         let mut out =
@@ -77,6 +79,14 @@ impl Lowering<'_> {
             out.push(assign(BEGUN_ANEW, Ex::Bool(true)));
         }
         out.extend(kept_values(&begins));
+        out.extend(self.own_cells(globals, |table| !self.retains_own(&table.variable.name)));
+        out
+    }
+
+    /// Its own elements of those arrays of cells, as at first.
+    pub fn own_cells(&self, globals: &Globals, is_wanted: impl Fn(&Table) -> bool) -> Vec<Stmt> {
+        let automaton = self.automaton();
+        let mut out = Vec::new();
         for (number, implemented) in automaton.implements.iter().enumerate() {
             let interface = self.system.model.interface(implemented.interface);
             let row = || name(&self.own().rows[number]);
@@ -86,8 +96,9 @@ impl Lowering<'_> {
                 let elements = self.system.model.elements(cell.ty.extent);
                 let values = self.shared.constants(cell.ty.scalar, cell.initial);
                 let there = held.iter().zip(values);
-                let there =
-                    there.filter(|(held, _)| globals.cells.iter().any(|table| table.variable.name == **held));
+                let there = there.filter(|(held, _)| {
+                    globals.cells.iter().any(|table| table.variable.name == **held && is_wanted(table))
+                });
                 if elements == 1 {
                     out.extend(there.map(|(held, value)| {
                         Stmt::Assign(Ex::Element(held.clone(), Box::new(row())), value)
@@ -116,15 +127,16 @@ pub fn field(shared: Shared, robot: usize, local: usize) -> Ex {
     Ex::Field(shared.names.robots[robot].instance.clone(), own.locals[local][0].clone())
 }
 
-/// `hold` of a robot: also while the last command is not its own.
-pub fn hold(shared: Shared, robot: usize, Commands { commanded, abandoned }: Commands, runs: Ex) -> Ex {
+/// `hold` of a robot: also while the answer to its last command does not count.
+pub fn hold(shared: Shared, robot: usize, runs: Ex) -> Ex {
     let of = |local: usize| field(shared, robot, local);
     let automaton = shared.system.automaton_of(robot);
-    let own = &shared.names.automata[shared.system.instances[robot].automaton.0].ports;
-    let cmd = automaton.device.ports.iter().position(|port| port.name == "cmd").unwrap_or_default();
-    let cmd = Ex::Field(shared.names.robots[robot].instance.clone(), own[cmd][0].clone());
-    let is_abandoned = and(vec![binary("<>", of(abandoned), Ex::Int(0)), binary("=", of(abandoned), cmd)]);
-    and(vec![not(of(commanded)), or(vec![not(runs), is_abandoned])])
+    let Some(abandoned) = automaton.abandoned else { return not(runs) };
+    let held = or(vec![not(runs), of(abandoned)]);
+    match automaton.modes.as_ref().and_then(|modes| modes.commanded) {
+        Some(commanded) => and(vec![not(of(commanded)), held]),
+        None => held,
+    }
 }
 
 /// What the panel gives for an output, one for each variable.
@@ -143,9 +155,10 @@ pub fn by_hand(shared: Shared, robot: usize, by_hand: &ByHand) -> Option<Vec<Ex>
 }
 
 /// Locals that the program reads.
-pub fn told(modes: &Modes) -> Vec<usize> {
-    let of_commands = modes.commands.iter().flat_map(|commands| [commands.commanded, commands.abandoned]);
-    modes.by_hand.into_iter().chain([modes.moved_by_hand]).chain(of_commands).collect()
+pub fn told(automaton: &Automaton) -> Vec<usize> {
+    let of_modes =
+        |modes: &Modes| modes.by_hand.into_iter().chain([modes.moved_by_hand]).chain(modes.commanded);
+    automaton.modes.iter().flat_map(of_modes).chain(automaton.abandoned).collect()
 }
 
 /// The step ends here unless transitions are tested.

@@ -62,6 +62,9 @@ const TAKEN: &[&str] = &[
     "start_edge",
     "init_done",
     "dt_ms",
+    "warm_start",
+    "retained_of",
+    "retained_whole",
 ];
 /// The counter over the elements of an array.
 pub const ELEMENT: &str = "element_no";

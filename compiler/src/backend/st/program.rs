@@ -10,8 +10,9 @@ use super::image::Image;
 use super::modes;
 use super::names::{ELEMENT, ROUNDED};
 use super::property;
+use super::restart;
 use super::value::{first_value, stop_value};
-use crate::ir::{ByHand, Commands};
+use crate::ir::ByHand;
 use runtime_sim::device::Direction;
 
 pub const LAYOUT: &str = "FB_Layout";
@@ -26,6 +27,7 @@ pub fn program(shared: Shared, blocks: &[Option<Blocks>], globals: &Globals, ima
     let mut body = Vec::new();
     let mut instances = Vec::new();
     instances.push(Instance { name: "layout".into(), block: LAYOUT.into(), comment: String::new() });
+    body.extend(restart::begin(shared));
     let cold = vec![("cold_start".to_string(), not(name("init_done")))];
     body.push(Stmt::Call { instance: "layout".into(), arguments: cold });
     body.extend(commented("Inputs: from raw values.", &image.inputs));
@@ -66,6 +68,7 @@ pub fn program(shared: Shared, blocks: &[Option<Blocks>], globals: &Globals, ima
     body.extend(commented("Outputs: to raw values.", &image.outputs));
     body.extend(alarm::counted(shared));
     body.push(assign("init_done", Ex::Bool(true)));
+    body.extend(restart::end(shared));
     let used = code::names(&body);
     Unit {
         name: "MAIN".into(),
@@ -157,20 +160,16 @@ fn publish(shared: Shared, robot: usize, block: &Block) -> Vec<Stmt> {
         let stop = stop_value(port).map(constants);
         let published = modes.and_then(|modes| modes.published[i].as_ref());
         let panel = published.and_then(|published| modes::by_hand(shared, robot, published));
+        if automaton.device.is_commanded() && port.name == "hold" {
+            always.push(assign(&names.ports[i][0], modes::hold(shared, robot, runs())));
+            continue;
+        }
         for (part, (global, output)) in names.ports[i].iter().zip(&own[i]).enumerate() {
             let is_written = publishes(block, output);
             let value = is_written.then(|| Ex::Field(names.instance.clone(), output.clone()));
             match (value, stop.as_ref().map(|s| s[part].clone())) {
                 (Some(value), None) => always.push(assign(global, value)),
                 (None, None) => {}
-                (None, Some(Ex::Bool(true))) => {
-                    let commands = modes.and_then(|modes| modes.commands);
-                    let held = match commands {
-                        Some(commands) => modes::hold(shared, robot, commands, runs()),
-                        None => not(runs()),
-                    };
-                    always.push(assign(global, held));
-                }
                 (value, Some(stop)) => {
                     let first = constants(first_value(port.ty))[part].clone();
                     let value = value.unwrap_or(first);
@@ -194,7 +193,7 @@ fn publish(shared: Shared, robot: usize, block: &Block) -> Vec<Stmt> {
         arms.extend(is_by_hand.map(|local| arm(modes::field(shared, robot, local), by_hand)));
         always.push(Stmt::If(arms, stopped));
     }
-    if let Some(Commands { commanded, .. }) = modes.and_then(|modes| modes.commands)
+    if let Some(commanded) = modes.and_then(|modes| modes.commanded)
         && !with_command.is_empty()
     {
         always.push(when(modes::field(shared, robot, commanded), with_command));
@@ -204,12 +203,11 @@ fn publish(shared: Shared, robot: usize, block: &Block) -> Vec<Stmt> {
 
 /// Sets cells and tables of parameters in the first scan.
 pub fn layout(globals: &Globals) -> Unit {
-    let cells: Vec<_> = globals.cells.iter().collect();
     let parameters: Vec<_> = globals.parameters.iter().collect();
     let mut body = vec![when(not(name("cold_start")), vec![Stmt::Return])];
-    if !cells.is_empty() {
+    if !globals.cells.is_empty() {
         body.push(Stmt::Comment("Shared cells.".into()));
-        body.extend(fill(&cells, ELEMENT));
+        body.extend(restart::cells(&globals.cells));
     }
     if !parameters.is_empty() {
         body.push(Stmt::Comment("Parameters.".into()));

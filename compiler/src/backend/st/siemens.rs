@@ -64,7 +64,9 @@ struct Header {
 #[derive(Template)]
 #[template(path = "plc/siemens/data_block.scl", escape = "none")]
 struct DataBlock {
-    variables: String,
+    sections: String,
+    /// Some of its variables are: each section says so.
+    is_retained: bool,
 }
 
 #[derive(Template)]
@@ -91,11 +93,14 @@ struct Block {
 pub fn files(shared: Shared, line: &Line) -> Files {
     let mut parts = vec![render(&Header { made_from: made_from(shared) })];
     let all: Vec<Variable> = line.globals.all().cloned().map(|v| Variable { address: None, ..v }).collect();
-    parts.push(render(&DataBlock { variables: lines(&all) }));
+    let is_retained = all.iter().any(|variable| variable.is_retained);
+    parts.push(render(&DataBlock { sections: sections("VAR", &all), is_retained }));
     parts.extend(line.functions.iter().map(|function| function_text(function.text)));
     let is_global = |name: &str| all.iter().any(|variable| variable.name == name);
     parts.extend(line.units().map(|unit| block(shared, unit, &is_global)));
-    parts.push(include_str!("../../../../templates/plc/siemens/instance.scl").into());
+    let instance = include_str!("../../../../templates/plc/siemens/instance.scl");
+    // What its blocks retain, they say.
+    parts.push(if is_retained { instance.replace("NON_RETAIN\n", "") } else { instance.into() });
     let task = include_str!("../../../../templates/plc/siemens/task.txt");
     let scan_ms = shared.system.scan_ms;
     let task = task
@@ -104,12 +109,11 @@ pub fn files(shared: Shared, line: &Line) -> Files {
     Files::from([("main.scl".into(), parts.join("\n")), ("TASK.txt".into(), task)])
 }
 
-fn lines(variables: &[Variable]) -> String {
-    let line = |variable: &Variable| {
+fn sections(keyword: &str, variables: &[Variable]) -> String {
+    super::declaration::sections(keyword, variables, |variable| {
         let quoted = Variable { name: quoted(&variable.name), ..variable.clone() };
         quoted.line(DIALECT, &quoted.ty())
-    };
-    variables.iter().map(line).collect()
+    })
 }
 
 fn quoted(name: &str) -> String {
@@ -134,9 +138,10 @@ fn block(shared: Shared, unit: &Unit, is_global: &impl Fn(&str) -> bool) -> Stri
         .in_order()
         .into_iter()
         .map(|(name, member)| format!("    {name} : DINT := {};\n", member.value));
-    let sections = section("VAR_INPUT", &lines(&unit.inputs))
-        + &section("VAR_OUTPUT", &lines(&unit.outputs))
-        + &section("VAR", &(lines(&unit.variables) + &instances.collect::<String>()))
+    let sections = sections("VAR_INPUT", &unit.inputs)
+        + &sections("VAR_OUTPUT", &unit.outputs)
+        + &sections("VAR", &unit.variables)
+        + &section("VAR", &instances.collect::<String>())
         + &section("VAR CONSTANT", &declared.collect::<String>());
     let own = Names { is_global, constants: &constants };
     render(&Block {

@@ -52,10 +52,13 @@ impl Lowering<'_> {
         let note = device.verbs.iter().find(|v| v.number == verb).map_or("", |v| v.name.as_str()).to_string();
         let number =
             [("last", "cmd"), ("got", "got"), ("ack", "ack")].map(|(input, p)| (input, name(&port(p))));
-        vec![
+        let mut out = vec![
             assign(&port("verb"), Ex::Member(Member { value: verb, note, qualified: None })),
             assign(&port("cmd"), Ex::Call("F_next_command", number.into())),
-        ]
+        ];
+        let answer_counts = self.automaton().abandoned.into_iter().chain(self.automaton().interrupted);
+        out.extend(answer_counts.map(|local| assign(&self.own().locals[local][0], Ex::Bool(false))));
+        out
     }
 
     fn assignment(&mut self, target: &Target, value: &Expr, check: Option<FaultId>, out: &mut Vec<Stmt>) {

@@ -7,6 +7,9 @@ use runtime_sim::device::{PortType, Stop};
 /// Published if the state has no meaning: the controller's memory is damaged.
 pub const NO_SUCH_STATE: i32 = 32767;
 
+/// Published at the start if what was retained is not of this program, or not of one scan.
+pub const NOT_RETAINED: i32 = 32766;
+
 /// What a port holds before anything was latched or written.
 pub fn first_value(ty: PortType) -> Value {
     match ty {

@@ -49,12 +49,14 @@ struct Enumeration {
 struct List {
     name: &'static str,
     variables: String,
+    is_retained: bool,
     attributes: String,
 }
 
 /// For Beremiz, OpenPLC and other tools that keep to the standard.
 pub fn plcopen(shared: Shared, line: &Line) -> String {
-    let globals: String = line.globals.all().map(|v| variable(v, Dialect::Portable, None, 10)).collect();
+    let all: Vec<Variable> = line.globals.all().cloned().collect();
+    let globals = sections("globalVars", &all, 8, |v| variable(v, Dialect::Portable, None, 10));
     render(&Plcopen {
         made_from: escaped(&made_from(shared)),
         version: version::NUMBER,
@@ -81,6 +83,7 @@ pub fn codesys(shared: Shared, line: &Line) -> String {
         .map(|list| List {
             name: list.name,
             variables: list.variables.iter().map(|v| variable(v, Dialect::Codesys, None, 8)).collect(),
+            is_retained: list.is_retained,
             attributes: attributes::additional_data(list.attributes, 8),
         })
         .collect();
@@ -106,14 +109,15 @@ fn pou(unit: &Unit, dialect: Dialect) -> Pou {
         variable(v, dialect, ty, 12)
     };
     let mut interface = String::new();
-    interface += &section("inputVars", unit.inputs.iter().map(of).collect());
-    interface += &section("outputVars", unit.outputs.iter().map(of).collect());
+    interface += &section("inputVars", 10, unit.inputs.iter().map(of).collect());
+    interface += &sections("outputVars", &unit.outputs, 10, of);
     let instances = unit.instances.iter();
     let instances =
         instances.map(|i| typed(&named(&i.name), &format!("<derived name=\"{}\"/>", i.block), "", "", 12));
-    interface += &section("localVars", unit.variables.iter().map(of).chain(instances).collect());
+    interface += &sections("localVars", &unit.variables, 10, of);
+    interface += &section("localVars", 10, instances.collect());
     if dialect == Dialect::Portable {
-        interface += &section("externalVars", unit.externals.iter().map(of).collect());
+        interface += &section("externalVars", 10, unit.externals.iter().map(of).collect());
     }
     interface += &attributes::additional_data(unit.attributes(dialect), 10);
     Pou {
@@ -137,7 +141,7 @@ fn function(function: &Function) -> Pou {
             ("VAR_INPUT", _) => open = Some(("inputVars", Vec::new())),
             ("VAR", _) => open = Some(("localVars", Vec::new())),
             ("END_VAR", Some((name, variables))) => {
-                interface += &section(name, variables.clone());
+                interface += &section(name, 10, variables.clone());
                 open = None;
             }
             ("END_FUNCTION", _) => {}
@@ -154,10 +158,21 @@ fn function(function: &Function) -> Pou {
     Pou { name: function.name.into(), kind: "function", interface, body: cdata(&body) }
 }
 
-fn section(name: &str, variables: Vec<String>) -> String {
+/// Those that are retained in a section of their own.
+fn sections(name: &str, variables: &[Variable], indent: usize, of: impl Fn(&Variable) -> String) -> String {
+    let lines = |is_retained: bool| {
+        variables.iter().filter(move |v| v.is_retained == is_retained).map(&of).collect::<Vec<_>>()
+    };
+    let retained = section(name, indent, lines(true));
+    section(name, indent, lines(false))
+        + &retained.replacen(&format!("<{name}>"), &format!("<{name} retain=\"true\">"), 1)
+}
+
+fn section(name: &str, indent: usize, variables: Vec<String>) -> String {
+    let indent = " ".repeat(indent);
     match variables.is_empty() {
         true => String::new(),
-        false => format!("          <{name}>\n{}          </{name}>\n", variables.concat()),
+        false => format!("{indent}<{name}>\n{}{indent}</{name}>\n", variables.concat()),
     }
 }
 

@@ -9,7 +9,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// Of the interface that is spoken here.
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 /// Bytes of a message.
 const MESSAGE: usize = 1000;
 
@@ -24,6 +24,7 @@ struct Functions {
     scan: unsafe extern "C" fn(*mut c_void, Inputs, *const Image, *const Image, usize, *mut Outputs) -> usize,
     state: unsafe extern "C" fn(*const c_void, usize) -> usize,
     trace: unsafe extern "C" fn(*mut c_void, *mut f64, usize) -> usize,
+    power_up: unsafe extern "C" fn(*mut c_void),
     skip: unsafe extern "C" fn(*mut c_void, u64),
     stays: unsafe extern "C" fn(*const c_void, *mut usize),
     _library: Library,
@@ -75,6 +76,7 @@ impl SharedLibrary {
                 scan: *library.get(b"autogen_scan\0").map_err(failed)?,
                 state: *library.get(b"autogen_state\0").map_err(failed)?,
                 trace: *library.get(b"autogen_trace\0").map_err(failed)?,
+                power_up: *library.get(b"autogen_power_up\0").map_err(failed)?,
                 skip: *library.get(b"autogen_skip\0").map_err(failed)?,
                 stays: *library.get(b"autogen_stays\0").map_err(failed)?,
                 _library: library,
@@ -151,6 +153,11 @@ impl scan::Controllers for Controllers {
             alarm_code: answer.alarm_code,
             alarm_robot: answer.alarm_robot,
         }
+    }
+
+    fn power_up(&mut self) {
+        // SAFETY: the session is open.
+        unsafe { (self.library.0.power_up)(self.session) };
     }
 
     fn state(&self, machine: usize) -> usize {

@@ -12,12 +12,13 @@ pub const LAST: u32 = 1_000_000;
 impl Decoder {
     pub(super) fn faults(&mut self, json: &Json) -> Option<Faults> {
         let members = self.object(json, "faults")?;
-        self.unknown_keys(members, &["slips", "refusals", "answers", "pauses"], "faults");
+        self.unknown_keys(members, &["slips", "refusals", "answers", "pauses", "power_offs"], "faults");
         Some(Faults {
             slips: self.each(members, "slips", Self::slip),
             refusals: self.each(members, "refusals", Self::refusal),
             answers: self.each(members, "answers", Self::answer),
             pauses: self.each(members, "pauses", Self::pause),
+            power_offs: self.each(members, "power_offs", Self::pause),
         })
     }
 

@@ -17,6 +17,7 @@ pub(super) const MEMBERS: &[&str] = &[
     "serves",
     "knows",
     "require",
+    "retain",
     "invariant",
     "keep",
     "whenever",
@@ -48,6 +49,7 @@ impl Parser {
             locals: Vec::new(),
             defines: Vec::new(),
             requires: Vec::new(),
+            retain: None,
             properties: Vec::new(),
             initial: None,
             any: Vec::new(),
@@ -132,6 +134,7 @@ impl Parser {
                 self.end_of_declaration(require.is_some());
                 automaton.requires.extend(require);
             }
+            Some("retain") => self.retain(automaton),
             Some(word) if WORDS.contains(&word) => automaton.properties.extend(self.parse_property()),
             Some("initial") if *self.peek_second() == Token::Sign("->") => {
                 let span = self.span();
@@ -186,6 +189,37 @@ impl Parser {
             return;
         }
         automaton.initial = Some(initial);
+    }
+
+    /// `retain all;` or `retain state, next;`
+    fn retain(&mut self, automaton: &mut ast::Automaton) {
+        let span = self.span();
+        self.next();
+        let mut names = Vec::new();
+        loop {
+            let name = if self.at_word("state") {
+                let name = ast::Name { value: "state".into(), span: self.span() };
+                self.next();
+                Some(name)
+            } else {
+                self.expect_name("what is retained")
+            };
+            let is_named = name.is_some();
+            names.extend(name);
+            if !is_named || !self.maybe_sign(",") {
+                self.end_of_declaration(is_named);
+                break;
+            }
+        }
+        if let Some(before) = &automaton.retain {
+            self.report(
+                crate::diagnostic::Diagnostic::new("E0208", span, "an automaton says once what it retains")
+                    .other(before.span, "it is said here already")
+                    .help("put the names into one list"),
+            );
+            return;
+        }
+        automaton.retain = Some(ast::Retain { span, names });
     }
 
     fn define(&mut self, doc: Vec<String>) -> Option<ast::Define> {

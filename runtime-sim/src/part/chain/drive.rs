@@ -14,6 +14,8 @@ pub struct Drive {
     limits: Limits,
     joints: Joints,
     tool: Pose,
+    /// Of a part on the tool where the last motion arrived: one that is broken off does not change what a part keeps.
+    direction: f64,
     phase: Phase,
     /// How far the tool goes at most along the path under way.
     travel: Arc<Travel>,
@@ -54,8 +56,8 @@ impl Drive {
     pub fn new(motions: Arc<Motions>, rest: Point) -> Option<Self> {
         let arm = motions.arm();
         let joints = arm.solve(rest, &arm.start())?;
-        let (limits, tool) = (arm.limits(), arm.tool_pose(&joints));
-        Some(Self { motions, limits, joints, tool, phase: Phase::Rest, travel: Arc::default() })
+        let (limits, tool, direction) = (arm.limits(), arm.tool_pose(&joints), arm.direction(&joints));
+        Some(Self { motions, limits, joints, tool, direction, phase: Phase::Rest, travel: Arc::default() })
     }
 
     /// Its frame, world frame.
@@ -112,7 +114,8 @@ impl Drive {
 
     /// From the present joints, which stand.
     fn planned_to(&self, target: Target, t: f64) -> Option<Planned> {
-        self.motions.planned(&self.joints, &target, &self.limits, t)
+        let directed = self.motions.arm().directed(&self.joints, self.direction);
+        self.motions.planned([&self.joints, &directed], &target, &self.limits, t)
     }
 
     /// Metres that the tool goes at most between two times.
@@ -153,7 +156,12 @@ impl Drive {
             Phase::Rest => (Phase::Rest, Moved::Arrived),
             Phase::Going(motion) => {
                 self.place(motion.at(t));
-                if motion.has_ended(t) { (Phase::Rest, Moved::Arrived) } else { (Phase::Going(motion), Moved::Moving) }
+                if motion.has_ended(t) {
+                    self.direction = self.motions.arm().direction(&self.joints);
+                    (Phase::Rest, Moved::Arrived)
+                } else {
+                    (Phase::Going(motion), Moved::Moving)
+                }
             }
             Phase::Braking(motion, next) => {
                 self.place(motion.at(t));

@@ -36,10 +36,10 @@ struct Question(Vec<u64>);
 const MOST: usize = 4_000;
 
 impl Question {
-    fn new(from: &Joints, target: &Target, limits: &Limits) -> Self {
+    fn new([from, directed]: [&Joints; 2], target: &Target, limits: &Limits) -> Self {
         let mut words: Vec<u64> = Vec::with_capacity(40);
         let limits = limits.velocity.iter().chain(limits.acceleration.iter());
-        words.extend(from.iter().chain(limits).map(|value| value.to_bits()));
+        words.extend(from.iter().chain(directed.iter().last()).chain(limits).map(|value| value.to_bits()));
         let mut point = |point: &Point| words.extend([point.x, point.y, point.z].map(f64::to_bits));
         let kind = match target {
             Target::Place(goal) => {
@@ -82,33 +82,45 @@ impl Motions {
         &self.arm
     }
 
-    /// From rest at these joints, begun at `begin`; none if no joints bring the tool there, or no path is free.
-    pub fn planned(&self, from: &Joints, target: &Target, limits: &Limits, begin: f64) -> Option<Planned> {
-        let question = Question::new(from, target, limits);
+    /// From rest at joints, begun at `begin`; none if no joints bring the tool there, or no path is free. A part on the
+    /// tool gets the direction that it has at `directed`, the same joints but for the last one.
+    pub fn planned(
+        &self,
+        [from, directed]: [&Joints; 2],
+        target: &Target,
+        limits: &Limits,
+        begin: f64,
+    ) -> Option<Planned> {
+        let question = Question::new([from, directed], target, limits);
         // Nothing panics while it is locked.
         let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
         if known.len() >= MOST {
             known.clear();
         }
         let planned = known.entry(question).or_insert_with(|| {
-            let motion = self.computed(from, target, limits)?;
+            let motion = self.computed([from, directed], target, limits)?;
             let tool = Arc::new(motion.travel(&self.radii));
             Some(Planned { motion, tool })
         });
         planned.as_ref().map(|Planned { motion, tool }| Planned { motion: motion.begun(begin), tool: tool.clone() })
     }
 
-    fn computed(&self, from: &Joints, target: &Target, limits: &Limits) -> Option<Motion> {
+    fn computed(
+        &self,
+        [from, directed]: [&Joints; 2],
+        target: &Target,
+        limits: &Limits,
+    ) -> Option<Motion> {
         let knots = match target {
-            Target::Place(goal) => self.arm.line_to(*goal, from)?.into_iter().map(Knot::new).collect(),
-            Target::Direct(goal) => vec![Knot::new(self.arm.solve(*goal, from)?)],
-            Target::Turned(goal, turn) => vec![Knot::new(self.arm.solve_turned(*goal, *turn, from)?)],
+            Target::Place(goal) => self.arm.line_to(*goal, directed)?.into_iter().map(Knot::new).collect(),
+            Target::Direct(goal) => vec![Knot::new(self.arm.solve(*goal, directed)?)],
+            Target::Turned(goal, turn) => vec![Knot::new(self.arm.solve_turned(*goal, *turn, directed)?)],
             Target::Past(via, goal) => {
-                let via = self.arm.solve(*via, from)?;
+                let via = self.arm.solve(*via, directed)?;
                 vec![Knot::new(via), Knot::new(self.arm.solve(*goal, &via)?)]
             }
             Target::Round(transfer, load) => {
-                let path = self.planner.as_ref()?.path(from, *load, transfer, limits)?;
+                let path = self.planner.as_ref()?.path([from, directed], *load, transfer, limits)?;
                 return Some(Motion::on(path, limits, 0.0));
             }
         };

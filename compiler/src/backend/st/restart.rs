@@ -1,0 +1,162 @@
+//! Going on after a loss of power: what is retained, and the first scan after it.
+//!
+//! Retained variables are declared so, and the first scan leaves them alone if [`WARM`] says that all of them are of
+//! this program and of one scan. Otherwise everything is as at first.
+
+use super::block::{Candidate, kept_values};
+use super::code::{Arm, Ex, Stmt, and, assign, binary, name, not, when};
+use super::context::{Lowering, Shared};
+use super::declaration::{Basic, Variable};
+use super::globals::{Globals, Table, fill};
+use super::names::ELEMENT;
+use super::value::NOT_RETAINED;
+use crate::ir::InterfaceId;
+
+/// The first scan begins with what was retained.
+pub const WARM: &str = "warm_start";
+/// Of which program the retained values are.
+const OF: &str = "retained_of";
+/// They are all of one scan.
+const WHOLE: &str = "retained_whole";
+
+/// Whether anything of the line outlasts a loss of power.
+pub fn retains(shared: Shared) -> bool {
+    shared.system.instances.iter().any(|i| !shared.system.model.automaton(i.automaton).retained.is_empty())
+}
+
+/// Whether a cell of any member of its interface is retained.
+pub fn retains_cell(shared: Shared, interface: InterfaceId, cell: usize) -> bool {
+    let instances = shared.system.members[interface.0].iter();
+    let mut automata = instances.map(|instance| shared.system.automaton_of(*instance));
+    automata.any(|automaton| automaton.retained.cells.contains(&(interface, cell)))
+}
+
+pub fn variables(shared: Shared) -> Vec<Variable> {
+    if !retains(shared) {
+        return Vec::new();
+    }
+    let variable = |name: &str, basic: Basic, initial: Ex, about: &str| {
+        Variable::new(name, basic).with_initial(initial).with_comment(about)
+    };
+    vec![
+        variable(WARM, Basic::Bool, Ex::Bool(false), "the first scan begins with what was retained"),
+        variable(OF, Basic::Dint, Ex::Int(0), "of which program the retained values are; 0: of none")
+            .retained(true),
+        variable(WHOLE, Basic::Bool, Ex::Bool(false), "the retained values are all of one scan")
+            .retained(true),
+    ]
+}
+
+/// The begin of MAIN.
+pub fn begin(shared: Shared) -> Vec<Stmt> {
+    if !retains(shared) {
+        return Vec::new();
+    }
+    let shape = || Ex::Int(shared.system.shape_of_retained() as i32);
+    let is_cold = || not(name(WARM));
+    let lost = |condition: Ex, code: i32| Arm {
+        comments: Vec::new(),
+        condition,
+        body: vec![assign("fault_code", Ex::Int(code)), assign("fault_robot", Ex::Int(-1))],
+    };
+    let first = vec![
+        Stmt::Comment("What was retained counts if it is of this program and of one scan.".into()),
+        assign(WARM, and(vec![name(WHOLE), binary("=", name(OF), shape())])),
+        Stmt::If(
+            vec![
+                lost(and(vec![is_cold(), binary("<>", name(OF), Ex::Int(0))]), NOT_RETAINED),
+                lost(is_cold(), 0),
+            ],
+            Vec::new(),
+        ),
+        assign(OF, shape()),
+    ];
+    vec![when(not(name("init_done")), first), assign(WHOLE, Ex::Bool(false))]
+}
+
+/// The end of MAIN.
+pub fn end(shared: Shared) -> Option<Stmt> {
+    retains(shared).then(|| assign(WHOLE, Ex::Bool(true)))
+}
+
+/// Cells at power-up, in the block of the layout.
+pub fn cells(cells: &[Table]) -> Vec<Stmt> {
+    let of = |is_retained: bool| -> Vec<&Table> {
+        cells.iter().filter(|table| table.variable.is_retained == is_retained).collect()
+    };
+    let mut out = fill(&of(false), ELEMENT);
+    let retained = fill(&of(true), ELEMENT);
+    if !retained.is_empty() {
+        out.push(when(not(name(WARM)), retained));
+    }
+    out
+}
+
+impl Lowering<'_> {
+    /// What the block of a robot does in the first scan.
+    pub fn power_up(&self, kept: &[&Candidate], globals: &Globals) -> Vec<Stmt> {
+        let automaton = self.automaton();
+        let beginning = || assign("state", Ex::Member(self.state(self.id, 0)));
+        let retained = &automaton.retained;
+        if retained.is_empty() {
+            let mut body = vec![beginning(), assign("elapsed", Ex::Int(0))];
+            body.extend(kept_values(kept));
+            body.extend(self.own_cells(globals, |table| table.variable.is_retained));
+            return body;
+        }
+        let (stays, begins): (Vec<&Candidate>, Vec<&Candidate>) =
+            kept.iter().copied().partition(|candidate| candidate.variable.is_retained);
+        let mut cold = Vec::new();
+        let mut body = Vec::new();
+        if retained.state { &mut cold } else { &mut body }.push(beginning());
+        cold.extend(kept_values(&stays));
+        body.insert(0, when(not(name(WARM)), cold));
+        let resumable: Vec<usize> = automaton.resumable().collect();
+        let begins_anew: Vec<Ex> = (1..automaton.states.len())
+            .filter(|state| retained.state && !resumable.contains(state))
+            .map(|state| binary("=", name("state"), Ex::Member(self.state(self.id, state))))
+            .collect();
+        if !begins_anew.is_empty() {
+            body.push(Stmt::Comment("It goes on from states that say `resume` only.".into()));
+            body.push(when(super::code::or(begins_anew), vec![beginning()]));
+        }
+        body.push(assign("elapsed", Ex::Int(0)));
+        let told: Vec<String> = (automaton.abandoned.iter().chain(&automaton.interrupted))
+            .map(|local| self.own().locals[*local][0].clone())
+            .collect();
+        let others: Vec<&Candidate> =
+            begins.into_iter().filter(|c| !retained.state || !told.contains(&c.variable.name)).collect();
+        body.extend(kept_values(&others));
+        body.extend(self.own_cells(globals, |table| {
+            table.variable.is_retained && !self.retains_own(&table.variable.name)
+        }));
+        if let ([abandoned, interrupted], true) = (told.as_slice(), retained.state) {
+            let goes_on = binary("<>", name("state"), Ex::Member(self.state(self.id, 0)));
+            body.push(assign(abandoned, binary("<>", self.command_number(), Ex::Int(0))));
+            body.push(assign(interrupted, and(vec![name(abandoned), goes_on])));
+        }
+        body
+    }
+
+    /// Whether the robot retains its own element of this array of cells.
+    pub fn retains_own(&self, wanted: &str) -> bool {
+        self.automaton().retained.cells.iter().any(|(interface, cell)| {
+            self.names.interfaces[interface.0].cells[*cell].iter().any(|held| held == wanted)
+        })
+    }
+
+    fn command_number(&self) -> Ex {
+        let port = self.automaton().device.ports.iter().position(|port| port.name == "cmd");
+        port.map_or(Ex::Int(0), |port| name(&self.own().ports[port][0]))
+    }
+
+    /// The answer to the last command does not count.
+    pub fn is_abandoned(&self) -> Option<Ex> {
+        self.automaton().abandoned.map(|local| name(&self.own().locals[local][0]))
+    }
+
+    /// The last command counts as failed.
+    pub fn is_interrupted(&self) -> Option<Ex> {
+        self.automaton().interrupted.map(|local| name(&self.own().locals[local][0]))
+    }
+}

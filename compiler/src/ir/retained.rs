@@ -1,0 +1,113 @@
+//! What outlasts a loss of power.
+
+use super::{Automaton, InterfaceId, Model, Scalar, System, Type};
+use std::collections::BTreeSet;
+
+/// What of the instances of a type outlasts a loss of power, and stays when an instance begins anew.
+#[derive(Clone, Debug, Default)]
+pub struct Retained {
+    /// The state, and with it the number of the last command.
+    pub state: bool,
+    pub locals: BTreeSet<usize>,
+    /// Cells of its own, by their interface.
+    pub cells: BTreeSet<(InterfaceId, usize)>,
+    /// Output ports of the device.
+    pub ports: BTreeSet<usize>,
+}
+
+impl Retained {
+    pub fn is_empty(&self) -> bool {
+        !self.state && self.locals.is_empty() && self.cells.is_empty() && self.ports.is_empty()
+    }
+}
+
+impl Automaton {
+    /// States in which an instance goes on after a loss of power, or after it was moved by hand.
+    pub fn resumable(&self) -> impl Iterator<Item = usize> {
+        self.states.iter().enumerate().filter(|(_, state)| state.is_resumable).map(|(number, _)| number)
+    }
+}
+
+impl System {
+    /// As of its model, and of the names of the instances, in layout order.
+    pub fn shape_of_retained(&self) -> u32 {
+        let mut shape = Shape::BEGIN;
+        shape.number(self.model.shape_of_retained() as i32);
+        self.instances.iter().for_each(|instance| shape.text(&instance.name));
+        shape.end()
+    }
+}
+
+impl Model {
+    /// A number that changes when what is retained does: names of states, names and types of values. The FNV-1a hash,
+    /// 31 bits of it, never 0.
+    pub fn shape_of_retained(&self) -> u32 {
+        let mut shape = Shape::BEGIN;
+        for automaton in self.automata.iter().filter(|automaton| !automaton.retained.is_empty()) {
+            let retained = &automaton.retained;
+            shape.text(&automaton.name);
+            for state in automaton.states.iter().filter(|_| retained.state) {
+                shape.text(&state.name);
+                shape.number(i32::from(state.is_resumable));
+            }
+            for local in &retained.locals {
+                shape.value(&automaton.locals[*local].name, automaton.locals[*local].ty, self);
+            }
+            for (interface, cell) in &retained.cells {
+                let cell = &self.interface(*interface).cells[*cell];
+                shape.value(&cell.name, cell.ty, self);
+            }
+            for port in &retained.ports {
+                let port = &automaton.device.ports[*port];
+                let ty = Type { scalar: port.ty.into(), extent: port.extent.into() };
+                shape.value(&port.name, ty, self);
+            }
+        }
+        shape.end()
+    }
+}
+
+struct Shape(u32);
+
+impl Shape {
+    const BEGIN: Self = Self(0x811c_9dc5);
+
+    fn end(self) -> u32 {
+        (self.0 & 0x7fff_ffff).max(1)
+    }
+
+    fn byte(&mut self, byte: u8) {
+        self.0 = (self.0 ^ u32::from(byte)).wrapping_mul(0x0100_0193);
+    }
+
+    /// Ends with a byte that no text has.
+    fn text(&mut self, text: &str) {
+        text.bytes().chain([0xff]).for_each(|byte| self.byte(byte));
+    }
+
+    fn number(&mut self, number: i32) {
+        number.to_le_bytes().into_iter().for_each(|byte| self.byte(byte));
+    }
+
+    fn value(&mut self, name: &str, ty: Type, model: &Model) {
+        self.text(name);
+        self.number(model.elements(ty.extent) as i32);
+        match ty.scalar {
+            Scalar::Bool => self.text("bool"),
+            Scalar::Real => self.text("real"),
+            Scalar::Point => self.text("point"),
+            Scalar::Time => self.text("time"),
+            Scalar::Int { lo, hi } => {
+                self.text("int");
+                self.number(lo);
+                self.number(hi);
+            }
+            Scalar::Enum(id) => {
+                let declared = &model.enums[id.0];
+                self.text(&declared.name);
+                declared.members.iter().for_each(|member| self.text(member));
+            }
+            Scalar::Ref(id) => self.text(&model.interface(id).name),
+        }
+    }
+}

@@ -1,0 +1,102 @@
+//! What outlasts a loss of power, as numbers: each value is written as one or more words, and read again.
+
+/// Takes the next word.
+pub type Words<'a> = dyn FnMut() -> Option<f64> + 'a;
+
+/// A value that is kept while there is no power.
+pub trait Retained: Sized {
+    fn put(self, put: &mut dyn FnMut(f64));
+
+    /// The value, if the words are one of this type.
+    fn take(words: &mut Words) -> Option<Self>;
+}
+
+impl Retained for bool {
+    fn put(self, put: &mut dyn FnMut(f64)) {
+        put(f64::from(u8::from(self)));
+    }
+
+    fn take(words: &mut Words) -> Option<Self> {
+        match i32::take(words)? {
+            0 => Some(false),
+            1 => Some(true),
+            _ => None,
+        }
+    }
+}
+
+impl Retained for i32 {
+    fn put(self, put: &mut dyn FnMut(f64)) {
+        put(f64::from(self));
+    }
+
+    fn take(words: &mut Words) -> Option<Self> {
+        let word = words()?;
+        let whole = word as i32;
+        (f64::from(whole) == word).then_some(whole)
+    }
+}
+
+impl Retained for f64 {
+    fn put(self, put: &mut dyn FnMut(f64)) {
+        put(self);
+    }
+
+    fn take(words: &mut Words) -> Option<Self> {
+        words().filter(|word| word.is_finite())
+    }
+}
+
+impl Retained for Point {
+    fn put(self, put: &mut dyn FnMut(f64)) {
+        [self.x, self.y, self.z].into_iter().for_each(put);
+    }
+
+    fn take(words: &mut Words) -> Option<Self> {
+        Some(Point::new(f64::take(words)?, f64::take(words)?, f64::take(words)?))
+    }
+}
+
+impl<T: Retained + Copy, const N: usize> Retained for Array<T, N> {
+    fn put(self, put: &mut dyn FnMut(f64)) {
+        self.0.into_iter().for_each(|value| value.put(put));
+    }
+
+    fn take(words: &mut Words) -> Option<Self> {
+        let mut values = [None; N];
+        for value in &mut values {
+            *value = Some(T::take(words)?);
+        }
+        let first = values.first().copied().flatten()?;
+        Some(Array(values.map(|value| value.unwrap_or(first))))
+    }
+}
+{%- for item in enums %}
+
+impl Retained for {{ item }} {
+    fn put(self, put: &mut dyn FnMut(f64)) {
+        (self as i32).put(put);
+    }
+
+    fn take(words: &mut Words) -> Option<Self> {
+        usize::try_from(i32::take(words)?).ok().and_then(|member| Self::ALL.get(member).copied())
+    }
+}
+{%- endfor %}
+{%- for item in references %}
+
+impl Retained for {{ item }} {
+    fn put(self, put: &mut dyn FnMut(f64)) {
+        i32::from(self.0).put(put);
+    }
+
+    fn take(words: &mut Words) -> Option<Self> {
+        u16::try_from(i32::take(words)?).ok().map(Self)
+    }
+}
+{%- endfor %}
+
+/// A number for a name: its FNV-1a hash.
+pub fn shape_of(name: &str) -> u32 {
+    name.bytes().fold(0x811c_9dc5, |hash: u32, byte| (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193))
+}
