@@ -3,6 +3,7 @@
 use super::course::{self, Drive, Surroundings, chance};
 use super::ledger::{Answer, Order};
 use super::program::machine;
+use super::told::Told;
 use autogen_st_judge::machine::Machine;
 use runtime_sim::random::Random;
 
@@ -10,7 +11,7 @@ const SCAN_S: f64 = 0.01;
 /// Of the drive, when it stops by itself.
 const OWN_DECELERATION: f64 = 2.0;
 
-struct Axis {
+pub struct Axis {
     machine: Machine,
     position: f64,
     velocity: f64,
@@ -94,6 +95,10 @@ impl Drive for Axis {
         Self::new(random.up_to(20))
     }
 
+    fn plain() -> Self {
+        Self::new(0)
+    }
+
     fn scan(&mut self, order: &Order, around: Surroundings) -> Answer {
         self.set("lift_cmd", order.cmd);
         self.set("lift_verb", order.verb);
@@ -149,6 +154,10 @@ impl Drive for Axis {
         (verb, [f64::from(random.up_to(1200) + far) / 1000.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
     }
 
+    fn far(number: i32) -> (i32, [f64; 8]) {
+        (1, [if number % 2 == 0 { 0.1 } else { 1.0 }, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+    }
+
     const BRAKING: u32 = 51;
     const PATIENCE: u32 = 400;
 }
@@ -157,4 +166,35 @@ impl Drive for Axis {
 fn commands_at_any_time_are_carried_out_by_the_rules() {
     let ends = course::campaign::<Axis>();
     assert!([0, 1, 3, 4, 5, 6].iter().all(|error| ends[error] > 20), "{ends:?}");
+}
+
+#[test]
+fn a_halt_that_fails_takes_the_power_away_until_reset() {
+    let mut told = Told::<Axis>::new();
+    told.give_far();
+    told.scans(50);
+    told.drive.set("motor_halt_fails[0]", true);
+    told.order.hold = true;
+    told.scans(60);
+    assert_eq!(told.drive.machine.get("motor_enable[0]"), 0.0);
+    assert_eq!((told.drive.speed(), told.answer.ack, told.answer.error), (0.0, told.order.cmd, 4));
+    told.order.hold = false;
+    told.scans(60);
+    assert!(!told.answer.ready);
+    told.press_reset();
+    assert!(told.answer.ready && told.drive.speed() == 0.0);
+    told.give_far();
+    assert_eq!(told.end(), 0);
+}
+
+#[test]
+fn who_else_moves_the_axis_ends_the_command_and_the_axis_is_halted() {
+    let mut told = Told::<Axis>::new();
+    told.give_far();
+    told.scans(50);
+    let motion = told.drive.machine.get("motor_motion[0]");
+    told.drive.set("motor_motion[0]", motion + 1.0);
+    assert_eq!(told.end(), 4);
+    told.scans(60);
+    assert_eq!(told.drive.speed(), 0.0);
 }

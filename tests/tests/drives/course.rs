@@ -21,6 +21,8 @@ impl Surroundings {
 pub trait Drive: Sized {
     /// With its own delays and habits.
     fn drawn(random: &mut Random) -> Self;
+    /// Without any.
+    fn plain() -> Self;
     fn scan(&mut self, order: &Order, around: Surroundings) -> Answer;
     /// The controller of the block loses its memory; the other side goes on.
     fn power_up(&mut self);
@@ -35,6 +37,8 @@ pub trait Drive: Sized {
     fn round_trip(&self) -> u32;
     /// A verb and arguments, mostly right ones.
     fn command(random: &mut Random) -> (i32, [f64; 8]);
+    /// Right ones, which take more than 30 scans. Each differs from the one before.
+    fn far(number: i32) -> (i32, [f64; 8]);
     /// Scans in which it is at rest, once the other side knows.
     const BRAKING: u32;
     /// Scans in which a command ends, if nothing is in its way.
@@ -111,7 +115,12 @@ impl<D: Drive> Course<D> {
     fn step(&mut self) {
         self.happen();
         let fresh = !self.begins && self.command();
-        self.answer = self.drive.scan(&self.order, self.around);
+        // Arguments mean nothing without a new number.
+        let mut order = self.order.clone();
+        if !fresh && chance(&mut self.random, 3) {
+            (order.verb, order.arguments) = D::command(&mut self.random);
+        }
+        self.answer = self.drive.scan(&order, self.around);
         self.follow(fresh);
         self.look();
     }
@@ -140,7 +149,11 @@ impl<D: Drive> Course<D> {
 
     /// Whether a new command is given.
     fn command(&mut self) -> bool {
-        let often = if self.ledger.is_open() { 300 } else { 20 };
+        let often = match self.ledger.is_open() {
+            true if self.waited == 1 => 10,
+            true => 300,
+            false => 20,
+        };
         if !chance(&mut self.random, often) {
             return false;
         }

@@ -34,7 +34,7 @@ enum State {
     Fault,
 }
 
-struct Inverter {
+pub struct Inverter {
     machine: Machine,
     to: Wire<(i32, f64)>,
     from: Wire<(i32, f64)>,
@@ -56,6 +56,25 @@ struct Inverter {
 }
 
 impl Inverter {
+    /// Telegrams take so many scans.
+    fn with(to_scans: usize, from_scans: usize) -> Self {
+        Self {
+            machine: machine("Belt_wiring"),
+            to: Wire::new(to_scans, (0, 0.0)),
+            from: Wire::new(from_scans, (0, 0.0)),
+            to_scans,
+            from_scans,
+            state: State::SwitchingOnInhibited,
+            speed: 0.0,
+            obeyed: (0, 0.0),
+            faults_without_telegram: true,
+            is_enabled_to_standstill: false,
+            speeds: VecDeque::new(),
+            since_reset: u32::MAX,
+            was_pressed: true,
+        }
+    }
+
     /// A telegram has arrived.
     fn obey(&mut self, telegram: (i32, f64)) {
         let (word, _) = telegram;
@@ -130,21 +149,14 @@ impl Inverter {
 impl Drive for Inverter {
     fn drawn(random: &mut Random) -> Self {
         let (to_scans, from_scans) = (random.up_to(4) as usize, random.up_to(4) as usize);
-        Self {
-            machine: machine("Belt_wiring"),
-            to: Wire::new(to_scans, (0, 0.0)),
-            from: Wire::new(from_scans, (0, 0.0)),
-            to_scans,
-            from_scans,
-            state: State::SwitchingOnInhibited,
-            speed: 0.0,
-            obeyed: (0, 0.0),
-            faults_without_telegram: chance(random, 2),
-            is_enabled_to_standstill: chance(random, 2),
-            speeds: VecDeque::new(),
-            since_reset: u32::MAX,
-            was_pressed: true,
-        }
+        let mut drawn = Self::with(to_scans, from_scans);
+        drawn.faults_without_telegram = chance(random, 2);
+        drawn.is_enabled_to_standstill = chance(random, 2);
+        drawn
+    }
+
+    fn plain() -> Self {
+        Self::with(0, 0)
     }
 
     fn scan(&mut self, order: &Order, around: Surroundings) -> Answer {
@@ -224,6 +236,10 @@ impl Drive for Inverter {
         };
         let speed = if chance(random, 30) { 1.5 } else { f64::from(random.up_to(20)) / 10.0 - 1.0 };
         (verb, [speed, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+    }
+
+    fn far(number: i32) -> (i32, [f64; 8]) {
+        (1, [if number % 2 == 0 { -0.9 } else { 0.9 }, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
     }
 
     const BRAKING: u32 = 42;

@@ -6,4 +6,5 @@ mod inverter;
 mod ledger;
 mod program;
 mod robot;
+mod told;
 mod wire;

@@ -36,7 +36,7 @@ enum Phase {
     Leaving(i32),
 }
 
-struct Robot {
+pub struct Robot {
     machine: Machine,
     to: Wire<ToRobot>,
     from: Wire<FromRobot>,
@@ -49,16 +49,44 @@ struct Robot {
     shows: FromRobot,
     /// For so many scans there is a fault, longer if nobody acknowledges it.
     fault_scans: Option<u32>,
+    was_pressed: bool,
     /// The program that it took: number, program number, arguments.
     taken: (i32, i32, [f64; 8]),
     has_finished: bool,
     moves: bool,
-    /// What was commanded under each number.
+    /// Some programs end in an outcome other than 0.
+    fails: bool,
+    /// The last number that was commanded, and what was commanded under each.
+    number: i32,
     given: HashMap<i32, (i32, [f64; 8])>,
     random: Random,
 }
 
 impl Robot {
+    /// Telegrams take so many scans.
+    fn with(to_scans: usize, from_scans: usize) -> Self {
+        Self {
+            machine: machine("Kitting_wiring"),
+            to: Wire::new(to_scans, [0.0; 13]),
+            from: Wire::new(from_scans, FromRobot::default()),
+            to_scans,
+            from_scans,
+            before: [0.0; 13],
+            is_torn: false,
+            phase: Phase::Waiting,
+            shows: FromRobot { ready: true, ..FromRobot::default() },
+            fault_scans: None,
+            taken: (0, 0, [0.0; 8]),
+            has_finished: false,
+            moves: false,
+            fails: true,
+            number: 0,
+            given: HashMap::new(),
+            was_pressed: true,
+            random: Random::new(1),
+        }
+    }
+
     fn send(&mut self, bus_ok: bool) -> ToRobot {
         let mut telegram = [0.0; 13];
         for (i, word) in telegram.iter_mut().take(8).enumerate() {
@@ -102,7 +130,8 @@ impl Robot {
             Phase::Waiting => self.shows.request = true,
             Phase::Working(_) if is(CANCEL) => self.phase = Phase::Leaving(255),
             Phase::Working(0) => {
-                let outcome = if chance(&mut self.random, 10) { 1 + self.random.up_to(9) as i32 } else { 0 };
+                let fails = self.fails && chance(&mut self.random, 10);
+                let outcome = if fails { 1 + self.random.up_to(9) as i32 } else { 0 };
                 self.has_finished = outcome == 0;
                 self.phase = Phase::Leaving(outcome);
             }
@@ -130,34 +159,26 @@ impl Robot {
         );
         self.has_finished = false;
         self.shows = FromRobot { ready: true, request: false, run: true, echo: number, outcome: 255 };
-        self.phase = Phase::Working(self.random.up_to(60));
+        let shortest = if self.fails { 0 } else { 40 };
+        self.phase = Phase::Working(shortest + self.random.up_to(20));
     }
 }
 
 impl Drive for Robot {
     fn drawn(random: &mut Random) -> Self {
         let (to_scans, from_scans) = (random.up_to(4) as usize, random.up_to(4) as usize);
-        Self {
-            machine: machine("Kitting_wiring"),
-            to: Wire::new(to_scans, [0.0; 13]),
-            from: Wire::new(from_scans, FromRobot::default()),
-            to_scans,
-            from_scans,
-            before: [0.0; 13],
-            is_torn: chance(random, 2),
-            phase: Phase::Waiting,
-            shows: FromRobot { ready: true, ..FromRobot::default() },
-            fault_scans: None,
-            taken: (0, 0, [0.0; 8]),
-            has_finished: false,
-            moves: false,
-            given: HashMap::new(),
-            random: Random::new(random.next_u64()),
-        }
+        let is_torn = chance(random, 2);
+        Self { is_torn, random: Random::new(random.next_u64()), ..Self::with(to_scans, from_scans) }
+    }
+
+    fn plain() -> Self {
+        Self { fails: false, ..Self::with(0, 0) }
     }
 
     fn scan(&mut self, order: &Order, around: Surroundings) -> Answer {
-        self.given.insert(order.cmd, (order.verb, order.arguments));
+        if order.cmd != std::mem::replace(&mut self.number, order.cmd) {
+            self.given.insert(order.cmd, (order.verb, order.arguments));
+        }
         let ports = ["goal_x", "goal_y", "goal_z", "via_x", "via_y", "via_z", "top_speed", "gain"];
         for (port, value) in ports.iter().zip(order.arguments) {
             self.machine.set(&format!("kitting_{port}"), value);
@@ -166,8 +187,9 @@ impl Drive for Robot {
         self.machine.set("kitting_verb", order.verb.into());
         self.machine.set("kitting_hold", order.hold.into());
         // A person at the pendant acknowledges.
+        let was_pressed = std::mem::replace(&mut self.was_pressed, around.reset);
         self.fault_scans = match self.fault_scans {
-            Some(0) if around.reset => None,
+            Some(0) if around.reset && !was_pressed => None,
             scans => scans.map(|rest| rest.saturating_sub(1)),
         };
         self.shows.ready = self.fault_scans.is_none() && around.enable;
@@ -225,6 +247,10 @@ impl Drive for Robot {
     fn command(random: &mut Random) -> (i32, [f64; 8]) {
         let verb = if chance(random, 30) { 0 } else { 1 + random.up_to(8) as i32 };
         (verb, std::array::from_fn(|_| f64::from(random.up_to(1000))))
+    }
+
+    fn far(number: i32) -> (i32, [f64; 8]) {
+        (1 + number % 9, std::array::from_fn(|i| f64::from(number * 8) + i as f64))
     }
 
     const BRAKING: u32 = 1;
