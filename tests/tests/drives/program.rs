@@ -1,6 +1,5 @@
 //! A text to be run: reference blocks, motion blocks by PLCopen, and a wiring of `docs/drives.md`.
 
-use autogen::backend::st;
 use autogen_st_judge::machine::Machine;
 use autogen_st_judge::{dead, judge, listed};
 use autogen_tests::text;
@@ -19,7 +18,7 @@ fn source(wiring: &str) -> String {
         "Kitting_wiring" => "robot.st",
         _ => "inverter.st",
     };
-    let block = &st::drives()[&format!("drives/{block}")];
+    let block = text(&format!("templates/plc/drives/{block}"));
     let motion = if block.contains("MC_") { text("tests/fixtures/drives/motion.st") } else { String::new() };
     // The type of an axis is the vendor's. The motion blocks of the tests take its number.
     let units = format!("{motion}{block}{program}").replace("AXIS_REF", "DINT");
