@@ -6,6 +6,8 @@ mod checked_in;
 mod conveyors;
 #[path = "command_line/daily.rs"]
 mod daily;
+#[path = "command_line/drives.rs"]
+mod drives;
 #[cfg(unix)]
 #[path = "command_line/hostile.rs"]
 mod hostile;

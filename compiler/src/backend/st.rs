@@ -18,6 +18,7 @@ mod columns;
 mod context;
 mod dead;
 mod declaration;
+mod drives;
 mod expression;
 mod figures;
 mod functions;
@@ -100,6 +101,11 @@ pub fn plcopen(system: &System, sources: &Sources, map: &IoMap) -> Files {
         ("portable/project.xml".into(), xml::plcopen(shared, &line)),
         ("codesys/project.xml".into(), xml::codesys(shared, &line)),
     ])
+}
+
+/// Reference blocks for drives; files of the folder `plc/`.
+pub fn drives() -> Files {
+    drives::FILES.iter().map(|(name, text)| (format!("drives/{name}"), text.to_string())).collect()
 }
 
 /// The units of a line, in the order in which they must be declared.

@@ -89,6 +89,9 @@ pub fn build(options: &BuildOptions) -> Result<Built, Status> {
     if !options.no_plcopen {
         put(&mut files, "plc", st::plcopen(&project.system, &sources, &map));
     }
+    if options.drives {
+        put(&mut files, "plc", st::drives());
+    }
     let about = about(&project, &sources);
     let folder = options.output.clone().unwrap_or_else(|| Path::new("out").join(&project.name));
     Ok(Built { project, sources, files, about, folder })

@@ -135,6 +135,9 @@ pub struct BuildOptions {
     /// Leave out the Structured Text as PLCopen XML, plc/*/project.xml: a third of what a long line writes
     #[arg(long)]
     pub no_plcopen: bool,
+    /// Also write the reference blocks for drives, plc/drives/*.st
+    #[arg(long)]
+    pub drives: bool,
     /// Overwrite files that autogen did not write or that were changed since
     #[arg(long)]
     pub force: bool,
