@@ -40,7 +40,8 @@ fn on_the_page(name: &str) -> String {
 
 /// A global for each external variable of the units.
 fn globals(units: &str) -> String {
-    let sections = units.split("VAR_EXTERNAL\n").skip(1).map(|rest| rest.split("END_VAR").next().unwrap_or(""));
+    let sections =
+        units.split("VAR_EXTERNAL\n").skip(1).map(|rest| rest.split("END_VAR").next().unwrap_or(""));
     let lines: BTreeSet<&str> = sections.flat_map(str::lines).collect();
     lines.into_iter().map(|line| format!("{line}\n")).collect()
 }
