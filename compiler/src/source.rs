@@ -1,6 +1,7 @@
 //! Source texts and places in them.
 
 use crate::plain;
+use sha2::{Digest, Sha256};
 
 /// Number of a file in [`Sources`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -107,6 +108,20 @@ impl Sources {
         Self { files: self.files.iter().map(rename).collect() }
     }
 
+    /// A number from 0 to 2147483647 that is another one if a name (without its folder) or a text is another one.
+    pub fn hash(&self) -> i32 {
+        let mut digest = Sha256::new();
+        for file in &self.files {
+            let name = file.name.rsplit(['/', '\\']).next().unwrap_or(&file.name);
+            for part in [name, &file.text] {
+                digest.update((part.len() as u64).to_le_bytes());
+                digest.update(part);
+            }
+        }
+        let first = digest.finalize().iter().take(4).fold(0, |number, byte| number << 8 | u32::from(*byte));
+        (first >> 1) as i32
+    }
+
     /// Line and column of the beginning of a span, both from 1; columns count characters.
     pub fn position(&self, span: Span) -> (usize, usize) {
         let file = self.file(span.file);
@@ -114,5 +129,33 @@ impl Sources {
         let mark = at / STRIDE;
         let place = file.marks[mark].behind(&file.text.as_bytes()[mark * STRIDE..at]);
         (place.line as usize + 1, place.column as usize + 1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn hash(files: &[(&str, &str)]) -> i32 {
+        let mut sources = Sources::default();
+        files.iter().for_each(|(name, text)| {
+            sources.add(*name, *text);
+        });
+        sources.hash()
+    }
+
+    #[test]
+    fn other_files_have_another_hash() {
+        let wanted = hash(&[("a/line.json", "{}"), ("arm.aut", "robot")]);
+        assert!(wanted >= 0);
+        assert_eq!(wanted, hash(&[("line.json", "{}"), ("b/arm.aut", "robot")]), "in another folder");
+        for files in [
+            [("line.json", "{ }"), ("arm.aut", "robot")],
+            [("lines.json", "{}"), ("arm.aut", "robot")],
+            [("line.json", "{}arm.aut"), ("", "robot")],
+            [("arm.aut", "robot"), ("line.json", "{}")],
+        ] {
+            assert_ne!(wanted, hash(&files), "{files:?}");
+        }
     }
 }

@@ -146,3 +146,76 @@ fn every_fault_seeded_into_the_default_layout_is_found() {
     println!("{}", faults::table(&rows));
     assert!(rows.iter().all(|row| row.caught == row.seeded), "{}", faults::table(&rows));
 }
+
+/// A scan in which the clock of the PLC shows `ms`.
+fn at(machine: &mut Machine, ms: i64) -> [f64; 3] {
+    machine.set("clock_ms", (ms % (1 << 31)) as f64);
+    machine.scan().expect("a scan");
+    ["running", "fault_code", "watchdog.passed_ms"].map(|name| machine.get(name))
+}
+
+/// The line of the paper at power-up, with its permit.
+fn permitted() -> Machine {
+    let mut machine = Machine::new(&of_layout("default").1.main).expect("a clean text");
+    machine.set("run_permit", 1.0);
+    machine
+}
+
+/// The clock begins again in the middle of it.
+#[test]
+fn a_line_runs_while_its_task_keeps_its_time() {
+    let mut machine = permitted();
+    let first = (1i64 << 31) - 1500;
+    at(&mut machine, first);
+    machine.set("start", 1.0);
+    for scan in 1..=300 {
+        // No task is exact.
+        let found = at(&mut machine, first + 10 * scan + scan % 2);
+        let passed = if scan % 2 == 1 { 11.0 } else { 9.0 };
+        assert_eq!(found, [1.0, 0.0, passed], "scan {scan}");
+    }
+    assert_eq!(machine.get("watchdog.hundred_scans_ms"), 1000.0);
+    assert_eq!(at(&mut machine, first + 3100), [1.0, 0.0, 100.0], "as late as it may come");
+    assert_eq!(at(&mut machine, first + 3201), [0.0, 32765.0, 101.0], "too late");
+}
+
+/// So a PLC that was stopped while the line was running does not go on by itself.
+#[test]
+fn a_scan_that_comes_late_stops_the_line_that_runs() {
+    let mut machine = permitted();
+    at(&mut machine, 0);
+    assert_eq!(at(&mut machine, 5000), [0.0, 0.0, 5000.0], "it does not run");
+    machine.set("start", 1.0);
+    assert_eq!(at(&mut machine, 5010), [1.0, 0.0, 10.0]);
+    assert_eq!(at(&mut machine, 9000), [0.0, 32765.0, 3990.0]);
+    assert_eq!(machine.get("agv1_hold"), 1.0);
+    machine.set("reset", 1.0);
+    assert_eq!(at(&mut machine, 9010), [0.0, 0.0, 10.0], "start is no edge");
+    machine.set("start", 0.0);
+    at(&mut machine, 9020);
+    machine.set("start", 1.0);
+    assert_eq!(at(&mut machine, 9030), [1.0, 0.0, 10.0]);
+}
+
+/// Half as fast as it says, or so fast again: the line does not start.
+#[test]
+fn a_line_does_not_start_with_another_interval_than_its_own() {
+    for (interval, expected) in [
+        (5, [0.0, 32764.0]),
+        (8, [0.0, 32764.0]),
+        (10, [1.0, 0.0]),
+        (12, [0.0, 32764.0]),
+        (90, [0.0, 32764.0]),
+    ] {
+        let mut machine = permitted();
+        (0..150).for_each(|scan| assert_eq!(at(&mut machine, interval * scan)[..2], [0.0, 0.0]));
+        machine.set("start", 1.0);
+        assert_eq!(at(&mut machine, interval * 150)[..2], expected, "{interval} ms");
+        machine.set("start", 0.0);
+        machine.set("dt_ms", interval as f64);
+        machine.set("reset", 1.0);
+        at(&mut machine, interval * 151);
+        machine.set("start", 1.0);
+        assert_eq!(at(&mut machine, interval * 152)[..2], [1.0, 0.0], "{interval} ms, and it says so");
+    }
+}

@@ -40,7 +40,9 @@ mod table;
 mod text;
 mod update;
 mod value;
+mod version;
 mod walk;
+mod watchdog;
 mod xml;
 
 use super::Files;
@@ -112,6 +114,7 @@ pub fn drives() -> Files {
 struct Line {
     functions: Vec<&'static functions::Function>,
     blocks: Vec<Option<Blocks>>,
+    watchdog: declaration::Unit,
     layout: declaration::Unit,
     program: declaration::Unit,
     globals: Globals,
@@ -122,7 +125,7 @@ impl Line {
     fn units(&self) -> impl Iterator<Item = &declaration::Unit> {
         let blocks = self.blocks.iter().flatten();
         let blocks = blocks.flat_map(|b| [Some(&b.steps), b.properties.as_ref()].into_iter().flatten());
-        [&self.layout].into_iter().chain(blocks.map(|b| &b.unit)).chain([&self.program])
+        [&self.watchdog, &self.layout].into_iter().chain(blocks.map(|b| &b.unit)).chain([&self.program])
     }
 }
 
@@ -146,5 +149,5 @@ fn line(shared: Shared, image: &Image) -> Line {
     let bodies = units.map(|b| &b.unit.body).chain([&program.body]);
     let functions = functions::needed(&bodies.flat_map(|b| code::functions(b)).collect::<Vec<_>>());
     let layout = program::layout(&globals);
-    Line { functions, blocks, layout, program, globals }
+    Line { functions, blocks, watchdog: watchdog::block(), layout, program, globals }
 }

@@ -226,6 +226,7 @@ fn about(project: &Project, sources: &Sources) -> Map<String, Value> {
         ("tool", json!(format!("autogen {}", version::NUMBER))),
         ("layout", json!(project.name)),
         ("step_order", json!(order)),
+        ("program_hash", json!(sources.hash())),
         ("inputs", inputs.into()),
     ];
     about.into_iter().map(|(key, value)| (key.to_string(), value)).collect()

@@ -3,7 +3,7 @@
 use super::context::Shared;
 use super::restart;
 use super::table::row;
-use super::value::{NO_SUCH_STATE, NOT_RETAINED};
+use super::value::{LATE_SCAN, NO_SUCH_STATE, NOT_RETAINED, WRONG_INTERVAL};
 use crate::ir::{Automaton, FaultId, FaultKind, Severity, Transition, UpdateKind};
 
 /// `alarms.csv`: the codes that are published with a fault or an alarm. Robots have the numbers that `fault_robot` gives.
@@ -65,6 +65,26 @@ pub fn table(shared: Shared) -> String {
         let about = "what was retained is not of this program, or not of one scan";
         text += &row(&[&NOT_RETAINED.to_string(), "", "", "", "", about, remedy, "line"]);
     }
+    text += &row(&[
+        &WRONG_INTERVAL.to_string(),
+        "",
+        "",
+        "",
+        "",
+        "the interval of the task is not dt_ms, by the clock of the PLC: hundred_scans_ms of watchdog is not about 100 * dt_ms",
+        "Set the interval of the task to dt_ms, or change dt_ms and scan_ms of the layout. Then reset and start.",
+        "line",
+    ]);
+    text += &row(&[
+        &LATE_SCAN.to_string(),
+        "",
+        "",
+        "",
+        "",
+        "a scan came later than late_ms after the one before, by the clock of the PLC",
+        "The PLC was stopped while the line was running, or its task has not enough time: look at the load of the processor and at tasks of higher priority. Then reset and start.",
+        "line",
+    ]);
     let remedy = "The memory of the controller is damaged: only a cold start helps. Secure the parts on the grippers first: without power they are let go. Empty trays and briefcases: the controller forgets what lies there.";
     text + &row(&[
         &NO_SUCH_STATE.to_string(),

@@ -13,6 +13,8 @@ use super::image::Image;
 use super::restart;
 use super::role::Members;
 use super::value::{first_value, stop_value};
+use super::version;
+use super::watchdog;
 use crate::ir::{AutomatonId, Extent, InterfaceId, RoleId, Scalar, Type};
 use runtime_sim::device::Direction;
 
@@ -131,6 +133,8 @@ fn system(shared: Shared) -> Vec<Variable> {
         variable("init_done", Ex::Bool(false), "false in the first scan"),
         variable("dt_ms", Ex::Int(shared.system.scan_ms), "length of a scan, ms: the INTERVAL of the task"),
     ];
+    variables.extend(watchdog::globals(shared));
+    variables.extend(version::globals(shared));
     let retains = restart::retains(shared);
     for variable in variables.iter_mut().filter(|v| matches!(v.name.as_str(), "fault_code" | "fault_robot")) {
         variable.is_retained = retains;

@@ -29,6 +29,7 @@ const TAKEN: &[&str] = &[
     "F_real",
     "MAIN",
     "FB_Layout",
+    "FB_Watchdog",
     "GVL_System",
     "GVL_Ports",
     "GVL_Raw",
@@ -62,6 +63,10 @@ const TAKEN: &[&str] = &[
     "start_edge",
     "init_done",
     "dt_ms",
+    "clock_ms",
+    "late_ms",
+    "tool_version",
+    "program_hash",
     "warm_start",
     "retained_of",
     "retained_whole",
@@ -69,7 +74,8 @@ const TAKEN: &[&str] = &[
 /// The counter over the elements of an array.
 pub const ELEMENT: &str = "element_no";
 const LOCAL: &[&str] = &["robot", "state", "elapsed", "done", "failed", "found", ELEMENT];
-const PROGRAM: &[&str] = &["start_before", "reset_before", "had_fault", "layout", "oldest", ELEMENT, ROUNDED];
+const PROGRAM: &[&str] =
+    &["start_before", "reset_before", "had_fault", "layout", "watchdog", "oldest", ELEMENT, ROUNDED];
 /// A raw value before it becomes one of its narrow type.
 pub const ROUNDED: &str = "rounded";
 

@@ -12,6 +12,7 @@ use super::names::{ELEMENT, ROUNDED};
 use super::property;
 use super::restart;
 use super::value::{first_value, stop_value};
+use super::watchdog;
 use crate::ir::ByHand;
 use runtime_sim::device::Direction;
 
@@ -26,11 +27,13 @@ pub struct Blocks {
 pub fn program(shared: Shared, blocks: &[Option<Blocks>], globals: &Globals, image: &Image) -> Unit {
     let mut body = Vec::new();
     let mut instances = Vec::new();
+    instances.push(watchdog::instance());
     instances.push(Instance { name: "layout".into(), block: LAYOUT.into(), comment: String::new() });
     body.extend(restart::begin(shared));
     let cold = vec![("cold_start".to_string(), not(name("init_done")))];
     body.push(Stmt::Call { instance: "layout".into(), arguments: cold });
     body.extend(commented("Inputs: from raw values.", &image.inputs));
+    body.extend(watchdog::call());
     body.extend(status(shared));
     body.push(Stmt::Comment("Steps, in layout order.".into()));
     let robots: Vec<_> = (shared.system.instances.iter().zip(&shared.names.robots).enumerate())

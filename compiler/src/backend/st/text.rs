@@ -5,6 +5,7 @@ use super::attributes;
 use super::context::Shared;
 use super::declaration::{Unit, globals};
 use super::print::{Dialect, harmless};
+use super::watchdog;
 use crate::backend::Files;
 use crate::library;
 use crate::source::SourceFile;
@@ -123,8 +124,17 @@ pub fn unit(shared: Shared, unit: &Unit, dialect: Dialect) -> String {
         comments: unit.comments.iter().map(|line| harmless(line.trim())).collect(),
         made_from: made_from(shared),
         declarations: unit.declarations(dialect),
-        body: dialect.statements(&unit.body, 0),
+        body: body(unit, dialect),
     })
+}
+
+/// The statements of a unit.
+pub fn body(unit: &Unit, dialect: Dialect) -> String {
+    let statements = dialect.statements(&unit.body, 0);
+    match (dialect, unit.name == "MAIN") {
+        (Dialect::Codesys, true) => format!("{}{statements}", watchdog::CODESYS),
+        _ => statements,
+    }
 }
 
 /// The names of the files that were read, but for the devices that come with the tool, and what was set beside

@@ -10,6 +10,12 @@ pub const NO_SUCH_STATE: i32 = 32767;
 /// Published at the start if what was retained is not of this program, or not of one scan.
 pub const NOT_RETAINED: i32 = 32766;
 
+/// Published if a scan comes late by the clock of the PLC.
+pub const LATE_SCAN: i32 = 32765;
+
+/// Published if the interval of the task is not `dt_ms`, by the clock of the PLC.
+pub const WRONG_INTERVAL: i32 = 32764;
+
 /// What a port holds before anything was latched or written.
 pub fn first_value(ty: PortType) -> Value {
     match ty {

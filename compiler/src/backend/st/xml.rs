@@ -6,7 +6,7 @@ use super::context::Shared;
 use super::declaration::{Unit, Variable};
 use super::functions::Function;
 use super::print::Dialect;
-use super::text::{enumerations, made_from, render};
+use super::text::{body, enumerations, made_from, render};
 use crate::{plain, version};
 use askama::Template;
 use std::fmt::Write;
@@ -124,7 +124,7 @@ fn pou(unit: &Unit, dialect: Dialect) -> Pou {
         name: unit.name.clone(),
         kind: if unit.name == "MAIN" { "program" } else { "functionBlock" },
         interface,
-        body: cdata(&dialect.statements(&unit.body, 0)),
+        body: cdata(&body(unit, dialect)),
     }
 }
 
