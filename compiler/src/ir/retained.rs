@@ -1,6 +1,6 @@
 //! What outlasts a loss of power.
 
-use super::{Automaton, InterfaceId, Model, Scalar, System, Type};
+use super::{Automaton, InterfaceId, Model, Scalar, System, Type, Value};
 use std::collections::BTreeSet;
 
 /// What of the instances of a type outlasts a loss of power, and stays when an instance begins anew.
@@ -29,11 +29,22 @@ impl Automaton {
 }
 
 impl System {
-    /// As of its model, and of the names of the instances, in layout order.
+    /// As of its model, and of the instances in layout order: their names, their parameters, and the members of their
+    /// roles. What is remembered of the places of one layout is wrong in another.
     pub fn shape_of_retained(&self) -> u32 {
         let mut shape = Shape::BEGIN;
         shape.number(self.model.shape_of_retained() as i32);
-        self.instances.iter().for_each(|instance| shape.text(&instance.name));
+        for instance in &self.instances {
+            shape.text(&instance.name);
+            for values in &instance.parameters {
+                shape.number(values.len() as i32);
+                values.iter().for_each(|value| shape.constant(*value));
+            }
+            for members in &instance.roles {
+                shape.number(members.len() as i32);
+                members.iter().for_each(|member| shape.number(*member as i32));
+            }
+        }
         shape.end()
     }
 }
@@ -87,6 +98,17 @@ impl Shape {
 
     fn number(&mut self, number: i32) {
         number.to_le_bytes().into_iter().for_each(|byte| self.byte(byte));
+    }
+
+    fn constant(&mut self, value: Value) {
+        let real =
+            |shape: &mut Self, real: f64| real.to_le_bytes().into_iter().for_each(|byte| shape.byte(byte));
+        match value {
+            Value::Bool(truth) => self.number(i32::from(truth)),
+            Value::Int(number) => self.number(number),
+            Value::Real(number) => real(self, number),
+            Value::Point(coordinates) => coordinates.into_iter().for_each(|number| real(self, number)),
+        }
     }
 
     fn value(&mut self, name: &str, ty: Type, model: &Model) {

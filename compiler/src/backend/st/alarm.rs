@@ -76,7 +76,7 @@ pub fn acknowledged(shared: Shared) -> Vec<Stmt> {
         return Vec::new();
     }
     let store = Stmt::Assign(of("alarms_acknowledged"), Ex::Bool(true));
-    let edge = and(vec![name("reset"), not(name("reset_before"))]);
+    let edge = and(vec![name("reset_now"), not(name("reset_before"))]);
     vec![when(edge, each(shared, vec![store]).into())]
 }
 

@@ -27,7 +27,7 @@ pub fn table(shared: Shared) -> String {
                 "The number was limited to its bounds. Look at the state of the robot and at what it counts. After reset and start the step is made again from its beginning: what it counted before the fault is counted twice."
             }
             FaultKind::NotFinite => {
-                "The old value was kept. Look at the inputs and parameters from which it is computed; after reset and start the step is made again from its beginning."
+                "The old value was kept. Look at the inputs and parameters from which it is computed; after reset and start the step is made again from its beginning: what it counted before the fault is counted twice."
             }
             FaultKind::InvariantFails => {
                 "Do what the text says. If it is a condition, look at the values that it names, and set them right before reset, or the fault returns."

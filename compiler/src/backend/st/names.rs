@@ -74,8 +74,18 @@ const TAKEN: &[&str] = &[
 /// The counter over the elements of an array.
 pub const ELEMENT: &str = "element_no";
 const LOCAL: &[&str] = &["robot", "state", "elapsed", "done", "failed", "found", ELEMENT];
-const PROGRAM: &[&str] =
-    &["start_before", "reset_before", "had_fault", "layout", "watchdog", "oldest", ELEMENT, ROUNDED];
+const PROGRAM: &[&str] = &[
+    "start_now",
+    "reset_now",
+    "start_before",
+    "reset_before",
+    "had_fault",
+    "layout",
+    "watchdog",
+    "oldest",
+    ELEMENT,
+    ROUNDED,
+];
 /// A raw value before it becomes one of its narrow type.
 pub const ROUNDED: &str = "rounded";
 

@@ -33,6 +33,10 @@ pub fn program(shared: Shared, blocks: &[Option<Blocks>], globals: &Globals, ima
     let cold = vec![("cold_start".to_string(), not(name("init_done")))];
     body.push(Stmt::Call { instance: "layout".into(), arguments: cold });
     body.extend(commented("Inputs: from raw values.", &image.inputs));
+    body.push(Stmt::Comment(
+        "A screen may write these two in the middle of a scan: they are read once.".into(),
+    ));
+    body.extend([assign("start_now", name("start")), assign("reset_now", name("reset"))]);
     body.extend(watchdog::call());
     body.extend(status(shared));
     body.push(Stmt::Comment("Steps, in layout order.".into()));
@@ -78,6 +82,8 @@ pub fn program(shared: Shared, blocks: &[Option<Blocks>], globals: &Globals, ima
         comments: vec!["One scan: every robot steps once, in layout order.".into()],
         externals: globals.all().filter(|v| used.contains(&v.name)).map(Variable::uncommented).collect(),
         variables: [
+            Variable::new("start_now", Basic::Bool).with_comment("start, in this scan"),
+            Variable::new("reset_now", Basic::Bool).with_comment("reset, in this scan"),
             Variable::new("start_before", Basic::Bool)
                 .with_initial(Ex::Bool(true))
                 .with_comment("no edge at power-up"),
@@ -107,14 +113,14 @@ fn commented(text: &str, statements: &[Stmt]) -> Vec<Stmt> {
 
 fn status(shared: Shared) -> Vec<Stmt> {
     let has_fault = || binary("<>", name("fault_code"), Ex::Int(0));
-    let edge = |input: &str| and(vec![name(input), not(name(&format!("{input}_before")))]);
+    let edge = |input: &str| and(vec![name(&format!("{input}_now")), not(name(&format!("{input}_before")))]);
     let arm = |condition: Ex, body: Vec<Stmt>| Arm { comments: Vec::new(), condition, body };
     let mut body = vec![
         Stmt::Comment(
             "Running: from a rising edge of start, as long as there are permit and no fault.".into(),
         ),
         assign("had_fault", has_fault()),
-        assign("fault_cleared", and(vec![name("had_fault"), name("reset"), not(name("reset_before"))])),
+        assign("fault_cleared", and(vec![name("had_fault"), edge("reset")])),
         when(
             name("fault_cleared"),
             vec![assign("fault_code", Ex::Int(0)), assign("fault_robot", Ex::Int(-1))],
@@ -134,7 +140,7 @@ fn status(shared: Shared) -> Vec<Stmt> {
     if alarm::can_stop(shared) {
         body.push(assign("start_edge", edge("start")));
     }
-    body.extend([assign("start_before", name("start")), assign("reset_before", name("reset"))]);
+    body.extend([assign("start_before", name("start_now")), assign("reset_before", name("reset_now"))]);
     body
 }
 

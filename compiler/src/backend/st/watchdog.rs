@@ -66,7 +66,7 @@ pub fn call() -> Vec<Stmt> {
         (INTERVAL, Ex::Call("F_limit", interval)),
         (LIMIT, name(LATE)),
         ("runs", name("running")),
-        ("starts", name("start")),
+        ("starts", name("start_now")),
     ];
     let code = || Ex::Field(INSTANCE.into(), CODE.into());
     let raise = vec![assign("fault_code", code()), assign("fault_robot", Ex::Int(-1))];
