@@ -29,6 +29,7 @@ pub mod simulator;
 pub mod source;
 pub mod spec;
 pub mod testing;
+pub mod translation;
 pub mod verify;
 pub mod version;
 pub mod why;

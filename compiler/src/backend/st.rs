@@ -33,6 +33,7 @@ mod program;
 mod property;
 mod restart;
 mod role;
+mod screen;
 mod siemens;
 mod state;
 mod states;
@@ -49,6 +50,7 @@ use super::Files;
 use crate::io_map::{IoMap, Point};
 use crate::ir::{AutomatonId, System};
 use crate::source::Sources;
+use crate::translation::Translations;
 use context::Shared;
 use globals::Globals;
 use image::Image;
@@ -82,8 +84,9 @@ pub fn mapped(system: &System, sources: &Sources, map: &IoMap) -> (Files, Column
         files.insert(format!("siemens/{name}"), text);
     }
     files.insert("io.csv".into(), table::io(shared, map));
-    files.insert("alarms.csv".into(), alarms::table(shared));
-    files.insert("states.csv".into(), states::table(shared));
+    files.insert("alarms.csv".into(), alarms::table(shared, &mut screen::as_written));
+    files.insert("states.csv".into(), states::table(shared, &mut screen::as_written));
+    files.extend(screen::files(shared, &Translations::default()));
     files.insert("bounds.txt".into(), figures::report(shared, &line));
     let raw = program.renamed().iter().map(|renamed| ("globals".to_string(), renamed.clone()));
     let renamed: Vec<_> = names.renamed.iter().cloned().chain(raw).collect();
@@ -103,6 +106,19 @@ pub fn plcopen(system: &System, sources: &Sources, map: &IoMap) -> Files {
         ("portable/project.xml".into(), xml::plcopen(shared, &line)),
         ("codesys/project.xml".into(), xml::codesys(shared, &line)),
     ])
+}
+
+/// Texts that a screen shows, each once.
+pub fn screen_texts(system: &System, sources: &Sources) -> Vec<String> {
+    let names = names::names(system);
+    let shared = Shared { system, sources, names: &names };
+    screen::texts(shared).into_iter().map(|(_, text)| text).collect()
+}
+
+/// The tables of these texts in other languages; files of the folder `plc/`.
+pub fn translated(system: &System, sources: &Sources, translations: &Translations) -> Files {
+    let names = names::names(system);
+    screen::files(Shared { system, sources, names: &names }, translations)
 }
 
 /// Reference blocks for drives; files of the folder `plc/`.

@@ -13,6 +13,7 @@ use autogen::lower::{Outcome, Project, compile};
 use autogen::plain;
 use autogen::simulator;
 use autogen::source::{FileId, Sources};
+use autogen::translation::{self, Translations};
 use autogen::version;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeSet;
@@ -66,23 +67,37 @@ pub fn build(options: &BuildOptions) -> Result<Built, Status> {
     let table = options.io.as_ref().map(|path| load::add(&mut input.sources, path));
     let table = table.transpose().map_err(failed)?;
     let Outcome { sources, diagnostics, verdict, project, .. } = compile(input);
-    let wrong = |diagnostics: &[Diagnostic]| {
+    let wrong = |sources: &Sources, diagnostics: &[Diagnostic]| {
         match options.input.format {
             Format::Json => {
-                let mut answer = print::verdict_json(verdict.as_ref(), &sources, diagnostics);
+                let mut answer = print::verdict_json(verdict.as_ref(), sources, diagnostics);
                 answer["finished"] = json!(false);
                 answer["reason"] = json!("the input has errors");
                 say!("{answer}");
             }
-            Format::Text => print::diagnostics(&sources, diagnostics),
+            Format::Text => print::diagnostics(sources, diagnostics),
         }
         Status::WrongInput
     };
-    let Some(project) = project else { return Err(wrong(&diagnostics)) };
-    let map = io_map(options, &project, &sources, table).map_err(|found| wrong(&found))?;
+    let Some(project) = project else { return Err(wrong(&sources, &diagnostics)) };
+    let map = io_map(options, &project, &sources, table).map_err(|found| wrong(&sources, &found))?;
     if table.is_some() && options.input.format == Format::Text && !options.input.quiet {
         report_gaps(&map, &st::points(&project.system));
     }
+    let (with_texts, translations) = match &options.texts {
+        None => (sources.clone(), None),
+        Some(path) => {
+            let mut with_texts = sources.clone();
+            let table = load::add(&mut with_texts, path).map_err(failed)?;
+            let texts = st::screen_texts(&project.system, &sources);
+            let read = translation::read(&with_texts, table, &texts.iter().map(String::as_str).collect());
+            let translations = read.map_err(|found| wrong(&with_texts, &found))?;
+            if options.input.format == Format::Text && !options.input.quiet {
+                report_missing(&translations, &texts);
+            }
+            (with_texts, Some(translations))
+        }
+    };
     // The same input gives the same bytes, from whatever folder it is compiled.
     let sources = shown(&sources, &options.input.layout);
     let mut files = files(&project, &sources, &map);
@@ -92,7 +107,11 @@ pub fn build(options: &BuildOptions) -> Result<Built, Status> {
     if options.drives {
         put(&mut files, "plc", st::drives());
     }
-    let about = about(&project, &sources);
+    if let Some(translations) = &translations {
+        put(&mut files, "plc", st::translated(&project.system, &sources, translations));
+    }
+    // Other words on a screen make no other program.
+    let about = about(&project, &shown(&with_texts, &options.input.layout), sources.hash());
     let folder = options.output.clone().unwrap_or_else(|| Path::new("out").join(&project.name));
     Ok(Built { project, sources, files, about, folder })
 }
@@ -183,6 +202,19 @@ fn report_gaps(map: &IoMap, points: &[Point]) {
     }
 }
 
+/// Says which texts a table leaves out, and which of its rows are of no text.
+fn report_missing(translations: &Translations, texts: &[String]) {
+    for language in &translations.languages {
+        let missing: Vec<&String> = texts.iter().filter(|text| !language.has(text)).collect();
+        let first = missing.first().map(|text| format!("; the first that is missing: {text}"));
+        let count = texts.len() - missing.len();
+        say!("{}: {count} of {} texts{}", language.tag, texts.len(), first.unwrap_or_default());
+    }
+    for text in &translations.strangers {
+        say!("note: no text of this line: {}", plain::line(text));
+    }
+}
+
 /// Adds files in a folder.
 fn put(files: &mut Files, folder: &str, more: Files) {
     files.extend(more.into_iter().map(|(name, text)| (format!("{folder}/{name}"), text)));
@@ -214,7 +246,7 @@ pub fn files_of_rust(system: &System, sources: &Sources) -> Files {
 }
 
 /// What the manifest says before the list of files. No dates and no paths: the same input, the same bytes.
-fn about(project: &Project, sources: &Sources) -> Map<String, Value> {
+fn about(project: &Project, sources: &Sources, program: i32) -> Map<String, Value> {
     let inputs: Map<String, Value> = (sources.files().iter())
         .map(|file| {
             let name = if file.name == "--set" { format!("--set {}", file.text) } else { file.name.clone() };
@@ -226,7 +258,7 @@ fn about(project: &Project, sources: &Sources) -> Map<String, Value> {
         ("tool", json!(format!("autogen {}", version::NUMBER))),
         ("layout", json!(project.name)),
         ("step_order", json!(order)),
-        ("program_hash", json!(sources.hash())),
+        ("program_hash", json!(program)),
         ("inputs", inputs.into()),
     ];
     about.into_iter().map(|(key, value)| (key.to_string(), value)).collect()

@@ -132,6 +132,9 @@ pub struct BuildOptions {
     /// How the PLC counts addresses, to find two that overlap
     #[arg(long, value_enum, default_value = "words", requires = "io")]
     pub addresses: Addresses,
+    /// Texts of alarms and states in other languages: plc/texts.csv, with a column for each language
+    #[arg(long, value_name = "FILE")]
+    pub texts: Option<PathBuf>,
     /// Leave out the Structured Text as PLCopen XML, plc/*/project.xml: a third of what a long line writes
     #[arg(long)]
     pub no_plcopen: bool,

@@ -2,12 +2,13 @@
 
 use super::context::Shared;
 use super::restart;
+use super::screen::{Translate, Use};
 use super::table::row;
 use super::value::{LATE_SCAN, NO_SUCH_STATE, NOT_RETAINED, WRONG_INTERVAL};
 use crate::ir::{Automaton, FaultId, FaultKind, Severity, Transition, UpdateKind};
 
 /// `alarms.csv`: the codes that are published with a fault or an alarm. Robots have the numbers that `fault_robot` gives.
-pub fn table(shared: Shared) -> String {
+pub fn table(shared: Shared, translate: &mut Translate) -> String {
     let mut text = row(&["code", "type", "robots", "state", "transition", "text", "remedy", "stops"]);
     for (i, site) in shared.system.model.faults.iter().enumerate() {
         let robots: Vec<String> = (shared.instances(site.automaton).iter())
@@ -42,7 +43,7 @@ pub fn table(shared: Shared) -> String {
                 "Look for what the state waits for: the answer of the device, or another robot. After reset and start the state has its whole time again."
             }
         };
-        let about = format!("{} ({})", site.text, shared.line(site.place));
+        let about = format!("{} ({})", translate(Use::Alarm, &site.text), shared.line(site.place));
         let automaton = shared.system.model.automaton(site.automaton);
         let [state, transition] = situation(automaton, FaultId(i));
         text += &row(&[
@@ -52,7 +53,7 @@ pub fn table(shared: Shared) -> String {
             &state,
             &transition,
             &about,
-            remedy,
+            &translate(Use::Remedy, remedy),
             match site.severity {
                 Severity::Line => "line",
                 Severity::Machine => "machine",
@@ -60,42 +61,40 @@ pub fn table(shared: Shared) -> String {
             },
         ]);
     }
-    if restart::retains(shared) {
-        let remedy = "The program was changed while power was off, or power was lost within a scan. The line begins as at first: secure the parts on the grippers, empty trays and briefcases, then reset and start.";
-        let about = "what was retained is not of this program, or not of one scan";
-        text += &row(&[&NOT_RETAINED.to_string(), "", "", "", "", about, remedy, "line"]);
+    for (code, about, remedy) in of_the_line(shared) {
+        let [about, remedy] = [translate(Use::Alarm, about), translate(Use::Remedy, remedy)];
+        text += &row(&[&code.to_string(), "", "", "", "", &about, &remedy, "line"]);
     }
-    text += &row(&[
-        &WRONG_INTERVAL.to_string(),
-        "",
-        "",
-        "",
-        "",
-        "the interval of the task is not dt_ms, by the clock of the PLC: hundred_scans_ms of watchdog is not about 100 * dt_ms",
-        "Set the interval of the task to dt_ms, or change dt_ms and scan_ms of the layout. Then reset and start.",
-        "line",
-    ]);
-    text += &row(&[
-        &LATE_SCAN.to_string(),
-        "",
-        "",
-        "",
-        "",
-        "a scan came later than late_ms after the one before, by the clock of the PLC",
-        "The PLC was stopped while the line was running, or its task has not enough time: look at the load of the processor and at tasks of higher priority. Then reset and start.",
-        "line",
-    ]);
-    let remedy = "The memory of the controller is damaged: only a cold start helps. Secure the parts on the grippers first: without power they are let go. Empty trays and briefcases: the controller forgets what lies there.";
-    text + &row(&[
-        &NO_SUCH_STATE.to_string(),
-        "",
-        "",
-        "",
-        "",
+    text
+}
+
+/// Faults that no automaton raises: code, text, remedy.
+fn of_the_line(shared: Shared) -> Vec<(i32, &'static str, &'static str)> {
+    let mut faults = vec![
+        (
+            WRONG_INTERVAL,
+            "the interval of the task is not dt_ms, by the clock of the PLC: hundred_scans_ms of watchdog is not about 100 * dt_ms",
+            "Set the interval of the task to dt_ms, or change dt_ms and scan_ms of the layout. Then reset and start.",
+        ),
+        (
+            LATE_SCAN,
+            "a scan came later than late_ms after the one before, by the clock of the PLC",
+            "The PLC was stopped while the line was running, or its task has not enough time: look at the load of the processor and at tasks of higher priority. Then reset and start.",
+        ),
+    ];
+    if restart::retains(shared) {
+        faults.push((
+            NOT_RETAINED,
+            "what was retained is not of this program, or not of one scan",
+            "The program was changed while power was off, or power was lost within a scan. The line begins as at first: secure the parts on the grippers, empty trays and briefcases, then reset and start.",
+        ));
+    }
+    faults.push((
+        NO_SUCH_STATE,
         "the state has a number that does not exist",
-        remedy,
-        "line",
-    ])
+        "The memory of the controller is damaged: only a cold start helps. Secure the parts on the grippers first: without power they are let go. Empty trays and briefcases: the controller forgets what lies there.",
+    ));
+    faults
 }
 
 /// State and transition in which an automaton raises a fault. Without a transition: by staying in the state;
