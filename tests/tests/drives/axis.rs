@@ -68,6 +68,28 @@ impl Axis {
         self.set("motor_position[0]", self.position);
     }
 
+    /// Another block takes the axis over.
+    fn is_taken_over(&mut self) {
+        let motion = self.machine.get("motor_motion[0]");
+        self.set("motor_motion[0]", motion + 1.0);
+    }
+
+    /// Another block stops the axis, and holds it in the state Stopping.
+    fn is_stopped(&mut self) {
+        self.is_taken_over();
+        self.set("motor_stopping[0]", true);
+        self.set("motor_mode[0]", 2);
+        self.set("motor_deceleration[0]", OWN_DECELERATION);
+    }
+
+    fn is_enabled(&self) -> bool {
+        self.machine.get("motor_enable[0]") != 0.0
+    }
+
+    fn halt_failed(&self) -> bool {
+        self.machine.get("lift_halt_failed") != 0.0
+    }
+
     fn brake(&mut self, deceleration: f64) {
         let least = (self.velocity.abs() - deceleration * SCAN_S).max(0.0);
         self.velocity = self.velocity.signum() * least;
@@ -108,6 +130,7 @@ impl Drive for Axis {
         self.set("lift_bus_ok", around.bus_ok);
         self.set("lift_reset", around.reset);
         self.machine.scan().expect("a scan");
+        assert_eq!(self.machine.get("motor_halt_wrong[0]"), 0.0, "1: in ErrorStop or Stopping, 2: left early");
         self.move_on(around.bus_ok);
         let whole = |name: &str| self.machine.get(name) as i32;
         Answer {
@@ -168,33 +191,206 @@ fn commands_at_any_time_are_carried_out_by_the_rules() {
     assert!([0, 1, 3, 4, 5, 6].iter().all(|error| ends[error] > 20), "{ends:?}");
 }
 
-#[test]
-fn a_halt_that_fails_takes_the_power_away_until_reset() {
+/// On its way.
+fn moving() -> Told<Axis> {
     let mut told = Told::<Axis>::new();
     told.give_far();
     told.scans(50);
+    assert!(told.drive.speed() > 0.0);
+    told
+}
+
+/// An axis that another block has taken over: the command has ended, and the axis is being halted.
+fn taken_over() -> Told<Axis> {
+    let mut told = moving();
+    told.drive.is_taken_over();
+    assert_eq!(told.end(), 4);
+    told
+}
+
+#[test]
+fn who_else_moves_the_axis_ends_the_command_and_the_axis_is_halted() {
+    let mut told = taken_over();
+    told.scans(60);
+    assert_eq!(told.drive.speed(), 0.0);
+}
+
+#[test]
+fn a_number_after_an_error_ends_in_an_error_and_is_not_carried_out_late() {
+    // While it is halted, and later.
+    for before in [0, 1, 10, 100] {
+        let mut told = taken_over();
+        told.scans(before);
+        assert!(!told.answer.ready);
+        told.give_far();
+        assert_eq!((told.answer.got, told.answer.ack, told.answer.error), (2, 2, 4));
+        told.scans(60);
+        told.rests(100);
+        told.order.hold = true;
+        told.rests(1);
+        told.order.hold = false;
+        told.rests(100);
+        told.goes_on();
+    }
+}
+
+#[test]
+fn hold_before_the_halt_has_ended_does_not_end_an_error() {
+    let mut told = taken_over();
+    told.order.hold = true;
+    told.scans(10);
+    assert!(told.drive.speed() > 0.0);
+    told.order.hold = false;
+    told.scans(60);
+    told.give_far();
+    assert_eq!(told.end(), 4);
+}
+
+#[test]
+fn a_reset_ends_an_error() {
+    let mut told = taken_over();
+    told.scans(60);
+    told.press_reset();
+    assert!(told.answer.ready);
+    told.goes_on();
+}
+
+#[test]
+fn a_reset_that_failed_does_not_end_an_error() {
+    let mut told = taken_over();
+    told.scans(60);
+    told.drive.set("motor_reset_fails[0]", true);
+    told.press_reset();
+    told.give_far();
+    assert_eq!(told.end(), 4);
+}
+
+#[test]
+fn a_reset_before_the_error_does_not_end_it() {
+    let mut told = moving();
+    told.press_reset();
+    assert!(told.drive.speed() > 0.0);
+    told.drive.is_taken_over();
+    assert_eq!(told.end(), 4);
+    told.scans(60);
+    told.give_far();
+    assert_eq!(told.end(), 4);
+}
+
+#[test]
+fn power_that_comes_back_does_not_end_an_error() {
+    let mut told = moving();
+    told.around.enable = false;
+    assert_eq!(told.end(), 4);
+    told.order.hold = true;
+    told.scans(60);
+    told.order.hold = false;
+    told.around.enable = true;
+    told.rests(60);
+    told.give_far();
+    assert_eq!(told.end(), 4);
+    told.rests(60);
+    told.order.hold = true;
+    told.rests(1);
+    told.order.hold = false;
+    told.goes_on();
+}
+
+#[test]
+fn a_halt_is_carried_out_to_its_end() {
+    let mut told = moving();
+    told.order.hold = true;
+    told.scans(1);
+    told.order.hold = false;
+    let slows = (0..60).take_while(|_| {
+        let before = told.drive.speed();
+        told.scans(1);
+        told.drive.speed() < before
+    });
+    assert!(slows.count() > 10);
+    assert_eq!(told.drive.speed(), 0.0);
+    assert_eq!(told.end(), 0);
+}
+
+#[test]
+fn a_number_during_a_halt_waits_for_its_end() {
+    let mut told = moving();
+    told.order.hold = true;
+    told.scans(1);
+    told.order.hold = false;
+    told.give_far();
+    assert_eq!((told.end(), told.answer.ack), (0, 2));
+}
+
+#[test]
+fn a_halt_that_fails_takes_the_power_away_until_reset() {
+    let mut told = moving();
     told.drive.set("motor_halt_fails[0]", true);
     told.order.hold = true;
     told.scans(60);
-    assert_eq!(told.drive.machine.get("motor_enable[0]"), 0.0);
+    assert_eq!((told.drive.is_enabled(), told.drive.halt_failed()), (false, true));
     assert_eq!((told.drive.speed(), told.answer.ack, told.answer.error), (0.0, told.order.cmd, 4));
     told.order.hold = false;
     told.scans(60);
     assert!(!told.answer.ready);
     told.press_reset();
+    assert_eq!((told.drive.is_enabled(), told.drive.halt_failed()), (true, false));
     assert!(told.answer.ready && told.drive.speed() == 0.0);
-    told.give_far();
-    assert_eq!(told.end(), 0);
+    told.goes_on();
 }
 
 #[test]
-fn who_else_moves_the_axis_ends_the_command_and_the_axis_is_halted() {
-    let mut told = Told::<Axis>::new();
-    told.give_far();
-    told.scans(50);
-    let motion = told.drive.machine.get("motor_motion[0]");
-    told.drive.set("motor_motion[0]", motion + 1.0);
+fn a_button_that_is_held_gives_no_power_after_a_halt_that_failed() {
+    let mut told = moving();
+    told.around.reset = true;
+    told.scans(5);
+    told.drive.set("motor_halt_fails[0]", true);
+    told.order.hold = true;
+    told.scans(200);
+    assert_eq!((told.drive.is_enabled(), told.drive.halt_failed()), (false, true));
+    told.around.reset = false;
+    told.scans(20);
+    assert_eq!((told.drive.is_enabled(), told.drive.halt_failed()), (false, true));
+    told.press_reset();
+    assert_eq!((told.drive.is_enabled(), told.drive.halt_failed()), (true, false));
+}
+
+#[test]
+fn a_button_that_is_pressed_without_the_fieldbus_resets_nothing_when_it_is_back() {
+    let mut told = moving();
+    told.drive.fault();
+    told.around.bus_ok = false;
+    told.scans(20);
+    told.press_reset();
+    told.around.bus_ok = true;
+    told.scans(60);
+    assert!(told.drive.has_fault);
+    told.press_reset();
+    assert!(!told.drive.has_fault && told.answer.ready);
+}
+
+#[test]
+fn an_axis_that_another_block_stops_is_not_halted_and_not_ready() {
+    let mut told = moving();
+    told.drive.is_stopped();
     assert_eq!(told.end(), 4);
     told.scans(60);
-    assert_eq!(told.drive.speed(), 0.0);
+    assert!(!told.answer.ready && told.drive.speed() == 0.0);
+    told.order.hold = true;
+    told.rests(20);
+    assert!(!told.answer.ready);
+    told.drive.set("motor_stopping[0]", false);
+    told.rests(1);
+    assert!(told.answer.ready && !told.drive.halt_failed());
+    told.order.hold = false;
+    told.goes_on();
+}
+
+#[test]
+fn an_axis_in_error_stop_is_not_halted() {
+    let mut told = moving();
+    told.drive.fault();
+    assert_eq!(told.end(), 4);
+    told.scans(60);
+    assert!(told.drive.is_enabled() && !told.drive.halt_failed());
 }

@@ -17,8 +17,9 @@ pub struct Told<D> {
 impl<D: Drive> Told<D> {
     /// Ready for a command.
     pub fn new() -> Self {
-        let mut told = Self::begun(Order::default());
+        let mut told = Self::begun(Order { hold: true, ..Order::default() });
         told.scans(20);
+        told.order.hold = false;
         assert!(told.answer.ready && told.drive.speed() == 0.0);
         told
     }
@@ -69,7 +70,7 @@ impl<D: Drive> Told<D> {
         self.scans(20);
     }
 
-    fn rests(&mut self, scans: u32) {
+    pub fn rests(&mut self, scans: u32) {
         for _ in 0..scans {
             self.scan();
             assert!(self.drive.speed() == 0.0, "moves: {:?} {:?}", self.order, self.answer);
@@ -77,7 +78,7 @@ impl<D: Drive> Told<D> {
     }
 
     /// A new number is all that it needs.
-    fn goes_on(&mut self) {
+    pub fn goes_on(&mut self) {
         self.give_far();
         assert_eq!(self.end(), 0);
     }
@@ -125,6 +126,10 @@ mod told {
         let (verb, arguments) = D::far(17);
         let mut told = Told::<D>::begun(Order { cmd: 17, verb, arguments, hold: false });
         assert_eq!((told.answer.got, told.answer.ack, told.answer.error), (17, 17, 6));
+        told.rests(200);
+        told.order.hold = true;
+        told.rests(20);
+        told.order.hold = false;
         told.rests(200);
         told.goes_on();
     }
@@ -241,8 +246,9 @@ mod told {
     }
 
     pub fn numbers_go_on_with_1<D: Drive>() {
-        let mut told = Told::<D>::begun(Order { cmd: 32765, ..Order::default() });
+        let mut told = Told::<D>::begun(Order { cmd: 32765, hold: true, ..Order::default() });
         told.scans(20);
+        told.order.hold = false;
         let numbers = [32766, 32767, 1, 2].map(|_| {
             told.goes_on();
             told.answer.ack
