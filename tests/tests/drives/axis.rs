@@ -78,6 +78,10 @@ impl Axis {
     fn is_stopped(&mut self) {
         self.is_taken_over();
         self.set("motor_stopping[0]", true);
+        self.brakes_by_itself();
+    }
+
+    fn brakes_by_itself(&mut self) {
         self.set("motor_mode[0]", 2);
         self.set("motor_deceleration[0]", OWN_DECELERATION);
     }
@@ -126,11 +130,12 @@ impl Drive for Axis {
         self.set("lift_verb", order.verb);
         self.set("lift_goal", order.arguments[0]);
         self.set("lift_hold", order.hold);
+        self.set("lift_link_ok", around.link_ok);
         self.set("lift_enable", around.enable);
         self.set("lift_bus_ok", around.bus_ok);
         self.set("lift_reset", around.reset);
         self.machine.scan().expect("a scan");
-        assert_eq!(self.machine.get("motor_halt_wrong[0]"), 0.0, "1: in ErrorStop or Stopping, 2: left early");
+        assert_eq!(self.machine.get("motor_halt_wrong[0]"), 0.0, "1: in a wrong state, 2: left early");
         self.move_on(around.bus_ok);
         let whole = |name: &str| self.machine.get(name) as i32;
         Answer {
@@ -152,6 +157,7 @@ impl Drive for Axis {
     fn fault(&mut self) {
         self.has_fault = true;
         self.set("motor_fault[0]", true);
+        self.brakes_by_itself();
     }
 
     fn speed(&self) -> f64 {
@@ -173,8 +179,12 @@ impl Drive for Axis {
 
     fn command(random: &mut Random) -> (i32, [f64; 8]) {
         let verb = if chance(random, 30) { 2 } else { 1 };
-        let far = if chance(random, 30) { 1300 } else { 0 };
-        (verb, [f64::from(random.up_to(1200) + far) / 1000.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+        let goal = match random.up_to(60) {
+            0 => 2.0,
+            1 => f64::NAN,
+            _ => f64::from(random.up_to(1200)) / 1000.0,
+        };
+        (verb, [goal, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
     }
 
     fn far(number: i32) -> (i32, [f64; 8]) {
@@ -393,4 +403,50 @@ fn an_axis_in_error_stop_is_not_halted() {
     assert_eq!(told.end(), 4);
     told.scans(60);
     assert!(told.drive.is_enabled() && !told.drive.halt_failed());
+}
+
+#[test]
+fn a_halt_that_ends_in_a_fault_has_not_failed() {
+    let mut told = moving();
+    told.order.hold = true;
+    told.scans(5);
+    told.drive.fault();
+    told.scans(60);
+    assert!(told.drive.is_enabled() && !told.drive.halt_failed());
+    assert_eq!((told.answer.ready, told.answer.ack, told.answer.error), (false, told.order.cmd, 4));
+}
+
+#[test]
+fn a_halt_that_another_block_breaks_off_ends_the_command() {
+    let mut told = moving();
+    told.order.hold = true;
+    told.scans(5);
+    told.drive.is_taken_over();
+    assert_eq!(told.end(), 4);
+    assert!(!told.answer.ready && !told.drive.halt_failed());
+}
+
+#[test]
+fn a_button_that_is_held_at_power_up_resets_nothing() {
+    let mut told = moving();
+    told.drive.fault();
+    told.scans(60);
+    told.drive.power_up();
+    told.around.reset = true;
+    told.order.cmd = 0;
+    (0..60).for_each(|_| {
+        told.drive.scan(&told.order, told.around);
+    });
+    assert!(told.drive.has_fault);
+}
+
+#[test]
+fn a_goal_that_is_not_a_number_is_refused() {
+    for goal in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -0.001, 1.201] {
+        let mut told = Told::<Axis>::new();
+        told.give(1, [goal, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        assert_eq!(told.end(), 1, "{goal}");
+        told.rests(20);
+        told.goes_on();
+    }
 }

@@ -7,6 +7,9 @@ use std::collections::BTreeMap;
 /// What is around the block beside the controller.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Surroundings {
+    /// Between the controller and the block.
+    pub link_ok: bool,
+    /// Between the block and the drive.
     pub bus_ok: bool,
     pub enable: bool,
     /// A person presses it.
@@ -14,7 +17,7 @@ pub struct Surroundings {
 }
 
 impl Surroundings {
-    pub const QUIET: Self = Self { bus_ok: true, enable: true, reset: false };
+    pub const QUIET: Self = Self { link_ok: true, bus_ok: true, enable: true, reset: false };
 }
 
 /// A block, wired, with a model of the other side.
@@ -73,6 +76,8 @@ struct Course<D> {
     random: Random,
     drive: D,
     order: Order,
+    /// What the block has seen of it last.
+    seen: Order,
     around: Surroundings,
     answer: Answer,
     ledger: Ledger,
@@ -98,6 +103,7 @@ impl<D: Drive> Course<D> {
         Self {
             drive,
             order: Order { cmd, hold: chance(&mut random, 2), ..Order::default() },
+            seen: Order::default(),
             around: Surroundings::QUIET,
             answer: Answer::default(),
             ledger: Ledger::default(),
@@ -129,6 +135,7 @@ impl<D: Drive> Course<D> {
     fn happen(&mut self) {
         let random = &mut self.random;
         let around = &mut self.around;
+        around.link_ok = if around.link_ok { !chance(random, 1500) } else { chance(random, 40) };
         around.bus_ok = if around.bus_ok { !chance(random, 1500) } else { chance(random, 40) };
         around.enable = if around.enable { !chance(random, 2000) } else { chance(random, 40) };
         around.reset = if around.reset { !chance(random, 15) } else { chance(random, 100) };
@@ -144,7 +151,8 @@ impl<D: Drive> Course<D> {
         if chance(random, 3000) {
             self.order.cmd = 0;
         }
-        self.is_permitted &= around.bus_ok && around.enable && self.order.cmd != 0 && !self.begins;
+        let has_all = around.link_ok && around.bus_ok && around.enable;
+        self.is_permitted &= has_all && self.order.cmd != 0 && !self.begins;
     }
 
     /// Whether a new command is given.
@@ -163,26 +171,37 @@ impl<D: Drive> Course<D> {
     }
 
     fn follow(&mut self, fresh: bool) {
+        if self.around.link_ok {
+            self.seen = self.order.clone();
+        }
         let (order, answer) = (&self.order, self.answer);
         if std::mem::take(&mut self.begins) {
-            self.ledger.power_up(order.cmd, answer);
+            // Without the link it has seen no number.
+            let cmd = if self.around.link_ok { order.cmd } else { 0 };
+            self.ledger.power_up(cmd, answer);
+            if !self.around.link_ok {
+                self.ledger.scan_without_link(answer);
+            }
             return;
         }
-        let ended = self.ledger.scan(order.cmd, answer);
+        let ended = match self.around.link_ok {
+            true => self.ledger.scan(order.cmd, answer),
+            false => self.ledger.scan_without_link(answer),
+        };
         if let Some(error) = ended {
             *self.ends.entry(error).or_default() += 1;
-            assert!(error != 0 || self.drive.has_reached(order), "ended well, and has not reached it");
+            assert!(error != 0 || self.drive.has_reached(&self.seen), "ended well, and has not reached it");
         }
         if fresh {
             self.waited = 0;
-            self.is_permitted = true;
+            self.is_permitted = self.around.link_ok;
         }
         self.is_permitted &= ended.is_none_or(|error| error == 0);
     }
 
     fn look(&mut self) {
         let count = |so_far: u32, is_so: bool| if is_so { so_far + 1 } else { 0 };
-        self.held = count(self.held, self.order.hold);
+        self.held = count(self.held, self.order.hold || !self.around.link_ok);
         self.forbidden = count(self.forbidden, !self.is_permitted);
         let speed = self.drive.speed();
         let late = [(self.held, self.drive.latency()), (self.forbidden, self.drive.round_trip())];

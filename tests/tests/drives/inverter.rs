@@ -2,7 +2,8 @@
 
 use super::course::{self, Drive, Surroundings, chance};
 use super::ledger::{Answer, Order};
-use super::program::machine;
+use super::program::{machine, machine_with};
+use super::told::Told;
 use super::wire::Wire;
 use autogen_st_judge::machine::Machine;
 use runtime_sim::random::Random;
@@ -169,6 +170,7 @@ impl Drive for Inverter {
         self.machine.set("conveyor_belt_verb", order.verb.into());
         self.machine.set("conveyor_belt_hold", order.hold.into());
         self.machine.set("belt_speed", order.arguments[0]);
+        self.machine.set("belt_link_ok", around.link_ok.into());
         self.machine.set("belt_enable", around.enable.into());
         self.machine.set("belt_bus_ok", around.bus_ok.into());
         self.machine.set("belt_reset", around.reset.into());
@@ -178,7 +180,8 @@ impl Drive for Inverter {
         let telegram = (self.machine.get("belt_stw1") as i32, self.machine.get("belt_nsoll"));
         let (word, setpoint) = telegram;
         assert_eq!(word & !(ON | ACKNOWLEDGE), 0x047E);
-        assert!(!order.hold || word & ON == 0, "ON while held");
+        let is_held = order.hold || !around.link_ok;
+        assert!(!is_held || word & ON == 0, "ON while held");
         assert!((-REFERENCE..=REFERENCE).contains(&setpoint));
         if around.bus_ok {
             let telegram = self.to.pass(telegram);
@@ -234,7 +237,11 @@ impl Drive for Inverter {
             1..=8 => 2,
             _ => 1,
         };
-        let speed = if chance(random, 30) { 1.5 } else { f64::from(random.up_to(20)) / 10.0 - 1.0 };
+        let speed = match random.up_to(60) {
+            0 => 1.5,
+            1 => f64::NAN,
+            _ => f64::from(random.up_to(20)) / 10.0 - 1.0,
+        };
         (verb, [speed, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
     }
 
@@ -250,4 +257,45 @@ impl Drive for Inverter {
 fn commands_at_any_time_are_carried_out_by_the_rules() {
     let ends = course::campaign::<Inverter>();
     assert!([0, 1, 3, 4, 5, 6].iter().all(|error| ends[error] > 20), "{ends:?}");
+}
+
+#[test]
+fn a_speed_that_is_not_a_number_is_refused() {
+    for speed in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1.001, 1.001] {
+        let mut told = Told::<Inverter>::new();
+        told.give(1, [speed, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        assert_eq!(told.end(), 1, "{speed}");
+        told.rests(20);
+        told.goes_on();
+    }
+}
+
+#[test]
+fn a_motor_that_ran_stands_after_the_link_was_lost() {
+    let mut told = Told::<Inverter>::new();
+    told.goes_on();
+    assert!(told.drive.speed() > 0.0);
+    told.around.link_ok = false;
+    told.scans(Inverter::BRAKING + 3);
+    told.around.link_ok = true;
+    told.rests(100);
+    assert_eq!(told.answer.error, 0, "the command has ended well before");
+    told.goes_on();
+}
+
+#[test]
+fn without_calls_an_end_wants_the_speed_once() {
+    for calls in ["0", "-5", "1"] {
+        let mut told = Told::<Inverter>::new();
+        told.drive.machine = machine_with("Belt_wiring", "calls := 10", &format!("calls := {calls}"));
+        told.order.cmd = 0;
+        (0..20).for_each(|_| {
+            told.drive.scan(&told.order, told.around);
+        });
+        let (verb, arguments) = Inverter::far(1);
+        let order = Order { cmd: 1, verb, arguments, hold: false };
+        let scans =
+            (0..Inverter::PATIENCE).take_while(|_| told.drive.scan(&order, told.around).ack != 1).count();
+        assert!(scans > 30 && told.drive.has_reached(&order), "{calls}: {scans} scans");
+    }
 }

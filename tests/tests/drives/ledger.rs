@@ -36,6 +36,8 @@ pub struct Ledger {
     last: i32,
     /// It has neither ended nor been replaced.
     is_open: bool,
+    /// The link was lost, and no number was seen since.
+    is_cut: bool,
 }
 
 impl Ledger {
@@ -43,11 +45,26 @@ impl Ledger {
     pub fn power_up(&mut self, cmd: i32, answer: Answer) {
         let error = if cmd == 0 { 0 } else { 6 };
         assert_eq!((answer.got, answer.ack, answer.error), (cmd, cmd, error), "at power-up");
-        *self = Self { cmd, answer, last: cmd, is_open: false };
+        *self = Self { cmd, answer, last: cmd, is_open: false, is_cut: false };
     }
 
     /// Any other scan; the error of the command that has ended in it.
     pub fn scan(&mut self, cmd: i32, answer: Answer) -> Option<i32> {
+        let is_first = self.is_cut && cmd != 0;
+        self.is_cut &= cmd == 0;
+        let ended = self.answered(cmd, answer);
+        assert!(!is_first || !self.is_open, "{cmd} is the first number after the link was lost");
+        assert!(!is_first || ended.is_none_or(|error| error != 0), "{cmd} ended well, seen after the link");
+        ended
+    }
+
+    /// A scan without the link: a command under way may end, and no other is seen.
+    pub fn scan_without_link(&mut self, answer: Answer) -> Option<i32> {
+        self.is_cut = true;
+        self.answered(self.last, answer)
+    }
+
+    fn answered(&mut self, cmd: i32, answer: Answer) -> Option<i32> {
         if cmd != 0 && cmd != self.last {
             self.last = cmd;
             self.is_open = true;

@@ -11,6 +11,14 @@ pub fn machine(wiring: &str) -> Machine {
     Machine::new(&source).unwrap_or_else(|findings| panic!("{}", listed(&findings, &source)))
 }
 
+/// The same, with another text in its place.
+pub fn machine_with(wiring: &str, text: &str, other: &str) -> Machine {
+    let source = source(wiring);
+    assert_eq!(source.matches(text).count(), 1, "{text}");
+    let source = source.replace(text, other);
+    Machine::new(&source).unwrap_or_else(|findings| panic!("{}", listed(&findings, &source)))
+}
+
 fn source(wiring: &str) -> String {
     let program = on_the_page(wiring);
     let block = match wiring {

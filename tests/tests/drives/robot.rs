@@ -3,6 +3,7 @@
 use super::course::{self, Drive, Surroundings, chance};
 use super::ledger::{Answer, Order};
 use super::program::machine;
+use super::told::Told;
 use super::wire::Wire;
 use autogen_st_judge::machine::Machine;
 use runtime_sim::random::Random;
@@ -30,6 +31,8 @@ struct FromRobot {
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Phase {
     Waiting,
+    /// It has read the number, the program number and the arguments, and compares after so many scans.
+    Reading(u32),
     /// For so many scans with permission to move.
     Working(u32),
     /// Until `valid` falls; then it has this outcome.
@@ -45,7 +48,15 @@ pub struct Robot {
     /// The telegram before, of which a torn one has parts.
     before: ToRobot,
     is_torn: bool,
+    /// Scans in which it reads.
+    reading_scans: u32,
     phase: Phase,
+    /// What it has read.
+    read: ToRobot,
+    /// For so many scans nothing has disturbed it: no fault, no power-up, no lost fieldbus.
+    calm: u32,
+    /// Nothing has disturbed it since it began to read, or shortly before.
+    is_undisturbed: bool,
     shows: FromRobot,
     /// For so many scans there is a fault, longer if nobody acknowledges it.
     fault_scans: Option<u32>,
@@ -73,7 +84,11 @@ impl Robot {
             from_scans,
             before: [0.0; 13],
             is_torn: false,
+            reading_scans: 0,
             phase: Phase::Waiting,
+            read: [0.0; 13],
+            calm: 0,
+            is_undisturbed: false,
             shows: FromRobot { ready: true, ..FromRobot::default() },
             fault_scans: None,
             taken: (0, 0, [0.0; 8]),
@@ -121,13 +136,40 @@ impl Robot {
         self.before = [0.0; 13];
     }
 
+    /// Permission to move is given to the program of the command alone.
+    fn look(&self, order: &Order, around: Surroundings, seen: FromRobot) {
+        let is_its_own =
+            seen.run && seen.echo == order.cmd && self.machine.get("to_robot_number") as i32 == order.cmd;
+        let may_move = is_its_own && !order.hold && around.link_ok && around.bus_ok && seen.ready;
+        assert!(may_move || self.machine.get("to_robot_move_enable") == 0.0, "{order:?} {around:?} {seen:?}");
+    }
+
     fn work(&mut self, seen: ToRobot) {
         let is = |word: usize| seen[word] != 0.0;
         self.moves = false;
+        let is_waiting = self.phase == Phase::Waiting;
+        assert!(
+            is_waiting || !self.is_undisturbed || seen[..VALID] == self.read[..VALID],
+            "the data changes before it waits: {:?}, {:?}",
+            self.read,
+            seen
+        );
         match self.phase {
             _ if !self.shows.ready => {}
-            Phase::Waiting if is(VALID) && !is(CANCEL) => self.take(seen),
+            Phase::Waiting if is(VALID) && !is(CANCEL) => {
+                self.read = seen;
+                self.is_undisturbed = self.calm > 20;
+                self.phase = Phase::Reading(self.reading_scans);
+                if self.reading_scans == 0 {
+                    self.take();
+                }
+            }
             Phase::Waiting => self.shows.request = true,
+            Phase::Reading(_) if seen[NUMBER] != self.read[NUMBER] || !is(VALID) => {
+                self.phase = Phase::Waiting
+            }
+            Phase::Reading(0) => self.take(),
+            Phase::Reading(rest) => self.phase = Phase::Reading(rest - 1),
             Phase::Working(_) if is(CANCEL) => self.phase = Phase::Leaving(255),
             Phase::Working(0) => {
                 let fails = self.fails && chance(&mut self.random, 10);
@@ -148,10 +190,10 @@ impl Robot {
         }
     }
 
-    fn take(&mut self, seen: ToRobot) {
-        let number = seen[NUMBER] as i32;
-        let arguments = std::array::from_fn(|i| seen[i]);
-        self.taken = (number, seen[PROGRAM_NUMBER] as i32, arguments);
+    fn take(&mut self) {
+        let number = self.read[NUMBER] as i32;
+        let arguments = std::array::from_fn(|i| self.read[i]);
+        self.taken = (number, self.read[PROGRAM_NUMBER] as i32, arguments);
         assert_eq!(
             self.given.get(&number),
             Some(&(self.taken.1, arguments)),
@@ -168,7 +210,13 @@ impl Drive for Robot {
     fn drawn(random: &mut Random) -> Self {
         let (to_scans, from_scans) = (random.up_to(4) as usize, random.up_to(4) as usize);
         let is_torn = chance(random, 2);
-        Self { is_torn, random: Random::new(random.next_u64()), ..Self::with(to_scans, from_scans) }
+        let reading_scans = random.up_to(3);
+        Self {
+            is_torn,
+            reading_scans,
+            random: Random::new(random.next_u64()),
+            ..Self::with(to_scans, from_scans)
+        }
     }
 
     fn plain() -> Self {
@@ -195,6 +243,7 @@ impl Drive for Robot {
         self.shows.ready = self.fault_scans.is_none() && around.enable;
         let shows = self.shows;
         let seen = if around.bus_ok { self.from.pass(shows) } else { self.from.is_cut() };
+        self.machine.set("kitting_link_ok", around.link_ok.into());
         self.machine.set("from_robot_bus_ok", around.bus_ok.into());
         self.machine.set("from_robot_ready", seen.ready.into());
         self.machine.set("from_robot_request", seen.request.into());
@@ -202,6 +251,9 @@ impl Drive for Robot {
         self.machine.set("from_robot_echo", seen.echo.into());
         self.machine.set("from_robot_outcome", seen.outcome.into());
         self.machine.scan().expect("a scan");
+        self.look(order, around, seen);
+        self.calm = if self.shows.ready && around.bus_ok { self.calm + 1 } else { 0 };
+        self.is_undisturbed &= self.calm > 0;
         let seen = self.send(around.bus_ok);
         self.work(seen);
         let whole = |name: &str| self.machine.get(name) as i32;
@@ -217,6 +269,8 @@ impl Drive for Robot {
     fn power_up(&mut self) {
         self.machine = machine("Kitting_wiring");
         self.blank();
+        self.calm = 0;
+        self.is_undisturbed = false;
     }
 
     /// It stands; its program goes on after a person has been there, or was left.
@@ -246,7 +300,11 @@ impl Drive for Robot {
 
     fn command(random: &mut Random) -> (i32, [f64; 8]) {
         let verb = if chance(random, 30) { 0 } else { 1 + random.up_to(8) as i32 };
-        (verb, std::array::from_fn(|_| f64::from(random.up_to(1000))))
+        let mut arguments = std::array::from_fn(|_| f64::from(random.up_to(1000)));
+        if chance(random, 60) {
+            arguments[random.up_to(7) as usize] = f64::NAN;
+        }
+        (verb, arguments)
     }
 
     fn far(number: i32) -> (i32, [f64; 8]) {
@@ -260,5 +318,43 @@ impl Drive for Robot {
 #[test]
 fn commands_at_any_time_are_carried_out_by_the_rules() {
     let ends = course::campaign::<Robot>();
-    assert!([0, 3, 4, 5, 6, 10].iter().all(|error| ends[error] > 20), "{ends:?}");
+    assert!([0, 1, 3, 4, 5, 6, 10].iter().all(|error| ends[error] > 20), "{ends:?}");
+}
+
+#[test]
+fn an_argument_that_is_not_a_number_is_refused() {
+    for place in 0..8 {
+        let mut told = Told::<Robot>::new();
+        let (verb, mut arguments) = Robot::far(1);
+        arguments[place] = f64::NAN;
+        told.give(verb, arguments);
+        assert_eq!(told.end(), 1, "argument {place}");
+        told.rests(20);
+        told.goes_on();
+    }
+}
+
+#[test]
+fn it_may_not_move_before_it_shows_the_number() {
+    let mut told = Told::<Robot>::new();
+    told.drive.reading_scans = 50;
+    told.give_far();
+    told.scans(20);
+    let shown = ["valid", "move_enable"].map(|name| told.drive.machine.get(&format!("to_robot_{name}")));
+    assert!(matches!(told.drive.phase, Phase::Reading(_)) && shown == [1.0, 0.0]);
+    assert_eq!(told.end(), 0);
+}
+
+#[test]
+fn what_was_offered_stands_until_it_is_taken() {
+    let mut told = Told::<Robot>::new();
+    told.drive.reading_scans = 50;
+    told.give_far();
+    told.scans(20);
+    // The data stays while it is read, and the program that is replaced does not move.
+    told.give_far();
+    told.rests(40);
+    assert_eq!((told.drive.taken.0, told.answer.ack), (1, 0));
+    told.drive.reading_scans = 0;
+    assert_eq!((told.end(), told.answer.ack), (0, 2));
 }

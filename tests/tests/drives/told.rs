@@ -35,7 +35,10 @@ impl<D: Drive> Told<D> {
 
     fn scan(&mut self) {
         self.answer = self.drive.scan(&self.order, self.around);
-        self.ledger.scan(self.order.cmd, self.answer);
+        match self.around.link_ok {
+            true => self.ledger.scan(self.order.cmd, self.answer),
+            false => self.ledger.scan_without_link(self.answer),
+        };
     }
 
     pub fn scans(&mut self, count: u32) {
@@ -44,8 +47,12 @@ impl<D: Drive> Told<D> {
 
     /// A command that takes some time.
     pub fn give_far(&mut self) {
-        self.order.cmd = next_number(&self.order, self.answer);
-        (self.order.verb, self.order.arguments) = D::far(self.order.cmd);
+        let (verb, arguments) = D::far(next_number(&self.order, self.answer));
+        self.give(verb, arguments);
+    }
+
+    pub fn give(&mut self, verb: i32, arguments: [f64; 8]) {
+        self.order = Order { cmd: next_number(&self.order, self.answer), verb, arguments, ..self.order };
         self.scan();
     }
 
@@ -106,6 +113,10 @@ of_each_drive! {
     a_fault_ends_the_command_and_stays_until_reset
     a_button_that_is_held_resets_nothing
     a_lost_fieldbus_ends_the_command
+    without_the_link_a_command_is_held_and_ends_in_an_error_behind_it
+    the_first_number_after_the_link_was_lost_is_not_carried_out
+    a_number_after_a_blank_one_is_the_first_after_the_link_was_lost
+    a_block_without_a_link_carries_out_nothing
     a_withdrawn_number_ends_the_command
     numbers_go_on_with_1
 }
@@ -230,6 +241,68 @@ mod told {
         told.press_reset();
         told.rests(100);
         told.goes_on();
+    }
+
+    pub fn without_the_link_a_command_is_held_and_ends_in_an_error_behind_it<D: Drive>() {
+        let mut told = Told::<D>::new();
+        told.give_far();
+        told.scans(20);
+        told.around.link_ok = false;
+        told.scans(D::BRAKING + 3);
+        told.rests(100);
+        assert_eq!((told.answer.ready, told.answer.got, told.answer.ack), (false, 1, 0));
+        told.around.link_ok = true;
+        told.scan();
+        assert_eq!((told.answer.ready, told.answer.ack, told.answer.error), (true, 1, 5));
+        told.rests(100);
+        told.goes_on();
+    }
+
+    pub fn the_first_number_after_the_link_was_lost_is_not_carried_out<D: Drive>() {
+        for before in [0, 1, 30] {
+            let mut told = Told::<D>::new();
+            told.goes_on();
+            told.around.link_ok = false;
+            told.scans(D::BRAKING + 3);
+            // What has been commanded meanwhile is seen when the link is back, or later.
+            told.give_far();
+            assert_eq!((told.answer.got, told.answer.ack), (1, 1));
+            let given = std::mem::replace(&mut told.order.cmd, 0);
+            told.around.link_ok = true;
+            told.scans(before);
+            told.order.cmd = given;
+            told.scan();
+            assert_eq!((told.answer.got, told.answer.ack, told.answer.error), (2, 2, 5));
+            told.rests(200);
+            told.goes_on();
+        }
+    }
+
+    pub fn a_number_after_a_blank_one_is_the_first_after_the_link_was_lost<D: Drive>() {
+        let mut told = Told::<D>::new();
+        told.give_far();
+        told.scans(20);
+        told.around.link_ok = false;
+        told.scans(D::BRAKING + 3);
+        told.around.link_ok = true;
+        told.order.cmd = 0;
+        told.scan();
+        assert_eq!((told.answer.ack, told.answer.error), (1, 6));
+        told.order.cmd = 2;
+        told.scan();
+        assert_eq!((told.answer.ack, told.answer.error), (2, 5));
+        told.rests(200);
+        told.goes_on();
+    }
+
+    pub fn a_block_without_a_link_carries_out_nothing<D: Drive>() {
+        let mut told = Told::<D>::new();
+        told.around.link_ok = false;
+        for _ in 0..3 {
+            told.give_far();
+            told.rests(50);
+        }
+        assert_eq!((told.answer.ready, told.answer.got, told.answer.ack), (false, 0, 0));
     }
 
     pub fn a_withdrawn_number_ends_the_command<D: Drive>() {
