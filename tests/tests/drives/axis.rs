@@ -450,3 +450,25 @@ fn a_goal_that_is_not_a_number_is_refused() {
         told.goes_on();
     }
 }
+
+#[test]
+fn an_axis_that_lost_its_power_is_not_halted() {
+    let mut told = moving();
+    told.drive.set("motor_powered[0]", false);
+    assert_eq!(told.end(), 4);
+    told.scans(60);
+    assert!(!told.answer.ready && !told.drive.halt_failed());
+}
+
+#[test]
+fn a_lost_link_does_not_end_an_error() {
+    let mut told = taken_over();
+    told.scans(60);
+    told.around.link_ok = false;
+    told.rests(20);
+    told.around.link_ok = true;
+    told.give_far();
+    assert_eq!(told.end(), 5);
+    told.give_far();
+    assert_eq!(told.end(), 4);
+}

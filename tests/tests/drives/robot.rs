@@ -141,7 +141,12 @@ impl Robot {
         let is_its_own =
             seen.run && seen.echo == order.cmd && self.machine.get("to_robot_number") as i32 == order.cmd;
         let may_move = is_its_own && !order.hold && around.link_ok && around.bus_ok && seen.ready;
-        assert!(may_move || self.machine.get("to_robot_move_enable") == 0.0, "{order:?} {around:?} {seen:?}");
+        assert!(may_move || !self.is_shown("move_enable"), "{order:?} {around:?} {seen:?}");
+    }
+
+    /// To the robot.
+    fn is_shown(&self, name: &str) -> bool {
+        self.machine.get(&format!("to_robot_{name}")) != 0.0
     }
 
     fn work(&mut self, seen: ToRobot) {
@@ -340,8 +345,8 @@ fn it_may_not_move_before_it_shows_the_number() {
     told.drive.reading_scans = 50;
     told.give_far();
     told.scans(20);
-    let shown = ["valid", "move_enable"].map(|name| told.drive.machine.get(&format!("to_robot_{name}")));
-    assert!(matches!(told.drive.phase, Phase::Reading(_)) && shown == [1.0, 0.0]);
+    assert!(matches!(told.drive.phase, Phase::Reading(_)));
+    assert!(told.drive.is_shown("valid") && !told.drive.is_shown("move_enable"));
     assert_eq!(told.end(), 0);
 }
 
@@ -357,4 +362,44 @@ fn what_was_offered_stands_until_it_is_taken() {
     assert_eq!((told.drive.taken.0, told.answer.ack), (1, 0));
     told.drive.reading_scans = 0;
     assert_eq!((told.end(), told.answer.ack), (0, 2));
+}
+
+#[test]
+fn another_program_that_runs_is_cancelled_and_then_the_command_is_carried_out() {
+    let mut told = Told::<Robot>::new();
+    told.drive.reading_scans = 50;
+    told.give_far();
+    told.scans(20);
+    told.drive.reading_scans = 0;
+    told.drive.phase = Phase::Working(100);
+    told.drive.shows = FromRobot { ready: true, request: false, run: true, echo: 999, outcome: 255 };
+    assert_eq!((told.end(), told.drive.taken.0), (0, 1));
+}
+
+#[test]
+fn a_command_under_hold_is_not_offered() {
+    let mut told = Told::<Robot>::new();
+    told.order.hold = true;
+    told.give_far();
+    for _ in 0..50 {
+        told.scans(1);
+        assert!(!told.drive.is_shown("valid"));
+    }
+    told.order.hold = false;
+    assert_eq!(told.end(), 0);
+}
+
+#[test]
+fn without_the_link_its_program_is_held_and_then_cancelled() {
+    let mut told = Told::<Robot>::new();
+    told.give_far();
+    told.scans(20);
+    told.around.link_ok = false;
+    for _ in 0..50 {
+        told.scans(1);
+        assert!(!told.drive.is_shown("cancel") && !told.drive.is_shown("move_enable"));
+    }
+    told.around.link_ok = true;
+    told.scans(1);
+    assert!(told.drive.is_shown("cancel") && !told.drive.is_shown("move_enable"));
 }

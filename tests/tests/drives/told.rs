@@ -249,8 +249,11 @@ mod told {
         told.scans(20);
         told.around.link_ok = false;
         told.scans(D::BRAKING + 3);
+        // What is not seen is not withdrawn.
+        told.order.cmd = 0;
         told.rests(100);
         assert_eq!((told.answer.ready, told.answer.got, told.answer.ack), (false, 1, 0));
+        told.order.cmd = 1;
         told.around.link_ok = true;
         told.scan();
         assert_eq!((told.answer.ready, told.answer.ack, told.answer.error), (true, 1, 5));
