@@ -4,7 +4,7 @@
 use autogen::executor::Executor;
 use autogen::lower::Project;
 use autogen_tests::{LAYOUTS, Texts, ariac, on_all_processors, own_line};
-use runtime_sim::line::{IoDelay, Pause, Slip};
+use runtime_sim::line::{IoDelay, Pause, Refusal, Slip};
 use runtime_sim::memory::Memory;
 use runtime_sim::random::Random;
 use runtime_sim::report::Report;
@@ -228,6 +228,40 @@ fn power_may_be_lost_at_any_moment() {
     }
     println!("{} losses of power, {stopped} of them with a stop", scans.len());
     assert!(wrong.is_empty(), "{} of {}:\n{}", wrong.len(), scans.len(), wrong.join("\n"));
+}
+
+/// The states of a machine, each with the scan in which it is entered.
+fn states(project: &Project, machine: usize) -> Vec<(u64, String)> {
+    let begin = project.system.traces()[machine];
+    let automaton = project.system.automaton_of(machine);
+    let mut entered: Vec<(u64, String)> = Vec::new();
+    let mut executor = Executor::new(&project.system);
+    run(&project.plant, &mut executor, Stepping::Events, &mut |seen| {
+        let state = &automaton.states[seen.trace[begin] as usize].name;
+        if entered.last().is_none_or(|(_, last)| last != state) {
+            entered.push((seen.scan, state.clone()));
+        }
+    })
+    .expect("a line that can be run");
+    entered
+}
+
+/// The gantry's first command to fetch a part is refused, and so is the one to go up. While it then comes for a part,
+/// power is lost, and the device still shows the error of the command before.
+#[test]
+fn a_command_that_power_broke_off_is_not_taken_for_the_one_that_was_refused_before() {
+    let mut project = ariac("default").project();
+    let machine = project.plant.machines.iter().position(|m| m.name == "gantry").expect("a gantry");
+    // Behind `pace` and the way to its rest.
+    project.plant.scenario.refusals = [3, 4].map(|command| Refusal { machine, command }).into();
+    let at_first = states(&project, machine);
+    let names: Vec<&str> = at_first.iter().map(|(_, name)| name.as_str()).collect();
+    let refused = names.iter().position(|name| *name == "Refused").expect("both commands are refused");
+    let coming = refused + 2;
+    assert_eq!(names[refused - 1..=coming], ["Missed", "Refused", "Waiting", "Picking"]);
+    project.plant.scenario.power_offs = vec![Pause { at_scan: at_first[coming].0 + 100, scans: 200 }];
+    let names: Vec<String> = states(&project, machine).into_iter().map(|(_, name)| name).collect();
+    assert_eq!(names[coming..coming + 4], ["Picking", "Picking.1", "Missed", "Waiting"]);
 }
 
 /// A part falls at some moment of its transport: all orders are made, or the line stops and says what somebody has to
