@@ -65,6 +65,15 @@ struct Enumeration {
 }
 
 #[derive(Template)]
+#[template(path = "plc/structure.st")]
+struct StructureText {
+    made_from: String,
+    name: String,
+    about: String,
+    fields: String,
+}
+
+#[derive(Template)]
 #[template(path = "plc/global_list.st")]
 struct GlobalList {
     made_from: String,
@@ -86,6 +95,16 @@ pub fn codesys(shared: Shared, line: &Line) -> Files {
             members: members.join(",\n"),
         };
         files.insert(format!("{name}.st"), render(&text));
+    }
+    for structure in &line.structures {
+        let fields = structure.fields.iter();
+        let text = StructureText {
+            made_from: made_from(shared),
+            name: structure.name.clone(),
+            about: structure.about.clone(),
+            fields: fields.map(|f| f.line(Dialect::Codesys, &f.ty(Dialect::Codesys))).collect(),
+        };
+        files.insert(format!("{}.st", structure.name), render(&text));
     }
     for function in &line.functions {
         let text = format!("(* {}. This is not a safety function. *)\n{}", function.name, function.text);
