@@ -174,6 +174,13 @@ impl StructuredText {
     }
 }
 
+impl StructuredText {
+    /// Whether the text has this word of the trace.
+    pub fn has(&self, word: usize) -> bool {
+        matches!(self.trace[word], Word::At(_))
+    }
+}
+
 impl Finder<'_> {
     fn place(&mut self, path: String) -> Option<Place> {
         let place = self.machine.place(&path);

@@ -97,6 +97,8 @@ pub const ROUNDED: &str = "rounded";
 
 pub struct Names {
     pub enums: Vec<EnumNames>,
+    /// Of each device that has robots and commands.
+    pub commands: BTreeMap<String, EnumNames>,
     pub interfaces: Vec<InterfaceNames>,
     pub relations: Vec<String>,
     pub automata: Vec<AutomatonNames>,
@@ -110,6 +112,7 @@ pub struct Names {
 pub struct EnumNames {
     pub ty: String,
     pub members: Vec<String>,
+    pub values: Vec<i32>,
 }
 
 /// The variables that hold one value: one, or three for a point.
@@ -213,6 +216,7 @@ pub fn names(system: &System) -> Names {
     for (source, names) in model.interfaces.iter().zip(&mut interfaces).filter(|(i, _)| !i.cells.is_empty()) {
         structure_names(source, names, &mut global, &mut renamed);
     }
+    let commands = commands(system, &mut global, &mut renamed);
     // A block declares the globals that it uses beside its own variables.
     let automata: Vec<_> = (blocks.into_iter().zip(tables).enumerate())
         .map(|(id, (names, tables))| {
@@ -233,7 +237,7 @@ pub fn names(system: &System) -> Names {
     };
     renamed.extend(log("globals", &global));
     renamed.extend(log("MAIN", &program));
-    Names { enums, interfaces, relations, automata, robots, program, renamed }
+    Names { enums, commands, interfaces, relations, automata, robots, program, renamed }
 }
 
 fn enum_names(source: &Enum, global: &mut Scope, renamed: &mut Vec<(String, Renamed)>) -> EnumNames {
@@ -246,9 +250,30 @@ fn members(
     renamed: &mut Vec<(String, Renamed)>,
 ) -> EnumNames {
     let mut scope = Scope::default();
-    let members = wanted.map(|member| scope.take(&member)).collect();
+    let members: Vec<String> = wanted.map(|member| scope.take(&member)).collect();
     renamed.extend(scope.renamed().iter().map(|r| (ty.clone(), r.clone())));
-    EnumNames { ty, members }
+    let values = (0..).take(members.len()).collect();
+    EnumNames { ty, members, values }
+}
+
+/// The commands of the devices that have robots, by the name of the device.
+fn commands(
+    system: &System,
+    global: &mut Scope,
+    renamed: &mut Vec<(String, Renamed)>,
+) -> BTreeMap<String, EnumNames> {
+    let mut known = BTreeMap::new();
+    for instance in &system.instances {
+        let device = &system.model.automaton(instance.automaton).device;
+        if device.verbs.is_empty() || known.contains_key(&device.name) {
+            continue;
+        }
+        let ty = global.take(&format!("E_{}Command", camel(&device.name)));
+        let names = members(ty, device.verbs.iter().map(|verb| verb.name.clone()), renamed);
+        let values = device.verbs.iter().map(|verb| verb.number).collect();
+        known.insert(device.name.clone(), EnumNames { values, ..names });
+    }
+    known
 }
 
 fn states(automaton: &Automaton, global: &mut Scope, renamed: &mut Vec<(String, Renamed)>) -> EnumNames {
@@ -258,7 +283,8 @@ fn states(automaton: &Automaton, global: &mut Scope, renamed: &mut Vec<(String, 
 
 fn held(scope: &mut Scope, wanted: &str, scalar: Scalar) -> Held {
     let names = scope.take_all(wanted, suffixes(scalar));
-    let whole = names[0].strip_suffix("_x").filter(|_| scalar == Scalar::Point).map(|stem| scope.take(stem));
+    let beginning = names[0].strip_suffix("_x").filter(|_| scalar == Scalar::Point);
+    let whole = beginning.map(|beginning| scope.take_whole(wanted, beginning));
     Held { names, whole }
 }
 

@@ -141,7 +141,7 @@ fn structure(structure: &Structure) -> String {
     render(&StructureText {
         name: structure.name.clone(),
         about: structure.about.clone(),
-        fields: structure.fields.iter().map(field).collect(),
+        fields: structure.fields.iter().map(field).map(|line| line.replace("\n    ", "\n        ")).map(|line| format!("    {line}")).collect(),
     })
 }
 

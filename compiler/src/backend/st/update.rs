@@ -43,6 +43,13 @@ impl Lowering<'_> {
         first
     }
 
+    /// Type and member of a command.
+    fn verb(&self, verb: i32) -> Option<String> {
+        let names = self.names.commands.get(&self.automaton().device.name)?;
+        let number = names.values.iter().position(|value| *value == verb)?;
+        Some(format!("{}.{}", names.ty, names.members[number]))
+    }
+
     fn command(&self, verb: i32) -> Vec<Stmt> {
         let device = &self.automaton().device;
         let port = |wanted: &str| {
@@ -53,7 +60,7 @@ impl Lowering<'_> {
         let number =
             [("last", "cmd"), ("got", "got"), ("ack", "ack")].map(|(input, p)| (input, name(&port(p))));
         let mut out = vec![
-            assign(&port("verb"), Ex::Member(Member { value: verb, note, qualified: None })),
+            assign(&port("verb"), Ex::Member(Member { value: verb, note, qualified: self.verb(verb) })),
             assign(&port("cmd"), Ex::Call("F_next_command", number.into())),
         ];
         let answer_counts = self.automaton().abandoned.into_iter().chain(self.automaton().interrupted);

@@ -77,12 +77,12 @@ pub fn plcopen(shared: Shared, line: &Line) -> String {
 /// For CODESYS and TwinCAT.
 pub fn codesys(shared: Shared, line: &Line) -> String {
     let value =
-        |(i, member): (usize, &String)| format!("              <value name=\"{member}\" value=\"{i}\"/>\n");
+        |(member, i): (&String, &i32)| format!("              <value name=\"{member}\" value=\"{i}\"/>\n");
     let enumerations = enumerations(shared, line)
         .into_iter()
-        .map(|(name, members)| Enumeration {
-            name: name.clone(),
-            members: members.iter().enumerate().map(value).collect(),
+        .map(|names| Enumeration {
+            name: names.ty.clone(),
+            members: names.numbered().map(value).collect(),
             attributes: attributes::additional_data(attributes::OF_ENUMERATIONS, 8),
         })
         .collect();

@@ -25,6 +25,10 @@ pub fn unit(unit: &Unit, places: &Places, globals: &Globals, typed: &Typed) -> G
     let written = written(&body);
     let of = |variables: &[Variable]| variables_of(variables, &unit.name, places, typed);
     let mut inputs = of(&unit.inputs);
+    let outputs = of(&unit.outputs);
+    // A point of which others see a coordinate is an output as a whole.
+    let mut variables = of(&unit.variables);
+    variables.retain(|variable| outputs.iter().all(|output| output.name != variable.name));
     let mut references = Vec::new();
     let mut shared = Vec::new();
     for global in globals.all().filter(|global| used.contains(&global.name)) {
@@ -35,10 +39,10 @@ pub fn unit(unit: &Unit, places: &Places, globals: &Globals, typed: &Typed) -> G
     }
     let unit = Unit {
         inputs,
-        outputs: of(&unit.outputs),
+        outputs,
         references,
         externals: Vec::new(),
-        variables: of(&unit.variables),
+        variables,
         body,
         ..unit.clone()
     };
