@@ -15,6 +15,7 @@ mod read;
 mod reserved;
 pub mod scl;
 mod standard;
+pub mod structured;
 pub mod types;
 pub mod view;
 

@@ -1,4 +1,4 @@
-//! Reads the part of SCL that is generated, and says the same in the portable core.
+//! Reads the part of SCL that is generated, as objects of a dialect with structures, and these in the portable core.
 //!
 //! Written from the rules of SCL in TIA Portal, never from the emitter: names of a block are written `#name`, those of
 //! data blocks and blocks in quotes; a constant is a name of its block; a real number without a type may have 32 bits.
@@ -6,6 +6,7 @@
 mod token;
 
 use crate::finding::{Finding, Span};
+use crate::structured::{self, Object};
 use std::collections::BTreeMap;
 use token::{Kind, Token, tokens};
 
@@ -83,45 +84,48 @@ const WORDS: [&str; 40] = [
 ];
 /// Each project has an organization block of this name.
 const TAKEN: &str = "Main";
+/// The local of the program that is set when the data block has its values.
+const VALUES: &str = "values_are_set";
 /// Longer names are refused by TIA Portal.
 const LONGEST: usize = 128;
 
 /// The same program in the portable core; or what is wrong with it.
-pub fn portable(source: &str) -> Result<String, Finding> {
+pub fn portable(source: &str) -> Result<String, String> {
+    let objects = objects(source).map_err(|finding| finding.located(source))?;
+    let objects: Vec<Object> = objects.iter().map(|(name, text)| Object { name, text }).collect();
+    structured::portable(&objects)
+}
+
+/// The objects of the source, each with its name, as another dialect with structures writes them.
+fn objects(source: &str) -> Result<Vec<(String, String)>, Finding> {
     let mut reader = Reader { tokens: tokens(source)?, next: 0, end: source.len(), known: Known::default() };
     let mut blocks = Vec::new();
     while reader.next < reader.tokens.len() {
         blocks.extend(reader.unit()?);
     }
-    let Known { shared: Some(shared), program: Some(program), .. } = reader.known else {
+    let Known { shared: Some(shared), program: Some(program), structures, values, .. } = reader.known else {
         return Err(Finding::new("scl", Span { start: 0, end: 0 }, "no shared data block, or no instance"));
     };
-    let mut text = String::new();
+    let mut objects = structures;
     for block in blocks {
-        let word = if block.name == program { "PROGRAM" } else { block.word };
-        text += &format!("{word} {}{}\n{}", block.name, block.ty, block.sections);
-        let external: String = block
-            .globals
-            .iter()
-            .filter_map(|name| Some(format!("{name} : {};\n", shared.get(name)?.ty)))
-            .collect();
-        if !external.is_empty() {
-            text += &format!("VAR_EXTERNAL\n{external}END_VAR\n");
-        }
-        text += &format!("{}\nEND_{word}\n", block.body);
+        let Block { name, ty, sections, body, .. } = &block;
+        let text = match *name == program {
+            true => format!(
+                "PROGRAM {name}\n{sections}VAR\n{VALUES} : BOOL;\nEND_VAR\n\
+                 IF NOT {VALUES} THEN\n{VALUES} := TRUE;\n{values}END_IF;\n{body}\nEND_PROGRAM\n"
+            ),
+            false => format!("{word} {name}{ty}\n{sections}{body}\nEND_{word}\n", word = block.word),
+        };
+        objects.push((name.clone(), text));
     }
-    let globals = |keyword: &str, is_retained: bool| {
+    let section = |keyword: &str, is_retained: bool| {
         let of = shared.iter().filter(|(_, v)| v.is_retained == is_retained);
         let lines: String = of.map(|(name, v)| format!("{name} : {}{};\n", v.ty, v.initial)).collect();
         if lines.is_empty() { lines } else { format!("{keyword}\n{lines}END_VAR\n") }
     };
-    let globals = globals("VAR_GLOBAL", false) + &globals("VAR_GLOBAL RETAIN", true);
-    Ok(text
-        + &format!(
-            "CONFIGURATION Config0\n{globals}RESOURCE Res0 ON PLC\n\
-             TASK Scan(INTERVAL := T#10ms, PRIORITY := 0);\nPROGRAM Main_program WITH Scan : {program};\n\
-             END_RESOURCE\nEND_CONFIGURATION\n"
-        ))
+    let lists = section("VAR_GLOBAL", false) + &section("VAR_GLOBAL RETAIN", true);
+    objects.push((reader.known.shared_name, lists));
+    Ok(objects)
 }
 
 #[derive(Default)]
@@ -129,7 +133,11 @@ struct Known {
     /// The variables of the data block that all share.
     shared: Option<BTreeMap<String, Declared>>,
     shared_name: String,
-    /// Functions and function blocks so far.
+    /// Assignments that give its elements their values.
+    values: String,
+    /// Each with its text.
+    structures: Vec<(String, String)>,
+    /// Structures, functions and function blocks so far.
     blocks: Vec<String>,
     /// The block of the instance that is called.
     program: Option<String>,
@@ -148,7 +156,6 @@ struct Block {
     /// Of a function, with its colon.
     ty: String,
     sections: String,
-    globals: Vec<String>,
     body: String,
 }
 
@@ -186,6 +193,10 @@ impl<'a> Reader<'a> {
         if attribute.text.trim() != "S7_Optimized_Access := 'TRUE'" {
             return Err(wrong(attribute, "another attribute"));
         }
+        self.version()
+    }
+
+    fn version(&mut self) -> Result<(), Finding> {
         self.expect(Kind::Word, "VERSION")?;
         self.expect(Kind::Symbol, ":")?;
         self.expect(Kind::Word, "0.1")
@@ -202,6 +213,7 @@ impl<'a> Reader<'a> {
         }
         self.known.blocks.push(name.text.into());
         match word.text {
+            "TYPE" => self.structure(name).map(|()| None),
             "DATA_BLOCK" => self.data_block(name).map(|()| None),
             "FUNCTION" => {
                 self.expect(Kind::Symbol, ":")?;
@@ -213,6 +225,19 @@ impl<'a> Reader<'a> {
             "FUNCTION_BLOCK" => self.block("FUNCTION_BLOCK", name).map(Some),
             _ => Err(wrong(word, "no block begins so")),
         }
+    }
+
+    fn structure(&mut self, name: Token) -> Result<(), Finding> {
+        self.version()?;
+        self.expect(Kind::Word, "STRUCT")?;
+        let fields = self.declarations("END_STRUCT")?;
+        self.expect(Kind::Symbol, ";")?;
+        self.expect(Kind::Word, "END_TYPE")?;
+        let lines: String =
+            fields.iter().map(|(field, v)| format!("{field} : {}{};\n", v.ty, v.initial)).collect();
+        let text = format!("TYPE {} :\nSTRUCT\n{lines}END_STRUCT;\nEND_TYPE\n", name.text);
+        self.known.structures.push((name.text.into(), text));
+        Ok(())
     }
 
     /// The one that is shared, or the instance of a block.
@@ -233,7 +258,7 @@ impl<'a> Reader<'a> {
                 if is_retained && is_non_retain {
                     return Err(wrong(token, "a section that is retained, in a block that is not"));
                 }
-                for (name, variable) in self.declarations()? {
+                for (name, variable) in self.declarations("END_VAR")? {
                     declared.insert(name, Declared { is_retained, ..variable });
                 }
                 if !self.peek().is_some_and(|token| token.is(Kind::Word, "VAR")) {
@@ -241,12 +266,45 @@ impl<'a> Reader<'a> {
                 }
                 self.next += 1;
             }
+            self.known.values = self.values(&declared)?;
             (self.known.shared, self.known.shared_name) = (Some(declared), name.text.into());
+            return Ok(());
         } else {
             return Err(wrong(token, "`VAR` or the name of a block is wanted"));
         }
         self.expect(Kind::Word, "BEGIN")?;
         self.expect(Kind::Word, "END_DATA_BLOCK")
+    }
+
+    /// From `BEGIN` to the end of the data block.
+    fn values(&mut self, declared: &BTreeMap<String, Declared>) -> Result<String, Finding> {
+        self.expect(Kind::Word, "BEGIN")?;
+        let mut text = String::new();
+        let mut is_first = true;
+        loop {
+            if self.peek().is_some_and(|token| token.is(Kind::Word, "END_DATA_BLOCK")) {
+                self.next += 1;
+                return Ok(text);
+            }
+            if is_first || text.ends_with('.') {
+                let name = self.name()?;
+                if is_first && !declared.contains_key(name.text) {
+                    return Err(wrong(name, "not in the data block"));
+                }
+                text += name.text;
+                is_first = false;
+                continue;
+            }
+            let token = self.take()?;
+            text += match token.kind {
+                Kind::Symbol => token.text,
+                _ => literal(token)?,
+            };
+            is_first = token.text == ";";
+            if is_first {
+                text.push('\n');
+            }
+        }
     }
 
     /// A name that is declared, or one behind a point. A word of the language is in quotes.
@@ -267,11 +325,10 @@ impl<'a> Reader<'a> {
         is_retain
     }
 
-    /// Up to `END_VAR`.
-    fn declarations(&mut self) -> Result<Vec<(String, Declared)>, Finding> {
+    fn declarations(&mut self, end: &str) -> Result<Vec<(String, Declared)>, Finding> {
         let mut found: Vec<(String, Declared)> = Vec::new();
         loop {
-            if self.peek().is_some_and(|token| token.is(Kind::Word, "END_VAR")) {
+            if self.peek().is_some_and(|token| token.is(Kind::Word, end)) {
                 self.next += 1;
                 return Ok(found);
             }
@@ -313,7 +370,7 @@ impl<'a> Reader<'a> {
             let section = self.kind(Kind::Word)?;
             let keyword = match section.text {
                 "BEGIN" => break,
-                "VAR_INPUT" | "VAR_OUTPUT" | "VAR" => section.text,
+                "VAR_INPUT" | "VAR_OUTPUT" | "VAR_IN_OUT" | "VAR" => section.text,
                 "VAR_TEMP" => "VAR",
                 _ => return Err(wrong(section, "no section is called so")),
             };
@@ -321,7 +378,7 @@ impl<'a> Reader<'a> {
                 section.text == "VAR" && self.peek().is_some_and(|t| t.is(Kind::Word, "CONSTANT"));
             self.next += usize::from(is_constant);
             let retain = if self.is_retain() { " RETAIN" } else { "" };
-            let declared = self.declarations()?;
+            let declared = self.declarations("END_VAR")?;
             for (name, variable) in &declared {
                 let value = is_constant.then(|| variable.initial.replace(" := ", ""));
                 let is_known = names.keys().any(|known| known.eq_ignore_ascii_case(name));
@@ -339,23 +396,18 @@ impl<'a> Reader<'a> {
                 sections += &format!("{keyword}{retain}\n{lines}END_VAR\n");
             }
         }
-        let (globals, body) = self.body(&format!("END_{word}"), &names)?;
-        Ok(Block { word, name: name.text.into(), ty: String::new(), sections, globals, body })
+        let body = self.body(&format!("END_{word}"), &names)?;
+        Ok(Block { word, name: name.text.into(), ty: String::new(), sections, body })
     }
 
-    fn body(
-        &mut self,
-        end: &str,
-        names: &BTreeMap<String, Option<String>>,
-    ) -> Result<(Vec<String>, String), Finding> {
-        let mut globals: Vec<String> = Vec::new();
+    fn body(&mut self, end: &str, names: &BTreeMap<String, Option<String>>) -> Result<String, Finding> {
         let mut body = String::new();
         loop {
             let token = self.take()?;
             let before = self.next.checked_sub(2).map(|i| self.tokens[i]);
             let behind = |text: &str| before.is_some_and(|before| before.is(Kind::Symbol, text));
             let text = match token.kind {
-                Kind::Word if token.text == end => return Ok((globals, body)),
+                Kind::Word if token.text == end => return Ok(body),
                 Kind::Local => match names.get(token.text) {
                     None => return Err(wrong(token, "not declared in this block")),
                     Some(None) => token.text,
@@ -366,9 +418,6 @@ impl<'a> Reader<'a> {
                     let name = self.name()?;
                     if !self.known.shared.as_ref().is_some_and(|shared| shared.contains_key(name.text)) {
                         return Err(wrong(name, "not in the data block"));
-                    }
-                    if !globals.iter().any(|known| known == name.text) {
-                        globals.push(name.text.into());
                     }
                     name.text
                 }
@@ -435,31 +484,37 @@ mod tests {
 
     const SOURCE: &str = r#"
 (* shared *)
+TYPE "ST_One" VERSION : 0.1 STRUCT "timer" : DINT; far : LREAL; END_STRUCT; END_TYPE
 DATA_BLOCK "Line" { S7_Optimized_Access := 'TRUE' } VERSION : 0.1 NON_RETAIN
-VAR a : ARRAY[0..3] OF DINT; b : LREAL := LREAL#-1.5E-7; END_VAR BEGIN END_DATA_BLOCK
+VAR a : ARRAY[0..3] OF DINT; b : LREAL := LREAL#-1.5E-7; c : ARRAY[0..1] OF "ST_One"; END_VAR
+BEGIN a[2] := 5; c[1].far := LREAL#2.5; END_DATA_BLOCK
 FUNCTION "F_one" : DINT { S7_Optimized_Access := 'TRUE' } VERSION : 0.1
 VAR_INPUT value : DINT; END_VAR VAR_TEMP t : DINT; END_VAR
 BEGIN #t := #value; #F_one := #t + 1; END_FUNCTION
 FUNCTION_BLOCK "All" { S7_Optimized_Access := 'TRUE' } VERSION : 0.1
 VAR state : DINT; END_VAR VAR CONSTANT Off : DINT := 7; END_VAR
 BEGIN CASE #state OF #Off: #state := "F_one"(value := #state); ELSE "Line".a[#state] := #Off; END_CASE;
-IF "Line".b < LREAL#2.0 THEN #state := 0; END_IF; END_FUNCTION_BLOCK
+IF "Line".b < LREAL#2.0 THEN "Line".c[1]."timer" := 0; END_IF; END_FUNCTION_BLOCK
 DATA_BLOCK "All_DB" { S7_Optimized_Access := 'TRUE' } VERSION : 0.1 NON_RETAIN "All" BEGIN END_DATA_BLOCK
 "#;
 
     #[test]
     fn it_says_the_same_in_the_portable_core() {
         let text = portable(SOURCE).expect("a source");
+        let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
         for part in [
-            "FUNCTION F_one : DINT\nVAR_INPUT\nvalue : DINT;\nEND_VAR\nVAR\nt : DINT;\nEND_VAR\n",
-            "F_one := t + 1;",
-            "PROGRAM All\nVAR\nstate : DINT;\nEND_VAR\nVAR_EXTERNAL\na : ARRAY[0..3] OF DINT;\nb : LREAL;\nEND_VAR\n",
+            "FUNCTION F_one : DINT VAR_INPUT value : DINT; END_VAR VAR t : DINT; END_VAR",
+            "F_one := t + 1 ;",
+            "PROGRAM All VAR state : DINT;",
+            "VAR_EXTERNAL a : ARRAY[0..3] OF DINT; b : LREAL; c_far : ARRAY[0..1] OF LREAL;",
+            "a[2] := 5; c_far[1] := 2.5;",
+            "c_timer[1] := 0;",
             "7 : state := F_one(value := state);",
             "a[state] := 7;",
             "IF b < 2.0 THEN",
             "b : LREAL := -1.5E-7;",
         ] {
-            assert!(text.contains(part), "{part}\n{text}");
+            assert!(words.contains(part), "{part}\n{text}");
         }
         crate::judge(&text).unwrap_or_else(|found| panic!("{}", crate::listed(&found, &text)));
     }
@@ -470,7 +525,7 @@ DATA_BLOCK "All_DB" { S7_Optimized_Access := 'TRUE' } VERSION : 0.1 NON_RETAIN "
             ("#t := #value", "t := #value"),
             ("#t + 1", "#T + 1"),
             ("\"F_one\"(", "F_one("),
-            ("\"Line\".b", "\"Line\".c"),
+            ("\"Line\".b", "\"Line\".d"),
             ("LREAL#2.0", "2.0"),
             ("t : DINT; END_VAR", "VALUE : DINT; END_VAR"),
             ("NON_RETAIN \"All\"", "NON_RETAIN \"Other\""),
@@ -480,6 +535,9 @@ DATA_BLOCK "All_DB" { S7_Optimized_Access := 'TRUE' } VERSION : 0.1 NON_RETAIN "
             ("\"F_one\"(value", "\"F_two\"(value"),
             ("VERSION : 0.1 NON_RETAIN", "NON_RETAIN"),
             ("(* shared *)", "(* shared"),
+            ("a[2] := 5", "d[2] := 5"),
+            ("LREAL#2.5", "2.5"),
+            ("STRUCT \"timer\"", "STRUCT timer"),
         ] {
             assert!(SOURCE.contains(from), "{from}");
             assert!(portable(&SOURCE.replacen(from, to, 1)).is_err(), "{to}");

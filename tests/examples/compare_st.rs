@@ -8,7 +8,7 @@ fn main() {
     let [layout, text, names @ ..] = &paths[..] else { panic!("a layout and a text are wanted") };
     let read = |path: &String| std::fs::read_to_string(path).unwrap_or_else(|e| panic!("{path}: {e}"));
     let project = Texts::of_layout(read(layout)).project();
-    let emitted = Emitted { main: read(text), names: names.first().map(read).unwrap_or_default() };
+    let emitted = Emitted::flat(read(text), names.first().map(read).unwrap_or_default());
     let mut beside = match Beside::new(&project.system, &emitted) {
         Ok(beside) => beside,
         Err(error) => panic!("{error}"),

@@ -66,6 +66,17 @@ impl<'a> Text<'a> {
     }
 }
 
+/// The texts of what is wrong go to the folder that AUTOGEN_ST names.
+fn keep(text: &Text) {
+    let Some(folder) = std::env::var_os("AUTOGEN_ST") else { return };
+    let folder = std::path::Path::new(&folder).join(text.name);
+    for (name, text) in &text.files {
+        let path = folder.join(name);
+        std::fs::create_dir_all(path.parent().unwrap_or(&folder)).expect("a folder");
+        std::fs::write(path, text).expect("a file");
+    }
+}
+
 impl Coverage {
     /// Judges a text and runs it beside the executor.
     pub fn take(&mut self, text: &Text, run: impl FnOnce(&mut Beside)) {
@@ -74,15 +85,26 @@ impl Coverage {
             Ok(checked) => self.find_dead(text, &checked),
             Err(found) => return self.wrong.push(format!("{}: {}", text.name, listed(&found, text.main()))),
         }
-        let scl = Emitted::of_scl(&text.files);
-        let scl = scl.and_then(|scl| judge(&scl.main).map_err(|found| listed(&found, &scl.main)));
-        self.wrong.extend(scl.err().map(|why| format!("{} in SCL: {why}", text.name)));
-        match Beside::new(text.system, &Emitted::of(&text.files)) {
+        // Beside every second text one of the two dialects that have structures.
+        let other = match (self.texts + text.name.len()) % 4 {
+            0 => Some(Emitted::of_codesys(&text.files).map_err(|why| format!("in CODESYS: {why}"))),
+            1 => Some(Emitted::of_scl(&text.files).map_err(|why| format!("in SCL: {why}"))),
+            _ => None,
+        };
+        let beside = Beside::new(text.system, &Emitted::of(&text.files));
+        let beside = match other {
+            Some(other) => other.and_then(|other| beside?.and(&other)),
+            None => beside,
+        };
+        match beside {
             Ok(mut beside) => {
                 run(&mut beside);
                 self.add(text, &beside);
             }
-            Err(error) => self.wrong.push(format!("{}: {error}", text.name)),
+            Err(error) => {
+                keep(text);
+                self.wrong.push(format!("{}: {error}", text.name));
+            }
         }
     }
 

@@ -7,8 +7,11 @@ use runtime_sim::scan::{Controllers, SystemInputs, SystemOutputs};
 
 /// The reference executor with the text beside it; the first difference stays.
 pub struct Beside<'a> {
+    system: &'a System,
     pub executor: autogen::executor::Executor<'a>,
     pub text: StructuredText,
+    /// The same program in another dialect.
+    other: Option<StructuredText>,
     /// What the globals of the text get instead of the inputs of the next scan.
     pub instead: Option<(SystemInputs, Vec<Vec<f64>>)>,
     outputs: Vec<Vec<f64>>,
@@ -21,14 +24,54 @@ pub struct Beside<'a> {
 impl<'a> Beside<'a> {
     pub fn new(system: &'a System, emitted: &Emitted) -> Result<Self, String> {
         Ok(Self {
+            system,
             executor: autogen::executor::Executor::new(system),
             text: StructuredText::new(system, emitted)?,
+            other: None,
             instead: None,
             outputs: vec![Vec::new(); system.instances.len()],
             scans: 0,
             words: 0,
             difference: None,
         })
+    }
+
+    /// With the same program in another dialect.
+    pub fn and(mut self, other: &Emitted) -> Result<Self, String> {
+        self.other = Some(StructuredText::new(self.system, other)?);
+        Ok(self)
+    }
+
+    /// A scan of the other dialect has to give the same words.
+    fn scan_other(
+        &mut self,
+        system: SystemInputs,
+        inputs: &[Vec<f64>],
+        answer: SystemOutputs,
+    ) -> Result<(), String> {
+        let Some(other) = &mut self.other else { return Ok(()) };
+        let scan = self.scans;
+        let mut outputs = vec![Vec::new(); self.outputs.len()];
+        let answered = other.scan(system, inputs, &mut outputs);
+        let (mut first, mut second) = (Vec::new(), Vec::new());
+        Controllers::trace(&self.text, &mut first);
+        Controllers::trace(other, &mut second);
+        let bits = |words: &[Vec<f64>]| words.concat().iter().map(|w| w.to_bits()).collect::<Vec<_>>();
+        // A coordinate that nobody reads is left out, or a part of its point that nobody sets.
+        let differs = |i: &usize| {
+            self.text.has(*i) && other.has(*i) && first[*i].to_bits() != second[*i].to_bits()
+        };
+        let at = (0..first.len()).find(differs);
+        let is_same = answered == answer
+            && bits(&outputs) == bits(&self.outputs)
+            && at.is_none()
+            && other.ended.is_none();
+        self.words += (first.len() + outputs.concat().len()) as u64;
+        if is_same {
+            return Ok(());
+        }
+        let at = at.map(|i| format!("{} is {}, in the other dialect {}", other.names[i], first[i], second[i]));
+        Err(format!("scan {scan}: {}", at.or(other.ended.clone()).unwrap_or("outputs differ".into())))
     }
 
     fn compare(
@@ -72,8 +115,9 @@ impl Controllers for Beside<'_> {
             let (system, inputs) = instead.as_ref().map_or((system, inputs), |(s, i)| (*s, i.as_slice()));
             let other = self.text.scan(system, inputs, &mut own);
             self.outputs = own;
-            self.difference =
-                self.text.ended.clone().or_else(|| self.compare(outputs, (answer, other)).err());
+            let compared = self.compare(outputs, (answer, other));
+            let compared = compared.and_then(|()| self.scan_other(system, inputs, other));
+            self.difference = self.text.ended.clone().or_else(|| compared.err());
             self.scans += 1;
         }
         answer
@@ -82,6 +126,7 @@ impl Controllers for Beside<'_> {
     fn power_up(&mut self) {
         self.executor.power_up();
         self.text.power_up();
+        self.other.iter_mut().for_each(Controllers::power_up);
     }
 
     fn state(&self, machine: usize) -> usize {

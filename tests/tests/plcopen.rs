@@ -55,21 +55,33 @@ fn declared(text: &str) -> (Vec<Declared>, String) {
     let mut variables = Vec::new();
     let mut section = None;
     let mut body = String::new();
+    // A value may go over several lines.
+    let mut open = String::new();
     for line in text.lines() {
         let keyword = line.strip_suffix(" RETAIN").unwrap_or(line);
         match (keyword, section) {
-            ("VAR" | "VAR_INPUT" | "VAR_OUTPUT" | "VAR_EXTERNAL" | "VAR_GLOBAL", None) => {
+            (
+                "VAR" | "VAR_INPUT" | "VAR_OUTPUT" | "VAR_IN_OUT" | "VAR_EXTERNAL" | "VAR_GLOBAL" | "STRUCT",
+                None,
+            ) => {
                 section = Some(line)
             }
-            ("END_VAR", Some(_)) => {
+            ("END_VAR" | "END_STRUCT", Some(_)) => {
                 section = None;
                 body.clear();
             }
             (line, Some(section)) => {
-                let Some((front, rest)) = without_comment(line).trim_end_matches(';').split_once(" : ")
-                else {
+                let line = without_comment(line);
+                if open.is_empty() && !line.contains(" : ") {
                     continue;
-                };
+                }
+                let space = if open.is_empty() || open.ends_with('[') { "" } else { " " };
+                open = format!("{open}{space}{line}");
+                if !open.ends_with(';') {
+                    continue;
+                }
+                let line = std::mem::take(&mut open);
+                let Some((front, rest)) = line.trim_end_matches(';').split_once(" : ") else { continue };
                 let (name, address) = front.split_once(" AT ").unwrap_or((front, ""));
                 let (ty, initial) = rest.split_once(" := ").unwrap_or((rest, ""));
                 variables.push([section, name, address, ty, initial].map(String::from).into());
@@ -113,20 +125,48 @@ fn ty(node: Node) -> String {
     match inner.tag_name().name() {
         "derived" => inner.attribute("name").expect("a name").into(),
         "array" => {
-            let dimension = child(inner, "dimension");
             let base = child(inner, "baseType").first_element_child().expect("a type");
-            let bound = |name: &str| dimension.attribute(name).expect("a bound").to_string();
-            format!("ARRAY[{}..{}] OF {}", bound("lower"), bound("upper"), base.tag_name().name())
+            let dimensions = inner.children().filter(|n| n.tag_name().name() == "dimension");
+            let bounds = dimensions.map(|dimension| {
+                let bound = |name: &str| dimension.attribute(name).expect("a bound").to_string();
+                format!("{}..{}", bound("lower"), bound("upper"))
+            });
+            let base = base.attribute("name").unwrap_or(base.tag_name().name());
+            format!("ARRAY[{}] OF {base}", bounds.collect::<Vec<_>>().join(", "))
         }
         basic => basic.into(),
     }
 }
 
+/// A value as the text has it.
+fn value(node: Node) -> String {
+    let inner = |node: Node| node.first_element_child().map(value).unwrap_or_default();
+    let values = node.children().filter(|n| n.is_element());
+    match node.tag_name().name() {
+        "arrayValue" => {
+            let one = |node: Node| {
+                let times = node.attribute("repetitionValue").map_or(1, |n| n.parse().expect("a number"));
+                match times {
+                    3.. => format!("{times}({})", inner(node)),
+                    _ => vec![inner(node); times].join(", "),
+                }
+            };
+            format!("[{}]", values.map(one).collect::<Vec<_>>().join(", "))
+        }
+        "structValue" => {
+            let one =
+                |node: Node| format!("{} := {}", node.attribute("member").expect("a member"), inner(node));
+            format!("({})", values.map(one).collect::<Vec<_>>().join(", "))
+        }
+        _ => node.attribute("value").expect("a value").into(),
+    }
+}
+
 fn variable(section: &str, node: Node) -> Declared {
-    let initial = node.descendants().find(|n| n.tag_name().name() == "simpleValue");
-    let initial = initial.and_then(|n| n.attribute("value")).unwrap_or_default();
+    let initial = node.children().find(|n| n.tag_name().name() == "initialValue");
+    let initial = initial.and_then(|n| n.first_element_child()).map(value).unwrap_or_default();
     let attribute = |name: &str| node.attribute(name).unwrap_or_default().to_string();
-    (section.into(), attribute("name"), attribute("address"), ty(node), initial.into())
+    (section.into(), attribute("name"), attribute("address"), ty(node), initial)
 }
 
 fn variables(section: &str, list: Node) -> Vec<Declared> {
@@ -139,6 +179,7 @@ fn of_pou(pou: Node) -> Vec<Declared> {
     let sections = [
         ("inputVars", "VAR_INPUT"),
         ("outputVars", "VAR_OUTPUT"),
+        ("inOutVars", "VAR_IN_OUT"),
         ("externalVars", "VAR_EXTERNAL"),
         ("localVars", "VAR"),
     ];
@@ -209,13 +250,18 @@ fn globals_in_xml_are_those_of_the_text() {
 }
 
 #[test]
-fn enumerations_in_xml_are_those_of_the_text() {
+fn types_in_xml_are_those_of_the_text() {
     for (name, files) in examples() {
         let xml = Document::parse(&files["codesys/project.xml"]).expect(&name);
-        let mut count = 0;
+        let (mut count, mut structures) = (0, 0);
         for ty in xml.descendants().filter(|n| n.tag_name().name() == "dataType") {
             let own = ty.attribute("name").expect("a name");
             let text = &files[&format!("codesys/{own}.st")];
+            if let Some(fields) = ty.descendants().find(|n| n.tag_name().name() == "struct") {
+                assert_eq!(variables("STRUCT", fields), declared(text).0, "{name}: {own}");
+                structures += 1;
+                continue;
+            }
             let values = ty.descendants().filter(|n| n.tag_name().name() == "value");
             let members: Vec<String> = values
                 .map(|v| {
@@ -229,7 +275,8 @@ fn enumerations_in_xml_are_those_of_the_text() {
             assert!(text.contains(&format!("(\n{}\n);", members.join(",\n"))), "{name}: {own}\n{text}");
             count += 1;
         }
-        assert_eq!(count, files.keys().filter(|path| path.starts_with("codesys/E_")).count(), "{name}");
+        let of = |prefix: &str| files.keys().filter(|path| path.starts_with(prefix)).count();
+        assert_eq!((count, structures), (of("codesys/E_"), of("codesys/ST_")), "{name}");
     }
 }
 

@@ -122,7 +122,12 @@ fn hand_written_traces_are_followed() {
     for path in &paths {
         let fixture = trace::load(&std::fs::read_to_string(path).expect("a text")).expect("a trace");
         let files = st::files(&fixture.system, &fixture.sources);
-        for (flavour, text) in [("", Ok(Emitted::of(&files))), (" in SCL", Emitted::of_scl(&files))] {
+        let flavours = [
+            ("", Ok(Emitted::of(&files))),
+            (" in CODESYS", Emitted::of_codesys(&files)),
+            (" in SCL", Emitted::of_scl(&files)),
+        ];
+        for (flavour, text) in flavours {
             let outcome = text.as_ref().map_err(Clone::clone).and_then(|text| {
                 let mut engine = StructuredText::new(&fixture.system, text)?;
                 let compared = trace::compare(&fixture, &mut engine);

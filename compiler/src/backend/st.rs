@@ -37,6 +37,7 @@ mod screen;
 mod siemens;
 mod state;
 mod states;
+mod structured;
 mod table;
 mod text;
 mod update;
@@ -56,6 +57,7 @@ use globals::Globals;
 use image::Image;
 use program::Blocks;
 use runtime_sim::io_trace::Columns;
+use structured::{Enumerated, Structure, structured};
 
 /// Every point of I/O, in the order of `io.csv`; an [`IoMap`] counts them so.
 pub fn points(system: &System) -> Vec<Point> {
@@ -77,10 +79,12 @@ pub fn mapped(system: &System, sources: &Sources, map: &IoMap) -> (Files, Column
     let line = line(shared, &image);
     let mut files = Files::new();
     files.insert("portable/main.st".into(), text::portable(shared, &line));
-    for (name, text) in text::codesys(shared, &line) {
+    let with_types = structured(shared, &line, Enumerated::ByType, &mut program.clone());
+    for (name, text) in text::codesys(shared, &with_types) {
         files.insert(format!("codesys/{name}"), text);
     }
-    for (name, text) in siemens::files(shared, &line) {
+    let with_numbers = structured(shared, &line, Enumerated::ByNumber, &mut program.clone());
+    for (name, text) in siemens::files(shared, &with_numbers) {
         files.insert(format!("siemens/{name}"), text);
     }
     files.insert("io.csv".into(), table::io(shared, map));
@@ -99,12 +103,14 @@ pub fn mapped(system: &System, sources: &Sources, map: &IoMap) -> (Files, Column
 /// The text of [`mapped`] as PLCopen XML, in the two flavours that tools import; files of the folder `plc/`.
 pub fn plcopen(system: &System, sources: &Sources, map: &IoMap) -> Files {
     let names = names::names(system);
-    let image = image::image(system, &names, map, &mut names.program.inner());
+    let mut program = names.program.inner();
+    let image = image::image(system, &names, map, &mut program);
     let shared = Shared { system, sources, names: &names };
     let line = line(shared, &image);
+    let with_types = structured(shared, &line, Enumerated::ByType, &mut program);
     Files::from([
         ("portable/project.xml".into(), xml::plcopen(shared, &line)),
-        ("codesys/project.xml".into(), xml::codesys(shared, &line)),
+        ("codesys/project.xml".into(), xml::codesys(shared, &with_types)),
     ])
 }
 
@@ -134,6 +140,8 @@ struct Line {
     layout: declaration::Unit,
     program: declaration::Unit,
     globals: Globals,
+    /// Of a line with structures.
+    structures: Vec<Structure>,
 }
 
 impl Line {
@@ -165,5 +173,5 @@ fn line(shared: Shared, image: &Image) -> Line {
     let bodies = units.map(|b| &b.unit.body).chain([&program.body]);
     let functions = functions::needed(&bodies.flat_map(|b| code::functions(b)).collect::<Vec<_>>());
     let layout = program::layout(&globals);
-    Line { functions, blocks, watchdog: watchdog::block(), layout, program, globals }
+    Line { functions, blocks, watchdog: watchdog::block(), layout, program, globals, structures: Vec::new() }
 }

@@ -82,6 +82,19 @@ impl Scope {
             .collect()
     }
 
+    /// The identifier of a value as a whole, whose parts have this beginning.
+    pub fn take_whole(&mut self, wanted: &str, beginning: &str) -> String {
+        let known = self.renamed.len();
+        let name = self.take(beginning);
+        let reason = self.renamed.get(known).map(|renamed| renamed.reason);
+        self.renamed.truncate(known);
+        if name != wanted {
+            let reason = reason.unwrap_or("as its parts");
+            self.renamed.push(Renamed { wanted: wanted.into(), name: name.clone(), reason });
+        }
+        name
+    }
+
     pub fn renamed(&self) -> &[Renamed] {
         &self.renamed
     }

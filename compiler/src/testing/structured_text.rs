@@ -6,6 +6,7 @@ use crate::naming::{camel, snake};
 use autogen_st_judge::listed;
 use autogen_st_judge::machine::{Machine, Place};
 use autogen_st_judge::scl;
+use autogen_st_judge::structured::{self, Object};
 use runtime_sim::device::{Direction, PortType};
 use runtime_sim::scan::{Controllers, SystemInputs, SystemOutputs};
 
@@ -15,21 +16,48 @@ pub struct Emitted {
     pub main: String,
     /// Empty if all names stayed.
     pub names: String,
+    shape: Shape,
+}
+
+/// How values are kept in a text.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+enum Shape {
+    /// A variable for each coordinate, an array for each cell.
+    #[default]
+    Flat,
+    /// Structures.
+    Structured,
 }
 
 impl Emitted {
     /// The portable flavour.
     pub fn of(files: &Files) -> Self {
         let text = |name: &str| files.get(name).cloned().unwrap_or_default();
-        Self { main: text("portable/main.st"), names: text("names.csv") }
+        Self::flat(text("portable/main.st"), text("names.csv"))
+    }
+
+    /// A text of the portable flavour, and its table of names.
+    pub fn flat(main: String, names: String) -> Self {
+        Self { main, names, shape: Shape::Flat }
+    }
+
+    /// The objects of the CODESYS flavour, as the portable core has them. An error says what is wrong with one.
+    pub fn of_codesys(files: &Files) -> Result<Self, String> {
+        let objects = files.iter().filter_map(|(name, text)| {
+            let name = name.strip_prefix("codesys/").filter(|name| name.ends_with(".st"))?;
+            Some(Object { name, text })
+        });
+        let main = structured::portable(&objects.collect::<Vec<_>>())?;
+        let names = files.get("names.csv").cloned().unwrap_or_default();
+        Ok(Self { main, names, shape: Shape::Structured })
     }
 
     /// The source of SCL, as the portable core has it. An error lists what is wrong with the source.
     pub fn of_scl(files: &Files) -> Result<Self, String> {
         let text = |name: &str| files.get(name).cloned().unwrap_or_default();
         let source = text("siemens/main.scl");
-        let main = scl::portable(&source).map_err(|finding| finding.located(&source))?;
-        Ok(Self { main, names: text("names.csv") })
+        let main = scl::portable(&source)?;
+        Ok(Self { main, names: text("names.csv"), shape: Shape::Structured })
     }
 
     /// The name that a unit has for a wanted one. A coordinate is wanted as `at.x`.
@@ -40,6 +68,26 @@ impl Emitted {
         });
         let mut found = rows.filter(|row| (row.0, row.1) == (unit, wanted));
         found.next().map_or_else(|| wanted.replace('.', "_"), |row| row.2.into())
+    }
+
+    /// The names of a coordinate, or of a value that has none.
+    fn part(&self, unit: &str, wanted: &str, part: &str) -> String {
+        match (self.shape, part) {
+            (Shape::Structured, ".x" | ".y" | ".z") => {
+                format!("{}_{}", self.name(unit, wanted), &part[1..])
+            }
+            _ => self.name(unit, &format!("{wanted}{part}")),
+        }
+    }
+
+    /// A cell, or one of its coordinates.
+    fn cell(&self, interface: &str, cell: &str, part: &str) -> String {
+        if self.shape == Shape::Flat {
+            return self.part("globals", &format!("{}_{cell}", snake(interface)), part);
+        }
+        let rows = self.name("globals", &format!("{}_cells", snake(interface)));
+        let structure = self.name("globals", &format!("ST_{}", camel(interface)));
+        format!("{rows}_{}{}", self.name(&structure, cell), part.replace('.', "_"))
     }
 }
 
@@ -126,6 +174,13 @@ impl StructuredText {
     }
 }
 
+impl StructuredText {
+    /// Whether the text has this word of the trace.
+    pub fn has(&self, word: usize) -> bool {
+        matches!(self.trace[word], Word::At(_))
+    }
+}
+
 impl Finder<'_> {
     fn place(&mut self, path: String) -> Option<Place> {
         let place = self.machine.place(&path);
@@ -136,14 +191,24 @@ impl Finder<'_> {
     }
 
     /// The variables of a unit that hold a value: point by coordinate, element by element.
-    fn variables(&self, unit: &str, name: &str, is_point: bool, extent: Extent, first: usize) -> Vec<String> {
+    fn variables(&self, unit: &str, name: &str, is_point: bool, extent: Extent) -> Vec<String> {
+        self.parts(is_point, extent, 0, |part| self.emitted.part(unit, name, part))
+    }
+
+    /// The elements of a value from one on, each with its coordinates.
+    fn parts(
+        &self,
+        is_point: bool,
+        extent: Extent,
+        first: usize,
+        named: impl Fn(&str) -> String,
+    ) -> Vec<String> {
         let parts: &[&str] = if is_point { &[".x", ".y", ".z"] } else { &[""] };
         let mut variables = Vec::new();
         for element in first..first + self.system.model.elements(extent) {
             let index = if extent == Extent::One { String::new() } else { format!("[{element}]") };
             for part in parts {
-                let wanted = format!("{name}{part}");
-                variables.push(format!("{}{index}", self.emitted.name(unit, &wanted)));
+                variables.push(format!("{}{index}", named(part)));
             }
         }
         variables
@@ -160,7 +225,7 @@ impl Finder<'_> {
         let (mut inputs, mut outputs) = (Vec::new(), Vec::new());
         for port in &self.system.automaton_of(index).device.ports {
             let name = format!("{robot}_{}", port.name);
-            for path in self.variables("globals", &name, port.ty == PortType::Point, port.extent.into(), 0) {
+            for path in self.variables("globals", &name, port.ty == PortType::Point, port.extent.into()) {
                 match port.direction {
                     Direction::Input => inputs.push(self.machine.place(&path)),
                     Direction::Output => outputs.push(self.place(path)),
@@ -178,7 +243,7 @@ impl Finder<'_> {
         let block = format!("FB_{}", camel(&automaton.name));
         let tests = self.emitted.name("MAIN", &format!("{}_properties", instance.name));
         let own = |name: &str, is_point, extent| {
-            let variables = self.variables(&block, name, is_point, extent, 0);
+            let variables = self.variables(&block, name, is_point, extent);
             variables.into_iter().map(|variable| format!("{robot}.{variable}")).collect::<Vec<_>>()
         };
         let mut paths = vec![format!("{robot}.state"), format!("{robot}.elapsed")];
@@ -187,7 +252,7 @@ impl Finder<'_> {
             match local.kept_by {
                 KeptBy::Steps | KeptBy::Modes => paths.extend(own(&local.name, is_point, local.ty.extent)),
                 KeptBy::Properties => {
-                    let names = self.variables(&block, &local.name, is_point, local.ty.extent, 0);
+                    let names = self.variables(&block, &local.name, is_point, local.ty.extent);
                     paths.extend(names.into_iter().map(|name| format!("{tests}.{name}")));
                 }
             }
@@ -195,12 +260,12 @@ impl Finder<'_> {
         for (implemented, row) in automaton.implements.iter().zip(&instance.rows) {
             let interface = self.system.model.interface(implemented.interface);
             for cell in &interface.cells {
-                let name = format!("{}_{}", snake(&interface.name), cell.name);
                 let count = self.system.model.elements(cell.ty.extent);
                 // A row of scalars has as many elements as there are members.
                 let extent = if cell.ty.extent == Extent::One { Extent::Count(1) } else { cell.ty.extent };
                 let is_point = cell.ty.scalar == Scalar::Point;
-                paths.extend(self.variables("globals", &name, is_point, extent, row * count));
+                let named = |part: &str| self.emitted.cell(&interface.name, &cell.name, part);
+                paths.extend(self.parts(is_point, extent, row * count, named));
             }
         }
         for port in automaton.device.ports.iter().filter(|p| p.direction == Direction::Output) {

@@ -63,5 +63,5 @@ fn files_of_types_that_are_no_more_differ_too() {
     let output = autogen(&folder, &["build", &short, "-o", "made", "--check"]);
     assert_eq!(status(&output), 1);
     let text = said(&output);
-    assert!(text.contains("no longer written  rust/controllers/src/robots/buffer.rs"), "{text}");
+    assert!(text.contains("no longer written  plc/codesys/E_BufferState.st"), "{text}");
 }

@@ -8,6 +8,9 @@ use super::names::ELEMENT;
 use super::property::STOPPED;
 use crate::ir::Severity;
 
+/// Columns of the table.
+pub const COLUMNS: [&str; 7] = ["code", "robot", "active", "acknowledged", "count", "first", "last"];
+
 pub fn any(shared: Shared) -> bool {
     !shared.system.alarms().is_empty()
 }

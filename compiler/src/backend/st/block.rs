@@ -122,7 +122,7 @@ pub fn steps(shared: Shared, id: AutomatonId, globals: &Globals) -> Block {
             outputs,
             externals: externals(globals, &used),
             variables,
-            state: Some(("state".into(), own.states.ty.clone())),
+            references: Vec::new(),
             instances: Vec::new(),
             body,
         },

@@ -11,6 +11,16 @@ pub enum Ex {
     Member(Member),
     Name(String),
     Element(String, Box<Ex>),
+    /// The index of an element of a table that has so many for each row: row, number of them, which of them.
+    Within(Box<Ex>, i32, Box<Ex>),
+    /// A field of a structure.
+    Part(Box<Ex>, String),
+    /// An element of what is no variable by itself, or of an array of two dimensions.
+    Item(Box<Ex>, Vec<Ex>),
+    /// The values of an array.
+    List(Vec<Ex>),
+    /// The values of a structure.
+    Fields(Vec<(String, Ex)>),
     /// An output of a function block.
     Field(String, String),
     Not(Box<Ex>),
@@ -154,12 +164,17 @@ impl Ex {
                 found.insert(name.clone());
                 index.names(found);
             }
-            Ex::Not(a) | Ex::Minus(a) => a.names(found),
-            Ex::Binary(_, a, b) => {
+            Ex::Not(a) | Ex::Minus(a) | Ex::Part(a, _) => a.names(found),
+            Ex::Binary(_, a, b) | Ex::Within(a, _, b) => {
                 a.names(found);
                 b.names(found);
             }
-            Ex::Chain(_, parts) => parts.iter().for_each(|p| p.names(found)),
+            Ex::Item(a, indices) => {
+                a.names(found);
+                indices.iter().for_each(|index| index.names(found));
+            }
+            Ex::Chain(_, parts) | Ex::List(parts) => parts.iter().for_each(|p| p.names(found)),
+            Ex::Fields(fields) => fields.iter().for_each(|(_, value)| value.names(found)),
             Ex::Call(_, arguments) => arguments.iter().for_each(|(_, a)| a.names(found)),
         }
     }
@@ -168,18 +183,28 @@ impl Ex {
     pub fn functions(&self, found: &mut Vec<&'static str>) {
         match self {
             Ex::Bool(_) | Ex::Int(_) | Ex::Real(_) | Ex::Member(_) | Ex::Name(_) | Ex::Field(..) => {}
-            Ex::Element(_, a) | Ex::Not(a) | Ex::Minus(a) => a.functions(found),
-            Ex::Binary(_, a, b) => {
+            Ex::Element(_, a) | Ex::Not(a) | Ex::Minus(a) | Ex::Part(a, _) => a.functions(found),
+            Ex::Binary(_, a, b) | Ex::Within(a, _, b) => {
                 a.functions(found);
                 b.functions(found);
             }
-            Ex::Chain(_, parts) => parts.iter().for_each(|p| p.functions(found)),
+            Ex::Item(a, indices) => {
+                a.functions(found);
+                indices.iter().for_each(|index| index.functions(found));
+            }
+            Ex::Chain(_, parts) | Ex::List(parts) => parts.iter().for_each(|p| p.functions(found)),
+            Ex::Fields(fields) => fields.iter().for_each(|(_, value)| value.functions(found)),
             Ex::Call(function, arguments) => {
                 found.push(function);
                 arguments.iter().for_each(|(_, a)| a.functions(found));
             }
         }
     }
+}
+
+/// The index of an element of a table that has `each` for a row.
+pub fn within(row: Ex, each: usize, element: Ex) -> Ex {
+    Ex::Within(Box::new(row), each as i32, Box::new(element))
 }
 
 /// A whole number as a real one. Inside of a call without names truST takes none with names.

@@ -26,6 +26,12 @@ pub struct Variable {
     pub address: Option<String>,
     /// Number of elements of an array.
     pub elements: Option<usize>,
+    /// So many of them are a row, where arrays have two dimensions.
+    pub each: Option<usize>,
+    /// The type of its elements, where there are structures.
+    pub structure: Option<String>,
+    /// The type of its elements, where there are enumerations.
+    pub enumeration: Option<String>,
     /// Of a scalar; every other value is set by code.
     pub initial: Option<Ex>,
     /// The first line stands behind the declaration, the others below it.
@@ -49,10 +55,10 @@ pub struct Unit {
     pub comments: Vec<String>,
     pub inputs: Vec<Variable>,
     pub outputs: Vec<Variable>,
+    /// Given by reference.
+    pub references: Vec<Variable>,
     pub externals: Vec<Variable>,
     pub variables: Vec<Variable>,
-    /// Outputs that hold the state: an enumeration in some dialects.
-    pub state: Option<(String, String)>,
     pub instances: Vec<Instance>,
     pub body: Vec<Stmt>,
 }
@@ -108,6 +114,9 @@ impl Variable {
             basic,
             address: None,
             elements: None,
+            each: None,
+            structure: None,
+            enumeration: None,
             initial: None,
             comments: Vec::new(),
             is_retained: false,
@@ -142,17 +151,29 @@ impl Variable {
         self
     }
 
-    /// The number of an array's last element. A second one that nothing uses stands behind a single one: IronPLC
-    /// takes no array of one element.
-    pub fn last(&self) -> Option<usize> {
-        self.elements.map(|n| n.max(2) - 1)
+    /// The numbers of the last element of an array, for each of its dimensions.
+    pub fn last(&self, dialect: Dialect) -> Vec<usize> {
+        match (dialect, self.elements, self.each) {
+            (_, None, _) => Vec::new(),
+            // A second element that nothing uses stands behind a single one: IronPLC takes no array of one element.
+            (Dialect::Portable, Some(n), _) => vec![n.max(2) - 1],
+            (_, Some(n), None) => vec![n.max(1) - 1],
+            (_, Some(n), Some(each)) => vec![(n / each.max(1)).max(1) - 1, each.max(1) - 1],
+        }
     }
 
-    pub fn ty(&self) -> String {
-        match self.last() {
-            None => self.basic.name().into(),
-            Some(last) => format!("ARRAY[0..{last}] OF {}", self.basic.name()),
-        }
+    /// The type of a single element.
+    pub fn single(&self) -> &str {
+        self.structure.as_deref().or(self.enumeration.as_deref()).unwrap_or(self.basic.name())
+    }
+
+    pub fn ty(&self, dialect: Dialect) -> String {
+        let single = match (dialect, &self.structure) {
+            (Dialect::Siemens, Some(name)) => format!("\"{name}\""),
+            _ => self.single().to_string(),
+        };
+        let dimensions: Vec<String> = self.last(dialect).iter().map(|last| format!("0..{last}")).collect();
+        if dimensions.is_empty() { single } else { format!("ARRAY[{}] OF {single}", dimensions.join(", ")) }
     }
 
     /// The same variable without initial value, as it is declared where it is used.
@@ -167,8 +188,7 @@ impl Variable {
 
     /// The declaration, with its comments.
     pub fn line(&self, dialect: Dialect, ty: &str) -> String {
-        let initial =
-            self.initial.as_ref().map(|e| format!(" := {}", dialect.expression(e))).unwrap_or_default();
+        let initial = self.initial.as_ref().map(|e| format!(" := {}", dialect.initial(e))).unwrap_or_default();
         let address = self.address.as_ref().map(|at| format!(" AT {at}")).unwrap_or_default();
         let mut text = format!("    {}{address} : {ty}{initial};", self.name);
         for (i, line) in self.comments.iter().enumerate() {
@@ -189,11 +209,7 @@ impl Unit {
 
     /// All sections of declarations.
     pub fn declarations(&self, dialect: Dialect) -> String {
-        let state = self.state.as_ref().filter(|_| dialect == Dialect::Codesys);
-        let line = |v: &Variable| match state {
-            Some((name, ty)) if *name == v.name => v.line(dialect, ty),
-            _ => v.line(dialect, &v.ty()),
-        };
+        let line = |v: &Variable| v.line(dialect, &v.ty(dialect));
         let section = |keyword: &str, variables: &[Variable]| sections(keyword, variables, line);
         let instances = self.instances.iter().map(|i| {
             let about =
@@ -206,6 +222,7 @@ impl Unit {
         };
         section("VAR_INPUT", &self.inputs)
             + &section("VAR_OUTPUT", &self.outputs)
+            + &section("VAR_IN_OUT", &self.references)
             + &externals
             + &section("VAR", &self.variables)
             + &block("VAR", instances.collect())
@@ -226,7 +243,7 @@ pub fn sections(keyword: &str, variables: &[Variable], line: impl Fn(&Variable) 
 
 /// Declarations of globals.
 pub fn globals(variables: &[Variable], dialect: Dialect) -> String {
-    sections("VAR_GLOBAL", variables, |v| v.line(dialect, &v.ty()))
+    sections("VAR_GLOBAL", variables, |v| v.line(dialect, &v.ty(dialect)))
 }
 
 /// The suffixes of the variables that hold one value.

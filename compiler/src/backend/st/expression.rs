@@ -1,6 +1,6 @@
 //! Expressions: those with loops become statements that come first.
 
-use super::code::{Ex, Stmt, advance, and, assign, binary, name, not, or, real, sum, times, when};
+use super::code::{Ex, Stmt, advance, and, assign, binary, name, not, or, real, when, within};
 use super::context::{Lowering, Phase};
 use super::declaration::Basic;
 use super::property::own_stop;
@@ -129,7 +129,7 @@ impl Lowering<'_> {
                 let width = rows.first().map_or(0, Vec::len);
                 let from = self.value(from, before);
                 let to = self.value(to, before);
-                let index = sum(times(from, width as i32), to);
+                let index = within(from, width, to);
                 Ex::Element(self.names.relations[relation.0].clone(), Box::new(index))
             }
         }
@@ -558,7 +558,7 @@ impl Lowering<'_> {
     pub fn in_table(&self, row: Ex, ty: crate::ir::Type, index: Option<Ex>) -> Ex {
         match index {
             None => row,
-            Some(index) => sum(times(row, self.system.model.elements(ty.extent) as i32), index),
+            Some(index) => within(row, self.system.model.elements(ty.extent), index),
         }
     }
 }

@@ -35,6 +35,8 @@ pub struct Globals {
     pub parameters: Vec<Table>,
     /// The table of alarms, an array for each column.
     pub alarms: Vec<Table>,
+    /// Parameters that nothing reads.
+    pub unread: Vec<Table>,
 }
 
 pub struct List {
@@ -60,13 +62,15 @@ impl Globals {
             cells: cells(shared),
             parameters: parameters(shared),
             alarms: alarm::tables(shared),
+            unread: Vec::new(),
         }
     }
 
     /// Without the cells and parameters that nothing reads or writes.
     pub fn retain(&mut self, is_used: impl Fn(&str) -> bool) {
         self.cells.retain(|table| is_used(&table.variable.name));
-        self.parameters.retain(|table| is_used(&table.variable.name));
+        let parameters = std::mem::take(&mut self.parameters).into_iter();
+        (self.parameters, self.unread) = parameters.partition(|table| is_used(&table.variable.name));
     }
 
     /// The globals as lists that have a name.
@@ -182,7 +186,7 @@ fn ports(shared: Shared, robot: usize) -> Vec<Variable> {
 }
 
 /// `0 agv1, 1 agv2`, or `12 for each of agv1, agv2`
-fn rows(shared: Shared, interface: InterfaceId, each: Option<usize>) -> String {
+pub fn rows(shared: Shared, interface: InterfaceId, each: Option<usize>) -> String {
     let members: Vec<&str> = shared.system.members[interface.0]
         .iter()
         .map(|i| shared.system.instances[*i].name.as_str())
@@ -268,8 +272,10 @@ fn shown(shared: Shared) -> Vec<Table> {
                 .flat_map(|row| shared.system.shown(id, row, number))
                 .map(|v| shared.constants(parameter.ty.scalar, *v))
                 .collect();
-            let comments = about(&parameter.doc, rows(shared, id, each(shared, parameter.ty)));
-            tables.extend(table(parameter.ty.scalar, held, &values, &comments));
+            let each = each(shared, parameter.ty);
+            let comments = about(&parameter.doc, rows(shared, id, each));
+            let of = table(parameter.ty.scalar, held, &values, &comments).into_iter();
+            tables.extend(of.map(|t| Table { variable: Variable { each, ..t.variable }, ..t }));
         }
     }
     tables
@@ -303,7 +309,7 @@ fn relations(shared: Shared) -> Vec<Table> {
                 rows(shared, relation.to, None),
             ];
             Table {
-                variable: Variable { comments, ..Variable::new(name, Basic::Bool) }
+                variable: Variable { comments, each: Some(width), ..Variable::new(name, Basic::Bool) }
                     .with_elements(Some(n.max(1))),
                 values: reaches.iter().flatten().map(|b| Ex::Bool(*b)).collect(),
             }

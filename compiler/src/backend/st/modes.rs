@@ -1,12 +1,12 @@
 //! Operating modes: what a person does with one robot at its panel.
 
 use super::block::{Candidate, Origin, argument, kept_values};
-use super::code::{Arm, Ex, Stmt, advance, and, assign, binary, name, not, or, sum, times, when};
+use super::code::{Arm, Ex, Stmt, advance, and, assign, binary, name, not, or, when, within};
 use super::context::{Lowering, Phase, Shared};
 use super::globals::{Globals, Table};
 use super::names::ELEMENT;
 use super::property::own_stop;
-use crate::ir::{Action, Automaton, ByHand, Expr, ExprKind, KeptBy, Modes, Place};
+use crate::ir::{Action, Automaton, ByHand, Expr, ExprKind, Extent, KeptBy, Modes, Place};
 
 /// The robot begins anew in this scan: properties are told so.
 pub const BEGUN_ANEW: &str = "begun_anew";
@@ -99,13 +99,13 @@ impl Lowering<'_> {
                 let there = there.filter(|(held, _)| {
                     globals.cells.iter().any(|table| table.variable.name == **held && is_wanted(table))
                 });
-                if elements == 1 {
+                if cell.ty.extent == Extent::One {
                     out.extend(there.map(|(held, value)| {
                         Stmt::Assign(Ex::Element(held.clone(), Box::new(row())), value)
                     }));
                     continue;
                 }
-                let at = || sum(times(row(), elements as i32), name(ELEMENT));
+                let at = || within(row(), elements, name(ELEMENT));
                 let stores =
                     there.map(|(held, value)| Stmt::Assign(Ex::Element(held.clone(), Box::new(at())), value));
                 let mut body: Vec<Stmt> = stores.collect();

@@ -11,6 +11,7 @@ use crate::ir::{
 use crate::naming::st::{Renamed, Scope};
 use crate::naming::{camel, snake};
 use std::collections::BTreeMap;
+use std::ops::Deref;
 
 const TAKEN: &[&str] = &[
     "F_following",
@@ -31,6 +32,8 @@ const TAKEN: &[&str] = &[
     "FB_Layout",
     "FB_Watchdog",
     "GVL_System",
+    "GVL_Retained",
+    "GVL_Constants",
     "GVL_Ports",
     "GVL_Raw",
     "GVL_Cells",
@@ -58,6 +61,9 @@ const TAKEN: &[&str] = &[
     "alarms_first",
     "alarms_last",
     "alarms_robot",
+    "alarms",
+    "ST_Alarm",
+    "ST_Point",
     "robot_stopped",
     "scan_no",
     "start_edge",
@@ -91,6 +97,8 @@ pub const ROUNDED: &str = "rounded";
 
 pub struct Names {
     pub enums: Vec<EnumNames>,
+    /// Of each device that has robots and commands.
+    pub commands: BTreeMap<String, EnumNames>,
     pub interfaces: Vec<InterfaceNames>,
     pub relations: Vec<String>,
     pub automata: Vec<AutomatonNames>,
@@ -104,12 +112,41 @@ pub struct Names {
 pub struct EnumNames {
     pub ty: String,
     pub members: Vec<String>,
+    pub values: Vec<i32>,
 }
 
 /// The variables that hold one value: one, or three for a point.
-pub type Held = Vec<String>;
+#[derive(Default)]
+pub struct Held {
+    names: Vec<String>,
+    /// Of a point, where it is one variable: a structure.
+    pub whole: Option<String>,
+}
 
+impl<'a> IntoIterator for &'a Held {
+    type Item = &'a String;
+    type IntoIter = std::slice::Iter<'a, String>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.names.iter()
+    }
+}
+
+impl Deref for Held {
+    type Target = Vec<String>;
+
+    fn deref(&self) -> &Vec<String> {
+        &self.names
+    }
+}
+
+#[derive(Default)]
 pub struct InterfaceNames {
+    /// The array of its rows and the type of one, where they are structures.
+    pub rows: String,
+    pub structure: String,
+    /// The cells as fields of it.
+    pub fields: Vec<String>,
     pub cells: Vec<Held>,
     pub parameters: Vec<Held>,
 }
@@ -159,7 +196,7 @@ pub fn names(system: &System) -> Names {
             (block, properties, states(a, &mut global, &mut renamed))
         })
         .collect();
-    let interfaces: Vec<_> = model.interfaces.iter().map(|i| interface_names(i, &mut global)).collect();
+    let mut interfaces: Vec<_> = model.interfaces.iter().map(|i| interface_names(i, &mut global)).collect();
     let relations = (model.relations.iter())
         .map(|r| {
             let (from, to) = (model.interface(r.from), model.interface(r.to));
@@ -176,6 +213,10 @@ pub fn names(system: &System) -> Names {
     let robots: Vec<_> = (system.instances.iter())
         .map(|i| robot_names(system, i, &tables[i.automaton.0], &members[i.automaton.0], &mut global))
         .collect();
+    for (source, names) in model.interfaces.iter().zip(&mut interfaces).filter(|(i, _)| !i.cells.is_empty()) {
+        structure_names(source, names, &mut global, &mut renamed);
+    }
+    let commands = commands(system, &mut global, &mut renamed);
     // A block declares the globals that it uses beside its own variables.
     let automata: Vec<_> = (blocks.into_iter().zip(tables).enumerate())
         .map(|(id, (names, tables))| {
@@ -196,7 +237,7 @@ pub fn names(system: &System) -> Names {
     };
     renamed.extend(log("globals", &global));
     renamed.extend(log("MAIN", &program));
-    Names { enums, interfaces, relations, automata, robots, program, renamed }
+    Names { enums, commands, interfaces, relations, automata, robots, program, renamed }
 }
 
 fn enum_names(source: &Enum, global: &mut Scope, renamed: &mut Vec<(String, Renamed)>) -> EnumNames {
@@ -209,9 +250,30 @@ fn members(
     renamed: &mut Vec<(String, Renamed)>,
 ) -> EnumNames {
     let mut scope = Scope::default();
-    let members = wanted.map(|member| scope.take(&member)).collect();
+    let members: Vec<String> = wanted.map(|member| scope.take(&member)).collect();
     renamed.extend(scope.renamed().iter().map(|r| (ty.clone(), r.clone())));
-    EnumNames { ty, members }
+    let values = (0..).take(members.len()).collect();
+    EnumNames { ty, members, values }
+}
+
+/// The commands of the devices that have robots, by the name of the device.
+fn commands(
+    system: &System,
+    global: &mut Scope,
+    renamed: &mut Vec<(String, Renamed)>,
+) -> BTreeMap<String, EnumNames> {
+    let mut known = BTreeMap::new();
+    for instance in &system.instances {
+        let device = &system.model.automaton(instance.automaton).device;
+        if device.verbs.is_empty() || known.contains_key(&device.name) {
+            continue;
+        }
+        let ty = global.take(&format!("E_{}Command", camel(&device.name)));
+        let names = members(ty, device.verbs.iter().map(|verb| verb.name.clone()), renamed);
+        let values = device.verbs.iter().map(|verb| verb.number).collect();
+        known.insert(device.name.clone(), EnumNames { values, ..names });
+    }
+    known
 }
 
 fn states(automaton: &Automaton, global: &mut Scope, renamed: &mut Vec<(String, Renamed)>) -> EnumNames {
@@ -220,7 +282,10 @@ fn states(automaton: &Automaton, global: &mut Scope, renamed: &mut Vec<(String, 
 }
 
 fn held(scope: &mut Scope, wanted: &str, scalar: Scalar) -> Held {
-    scope.take_all(wanted, suffixes(scalar))
+    let names = scope.take_all(wanted, suffixes(scalar));
+    let beginning = names[0].strip_suffix("_x").filter(|_| scalar == Scalar::Point);
+    let whole = beginning.map(|beginning| scope.take_whole(wanted, beginning));
+    Held { names, whole }
 }
 
 fn interface_names(source: &Interface, global: &mut Scope) -> InterfaceNames {
@@ -228,7 +293,22 @@ fn interface_names(source: &Interface, global: &mut Scope) -> InterfaceNames {
     InterfaceNames {
         cells: source.cells.iter().map(|c| take(&c.name, c.ty)).collect(),
         parameters: source.parameters.iter().map(|p| take(&p.name, p.ty)).collect(),
+        ..InterfaceNames::default()
     }
+}
+
+/// The names of what an interface is where there are structures.
+fn structure_names(
+    source: &Interface,
+    names: &mut InterfaceNames,
+    global: &mut Scope,
+    renamed: &mut Vec<(String, Renamed)>,
+) {
+    names.rows = global.take(&format!("{}_cells", snake(&source.name)));
+    names.structure = global.take(&format!("ST_{}", camel(&source.name)));
+    let mut scope = Scope::default();
+    names.fields = source.cells.iter().map(|cell| scope.take(&cell.name)).collect();
+    renamed.extend(scope.renamed().iter().map(|r| (names.structure.clone(), r.clone())));
 }
 
 /// Arrays of parameters that all robots of a type have alike.
@@ -238,7 +318,7 @@ fn table_names(system: &System, id: AutomatonId, global: &mut Scope) -> Vec<Held
     (source.parameters.iter().enumerate())
         .map(|(i, p)| match role::is_alike(system, id, i) {
             true => held(global, &format!("{prefix}_{}", p.name), p.ty.scalar),
-            false => Held::new(),
+            false => Held::default(),
         })
         .collect()
 }
@@ -337,7 +417,7 @@ fn robot_names(
     let parameters = (automaton.parameters.iter().enumerate())
         .map(|(i, p)| match p.ty.extent != Extent::One && tables[i].is_empty() {
             true => held(global, &own(&p.name), p.ty.scalar),
-            false => Held::new(),
+            false => Held::default(),
         })
         .collect();
     let roles = (automaton.roles.iter().zip(members))

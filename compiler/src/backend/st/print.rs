@@ -73,6 +73,19 @@ impl Dialect {
             Ex::Name(name) => name.clone(),
             Ex::Element(name, index) => format!("{name}[{}]", self.expression(index)),
             Ex::Field(instance, output) => format!("{instance}.{output}"),
+            Ex::Within(row, each, element) => {
+                self.expression(&code::sum(code::times((**row).clone(), *each), (**element).clone()))
+            }
+            Ex::Part(of, field) => format!("{}.{field}", self.expression(of)),
+            Ex::Item(of, indices) => {
+                let indices: Vec<_> = indices.iter().map(|index| self.expression(index)).collect();
+                format!("{}[{}]", self.expression(of), indices.join(", "))
+            }
+            Ex::List(values) => format!("[{}]", self.list(values).join(", ")),
+            Ex::Fields(fields) => {
+                let field = |(name, value): &(String, Ex)| format!("{name} := {}", self.expression(value));
+                format!("({})", fields.iter().map(field).collect::<Vec<_>>().join(", "))
+            }
             Ex::Not(a) => format!("NOT {}", self.operand(a)),
             Ex::Minus(a) => format!("-{}", self.operand(a)),
             Ex::Binary(operator, a, b) => format!("{} {operator} {}", self.operand(a), self.operand(b)),
@@ -83,6 +96,44 @@ impl Dialect {
                 format!("{}({})", self.function(function), arguments.join(", "))
             }
         }
+    }
+
+    /// The value in a declaration: that of a long array on several lines.
+    pub fn initial(self, value: &Ex) -> String {
+        let Ex::List(values) = value else { return self.expression(value) };
+        let mut text = String::from("[");
+        let mut width = WIDTH;
+        for (i, part) in self.list(values).into_iter().enumerate() {
+            if i > 0 {
+                text.push(',');
+            }
+            if width + part.len() + 2 > WIDTH - 8 {
+                text += "\n        ";
+                width = 0;
+            } else {
+                text.push(' ');
+            }
+            width += part.len() + 2;
+            text += &part;
+        }
+        if text.len() <= WIDTH / 2 {
+            text = text.replace("\n        ", "");
+        }
+        text + "]"
+    }
+
+    /// Values side by side; those that are alike by their number.
+    fn list(self, values: &[Ex]) -> Vec<String> {
+        let mut texts = Vec::new();
+        for alike in values.chunk_by(|a, b| a == b) {
+            let text = self.expression(&alike[0]);
+            if alike.len() > 2 {
+                texts.push(format!("{}({text})", alike.len()));
+            } else {
+                texts.extend(std::iter::repeat_n(text, alike.len()));
+            }
+        }
+        texts
     }
 
     /// Those of the program begin with `F_`.

@@ -9,6 +9,7 @@ use super::code::{Arm, Ex, Member, Stmt, expressions};
 use super::context::Shared;
 use super::declaration::{Unit, Variable};
 use super::print::{Dialect, comment, harmless};
+use super::structured::Structure;
 use super::text::{made_from, render};
 use crate::backend::Files;
 use askama::Template;
@@ -65,8 +66,18 @@ struct Header {
 #[template(path = "plc/siemens/data_block.scl", escape = "none")]
 struct DataBlock {
     sections: String,
+    /// The values of arrays and structures, as assignments.
+    values: String,
     /// Some of its variables are: each section says so.
     is_retained: bool,
+}
+
+#[derive(Template)]
+#[template(path = "plc/siemens/structure.scl", escape = "none")]
+struct StructureText {
+    name: String,
+    about: String,
+    fields: String,
 }
 
 #[derive(Template)]
@@ -94,7 +105,13 @@ pub fn files(shared: Shared, line: &Line) -> Files {
     let mut parts = vec![render(&Header { made_from: made_from(shared) })];
     let all: Vec<Variable> = line.globals.all().cloned().map(|v| Variable { address: None, ..v }).collect();
     let is_retained = all.iter().any(|variable| variable.is_retained);
-    parts.push(render(&DataBlock { sections: sections("VAR", &all), is_retained }));
+    parts.extend(line.structures.iter().map(structure));
+    let (values, declared): (Vec<_>, Vec<_>) = all.iter().map(without_values).unzip();
+    parts.push(render(&DataBlock {
+        sections: sections("VAR", &declared),
+        values: values.concat(),
+        is_retained,
+    }));
     parts.extend(line.functions.iter().map(|function| function_text(function.text)));
     let is_global = |name: &str| all.iter().any(|variable| variable.name == name);
     parts.extend(line.units().map(|unit| block(shared, unit, &is_global)));
@@ -112,8 +129,51 @@ pub fn files(shared: Shared, line: &Line) -> Files {
 fn sections(keyword: &str, variables: &[Variable]) -> String {
     super::declaration::sections(keyword, variables, |variable| {
         let quoted = Variable { name: quoted(&variable.name), ..variable.clone() };
-        quoted.line(DIALECT, &quoted.ty())
+        quoted.line(DIALECT, &quoted.ty(DIALECT))
     })
+}
+
+fn structure(structure: &Structure) -> String {
+    let field = |field: &Variable| {
+        let field = Variable { name: quoted(&field.name), ..field.clone() };
+        field.line(DIALECT, &field.ty(DIALECT))
+    };
+    render(&StructureText {
+        name: structure.name.clone(),
+        about: structure.about.clone(),
+        fields: structure.fields.iter().map(field).map(|line| line.replace("\n    ", "\n        ")).map(|line| format!("    {line}")).collect(),
+    })
+}
+
+/// The values of arrays and structures as assignments, and the declaration without them.
+fn without_values(variable: &Variable) -> (String, Variable) {
+    let Some(initial @ (Ex::List(_) | Ex::Fields(_))) = &variable.initial else {
+        return (String::new(), variable.clone());
+    };
+    let mut lines = String::new();
+    assign(&quoted(&variable.name), initial, variable.each, &mut lines);
+    (lines, Variable { initial: None, ..variable.clone() })
+}
+
+/// `each`: the number of elements in a row of an array of two dimensions.
+fn assign(place: &str, value: &Ex, each: Option<usize>, lines: &mut String) {
+    match value {
+        Ex::List(values) => {
+            for (i, value) in values.iter().enumerate() {
+                let index = each.map_or_else(|| i.to_string(), |each| format!("{}, {}", i / each, i % each));
+                assign(&format!("{place}[{index}]"), value, None, lines);
+            }
+        }
+        Ex::Fields(fields) => {
+            for (field, value) in fields {
+                assign(&format!("{place}.{}", quoted(field)), value, None, lines);
+            }
+        }
+        Ex::Member(member) => {
+            *lines += &format!("    {place} := {}; {}\n", member.value, comment(&member.note));
+        }
+        single => *lines += &format!("    {place} := {};\n", DIALECT.expression(single)),
+    }
 }
 
 fn quoted(name: &str) -> String {
@@ -140,10 +200,14 @@ fn block(shared: Shared, unit: &Unit, is_global: &impl Fn(&str) -> bool) -> Stri
         .map(|(name, member)| format!("    {name} : DINT := {};\n", member.value));
     let sections = sections("VAR_INPUT", &unit.inputs)
         + &sections("VAR_OUTPUT", &unit.outputs)
+        + &sections("VAR_IN_OUT", &unit.references)
         + &sections("VAR", &unit.variables)
         + &section("VAR", &instances.collect::<String>())
         + &section("VAR CONSTANT", &declared.collect::<String>());
-    let own = Names { is_global, constants: &constants };
+    let given: BTreeSet<&str> =
+        unit.inputs.iter().chain(&unit.references).map(|variable| variable.name.as_str()).collect();
+    let is_global = |name: &str| is_global(name) && !given.contains(name);
+    let own = Names { is_global: &is_global, constants: &constants };
     render(&Block {
         name: if unit.name == "MAIN" { CALLER.into() } else { unit.name.clone() },
         comments: unit.comments.iter().map(|line| harmless(line.trim())).collect(),
@@ -162,7 +226,7 @@ impl Constants {
     fn of(unit: &Unit) -> Self {
         let mut members = Vec::new();
         members_of(&unit.body, &mut members);
-        let own = [&unit.inputs, &unit.outputs, &unit.variables]
+        let own = [&unit.inputs, &unit.outputs, &unit.references, &unit.variables]
             .into_iter()
             .flatten()
             .map(|v| v.name.to_lowercase());
@@ -202,12 +266,17 @@ fn members_in<'a>(ex: &'a Ex, found: &mut Vec<&'a Member>) {
     match ex {
         Ex::Member(member) => found.push(member),
         Ex::Bool(_) | Ex::Int(_) | Ex::Real(_) | Ex::Name(_) | Ex::Field(..) => {}
-        Ex::Element(_, a) | Ex::Not(a) | Ex::Minus(a) => members_in(a, found),
-        Ex::Binary(_, a, b) => {
+        Ex::Element(_, a) | Ex::Not(a) | Ex::Minus(a) | Ex::Part(a, _) => members_in(a, found),
+        Ex::Binary(_, a, b) | Ex::Within(a, _, b) => {
             members_in(a, found);
             members_in(b, found);
         }
-        Ex::Chain(_, parts) => parts.iter().for_each(|part| members_in(part, found)),
+        Ex::Item(a, indices) => {
+            members_in(a, found);
+            indices.iter().for_each(|index| members_in(index, found));
+        }
+        Ex::Fields(fields) => fields.iter().for_each(|(_, value)| members_in(value, found)),
+        Ex::Chain(_, parts) | Ex::List(parts) => parts.iter().for_each(|part| members_in(part, found)),
         Ex::Call(_, arguments) => arguments.iter().for_each(|(_, a)| members_in(a, found)),
     }
 }
@@ -289,6 +358,12 @@ impl<G: Fn(&str) -> bool> Names<'_, G> {
             Ex::Name(name) => Ex::Name(self.name(name)),
             Ex::Element(name, index) => Ex::Element(self.name(name), boxed(index)),
             Ex::Field(instance, output) => Ex::Field(self.name(instance), quoted(output)),
+            Ex::Within(row, each, element) => Ex::Within(boxed(row), *each, boxed(element)),
+            Ex::Part(of, field) => Ex::Part(boxed(of), quoted(field)),
+            Ex::Item(of, indices) => {
+                Ex::Item(boxed(of), indices.iter().map(|index| self.ex(index)).collect())
+            }
+            Ex::List(_) | Ex::Fields(_) => ex.clone(),
             Ex::Not(a) => Ex::Not(boxed(a)),
             Ex::Minus(a) => Ex::Minus(boxed(a)),
             Ex::Binary(operator, a, b) => Ex::Binary(operator, boxed(a), boxed(b)),

@@ -4,6 +4,7 @@ use super::Line;
 use super::attributes;
 use super::context::Shared;
 use super::declaration::{Unit, globals};
+use super::names::EnumNames;
 use super::print::{Dialect, harmless};
 use super::watchdog;
 use crate::backend::Files;
@@ -65,6 +66,15 @@ struct Enumeration {
 }
 
 #[derive(Template)]
+#[template(path = "plc/structure.st")]
+struct StructureText {
+    made_from: String,
+    name: String,
+    about: String,
+    fields: String,
+}
+
+#[derive(Template)]
 #[template(path = "plc/global_list.st")]
 struct GlobalList {
     made_from: String,
@@ -77,8 +87,9 @@ struct GlobalList {
 /// A file for each object of a project.
 pub fn codesys(shared: Shared, line: &Line) -> Files {
     let mut files = Files::new();
-    for (name, members) in enumerations(shared, line) {
-        let members: Vec<_> = members.iter().enumerate().map(|(i, m)| format!("    {m} := {i}")).collect();
+    for names in enumerations(shared, line) {
+        let members: Vec<_> = names.numbered().map(|(m, i)| format!("    {m} := {i}")).collect();
+        let name = &names.ty;
         let text = Enumeration {
             made_from: made_from(shared),
             pragmas: attributes::pragmas(attributes::OF_ENUMERATIONS),
@@ -86,6 +97,16 @@ pub fn codesys(shared: Shared, line: &Line) -> Files {
             members: members.join(",\n"),
         };
         files.insert(format!("{name}.st"), render(&text));
+    }
+    for structure in &line.structures {
+        let fields = structure.fields.iter();
+        let text = StructureText {
+            made_from: made_from(shared),
+            name: structure.name.clone(),
+            about: structure.about.clone(),
+            fields: fields.map(|f| f.line(Dialect::Codesys, &f.ty(Dialect::Codesys))).collect(),
+        };
+        files.insert(format!("{}.st", structure.name), render(&text));
     }
     for function in &line.functions {
         let text = format!("(* {}. This is not a safety function. *)\n{}", function.name, function.text);
@@ -109,11 +130,18 @@ pub fn codesys(shared: Shared, line: &Line) -> Files {
     files
 }
 
-/// Enumerations and their members: those of the specification, and the states of each type that has robots.
-pub fn enumerations<'a>(shared: Shared<'a>, line: &Line) -> Vec<(&'a String, &'a Vec<String>)> {
+/// The enumerations of the specification, the states of each type that has robots, and the commands of their devices.
+pub fn enumerations<'a>(shared: Shared<'a>, line: &Line) -> Vec<&'a EnumNames> {
     let with_robots = line.blocks.iter().zip(&shared.names.automata).filter(|(blocks, _)| blocks.is_some());
     let states = with_robots.map(|(_, names)| &names.states);
-    shared.names.enums.iter().chain(states).map(|e| (&e.ty, &e.members)).collect()
+    shared.names.enums.iter().chain(states).chain(shared.names.commands.values()).collect()
+}
+
+impl EnumNames {
+    /// Each member with its number.
+    pub fn numbered(&self) -> impl Iterator<Item = (&String, &i32)> {
+        self.members.iter().zip(&self.values)
+    }
 }
 
 pub fn unit(shared: Shared, unit: &Unit, dialect: Dialect) -> String {

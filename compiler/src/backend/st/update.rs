@@ -43,6 +43,13 @@ impl Lowering<'_> {
         first
     }
 
+    /// Type and member of a command.
+    fn verb(&self, verb: i32) -> Option<String> {
+        let names = self.names.commands.get(&self.automaton().device.name)?;
+        let number = names.values.iter().position(|value| *value == verb)?;
+        Some(format!("{}.{}", names.ty, names.members[number]))
+    }
+
     fn command(&self, verb: i32) -> Vec<Stmt> {
         let device = &self.automaton().device;
         let port = |wanted: &str| {
@@ -53,7 +60,7 @@ impl Lowering<'_> {
         let number =
             [("last", "cmd"), ("got", "got"), ("ack", "ack")].map(|(input, p)| (input, name(&port(p))));
         let mut out = vec![
-            assign(&port("verb"), Ex::Member(Member { value: verb, note, qualified: None })),
+            assign(&port("verb"), Ex::Member(Member { value: verb, note, qualified: self.verb(verb) })),
             assign(&port("cmd"), Ex::Call("F_next_command", number.into())),
         ];
         let answer_counts = self.automaton().abandoned.into_iter().chain(self.automaton().interrupted);
@@ -235,14 +242,15 @@ impl Lowering<'_> {
         out: &mut Vec<Stmt>,
     ) {
         let before = spot.target(0);
-        if let Some(index) = &spot.index
-            && !matches!(index, Ex::Int(_))
-            && !(matches!(index, Ex::Name(_)) && spot.names.iter().all(|n| index != &name(n)))
-        {
-            let element = self.temporary("element", Basic::Dint);
-            out.push(assign(&element, index.clone()));
-            spot.index = Some(name(&element));
-        }
+        spot.index = match spot.index {
+            Some(Ex::Within(row, each, element)) => {
+                let row = self.index_kept("row", *row, &spot.names, out);
+                let element = self.index_kept("element", *element, &spot.names, out);
+                Some(Ex::Within(Box::new(row), each, Box::new(element)))
+            }
+            Some(index) => Some(self.index_kept("element", index, &spot.names, out)),
+            None => None,
+        };
         let value = replaced(value, &before, &spot.target(0));
         out.push(Stmt::Assign(spot.target(0), value));
         let place = spot.target(0);
@@ -258,6 +266,21 @@ impl Lowering<'_> {
             let body = [Stmt::Assign(place, nearest)].into_iter().chain(self.raise(fault)).collect();
             out.push(when(or(leaves), body));
         }
+    }
+
+    /// An index that stays the same while these variables are written.
+    fn index_kept(&mut self, purpose: &str, index: Ex, written: &[String], out: &mut Vec<Stmt>) -> Ex {
+        let stays = match &index {
+            Ex::Int(_) => true,
+            Ex::Name(index) => !written.contains(index),
+            _ => false,
+        };
+        if stays {
+            return index;
+        }
+        let kept = self.temporary(purpose, Basic::Dint);
+        out.push(assign(&kept, index));
+        name(&kept)
     }
 
     /// Latches a fault and ends the step.
@@ -312,6 +335,7 @@ fn replaced(ex: Ex, old: &Ex, new: &Ex) -> Ex {
         Ex::Minus(a) => Ex::Minus(again(a)),
         Ex::Not(a) => Ex::Not(again(a)),
         Ex::Element(array, index) => Ex::Element(array, again(index)),
+        Ex::Within(row, each, element) => Ex::Within(again(row), each, again(element)),
         other => other,
     }
 }

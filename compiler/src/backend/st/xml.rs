@@ -2,6 +2,7 @@
 
 use super::Line;
 use super::attributes;
+use super::code::Ex;
 use super::context::Shared;
 use super::declaration::{Unit, Variable};
 use super::functions::Function;
@@ -29,6 +30,7 @@ struct Codesys {
     version: &'static str,
     day: &'static str,
     enumerations: Vec<Enumeration>,
+    structures: Vec<StructureXml>,
     pous: Vec<Pou>,
     lists: Vec<List>,
 }
@@ -46,6 +48,11 @@ struct Enumeration {
     attributes: String,
 }
 
+struct StructureXml {
+    name: String,
+    fields: String,
+}
+
 struct List {
     name: &'static str,
     variables: String,
@@ -56,7 +63,7 @@ struct List {
 /// For Beremiz, OpenPLC and other tools that keep to the standard.
 pub fn plcopen(shared: Shared, line: &Line) -> String {
     let all: Vec<Variable> = line.globals.all().cloned().collect();
-    let globals = sections("globalVars", &all, 8, |v| variable(v, Dialect::Portable, None, 10));
+    let globals = sections("globalVars", &all, 8, |v| variable(v, Dialect::Portable, 10));
     render(&Plcopen {
         made_from: escaped(&made_from(shared)),
         version: version::NUMBER,
@@ -70,19 +77,23 @@ pub fn plcopen(shared: Shared, line: &Line) -> String {
 /// For CODESYS and TwinCAT.
 pub fn codesys(shared: Shared, line: &Line) -> String {
     let value =
-        |(i, member): (usize, &String)| format!("              <value name=\"{member}\" value=\"{i}\"/>\n");
+        |(member, i): (&String, &i32)| format!("              <value name=\"{member}\" value=\"{i}\"/>\n");
     let enumerations = enumerations(shared, line)
         .into_iter()
-        .map(|(name, members)| Enumeration {
-            name: name.clone(),
-            members: members.iter().enumerate().map(value).collect(),
+        .map(|names| Enumeration {
+            name: names.ty.clone(),
+            members: names.numbered().map(value).collect(),
             attributes: attributes::additional_data(attributes::OF_ENUMERATIONS, 8),
         })
         .collect();
+    let structures = line.structures.iter().map(|structure| StructureXml {
+        name: structure.name.clone(),
+        fields: structure.fields.iter().map(|v| variable(v, Dialect::Codesys, 12)).collect(),
+    });
     let lists = (line.globals.lists().into_iter())
         .map(|list| List {
             name: list.name,
-            variables: list.variables.iter().map(|v| variable(v, Dialect::Codesys, None, 8)).collect(),
+            variables: list.variables.iter().map(|v| variable(v, Dialect::Codesys, 8)).collect(),
             is_retained: list.is_retained,
             attributes: attributes::additional_data(list.attributes, 8),
         })
@@ -92,6 +103,7 @@ pub fn codesys(shared: Shared, line: &Line) -> String {
         version: version::NUMBER,
         day: version::DAY,
         enumerations,
+        structures: structures.collect(),
         pous: pous(line, Dialect::Codesys),
         lists,
     })
@@ -103,14 +115,11 @@ fn pous(line: &Line, dialect: Dialect) -> Vec<Pou> {
 }
 
 fn pou(unit: &Unit, dialect: Dialect) -> Pou {
-    let enumeration = unit.state.as_ref().filter(|_| dialect == Dialect::Codesys);
-    let of = |v: &Variable| {
-        let ty = enumeration.filter(|(name, _)| *name == v.name).map(|(_, ty)| ty.as_str());
-        variable(v, dialect, ty, 12)
-    };
+    let of = |v: &Variable| variable(v, dialect, 12);
     let mut interface = String::new();
     interface += &section("inputVars", 10, unit.inputs.iter().map(of).collect());
     interface += &sections("outputVars", &unit.outputs, 10, of);
+    interface += &section("inOutVars", 10, unit.references.iter().map(of).collect());
     let instances = unit.instances.iter();
     let instances =
         instances.map(|i| typed(&named(&i.name), &format!("<derived name=\"{}\"/>", i.block), "", "", 12));
@@ -176,18 +185,21 @@ fn section(name: &str, indent: usize, variables: Vec<String>) -> String {
     }
 }
 
-fn variable(variable: &Variable, dialect: Dialect, derived: Option<&str>, indent: usize) -> String {
-    let basic = variable.basic.name();
-    let ty = match (derived, variable.last()) {
-        (Some(name), _) => format!("<derived name=\"{name}\"/>"),
-        (None, None) => format!("<{basic}/>"),
-        (None, Some(last)) => {
-            format!("<array><dimension lower=\"0\" upper=\"{last}\"/><baseType><{basic}/></baseType></array>")
-        }
+fn variable(variable: &Variable, dialect: Dialect, indent: usize) -> String {
+    let single = match variable.structure.as_ref().or(variable.enumeration.as_ref()) {
+        Some(name) => format!("<derived name=\"{name}\"/>"),
+        None => format!("<{}/>", variable.basic.name()),
     };
-    let initial = variable.initial.as_ref().map(|e| {
-        format!("<initialValue><simpleValue value=\"{}\"/></initialValue>", escaped(&dialect.expression(e)))
-    });
+    let last = variable.last(dialect);
+    let dimension = |last: &usize| format!("<dimension lower=\"0\" upper=\"{last}\"/>");
+    let ty = match last.is_empty() {
+        true => single,
+        false => format!(
+            "<array>{}<baseType>{single}</baseType></array>",
+            last.iter().map(dimension).collect::<String>()
+        ),
+    };
+    let initial = variable.initial.as_ref().map(|e| format!("<initialValue>{}</initialValue>", value(e, dialect)));
     let about = escaped(&variable.comments.join("; "));
     let about = match (about.is_empty(), dialect) {
         (true, _) => String::new(),
@@ -200,6 +212,31 @@ fn variable(variable: &Variable, dialect: Dialect, derived: Option<&str>, indent
     };
     let address = variable.address.as_ref().map(|at| format!(" address=\"{at}\"")).unwrap_or_default();
     typed(&(named(&variable.name) + &address), &ty, &initial.unwrap_or_default(), &about, indent)
+}
+
+/// A value in a declaration.
+fn value(ex: &Ex, dialect: Dialect) -> String {
+    match ex {
+        Ex::List(values) => {
+            let one = |alike: &[Ex]| {
+                let times = if alike.len() > 1 {
+                    format!(" repetitionValue=\"{}\"", alike.len())
+                } else {
+                    String::new()
+                };
+                format!("<value{times}>{}</value>", value(&alike[0], dialect))
+            };
+            let values: String = values.chunk_by(|a, b| a == b).map(one).collect();
+            format!("<arrayValue>{values}</arrayValue>")
+        }
+        Ex::Fields(fields) => {
+            let one = |(name, ex): &(String, Ex)| {
+                format!("<value member=\"{name}\">{}</value>", value(ex, dialect))
+            };
+            format!("<structValue>{}</structValue>", fields.iter().map(one).collect::<String>())
+        }
+        single => format!("<simpleValue value=\"{}\"/>", escaped(&dialect.expression(single))),
+    }
 }
 
 fn named(name: &str) -> String {

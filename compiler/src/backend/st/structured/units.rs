@@ -1,0 +1,115 @@
+//! Blocks, and what they are given.
+
+use super::access::Places;
+use super::calls::Calls;
+use super::enumerations::Typed;
+use super::rewrite::joined;
+use super::POINT;
+use crate::backend::st::code::{self, Ex, Stmt};
+use crate::backend::st::declaration::{Unit, Variable};
+use crate::backend::st::globals::Globals;
+use std::collections::BTreeSet;
+use std::rc::Rc;
+
+/// A block, and the shared variables that each call gives it.
+#[derive(Clone)]
+pub struct Given {
+    pub unit: Unit,
+    pub shared: Vec<String>,
+    pub places: Rc<Places>,
+}
+
+pub fn unit(unit: &Unit, places: &Places, globals: &Globals, typed: &Typed) -> Given {
+    let body = places.statements(&unit.body);
+    let used = code::names(&body);
+    let written = written(&body);
+    let of = |variables: &[Variable]| variables_of(variables, &unit.name, places, typed);
+    let mut inputs = of(&unit.inputs);
+    let outputs = of(&unit.outputs);
+    // A point of which others see a coordinate is an output as a whole.
+    let mut variables = of(&unit.variables);
+    variables.retain(|variable| outputs.iter().all(|output| output.name != variable.name));
+    let mut references = Vec::new();
+    let mut shared = Vec::new();
+    for global in globals.all().filter(|global| used.contains(&global.name)) {
+        let is_single = global.elements.is_none() && global.structure.is_none();
+        let is_read = is_single && !written.contains(&global.name);
+        if is_read { &mut inputs } else { &mut references }.push(global.external());
+        shared.push(global.name.clone());
+    }
+    let unit = Unit {
+        inputs,
+        outputs,
+        references,
+        externals: Vec::new(),
+        variables,
+        body,
+        ..unit.clone()
+    };
+    Given { unit, shared, places: Rc::new(places.clone()) }
+}
+
+/// The program: its calls give blocks what they need.
+pub fn program(unit: &Unit, places: &Places, calls: &mut Calls) -> Unit {
+    let places = places.of_program(calls.places());
+    let statement = |statement: &Stmt| match statement {
+        Stmt::Call { instance, arguments } => calls.call(instance, arguments, &places),
+        _ => places.statement(statement),
+    };
+    let body = joined(unit.body.iter().map(statement).collect());
+    Unit { body, ..unit.clone() }
+}
+
+/// Coordinates as points, and members of enumerations as such.
+pub fn variables_of(variables: &[Variable], unit: &str, places: &Places, typed: &Typed) -> Vec<Variable> {
+    let mut out: Vec<Variable> = Vec::new();
+    for variable in variables {
+        let named = typed.get(unit, &variable.name).cloned();
+        let variable = Variable { enumeration: named, ..variable.clone() };
+        match places.get(&variable.name) {
+            Some(place) if place.coordinate.is_some() => {
+                if out.iter().all(|known| known.name != place.of) {
+                    let structure = Some(POINT.into());
+                    out.push(Variable { name: place.of.clone(), structure, initial: None, ..variable });
+                }
+            }
+            _ => out.push(variable),
+        }
+    }
+    out
+}
+
+/// The variables of which a part is written.
+fn written(statements: &[Stmt]) -> BTreeSet<String> {
+    let mut found = BTreeSet::new();
+    let mut targets = Vec::new();
+    each_target(statements, &mut targets);
+    targets.into_iter().for_each(|target| root(target, &mut found));
+    found
+}
+
+fn each_target<'a>(statements: &'a [Stmt], found: &mut Vec<&'a Ex>) {
+    for statement in statements {
+        match statement {
+            Stmt::Assign(target, _) => found.push(target),
+            Stmt::If(arms, otherwise) => {
+                arms.iter().for_each(|arm| each_target(&arm.body, found));
+                each_target(otherwise, found);
+            }
+            Stmt::Case { branches, otherwise, .. } => {
+                branches.iter().for_each(|(_, body)| each_target(body, found));
+                each_target(otherwise, found);
+            }
+            Stmt::While { body, .. } => each_target(body, found),
+            Stmt::Comment(_) | Stmt::Exit | Stmt::Return | Stmt::Call { .. } => {}
+        }
+    }
+}
+
+fn root(target: &Ex, found: &mut BTreeSet<String>) {
+    match target {
+        Ex::Name(name) | Ex::Element(name, _) => drop(found.insert(name.clone())),
+        Ex::Part(of, _) | Ex::Item(of, _) => root(of, found),
+        _ => {}
+    }
+}
