@@ -56,7 +56,7 @@ pub fn properties(context: &Context) -> Vec<String> {
         let enabled = automaton.modes.iter().map(|modes| format!(" && {}", context.expr(&modes.may_go_on)));
         texts.push(format!(
             "{}if start && stopped{} {{ self.stopped = false; }}",
-            comment("It goes on from the next scan on."),
+            comment("It continues from the next scan."),
             closed.chain(enabled).collect::<String>()
         ));
     }
