@@ -270,7 +270,7 @@ fn renaming_is_refused_with_a_reason() {
         ("n: int", 0, "", "is no name"),
         ("n: int", 0, "some_idle", "names something else already"),
         ("n: int", 0, "stops", "names a constant of the device already"),
-        ("n: int", 0, "d", "has another meaning here already"),
+        ("n: int", 0, "d", "already has another meaning here"),
         ("n: int", 0, "Idle", "this comparison does not take"),
         ("Going", 0, "Waiting", "two states"),
         ("phase", 0, "ask", "declared twice"),

@@ -52,7 +52,7 @@ struct Module {
     retained: Option<retained::Methods>,
     /// With a comma before it.
     cells_parameter: &'static str,
-    /// Statements that make its own cells as at first.
+    /// Statements that set the initial values of its own cells.
     own_cells: Vec<String>,
 }
 

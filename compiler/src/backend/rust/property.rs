@@ -1,4 +1,4 @@
-//! Properties, which are looked at behind the steps, and the alarms that they raise.
+//! Properties, which are checked after the steps, and the alarms that they raise.
 
 use super::context::Context;
 use super::format::comment;

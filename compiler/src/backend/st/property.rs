@@ -68,10 +68,7 @@ pub fn block(shared: Shared, id: AutomatonId, globals: &Globals) -> Option<Block
         unit: Unit {
             name: lowering.own().properties.clone(),
             comments: vec![if automaton.properties.is_empty() {
-                format!(
-                    "Restart of each {} that was stopped, after the steps of all robots.",
-                    automaton.name
-                )
+                format!("Restart of each {} that was stopped, after the steps of all robots.", automaton.name)
             } else {
                 format!("The properties of each {}, checked after the steps of all robots.", automaton.name)
             }],

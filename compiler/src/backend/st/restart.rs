@@ -1,7 +1,7 @@
 //! Going on after a loss of power: what is retained, and the first scan after it.
 //!
 //! Retained variables are declared so, and the first scan leaves them alone if [`WARM`] says that all of them are of
-//! this program and of one scan. Otherwise everything is as at first.
+//! this program and of one scan. Otherwise everything has its initial value.
 
 use super::block::{Candidate, kept_values};
 use super::code::{Arm, Ex, Stmt, and, assign, binary, name, not, when};
@@ -42,8 +42,7 @@ pub fn variables(shared: Shared) -> Vec<Variable> {
         variable(WARM, Basic::Bool, Ex::Bool(false), "the first scan begins with retained values"),
         variable(OF, Basic::Dint, Ex::Int(0), "identifies the program of the retained values; 0: none")
             .retained(true),
-        variable(WHOLE, Basic::Bool, Ex::Bool(false), "all retained values are of one scan")
-            .retained(true),
+        variable(WHOLE, Basic::Bool, Ex::Bool(false), "all retained values are of one scan").retained(true),
     ]
 }
 
