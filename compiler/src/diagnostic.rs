@@ -10,9 +10,9 @@ use crate::source::Span;
 /// Something wrong with the input: an error, with which nothing is made of it, or a warning.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnostic {
-    /// Stable, such as `E0104`, or `W0101` of a warning; every code stands in `docs/errors.md`.
+    /// Stable, such as `E0104`, or `W0101` of a warning; every code is in `docs/errors.md`.
     pub code: &'static str,
-    /// What is wrong, in one line that stands alone.
+    /// What is wrong, in one line that is complete by itself.
     pub message: String,
     pub place: Span,
     /// What is at `place`, in a few words; may be empty.
@@ -86,7 +86,7 @@ pub const MOST: usize = 1000;
 pub fn collect(found: &mut Vec<Diagnostic>, diagnostic: Diagnostic) {
     match found.len() + 1 {
         next if next < MOST => found.push(diagnostic),
-        MOST => found.push(diagnostic.note(format!("after {MOST} errors no more are told"))),
+        MOST => found.push(diagnostic.note(format!("after {MOST} errors no more are reported"))),
         _ => {}
     }
 }

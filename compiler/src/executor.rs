@@ -246,7 +246,7 @@ impl<'a> Executor<'a> {
         ports.filter(|(port, _)| port.direction == Direction::Output)
     }
 
-    /// Modes and steps in layout order, then properties, up to the first fault. Modes are looked at whatever happens.
+    /// Modes and steps in layout order, then properties, up to the first fault. Modes are checked whatever happens.
     fn turns(&mut self, starts: bool) -> Result<(), (FaultId, usize)> {
         let only = self.only;
         let stepping = move |index: &usize| only.is_none_or(|only| only == *index);

@@ -46,7 +46,7 @@ pub enum Kind {
     Real,
 }
 
-/// Where a point stands in the process image, and as what.
+/// Address and raw type of a point in the process image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wire {
     pub address: Address,

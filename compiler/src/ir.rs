@@ -256,7 +256,7 @@ pub enum KeptBy {
     Steps,
     /// A property needs it from scan to scan.
     Properties,
-    /// The operating modes, or going on after a loss of power, need it from scan to scan.
+    /// The operating modes, or continuing after a loss of power, need it from scan to scan.
     Modes,
 }
 
@@ -283,7 +283,7 @@ pub struct State {
     pub doc: Vec<String>,
     pub place: Span,
     pub is_final: bool,
-    /// Its machine may go on from here after it was moved by hand, or power was lost.
+    /// Its machine may continue from here after it was moved by hand, or power was lost.
     pub is_resumable: bool,
     /// Longest stay, ms; the fault if it is exceeded.
     pub within: Option<(Expr, FaultId)>,

@@ -1,4 +1,4 @@
-//! Which text from outside may stand in what is written and shown: text that reads as it runs.
+//! Which text from outside may be in what is written and shown: text that reads as it runs.
 //!
 //! Controls move the cursor of a terminal and are no XML; marks of direction and separators of lines let a text
 //! read otherwise than a compiler takes it. Each is shown by a sign in its place.
@@ -30,7 +30,7 @@ fn replaced(text: &str, keeps: fn(char) -> bool) -> Cow<'_, str> {
     }
 }
 
-/// As it may stand in a comment, a title or a name: on one line. White space of any kind is a blank.
+/// As it may be in a comment, a title or a name: on one line. White space of any kind is a blank.
 pub fn line(text: &str) -> String {
     text.chars()
         .map(|c| match c {
@@ -41,7 +41,7 @@ pub fn line(text: &str) -> String {
         .collect()
 }
 
-/// As it may stand in a report, line breaks and tabs included.
+/// As it may be in a report, line breaks and tabs included.
 pub fn lines(text: &str) -> Cow<'_, str> {
     replaced(text, |c| c == '\n' || c == '\t')
 }
@@ -51,7 +51,7 @@ pub(crate) fn excerpt(text: &str) -> Cow<'_, str> {
     replaced(text, |c| c.is_ascii())
 }
 
-/// As it may stand on a terminal, line breaks and tabs included, each character that is not plain as an escape of
+/// As it may be on a terminal, line breaks and tabs included, each character that is not plain as an escape of
 /// JSON. The texts of JSON keep their value by it.
 pub fn escaped(text: &str) -> Cow<'_, str> {
     let keeps = |c: char| is_plain(c) || c == '\n' || c == '\t';

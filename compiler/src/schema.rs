@@ -68,7 +68,7 @@ fn tuple(elements: &[Value]) -> Value {
     json!({ "type": "array", "items": elements, "minItems": count, "maxItems": count })
 }
 
-/// What can stand in the text of a program.
+/// What can be in the text of a program.
 fn name() -> Value {
     json!({ "type": "string", "pattern": "^[A-Za-z]([A-Za-z0-9]|_(?=[A-Za-z0-9]))*$", "maxLength": 32 })
 }

@@ -102,7 +102,7 @@ fn columns<'h>(
     head: &'h [Field],
     found: &mut Vec<Diagnostic>,
 ) -> Option<(usize, Vec<(&'h str, usize)>)> {
-    let help = "begin with plc/texts.csv as `build` writes it, and name a column behind the others by its language, such as de, fr or pt-BR";
+    let help = "begin with plc/texts.csv as `build` writes it, and add a column with the name of its language, such as de, fr or pt-BR";
     let count = found.len();
     let place = head.first().map_or(Span::new(file, 0, 0), |first| first.span);
     let at = head.iter().position(|field| field.text.eq_ignore_ascii_case(TEXT));
@@ -115,7 +115,7 @@ fn columns<'h>(
             continue;
         }
         if !is_tag(&field.text) {
-            let message = format!("`{}` is no name of a language", field.text);
+            let message = format!("`{}` is not the name of a language", field.text);
             found.push(Diagnostic::new("E0614", field.span, message).help(help));
         } else if languages.iter().any(|(tag, _)| tag.eq_ignore_ascii_case(&field.text)) {
             let message = format!("`{}` has a second column", field.text);
@@ -128,8 +128,8 @@ fn columns<'h>(
         found.push(Diagnostic::new("E0614", place, "the table has no column of a language").help(help));
     }
     if languages.len() > MOST_LANGUAGES {
-        let message = format!("{} languages: the most is {MOST_LANGUAGES}", languages.len());
-        found.push(Diagnostic::new("E0614", place, message).help("make several tables"));
+        let message = format!("{} languages: the limit is {MOST_LANGUAGES}", languages.len());
+        found.push(Diagnostic::new("E0614", place, message).help("divide the table into several tables"));
     }
     (found.len() == count).then_some((at?, languages))
 }

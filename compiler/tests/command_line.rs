@@ -467,7 +467,7 @@ fn what_is_in_the_way_is_named_and_nothing_is_written() {
     let output = autogen(&folder, &["build", &layout, "-o", "file"]);
     assert_eq!(status(&output), 2);
     assert!(
-        errors(&output).contains("in the way") && errors(&output).lines().count() < 5,
+        errors(&output).contains("a file instead of a folder") && errors(&output).lines().count() < 5,
         "{}",
         errors(&output)
     );

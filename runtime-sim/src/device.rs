@@ -4,7 +4,7 @@
 //! command's arguments, its `verb` and a new number `cmd` in one scan; the
 //! device answers with the number it has accepted (`got`), the number it has
 //! ended (`ack`) and an `error` (0: reached). While the output `hold` is true the
-//! device halts on its path; it goes on with the same command when `hold` falls.
+//! device halts on its path; it continues with the same command when `hold` falls.
 //!
 //! A process image holds one number (`f64`) for each point of I/O: booleans as
 //! 0 and 1, whole numbers, reals; a `point` takes three. Inputs and outputs of a

@@ -38,7 +38,7 @@ pub struct MachineHistory {
     pub heading: Option<f64>,
     /// Of an arm, at the start.
     pub joints: Option<Joints>,
-    /// Each goes on until the next one begins, or until it comes to rest.
+    /// Each continues until the next one begins, or until it comes to rest.
     pub motions: Vec<Motion>,
     pub strokes: Vec<Track<Stroke>>,
     /// Speeds of the surfaces of conveyors, m/s.
@@ -70,7 +70,7 @@ pub struct Track<T> {
     pub changes: Vec<(u64, T)>,
 }
 
-/// A cylinder as it goes on, 0 (in) to 1 (out).
+/// A cylinder as it continues, 0 (in) to 1 (out).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stroke {
     pub out: f64,

@@ -295,7 +295,7 @@ impl Machine {
         self.track().map_or_else(|| self.stops().to_vec(), |track| track.course.corners())
     }
 
-    /// Where it may stand, if it goes from stop to stop; the first is where it starts.
+    /// Where it may be, if it goes from stop to stop; the first is where it starts.
     pub fn stops(&self) -> &[Point] {
         self.route().map_or(&[], |route| &route.stops)
     }

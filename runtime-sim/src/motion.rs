@@ -64,7 +64,7 @@ impl Motion {
         Self::between(from, to, limits, 0.0).rests_at()
     }
 
-    /// Brakes on its path from time `t` on; later calls change nothing until it goes on.
+    /// Brakes on its path from time `t` on; later calls change nothing until it continues.
     pub fn hold(&mut self, t: f64) {
         if self.drive == Drive::Held {
             return;
@@ -130,7 +130,7 @@ impl Motion {
         self.drive == Drive::Held
     }
 
-    /// When the joints stand still, at the end or held.
+    /// When the joints are at rest, at the end or held.
     pub fn rests_at(&self) -> f64 {
         self.since + self.profile.duration()
     }

@@ -1,6 +1,6 @@
 //! Where each item was at any time of a run, as exact segments.
 //!
-//! A segment begins where something changes: another carrier, a command that starts, is held, goes on or ends,
+//! A segment begins where something changes: another carrier, a command that starts, is held, continues or ends,
 //! a belt that starts or stops. Within it the place follows one law.
 
 mod json;
@@ -74,7 +74,7 @@ impl Path {
         self.segments[first..].iter().take_while(move |segment| segment.begin_ms <= ms)
     }
 
-    /// Ends what goes on beyond this time.
+    /// Ends what continues beyond this time.
     fn cut(&mut self, ms: f64) {
         while let Some(last) = self.segments.last_mut() {
             if last.begin_ms < ms {
@@ -88,7 +88,7 @@ impl Path {
         }
     }
 
-    /// Appends a segment, or lengthens the last one if the item goes on to rest where it was.
+    /// Appends a segment, or lengthens the last one if the item continues to rest where it was.
     fn push(&mut self, segment: Segment) {
         match self.segments.last_mut() {
             Some(last)

@@ -66,7 +66,7 @@ struct Task<'a> {
     rises: Vec<Vertical>,
 }
 
-/// How the robot may stand over a place and at it.
+/// How the robot may be over a place and at it.
 struct Candidate {
     stance: Stance,
     over: Joints,
@@ -139,9 +139,9 @@ const CLEARS: [f64; 2] = [STRAIGHT, f64::INFINITY];
 /// No point of the robot and its load goes farther for a metre of a rail or a radian of a joint, m: from the axis to
 /// the end of the stretched arm, from the shoulder, from the elbow, from the wrists.
 const RADII: [f64; 9] = [1.0, 1.0, 2.2, 1.6, 1.6, 1.0, 0.5, 0.4, 0.3];
-/// A path is looked at again at the latest when some point may have gone this part of what is kept.
+/// A path is checked again at the latest when some point may have gone this part of what is kept.
 const SHORTEST_STEP: f64 = 0.6;
-/// A path is looked at between so many equal parts, before it is from end to end.
+/// A path is checked between so many equal parts, before it is from end to end.
 const FIRST_LOOKS: u32 = 32;
 /// Pieces of a line by which it is timed, m.
 const LIFT_STEP: f64 = 0.1;
@@ -373,7 +373,7 @@ impl Planner {
     }
 
     /// Whether nothing on this path comes nearer to an obstacle than `margin`. On the verticals at its ends it may come
-    /// nearer, and the load touches what it lies on. `suspect` is the place, 0 to 1, at which it is looked at first: the
+    /// nearer, and the load touches what it lies on. `suspect` is the place, 0 to 1, at which it is checked first: the
     /// last one that was not free, of paths that are much alike.
     fn is_free(&self, ends: [&Joints; 2], path: &Path, load: Load, margin: f64, suspect: &mut f64) -> bool {
         let lifted = ends.map(|end| self.arm.tool(end).z + self.scene.load_height + LIFTED);

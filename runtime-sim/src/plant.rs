@@ -28,7 +28,7 @@ pub use conveying::{By, Gap, Transfer, gaps, transfers};
 use trajectory::Trajectory;
 use working::{Shared, Working};
 
-/// A time is not told from one that is so much later.
+/// A time is not distinguished from one that is so much later.
 const EARLY_MS: f64 = 1e-6;
 /// A gripper that finds nothing is asked again after so many looks at the latest.
 const MOST_LOOKS: u32 = 1000;
@@ -102,7 +102,7 @@ impl Plant {
     }
 
     /// The first scan, not before the next one, at whose start something may have happened, if no output changes:
-    /// until then all that moves goes on along its path, and nothing else changes. None: nothing ever will.
+    /// until then all that moves continues along its path, and nothing else changes. None: nothing ever will.
     pub(crate) fn next_change(&self) -> Option<u64> {
         let now_ms = self.now_ms();
         let next = self.machines.iter().map(|machine| machine.next_change(&self.items, &self.desk, now_ms));
@@ -296,7 +296,7 @@ impl Plant {
         self.machines.get(machine)?.joints()
     }
 
-    /// How an item on a conveyor goes on from now.
+    /// How an item on a conveyor continues from now.
     pub(crate) fn conveyed(&self, item: usize) -> Option<Conveyed> {
         let carrier = &self.items.all().get(item)?.carrier;
         let machine = self.machines.get(carrier.machine()?)?;
@@ -321,7 +321,7 @@ impl Plant {
         Some(self.machines.get(machine)?.lane(part)?.speed())
     }
 
-    /// How a cylinder of a machine goes on from now: [`crate::part::cylinder::Working::going`].
+    /// How a cylinder of a machine continues from now: [`crate::part::cylinder::Working::going`].
     pub(crate) fn cylinder_going(&self, machine: usize, part: usize) -> Option<(f64, f64)> {
         Some(self.machines.get(machine)?.cylinder(part)?.going(self.now_ms()))
     }

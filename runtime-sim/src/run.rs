@@ -50,7 +50,7 @@ pub enum Stepping {
 
 /// Runs the line until all orders are made, a fault is reported, time is up or nothing changes any more.
 /// In scan n the inputs are latched, the controllers stepped and their outputs published, which act from
-/// then on; then the plant goes on to scan n+1. The observer is shown the scans that are executed. An error means that
+/// then on; then the plant continues to scan n+1. The observer is shown the scans that are executed. An error means that
 /// the line cannot be run at all.
 pub fn run(
     line: &Line,

@@ -57,9 +57,9 @@ pub trait Controllers {
     /// For each machine, which number of the trace is the time in its present state, ms.
     fn stays(&self) -> Vec<usize>;
 
-    /// Power was lost after the last scan, and is back before the next: what is retained stays, all else is as at first.
+    /// Power was lost after the last scan, and is back before the next: retained values are kept, all others are the initial ones.
     fn power_up(&mut self);
 
-    /// So many scans pass in which nothing happens: while the system runs, times in states go on, and nothing else.
+    /// So many scans pass in which nothing happens: while the system runs, times in states continue, and nothing else.
     fn skip(&mut self, scans: u64);
 }

@@ -31,7 +31,7 @@ pub struct Covered {
     pub transitions: u64,
     /// Of these, how many end in a stop for an operator.
     pub stops: u64,
-    /// Scans from the start to the farthest state that has been looked at.
+    /// Scans from the start to the farthest state that has been checked.
     pub depth: usize,
     /// Bytes of memory.
     pub memory: usize,
@@ -41,7 +41,7 @@ pub struct Covered {
 /// Why it ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum End {
-    /// All states were looked at.
+    /// All states were checked.
     Complete,
     /// There are as many violations as were wanted.
     Violated,
@@ -71,7 +71,7 @@ struct Found {
     events: Vec<Event>,
 }
 
-/// `watch` is told how far it is, some times a second, and says whether to go on.
+/// `watch` is told how far it is, some times a second, and says whether to continue.
 pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -> bool) -> Outcome {
     let begin = Instant::now();
     let mut expander = Expander::new(model, bounds.answers.unwrap_or(usize::MAX), bounds.orders);

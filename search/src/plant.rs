@@ -187,7 +187,7 @@ pub struct Order {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Watch {
     Everything,
-    /// Faults at run time: the search goes on behind everything else.
+    /// Faults at run time: the search continues behind everything else.
     Faults,
 }
 

@@ -4,7 +4,7 @@ use crate::store::Store;
 use crate::successor::Expander;
 
 /// Ways on by which at most one device did something. If they lead to the orders, these can be made; if they do not, all
-/// ways are looked at.
+/// ways are checked.
 #[derive(Default)]
 pub(crate) struct Edges {
     list: Vec<(u32, u32)>,

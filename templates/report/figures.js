@@ -38,9 +38,9 @@ const Figures = (() => {
     const name = ({ machine }) => Data.machines[machine].name;
     const [first, second] = machines;
     const states = (of) => of.states.slice(0, 3).map(([state, s]) => `${Data.stateName(of.machine, state)} ${s.toFixed(1)} s`).join(', ');
-    const goal = raw.made.length ? 'the last order' : raw.collected.length ? 'the last item that was collected' : 'the last thing that happened';
+    const goal = raw.made.length ? 'the last order' : raw.collected.length ? 'the last item that was collected' : 'the last action of a machine';
     box.append(element('p', 'lead', element('strong', '', name(first)),
-      ` limits this run: ${percent(first.s, whole)} of the time that led to ${goal} (${first.s.toFixed(1)} of ${whole.toFixed(1)} s) was spent on what it did itself, most of it in ${states(first)}.`));
+      ` limits this run: ${percent(first.s, whole)} of the path to ${goal} is its own time (${first.s.toFixed(1)} of ${whole.toFixed(1)} s), most of it in ${states(first)}.`));
     if (second) {
       box.append(element('p', '', 'Next: ', element('strong', '', name(second)),
         ` with ${percent(second.s, whole)} (${second.s.toFixed(1)} s), most of it in ${states(second)}.`));
@@ -54,7 +54,7 @@ const Figures = (() => {
       return line;
     })));
     box.append(element('details', 'method', element('summary', '', 'How it was found'), element('p', '',
-      `Backwards from ${goal} at ${clock(to_s * 1000)} to ${clock(from_s * 1000)}. A machine left its state when an input of its own changed, or a timer of the state was over: then this time is its own. Or another machine let it go on, which acted in the same scan or in the one before: then its waiting counts for nothing, and the path goes on with the other one. So all shares add up to the whole time. A second less in a state on the path makes the run shorter by one second at most: another path may be as long. In the chart above the path is the line under the bars.`)));
+      `Backwards from ${goal} at ${clock(to_s * 1000)} to ${clock(from_s * 1000)}. If a machine left its state because an input of its own changed, or a timer of the state expired, this time is its own. If another machine, which acted in the same scan or in the one before, let it continue, its waiting time does not count, and the path continues with the other machine. So all shares add up to the whole time. A second less in a state on the path makes the run shorter by at most one second, because another path may be nearly as long. In the chart above, the path is the line under the bars.`)));
   }
 
   /* ---- Utilisation ---- */
@@ -153,7 +153,7 @@ const Figures = (() => {
   function foot() {
     const notes = [...raw.left_out];
     if (raw.words_until_s !== null) {
-      notes.push(`Signals were recorded until ${clock(raw.words_until_s * 1000)}, as there were too many changes; what limits the line is found for the time until then.`);
+      notes.push(`Signals were recorded until ${clock(raw.words_until_s * 1000)}, because there were too many changes; the path that limits the run is found only for the time until then.`);
     }
     byId('left-out').append(...notes.map((note) => element('p', '', note)));
     byId('left-out').hidden = !notes.length;

@@ -102,12 +102,12 @@ const Inspector = (() => {
   }
 
   function nothing() {
-    const keys = [['Space', 'play, pause'], ['N, P', 'next and previous event'], ['← →', 'a second back and on'],
+    const keys = [['Space', 'play, pause'], ['N, P', 'next and previous event'], ['← →', 'one second back or forward'],
       ['+ −', 'zoom of the time line'], ['wheel', 'zoom of the plan'], ['Ctrl wheel', 'zoom of the time line'],
-      ['Esc', 'choose nothing']];
+      ['Esc', 'clear the selection']];
     box.replaceChildren(
-      element('div', 'head', element('h3', '', 'Nothing chosen')),
-      element('p', 'muted', 'Click a machine on the plan or its row below to see its state, its ports and what it waits for. Click an item to see its path. Events are then those of the machine alone.'),
+      element('div', 'head', element('h3', '', 'Nothing selected')),
+      element('p', 'muted', 'Click a machine on the plan or its row below to see its state, its ports and the machines for which it waits. Click an item to see its path. Events are then only those of the selected machine.'),
       element('table', 'keys', element('tbody', '', ...keys.map(([key, text]) => row(element('kbd', '', key), text).line))));
     return { machine: null, item: null };
   }

@@ -298,7 +298,7 @@ const Plan = (() => {
     drawContacts(ms);
     drawNames(ms);
     if (ms > drawnUntil) {
-      label(`not drawn from ${clock(drawnUntil, 0)} on: see the end of the page`, [size[0] / 2, size[1] - 18], 13);
+      label(`not drawn after ${clock(drawnUntil, 0)}: see the end of the page`, [size[0] / 2, size[1] - 18], 13);
     }
   }
 

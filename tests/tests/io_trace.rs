@@ -103,7 +103,7 @@ fn the_text_follows_the_trace_of_every_example() {
         if name == "default" {
             let (thousands, rest, megabytes) =
                 (driven.scans / 1000, driven.scans % 1000, driven.bytes / 1_000_000);
-            let size = format!("{thousands},{rest:03} of them and {megabytes} MB for the default line");
+            let size = format!("{thousands},{rest:03} lines and {megabytes} MB for the default line");
             assert!(text("docs/io-trace.md").contains(&size), "docs/io-trace.md: {size}");
         }
         // The number of the scan is that of the row.

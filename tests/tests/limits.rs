@@ -78,5 +78,5 @@ fn many_errors_are_told_in_part_and_it_is_said() {
     let found = Texts::of_layout(robots(3000, |i| format!("{{\"nam\": \"r{i}\"}}"))).compile();
     assert_eq!(found.diagnostics.len(), autogen::diagnostic::MOST);
     let notes = found.diagnostics.iter().flat_map(|d| &d.notes);
-    assert_eq!(notes.filter(|note| note.contains("no more are told")).count(), 1);
+    assert_eq!(notes.filter(|note| note.contains("no more are reported")).count(), 1);
 }

@@ -39,7 +39,7 @@ fn a_state_that_there_is_not_is_a_fault() {
     }
 }
 
-/// What was retained counts if it is of this program and of one scan. Otherwise all is as at first, and there is a fault,
+/// Retained values are used if they are of this program and of one scan. Otherwise all is as at first, and there is a fault,
 /// but for the first power-up ever.
 #[test]
 fn what_is_retained_is_of_this_program_and_of_one_scan() {

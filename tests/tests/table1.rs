@@ -98,7 +98,8 @@ fn beside_the_paper(cells: &[Cell]) -> String {
         writeln!(table, "| {} | {} | {paper} | {here} | {ratio} |", measured.layout, measured.capacity)
             .expect("text");
     }
-    writeln!(table, "\nRMS of the eight ratios' distance from 1: {:.1} %", rms(cells)).expect("text");
+    writeln!(table, "\nRMS of the difference between the eight ratios and 1: {:.1} %", rms(cells))
+        .expect("text");
     table
 }
 

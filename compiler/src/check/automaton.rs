@@ -92,7 +92,7 @@ fn device(checker: &mut Checker, name: &ast::Name) -> Option<Arc<Device>> {
     None
 }
 
-/// `seen` are the definitions that were looked at already, as each may be used many times.
+/// `seen` are the definitions that were checked already, as each may be used many times.
 fn reads_changing(automaton: &ir::Automaton, expr: &ir::Expr, seen: &mut BTreeSet<usize>) -> bool {
     use ir::ExprKind as Kind;
     let changes = match &expr.kind {
@@ -140,7 +140,7 @@ impl Context<'_, '_> {
         if values.chain([&condition]).any(|expr| reads_changing(&self.automaton, expr, &mut seen)) {
             self.report(
                 Diagnostic::new("E0325", tree.span, "a requirement is decided before the line runs")
-                    .help("name parameters, device constants and roles only; what changes belongs into an `invariant`"),
+                    .help("use only parameters, device constants and roles; write a condition on values that change as an `invariant`"),
             );
         }
         self.required.learn(&condition, true);
@@ -156,8 +156,12 @@ impl Context<'_, '_> {
                 _ => "something else",
             };
             self.report(
-                Diagnostic::new("E0301", name.span, format!("`{}` names {meaning} already", name.value))
-                    .help("choose another name"),
+                Diagnostic::new(
+                    "E0301",
+                    name.span,
+                    format!("`{}` is already the name of {meaning}", name.value),
+                )
+                .help("choose another name"),
             );
             self.broken.insert(name.value.clone());
             return;
@@ -181,7 +185,7 @@ impl Context<'_, '_> {
                     Diagnostic::new(
                         "E0301",
                         clause.interface.span,
-                        format!("`{}` stands here twice", clause.interface.value),
+                        format!("`{}` occurs here twice", clause.interface.value),
                     )
                     .help("remove one"),
                 ),
@@ -256,7 +260,7 @@ impl Context<'_, '_> {
             );
             self.report(
                 Diagnostic::new("E0322", tree.name.span, message)
-                    .help("`takes from` and `hands to` belong to the arm; a passive place says `is ... accepts at` or `offers at`"),
+                    .help("`takes from` and `hands to` are for arms; a passive place has `is ... accepts at` or `offers at`"),
             );
         }
         self.automaton.roles.push(ir::Role {
@@ -442,11 +446,11 @@ impl Context<'_, '_> {
                         "E0211",
                         define.name.span,
                         format!(
-                            "`{}` is built on a chain of {DEEPEST_DEFINE} definitions, the most that are read",
+                            "`{}` uses a chain of {DEEPEST_DEFINE} definitions, which is the limit",
                             define.name.value
                         ),
                     )
-                    .help("let definitions use fewer others, one in another"),
+                    .help("nest fewer definitions"),
                 );
             }
             depths.push(depth);

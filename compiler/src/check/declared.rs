@@ -90,7 +90,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Those that stand in no text; of the others the declaration is there already, and stays.
+    /// Those that are in no text; of the others the declaration is there already, and stays.
     fn built_in_ports(&mut self, device: &Arc<Device>) {
         for port in &device.ports {
             let ty = type_text(port.ty, port.extent);

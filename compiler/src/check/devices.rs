@@ -78,7 +78,7 @@ impl Checker<'_> {
         }
     }
 
-    /// What stands behind the point of a part: of an assembly its names, of a primitive its signals, levels and actions.
+    /// The names after the dot of a part: of an assembly its names, of a primitive its signals, levels and actions.
     fn of_part(&mut self, tree: &ast::Device, base: &Expr, member: &Name) {
         let Some(kind) = self.kind_of(tree, base) else { return };
         let space = if Schema::find(&kind).is_some() { Space::Wires } else { Space::OfDevice };

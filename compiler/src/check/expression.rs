@@ -19,7 +19,7 @@ impl Context<'_, '_> {
             Tree::Error => None,
             Tree::List(_) => {
                 self.report(
-                    Diagnostic::new("E0312", tree.span, "a list can be written in devices only")
+                    Diagnostic::new("E0312", tree.span, "a list is allowed in devices only")
                         .help("an automaton has arrays: write one value for each element"),
                 );
                 None
@@ -62,8 +62,8 @@ impl Context<'_, '_> {
             Tree::After(time) => {
                 if !self.in_guard {
                     self.report(
-                        Diagnostic::new("E0314", tree.span, "`after` can stand in a guard only")
-                            .help("move it behind `when`"),
+                        Diagnostic::new("E0314", tree.span, "`after` is allowed in a guard only")
+                            .help("move it after `when`"),
                     );
                     return None;
                 }

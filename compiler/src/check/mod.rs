@@ -375,7 +375,7 @@ impl Checker<'_> {
                         let diagnostic = Diagnostic::new(
                             "E0303",
                             name.span,
-                            format!("`{}` is no token of `{}`", name.value, interface.name.value),
+                            format!("`{}` is not a token of `{}`", name.value, interface.name.value),
                         )
                         .help(help);
                         self.report(diagnostic);

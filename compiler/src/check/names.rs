@@ -81,7 +81,7 @@ pub struct Declaration {
     pub name: String,
     /// The type or device in which it is declared; empty for these themselves.
     pub owner: String,
-    /// Where its name stands; none for what stands in no specification: kinds, and the ports that every device with
+    /// Where its name stands; none for what is in no specification: kinds, and the ports that every device with
     /// commands has.
     pub place: Option<Span>,
     /// As specifications write it, perhaps with what follows it; empty for what has no type.

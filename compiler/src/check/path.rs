@@ -88,10 +88,9 @@ impl Context<'_, '_> {
         {
             return Some(Expr { ty: Scalar::Ref(interface), kind: ExprKind::Own(interface) });
         }
-        self.report(
-            Diagnostic::new("E0310", span, "`self` has no meaning here")
-                .help("`self` is a reference to this robot, where one to an interface it has is wanted"),
-        );
+        self.report(Diagnostic::new("E0310", span, "`self` has no meaning here").help(
+            "`self` is a reference to this robot, where a reference to one of its interfaces is expected",
+        ));
         None
     }
 
@@ -146,7 +145,7 @@ impl Context<'_, '_> {
         let help = match suggestion(name, known.iter().map(String::as_str)) {
             _ if self.states.iter().any(|s| s == name) => {
                 format!(
-                    "`{name}` is a state: the next state stands behind the guard, `when done -> {name} {{}}`"
+                    "`{name}` is a state: write the next state after the guard, `when done -> {name} {{}}`"
                 )
             }
             Some(near) => format!("is `{near}` meant?"),
@@ -260,7 +259,7 @@ impl Context<'_, '_> {
         let joined = role.also.iter().map(|i| format!(" and {}", interfaces[i.0].name)).collect::<String>();
         let (first, other) = (&interfaces[interface.0].name, &interfaces[other.0].name);
         Some(format!(
-            "in `{}: ({first}{joined})` only what `{first}` shows is seen; begin with `{other}` to see what that shows",
+            "in `{}: ({first}{joined})` only the cells and parameters of `{first}` are seen; write `{other}` first to see those of `{other}`",
             role.name
         ))
     }
@@ -268,11 +267,11 @@ impl Context<'_, '_> {
     fn index(&mut self, base: &ast::Expr, index: &ast::Expr) -> Option<Path> {
         let path = self.path(base, None)?;
         let Path::Place(mut place, ty) = path else {
-            self.report(Diagnostic::new("E0312", base.span, "this is no array").help("remove the index"));
+            self.report(Diagnostic::new("E0312", base.span, "this is not an array").help("remove the index"));
             return None;
         };
         if ty.extent == Extent::One || slot(&mut place).is_some() {
-            self.report(Diagnostic::new("E0312", base.span, "this is no array").help("remove the index"));
+            self.report(Diagnostic::new("E0312", base.span, "this is not an array").help("remove the index"));
             return None;
         }
         let expr = match ty.extent {
@@ -285,7 +284,7 @@ impl Context<'_, '_> {
             if !known.is_within(allowed) {
                 self.report(
                     Diagnostic::new("E0313", index.span, format!("this index is not proved to be in 0..{}", n - 1))
-                        .label(format!("it is in {}..{} for all that is known", known.lo, known.hi))
+                        .label(format!("its derived bounds are {}..{}", known.lo, known.hi))
                         .help("declare the variable with these bounds, or compare it in the guard of this transition"),
                 );
                 return None;

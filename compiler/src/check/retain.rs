@@ -10,7 +10,7 @@ impl Context<'_, '_> {
         for (number, name) in tree.names.iter().enumerate() {
             if tree.names[..number].iter().any(|before| before.value == name.value) {
                 self.report(
-                    Diagnostic::new("E0301", name.span, format!("`{}` stands here twice", name.value))
+                    Diagnostic::new("E0301", name.span, format!("`{}` occurs here twice", name.value))
                         .help("remove one"),
                 );
             }
@@ -58,11 +58,11 @@ impl Context<'_, '_> {
                 return self.uses_symbol(&name.value, &Symbol::Port(port), name.span);
             }
             Some(Symbol::Port(port)) if device.ports[*port].direction == Direction::Input => {
-                "it is an input, which the device gives anew"
+                "it is an input, which the device writes again"
             }
-            Some(Symbol::Port(_)) => "it goes with commands: retain `state`",
+            Some(Symbol::Port(_)) => "it belongs to commands: retain `state`",
             Some(Symbol::Parameter(_) | Symbol::DeviceConstant(_)) => "the layout fixes it",
-            Some(Symbol::Define(_)) => "it is calculated wherever it is read",
+            Some(Symbol::Define(_)) => "it is evaluated where it is read",
             Some(Symbol::Role(_)) => "the layout fixes the members of a role",
             None if self.broken.contains(&name.value) => return,
             None => {
@@ -78,7 +78,7 @@ impl Context<'_, '_> {
         };
         self.report(
             Diagnostic::new("E0337", name.span, format!("`{}` cannot be retained: {what}", name.value))
-                .help("remove it: retained are `all`, `state`, locals, shared variables and outputs"),
+                .help("remove it: `all`, `state`, locals, shared variables and outputs can be retained"),
         );
     }
 }

@@ -35,7 +35,7 @@ impl Context<'_, '_> {
             (Rule::Lock, _) => match constant {
                 Some(true) if known.holds(1.0) => wrong(
                     format!("another machine may hold the lock `{name}` here"),
-                    "a lock is taken when it is free: add `not` of it to the guard of this transition",
+                    "a lock can be taken only when it is free: add `not` of it to the guard of this transition",
                 ),
                 None => wrong(
                     format!("the lock `{name}` is written with `true` or `false` only"),

@@ -13,7 +13,7 @@ use crate::spec::ast::{
 
 /// What one of the states waits for.
 enum Wait {
-    /// Nothing: go on at once.
+    /// Nothing: continue at once.
     Nothing,
     Done(Span),
     Condition {
@@ -44,7 +44,7 @@ pub(super) fn expand(context: &mut Context, state: &State, sequence: &ast::Seque
                 state.name.span,
                 format!("the sequence `{}` does not say what follows a failed step", state.name.value),
             )
-            .help("write `else State { ... }` behind its last state"),
+            .help("write `else State { ... }` after its last state"),
         );
     }
     let last = stages.len() - 1;

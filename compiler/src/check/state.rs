@@ -87,7 +87,7 @@ pub(super) fn check(context: &mut Context, tree: &ast::Automaton) {
     });
     context.automaton.states.push(ir::State {
         name: BEGINNING.into(),
-        doc: vec!["Nothing has been done yet.".into()],
+        doc: vec!["Before the first step.".into()],
         place: tree.initial.as_ref().map_or(tree.name.span, |i| i.span),
         is_final: false,
         is_resumable: false,
@@ -137,7 +137,7 @@ pub(super) fn check(context: &mut Context, tree: &ast::Automaton) {
     }
 }
 
-/// A machine that goes on after it was moved by hand, or power was lost, has no command under way any more.
+/// A machine that continues after it was moved by hand, or power was lost, has no command under way any more.
 fn resumable(context: &mut Context, state: &ast::State) {
     let automaton = &context.automaton;
     let asks_failed = Asking::new(automaton, |kind| *kind == ExprKind::Failed);
@@ -164,7 +164,10 @@ fn resumable(context: &mut Context, state: &ast::State) {
         Diagnostic::new(
             "E0336",
             state.name.span,
-            format!("a machine cannot go on in `{}` after it was moved by hand: {reason}", state.name.value),
+            format!(
+                "a machine cannot continue in `{}` after it was moved by hand: {reason}",
+                state.name.value
+            ),
         )
         .help("remove `resume`: the machine then begins anew; or add `when failed -> ...`, which then holds"),
     );
@@ -317,7 +320,7 @@ impl Context<'_, '_> {
                             key.span,
                             format!("values of type {name} cannot be ordered"),
                         )
-                        .help("write a number or a time behind `by`"),
+                        .help("write a number or a time after `by`"),
                     );
                     return None;
                 }

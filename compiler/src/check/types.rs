@@ -212,8 +212,7 @@ impl Checker<'_> {
         let name = self.type_name(ty);
         let help = match (ty, &expr.kind) {
             (Scalar::Time, ExprKind::Int(_) | ExprKind::Real(_)) => super::expression::unit_help(expr),
-            _ => "write a literal value; what is to be computed belongs into the updates of `initial ->`"
-                .into(),
+            _ => "write a literal value; compute it in the updates of `initial ->`".into(),
         };
         self.report(
             Diagnostic::new("E0305", expr.span, format!("this is not a constant of type {name}")).help(help),

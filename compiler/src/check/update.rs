@@ -126,7 +126,7 @@ impl Context<'_, '_> {
             Place::Parameter { .. } | Place::Shown { .. } => {
                 self.report(
                     Diagnostic::new("E0331", tree.span, "a parameter is fixed by the layout")
-                        .help("declare a `local` for what changes"),
+                        .help("declare a `local` for a value that changes"),
                 );
                 return None;
             }
@@ -139,7 +139,7 @@ impl Context<'_, '_> {
                 } else {
                     return Some((place, ty));
                 };
-                let message = format!("the port `{}` is not for the automaton to write", port.name);
+                let message = format!("the automaton cannot write the port `{}`", port.name);
                 self.report(Diagnostic::new("E0331", tree.span, message).help(help));
                 return None;
             }

@@ -16,7 +16,7 @@ pub fn text(report: &Value) -> String {
                 alarm["last_s"].as_f64().unwrap_or(0.0)
             ),
         };
-        let lasts = if alarm["active"] == true { ", lasts at the end" } else { "" };
+        let lasts = if alarm["active"] == true { ", active at the end" } else { "" };
         let stops = if alarm["stops"] == true { "; it stops the machine" } else { "" };
         format!(
             "alarm              {} of {}: {} ({times}{lasts}{stops})\n",

@@ -206,7 +206,7 @@ fn report_gaps(map: &IoMap, points: &[Point]) {
 fn report_missing(translations: &Translations, texts: &[String]) {
     for language in &translations.languages {
         let missing: Vec<&String> = texts.iter().filter(|text| !language.has(text)).collect();
-        let first = missing.first().map(|text| format!("; the first that is missing: {text}"));
+        let first = missing.first().map(|text| format!("; the first missing text: {text}"));
         let count = texts.len() - missing.len();
         say!("{}: {count} of {} texts{}", language.tag, texts.len(), first.unwrap_or_default());
     }
@@ -271,15 +271,15 @@ pub fn refused(options: &BuildOptions, refusal: &Refusal) -> Status {
     };
     let text = match refusal {
         Refusal::NotOurs(paths) => format!(
-            "not written: autogen did not write these files, or they were changed since:\n  {}\nMove them away, choose another folder with -o, or overwrite them with --force.",
+            "not written: autogen did not write these files, or they were changed since:\n  {}\nMove them to another place, choose another folder with -o, or overwrite them with --force.",
             list(paths)
         ),
         Refusal::InTheWay(paths) => format!(
-            "not written: these are in the way, a file where a folder has to be, the other way round, or a symbolic link, none of which is followed:\n  {}\nMove them away, or choose another folder with -o.",
+            "not written: these are a file instead of a folder, a folder instead of a file, or a symbolic link, which is never followed:\n  {}\nMove them to another place, or choose another folder with -o.",
             list(paths)
         ),
         Refusal::Inputs(paths) => format!(
-            "not written: these files were read, and would be written over:\n  {}\nChoose another folder with -o.",
+            "not written: these files are inputs, and would be overwritten:\n  {}\nChoose another folder with -o.",
             list(paths)
         ),
         Refusal::Io(path, error) => format!("{}: {}", path.display(), io_error::text(error)),

@@ -170,7 +170,7 @@ fn report(
         hashes.keep()?;
     }
     let report =
-        serde_json::from_str(&report.to_json()).map_err(|e| format!("the report is no JSON: {e}"))?;
+        serde_json::from_str(&report.to_json()).map_err(|e| format!("the report is not JSON: {e}"))?;
     Ok((report, recorded))
 }
 
@@ -286,7 +286,7 @@ fn text(report: &Value, wall: f64, output: &Output) -> String {
     out += &alarm::text(report);
     out += &format!("written to         {}\n", output.folder().display());
     if let Some(waits) = report["waits"].as_array() {
-        out += "\nwho waits for whom at the end (more with `autogen why`)\n";
+        out += "\nwhich machine waits for which at the end (more with `autogen why`)\n";
         waits.iter().filter_map(Value::as_str).for_each(|line| out += &format!("  {line}\n"));
     }
     out

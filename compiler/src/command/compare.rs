@@ -25,7 +25,8 @@ pub fn run(options: &CompareOptions) -> Status {
         },
         [Err(why), _] | [_, Err(why)] => return print::unusable(&options.input(&options.first), &why),
         _ => {
-            let why = "one of the two is a layout and the other one has results: name two of a kind";
+            let why =
+                "one of the two is a layout and the other one has results: name two layouts or two results";
             return print::unusable(&options.input(&options.first), why);
         }
     };
@@ -52,7 +53,7 @@ fn side(path: &Path) -> Result<Side, String> {
     })?;
     match serde_json::from_str::<Value>(&text) {
         Ok(results) if results["trace_hash"].is_string() => Ok(Side::Results(results)),
-        _ if path.is_dir() => Err(format!("{}: these are no results of a run", file.display())),
+        _ if path.is_dir() => Err(format!("{}: these are not results of a run", file.display())),
         // What is wrong with a layout its reader says.
         _ => Ok(Side::Layout),
     }

@@ -46,7 +46,7 @@ fn say_text(options: &BuildOptions, built: &Built, found: &[Difference]) {
     let folder = built.folder.display();
     if found.is_empty() {
         if !options.input.quiet {
-            say!("{} files in {folder} are what would be written now", built.files.len() + 1);
+            say!("{} files in {folder} are the same as would be written now", built.files.len() + 1);
         }
         return;
     }

@@ -11,7 +11,10 @@ pub fn run(options: &ExplainOptions) -> Status {
             Status::Done
         }
         None => {
-            complain!("autogen: there is no diagnostic {}; they go by codes such as E0401", options.code);
+            complain!(
+                "autogen: there is no diagnostic {}; diagnostics have codes such as E0401",
+                options.code
+            );
             Status::WrongCommand
         }
     }

@@ -66,7 +66,7 @@ fn check(options: &FmtOptions, changes: &[Change], count: usize) -> Status {
             "{} formatted",
             if count == 1 { "the file is".into() } else { format!("all {count} files are") }
         ),
-        false => say!("{} of {count} files are not formatted; do it with `autogen fmt`", changes.len()),
+        false => say!("{} of {count} files are not formatted; format them with `autogen fmt`", changes.len()),
     }
     if changes.is_empty() { Status::Done } else { Status::WrongInput }
 }

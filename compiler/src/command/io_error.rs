@@ -6,10 +6,10 @@ use std::io::{self, ErrorKind};
 pub fn text(error: &io::Error) -> String {
     let help = match error.kind() {
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded => {
-            "the disk is full: make room, or name a folder on another one"
+            "the disk is full: delete files, or name a folder on another disk"
         }
         ErrorKind::PermissionDenied => {
-            "you have no right to do this here: change the rights, or name another folder"
+            "you have no permission for this here: change the permissions, or name another folder"
         }
         ErrorKind::ReadOnlyFilesystem => "nothing can be written here: name a folder on another disk",
         _ => return error.to_string(),

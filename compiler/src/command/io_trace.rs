@@ -1,4 +1,4 @@
-//! The option `--io-trace`: a row for each scan, written while the run goes on.
+//! The option `--io-trace`: a row for each scan, written while the run continues.
 
 use super::pending::Pending;
 use runtime_sim::io_trace::Columns;

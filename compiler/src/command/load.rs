@@ -153,7 +153,7 @@ fn add_text(sources: &mut Sources, name: String, text: String) -> Result<FileId,
     if bytes + text.len() > MOST_BYTES {
         let most = MOST_BYTES / 1_000_000;
         return Err(Failure::Unreadable(format!(
-            "{name}: with this file the line has more than {most} MB of text, the most that is read"
+            "{name}: with this file the line has more than {most} MB of text, which is the limit"
         )));
     }
     Ok(sources.add(name, text))
@@ -167,7 +167,7 @@ fn add_spec(
 ) -> Result<(), Failure> {
     if specs.len() == MOST_SPECS {
         return Err(Failure::Unreadable(format!(
-            "{name}: with this file the line has more than {MOST_SPECS} files of automata, the most that are read"
+            "{name}: with this file the line has more than {MOST_SPECS} files of automata, which is the limit"
         )));
     }
     specs.push(add_text(sources, name, text)?);
@@ -182,10 +182,9 @@ fn object(sources: &mut Sources, path: &Path, what: &str) -> Result<FileId, Fail
         return add_text(sources, name, text);
     }
     let file = sources.add(name, "");
-    let diagnostic =
-        Diagnostic::new("E0109", Span::new(file, 0, 0), format!("this file does not hold a {what}"))
-            .note("it does not begin with `{`, so nothing of it is shown")
-            .help(format!("name the file of a {what}: one object of JSON in braces"));
+    let diagnostic = Diagnostic::new("E0109", Span::new(file, 0, 0), format!("this file is not a {what}"))
+        .note("it does not begin with `{`, so its content is not shown")
+        .help(format!("name the file of a {what}: one JSON object in braces"));
     Err(Failure::Refused(std::mem::take(sources), vec![diagnostic]))
 }
 
@@ -201,7 +200,7 @@ fn unusable(key: &str, name: &Spanned<String>, why: &Unusable) -> Diagnostic {
         Unusable::LeadsOut | Unusable::LinkLeadsOut(_) => {
             (layout::OUTSIDE, format!("put it into the folder of the layout, or give it by --{key}"))
         }
-        _ => ("E0141", format!("correct \"{key}\", or leave it out and give --{key}")),
+        _ => ("E0141", format!("correct \"{key}\", or remove it and give --{key}")),
     };
     Diagnostic::new(code, name.span, format!("`{key}` names \"{}\", which cannot be used", name.value))
         .label(why.to_string())

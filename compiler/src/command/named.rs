@@ -35,10 +35,10 @@ impl fmt::Display for Unusable {
                 return write!(f, "{} is a symbolic link that leads out of it", link.display());
             }
             Unusable::LeadsOut => "this leads out of the folder of the layout",
-            Unusable::NoAutomata => "this folder holds no *.aut file",
+            Unusable::NoAutomata => "this folder has no *.aut file",
             Unusable::NotAutomata => "this is neither a folder nor a *.aut file",
             Unusable::ThroughFile => "a part of this path is a file, not a folder",
-            Unusable::NoObject => "this file does not begin with `{`, so it is no scenario",
+            Unusable::NoObject => "this file does not begin with `{`, so it is not a scenario",
         })
     }
 }

@@ -27,7 +27,7 @@ pub fn run(options: &NewOptions) -> Status {
     }
     if !options.quiet {
         let line = folder.join("line.json");
-        say!("{shown} has a line with one machine. Go on with");
+        say!("{shown} has a line with one machine. The next commands:");
         say!("  autogen test {}", quoted(folder));
         say!("  autogen check {}", quoted(&line));
         say!("  autogen commission {}", quoted(&line));
@@ -50,18 +50,18 @@ fn is_free(folder: &Path) -> Result<(), String> {
     match folder.symlink_metadata() {
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
         Err(error) => return Err(error.to_string()),
-        Ok(there) if !there.is_dir() => return Err("this is no folder; choose another name".into()),
+        Ok(there) if !there.is_dir() => return Err("this is not a folder; choose another name".into()),
         Ok(_) => {}
     }
     let mut entries = folder.read_dir().map_err(|e| e.to_string())?;
     match entries.next() {
         None => Ok(()),
-        Some(_) => Err("this folder holds files, and nothing is written over: choose another name".into()),
+        Some(_) => Err("this folder has files, which are not overwritten: choose another name".into()),
     }
 }
 
 fn write(folder: &Path) -> Result<(), String> {
-    let failed = |e: io::Error| format!("{}; nothing of the line is left there", io_error::text(&e));
+    let failed = |e: io::Error| format!("{}; all files of the line were removed", io_error::text(&e));
     let absolute = std::path::absolute(folder).map_err(failed)?;
     let name = absolute.file_name().map_or("line".into(), |name| plain::line(&name.to_string_lossy()));
     let _writing = interrupt::writing();

@@ -31,27 +31,27 @@ pub enum Command {
     New(NewOptions),
     /// Read everything, check specifications and connectivity, print the verdict
     Check(CheckOptions),
-    /// Check, then write the controllers and what belongs to them
+    /// Check, then write the controllers and their files
     Build(BuildCommandOptions),
     /// Build, link the controllers with the simulator, run the scenario
     Commission(CommissionOptions),
     /// Run every layout with every combination of values, and print a table
     #[command(after_help = SWEEP_STATUS)]
     Sweep(SweepOptions),
-    /// Put the parts of a sweep together: the table that the whole sweep would print
+    /// Join the parts of a sweep: print the table of the whole sweep
     Merge(MergeOptions),
-    /// Search all that may happen: answers that come late, commands that fail, items that are lost
+    /// Search all possible sequences of events: late answers, failed commands, lost items
     Verify(VerifyOptions),
     /// Print the connectivity graph or an automaton as DOT, or the layout from above as SVG
     Graph(GraphOptions),
     /// Print the long text of a diagnostic
     Explain(ExplainOptions),
-    /// Say what each machine waits for at a time of the run, and who waits for whom
+    /// Say what each machine waits for at a time of the run, and which machine waits for which
     Why(WhyOptions),
-    /// Compare two results, or the runs of two layouts: what differs, and where first
+    /// Compare two results, or the runs of two layouts: all differences, and the first one
     #[command(after_help = COMPARE_STATUS)]
     Compare(CompareOptions),
-    /// Run the tests that stand beside specifications
+    /// Run the tests in files next to specifications
     #[command(after_help = TEST_STATUS)]
     Test(TestOptions),
     /// Format files of automata
@@ -73,7 +73,7 @@ pub struct InputOptions {
     /// A folder of automata (*.aut), or one such file: adds to the library and replaces types of the same name
     #[arg(long, value_name = "PATH")]
     pub specs: Vec<PathBuf>,
-    /// What is to be made; default: `scenario.json` beside the layout, else the built-in one
+    /// The scenario, a JSON file; default: `scenario.json` beside the layout, else the built-in one
     #[arg(long, value_name = "FILE")]
     pub scenario: Option<PathBuf>,
     /// Sets a parameter of a type or of one robot, such as agv.capacity=4
@@ -93,7 +93,7 @@ pub struct InputOptions {
 pub struct CheckOptions {
     #[command(flatten)]
     pub input: InputOptions,
-    /// What is to end with exit status 1, as errors do
+    /// Diagnostics that end the check with exit status 1, as errors do
     #[arg(long, value_enum, value_name = "WHAT")]
     pub deny: Option<Denied>,
 }
@@ -115,7 +115,7 @@ pub enum Addresses {
     Words,
     /// %IW1 is the bytes 1 and 2 (TwinCAT)
     Bytes,
-    /// %IX, %IB, %IW and %ID are memories of their own (OpenPLC)
+    /// %IX, %IB, %IW and %ID are separate memories (OpenPLC)
     Apart,
 }
 
@@ -135,7 +135,7 @@ pub struct BuildOptions {
     /// Texts of alarms and states in other languages: plc/texts.csv, with a column for each language
     #[arg(long, value_name = "FILE")]
     pub texts: Option<PathBuf>,
-    /// Leave out the Structured Text as PLCopen XML, plc/*/project.xml: a third of what a long line writes
+    /// Do not write the Structured Text as PLCopen XML, plc/*/project.xml, which is a third of the output of a long line
     #[arg(long)]
     pub no_plcopen: bool,
     /// Also write the reference blocks for drives, plc/drives/*.st
@@ -165,7 +165,7 @@ impl BuildOptions {
 pub struct CommissionOptions {
     #[command(flatten)]
     pub build: BuildOptions,
-    /// How many scans late devices answer: a number, or `random` or `random:SEED` for 0 to 5
+    /// Number of scans by which devices answer late: a number, or `random` or `random:SEED` for 0 to 5
     #[arg(long, value_name = "N", default_value = "0")]
     pub io_delay: String,
     /// Write a row for each scan to this file: inputs, outputs, states and shared cells, as comma-separated
@@ -175,7 +175,7 @@ pub struct CommissionOptions {
     /// Write the hash of each scan's trace to this file, a line each
     #[arg(long, value_name = "FILE")]
     pub hashes: Option<PathBuf>,
-    /// Leave out report.html, the page on which the run plays
+    /// Do not write report.html, the page of the run
     #[arg(long)]
     pub no_report: bool,
     /// Execute every scan, also those in which nothing can happen; events and results are the same
@@ -195,7 +195,7 @@ pub struct TrajectoryOptions {
     /// Seconds between two samples of a .csv, in whole milliseconds
     #[arg(long, value_name = "SECONDS", default_value = "0.1", requires = "files")]
     pub every: String,
-    /// These items only, such as battery_1,pump_3; default: all that came onto the line
+    /// Only these items, such as battery_1,pump_3; default: all that came onto the line
     #[arg(long, value_name = "NAMES", value_delimiter = ',', requires = "files")]
     pub items: Vec<String>,
 }
@@ -208,7 +208,7 @@ pub struct SweepOptions {
     /// A folder of automata (*.aut), or one such file: adds to the library and replaces types of the same name
     #[arg(long, value_name = "PATH")]
     pub specs: Vec<PathBuf>,
-    /// What is to be made; default: `scenario.json` beside each layout, else the built-in one
+    /// The scenario, a JSON file; default: `scenario.json` beside each layout, else the built-in one
     #[arg(long, value_name = "FILE")]
     pub scenario: Option<PathBuf>,
     /// Values of a parameter of a type or of one robot, such as agv.capacity=2,4,8; commas within
@@ -218,7 +218,7 @@ pub struct SweepOptions {
     /// Seeds of orders of the steps; without it, layout order
     #[arg(long, value_name = "SEED,...", value_delimiter = ',')]
     pub order: Vec<u64>,
-    /// How many scans late devices answer: numbers, `random` or `random:SEED` for 0 to 5
+    /// Numbers of scans by which devices answer late, `random` or `random:SEED` for 0 to 5
     #[arg(long, value_name = "N,...", value_delimiter = ',')]
     pub io_delay: Vec<String>,
     /// Runs of each point: the first with the seeds that are given, each further one with the seed of the supply and that
@@ -234,18 +234,18 @@ pub struct SweepOptions {
     /// `600s`, or `auto`, by MSER-5
     #[arg(long, value_name = "auto|Norders|Ss")]
     pub warm_up: Option<String>,
-    /// Only part K of N of the runs, as lines that `autogen merge` makes a table of; conflicts with what says how
-    /// the table looks, which is for `merge`
+    /// Only part K of N of the runs, as lines that `autogen merge` joins to a table; options for the form of the
+    /// table are for `merge`
     #[arg(long, value_name = "K/N", conflicts_with_all = ["beside", "compare", "format"])]
     pub part: Option<String>,
     /// Write the rows as a page with charts to this file, for any browser
     #[arg(long, value_name = "FILE.html", conflicts_with = "part")]
     pub report: Option<PathBuf>,
-    /// Rows whose runs are kept as pages that the report links: numbers from 1 such as 1,4, or `all`. Of several
-    /// replications the first is kept. The pages are in a folder beside the report
+    /// Rows whose runs are kept as pages, with links in the report: numbers from 1 such as 1,4, or `all`. With
+    /// several replications, the first one is kept. The pages are in a folder next to the report
     #[arg(long, value_name = "ROWS", requires = "report")]
     pub keep: Option<String>,
-    /// Runs that are worked on at the same time; default: one for each processor
+    /// Number of runs at the same time; default: one for each processor
     #[arg(short, long, value_name = "N")]
     pub jobs: Option<NonZeroUsize>,
     #[command(flatten)]
@@ -254,12 +254,12 @@ pub struct SweepOptions {
 
 #[derive(Args, Debug)]
 pub struct TableOptions {
-    /// Figures to stand beside the rows: a CSV file with the column seconds_per_order and columns of the
+    /// Figures to show beside the rows: a CSV file with the column seconds_per_order and columns of the
     /// sweep's own CSV that name a point, such as layout and agv.capacity
     #[arg(long, value_name = "FILE")]
     pub beside: Option<PathBuf>,
-    /// Show what the seconds per order differ from those of the first point with the same seeds: mean, half of the
-    /// width of its 95 % interval, and the number of pairs
+    /// Show the difference of the seconds per order from those of the first point with the same seeds: mean, half of
+    /// the width of its 95 % interval, and the number of pairs
     #[arg(long)]
     pub compare: bool,
     #[arg(long, value_enum, default_value = "text")]
@@ -271,7 +271,7 @@ pub struct TableOptions {
 
 #[derive(Args, Debug)]
 pub struct MergeOptions {
-    /// What `autogen sweep --part` wrote, all parts of one sweep in any order
+    /// The files of `autogen sweep --part`, all parts of one sweep in any order
     #[arg(required = true, value_name = "FILE")]
     pub parts: Vec<PathBuf>,
     #[command(flatten)]
@@ -306,19 +306,19 @@ pub enum TableFormat {
 pub struct VerifyOptions {
     #[command(flatten)]
     pub input: InputOptions,
-    /// At most so many devices answer in one scan; default: one, and if nothing is found any number
+    /// Greatest number of devices that answer in one scan; default: one, and if nothing is found any number
     #[arg(long, value_name = "K")]
     pub answers: Option<usize>,
     /// No command fails and no item is lost
     #[arg(long)]
     pub no_faults: bool,
-    /// In which orders the machines step
+    /// Orders in which the machines step
     #[arg(long, value_enum, default_value = "one")]
     pub orders: StepOrders,
-    /// Where to stop, such as 90s, 10min, 500MB or 2GB; may be given twice. Default: 10min and 2GB
+    /// Limit of time or memory, such as 90s, 10min, 500MB or 2GB; may be given twice. Default: 10min and 2GB
     #[arg(long, value_name = "LIMIT")]
     pub limit: Vec<String>,
-    /// Go on after a violation, and tell of each that is different
+    /// Continue after a violation, and report each different one
     #[arg(long)]
     pub all: bool,
     /// Write the scenario that shows the first violation in `commission` to this file
@@ -328,9 +328,9 @@ pub struct VerifyOptions {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum StepOrders {
-    /// That of the line
+    /// The order of the line
     One,
-    /// Any, another one in each scan
+    /// Any order, which may change with each scan
     All,
 }
 

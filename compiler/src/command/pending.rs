@@ -83,13 +83,13 @@ impl Pending {
     /// An error says what is in the way.
     pub fn new(path: &Path, content: Content, overwrite: Overwrite) -> Result<Self, String> {
         let failed = |e: io::Error| format!("{}: {}", path.display(), io_error::text(&e));
-        let name = path.file_name().ok_or_else(|| format!("{}: this is no file", path.display()))?;
+        let name = path.file_name().ok_or_else(|| format!("{}: this is not a file", path.display()))?;
         if path.metadata().is_ok_and(|there| !there.is_file()) {
-            return Err(format!("{}: this is no file", path.display()));
+            return Err(format!("{}: this is not a file", path.display()));
         }
         if overwrite == Overwrite::Own && !is_free(path, content)? {
             return Err(format!(
-                "{}: this file is no {}; choose another one, or overwrite it with --force",
+                "{}: this file is not a {}; choose another one, or overwrite it with --force",
                 path.display(),
                 content.name()
             ));
@@ -106,7 +106,7 @@ impl Pending {
         &self.path
     }
 
-    /// Where to write while the run goes on; removed when this is dropped.
+    /// Where to write while the run continues; removed when this is dropped.
     pub fn file(&self) -> &File {
         &self.file
     }

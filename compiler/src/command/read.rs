@@ -64,9 +64,9 @@ impl fmt::Display for Unread {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
             Unread::Io(error) => error.fmt(f),
-            Unread::NotRegular => f.write_str("this is no regular file"),
+            Unread::NotRegular => f.write_str("this is not a regular file"),
             Unread::TooLarge => {
-                write!(f, "this file is larger than {} MB, the most that is read", MOST_BYTES / 1_000_000)
+                write!(f, "this file is larger than {} MB, which is the limit", MOST_BYTES / 1_000_000)
             }
             Unread::Utf16 => f.write_str(
                 "this file is UTF-16, and only UTF-8 is read. Save it again as UTF-8: a spreadsheet calls it \

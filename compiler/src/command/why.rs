@@ -196,7 +196,7 @@ fn say_text(options: &WhyOptions, seen: &Seen, sources: &Sources) {
     }
     if let Some(fault) = &picture.fault {
         let (name, at) = (&picture.machines[fault.machine].name, fault.at_ms as f64 / 1000.0);
-        say!("the line stands since {at:.2} s in a fault of {name}: {}", fault.text);
+        say!("the line is stopped since {at:.2} s by a fault of {name}: {}", fault.text);
     } else if !picture.is_running {
         say!("the line does not run: no transition is tested until it is started");
     }

@@ -86,7 +86,7 @@ impl Flow {
     }
 
     /// Machines between the sources and the destinations through which every item goes, in the order in which it
-    /// does: if one of them stands still, nothing leaves the layout.
+    /// does: if one of them is at rest, nothing leaves the layout.
     pub fn single_points(&self, stands: &[bool]) -> Vec<usize> {
         let ends: Vec<NodeIndex> =
             self.graph.neighbors(self.entry).chain(Reversed(&self.graph).neighbors(self.exit)).collect();

@@ -247,7 +247,7 @@ fn edges(line: &Line, margins: &[Option<f64>]) -> Vec<Edge> {
 }
 
 impl Proposal {
-    /// The machine that stands still while the arm comes.
+    /// The machine that is at rest while the arm comes.
     pub fn passive(&self) -> usize {
         if self.arm == self.from { self.to } else { self.from }
     }

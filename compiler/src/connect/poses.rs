@@ -8,7 +8,7 @@ use std::ops::ControlFlow;
 
 /// Every pose of the tool, which grips an item on its upper side: each place, with each kind of part,
 /// at contact and above it. `see` gets the place, the kind's name, the stage and the tool's place,
-/// and answers whether to go on.
+/// and answers whether to continue.
 fn each(
     line: &Line,
     proposal: &Proposal,

@@ -482,7 +482,7 @@ fn random_layouts() {
     assert!(suggestions * 10 >= apart * 9, "{suggestions} of {apart}");
 }
 
-/// Whether an item gets from some source to some destination, while one machine stands still.
+/// Whether an item gets from some source to some destination, while one machine is at rest.
 fn gets_through(report: &Report, line: &Line, stopped: Option<usize>) -> bool {
     let mut has: Vec<bool> = line.nodes.iter().map(|node| node.is_source).collect();
     for _ in &line.nodes {

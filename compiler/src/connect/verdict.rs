@@ -166,7 +166,7 @@ fn apart(
             ))
         }
         None => diagnostic.help(format!(
-            "no change of one number by up to 10 m brings them together and parts no others: move {} or {}, or lower the approach",
+            "no change of one number by up to 10 m brings the two together without separating others: move {} or {}, or lower the approach",
             passive.name, arm.name
         )),
     }
@@ -213,7 +213,8 @@ fn left_alone(line: &Line, flow: &Flow, served: &Served) -> Vec<Diagnostic> {
     }
     for node in starved {
         found.push(alone(line, node, "E0406", format!("no item gets to {}", nodes[node].name), |d| {
-            d.note("it takes only from machines that no item gets to").help("connect one of them to a source")
+            d.note("it takes only from machines to which no item gets")
+                .help("connect one of them to a source")
         }));
     }
     for node in stuck {

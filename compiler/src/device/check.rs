@@ -21,7 +21,7 @@ const DEEPEST: usize = 8;
 /// Parts of a device with all its assemblies.
 const MOST_PARTS: usize = 1000;
 
-/// Checks a device; all that is wrong with it is told.
+/// Checks a device; all that is wrong with it is reported.
 pub fn check(tree: &ast::Device, declared: &Declared) -> Result<Arc<Device>, Vec<Diagnostic>> {
     let mut checker = Checker {
         declared,
@@ -139,7 +139,7 @@ impl Checker<'_> {
             Ok(Found::Duration(ms)) if fits => Some(Value::Number(ms as f64)),
             _ => {
                 let message = format!("`{}` cannot have this value by default", parameter.name.value);
-                let help = "only a `real`, a `time` or a `point` has one: a number, a time such as `2 s`, or `point(x, y, z)`";
+                let help = "only a `real`, a `time` or a `point` has a default: a number, a time such as `2 s`, or `point(x, y, z)`";
                 self.report("E0701", expr.span, message, help);
                 None
             }
@@ -179,7 +179,7 @@ impl Checker<'_> {
         const BUILT_IN: [&str; 5] = ["pose", "origin", "kind_heights", "index", "pi"];
         let names = &mut self.program.scopes[scope].names;
         if names.contains_key(&name.value) || BUILT_IN.contains(&name.value.as_str()) {
-            let message = format!("`{}` names something here already", name.value);
+            let message = format!("`{}` is already a name in this device", name.value);
             self.report("E0701", name.span, message, panel::another_name(&name.value));
             return;
         }
@@ -190,7 +190,7 @@ impl Checker<'_> {
         let mut given = HashSet::new();
         for (name, _) in &part.settings {
             if !given.insert(name.value.as_str()) {
-                let message = format!("the setting `{}` stands here twice", name.value);
+                let message = format!("the setting `{}` occurs here twice", name.value);
                 self.report("E0703", name.span, message, "remove one");
             }
         }
@@ -242,8 +242,8 @@ impl Checker<'_> {
 
     fn assembly(&mut self, scope: usize, part: &ast::Part, assembly: &ast::Device, depth: usize) {
         if depth >= DEEPEST {
-            let message = format!("more than {DEEPEST} assemblies stand in one another");
-            self.report("E0705", part.kind.span, message, "an assembly cannot hold itself");
+            let message = format!("more than {DEEPEST} assemblies are nested");
+            self.report("E0705", part.kind.span, message, "an assembly cannot contain itself");
             return;
         }
         let wanted = assembly.parameters.iter().map(|parameter| parameter.name.value.as_str());
@@ -355,8 +355,8 @@ impl Checker<'_> {
                     .iter()
                     .fold(title.value.clone(), |text, part| text.replace(part, ""));
                 if rest.contains(['{', '}']) {
-                    let message = "a place is called by `{index}`, `{number}` and `{kind}`".to_string();
-                    self.report("E0709", title.span, message, "correct what stands in the braces");
+                    let message = "the text of a place has `{index}`, `{number}` and `{kind}`".to_string();
+                    self.report("E0709", title.span, message, "correct the text in the braces");
                 }
             }
             handovers.push(Handover { name: place.name.value.clone(), indexed });

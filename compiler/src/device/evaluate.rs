@@ -33,7 +33,7 @@ pub struct Environment<'a> {
     pub values: Values,
 }
 
-/// Whether limits of settings are looked at.
+/// Whether limits of settings are checked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Values {
     OfMachine,
@@ -54,12 +54,12 @@ impl Environment<'_> {
     pub fn value(&self, scope: usize, expr: &ast::Expr) -> Result<Value, Wrong> {
         match self.at(scope, expr, 0)? {
             Found::Value(value) => Ok(value),
-            Found::Duration(_) => Err(wrong(expr.span, "a time cannot stand here")),
+            Found::Duration(_) => Err(wrong(expr.span, "a time is not allowed here")),
             Found::Assembly(_) => Err(wrong(expr.span, "an assembly is not a value")),
         }
     }
 
-    /// The same where a time may stand too.
+    /// The same where a time may be too.
     pub fn found(&self, scope: usize, expr: &ast::Expr) -> Result<Found, Wrong> {
         self.at(scope, expr, 0)
     }
@@ -87,7 +87,7 @@ impl Environment<'_> {
             }
             Found::Value(Value::Number(_)) if setting.unit == "ms" => {
                 return Err(Diagnostic::new("E0704", expr.span, format!("`{}` is a time", setting.name))
-                    .help("write the unit behind the number, such as `750 ms`")
+                    .help("write the unit after the number, such as `750 ms`")
                     .into());
             }
             Found::Assembly(_) => return Err(wrong(expr.span, "an assembly is not a value")),
@@ -162,7 +162,7 @@ impl Environment<'_> {
                 combined(*operator, at(left)?, at(right)?).ok_or_else(|| {
                     let wrong = *wrong(expr.span, "this operator does not take these values");
                     wrong
-                        .note("+ and - are for numbers and points, * and / for two numbers, * for a frame and what is given in it")
+                        .note("+ and - are for numbers and points, * and / for two numbers, * also for a frame and a point, a list of points or a frame")
                         .note("a point and a list of points are added element by element; nothing is divided by 0")
                         .into()
                 })
@@ -181,7 +181,7 @@ impl Environment<'_> {
                             wrong.note(format!("the list has {} elements", values.len())).into()
                         })
                     }
-                    _ => Err(wrong(base.span, "this is no list")),
+                    _ => Err(wrong(base.span, "this is not a list")),
                 }
             }
             ExprKind::Call(name, arguments) => {
@@ -189,7 +189,7 @@ impl Environment<'_> {
                 call(name, &found?)
             }
             ExprKind::Error => Err(wrong(expr.span, "this could not be read")),
-            _ => Err(wrong(expr.span, "this cannot be written in a device")),
+            _ => Err(wrong(expr.span, "this is not allowed in a device")),
         }
     }
 
@@ -268,7 +268,7 @@ fn words(form: Form, expr: &ast::Expr) -> Option<Result<Value, Wrong>> {
     let word = |expr: &ast::Expr| match &expr.kind {
         ExprKind::Name(name) => Ok(Value::Word(name.clone())),
         _ => {
-            let wrong = Diagnostic::new("E0704", expr.span, "a word is wanted");
+            let wrong = Diagnostic::new("E0704", expr.span, "a word is expected");
             Err(Wrong::from(wrong.help("write a name, without quotes")))
         }
     };
@@ -323,7 +323,7 @@ fn unknown<'a>(name: &str, span: Span, known: impl IntoIterator<Item = &'a str>)
 fn number(found: Found, span: Span) -> Result<f64, Wrong> {
     match found {
         Found::Value(Value::Number(number)) => Ok(number),
-        _ => Err(wrong(span, "a number is wanted")),
+        _ => Err(wrong(span, "a number is expected")),
     }
 }
 
@@ -430,9 +430,12 @@ fn call(name: &ast::Name, arguments: &[Found]) -> Evaluated {
                 ("frame", "frame(x, y, z, degrees to the left)"),
                 ("min", "min(a, b)"),
                 ("max", "max(a, b)"),
-                ("by_axis", "by_axis(axis, if it is x, if it is y)"),
-                ("laid", "laid(axis, along it, across it, z)"),
-                ("grid", "grid(first point, rows, their distance along x, columns, their distance along y)"),
+                ("by_axis", "by_axis(axis, value for x, value for y)"),
+                ("laid", "laid(axis, along the axis, across the axis, z)"),
+                (
+                    "grid",
+                    "grid(first point, rows, distance of rows along x, columns, distance of columns along y)",
+                ),
             ];
             let diagnostic =
                 Diagnostic::new("E0710", name.span, format!("`{known}` does not take these arguments"));

@@ -13,11 +13,11 @@ pub fn inputs() -> Vec<(Port, Source)> {
     vec![
         input("ready", PortType::Bool, "the device is powered and enabled", Source::Ready),
         input("got", NUMBER, "number of the last command accepted", Source::Got),
-        input("ack", NUMBER, "number of the last command ended, reached or in error", Source::Ack),
+        input("ack", NUMBER, "number of the last command ended, successfully or in error", Source::Ack),
         input(
             "error",
             PortType::Int { lo: 0, hi: 255 },
-            "0, or why the command `ack` ended: 1 unreachable, 2 no part, 3 refused; constant while `ack` is",
+            "0, or the error of the command `ack`: 1 unreachable, 2 no part, 3 refused; changes only with `ack`",
             Source::Error,
         ),
     ]
@@ -35,13 +35,7 @@ pub fn outputs() -> Vec<(Port, Drives)> {
             Stop::Hold,
             Drives::Command,
         ),
-        output(
-            "verb",
-            PortType::Int { lo: 0, hi: 9 },
-            "what the command `cmd` asks for",
-            Stop::Hold,
-            Drives::Verb,
-        ),
+        output("verb", PortType::Int { lo: 0, hi: 9 }, "kind of the command `cmd`", Stop::Hold, Drives::Verb),
         output(
             "hold",
             PortType::Bool,

@@ -98,7 +98,7 @@ pub struct Constant {
     pub meaning: String,
 }
 
-/// A place named behind `accepts at` or `offers at`.
+/// A place named after `accepts at` or `offers at`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Handover {
     pub name: String,
@@ -142,7 +142,7 @@ impl Constant {
         } else if elements.len() < self.extent.elements(kinds) {
             Some("has fewer elements than there are kinds")
         } else if !elements.iter().all(is_within) {
-            Some("is no whole number within its bounds")
+            Some("is not a whole number within its bounds")
         } else {
             None
         }

@@ -26,7 +26,7 @@ pub fn has(name: &str) -> bool {
 pub fn another_name(name: &str) -> &'static str {
     match has(name) {
         true => {
-            "choose another name: in a layout that has \"panel\": \"machines\" names that begin with `panel_` are those of the panel"
+            "choose another name: in a layout with \"panel\": \"machines\", names that begin with `panel_` are those of the panel"
         }
         false => "choose another name",
     }
@@ -53,7 +53,7 @@ fn equip(device: &mut Device) {
     panel.switch(
         ENABLE,
         true,
-        "panel: the machine may step; it stays stopped without it, and until start is given",
+        "panel: the machine may step; without it, and until start after it, the machine is stopped",
     );
     panel.whole(MODE, int(place, 0, i64::from(MANUAL)), "panel: 0 automatic, 1 single step, 2 manual");
     panel.switch(STEP, false, "panel: in single step its rising edge lets one transition fire");

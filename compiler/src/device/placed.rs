@@ -91,7 +91,7 @@ impl Placed {
                 Err(vec![
                     Diagnostic::new("E0711", place, message)
                         .other(self.device.place, "the device")
-                        .help("change the device, or what the layout gives the machine"),
+                        .help("change the device, or the values of the machine in the layout"),
                 ])
             }
         }
@@ -130,7 +130,7 @@ impl Placed {
                 Err(error) => diagnostics.push(
                     Diagnostic::new("E0704", part.name.span, error)
                         .other(place, "for this machine")
-                        .help("correct the setting, or what the layout gives the machine"),
+                        .help("correct the setting, or the values of the machine in the layout"),
                 ),
             }
         }
@@ -140,19 +140,18 @@ impl Placed {
     /// Constants that are not of their types for this machine: generated code relies on them.
     fn wrong_constants(&self, heights: &[f64], place: Span) -> Vec<Diagnostic> {
         let environment = self.environment(heights, None);
-        let constants = self.device.constants.iter().filter_map(|constant| {
-            let value = match environment.value(0, self.expression(&constant.name)?) {
-                Ok(value) => value,
-                Err(found) => return Some(found.other(place, "for this machine")),
-            };
-            let reason = constant.refuses(&value, heights.len())?;
-            let message = format!("`{}` of {} {reason}", constant.name, self.device.name);
-            Some(
-                Diagnostic::new("E0709", place, message)
-                    .other(self.device.place, "the device")
-                    .help("change the device, the scenario's kinds, or what the layout gives the machine"),
-            )
-        });
+        let constants =
+            self.device.constants.iter().filter_map(|constant| {
+                let value = match environment.value(0, self.expression(&constant.name)?) {
+                    Ok(value) => value,
+                    Err(found) => return Some(found.other(place, "for this machine")),
+                };
+                let reason = constant.refuses(&value, heights.len())?;
+                let message = format!("`{}` of {} {reason}", constant.name, self.device.name);
+                Some(Diagnostic::new("E0709", place, message).other(self.device.place, "the device").help(
+                    "change the device, the scenario's kinds, or the values of the machine in the layout",
+                ))
+            });
         constants.collect()
     }
 
@@ -203,7 +202,7 @@ impl Placed {
         Arm::new(&axes, chain)
     }
 
-    /// Where it may stand, and where its axes bring it: the lower and the upper end of x and of y.
+    /// Where it may be, and where its axes bring it: the lower and the upper end of x and of y.
     pub fn ground(&self) -> [[f64; 2]; 2] {
         let at = |value: f64| [value, value];
         let mut ground = [at(self.pose.position.x), at(self.pose.position.y)];

@@ -33,7 +33,7 @@ impl Checker<'_> {
                 "E0709",
                 ty.span,
                 "no port or constant has this type".into(),
-                "types are `bool`, `int 0..12`, `real` and `point`, also with `[12]` or `[Kind]` behind them",
+                "types are `bool`, `int 0..12`, `real` and `point`, also with `[12]` or `[Kind]` after them",
             );
         }
         Some((scalar?, extent?))
@@ -42,7 +42,7 @@ impl Checker<'_> {
     /// The part and the name behind it, in an expression such as `arm.joints.tool`.
     fn wire<'t>(&mut self, expr: &'t ast::Expr) -> Option<(usize, &'t Name)> {
         let ExprKind::Member(base, name) = &expr.kind else {
-            let message = "a signal or a level of a part is wanted".to_string();
+            let message = "a signal or a level of a part is expected".to_string();
             self.report("E0706", expr.span, message, "write the part, a point and its signal or level");
             return None;
         };
@@ -61,7 +61,7 @@ impl Checker<'_> {
         if let Some(Symbol::Part(part)) = symbol {
             return Some(*part);
         }
-        self.report("E0706", expr.span, "this is no part".into(), "name a part of this device");
+        self.report("E0706", expr.span, "this is not a part".into(), "name a part of this device");
         None
     }
 
@@ -71,7 +71,7 @@ impl Checker<'_> {
         {
             return Some(*inner);
         }
-        self.report("E0706", expr.span, "this is no assembly".into(), "name an assembly of this device");
+        self.report("E0706", expr.span, "this is not an assembly".into(), "name an assembly of this device");
         None
     }
 
@@ -113,7 +113,7 @@ impl Checker<'_> {
             let is_twice = tree.ports[..index].iter().any(|other| other.name.value == port.name.value)
                 || tree.constants.iter().any(|other| other.name.value == port.name.value);
             if is_twice || of_head.contains(&port.name.value) {
-                let message = format!("`{}` names something here already", port.name.value);
+                let message = format!("`{}` is already a name in this device", port.name.value);
                 self.report("E0701", port.name.span, message, panel::another_name(&port.name.value));
             }
         }
@@ -160,7 +160,7 @@ impl Checker<'_> {
             Some(ExprKind::Real(value)) => Stop::Value(*value),
             Some(_) => {
                 let span = port.stop.as_ref().map_or(port.name.span, |stop| stop.span);
-                let message = "the value behind `stop` has to be a number or a truth value".to_string();
+                let message = "the value after `stop` has to be a number or a boolean".to_string();
                 self.report("E0707", span, message, "write `stop false` or `stop 0`");
                 Stop::Hold
             }
@@ -238,12 +238,12 @@ impl Checker<'_> {
             let declared = tree.arguments.iter().any(|argument| argument.value == name.value);
             let output = outputs.iter().position(|port| port.name == name.value).filter(|_| declared);
             let Some(output) = output else {
-                let message = format!("`{}` is no argument of this command that is an output", name.value);
+                let message = format!("the argument `{}` of this command is not an output", name.value);
                 self.report(
                     "E0708",
                     name.span,
                     message,
-                    "declare it as `out`, and name it behind the command",
+                    "declare it as `out`, and name it in the parentheses of the command",
                 );
                 return None;
             };
@@ -279,7 +279,12 @@ impl Checker<'_> {
             return None;
         };
         let ExprKind::Duration(within_ms) = tree.within.kind else {
-            self.report("E0708", tree.within.span, "a time is wanted".into(), "write such as `500 ms`");
+            self.report(
+                "E0708",
+                tree.within.span,
+                "a time is expected".into(),
+                "write a time such as `500 ms`",
+            );
             return None;
         };
         match tree.error.kind {

@@ -85,7 +85,7 @@ impl Address {
         };
         let whole = |text: &str| match text.bytes().all(|b| b.is_ascii_digit()) && !text.is_empty() {
             true => text.parse::<u32>().map_err(|_| format!("`{text}` is too large")),
-            false => Err(format!("`{text}` is no number")),
+            false => Err(format!("`{text}` is not a number")),
         };
         let bit = match bit.map(whole).transpose()? {
             Some(bit @ 8..) => return Err(format!("a byte has the bits 0 to 7, not {bit}")),

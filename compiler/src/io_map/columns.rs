@@ -55,7 +55,7 @@ impl Columns {
                 found.push(
                     Diagnostic::new("E0601", extra.span, "the row has more fields than the first line has columns")
                         .label(format!("field {}, of {}", self.width + 1, self.width))
-                        .help("put a text that holds the separator into quotes; write decimals with a point where commas separate"),
+                        .help("put a text that contains the separator into quotes; if commas separate fields, write decimals with a point"),
                 );
                 None
             }

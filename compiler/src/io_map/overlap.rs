@@ -69,7 +69,7 @@ pub fn check(places: &[Place], points: &[Point], counting: Counting, found: &mut
             .help("give each point an address of its own");
         if other.address.size != place.address.size && counting != Counting::Apart {
             diagnostic = diagnostic.note(
-                "where bits, bytes and words are memories of their own, as in OpenPLC, say `--addresses apart`",
+                "if bits, bytes and words are separate memories, as in OpenPLC, give `--addresses apart`",
             );
         }
         found.push(diagnostic);

@@ -143,7 +143,7 @@ impl<'p> Rows<'p> {
             Ok(address) => address,
             Err(wrong) => {
                 found.push(
-                    Diagnostic::new("E0605", field.span, format!("`{}` is no address: {wrong}", field.text))
+                    Diagnostic::new("E0605", field.span, format!("`{}` is not an address: {wrong}", field.text))
                         .help("write %IX0.3 for a bit, %IB4, %IW4 or %ID4 for 8, 16 or 32 bits; I for inputs, Q for outputs, M for memory"),
                 );
                 return None;
@@ -159,7 +159,7 @@ impl<'p> Rows<'p> {
                 Diagnostic::new(
                     "E0607",
                     field.span,
-                    format!("{} is an {word}: {address} does not go with it", point.name),
+                    format!("{} is an {word}: {address} does not fit it", point.name),
                 )
                 .help(format!("give it an address such as {corrected}")),
             );
@@ -200,19 +200,19 @@ impl<'p> Rows<'p> {
             };
         };
         let Some(raw) = Raw::named(&field.text) else {
-            return wrong(field.span, format!("`{}` is no raw type", field.text));
+            return wrong(field.span, format!("`{}` is not a raw type", field.text));
         };
         if !goes(&raw) {
             return wrong(
                 field.span,
-                format!("{} is {}: {} does not go with it", point.name, point.kind.name(), raw.name()),
+                format!("{} is {}: {} does not fit it", point.name, point.kind.name(), raw.name()),
             );
         }
         match address {
             Some(address) if address.size != raw.size() => wrong(
                 field.span,
                 format!(
-                    "{} stands at an address with {}, {address} has {}",
+                    "the raw type {} needs an address with {}, {address} has {}",
                     raw.name(),
                     raw.size().letter(),
                     address.size.letter()
@@ -270,7 +270,7 @@ impl<'p> Rows<'p> {
         }
     }
 
-    /// Where commas do not separate fields, a comma may stand for the point.
+    /// Where commas do not separate fields, a decimal comma is allowed.
     fn number(&self, field: &Field, found: &mut Vec<Diagnostic>) -> Option<f64> {
         let text = match self.separator {
             b',' => field.text.clone(),
@@ -282,7 +282,7 @@ impl<'p> Rows<'p> {
             Ok(_) if is_plain => {
                 found.push(
                     Diagnostic::new("E0610", field.span, format!("{} is too large", field.text))
-                        .help("write a number that 64 bits hold"),
+                        .help("write a number that fits into 64 bits"),
                 );
                 None
             }
@@ -316,7 +316,7 @@ fn without_address(record: &Record, point: &Point, found: &mut Vec<Diagnostic>) 
     if let Some(field) = filled {
         found.push(
             Diagnostic::new("E0613", field.span, format!("{} has a conversion and no address", point.name))
-                .help("fill the column `address`, or empty the columns behind it"),
+                .help("fill in the column `address`, or empty the columns after it"),
         );
     }
 }
@@ -362,9 +362,9 @@ fn scaled(
             Diagnostic::new(
                 "E0610",
                 place,
-                format!("the scale of {} is 0: all raw values would be one", point.name),
+                format!("the scale of {} is 0: all raw values would be the same", point.name),
             )
-            .help("write how much one raw step is worth, or leave it empty for 1"),
+            .help("write the value of one raw step, or leave it empty for 1"),
         );
         return None;
     }
@@ -387,7 +387,7 @@ fn holds(wire: &Wire, point: &Point, record: &Record, address: &Field, found: &m
                 );
                 found.push(
                     Diagnostic::new("E0611", place, message)
-                        .help("take a raw type that holds them all, or another offset"),
+                        .help("use a raw type that has all these values, or another offset"),
                 );
             }
         }
@@ -396,7 +396,7 @@ fn holds(wire: &Wire, point: &Point, record: &Record, address: &Field, found: &m
             let step = 1.0 / scale;
             if ends.iter().any(|end| !end.is_finite()) || !step.is_finite() {
                 let message = format!(
-                    "{} cannot be computed from {}: the numbers leave 64 bits",
+                    "{} cannot be computed from {}: the numbers do not fit into 64 bits",
                     point.name,
                     wire.raw.name()
                 );

@@ -51,7 +51,7 @@ pub enum ExprKind {
     Own(InterfaceId),
     /// The stay in the present state has lasted so many ms.
     After(Box<Expr>),
-    /// The last command has ended well.
+    /// The last command has ended successfully.
     Done,
     /// The last command has ended in error.
     Failed,

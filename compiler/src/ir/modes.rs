@@ -12,7 +12,7 @@ pub struct Modes {
     pub steps: usize,
     /// Single step is selected: nothing lasts too long.
     pub is_single: Expr,
-    /// An instance that is stopped may go on with an edge of `start`.
+    /// An instance that is stopped may continue with an edge of `start`.
     pub may_go_on: Expr,
     /// A local: outputs are those of the panel. None if there are none beside the arguments of commands.
     pub by_hand: Option<usize>,

@@ -22,7 +22,7 @@ impl Retained {
 }
 
 impl Automaton {
-    /// States in which an instance goes on after a loss of power, or after it was moved by hand.
+    /// States in which an instance continues after a loss of power, or after it was moved by hand.
     pub fn resumable(&self) -> impl Iterator<Item = usize> {
         self.states.iter().enumerate().filter(|(_, state)| state.is_resumable).map(|(number, _)| number)
     }

@@ -75,7 +75,7 @@ pub fn instead(name: &str, known: &[&str]) -> String {
 }
 
 impl Decoder {
-    /// Whether what is reported further is not told.
+    /// Whether further errors are not reported.
     pub fn is_full(&self) -> bool {
         self.diagnostics.len() >= MOST
     }
@@ -220,7 +220,7 @@ impl Decoder {
             let opening = Span { end: place.start + 1, ..place };
             self.report(
                 Diagnostic::new("E0112", opening, format!("{what} has no key \"{key}\""))
-                    .note(format!("\"{key}\" cannot be left out"))
+                    .note(format!("\"{key}\" is required"))
                     .help(format!("add \"{key}\": ...")),
             );
         }
@@ -258,13 +258,13 @@ impl Decoder {
         }
     }
 
-    /// A name that can stand in the text of a program.
+    /// A name that can be in the text of a program.
     pub fn identifier(&mut self, name: &Spanned<String>, what: &str) -> bool {
         let good = is_identifier(&name.value);
         if !good {
             self.report(
                 Diagnostic::new("E0120", name.span, format!("\"{}\" cannot be the name of {what}", name.value))
-                    .note("a name begins with a letter a to z, goes on with letters, digits and single underscores, does not end in one, and has at most 32 characters")
+                    .note("a name begins with a letter a to z, continues with letters, digits and single underscores, does not end in an underscore, and has at most 32 characters")
                     .help(format!("write for example \"{}\"", make_identifier(&name.value, "name"))),
             );
         }

@@ -29,7 +29,7 @@ pub struct Member {
     pub value: Json,
 }
 
-/// Lists and objects may stand in one another this deep.
+/// Lists and objects may be nested this deep.
 const DEEPEST: usize = 64;
 /// After so many errors the text is no JSON, and more of them would not help.
 const MOST_ERRORS: usize = 20;
@@ -51,7 +51,7 @@ pub fn parse(text: &str, file: FileId) -> (Option<Json>, Vec<Diagnostic>) {
         let place = reader.span(reader.at);
         reader.report(
             Diagnostic::new("E0108", place, "there is text after the end of the JSON value")
-                .note("a file holds one value, here one object in braces")
+                .note("a file has one value, here one object in braces")
                 .help("remove the text, or the brace before it if the object was closed too early"),
         );
     }
@@ -175,13 +175,9 @@ impl Reader<'_> {
         if self.depth == DEEPEST {
             let place = self.span(self.at);
             self.report(
-                Diagnostic::new(
-                    "E0105",
-                    place,
-                    format!("more than {DEEPEST} lists and objects stand in one another"),
-                )
-                .note("no key of a layout or a scenario needs more than 6")
-                .help("look for a bracket that is repeated or not closed"),
+                Diagnostic::new("E0105", place, format!("more than {DEEPEST} lists and objects are nested"))
+                    .note("no key of a layout or a scenario needs more than 6")
+                    .help("look for a bracket that is repeated or not closed"),
             );
             self.give_up();
             return None;
@@ -217,11 +213,11 @@ impl Reader<'_> {
                     Diagnostic::new(
                         "E0106",
                         member.key.span,
-                        format!("the key \"{key}\" stands twice in one object"),
+                        format!("the key \"{key}\" occurs twice in one object"),
                     )
                     .label("again here")
                     .other(place, "first here")
-                    .note("which of the two counts would be left to chance")
+                    .note("it is not defined which of the two counts")
                     .help("remove one of them"),
                 );
             } else {
@@ -308,7 +304,7 @@ impl Reader<'_> {
                 let word = self.take_word();
                 self.syntax(
                     self.since(start),
-                    format!("the key {word} stands without quotes"),
+                    format!("the key {word} has no quotes"),
                     format!("write \"{word}\""),
                 );
                 word
@@ -370,7 +366,7 @@ impl Reader<'_> {
         let place = self.span(self.text.len());
         self.report(
             Diagnostic::new("E0102", place, format!("the text ends where {wanted} is expected"))
-                .help("the file seems to be cut off: complete it"),
+                .help("the file seems to be incomplete: complete it"),
         );
     }
 

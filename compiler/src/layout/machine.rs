@@ -42,7 +42,8 @@ fn turned(object: &Object, device: &Device) -> Result<(), Vec<Diagnostic>> {
     if object.pose.value.yaw == 0.0 || device.can_turn {
         return Ok(());
     }
-    let message = format!("\"{}\" is turned, and the device {} cannot be", object.name.value, device.name);
+    let message =
+        format!("\"{}\" is turned, but the device {} cannot be turned", object.name.value, device.name);
     Err(vec![
         Diagnostic::new("E0144", object.pose.span, message)
             .other(device.place, "its parts lie along the axes of the world: none is given from `origin`")
@@ -61,7 +62,7 @@ fn unmet(object: &Object, placed: &Placed) -> Result<(), Vec<Diagnostic>> {
             let place = member.map_or(object.span, |member| member.value.span);
             Diagnostic::new("E0124", place, format!("\"{}\": {}", object.name.value, unmet.text))
                 .other(unmet.place, "required here")
-                .other(object.pose.span, "the machine stands here")
+                .other(object.pose.span, "the machine is here")
                 .help("change these numbers, or those of the pose")
         })
         .collect();
@@ -77,7 +78,7 @@ pub fn obstacle(object: &Object) -> Result<Obstacle, Vec<Diagnostic>> {
     } else {
         decoder.report(
             Diagnostic::new("E0126", object.kind.span, format!("no automaton has the type \"{kind}\""))
-                .note(format!("stationary things need none if they are of the types {}", listing(&OBSTACLES)))
+                .note(format!("stationary objects of these types need none: {}", listing(&OBSTACLES)))
                 .help(match object.part {
                     Part::Stationary => instead(kind, &OBSTACLES),
                     Part::Robot => format!("write an automaton for \"{kind}\", or correct the type"),
@@ -85,7 +86,7 @@ pub fn obstacle(object: &Object) -> Result<Obstacle, Vec<Diagnostic>> {
         );
     }
     if object.pose.value.yaw != 0.0 {
-        let message = format!("\"{}\" is turned, and an obstacle cannot be", object.name.value);
+        let message = format!("\"{}\" is turned, but an obstacle cannot be turned", object.name.value);
         decoder.report(
             Diagnostic::new("E0144", object.pose.span, message)
                 .note("the boxes of obstacles lie along the axes of the world")
@@ -165,7 +166,7 @@ impl<'a> Reader<'a> {
                         text.span,
                         format!("{key} must be \"x\" or \"y\", not \"{other}\""),
                     )
-                    .note("it is the horizontal axis of the world along which the thing lies")
+                    .note("it is the horizontal axis of the world along which the machine lies")
                     .help("write \"x\" or \"y\""),
                 );
                 None
@@ -183,9 +184,9 @@ impl<'a> Reader<'a> {
                 Diagnostic::new(
                     "E0123",
                     json.span,
-                    format!("{key} goes from {lower} to {upper}, which is not upwards"),
+                    format!("{key} is from {lower} to {upper}: its ends are in the wrong order"),
                 )
-                .note("the lower end stands first; both are in the world frame")
+                .note("the lower end comes first; both are in the world frame")
                 .help(match lower > upper {
                     true => format!("write [{upper}, {lower}]"),
                     false => "write two different ends".into(),

@@ -28,7 +28,7 @@ impl Decoder {
                         Diagnostic::new("E0128", a.span, message)
                             .label("second time")
                             .other(first, "first time")
-                            .help("leave one of them out; the order of the two makes no difference"),
+                            .help("remove one of them; the order of the two names has no effect"),
                     );
                 }
                 None => {
@@ -52,7 +52,7 @@ impl Decoder {
         let b = self.text(&names[1], "pair[1]").filter(|name| self.is_known(name, known));
         let pair = [a?, b?];
         if pair[0].value == pair[1].value {
-            let message = format!("\"{}\" stands twice in one pair", pair[0].value);
+            let message = format!("\"{}\" occurs twice in one pair", pair[0].value);
             self.report(
                 Diagnostic::new("E0128", pair[1].span, message)
                     .note("contact of an arm with itself always ends the run")
@@ -68,7 +68,7 @@ impl Decoder {
         if !says {
             self.report(
                 Diagnostic::new("E0128", reason.span, "the reason is empty")
-                    .note("contact ends a run, unless the layout says why it does no harm")
+                    .note("contact ends a run, unless the layout says why it is harmless")
                     .help("say why the two may touch"),
             );
         }

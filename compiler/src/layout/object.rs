@@ -49,10 +49,10 @@ impl Decoder {
                 Diagnostic::new(
                     "E0125",
                     json.span,
-                    format!("{path} is {} m, which is outside of any factory", readable(value)),
+                    format!("{path} is {} m, which is outside any factory", readable(value)),
                 )
                 .note(format!("coordinates are in metres, within {FARTHEST} m of the origin"))
-                .help("write it in metres: were millimetres meant?"),
+                .help("write it in metres: is the value in millimetres?"),
             );
             return None;
         }
@@ -87,7 +87,7 @@ impl Decoder {
     pub fn layout_object(&mut self, json: &Json, part: Part) -> Option<Object> {
         let what = match part {
             Part::Robot => "a robot",
-            Part::Stationary => "a stationary thing",
+            Part::Stationary => "a stationary object",
         };
         let members = self.object(json, what)?;
         let name = self.required(members, "name", json.span, what);

@@ -67,7 +67,7 @@ impl Decoder {
 
     fn bounded_objects(&mut self, objects: &[Object]) {
         if let Some(first) = objects.get(MOST_OBJECTS) {
-            let message = format!("a layout has at most {MOST_OBJECTS} robots and stationary things");
+            let message = format!("a layout has at most {MOST_OBJECTS} robots and stationary objects");
             self.report(
                 Diagnostic::new("E0143", first.name.span, message)
                     .label("the first that is too many")
@@ -102,7 +102,7 @@ impl Decoder {
     fn no_neighbour(&mut self, own: &str, key: &str, name: &Spanned<String>, known: &[&str]) {
         let others: Vec<&str> = known.iter().copied().filter(|name| *name != own).collect();
         let message = match name.value == *own {
-            true => format!("\"{own}\" stands in its own {key}"),
+            true => format!("\"{own}\" is in its own {key}"),
             false => format!("{key} of \"{own}\" names \"{}\", which is not in the layout", name.value),
         };
         self.report(

@@ -31,7 +31,7 @@ pub fn check(automaton: &Automaton, found: &mut Vec<Diagnostic>) {
             );
             found.push(
                 Diagnostic::new("W0106", place, message)
-                    .note("a command that fails has moved nothing, or not all the way")
+                    .note("a command that fails has moved nothing, or not reached its goal")
                     .help("add `when failed -> ...` to this state or to one that follows it"),
             );
         }

@@ -16,7 +16,7 @@ pub fn check(automaton: &Automaton, found: &mut Vec<Diagnostic>) {
                 found.push(
                     Diagnostic::new("W0102", transition.place, message)
                         .other(before.place, "this fires whenever that could")
-                        .help("let it stand before that one, or remove it"),
+                        .help("put it before that one, or remove it"),
                 );
             }
         }

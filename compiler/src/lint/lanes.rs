@@ -26,7 +26,7 @@ fn diagnostic(layout: &Layout, line: &Line, gap: &Gap) -> Option<Diagnostic> {
     if gap.turn != 0.0 && gap.turn.abs() > ALIGNED {
         let note = format!("their directions differ by {:.1} degrees", gap.turn.abs());
         return Some(
-            diagnostic.note(note).help("turn one of the machines, so that both directions are the same"),
+            diagnostic.note(note).help("turn one of the machines, so that both have the same direction"),
         );
     }
     if gap.from.0 == gap.to.0 {
@@ -36,7 +36,7 @@ fn diagnostic(layout: &Layout, line: &Line, gap: &Gap) -> Option<Diagnostic> {
     let pose = [x, y, z].map(|number| format!("{}", (number * 1e6).round() / 1e6)).join(", ");
     let yaw = object.pose.value.yaw;
     let yaw = if yaw == 0.0 { String::new() } else { format!(", {yaw}") };
-    Some(diagnostic.help(format!("if they are to meet, write \"pose\": [{pose}{yaw}] for {name}")))
+    Some(diagnostic.help(format!("if they should be joined, write \"pose\": [{pose}{yaw}] for {name}")))
 }
 
 /// Less is no fault of the direction, degrees.

@@ -48,7 +48,7 @@ pub fn check(model: &Model, files: &[(FileId, ast::File)], found: &mut Vec<Diagn
     }
 }
 
-/// Where something of an automaton is declared; none if it stands in no text.
+/// Where something of an automaton is declared; none if it is in no text.
 fn place<T>(
     files: &[(FileId, ast::File)],
     automaton: &str,

@@ -124,7 +124,7 @@ fn diagnostic(
             .note(format!("no source brings a `{name}`"))
             .help(format!("add `{name}` to `items` of `supply`, or take it out of the goal"));
     }
-    diagnostic
-        .note(format!("machines that a `{name}` can get to: {}", listing(&passed)))
-        .help("let a conveyor begin where the one before it ends, or let the goal name a sink behind these machines")
+    diagnostic.note(format!("machines that a `{name}` can get to: {}", listing(&passed))).help(
+        "let a conveyor begin where the one before it ends, or name a sink after these machines in the goal",
+    )
 }

@@ -85,7 +85,7 @@ pub struct Apart {
 }
 
 impl Verdict {
-    /// What items do without an arm: conveyors that go on as others, and sinks.
+    /// What items do without an arm: conveyors that continue as others, and sinks.
     fn add_conveyors(&mut self, line: &runtime_sim::line::Line, transfers: &[Transfer]) {
         let name = |(machine, part): (usize, usize)| {
             let machine = &line.machines[machine];

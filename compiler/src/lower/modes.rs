@@ -44,13 +44,13 @@ impl Builder<'_> {
         let moved_by_hand = self.truth(
             "moved_by_hand",
             false,
-            "Something was done by hand: it goes on from a state that says so only, or begins anew.",
+            "It was moved by hand: it continues in a state that says `resume`, else it begins anew.",
         );
         let commanded = self.automaton.device.is_commanded().then(|| {
             self.truth(
                 "commanded_by_hand",
                 false,
-                "The panel has given a command since its button is pressed.",
+                "The panel has given a command since its button was pressed.",
             )
         });
         restart::add_abandoned(self.automaton);
@@ -61,7 +61,7 @@ impl Builder<'_> {
                 vec![Action::Stop],
             ),
             when(
-                "Single step has ended: its state lasts anew.",
+                "Single step has ended: the time of the state begins anew.",
                 and(vec![self.read(single_before), is_not_single.clone()]),
                 vec![Action::StayAnew],
             ),
@@ -79,7 +79,7 @@ impl Builder<'_> {
             by_hand.map(|by_hand| self.set(by_hand, constant(false))).into_iter().collect();
         ends.extend(commanded.map(|commanded| self.set(commanded, constant(false))));
         actions.push(Action::If {
-            about: "By hand: from the edge of the button on, as long as it is pressed.",
+            about: "By hand: from the edge of the button, while it is pressed.",
             condition: and(allowed),
             then: vec![when("", self.read(jog_ready), begins)],
             otherwise: ends,
@@ -93,7 +93,7 @@ impl Builder<'_> {
             let without_command =
                 commanded.map(|commanded| not(self.read(commanded))).into_iter().chain([self.read(by_hand)]);
             let condition = and(without_command.collect());
-            actions.push(when("Outputs that stay as they are, unless a command is given.", condition, kept));
+            actions.push(when("Outputs that keep their values, unless a command is given.", condition, kept));
         }
         actions.push(self.go_on(moved_by_hand));
         Modes {
@@ -169,7 +169,7 @@ impl Builder<'_> {
             },
         };
         when(
-            "It goes on after it was moved by hand.",
+            "It continues after it was moved by hand.",
             and(vec![self.read(moved_by_hand), not(truth_of(ExprKind::Stopped))]),
             vec![self.set(moved_by_hand, constant(false)), begins],
         )

@@ -1,4 +1,4 @@
-//! Machines that stand in one another or in an obstacle.
+//! Machines that overlap one another or an obstacle.
 
 use crate::diagnostic::{Diagnostic, MOST};
 use crate::layout::{Layout, Object};
@@ -6,7 +6,7 @@ use runtime_sim::collision;
 use runtime_sim::line::Line;
 use std::collections::HashMap;
 
-/// The type of an obstacle that stands about the end of a belt.
+/// The type of an obstacle around the end of a belt.
 const COLLECTOR: &str = "collector";
 
 pub fn overlaps(layout: &Layout, plant: &Line) -> Vec<Diagnostic> {
@@ -21,7 +21,7 @@ pub fn overlaps(layout: &Layout, plant: &Line) -> Vec<Diagnostic> {
         }
         let [first, second] = [a, b].map(|object| &object.name);
         let [of_first, of_second] = &overlap.parts;
-        let message = format!("{} and {} stand in one another", first.value, second.value);
+        let message = format!("{} and {} overlap", first.value, second.value);
         let note = format!(
             "{of_first} of {} meets {of_second} of {} before anything moves",
             first.value, second.value
@@ -30,7 +30,7 @@ pub fn overlaps(layout: &Layout, plant: &Line) -> Vec<Diagnostic> {
             Diagnostic::new("E0409", first.span, message)
                 .other(second.span, "the other one")
                 .note(note)
-                .help("move one of the two, or say under \"may_touch\" why that is no harm"),
+                .help("move one of the two, or say under \"may_touch\" why the overlap is harmless"),
         )
     });
     found.collect()

@@ -78,8 +78,10 @@ impl Line<'_> {
     fn ordered(&mut self, parameter: &Parameter) -> Vec<Value> {
         let Scalar::Int { lo, hi } = parameter.ty.scalar else { return Vec::new() };
         let Some(ordered) = &self.ordered else {
-            let message =
-                format!("the orders have no end, and `{}` is how many parts they ask for", parameter.name);
+            let message = format!(
+                "the orders have no end, but `{}` is the number of parts that they ask for",
+                parameter.name
+            );
             collect(
                 &mut self.diagnostics,
                 Diagnostic::new("E0503", parameter.place, message)

@@ -1,4 +1,4 @@
-//! What a model needs to go on after a loss of power, as `docs/semantics.md` says.
+//! What a model needs to continue after a loss of power, as `docs/semantics.md` says.
 
 use crate::ir::{
     Automaton, Expr, ExprKind, Extent, KeptBy, Local, Model, Operator, Place, PropertyKind, Scalar, Type,
@@ -29,7 +29,7 @@ pub fn add_abandoned(automaton: &mut Automaton) {
         "abandoned",
         "The answer to the last command does not count: a person moved the machine, or power was lost. The device is held until the next command.",
     );
-    let interrupted = add("interrupted", "It has gone on since: the last command counts as failed.");
+    let interrupted = add("interrupted", "It has continued since: the last command counts as failed.");
     (automaton.abandoned, automaton.interrupted) = (Some(abandoned), Some(interrupted));
     let is_abandoned =
         || Expr { ty: Scalar::Bool, kind: ExprKind::Read(Place::Local { local: abandoned, index: None }) };

@@ -179,11 +179,11 @@ impl<'a> Line<'a> {
             return;
         };
         let arm = &line.nodes[node];
-        let message = format!("more than {MOST_PAIRS} pairs of an arm and a place stand near one another");
+        let message = format!("more than {MOST_PAIRS} pairs of an arm and a place are near one another");
         self.diagnostics.push(
             Diagnostic::new("E0408", arm.span, message)
-                .note(format!("{} alone stands near {count} places", arm.name))
-                .help("narrow arms with \"takes_from\" and \"hands_to\", or make several lines of this one"),
+                .note(format!("{} alone is near {count} places", arm.name))
+                .help("restrict arms with \"takes_from\" and \"hands_to\", or divide the line into several lines"),
         );
     }
 
@@ -411,7 +411,7 @@ impl<'a> Line<'a> {
                     )
                     .other(place.span, "accepts and offers within reach of the same arm")
                     .help(format!(
-                        "narrow one of the two: \"takes_from\": [...] or \"hands_to\": [...] in `{}`",
+                        "restrict one of the two: \"takes_from\": [...] or \"hands_to\": [...] in `{}`",
                         arm.name
                     )),
                 );
@@ -466,7 +466,7 @@ impl<'a> Line<'a> {
                 format!("`{}` needs {wanted} `{}`, and has {found}", object.name.value, role.name),
             )
             .other(role.place, "the role is declared here")
-            .help("add or move machines, or narrow the role with \"takes_from\" or \"hands_to\""),
+            .help("add or move machines, or restrict the role with \"takes_from\" or \"hands_to\""),
         );
     }
 

@@ -24,7 +24,7 @@ impl Setting {
         let span = Span::new(file, 0, text.len());
         let form = || {
             vec![
-                Diagnostic::new("E0510", span, format!("`{text}` is no setting"))
+                Diagnostic::new("E0510", span, format!("`{text}` is not a setting"))
                     .help("write TYPE.PARAMETER=VALUE or ROBOT.PARAMETER=VALUE, such as agv.capacity=4"),
             ]
         };

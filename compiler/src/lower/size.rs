@@ -31,7 +31,7 @@ impl Line<'_> {
             self.diagnostics.push(
                 Diagnostic::new("E0508", place, message)
                     .note(format!("they have {all}; each `{name}` has {largest}, `reaches` compares {pairs} pairs"))
-                    .help("take smaller arrays, fewer states, narrower roles, or fewer machines; lines beside one another may each have a layout"),
+                    .help("use smaller arrays, fewer states, roles with fewer members, or fewer machines; independent lines may each have a layout"),
             );
         }
         all > MOST

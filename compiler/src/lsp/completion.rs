@@ -1,4 +1,4 @@
-//! What can stand at a place of a file of automata. The text there is being typed and has errors, so the words before the
+//! What can be at a place of a file of automata. The text there is being typed and has errors, so the words before the
 //! place say what is wanted; what names there are is from all that could be read.
 
 mod words;

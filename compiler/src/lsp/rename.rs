@@ -14,7 +14,7 @@ pub type Edit = (Span, String);
 
 /// The name at a place, if it can be renamed at all.
 pub fn renamed_at(specs: &Specs, place: Span) -> Result<(Number, Span), String> {
-    let (number, place) = specs.names.at(place).ok_or("no name stands here that could be renamed")?;
+    let (number, place) = specs.names.at(place).ok_or("there is no name here that can be renamed")?;
     for same in specs.names.same(number) {
         let declaration = &specs.names.declarations()[same];
         let Some(declared) = declaration.place else {
@@ -30,7 +30,10 @@ pub fn renamed_at(specs: &Specs, place: Span) -> Result<(Number, Span), String> 
             let name = &declaration.name;
             return Err(match same == number {
                 true => format!("`{name}` is declared in the library, which is a part of autogen"),
-                false => format!("`{name}` has to be called as in `{}` of the library", declaration.owner),
+                false => format!(
+                    "`{name}` must have the name that it has in `{}` of the library",
+                    declaration.owner
+                ),
             });
         }
     }
@@ -83,7 +86,7 @@ pub fn rename(specs: &Specs, place: Span, new_name: &str) -> Result<Vec<Edit>, S
 fn is_name(text: &str) -> Result<(), String> {
     let begins = text.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
     if !begins || text.contains(|c: char| !c.is_ascii_alphanumeric() && c != '_') {
-        return Err(format!("`{text}` is no name: names are of letters a to z, digits and underscores"));
+        return Err(format!("`{text}` is not a name: a name has letters a to z, digits and underscores"));
     }
     if RESERVED.contains(&text) || text == "self" {
         return Err(format!("`{text}` is a word of the language"));

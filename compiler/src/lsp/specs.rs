@@ -29,7 +29,7 @@ impl Specs {
         Self { sources, files, layout, names, kinds }
     }
 
-    /// Where a name is declared; none if it stands in no specification.
+    /// Where a name is declared; none if it is in no specification.
     pub fn definition(&self, place: Span) -> Option<Span> {
         let (number, _) = self.names.at(place)?;
         self.names.declarations()[number].place

@@ -63,7 +63,7 @@ impl Scope {
             }
             let tail = format!("_{number}");
             found = cut(&stem, longest - tail.len()) + &tail;
-            reason = "name given away before; case does not count";
+            reason = "name already used; case does not count";
         }
         suffixes
             .iter()

@@ -195,7 +195,7 @@ impl<'a> Resolver<'a> {
             &mut self.diagnostics,
             Diagnostic::new("E0135", place, format!("the layout has no {what}"))
                 .note(why)
-                .help(format!("add a {what} to the layout, or take a scenario that needs none")),
+                .help(format!("add a {what} to the layout, or use a scenario that needs none")),
         );
     }
 
@@ -321,7 +321,7 @@ impl<'a> Resolver<'a> {
                 Diagnostic::new("E0138", self.scenario.supply.span, message)
                     .other(self.scenario.orders.span, "the orders")
                     .note("the line could not make all orders")
-                    .help("leave out \"items\", so that the belts bring what the orders ask for, or give a \"count\""),
+                    .help("remove \"items\", so that the belts bring the parts of the orders, or give a \"count\""),
             );
             return;
         }

@@ -20,7 +20,7 @@ pub fn layout(model: &Model, are_kinds_known: bool) -> Value {
         property(
             "stationary",
             objects(types.object(true)),
-            "What does not move: stations, tables, obstacles",
+            "Objects that do not move: stations, tables, obstacles",
         ),
         property(
             "name",
@@ -78,7 +78,7 @@ impl Types<'_> {
     /// An element of `robots` or of `stationary`. Of a type that is known no other keys are allowed.
     fn object(&self, is_stationary: bool) -> Value {
         let mut pose = vec![metres(), metres(), metres(), number(-360.0, 360.0)];
-        pose[3]["description"] = json!("Turned by so many degrees to the left");
+        pose[3]["description"] = json!("Rotation in degrees to the left");
         let mut known: Vec<String> = self.model.automata.iter().map(|a| json_type(&a.name)).collect();
         known.extend(OBSTACLES.iter().filter(|_| is_stationary).map(|kind| kind.to_string()));
         let kind = json!({ "anyOf": [{ "enum": known }, text()] });
@@ -88,18 +88,22 @@ impl Types<'_> {
             property(
                 "pose",
                 json!({ "type": "array", "items": pose, "minItems": 3, "maxItems": 4 }),
-                "Where it stands: x, y, z in m, and degrees if it is turned",
+                "Its position: x, y, z in m, and degrees if it is turned",
             ),
             property("parameters", json!({ "type": "object" }), "Values of the parameters of its type"),
-            property("takes_from", list(text()), "An arm takes from these only"),
-            property("hands_to", list(text()), "An arm hands over to these only"),
+            property("takes_from", list(text()), "An arm takes only from these"),
+            property("hands_to", list(text()), "An arm hands over only to these"),
         ];
         debug_assert!(all.iter().map(|(key, _)| key.as_str()).eq(COMMON_KEYS));
         let mut keys: Vec<&str> = COMMON_KEYS.to_vec();
         if is_stationary {
             let over_0 = json!({ "type": "number", "exclusiveMinimum": 0, "maximum": FARTHEST });
             let lengths = tuple(&[over_0.clone(), over_0.clone(), over_0]);
-            all.push(property("box", lengths, "Lengths along x, y and z, m. It stands on its pose"));
+            all.push(property(
+                "box",
+                lengths,
+                "Lengths along x, y and z, m. The pose is the middle of its base",
+            ));
             keys.push("box");
         }
         let types: Vec<Value> =

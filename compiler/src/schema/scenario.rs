@@ -12,12 +12,12 @@ pub fn scenario() -> Value {
         property(
             "kinds",
             json!({ "type": "array", "items": kind(), "minItems": 1, "maxItems": kinds::MOST_KINDS }),
-            "The kinds of part: members of the enumeration Kind, in this order. Needed with orders or supply",
+            "The kinds of part: members of the enumeration Kind, in this order. Required with orders or supply",
         ),
         property("orders", orders(), "What is to be made: a list, or many orders of the same kind"),
         property("supply", supply(), "What the belts bring"),
         property("time_limit_s", seconds(), "Simulated time after which the run ends, s. Without it: 3600"),
-        property("faults", faults(), "What is to go wrong"),
+        property("faults", faults(), "Faults that the run simulates"),
         property("operator", list(operation()), "What a person does at buttons and set-points"),
         property(
             "goal",
@@ -56,7 +56,7 @@ fn kind() -> Value {
             tuple(&[length(), length()]),
             "Lengths along x and y as it appears on a belt, m. Without it: 0.1 each",
         ),
-        property("is", list(text()), "What sensors find it to be, such as metal"),
+        property("is", list(text()), "Words that sensors detect, such as metal"),
         property("mass", number(*masses.start(), *masses.end()), "kg. Without it: 0.1"),
     ];
     object(all, &["name", "height"])
@@ -69,7 +69,7 @@ fn orders() -> Value {
     let of_each = "How many parts of each kind one order has";
     let many = object(
         vec![
-            property("count", count, "Number of orders, all alike, or without end"),
+            property("count", count, "Number of orders, all the same, or without end"),
             property("parts", parts(), of_each),
             property("stations", stations, "The stations that get them in turn. Without it: all"),
         ],
@@ -81,7 +81,7 @@ fn orders() -> Value {
             property(
                 "station",
                 station,
-                "Where it opens: one station, or several. Without it: the next one in turn",
+                "Stations at which it opens: one or several. Without it: the next one in turn",
             ),
             property("parts", parts(), of_each),
         ],
@@ -103,9 +103,9 @@ fn supply() -> Value {
         property(
             "surplus",
             tuple(&[whole(0, supply::MOST_SURPLUS), whole(1, supply::MOST_SURPLUS)]),
-            "A fraction: so many parts more of each kind, rounded up. Without it: [1, 3]",
+            "A fraction of additional parts of each kind, rounded up. Without it: [1, 3]",
         ),
-        property("seed", whole(0, u32::MAX), "How the parts are shuffled. Without it: 1"),
+        property("seed", whole(0, u32::MAX), "Seed of the shuffled parts. Without it: 1"),
         property(
             "first_s",
             seconds_from_0(),
@@ -113,7 +113,11 @@ fn supply() -> Value {
         ),
         property("every_s", seconds(), "Time between two parts on one belt, s. Without it: 2"),
         property("items", items, "The parts themselves: kinds for the only belt, or a list for each belt"),
-        property("times", whole(1, supply::MOST_TIMES), "With items: how often a list comes. Without it: 1"),
+        property(
+            "times",
+            whole(1, supply::MOST_TIMES),
+            "With items: how often a list is repeated. Without it: 1",
+        ),
     ];
     let mut schema = object(all, &[]);
     schema["not"] = json!({ "required": ["items", "surplus"] });
@@ -140,14 +144,14 @@ fn faults() -> Value {
         vec![
             robot(),
             command,
-            property("late_s", seconds_from_0(), "How much later than it would be answered, s"),
-            property("error", whole(1, 255), "The error in which it ends. Without it: as it would end"),
+            property("late_s", seconds_from_0(), "Delay of the answer, s"),
+            property("error", whole(1, 255), "The error in which it ends. Without it: its usual result"),
         ],
         &["robot", "command"],
     );
     let pause = object(
         vec![
-            property("at_s", seconds_from_0(), "When it is taken away, s"),
+            property("at_s", seconds_from_0(), "Beginning, s"),
             property("for_s", seconds(), "For how long, s"),
         ],
         &["at_s", "for_s"],
@@ -156,11 +160,7 @@ fn faults() -> Value {
         property("slips", list(slip), "Parts that fall off a gripper"),
         property("refusals", list(refusal), "Commands that a machine refuses"),
         property("answers", list(answer), "How commands end, and how late"),
-        property(
-            "pauses",
-            list(pause.clone()),
-            "The permit to run is taken away, then the line is started again",
-        ),
+        property("pauses", list(pause.clone()), "The permit to run is false, then the line is started again"),
         property(
             "power_offs",
             list(pause),

@@ -254,7 +254,7 @@ pub struct Define {
     pub value: Expr,
 }
 
-/// What a type promises beside its states: it is looked at behind the steps of every scan.
+/// A condition that a type promises in addition to its states: it is checked after the steps of every scan.
 #[derive(Clone, Debug)]
 pub struct Property {
     /// Without its reaction.
@@ -275,7 +275,7 @@ pub enum PropertyKind {
     Answer { within: Expr },
 }
 
-/// What a violation does; with the text that tells of it.
+/// The effect of a violation, with its text.
 #[derive(Clone, Debug)]
 pub enum Reaction {
     /// It stops the line.
@@ -319,7 +319,7 @@ pub struct Initial {
     pub updates: Vec<Update>,
 }
 
-/// Transitions that stand before those of every state that is not excepted.
+/// Transitions that come before those of every state that is not excepted.
 #[derive(Clone, Debug)]
 pub struct AnyState {
     pub except: Vec<Name>,
@@ -331,7 +331,7 @@ pub struct State {
     pub doc: Vec<String>,
     pub name: Name,
     pub is_final: bool,
-    /// Its machine may go on from here after it was moved by hand, or power was lost.
+    /// Its machine may continue from here after it was moved by hand, or power was lost.
     pub is_resumable: bool,
     pub within: Option<Expr>,
     pub body: Body,

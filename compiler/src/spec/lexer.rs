@@ -120,15 +120,15 @@ pub fn tokens(file: FileId, text: &str, most: usize) -> (Vec<(Token, Span)>, Vec
                 '&' => "write `and`",
                 '|' => "write `or`",
                 '%' => "write `mod`",
-                '\'' => "texts stand in double quotes",
-                _ => "names are of letters a to z, digits and underscores; comments begin with `//`",
+                '\'' => "texts are in double quotes",
+                _ => "names have letters a to z, digits and underscores; comments begin with `//`",
             };
             let shown = if c.is_control() { c.escape_default().to_string() } else { c.to_string() };
             diagnostics.push(
                 Diagnostic::new(
                     "E0201",
                     Span::new(file, start, at),
-                    format!("`{shown}` is no part of the language"),
+                    format!("`{shown}` is not part of the language"),
                 )
                 .help(help),
             );

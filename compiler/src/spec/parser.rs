@@ -1,4 +1,4 @@
-//! Tokens to tree, by recursive descent. It goes on after an error: at the next
+//! Tokens to tree, by recursive descent. It continues after an error: at the next
 //! `;`, `}` or keyword of an item. `parse_*` reports what is wrong and returns
 //! what could be read.
 
@@ -45,12 +45,10 @@ pub fn parse_within(file: FileId, text: &str, left: &mut usize) -> (ast::File, V
     let count = tokens.len() - 1;
     if count > *left {
         let (_, place) = tokens[count - 1];
-        let message = format!("the files of automata have more than {MOST_TOKENS} words and signs");
-        diagnostics.push(
-            Diagnostic::new("E0215", place, message)
-                .label("the first that is too many")
-                .help("give --specs only the types that the line needs, or make several types of a long one"),
-        );
+        let message = format!("the files of automata have more than {MOST_TOKENS} tokens");
+        diagnostics.push(Diagnostic::new("E0215", place, message).label("the first that is too many").help(
+            "give --specs only the types that the line needs, or divide a long type into several types",
+        ));
         return (ast::File::default(), diagnostics);
     }
     *left -= count;
@@ -73,7 +71,7 @@ pub(super) struct Parser {
     length: usize,
     /// The token at which the last error was found: what else is wrong there follows from it.
     error_at: Option<usize>,
-    /// Errors found so far, told or not.
+    /// Errors found so far, reported or not.
     errors: usize,
 }
 
@@ -99,7 +97,7 @@ impl Parser {
                         _ => None,
                     };
                     let help = near.map_or(
-                        "a file holds `enum`, `interface`, `automaton`, `device` and `assembly`".to_string(),
+                        "a file has `enum`, `interface`, `automaton`, `device` and `assembly`".to_string(),
                         |w| format!("is `{w}` meant?"),
                     );
                     self.error("E0204", format!("{found} cannot begin an item"), help);
@@ -116,7 +114,7 @@ impl Parser {
         while let Some(opens) = text[at..].find('{').map(|i| at + i) {
             if parts.len() > MOST_SHOWN {
                 let message = format!("a text shows more than {} values", MOST_SHOWN / 2);
-                self.error("E0211", message, "make several requirements of this one");
+                self.error("E0211", message, "divide this requirement into several");
                 return parts;
             }
             if opens > at {
@@ -132,8 +130,8 @@ impl Parser {
             if *inner.peek() == Token::End {
                 inner.error(
                     "E0205",
-                    "nothing stands between the braces".into(),
-                    "a text shows an expression between two braces",
+                    "there is nothing between the braces".into(),
+                    "an expression in a text is between two braces",
                 );
             }
             let value = inner.parse_expr();
@@ -142,13 +140,13 @@ impl Parser {
                 inner.error(
                     "E0205",
                     format!("`}}` is missing before {found}"),
-                    "a text shows one expression between two braces",
+                    "a text has one expression between two braces",
                 );
             } else if closes.is_none() {
                 inner.error(
                     "E0205",
                     "`}` is missing after the value".into(),
-                    "a text shows an expression between two braces",
+                    "an expression in a text is between two braces",
                 );
             }
             self.errors += inner.errors;
@@ -265,7 +263,7 @@ impl Parser {
         }
         let found = self.found();
         let (place, help) = match sign {
-            ";" => (self.last_span(), "write `;` behind this".to_string()),
+            ";" => (self.last_span(), "write `;` after this".to_string()),
             _ => (self.span(), format!("write `{sign}` before {found}")),
         };
         self.report(
@@ -284,7 +282,7 @@ impl Parser {
         self.error(
             "E0205",
             format!("`{word}` is missing {after}"),
-            format!("write `{word}` where {found} stands"),
+            format!("write `{word}` instead of {found}"),
         );
         None
     }
@@ -322,7 +320,7 @@ impl Parser {
         self.word().is_some_and(|word| ITEMS.contains(&word)) && matches!(self.peek_second(), Token::Word(_))
     }
 
-    /// What stands here, for a message.
+    /// What is here, for a message.
     fn found(&self) -> String {
         match self.peek() {
             Token::Word(w) => format!("`{w}`"),
@@ -340,7 +338,7 @@ impl Parser {
         self.report(Diagnostic::new(code, span, message).help(help));
     }
 
-    /// Of several errors at one token only the first is told.
+    /// Of several errors at one token only the first is reported.
     fn report(&mut self, diagnostic: Diagnostic) {
         if self.error_at != Some(self.position) {
             collect(&mut self.diagnostics, diagnostic);

@@ -1,4 +1,4 @@
-//! A machine on the bench: its inputs are given, scan by scan, and what it does is looked at.
+//! A machine on the bench: its inputs are given, scan by scan, and what it does is checked.
 
 use super::machine::{Engine, Step, Target, Wanted};
 use super::{Failure, Time};

@@ -116,7 +116,7 @@ fn targets(system: &System, rows: &[Row], found: &mut Vec<Diagnostic>) -> Vec<Ta
         };
         if ms % scan_ms != 0 {
             let help = format!("the line is scanned every {scan_ms} ms: write a multiple of it");
-            found.push(Diagnostic::new("E0903", row.span, "no scan is at this time").help(help));
+            found.push(Diagnostic::new("E0903", row.span, "there is no scan at this time").help(help));
         }
         let scans = ms / scan_ms;
         let (target, now) = match row.time {
@@ -146,7 +146,7 @@ fn step(system: &System, machine: usize, row: &Row, found: &mut Vec<Diagnostic>)
         match given {
             Given::Answer(span, error) => {
                 if !system.automaton_of(machine).device.is_commanded() {
-                    let message = "this machine obeys no commands, so it has none to answer";
+                    let message = "this machine has no commands, so it has none to answer";
                     found.push(Diagnostic::new("E0902", *span, message).help("give values of its ports"));
                 }
                 step.answer = Some(*error);
@@ -189,7 +189,7 @@ fn giving(system: &System, machine: usize, path: &Path) -> Result<Named, Box<Dia
         Group::Output | Group::Local => {
             let message = format!("the automaton itself writes `{}`", path.name);
             Err(Diagnostic::new("E0902", path.span, message)
-                .help("give inputs of the device and shared cells; expect this one behind `->`")
+                .help("set inputs of the device and shared cells; expect this value after `->`")
                 .into())
         }
     }

@@ -73,7 +73,7 @@ pub enum Time {
 #[derive(Clone, Debug)]
 pub enum Given {
     Value(Path, Literal),
-    /// The device answers the last command: it has ended well, or with this error.
+    /// The device answers the last command: it has ended successfully, or with this error.
     Answer(Span, i32),
 }
 

@@ -16,8 +16,8 @@ const LONGEST_MS: f64 = 86_400_000.0;
 pub fn read(file: FileId, text: &str) -> Result<File, Vec<Diagnostic>> {
     let (tokens, diagnostics) = lexer::tokens(file, text, MOST_TOKENS + 1);
     if let Some((_, place)) = tokens.get(MOST_TOKENS + 1) {
-        let message = format!("a file of tests has more than {MOST_TOKENS} words and signs");
-        return Err(vec![Diagnostic::new("E0901", *place, message).help("make several files of it")]);
+        let message = format!("a file of tests has more than {MOST_TOKENS} tokens");
+        return Err(vec![Diagnostic::new("E0901", *place, message).help("divide it into several files")]);
     }
     let mut reader = Reader { tokens, at: 0, diagnostics };
     let file = reader.file();
@@ -144,7 +144,7 @@ impl Reader {
             let done = match self.word() {
                 Some("test") => self.test().map(|test| file.tests.push(test)),
                 Some("layout" | "scenario" | "set") => self.setup(&mut file.set),
-                _ => self.wrong("`layout`, `scenario`, `set` or `test`", "a file holds these four"),
+                _ => self.wrong("`layout`, `scenario`, `set` or `test`", "a file has these four"),
             };
             if done.is_none() {
                 self.recover();
@@ -218,7 +218,7 @@ impl Reader {
         self.next();
         let ms = number * unit;
         if (ms - ms.round()).abs() > 1e-6 || ms > LONGEST_MS {
-            let message = "this is no whole number of milliseconds that a test can wait for";
+            let message = "this is not a whole number of milliseconds that a test can wait for";
             let help = "times go from 0 ms to 1440 min, in steps of 1 ms";
             self.report(Diagnostic::new("E0903", span, message).help(help));
             return None;

@@ -305,7 +305,7 @@ impl Controllers for StructuredText {
         if self.ended.is_none()
             && let Err(error) = machine.scan()
         {
-            self.ended = Some(format!("scan {}: the text ends at {error}", self.scans));
+            self.ended = Some(format!("scan {}: the text stops with {error}", self.scans));
         }
         if self.ended.is_some() {
             return SystemOutputs { fault: true, fault_code: -1, ..SystemOutputs::default() };

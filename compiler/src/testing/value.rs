@@ -31,8 +31,8 @@ pub fn named(system: &System, machine: usize, path: &Path) -> Result<Named, Box<
             literal(system, Scalar::Int { lo: 0, hi: count as i32 - 1 }, index).map(ordinal)?
         }
         (Some(index), Extent::One) => {
-            let message = format!("`{}` is no array", path.name);
-            return Err(Diagnostic::new("E0903", index.span, message).help("leave the index out").into());
+            let message = format!("`{}` is not an array", path.name);
+            return Err(Diagnostic::new("E0903", index.span, message).help("remove the index").into());
         }
         (None, _) => {
             let message = format!("`{}` is an array of {count}", path.name);

@@ -150,9 +150,9 @@ fn unbounded(system: &System, number: usize, port: &str) -> Diagnostic {
     Diagnostic::new(
         "E1001",
         automaton.place,
-        format!("`{name}` cannot be searched: it reads the input `{port}`, of which no contract says what it may be"),
+        format!("`{name}` cannot be searched: no contract says which values its input `{port}` may have"),
     )
-    .help("verify lines whose automata read truths, whole numbers of few values, and places that commands fix")
+    .help("verify lines whose automata read booleans, whole numbers of few values, and places that commands fix")
 }
 
 fn reads_error(automaton: &Automaton) -> bool {

@@ -69,7 +69,7 @@ pub fn replay(project: &Project, model: &Model, execution: &Execution) -> Result
     let result = result.and_then(|seconds| {
         let left = follower.marks.iter().position(|marks| !marks.is_empty());
         match left.filter(|_| report.fault.is_none()) {
-            Some(_) if report.simulated_s < seconds => Err("before all of it has happened".into()),
+            Some(_) if report.simulated_s < seconds => Err("before all these events".into()),
             Some(machine) => {
                 let name = &project.system.instances[machine].name;
                 Err(format!("with these delays {name} does something else"))

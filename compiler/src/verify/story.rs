@@ -25,7 +25,7 @@ impl Teller<'_> {
                 let site = &self.project.system.model.faults[fault];
                 format!("fault of {}: {} ({})", name(instance), site.text, self.place(site.place))
             }
-            Violation::Stop => "the line stops until an operator has come".into(),
+            Violation::Stop => "the line stops until an operator comes".into(),
             Violation::NeverMade => "from here the orders cannot be made any more".into(),
             Violation::TwoArms { arms: [a, b], machine } => {
                 format!("two arms over one place: {} and {} over {}", name(a), name(b), name(machine))
@@ -37,7 +37,7 @@ impl Teller<'_> {
                 format!("{} puts an item onto another one, at place {slot} of {}", name(arm), name(machine))
             }
             Violation::WrongItems { machine, order } => {
-                format!("{} sends order {} away with other items than it asks for", name(machine), order + 1)
+                format!("{} completes order {} with other items than it asks for", name(machine), order + 1)
             }
         }
     }
@@ -85,7 +85,7 @@ impl Teller<'_> {
         )
     }
 
-    /// `kitting answers: pick has ended well, a battery hangs on the gripper`
+    /// `kitting answers: pick has ended successfully, a battery hangs on the gripper`
     pub fn event(&self, happened: &Happened, event: &Event) -> String {
         let name = self.name(event.machine);
         let plant = &self.model.machines[event.machine];
@@ -102,11 +102,13 @@ impl Teller<'_> {
                 let verb = device.verbs.iter().find(|verb| verb.number == number);
                 let verb = verb.map_or("command", |verb| verb.name.as_str());
                 match ending {
-                    Ending::Well => format!("{name} answers: `{verb}` has ended well"),
+                    Ending::Well => format!("{name} answers: `{verb}` has ended successfully"),
                     Ending::WithItem => {
-                        format!("{name} answers: `{verb}` has ended well, and an item hangs on the gripper")
+                        format!(
+                            "{name} answers: `{verb}` has ended successfully, and an item hangs on the gripper"
+                        )
                     }
-                    Ending::InVain => format!("{name} answers: `{verb}` has ended in vain"),
+                    Ending::InVain => format!("{name} answers: `{verb}` has ended without success"),
                     Ending::Refused(error) => {
                         format!("{name} answers: `{verb}` has ended in error {error}, nothing has moved")
                     }
@@ -115,12 +117,12 @@ impl Teller<'_> {
             What::Loses(from) => {
                 let item = plant.arm.as_ref().map_or("item", |arm| kind(arm.holds, &happened.before));
                 let place = match from {
-                    From::Tool => "where it is, or set out",
+                    From::Tool => "where it is, or at its start",
                     From::Via => "where it passes",
-                    From::Goal => "where it is going",
+                    From::Goal => "at its goal",
                     From::OnTheWay => "on the way",
-                    From::BesideTool => "near to where it set out",
-                    From::BesideGoal => "near to where it is going",
+                    From::BesideTool => "near its start",
+                    From::BesideGoal => "near its goal",
                 };
                 format!("{name} loses the {item} {place}")
             }
@@ -131,7 +133,7 @@ impl Teller<'_> {
                 let order = plant.desk.as_ref().map_or(0, |desk| desk.order.load(&happened.before));
                 format!("{name}: order {} has been taken away", order + 1)
             }
-            What::TimeComes => format!("{name}: a time of its state has come"),
+            What::TimeComes => format!("{name}: a timer of its state expires"),
         }
     }
 }

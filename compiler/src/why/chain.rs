@@ -20,7 +20,7 @@ impl<'p> Waits<'p> {
         &self.picture.machines[machine]
     }
 
-    /// It goes on without the others: a guard holds, time passes, or its device is at work.
+    /// It continues without the others: a guard holds, time passes, or its device is at work.
     fn goes_on(&self, machine: usize) -> bool {
         let Machine { transitions, awaits, .. } = self.machine(machine);
         transitions.iter().any(|transition| transition.holds)
@@ -37,7 +37,7 @@ impl<'p> Waits<'p> {
         awaits.any(|awaited| matches!(awaited, Await::Input(_) | Await::Command { .. }))
     }
 
-    /// The machines that it waits for, with what was read; none if it goes on by itself.
+    /// The machines that it waits for, with what was read; none if it continues by itself.
     fn next(&self, machine: usize) -> Vec<(usize, &'p Await)> {
         if self.goes_on(machine) {
             return Vec::new();

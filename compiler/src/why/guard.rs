@@ -8,7 +8,7 @@ use crate::device::panel;
 use crate::ir::{Binder, Clause, Domain, Expr, ExprKind, Operator, Value, VariableId};
 use runtime_sim::scan::Controllers;
 
-/// Candidates of a binder or a quantifier that are looked at one by one.
+/// Candidates of a binder or a quantifier that are checked one by one.
 const MOST_CANDIDATES: usize = 6;
 /// Parts of the guards of one machine.
 const MOST_NODES: usize = 500;

@@ -151,8 +151,8 @@ impl<'a> Look<'_, 'a> {
         };
         let (value, change) = match (cmd, error) {
             (0, _) => ("none was given".to_string(), None),
-            _ if ack != cmd => (format!("{cmd}, `{name}`, is under way"), since("cmd")),
-            (_, 0) => (format!("{cmd}, `{name}`, has ended well"), since("ack")),
+            _ if ack != cmd => (format!("{cmd}, `{name}`, is being executed"), since("cmd")),
+            (_, 0) => (format!("{cmd}, `{name}`, has ended successfully"), since("ack")),
             _ => (format!("{cmd}, `{name}`, has ended with error {error}"), since("ack")),
         };
         let own = &self.watch.system.instances[self.robot].name;

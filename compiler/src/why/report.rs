@@ -25,7 +25,7 @@ pub fn machine(machine: &Machine, sources: &Sources) -> String {
     at_panel.iter().for_each(|step| out += &format!("  at its panel: {step}\n"));
     properties.iter().for_each(|promise| self::promise(promise, sources, &mut out));
     if *is_final {
-        out += "  a final state: nothing leads on from here\n";
+        out += "  a final state: no transition leaves it\n";
     }
     for tested in transitions {
         let Tested { title, target, place: span, holds, clauses } = tested;
@@ -73,7 +73,7 @@ fn of_alarm(standing: &Standing) -> String {
     format!("{active}, {acknowledged}; {stops}")
 }
 
-/// What a machine that is stopped needs to go on, from its alarms and its panel.
+/// What a machine that is stopped needs to continue, from its alarms and its panel.
 fn stopped(machine: &Machine) -> String {
     let alarms = machine.properties.iter().filter_map(|promise| match promise.standing {
         Standing::Alarm { severity: Severity::Machine, active, acknowledged, .. } => {
@@ -84,7 +84,7 @@ fn stopped(machine: &Machine) -> String {
     let alarms: Vec<_> = alarms.collect();
     let texts: Vec<&str> = alarms.iter().map(|(told, ..)| *told).collect();
     let steps = [
-        (alarms.iter().any(|(_, active, _)| *active), "take away the cause"),
+        (alarms.iter().any(|(_, active, _)| *active), "remove the cause"),
         (alarms.iter().any(|(.., acknowledged)| !*acknowledged), "acknowledge"),
         (true, "start"),
     ];
@@ -92,10 +92,10 @@ fn stopped(machine: &Machine) -> String {
     let steps: Vec<&str> = machine.at_panel.iter().copied().chain(steps).collect();
     match texts.is_empty() {
         true if !machine.at_panel.is_empty() => {
-            format!("is stopped at its panel; to go on: {}", steps.join(", "))
+            format!("is stopped at its panel; to continue: {}", steps.join(", "))
         }
-        true => format!("is stopped, what stopped it is over: {}", steps.join(", ")),
-        false => format!("is stopped by its alarm: {}; to go on: {}", texts.join("; "), steps.join(", ")),
+        true => format!("is stopped, the cause is gone: {}", steps.join(", ")),
+        false => format!("is stopped by its alarm: {}; to continue: {}", texts.join("; "), steps.join(", ")),
     }
 }
 
@@ -132,7 +132,7 @@ fn value_text(read: &Read) -> String {
         (COMMAND, None) => format!("{name}: {value}"),
         (_, Some(Changed { at_ms, by })) => format!("{name} is {value}, by {by} at {}", seconds(*at_ms)),
         (STAY, None) => format!("{name} is {value}"),
-        (_, None) => format!("{name} is {value}, as from the beginning"),
+        (_, None) => format!("{name} is {value}, since the beginning"),
     }
 }
 
@@ -140,13 +140,13 @@ fn value_text(read: &Read) -> String {
 fn alone(machine: &Machine) -> String {
     if let Some(tested) = machine.transitions.iter().find(|tested| tested.holds) {
         let target = tested.target.as_ref().map_or(String::new(), |target| format!(" to {target}"));
-        return format!("goes on{target} in its next step: {} holds", tested.title);
+        return format!("continues{target} in its next step: {} holds", tested.title);
     }
     if machine.is_stopped {
         return stopped(machine);
     }
     if machine.is_final {
-        return format!("waits for nobody: {} is a final state", machine.state);
+        return format!("waits for no machine: {} is a final state", machine.state);
     }
     let mut awaited: Vec<String> = Vec::new();
     let mut inputs: Vec<String> = Vec::new();
@@ -165,8 +165,8 @@ fn alone(machine: &Machine) -> String {
         awaited.push(format!("its device: {}", inputs.join("; ")));
     }
     match awaited.is_empty() {
-        true => "waits for nobody, and nothing can bring it on".into(),
-        false => format!("waits for no other machine, but for {}", awaited.join("; for ")),
+        true => "waits for no machine, and nothing can let it continue".into(),
+        false => format!("waits for no other machine, only for {}", awaited.join("; for ")),
     }
 }
 

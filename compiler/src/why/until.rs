@@ -54,9 +54,9 @@ impl Later {
                     let texts = parts.map(|part| match part {
                         Part::Condition(condition) => words.expr(condition),
                         Part::Whole(clauses) if clauses.len() == transition.clauses.len() => {
-                            "all of it".into()
+                            "all clauses".into()
                         }
-                        Part::Whole(_) => "the choices, and what depends on them".into(),
+                        Part::Whole(_) => "the choices, and clauses that depend on them".into(),
                     });
                     (transition.title(), texts.map(|text| (text, None)).collect())
                 })

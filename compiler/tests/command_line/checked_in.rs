@@ -22,7 +22,7 @@ fn what_was_built_is_what_would_be_written() {
     assert_eq!(status(&check(&folder, &[])), 0);
     let output = check(&folder, &["--check"]);
     assert_eq!(status(&output), 0, "{}", said(&output));
-    assert!(said(&output).contains("are what would be written now"), "{}", said(&output));
+    assert!(said(&output).contains("are the same as would be written now"), "{}", said(&output));
 }
 
 #[test]

@@ -68,7 +68,7 @@ fn results_are_compared_row_by_row() {
 
     let layout = example("scenes/lifting_table.json");
     for (a, b, why) in [
-        ("a", layout.as_str(), "name two of a kind"),
+        ("a", layout.as_str(), "name two layouts or two results"),
         ("nothing", "a", "nothing: "),
         (".", "a", "`commission` writes the results"),
     ] {

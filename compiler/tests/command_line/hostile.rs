@@ -122,7 +122,7 @@ fn only_regular_files_of_bounded_size_are_read() {
     let made = Command::new("mkfifo").arg(&odd).status().expect("mkfifo");
     assert!(made.success());
     let (status, said) = checked(&folder, &[]);
-    assert!(status == 1 && said.contains("this is no regular file"), "{said}");
+    assert!(status == 1 && said.contains("this is not a regular file"), "{said}");
     for path in ["line/odd", "/dev/zero", "line"] {
         for option in ["--scenario", "--specs"] {
             let (status, said) = checked(&folder, &[option, path]);

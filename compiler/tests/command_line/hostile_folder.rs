@@ -97,7 +97,7 @@ fn compiled_controllers_that_were_replaced_or_cut_are_made_anew() {
     assert_eq!(commission(), "");
     let files = contents(&cache);
     let [(library, bytes), (hash, _)] = &files[..] else { panic!("a library and its hash: {files:?}") };
-    let bad = |said: &str| said.contains("are not what was compiled") && said.contains("compiling");
+    let bad = |said: &str| said.contains("were changed, and are not used") && said.contains("compiling");
     fs::write(library, &bytes[..bytes.len() / 2]).expect("a file");
     assert!(bad(&commission()), "a library that was cut");
     fs::write(library, "something else").expect("a file");
@@ -267,7 +267,7 @@ fn no_input_is_written_over() {
     fs::rename(folder.join("default.json"), folder.join("manifest.json")).expect("a file");
     let output = autogen(&folder, &["build", "manifest.json", "-o", ".", "--force"]);
     assert_eq!(status(&output), 2, "{}", errors(&output));
-    assert!(errors(&output).contains("were read"), "{}", errors(&output));
+    assert!(errors(&output).contains("are inputs"), "{}", errors(&output));
     fs::rename(folder.join("manifest.json"), folder.join("default.json")).expect("a file");
     assert!(outside(&folder) == before);
 }
@@ -355,7 +355,7 @@ fn what_was_read_is_neither_removed_nor_restored_over() {
     let before = contents(&folder);
     let output = autogen(&folder, &["build", "default.json", "-o", ".", "--force"]);
     assert_eq!(status(&output), 2);
-    assert!(errors(&output).contains("were read"), "{}", errors(&output));
+    assert!(errors(&output).contains("are inputs"), "{}", errors(&output));
     assert!(contents(&folder) == before);
     // A journal that says so.
     fs::remove_file(folder.join("manifest.json")).expect("a file");

@@ -86,14 +86,14 @@ fn what_is_wrong_with_parts_is_said() {
         (&[one, two], "E0806", "1 of 3 parts missing: 3"),
         (&[one], "E0806", "2 of 3 parts missing: 2, 3"),
         (&[one, two, three, two], "E0805", "part 2/3 is given twice"),
-        (&[one, &of_two, three], "E0804", "it is of another number of parts"),
+        (&[one, &of_two, three], "E0804", "it has another number of parts"),
         (&[one, "another.jsonl", three], "E0804", "it has another layout, other types or another scenario"),
         (&[one, "short.jsonl", three], "E0803", "part 2/3 ends after 2 of its 4 runs"),
         (&[one, "cut.jsonl", three], "E0803", "part 2/3 ends after 3 of its 4 runs"),
-        (&[one, "long.jsonl", three], "E0803", "part 2/3 goes on behind its last run"),
-        (&[one, "turned.jsonl", three], "E0802", "this is not what part 2/3 has of point "),
-        (&[one, "text.jsonl", three], "E0801", "text.jsonl is no part of a sweep"),
-        (&[one, "nothing.jsonl", three], "E0801", "nothing.jsonl is no part of a sweep"),
+        (&[one, "long.jsonl", three], "E0803", "part 2/3 continues after its last run"),
+        (&[one, "turned.jsonl", three], "E0802", "this is not the result of part 2/3 for point "),
+        (&[one, "text.jsonl", three], "E0801", "text.jsonl is not a part of a sweep"),
+        (&[one, "nothing.jsonl", three], "E0801", "nothing.jsonl is not a part of a sweep"),
     ];
     for (files, code, message) in cases {
         let output = merge(&folder, files, &["--format", "json"]);

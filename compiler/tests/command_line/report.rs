@@ -79,7 +79,7 @@ fn a_sweep_has_a_report_that_links_the_runs_that_are_kept() {
     assert!(folder.join("all pages-runs/row-1.html").exists());
     put(&folder, "other.html", "mine");
     for (options, text) in [
-        (&["--report", "other.html"][..], "other.html: this file is no report"),
+        (&["--report", "other.html"][..], "other.html: this file is not a report"),
         (
             &["--report", "new.html", "--keep", "3"],
             "--keep 3: it takes `all`, or numbers of rows from 1 to 2",

@@ -286,7 +286,7 @@ fn measured_figures_stand_beside_their_rows() {
     let cells: Vec<&str> = text.lines().nth(1).expect("a row").split_whitespace().collect();
     let ratio = format!("{:.3}", here / 20.0);
     assert_eq!(cells[2..8], ["1", "of", "1", &format!("{here:.2}"), "20.00", &ratio]);
-    let last = format!("RMS of what the 2 ratios differ from 1: {:.1} %", rms * 100.0);
+    let last = format!("RMS of the difference between the 2 ratios and 1: {:.1} %", rms * 100.0);
     assert_eq!(text.lines().last(), Some(last.as_str()));
     let csv = printed(&sweep("csv"));
     assert!(csv.lines().next().is_some_and(|l| l.ends_with(",trace_hash,measured_seconds_per_order,ratio")));
@@ -304,12 +304,12 @@ fn wrong_measured_figures_are_refused_with_the_place() {
             "layout,cap,seconds_per_order\n",
             "the sweep has no column `cap`; its points are named by layout, agv.capacity",
         ),
-        ("layout,layout,seconds_per_order\n", "the column `layout` stands twice"),
+        ("layout,layout,seconds_per_order\n", "the column `layout` occurs twice"),
         ("layout,seconds_per_order\ndefault\n", "line 2: 1 fields, 2 columns"),
-        ("layout,seconds_per_order\n\ndefault,long\n", "line 3: `long` is no number of seconds above 0"),
-        ("layout,seconds_per_order\ndefault,0\n", "line 2: `0` is no number"),
-        ("layout,seconds_per_order\ndefault,NaN\n", "line 2: `NaN` is no number"),
-        ("layout,seconds_per_order\ndefault,1\ndefault,2\n", "line 3: this point stands twice"),
+        ("layout,seconds_per_order\n\ndefault,long\n", "line 3: `long` is not a number of seconds above 0"),
+        ("layout,seconds_per_order\ndefault,0\n", "line 2: `0` is not a number"),
+        ("layout,seconds_per_order\ndefault,NaN\n", "line 2: `NaN` is not a number"),
+        ("layout,seconds_per_order\ndefault,1\ndefault,2\n", "line 3: this point occurs twice"),
     ];
     for (figures, message) in cases {
         put(&folder, "figures.csv", figures);

@@ -120,8 +120,8 @@ fn wrong_tests_are_refused_with_their_places() {
         ("layout \"line.json\";", "", "E0902", "layout \"line.json\""),
         ("layout \"line.json\";", "layout \"../line.json\";", "E0902", "leads out of the folder"),
         ("layout \"line.json\";", "layout \"no.json\";", "E0902", "names \"no.json\""),
-        ("stamped = 1", "stamped[0] = 1", "E0903", "no array"),
-        ("is_up = true -> Stopped", "done -> Stopped", "E0902", "obeys no commands"),
+        ("stamped = 1", "stamped[0] = 1", "E0903", "not an array"),
+        ("is_up = true -> Stopped", "done -> Stopped", "E0902", "has no commands"),
     ] {
         let folder = changed("test_wrong", "station.test", from, to);
         fs::copy(folder.join("line/line.json"), folder.join("line.json")).expect("a file");

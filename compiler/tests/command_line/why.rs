@@ -117,7 +117,7 @@ fn a_machine_that_is_stopped_tells_of_its_alarm() {
             "    invariant not is_open\n      FAILS  not is_open\n",
             "is_open is true, by the device of press at 2.00 s\n",
             "clerk (Waiting) waits for press: press.is_ready is false",
-            "press (Pressing) is stopped by its alarm: the door is open: close it; to go on: take away the cause, acknowledge, start\n",
+            "press (Pressing) is stopped by its alarm: the door is open: close it; to continue: remove the cause, acknowledge, start\n",
         ],
     );
     let output = of_press("why_stopped_json", STOPS_MACHINE, &["--format", "json"]);
@@ -136,7 +136,7 @@ fn a_line_in_a_fault_tells_of_its_property() {
     assert_says(
         &output,
         &[
-            "the line stands since 2.00 s in a fault of press: the door is open\n",
+            "the line is stopped since 2.00 s by a fault of press: the door is open\n",
             "  fault since 2.00 s: the door is open (press.aut:11)\n    invariant not is_open\n      FAILS  not is_open\n",
         ],
     );
@@ -190,11 +190,11 @@ fn a_machine_at_its_panel_says_what_has_to_be_done_there() {
             "14.2",
             &[
                 "drill is stopped, in Idle",
-                "drill (Idle) is stopped at its panel; to go on: leave manual, `panel_mode` 2, start",
+                "drill (Idle) is stopped at its panel; to continue: leave manual, `panel_mode` 2, start",
             ],
         ),
-        ("27.5", &["drill (Lowering) is stopped at its panel; to go on: set `panel_enable`, start"]),
-        ("29", &["drill (Lowering) is stopped, what stopped it is over: start"]),
+        ("27.5", &["drill (Lowering) is stopped at its panel; to continue: set `panel_enable`, start"]),
+        ("29", &["drill (Lowering) is stopped, the cause is gone: start"]),
     ] {
         let output = autogen(&folder("why_panel"), &["why", &layout, "--at", at]);
         assert_says(&output, lines);

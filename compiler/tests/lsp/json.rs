@@ -175,7 +175,7 @@ fn hover_shows_what_a_key_means() {
     let mut open = open("layout-hover", "line.json");
     let text = LAYOUT.replacen('|', "{}", 1);
     let found = open.hover(&text.replacen("\"po", "\"p^o", 1));
-    assert_eq!(found, "Where it stands\\: x\\, y\\, z in m\\, and degrees if it is turned");
+    assert_eq!(found, "Its position\\: x\\, y\\, z in m\\, and degrees if it is turned");
     let found = open.hover(&text.replacen("kitting", "kitt^ing", 1));
     assert!(found.as_str().is_some_and(|text| text.contains("automaton Kitting on rail_arm")), "{found}");
     assert_eq!(open.hover("{\"robots\": [{\"name\": \"a\", \"ex^tra\": 1}]}"), Value::Null);

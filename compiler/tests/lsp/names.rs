@@ -266,18 +266,18 @@ fn renaming_is_refused_with_a_reason() {
     let mut line = line("refused");
     for (word, n, new, reason) in [
         ("n: int", 0, "count", "word of the language"),
-        ("n: int", 0, "größe", "is no name"),
-        ("n: int", 0, "", "is no name"),
-        ("n: int", 0, "some_idle", "names something else already"),
-        ("n: int", 0, "stops", "names a constant of the device already"),
-        ("n: int", 0, "d", "has another meaning here already"),
+        ("n: int", 0, "größe", "is not a name"),
+        ("n: int", 0, "", "is not a name"),
+        ("n: int", 0, "some_idle", "is already the name of something else"),
+        ("n: int", 0, "stops", "is already the name of a constant of the device"),
+        ("n: int", 0, "d", "already has another meaning here"),
         ("n: int", 0, "Idle", "this comparison does not take"),
         ("Going", 0, "Waiting", "two states"),
         ("phase", 0, "ask", "declared twice"),
         ("stops", 0, "places", "in the library"),
         ("goto", 0, "drive", "in the library"),
         ("vehicle", 0, "car", "in the library"),
-        ("exists", 0, "some", "no name stands here"),
+        ("exists", 0, "some", "there is no name here"),
     ] {
         let found = line.refused(word, n, new);
         assert!(found.contains(reason), "{word} to {new}: {found}");

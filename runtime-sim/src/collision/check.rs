@@ -1,7 +1,7 @@
 //! The collision check of a run.
 //!
 //! Conservative advancement: of each pair of bodies it is known how far the two may go before they can meet at
-//! the earliest, from their last distance; it is looked at again when they may have gone so far. Between two
+//! the earliest, from their last distance; it is checked again when they may have gone so far. Between two
 //! events the places are those of the exact motion at exact times, each time so much later as the distance allows.
 //! So nothing is stepped over, however thin.
 
@@ -45,7 +45,7 @@ pub struct CollisionCheck {
     groups: Vec<Group>,
     pairs: Vec<Pair>,
     items: Vec<Tracked>,
-    /// Events that were looked at.
+    /// Events that were handled.
     read: usize,
     contacts: Vec<Contact>,
     seconds: f64,
@@ -97,14 +97,14 @@ impl CollisionCheck {
         self.contacts
     }
 
-    /// Whether something is in contact: then every scan has to be looked at.
+    /// Whether something is in contact: then every scan has to be checked.
     pub(crate) fn touches(&self) -> bool {
         self.pairs.iter().any(Pair::touches)
     }
 
     /// Looks ahead from the scan that begins, when the plant has obeyed its outputs and nothing has moved yet, to the
     /// start of the scan `next`, before which no motion changes. The scan to which it is known, and in it the first
-    /// contact that the layout does not allow: what comes into contact is looked at scan by scan.
+    /// contact that the layout does not allow: what comes into contact is checked scan by scan.
     pub(crate) fn look_until(
         &mut self,
         plant: &Plant,

@@ -14,9 +14,9 @@ use crate::plant::Plant;
 use std::cell::OnceCell;
 use std::sync::Arc;
 
-/// A motion is looked at in pieces no smaller than its path divided by two so often.
+/// A motion is checked in pieces no smaller than its path divided by two so often.
 const HALVINGS: u32 = 18;
-/// The answer is not known if two bodies have to be looked at more often in all.
+/// The answer is not known if two bodies have to be checked more often in all.
 const MOST_LOOKS: usize = 100_000;
 /// Boxes are measured exactly on pieces of a path on which nothing goes farther, m. On longer ones it rarely helps.
 const SHORT: f64 = 0.03;
@@ -141,7 +141,7 @@ struct There {
     pieces: OnceCell<Vec<Placed>>,
 }
 
-/// One that moves, where it was looked at last.
+/// One that moves, where it was checked last.
 struct Moving {
     body: usize,
     there: There,

@@ -70,13 +70,13 @@ pub struct Group {
     /// Metres that no body has gone more than, from the start of the run to the end of the span.
     pub path: f64,
     movement: Movement,
-    /// How the items on its conveyors go on, by their numbers.
+    /// How the items on its conveyors continue, by their numbers.
     conveyed: BTreeMap<usize, Conveyed>,
-    /// How its cylinders go on, by their parts.
+    /// How its cylinders continue, by their parts.
     strokes: BTreeMap<usize, Stroking>,
-    /// Of an arm, as last looked at.
+    /// Of an arm, as last checked.
     frames: Option<(Joints, Frames)>,
-    /// At a place on the path under way, as last looked at.
+    /// At a place on the path under way, as last checked.
     along: Option<(f64, Frames)>,
     /// While it moves and comes to rest by itself: of where it moves along, from the beginning to the end. None until
     /// somebody asks.

@@ -42,7 +42,7 @@ pub struct Touch {
     pub parts: [String; 2],
 }
 
-/// The time that is looked at: so many seconds from now on, in which no motion changes.
+/// The time that is checked: so many seconds from now on, in which no motion changes.
 pub struct Span<'a> {
     pub groups: &'a mut [Group],
     pub plant: &'a Plant,

@@ -1,4 +1,4 @@
-//! Machines and obstacles that stand in one another before anything moves.
+//! Machines and obstacles that overlap before anything moves.
 
 use super::body::{Piece, Placed};
 use super::bounds::BoundingBox;
@@ -24,7 +24,7 @@ struct Thing<'a> {
     bounds: BoundingBox,
 }
 
-/// Of what no joint moves, with vehicles at their first stops; two obstacles may stand in one another, and so may those
+/// Of what no joint moves, with vehicles at their first stops; two obstacles may overlap, and so may those
 /// that the layout allows to touch. The first pair of solids of each two, and `most` of them at most.
 pub fn overlaps(line: &Line, most: usize) -> Vec<Overlap> {
     let machines = line.machines.iter().map(|machine| {

@@ -86,7 +86,7 @@ impl Gantry {
     }
 
     /// Joints that bring the tool, pointing down, to a place; some exactly when [`Self::margin`] is not negative.
-    /// The torso stands still if that does. Else the tool is under the shoulder where it can be, and the torso
+    /// The torso is at rest if that suffices. Else the tool is under the shoulder where it can be, and the torso
     /// keeps its turn where it can.
     pub fn solve(&self, tool: Point, from: &Joints) -> Option<Joints> {
         if self.margin(tool) < 0.0 {

@@ -12,7 +12,7 @@ pub struct Piece {
 }
 
 impl Motion {
-    /// What the joints do from the last call that changed the motion until they stand still.
+    /// What the joints do from the last call that changed the motion until they are at rest.
     pub fn pieces(&self) -> Vec<Piece> {
         let mut pieces = Vec::new();
         let mut begin_s = self.since;

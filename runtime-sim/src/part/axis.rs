@@ -6,23 +6,23 @@ use crate::point::{self, Point};
 
 pub const SCHEMA: Schema = Schema::new(
     "axis",
-    "A joint that carries a chain and moves with it. With `range` it slides, without it turns about the vertical.",
+    "A joint that carries a chain and moves with it. With `range` it slides; without `range` it turns about the vertical.",
     &[
         Setting::new("on", Form::Part(&["axis"]), "", "the joint before it").optional(),
         Setting::new(
             "at",
             Form::Point,
             "m",
-            "a point of its line, z the height of the chain's shoulder; of the first joint only",
+            "a point of its line, with z the height of the chain's shoulder; only for the first joint",
         )
         .optional(),
         Setting::new("along", Form::Axis, "", "axis of the world along which it slides").optional(),
         Setting::new("range", Form::Range, "m", "both ends along that axis, in the world").optional(),
         Setting::new("speed", Form::Positive, "m/s or rad/s", "greatest velocity"),
-        Setting::new("acceleration", Form::Positive, "m/s2 or rad/s2", "greatest acceleration at first"),
+        Setting::new("acceleration", Form::Positive, "m/s2 or rad/s2", "greatest acceleration, initially"),
         Setting::new("joint", Form::Word, "", "its name, in the world"),
-        Setting::new("link", Form::Word, "", "what it moves, in the world"),
-        Setting::new("mass", Form::Number, "kg", "of what it moves, for the world"),
+        Setting::new("link", Form::Word, "", "name of its link, in the world"),
+        Setting::new("mass", Form::Number, "kg", "of its link, for the world"),
         Setting::new("effort", Form::Number, "N or N m", "greatest, for the world"),
         Setting::new("damping", Form::Number, "N s/m or N m s/rad", "for the world"),
         Setting::new("friction", Form::Number, "N or N m", "for the world"),

@@ -13,12 +13,12 @@ pub const SCHEMA: Schema = Schema {
     ],
     ..Schema::new(
         "beam",
-        "A light barrier across a lane: `sees` while an item is between its front and its rear edge there, `sees_kind` for the kind of that item. With `over` it looks across at this height and sees taller items only. With `only` it sees kinds alone that are so, such as `metal`: an inductive sensor or one for a colour.",
+        "A light barrier across a lane: `sees` is true while an item is in the beam, from its front edge to its rear edge; `sees_kind` is for the kind of that item. With `over` the beam is at this height and sees only taller items. With `only` it sees only kinds with this word, such as `metal`: an inductive sensor or a colour sensor.",
         &[
             Setting::new("across", Form::Part(&["lane"]), "", "the lane"),
             Setting::new("at", Form::Number, "m", "from the lane's beginning"),
             Setting::new("over", Form::Number, "m", "height over the surface").optional(),
-            Setting::new("only", Form::Word, "", "what a kind of the scenario has to be").optional(),
+            Setting::new("only", Form::Word, "", "word that a kind of the scenario has to have").optional(),
         ],
     )
 };

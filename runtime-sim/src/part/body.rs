@@ -8,26 +8,26 @@ use crate::solid::Shape;
 
 pub const SCHEMA: Schema = Schema::new(
     "body",
-    "A box by two corners or by its middle and size, or a capsule by an end, a direction, a length and a radius.",
+    "A box, given by two corners or by its middle and size, or a capsule, given by an end, a direction, a length and a radius.",
     &[
         Setting::new(
             "on",
             Form::Part(&["route", "track", "axis", "chain", "cylinder"]),
             "",
-            "what moves it; without it, it stands",
+            "what moves it; without it, it is at rest",
         )
         .optional(),
-        Setting::new("at", Form::Frame, "m", "frame in which all else is given, in that of its link").optional(),
+        Setting::new("at", Form::Frame, "m", "frame of the other settings, in the frame of its link").optional(),
         Setting::new("low", Form::Point, "m", "lower corner of a box, in the frame of its link").optional(),
         Setting::new("high", Form::Point, "m", "upper corner").optional(),
         Setting::new("middle", Form::Point, "m", "middle of a box").optional(),
         Setting::new("size", Form::Point, "m", "lengths of a box").optional(),
         Setting::new("from", Form::Point, "m", "first end of a capsule's segment").optional(),
-        Setting::new("direction", Form::Word, "", "x, y or z of the frame, in which the segment goes")
+        Setting::new("direction", Form::Word, "", "direction of the segment: x, y or z of the frame")
             .optional(),
         Setting::new("length", Form::Positive, "m", "of the segment").optional(),
         Setting::new("radius", Form::Positive, "m", "of a capsule").optional(),
-        Setting::new("grips", Form::Truth, "", "items hang on it; in the world a link of its own").optional(),
+        Setting::new("grips", Form::Truth, "", "items hang on it; a separate link in the world").optional(),
     ],
 );
 

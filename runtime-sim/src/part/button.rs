@@ -10,12 +10,12 @@ pub const SCHEMA: Schema = Schema {
     operated: Some(Operated::Press),
     ..Schema::new(
         "button",
-        "A push button or a switch. The scenario says when it is pressed or turned on, see `operator`.",
+        "A push button or a switch. The key `operator` of the scenario says when it is pressed or turned on.",
         &[Setting::new(
             "normally_closed",
             Form::Truth,
             "",
-            "`on` is true until it is pressed, as the contact of a stop button is",
+            "`on` is true until it is pressed, as with the contact of a stop button",
         )
         .optional()],
     )

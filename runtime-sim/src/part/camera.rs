@@ -6,7 +6,7 @@ use crate::point::Point;
 
 pub const SCHEMA: Schema = Schema::new(
     "camera",
-    "Logical cameras that look straight down; they are drawn in the world, signals come from zones.",
+    "Logical cameras that look straight down. They are only in the world; zones have the signals.",
     &[
         Setting::new("over", Form::Part(&["route"]), "", "one camera over each stop").optional(),
         Setting::new("at", Form::Points, "m", "from the machine's pose, or from each stop"),

@@ -30,19 +30,19 @@ pub const SCHEMA: Schema = Schema {
     ],
     ..Schema::new(
         "chain",
-        "Six joints of the Universal Robots kind, the tool pointing down: behind the axes that carry them, with the lengths of the UR10; or fixed at `from`, with the lengths given.",
+        "Six joints as in a Universal Robots arm, with the tool pointing down: either carried by axes, with the lengths of the UR10, or fixed at `from`, with the given lengths.",
         &[
             Setting::new("on", Form::Part(&["axis"]), "", "the last of the axes that carry it").optional(),
-            Setting::new("from", Form::Frame, "m", "where its base stands, if no axis carries it").optional(),
-            Setting::new("lengths", Form::Numbers, "m", "d1, a2, a3, d4, d5, d6 of the maker, of a fixed one")
+            Setting::new("from", Form::Frame, "m", "frame of its base, if no axis carries it").optional(),
+            Setting::new("lengths", Form::Numbers, "m", "d1, a2, a3, d4, d5, d6 of the manufacturer, for a fixed one")
                 .optional(),
-            Setting::new("tool_length", Form::Number, "m", "from the flange to the tool centre point, of a fixed one")
+            Setting::new("tool_length", Form::Number, "m", "from the flange to the tool centre point, for a fixed one")
                 .optional(),
-            Setting::new("rest", Form::Point, "m", "where the tool is at the start"),
+            Setting::new("rest", Form::Point, "m", "place of the tool at the start"),
             Setting::new("speeds", Form::Numbers, "rad/s", "greatest velocity of each joint"),
-            Setting::new("acceleration", Form::Positive, "rad/s2", "greatest of each joint at first"),
+            Setting::new("acceleration", Form::Positive, "rad/s2", "greatest of each joint, initially"),
             Setting::new("joints", Form::Words, "", "names of the joints, in the world"),
-            Setting::new("links", Form::Words, "", "names of what they move, in the world"),
+            Setting::new("links", Form::Words, "", "names of the links, in the world"),
             Setting::new("masses", Form::Numbers, "kg", "of the links, for the world"),
             Setting::new("efforts", Form::Numbers, "N m", "greatest, for the world"),
             Setting::new("damping", Form::Numbers, "N m s/rad", "for the world"),
@@ -51,13 +51,13 @@ pub const SCHEMA: Schema = Schema {
                 "envelope",
                 Form::Numbers,
                 "m",
-                "half of the workspace across its axis that others leave it, and its height over the shoulder; empty: none",
+                "workspace that others keep free: half of its width across the axis, and its height over the shoulder; empty: none",
             ),
             Setting::new(
                 "clearances",
                 Form::Points,
                 "m",
-                "of what turns with it about the vertical: lower and upper end from the shoulder's height, and how far its axis keeps off obstacles between",
+                "of the bodies that turn with it about the vertical: lower and upper end from the shoulder's height, and the distance of the axis from obstacles between them",
             ),
         ],
     )

@@ -21,7 +21,7 @@ pub const SCHEMA: Schema = Schema {
     ],
     ..Schema::new(
         "cylinder",
-        "Goes from one end to the other at one speed, with a switch at each end. With a valve for `extend` alone a spring brings it back. With one for `retract` too it goes to where one of them alone sends it.",
+        "Moves from one end to the other at a constant speed, with a switch at each end. With a valve only for `extend`, a spring brings it back. With a second valve for `retract`, it moves to the end of the valve that alone is on.",
         &[
             Setting::new("extend", Form::Positive, "ms", "from the inner end to the outer one"),
             Setting::new("retract", Form::Positive, "ms", "from the outer end to the inner one"),
@@ -29,12 +29,12 @@ pub const SCHEMA: Schema = Schema {
                 "closed_centre",
                 Form::Truth,
                 "",
-                "with two valves, none or both of them on: it stands; without this it goes on to where it was sent last",
+                "with two valves, both or none of them on: it stops; without this setting it continues to its last end",
             )
             .optional(),
-            Setting::new("slides", Form::Point, "m", "how far what is on it goes from the inner end to the outer one, in the world").optional(),
-            Setting::new("turns", Form::Number, "deg", "how far to the left what is on it turns instead, about the vertical").optional(),
-            Setting::new("pivot", Form::Point, "m", "about which it turns").optional(),
+            Setting::new("slides", Form::Point, "m", "stroke from the inner end to the outer one, in the world").optional(),
+            Setting::new("turns", Form::Number, "deg", "stroke as a turn to the left about the vertical, instead of `slides`").optional(),
+            Setting::new("pivot", Form::Point, "m", "point about which it turns").optional(),
             Setting::new("begins_out", Form::Truth, "", "it starts at the outer end; without it at the inner one")
                 .optional(),
         ],
@@ -197,7 +197,7 @@ impl Working {
         }
     }
 
-    /// The part of its stroke that it is out now, and how that goes on if its valves stay as they are, parts per second.
+    /// The part of its stroke that it is out now, and how that continues if its valves stay as they are, parts per second.
     pub fn going(&self, now_ms: u64) -> (f64, f64) {
         let mut sent = self.clone();
         sent.turn(now_ms);

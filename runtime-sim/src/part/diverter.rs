@@ -5,10 +5,10 @@ use super::{Described, Schema};
 
 pub const SCHEMA: Schema = Schema::new(
     "diverter",
-    "Leads an item to the beginning of another lane when its front edge comes to it, while its cylinder is at its outer end. What comes there while it moves, or is at its inner end, goes by.",
+    "While its cylinder is at its outer end, leads an item to the beginning of another lane when the front edge of the item is at it. While the cylinder moves, or is at its inner end, items pass.",
     &[
         Setting::new("of", Form::Part(&["lane"]), "", "the lane"),
-        Setting::new("at", Form::Number, "m", "from the lane's beginning to where front edges meet it"),
+        Setting::new("at", Form::Number, "m", "from the lane's beginning to where front edges are at it"),
         Setting::new("by", Form::Part(&["cylinder"]), "", "the cylinder that moves it"),
         Setting::new("onto", Form::Part(&["lane"]), "", "the other lane"),
     ],

@@ -12,7 +12,7 @@ pub const SCHEMA: Schema = Schema {
     ],
     ..Schema::new(
         "gauge",
-        "Measures the item that is at a place of a lane between its front and its rear edge: its height in m, its mass in kg. 0 without an item; of several the greatest.",
+        "Measures the item at a place of a lane, from its front edge to its rear edge: its height in m, its mass in kg. 0 without an item; the greatest value of several items.",
         &[
             Setting::new("across", Form::Part(&["lane"]), "", "the lane"),
             Setting::new("at", Form::Number, "m", "from the lane's beginning"),

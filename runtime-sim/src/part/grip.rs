@@ -16,25 +16,25 @@ pub const SCHEMA: Schema = Schema {
     levels: &[Level { name: "close", ty: PortType::Bool }],
     ..Schema::new(
         "grip",
-        "A gripper at the tool of a chain. With `period` and `looks` it is a vacuum gripper: it attaches an item after so many looks in a row with contact. With `closes`, `opens` and `sure_after` it has fingers: so long after they begin to close they hold what is between them, and it is known that they do; when they begin to open they let it go.",
+        "A gripper at the tool of a chain. With `period` and `looks` it is a vacuum gripper: it attaches an item after `looks` consecutive checks with contact. With `closes`, `opens` and `sure_after` it has fingers: they hold the item between them `closes` after they begin to close, and the gripper reports this `sure_after` later; they release it when they begin to open.",
         &[
             Setting::new("on", Form::Part(&["chain"]), "", "the chain whose tool it is"),
-            Setting::new("period", Form::Positive, "ms", "how often it looks for contact").optional(),
+            Setting::new("period", Form::Positive, "ms", "time between two checks for contact").optional(),
             Setting::new(
                 "looks",
                 Form::Positive,
                 "",
-                "looks in a row with contact before an item is attached",
+                "consecutive checks with contact before an item is attached",
             )
             .optional(),
             Setting::new("closes", Form::Positive, "ms", "from open fingers to an item between them").optional(),
-            Setting::new("opens", Form::Positive, "ms", "the way back").optional(),
-            Setting::new("sure_after", Form::Number, "ms", "from an item between them until it is known").optional(),
+            Setting::new("opens", Form::Positive, "ms", "from an item between the fingers to open fingers").optional(),
+            Setting::new("sure_after", Form::Number, "ms", "from an item between the fingers to the report").optional(),
             Setting::new(
                 "near",
                 Form::Positive,
                 "m",
-                "contact is a tool no farther from where an item is gripped",
+                "greatest distance of the tool from the grip point of an item that is a contact",
             ),
         ],
     )

@@ -9,9 +9,9 @@ pub const SCHEMA: Schema = Schema {
     levels: &[Level { name: "on", ty: PortType::Bool }],
     ..Schema::new(
         "lamp",
-        "A signal lamp. Nothing in the plant depends on it.",
+        "A signal lamp. It has no effect in the plant.",
         &[
-            Setting::new("at", Form::Point, "m", "where it is"),
+            Setting::new("at", Form::Point, "m", "its place"),
             Setting::new("colour", Form::Word, "", "such as red, yellow, green, blue or white"),
         ],
     )

@@ -17,21 +17,21 @@ pub const SCHEMA: Schema = Schema {
     actions: &[Action { name: "run", arguments: &[] }, Action { name: "rest", arguments: &[] }],
     ..Schema::new(
         "lane",
-        "A conveyor. It runs while its level `run` is on, or after its command `run` until `rest`; with neither it always runs, as a chute does. Given by `from` and `length` it lies at any angle, straight or as an arc; given by `along`, `range` and `surface` it lies along an axis of the world, from the upper to the lower end of its range.",
+        "A conveyor. It runs while its level `run` is on, or after its command `run` until `rest`; with neither it always runs, like a chute. With `from` and `length` it has any direction, straight or as an arc; with `along`, `range` and `surface` it lies along an axis of the world, from the upper to the lower end of its range.",
         &[
-            Setting::new("on", Form::Part(&["cylinder"]), "", "what carries it; `from` is where it is at the inner end").optional(),
-            Setting::new("from", Form::Frame, "m", "where it begins, on its surface; x leads along it").optional(),
+            Setting::new("on", Form::Part(&["cylinder"]), "", "what carries it; `from` is then its frame at the inner end").optional(),
+            Setting::new("from", Form::Frame, "m", "its beginning, on its surface; x is its direction").optional(),
             Setting::new("length", Form::Positive, "m", "along its middle line").optional(),
-            Setting::new("turn", Form::Number, "deg", "to the left over its length; without it, it is straight")
+            Setting::new("turn", Form::Number, "deg", "turn to the left over its length; without it, it is straight")
                 .optional(),
-            Setting::new("rise", Form::Number, "m", "of its end over its beginning; less than 0 for a chute").optional(),
+            Setting::new("rise", Form::Number, "m", "height of its end over its beginning; less than 0 for a chute").optional(),
             Setting::new("along", Form::Axis, "", "axis of the world along which it lies").optional(),
             Setting::new("range", Form::Range, "m", "both ends along this axis, in the world").optional(),
             Setting::new("surface", Form::Point, "m", "a point of its middle line").optional(),
             Setting::new("width", Form::Positive, "m", "of the moving surface"),
-            Setting::new("outline", Form::Positive, "m", "width of the whole conveyor in drawings, if it is another")
+            Setting::new("outline", Form::Positive, "m", "width of the whole conveyor in drawings, if different")
                 .optional(),
-            Setting::new("speed", Form::Positive, "m/s", "full speed; its changes are steps"),
+            Setting::new("speed", Form::Positive, "m/s", "full speed; the speed changes in steps"),
         ],
     )
 };

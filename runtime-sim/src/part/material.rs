@@ -5,7 +5,7 @@ use super::settings::{Form, Setting, Settings};
 
 pub const SCHEMA: Schema = Schema::new(
     "material",
-    "What the bodies of a machine without a chain are made of, for the world.",
+    "Material of the bodies of a machine without a chain, for the world.",
     &[
         Setting::new("colour", Form::Numbers, "", "red, green and blue, each from 0 to 1"),
         Setting::new("friction", Form::Number, "", "coefficient of the surfaces").optional(),

@@ -17,8 +17,8 @@ pub const SCHEMA: Schema = Schema {
     levels: &[Level { name: "complete", ty: PortType::Bool }],
     ..Schema::new(
         "orders",
-        "Orders of the scenario open here one after another; a made one is taken away with what lies at the place.",
-        &[Setting::new("at", Form::Part(&["place"]), "", "where the parts of an order are put")],
+        "Orders of the scenario open here one after another; a made order is taken away with the items at the place.",
+        &[Setting::new("at", Form::Part(&["place"]), "", "place for the parts of an order")],
     )
 };
 

@@ -7,16 +7,16 @@ use crate::point::Point;
 
 pub const SCHEMA: Schema = Schema::new(
     "place",
-    "A floor with slots. What comes down on it lies on it.",
+    "A floor with slots. Items that fall on it stay on it.",
     &[
-        Setting::new("on", Form::Part(&["route"]), "", "what carries it; without it, it stands").optional(),
+        Setting::new("on", Form::Part(&["route"]), "", "what carries it; without it, it is at rest").optional(),
         Setting::new(
             "at",
             Form::Point,
             "m",
-            "origin of the offsets where it stands; the first stop if it is carried",
+            "origin of the offsets; at the first stop if it is carried",
         ),
-        Setting::new("slots", Form::Points, "m", "where the undersides of items rest, from the origin"),
+        Setting::new("slots", Form::Points, "m", "places of the undersides of items, from the origin"),
         Setting::new("by_kind", Form::Truth, "", "each slot is for one kind, in the order of the kinds"),
         Setting::new("floor", Form::Point, "m", "middle of the floor, from the origin"),
         Setting::new("floor_x", Form::Range, "m", "extent of the floor along x, from its middle"),
@@ -25,10 +25,10 @@ pub const SCHEMA: Schema = Schema::new(
             "drawn",
             Form::Point,
             "m",
-            "lengths along x and y in drawings, around the origin; else the floor's",
+            "lengths along x and y in drawings, around the origin; without it those of the floor",
         )
         .optional(),
-        Setting::new("title", Form::Word, "", "what reports call it beside the machine's name").optional(),
+        Setting::new("title", Form::Word, "", "its name in reports, after the machine's name").optional(),
     ],
 );
 

@@ -15,15 +15,15 @@ pub const SCHEMA: Schema = Schema {
     levels: &[Level { name: "start", ty: PortType::Bool }],
     ..Schema::new(
         "process",
-        "Works on the item at a place from a rising edge of `start` on: for `time`, or for a time drawn from the triangle of `shortest`, `time` and `longest`. `ended` stays until the next start. Started without an item, or without what it needs, it ends the run: on the machine that would be a crash.",
+        "Works on the item at a place after a rising edge of `start`: for `time`, or for a time drawn from the triangular distribution of `shortest`, `time` and `longest`. `ended` stays true until the next start. A start without an item, or without what it needs, ends the run: on the machine it would be a crash.",
         &[
-            Setting::new("on", Form::Part(&["place"]), "", "where the item lies"),
-            Setting::new("time", Form::Positive, "ms", "how long it takes; of a triangle the likeliest"),
-            Setting::new("shortest", Form::Positive, "ms", "of a triangle").optional(),
-            Setting::new("longest", Form::Positive, "ms", "of a triangle").optional(),
-            Setting::new("needs_in", Form::Part(&["cylinder"]), "", "has to be at its inner end when it starts").optional(),
-            Setting::new("needs_out", Form::Part(&["cylinder"]), "", "has to be at its outer end when it starts").optional(),
-            Setting::new("makes", Form::Words, "", "a kind and what becomes of it, another kind and what becomes of that; all others stay what they are").optional(),
+            Setting::new("on", Form::Part(&["place"]), "", "the place of the item"),
+            Setting::new("time", Form::Positive, "ms", "duration; with a triangular distribution the most likely one"),
+            Setting::new("shortest", Form::Positive, "ms", "of a triangular distribution").optional(),
+            Setting::new("longest", Form::Positive, "ms", "of a triangular distribution").optional(),
+            Setting::new("needs_in", Form::Part(&["cylinder"]), "", "has to be at its inner end at the start").optional(),
+            Setting::new("needs_out", Form::Part(&["cylinder"]), "", "has to be at its outer end at the start").optional(),
+            Setting::new("makes", Form::Words, "", "pairs of a kind and the kind that it becomes; all others do not change").optional(),
         ],
     )
 };
@@ -82,7 +82,7 @@ pub struct Cycle {
     becomes: Vec<usize>,
     random: Random,
     is_on: bool,
-    /// An edge of `start` that has not been looked at yet.
+    /// An edge of `start` that has not been checked yet.
     is_asked: bool,
     /// The item, and when it is ready.
     works: Option<(usize, u64)>,

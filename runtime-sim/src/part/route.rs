@@ -14,13 +14,13 @@ pub const SCHEMA: Schema = Schema {
     actions: &[Action { name: "to", arguments: &[PortType::Point] }],
     ..Schema::new(
         "route",
-        "A vehicle that goes straight from stop to stop, always turned the same way. It starts at the first.",
+        "A vehicle that moves straight from stop to stop, always with the same orientation. It starts at the first stop.",
         &[
-            Setting::new("stops", Form::Points, "m", "where it may stand"),
+            Setting::new("stops", Form::Points, "m", "its stops"),
             Setting::new("speed", Form::Positive, "m/s", "from start to end of a trip"),
             Setting::new("latency", Form::Number, "ms", "from the command to the start"),
-            Setting::new("tolerance", Form::Positive, "m", "a goal no farther from a stop means that stop"),
-            Setting::new("mass", Form::Positive, "kg", "of all that moves, for the world"),
+            Setting::new("tolerance", Form::Positive, "m", "greatest distance of a goal from the stop that it means"),
+            Setting::new("mass", Form::Positive, "kg", "of all moving bodies, for the world"),
         ],
     )
 };

@@ -169,7 +169,7 @@ pub trait Running: std::fmt::Debug + Send + Sync {
     /// The command is void, or has ended in error.
     fn abandon(&mut self, _now_ms: u64) {}
 
-    /// Halts on its path, or goes on.
+    /// Halts on its path, or continues.
     fn hold(&mut self, _held: bool, _now_ms: u64) {}
 
     fn level(&mut self, _level: usize, _value: &[f64]) {}
@@ -217,7 +217,7 @@ pub trait Running: std::fmt::Debug + Send + Sync {
     /// Writes a signal; `out` holds its words.
     fn signal(&self, _signal: usize, _see: &See, _out: &mut [f64]) {}
 
-    /// When it does something next but go on along its path, ms from the start of the run, if no output changes and
+    /// When it does something next but continue along its path, ms from the start of the run, if no output changes and
     /// nothing else does: the earliest end of a motion, item that comes or goes, signal that rises or falls. It may be
     /// earlier than the truth, never later; infinity: never.
     fn next_change(&self, _see: &See, _now_ms: u64) -> f64 {

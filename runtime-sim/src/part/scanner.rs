@@ -8,11 +8,11 @@ pub const SCHEMA: Schema = Schema {
     signals: &[Signal { name: "sees", ty: PortType::Bool, extent: Extent::One }],
     ..Schema::new(
         "scanner",
-        "Sees vehicles on tracks ahead on its own track, round corners too: `sees` while the middle of one is within the field. Of all else it sees nothing.",
+        "Sees vehicles on tracks ahead on its own track, also round corners: `sees` is true while the middle of one is within the field. It sees nothing else.",
         &[
             Setting::new("on", Form::Part(&["track"]), "", "the vehicle"),
             Setting::new("range", Form::Positive, "m", "of the field, along the track from the middle of the vehicle"),
-            Setting::new("width", Form::Positive, "m", "of the field, to either side of the track and beyond its end"),
+            Setting::new("width", Form::Positive, "m", "of the field, to each side of the track and beyond its end"),
         ],
     )
 };

@@ -13,8 +13,8 @@ pub const SCHEMA: Schema = Schema {
     operated: Some(Operated::SetNumber),
     ..Schema::new(
         "selector",
-        "A selector switch, or another whole number that a person sets. The scenario says when, see `operator`.",
-        &[Setting::new("begins", Form::Number, "", "the position before it is set, and after it is no longer; a fraction is cut off").optional()],
+        "A selector switch, or another whole number that a person sets. The key `operator` of the scenario says when.",
+        &[Setting::new("begins", Form::Number, "", "the position while no operation sets it; a fraction is cut off").optional()],
     )
 };
 

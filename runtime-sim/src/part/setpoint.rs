@@ -10,8 +10,8 @@ pub const SCHEMA: Schema = Schema {
     operated: Some(Operated::SetNumber),
     ..Schema::new(
         "setpoint",
-        "A number that a person sets. The scenario says when, see `operator`.",
-        &[Setting::new("begins", Form::Number, "", "the number before it is set, and after it is no longer")],
+        "A number that a person sets. The key `operator` of the scenario says when.",
+        &[Setting::new("begins", Form::Number, "", "the number while no operation sets it")],
     )
 };
 

@@ -5,10 +5,10 @@ use super::{Described, Schema};
 
 pub const SCHEMA: Schema = Schema::new(
     "sink",
-    "Takes items off a lane near its end; they are collected.",
+    "Takes items off a lane near its end: they are collected.",
     &[
         Setting::new("of", Form::Part(&["lane"]), "", "the lane"),
-        Setting::new("inset", Form::Number, "m", "from the lane's end to where the middles of items leave"),
+        Setting::new("inset", Form::Number, "m", "from the lane's end to the place where the middles of items leave"),
     ],
 );
 

@@ -11,14 +11,14 @@ pub const SCHEMA: Schema = Schema {
     levels: &[Level { name: "release", ty: PortType::Bool }],
     ..Schema::new(
         "source",
-        "Puts the items of the scenario's supply onto a lane, as soon as there is room: at times counted while the lane moves, or one at each rising edge of its level `release`, as a magazine does.",
+        "Puts the items of the scenario's supply onto a lane, as soon as there is room: at times counted while the lane moves, or one at each rising edge of its level `release`, like a magazine.",
         &[
             Setting::new("on", Form::Part(&["lane"]), "", "the lane"),
             Setting::new(
                 "inset",
                 Form::Number,
                 "m",
-                "from the lane's beginning to where the middles of items appear",
+                "from the lane's beginning to the place where the middles of items appear",
             ),
         ],
     )

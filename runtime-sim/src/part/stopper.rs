@@ -5,10 +5,10 @@ use super::{Described, Schema};
 
 pub const SCHEMA: Schema = Schema::new(
     "stopper",
-    "Stops items on a lane by their front edges, while its cylinder is not at its inner end. The surface goes on beneath them. What has its front edge past it goes on.",
+    "Stops items on a lane at their front edges, while its cylinder is not at its inner end. The surface continues under them. Items whose front edge has passed the stopper continue.",
     &[
         Setting::new("of", Form::Part(&["lane"]), "", "the lane"),
-        Setting::new("at", Form::Number, "m", "from the lane's beginning to where front edges stop"),
+        Setting::new("at", Form::Number, "m", "from the lane's beginning to the place where front edges stop"),
         Setting::new("by", Form::Part(&["cylinder"]), "", "the cylinder that moves it"),
     ],
 );

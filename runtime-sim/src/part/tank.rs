@@ -18,7 +18,7 @@ pub const SCHEMA: Schema = Schema {
     ],
     ..Schema::new(
         "tank",
-        "A tank with a valve that fills it and one that drains it. The level changes by (inflow - outflow) / area, from 0 to `height`; what comes into a full tank is lost. A valve is open or closed (`fill`, `drain`), or open by a part from 0 to 1 (`fill_by`, `drain_by`).",
+        "A tank with a valve that fills it and one that drains it. The level changes by (inflow - outflow) / area, from 0 to `height`; inflow into a full tank is lost. A valve is open or closed (`fill`, `drain`), or open by a fraction from 0 to 1 (`fill_by`, `drain_by`).",
         &[
             Setting::new("area", Form::Positive, "m2", "of its floor"),
             Setting::new("height", Form::Positive, "m", "of its rim over its floor"),

@@ -29,15 +29,15 @@ pub const SCHEMA: Schema = Schema {
     ],
     ..Schema::new(
         "track",
-        "A vehicle that follows a track on the floor, straight from corner to corner. It passes corners at speed and turns there at once. A closed track it goes round in one direction, on an open one it drives back too.",
+        "A vehicle that follows a track on the floor, straight from corner to corner. It does not slow down at corners, and turns there at once. It goes round a closed track in one direction; on an open track it also drives back.",
         &[
-            Setting::new("corners", Form::Points, "m", "of the track, all of the same z: where its middle goes"),
-            Setting::new("closed", Form::Truth, "", "the last corner leads to the first").optional(),
-            Setting::new("places", Form::Numbers, "m", "along the track from the first corner, to which it may be sent, and which it tells of; 32 at most"),
-            Setting::new("begins", Form::Number, "m", "along the track, where it is at the start; without it at the first corner").optional(),
+            Setting::new("corners", Form::Points, "m", "of the path of its middle, all with the same z"),
+            Setting::new("closed", Form::Truth, "", "the track continues from the last corner to the first").optional(),
+            Setting::new("places", Form::Numbers, "m", "along the track from the first corner: its possible goals, which `place` reports; at most 32"),
+            Setting::new("begins", Form::Number, "m", "its place along the track at the start; without it, the first corner").optional(),
             Setting::new("speed", Form::Positive, "m/s", "greatest velocity"),
-            Setting::new("acceleration", Form::Positive, "m/s2", "greatest acceleration, to brake too"),
-            Setting::new("mass", Form::Positive, "kg", "of all that moves, for the world"),
+            Setting::new("acceleration", Form::Positive, "m/s2", "greatest acceleration, also for braking"),
+            Setting::new("mass", Form::Positive, "kg", "of all moving bodies, for the world"),
         ],
     )
 };
@@ -203,7 +203,7 @@ impl Driving {
         (now.speed == 0.0 || way * sign >= now.braking() - SAME).then_some(way)
     }
 
-    /// Sets out, or goes on as it is, to rest so far ahead.
+    /// Sets out, or continues as it is, to rest so far ahead.
     fn ride(&mut self, way: f64) {
         let now = self.now();
         let way = way.signum() * way.abs().max(now.braking());

@@ -13,16 +13,16 @@ pub const SCHEMA: Schema = Schema {
     ],
     ..Schema::new(
         "zone",
-        "A field over a lane: which kinds lie wholly in it, and where the foremost item of each does.",
+        "A field over a lane: the kinds that are wholly in it, and the place of the foremost item of each.",
         &[
             Setting::new("over", Form::Part(&["lane"]), "", "the lane"),
-            Setting::new("middle", Form::Point, "m", "the middle of the field, seen along the lane"),
+            Setting::new("middle", Form::Point, "m", "the middle of the field, along the lane"),
             Setting::new("half", Form::Positive, "m", "half of the field's length"),
             Setting::new(
                 "part_half",
                 Form::Number,
                 "m",
-                "half of the least length that an item is taken to have",
+                "half of the least length of an item",
             ),
         ],
     )

@@ -10,18 +10,18 @@ use crate::plant::conveyed::{Along, Carry, Conveyed};
 use crate::plant::trajectory::Trajectory;
 use crate::point::Point;
 
-/// What is known of the paths so far. What goes on ends never, until something changes it.
+/// What is known of the paths so far. What continues ends never, until something changes it.
 #[derive(Clone, Debug)]
 pub struct Recorder {
     /// The arm of each machine that is one.
     arms: Vec<Option<Arm>>,
-    /// How each machine moved when it was looked at last.
+    /// How each machine moved when it was checked last.
     trajectories: Vec<Trajectory>,
     /// How each item went on then, if it was on a conveyor.
     conveyed: Vec<Option<Conveyed>>,
     /// The items that were.
     on_lanes: Vec<usize>,
-    /// Events that were looked at.
+    /// Events that were checked.
     read: usize,
     paths: Vec<Path>,
 }

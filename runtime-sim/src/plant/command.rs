@@ -164,7 +164,7 @@ impl Head {
         Some(self.wiring.commands.get(self.task?.command)?.part)
     }
 
-    /// The action of the command under way has ended well.
+    /// The action of the command under way has ended successfully.
     pub fn reach(&mut self, ends_ms: u64) {
         match (self.acting().and_then(|command| command.then), &mut self.task) {
             (Some(_), Some(task)) => task.waited_ms = Some(0),

@@ -1,4 +1,4 @@
-//! How an item on a conveyor goes on.
+//! How an item on a conveyor continues.
 
 use crate::frame::Frame;
 use crate::part::cylinder::{Stroke, Stroking};
@@ -69,7 +69,7 @@ impl Conveyed {
     }
 
     /// Begin and end of each piece in which neither the conveyor stops it nor a cylinder comes to its end, seconds
-    /// from now, and how it goes on at the begin.
+    /// from now, and how it continues at the begin.
     pub fn pieces(&self) -> Vec<(f64, f64, Self)> {
         let carried = self.carried.map_or(f64::INFINITY, |carried| carried.rests_after());
         let mut ends = [self.rests_after(), carried, f64::INFINITY];

@@ -1,4 +1,4 @@
-//! Items on conveyors: what is in their way, and where they go on.
+//! Items on conveyors: what is in their way, and where they continue.
 //!
 //! Between two events every item goes at one speed, so that nothing is stepped through: the times of the events are
 //! known, and each of them depends on the event before it alone, never on the scans in between.
@@ -31,7 +31,7 @@ const AT_ONCE: f64 = 1e-6;
 #[derive(Clone, Debug)]
 pub struct Conveying {
     tracks: Vec<Track>,
-    /// Of each lane, when it was looked at last.
+    /// Of each lane, when it was checked last.
     speeds: Vec<f64>,
     /// When something happens next if no output changes, ms from the start of the run.
     next_ms: f64,

@@ -7,7 +7,7 @@ use crate::plant::Plant;
 use crate::scan::{SystemInputs, SystemOutputs};
 
 /// What the controllers wait for since the last scan in which they were stepped. A scan in which none of this happens
-/// does nothing but let times in states go on.
+/// does nothing but let times in states continue.
 pub struct Agenda<'a> {
     line: &'a Line,
     /// Where in the trace the time in its state stands, by machine.

@@ -19,7 +19,7 @@ pub struct Changes {
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Word {
     Value,
-    /// A time in a state, or one for which a property waits. It stands still while the word at this place says that
+    /// A time in a state, or one for which a property waits. It is at rest while the word at this place says that
     /// the machine is stopped.
     Time(Option<usize>),
 }

@@ -10,7 +10,7 @@ pub struct Progress {
     made: usize,
     /// Of each sink that has a goal, items of each kind.
     collected: Vec<Vec<u32>>,
-    /// Events that were looked at.
+    /// Events that were checked.
     read: usize,
     /// The last scan in which something happened: an input or a word of the controllers changed, or was about to.
     alive: u64,

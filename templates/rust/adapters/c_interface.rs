@@ -1,8 +1,8 @@
 //! The controllers as a shared library.
 //!
-//! A session is the controllers of one layout. A caller opens it with the text of the parameters, scans, and
-//! closes it; sessions share nothing, and each is used by one thread at a time.
-#![allow(unsafe_code)] // Pointers are all that a C interface has.
+//! A session has the controllers of one layout. A caller opens it with the text of the parameters, scans, and
+//! closes it. Sessions share nothing, and each is used by one thread at a time.
+#![allow(unsafe_code)] // A C interface has only pointers.
 
 use crate::layout::{Layout, alarm, latch, publish};
 use crate::read::Reader;
@@ -18,7 +18,7 @@ pub struct Session {
     trace: Vec<f64>,
 }
 
-/// Words of a process image, which are the caller's.
+/// Words of a process image; they belong to the caller.
 #[repr(C)]
 pub struct Image {
     pub words: *mut f64,
@@ -51,7 +51,7 @@ pub extern "C" fn autogen_version() -> u32 {
     VERSION
 }
 
-/// A session, or null: then `message` holds why, cut to `capacity` bytes, and `length` its length.
+/// A session, or null: then `message` has the reason, cut to `capacity` bytes, and `length` its length.
 ///
 /// # Safety
 /// `text` points to `text_length` bytes, `message` to `capacity` bytes, `length` to a number.
@@ -183,7 +183,7 @@ pub unsafe extern "C" fn autogen_power_up(session: *mut Session) {
     layout.power_up(system);
 }
 
-/// So many scans pass in which nothing happens.
+/// Replaces so many scans in which nothing happens.
 ///
 /// # Safety
 /// `session` is open.
@@ -194,7 +194,7 @@ pub unsafe extern "C" fn autogen_skip(session: *mut Session, scans: u64) {
     layout.skip(system, scans);
 }
 
-/// Writes where in the trace the time in its state stands, for each robot.
+/// Writes the position of the time in the state within the trace, for each robot.
 ///
 /// # Safety
 /// `session` is open, and `words` points to a number for each robot.
@@ -206,7 +206,7 @@ pub unsafe extern "C" fn autogen_stays(session: *const Session, words: *mut usiz
     unsafe { words.copy_from_nonoverlapping(stays.as_ptr(), stays.len()) };
 }
 
-/// Number of words of all that the controllers remember; they are written if they fit into `capacity`.
+/// Number of words of the state of all controllers; they are written if they fit into `capacity`.
 ///
 /// # Safety
 /// `session` is open, and `words` points to `capacity` words.

@@ -2,7 +2,7 @@
 
 use controllers::types::{Array, Point};
 
-/// The numbers of an image, taken from the front; what is missing is 0.
+/// The numbers of an image, from the front; missing numbers are 0.
 pub struct Image<'a>(std::slice::Iter<'a, f64>);
 
 impl<'a> Image<'a> {

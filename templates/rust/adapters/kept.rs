@@ -1,4 +1,4 @@
-//! What the controllers of a layout refer to.
+//! The values to which the controllers of a layout refer.
 #![allow(unsafe_code)] // It frees what it has leaked.
 
 /// Values that live as long as the program, unless they are freed.

@@ -123,7 +123,7 @@ impl Read for Robot<'static> {
             {%- for robot in robots %}
             "{{ robot.keyword }}" => Self::{{ robot.ty }}({{ robot.ty }}::new(kept(reader)?)),
             {%- endfor %}
-            other => return Err(reader.error(format_args!("`{other}` is no type of robot"))),
+            other => return Err(reader.error(format_args!("`{other}` is not a type of robot"))),
         })
     }
 }
@@ -135,7 +135,7 @@ pub struct Layout {
     {%- if has_cells %}
     pub cells: Cells<'static>,
     {%- endif %}
-    /// What the others refer to.
+    /// The values to which the other fields refer.
     pub kept: Kept,
 }
 
@@ -203,7 +203,7 @@ impl Layout {
         system.scan(inputs, &self.wiring, &mut self.robots{% if uses_cells %}, &mut self.cells{% endif %})
     }
 
-    /// Power was lost and is back: what is retained stays, all else is as at first.
+    /// Power was lost and is back: retained values are kept, all others are the initial ones.
     pub fn power_up(&mut self, system: &mut System) {
         {%- if retains %}
         let mut words = Vec::new();
@@ -223,7 +223,7 @@ impl Layout {
         system.skip(scans, &self.wiring, &mut self.robots);
     }
 
-    /// Where in the trace the time in its state stands, by robot.
+    /// The position of the time in the state within the trace, by robot.
     pub fn stays(&self) -> Vec<usize> {
         let mut trace = Vec::new();
         let mut stays = Vec::new();
@@ -234,7 +234,7 @@ impl Layout {
         stays
     }
 
-    /// All that the controllers remember: for each robot state, time in it, locals, own cells, outputs, alarms.
+    /// The state of all controllers: for each robot its state, the time in it, locals, own cells, outputs, alarms.
     pub fn trace(&self, out: &mut Vec<f64>) {
         self.robots.iter().for_each(|robot| self.trace_of(robot, out));
     }

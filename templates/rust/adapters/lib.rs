@@ -1,5 +1,5 @@
-//! The controllers of any layout of the same types: read from text, given process images, and behind a C
-//! interface by which a simulator that was compiled apart loads them.
+//! The controllers of any layout of the same types: they are read from text and work on process images. A C interface
+//! lets a simulator that was compiled separately load them.
 
 pub mod c_interface;
 pub mod image;

@@ -6,7 +6,7 @@ use controllers::types::{Array, Point, Relation};
 use std::fmt::Display;
 use std::str::FromStr;
 
-/// The words of a text, and what was read of it.
+/// The words of a text, and the position of the reader.
 pub struct Reader<'t> {
     words: Words<'t>,
     pub kept: Kept,
@@ -96,13 +96,13 @@ impl<T: Read + 'static> Read for &'static [T] {
     }
 }
 
-/// A value that lives as long as what it was read with.
+/// A value that lives as long as the values with which it was read.
 pub fn kept<T: Read + 'static>(reader: &mut Reader) -> Result<&'static mut T, String> {
     let value = T::read(reader)?;
     Ok(reader.kept.keep(value))
 }
 
-/// So many rows that hold the same.
+/// So many equal rows.
 pub fn rows<T: Clone>(count: usize, row: T) -> Vec<T> {
     vec![row; count]
 }

@@ -1,4 +1,4 @@
-//! The controllers as the simulator meets them.
+//! The controllers as the simulator uses them.
 
 use adapters::layout::{Layout, alarm, latch, publish};
 use adapters::read::Reader;

@@ -1,6 +1,6 @@
-//! A host of the controllers without the simulator: what a real one does in each scan, over pipes
-//! instead of a fieldbus. A line of input holds `run_permit start reset` and then the input images of
-//! all robots, in layout order, each with its number of words before it; a line of output holds `running`,
+//! A host of the controllers without the simulator. In each scan it does the same as a real host, over pipes
+//! instead of a fieldbus. A line of input has `run_permit start reset` and then the input images of
+//! all robots, in layout order, each with its number of words before it. A line of output has `running`,
 //! `fault_code` and the output images.
 
 use adapters::layout::{Layout, latch, publish};

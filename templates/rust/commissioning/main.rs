@@ -1,11 +1,11 @@
 //! Runs the controllers against the simulator, and prints the report as JSON.
 //!
 //! `commissioning LINE PARAMETERS [--hashes FILE] [--io-trace COLUMNS FILE]`: LINE, PARAMETERS and
-//! COLUMNS are texts that autogen wrote. The I/O trace is written while the run goes on.
-//! `commissioning --replay PARAMETERS`: no simulator. Each line of the standard input holds a scan:
+//! COLUMNS are texts that autogen wrote. The I/O trace is written during the run.
+//! `commissioning --replay PARAMETERS`: no simulator. Each line of the standard input is a scan:
 //! `run_permit start reset`, then the inputs of all robots, the number of each robot's words before them.
-//! Answered with a line of the bits, in hexadecimal, of the system's outputs, the published outputs and the
-//! trace; all that is no number reads `nan`.
+//! The answer is a line of the bits, in hexadecimal, of the system's outputs, the published outputs and the
+//! trace; a value that is not a number is `nan`.
 
 use commissioning::deployed::Deployed;
 use commissioning::replay::replay;
@@ -35,10 +35,10 @@ fn start(arguments: &[String]) -> Result<(), String> {
     let mut rest = arguments.iter();
     while let Some(argument) = rest.next() {
         match argument.as_str() {
-            "--hashes" => hashes = Some(rest.next().ok_or("`--hashes` wants a file")?),
+            "--hashes" => hashes = Some(rest.next().ok_or("`--hashes` needs a file")?),
             "--io-trace" => {
-                let columns = rest.next().ok_or("`--io-trace` wants two files")?;
-                let path = rest.next().ok_or("`--io-trace` wants two files")?;
+                let columns = rest.next().ok_or("`--io-trace` needs two files")?;
+                let path = rest.next().ok_or("`--io-trace` needs two files")?;
                 io_trace = Some(IoTrace::new(&text(columns)?, path)?);
             }
             "--replay" => replays = true,
@@ -52,7 +52,7 @@ fn start(arguments: &[String]) -> Result<(), String> {
             let deployed = Deployed::read(&text(parameters)?)?.of(&line)?;
             simulate(&line, deployed, hashes, io_trace)
         }
-        _ => Err("wants LINE PARAMETERS [--hashes FILE] [--io-trace COLUMNS FILE], or --replay PARAMETERS".into()),
+        _ => Err("usage: LINE PARAMETERS [--hashes FILE] [--io-trace COLUMNS FILE], or --replay PARAMETERS".into()),
     }
 }
 
@@ -60,7 +60,7 @@ fn text(path: &str) -> Result<String, String> {
     fs::read_to_string(path).map_err(|e| format!("{path}: {e}"))
 }
 
-/// The file that takes a row for each scan.
+/// The file with a row for each scan.
 struct IoTrace {
     columns: Columns,
     path: String,
@@ -78,7 +78,7 @@ impl IoTrace {
         Ok(Self { columns, path: path.into(), file, row: String::new(), written })
     }
 
-    /// After an error nothing more is written.
+    /// After an error no more rows are written.
     fn take(&mut self, seen: &Seen) {
         if self.written.is_ok() {
             self.row.clear();
@@ -99,7 +99,7 @@ fn simulate(
     mut io_trace: Option<IoTrace>,
 ) -> Result<(), String> {
     let mut kept = String::new();
-    // A row or a line for each scan wants every scan.
+    // A row or a line for each scan needs every scan.
     let stepping = match hashes.is_some() || io_trace.is_some() {
         true => Stepping::EveryScan,
         false => Stepping::Events,

@@ -5,9 +5,9 @@ use runtime_sim::scan::{Controllers, SystemInputs};
 use runtime_sim::words::Words;
 use std::io::{self, BufRead, BufWriter, Write};
 
-/// Each line of the standard input holds a scan: `run_permit start reset`, then the inputs of all robots, the
-/// number of each robot's words before them; or `power`: it was lost and is back. A scan is answered with a line of the bits, in hexadecimal, of the
-/// system's outputs, the published outputs and the trace.
+/// Each line of the standard input is a scan: `run_permit start reset`, then the inputs of all robots, the
+/// number of each robot's words before them; or `power`: it was lost and is back. The answer to a scan is a line
+/// of the bits, in hexadecimal, of the system's outputs, the published outputs and the trace.
 pub fn replay(deployed: &mut Deployed) -> Result<(), String> {
     let mut out = BufWriter::new(io::stdout().lock());
     let mut outputs = vec![Vec::new(); deployed.robots()];

@@ -1,15 +1,15 @@
-//! Alarms, and how long something is waited for.
+//! Alarms, and the waiting times of properties.
 
 use crate::types::Fault;
 
 /// An entry of the table of alarms: one place of the text, of one robot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Alarm {
-    /// What `alarm_code` tells of it, and what it means.
+    /// Its `alarm_code` and its text.
     pub cause: Fault,
-    /// What raises it lasts.
+    /// Its cause is present.
     pub active: bool,
-    /// It has been seen: a rising edge of `reset` acknowledges all alarms.
+    /// It has been acknowledged: a rising edge of `reset` acknowledges all alarms.
     pub acknowledged: bool,
     /// How often it was raised.
     pub count: i32,
@@ -23,12 +23,12 @@ impl Alarm {
         Self { cause, active: false, acknowledged: true, count: 0, first: 0, last: 0 }
     }
 
-    /// It is shown: it lasts, or nobody has acknowledged it.
+    /// It is shown: it is active or not acknowledged.
     pub fn is_open(&self) -> bool {
         self.active || !self.acknowledged
     }
 
-    /// What raises it lasts or not in this scan. Says whether it was raised just now.
+    /// Updates the alarm: whether its cause is present in this scan. Returns whether it was raised now.
     pub fn note(&mut self, active: bool, scan: i32) -> bool {
         let raised = active && !self.active;
         self.active = active;
@@ -44,7 +44,7 @@ impl Alarm {
     }
 }
 
-/// For how many milliseconds a goal has been waited for, -1 if it is not: from the scan with the trigger on.
+/// The waiting time for a goal in milliseconds, from the scan with the trigger; -1 without waiting.
 pub fn waited(before: i32, trigger: bool, goal: bool, scan_ms: i32) -> i32 {
     if goal {
         -1

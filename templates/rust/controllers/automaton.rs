@@ -5,9 +5,9 @@
 {%- endfor %}
 //!
 //! Device {{ device }}
-//! This is no safety function.
+//! This is not a safety function.
 
-/// What the layout fixes for one of them.
+/// The values that the layout fixes for one of them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameters<'a> {
     pub name: &'a str,
@@ -26,7 +26,7 @@ pub enum State {
 }
 {%- if commands %}
 
-/// What a command asks for.
+/// The commands of the device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verb {
     {%- for verb in verbs %}
@@ -36,7 +36,7 @@ pub enum Verb {
 }
 {%- endif %}
 
-/// What the device reports.
+/// The signals of the device.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Inputs {
     {%- for field in inputs %}
@@ -56,7 +56,7 @@ impl Inputs {
 }
 {%- endif %}
 
-/// What the device is told.
+/// The outputs to the device.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outputs {
     {%- for field in outputs %}
@@ -66,7 +66,7 @@ pub struct Outputs {
 }
 
 impl Outputs {
-    /// What is published while the system does not run.
+    /// The values that are published while the system does not run.
     pub fn stopped(self) -> Self {
         {%- if stops.is_empty() %}
         self
@@ -154,7 +154,7 @@ impl<'a> {{ ty }}<'a> {
         }
     }
 
-    /// All is as at first.
+    /// Sets the initial values.
     pub fn forget(&mut self{{ cells_parameter }}) {
         *self = Self::new(self.parameters);
         {%- for cells in own_cells %}
@@ -163,14 +163,14 @@ impl<'a> {{ ty }}<'a> {
     }
     {%- if let Some(retained) = retained %}
 
-    /// Writes what outlasts a loss of power.
+    /// Writes the retained values.
     pub fn retain(&self{{ retained.cells_read }}, put: &mut dyn FnMut(f64)) {
         {%- for statement in retained.put %}
         {{ statement }}
         {%- endfor %}
     }
 
-    /// Begins with that again, all else being as at first; `None` if the words are not those of such a robot.
+    /// Begins with the retained values and initial values of all others; `None` if the words are not those of such a robot.
     pub fn restore(&mut self{{ retained.cells_write }}, words: &mut Words) -> Option<()> {
         {%- for statement in retained.take %}
         {{ statement }}
@@ -180,14 +180,14 @@ impl<'a> {{ ty }}<'a> {
     {%- endif %}
     {%- if let Some(modes) = modes %}
 
-    /// What a person does at the panel, before the step of every scan.
+    /// Evaluates the panel, before the step of every scan.
     pub fn operate(&mut self, permit: bool{% if !modes.parameters.is_empty() %}, {{ modes.parameters }}{% endif %}) {
         {%- for statement in modes.operate %}
         {{ statement }}
         {%- endfor %}
     }
 
-    /// As at power-up, but for what is retained and outputs that stay as they are while it does not run.
+    /// As at power-up, except retained values and outputs that keep their values while it does not run.
     fn begin_anew(&mut self{% if !modes.parameters.is_empty() %}, {{ modes.parameters }}{% endif %}) {
         {%- for statement in modes.begin_anew %}
         {{ statement }}
@@ -195,14 +195,14 @@ impl<'a> {{ ty }}<'a> {
     }
     {%- if let Some(is_single) = modes.is_single %}
 
-    /// In single step nothing lasts too long.
+    /// In single step no time limit is checked.
     fn is_single(&self) -> bool {
         {{ is_single }}
     }
     {%- endif %}
     {%- endif %}
 
-    /// What the device is told in this scan.
+    /// The outputs to the device in this scan.
     pub fn published(&self, running: bool) -> Outputs {
         {%- if let Some(modes) = modes %}
         let runs = running && !self.stopped && !self.{{ modes.moved_by_hand }};
@@ -223,7 +223,7 @@ impl<'a> {{ ty }}<'a> {
     }
     {%- if !properties.is_empty() %}
 
-    /// What is looked at behind the steps of every scan.
+    /// Checks the properties, after the steps of every scan.
     pub fn properties(&{% if remembers %}mut {% endif %}self, {{ property_parameters }}) -> Result<(), Fault> {
         {%- for property in properties %}
         {{ property }}
@@ -233,7 +233,7 @@ impl<'a> {{ ty }}<'a> {
     {%- endif %}
     {%- if can_stop || !counters.is_empty() %}
 
-    /// So many milliseconds pass in which nothing happens.
+    /// Adds so many milliseconds in which nothing happens.
     pub fn stay(&mut self, ms: i32) {
         {%- if can_stop %}
         if self.stopped {
@@ -250,7 +250,7 @@ impl<'a> {{ ty }}<'a> {
     {%- endif %}
     {%- if !anew.is_empty() %}
 
-    /// What properties remember begins anew.
+    /// Sets the initial values of the properties.
     pub fn observe_anew(&mut self) {
         {%- for statement in anew %}
         {{ statement }}
@@ -286,7 +286,7 @@ impl<'a> {{ ty }}<'a> {
     {%- endif %}
     {%- if done %}
 
-    /// The last command has ended well.
+    /// The last command has ended successfully.
     fn command_done(&self) -> bool {
         {% if let Some(abandoned) = abandoned %}!self.{{ abandoned }} && {% endif %}self.outputs.cmd != 0 && self.inputs.ack == self.outputs.cmd && self.inputs.error == 0
     }

@@ -1,6 +1,6 @@
-//! What robots share: cells, which are written and read, and what each shows of its parameters.
+//! What robots share: cells, which are written and read, and the parameters that each shows to others.
 //!
-//! Robots meet in interfaces. A reference is a row among the members of an interface, in layout order.
+//! Robots share data through interfaces. A reference is a row among the members of an interface, in layout order.
 
 {%- for interface in interfaces %}
 
@@ -25,7 +25,7 @@ pub struct {{ interface.cells_type }} {
 }
 
 impl {{ interface.cells_type }} {
-    /// What they hold at first.
+    /// Their initial values.
     pub const NEW: Self = Self {
         {%- for cell in interface.cells %}
         {{ cell.name }}: {{ cell.initial }},
@@ -45,7 +45,7 @@ pub struct {{ interface.parameters_type }} {
 }
 
 impl {{ interface.parameters_type }} {
-    /// Shown by one that is not there.
+    /// The values for a robot that does not exist.
     pub const NONE: Self = Self {
         {%- for parameter in interface.parameters %}
         {{ parameter.name }}: {{ parameter.initial }},
@@ -67,7 +67,7 @@ pub struct Cells<'a> {
 }
 {%- endif %}
 
-/// What a layout fixes beside the parameters of each robot.
+/// The values that a layout fixes in addition to the parameters of each robot.
 #[derive(Clone, Debug)]
 pub struct Wiring{% if has_wiring %}<'a>{% endif %} {
     /// Period of a scan.

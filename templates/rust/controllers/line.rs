@@ -1,4 +1,4 @@
-//! This line: its robots, what they show to each other, and room for their cells.
+//! This line: its robots, what they show to each other, and the storage of their cells.
 
 use crate::robots;
 {%- for (module, ty) in types %}
@@ -39,7 +39,7 @@ pub const fn robots() -> [Robot<'static>; {{ robots.len() }}] {
 }
 {%- if has_cells %}
 
-/// Room for the cells of all robots.
+/// Storage for the cells of all robots.
 #[derive(Clone, Debug)]
 pub struct Memory {
     {%- for interface in interfaces %}
@@ -50,7 +50,7 @@ pub struct Memory {
 }
 
 impl Memory {
-    /// What the cells hold at first.
+    /// The initial values of the cells.
     pub const NEW: Self = Self {
         {%- for interface in interfaces %}
         {%- if interface.has_cells %}

@@ -1,4 +1,4 @@
-//! What outlasts a loss of power, as numbers: each value is written as one or more words, and read again.
+//! Retained values as numbers: each value is written as one or more words, and read back after a loss of power.
 
 /// Takes the next word.
 pub type Words<'a> = dyn FnMut() -> Option<f64> + 'a;

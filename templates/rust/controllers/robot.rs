@@ -37,7 +37,7 @@ impl Robot<'_> {
 
     {%- if modes %}
 
-    /// What a person does at its panel, before the step of every scan.
+    /// Evaluates the panel, before the step of every scan.
     pub fn operate(&mut self, permit: bool{{ operate_parameters }}) {
         match self {
             {%- for robot in robots %}
@@ -47,7 +47,7 @@ impl Robot<'_> {
     }
     {%- endif %}
 
-    /// All is as at first.
+    /// Sets the initial values.
     pub fn forget(&mut self{{ forget_parameters }}) {
         match self {
             {%- for robot in robots %}
@@ -57,7 +57,7 @@ impl Robot<'_> {
     }
     {%- if retains %}
 
-    /// Writes what outlasts a loss of power.
+    /// Writes the retained values.
     pub fn retain(&self{{ retain_parameters }}, put: &mut dyn FnMut(f64)) {
         match self {
             {%- for robot in robots %}
@@ -70,7 +70,7 @@ impl Robot<'_> {
         }
     }
 
-    /// Begins with that again; `None` if the words are not those of such a robot.
+    /// Begins with the retained values; `None` if the words are not those of such a robot.
     pub fn restore(&mut self{{ restore_parameters }}, words: &mut Words) -> Option<()> {
         match self {
             {%- for robot in robots %}
@@ -93,7 +93,7 @@ impl Robot<'_> {
     }
     {%- if properties %}
 
-    /// What is looked at behind the steps of every scan.
+    /// Checks the properties, after the steps of every scan.
     pub fn properties(&{% if properties_change %}mut {% endif %}self, {{ properties_parameters }}) -> Result<(), Fault> {
         match self {
             {%- for robot in robots %}
@@ -107,7 +107,7 @@ impl Robot<'_> {
     }
     {%- endif %}
 
-    /// So many milliseconds pass in which nothing happens.
+    /// Adds so many milliseconds in which nothing happens.
     pub fn stay(&mut self, ms: i32) {
         match self {
             {%- for robot in robots %}
@@ -134,7 +134,7 @@ impl Robot<'_> {
         }
     }
 
-    /// All its alarms have been seen.
+    /// Acknowledges all its alarms.
     pub fn acknowledge(&mut self) {
         match self {
             {%- for robot in robots %}
@@ -148,7 +148,7 @@ impl Robot<'_> {
     }
 
     {% endif -%}
-    /// The time in the present state begins anew{% if properties_change %}, and what properties remember{% endif %}.
+    /// The time in the present state begins anew{% if properties_change %}, and so do the stored values of properties{% endif %}.
     pub fn stay_anew(&mut self) {
         match self {
             {%- for robot in robots %}

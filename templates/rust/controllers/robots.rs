@@ -1,4 +1,4 @@
-//! The robots of this line: what the layout fixes for each, by types.
+//! The robots of this line: the values that the layout fixes for each, by type.
 
 {%- for module in modules %}
 pub mod {{ module }};

@@ -1,4 +1,4 @@
-//! What the layout fixes for each [`{{ ty }}`](crate::{{ module }}::{{ ty }}) of this line.
+//! The values that the layout fixes for each [`{{ ty }}`](crate::{{ module }}::{{ ty }}) of this line.
 
 use crate::{{ module }}::Parameters;
 {%- for robot in robots %}

@@ -1,7 +1,7 @@
 //! All controllers of the line in one scan.
 //!
 //! Inputs are latched, the robots step one after another in the order of the layout, then outputs are
-//! published. After power-up nothing moves before a rising edge of `start`. This is no safety function.
+//! published. After power-up nothing moves before a rising edge of `start`. This is not a safety function.
 
 {% if alarms %}use crate::alarm::Alarm;
 {% endif %}use crate::cells::{% if uses_cells || retains && has_cells %}{Cells, Wiring}{% else %}Wiring{% endif %};
@@ -12,9 +12,9 @@ use crate::types::Fault;
 /// Inputs of the system as a whole.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SystemInputs {
-    /// False while the emergency stop has acted or the fieldbus is lost.
+    /// False when the emergency stop has acted or the fieldbus is lost.
     pub run_permit: bool,
-    /// Acts on its rising edge.
+    /// Starts the line on its rising edge.
     pub start: bool,
     /// {% if alarms %}Acknowledges all alarms, and clears{% else %}Clears{% endif %} a fault on its rising edge; all values are kept, and the time in each state begins anew.
     pub reset: bool,
@@ -27,19 +27,19 @@ pub struct SystemOutputs {
     pub fault: bool,
     /// 0 without a fault.
     pub fault_code: i32,
-    /// Number of the robot that raised the fault, from 0 in layout order; -1 if none did.
+    /// Number of the robot that raised the fault, from 0 in layout order; -1 if there is none.
     pub fault_robot: i32,
     {%- if alarms %}
     /// An alarm is active, or not acknowledged.
     pub alarm: bool,
-    /// Of the alarms that are not acknowledged, the one that was raised first; 0 if there is none.
+    /// Code of the first raised alarm that is not acknowledged; 0 if there is none.
     pub alarm_code: i32,
     /// Number of the robot that raised it; -1 if there is none.
     pub alarm_robot: i32,
     {%- endif %}
 }
 
-/// What the system remembers from scan to scan, beside robots and cells.
+/// The state of the system from scan to scan, without robots and cells.
 #[derive(Clone, Debug)]
 pub struct System {
     running: bool,
@@ -62,8 +62,8 @@ impl System {
         self.fault.map(|(fault, _)| fault)
     }
 
-    /// One scan. The caller has written the inputs of the robots, and publishes what
-    /// `published` of each robot gives when it is told whether the system runs.
+    /// One scan. The caller has written the inputs of the robots, and publishes the result of
+    /// `published` of each robot, which depends on whether the system runs.
     pub fn scan(
         &mut self,
         inputs: SystemInputs,
@@ -123,8 +123,8 @@ impl System {
         }
     }
 
-    /// In place of so many scans in which nothing happens: no input that a state reads changes, and no timer ends. Every
-    /// state says what it reads. A controller can do without; a simulator saves time.
+    /// Replaces so many scans in which nothing happens: no input that a state reads changes, and no timer expires. The
+    /// comment of every state says what it reads. A controller does not need this; it saves time in a simulator.
     pub fn skip(&{% if alarms %}mut {% endif %}self, scans: u64, wiring: &Wiring, robots: &mut [Robot]) {
         {%- if alarms %}
         self.scan = self.scan.saturating_add(i32::try_from(scans).unwrap_or(i32::MAX));
@@ -137,13 +137,13 @@ impl System {
 }
 
 {%- if retains %}
-/// Of the fault with which the line begins if what was kept is not what it retains: all is as at first.
+/// The fault with which the line begins if the retained values are not of this line: it has its initial values.
 pub const NOT_RETAINED: i32 = 32766;
-/// Changes when the words do that [`System::retain`] writes.
+/// Changes with the words that [`System::retain`] writes.
 const SHAPE: u32 = {{ shape }};
 
 impl System {
-    /// Writes what outlasts a loss of power. Keep all words of one scan, or none of it.
+    /// Writes the retained values. Store all words of one scan, or none of it.
     pub fn retain(&self, robots: &[Robot]{% if has_cells %}, cells: &Cells{% endif %}, put: &mut dyn FnMut(f64)) {
         put(f64::from(SHAPE));
         (robots.len() as i32).put(put);
@@ -155,13 +155,13 @@ impl System {
         }
     }
 
-    /// Begins after power-up with what was kept; all else is as at first. If the words are not those that this line
-    /// retains, it begins as at first and has the fault [`NOT_RETAINED`]: a person clears the machines, then resets it.
+    /// Begins after power-up with the retained values; all others are the initial ones. If the words are not those of
+    /// this line, it begins with initial values and the fault [`NOT_RETAINED`]: a person clears the machines, then resets.
     pub fn restore(&mut self, robots: &mut [Robot]{% if has_cells %}, cells: &mut Cells{% endif %}, words: &mut Words) {
         *self = Self::new();
         if self.restored(robots{% if has_cells %}, cells{% endif %}, words).is_none() {
             robots.iter_mut().for_each(|robot| robot.forget({% if has_cells %}cells{% endif %}));
-            self.fault = Some((Fault::new(NOT_RETAINED, "what was kept is not of this line"), usize::MAX));
+            self.fault = Some((Fault::new(NOT_RETAINED, "the retained values are not of this line"), usize::MAX));
         }
     }
 
@@ -179,7 +179,7 @@ impl System {
         let (code, robot) = (i32::take(words)?, i32::take(words)?);
         if code != 0 {
             let number = usize::try_from(robot).unwrap_or(usize::MAX);
-            self.fault = Some((Fault::new(code, "it was there when power was lost"), number));
+            self.fault = Some((Fault::new(code, "the fault was present when power was lost"), number));
         }
         for robot in robots {
             if words()? != f64::from(shape_of(robot.name())) {
@@ -199,7 +199,7 @@ impl Default for System {
 }
 
 {%- if alarms %}
-/// Of the alarms that are not acknowledged, the one that was raised first, and its robot.
+/// The first raised alarm that is not acknowledged, and its robot.
 fn first_alarm<'a>(robots: &'a [Robot]) -> Option<(&'a Alarm, usize)> {
     let robots = robots.iter().enumerate();
     let alarms = robots.flat_map(|(number, robot)| robot.alarms().iter().map(move |alarm| (alarm, number)));

@@ -1,4 +1,4 @@
-//! What all controllers are made of. Nothing here allocates, and nothing can panic.
+//! Types and functions of all controllers. Nothing here allocates, and nothing can panic.
 
 use core::ops::{Add, Index, IndexMut, Sub};
 
@@ -41,7 +41,7 @@ impl Sub for Point {
     }
 }
 
-/// An array whose indices the compiler has proved. They are limited to its bounds all the same,
+/// An array whose indices the compiler has proved. They are nevertheless limited to its bounds,
 /// so that the program has no place at which it could panic.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Array<T, const N: usize>(pub [T; N]);
@@ -104,7 +104,7 @@ impl<R: Reference, T> IndexMut<R> for Table<'_, T> {
     }
 }
 
-/// As [`Table`], of what never changes.
+/// As [`Table`], for values that never change.
 #[derive(Clone, Copy, Debug)]
 pub struct Rows<'a, T> {
     rows: &'a [T],
@@ -125,7 +125,7 @@ impl<R: Reference, T> Index<R> for Rows<'_, T> {
     }
 }
 
-/// Which members of one interface stand in a relation to which of another one: a row for each of the first.
+/// A relation between the members of two interfaces: a row for each member of the first.
 #[derive(Clone, Copy, Debug)]
 pub struct Relation<'a>(pub &'a [&'a [bool]]);
 
@@ -138,7 +138,7 @@ impl Relation<'_> {
 /// Why the system has stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Fault {
-    /// What is published as `fault_code`.
+    /// The number that is published as `fault_code`.
     pub code: i32,
     pub text: &'static str,
 }
@@ -149,13 +149,13 @@ impl Fault {
     }
 }
 
-/// Stores a whole number; outside its bounds the nearest one, which is a fault.
+/// Stores a whole number. Outside its bounds it stores the nearest bound, and this is a fault.
 pub fn store_whole(value: i32, [low, high]: [i32; 2], place: &mut i32, fault: Fault) -> Result<(), Fault> {
     *place = value.max(low).min(high);
     if *place == value { Ok(()) } else { Err(fault) }
 }
 
-/// Stores a real that is finite; another one is a fault.
+/// Stores a real that is finite; any other real is a fault.
 pub fn store_real(value: f64, place: &mut f64, fault: Fault) -> Result<(), Fault> {
     if value.is_finite() {
         *place = value;
@@ -165,7 +165,7 @@ pub fn store_real(value: f64, place: &mut f64, fault: Fault) -> Result<(), Fault
     }
 }
 
-/// Stores a point that is finite; another one is a fault.
+/// Stores a point that is finite; any other point is a fault.
 pub fn store_point(value: Point, place: &mut Point, fault: Fault) -> Result<(), Fault> {
     if value.is_finite() {
         *place = value;
@@ -175,7 +175,7 @@ pub fn store_point(value: Point, place: &mut Point, fault: Fault) -> Result<(), 
     }
 }
 
-/// A state that may last so many milliseconds.
+/// A fault if a state lasts `longest` milliseconds or more.
 pub fn within(elapsed: i32, longest: i32, fault: Fault) -> Result<(), Fault> {
     if elapsed >= longest { Err(fault) } else { Ok(()) }
 }

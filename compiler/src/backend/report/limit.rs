@@ -3,8 +3,8 @@
 //! From the end backwards. A machine left its last state in some scan. If an input of its own that the guards of that
 //! state read had just changed, or a timer of the state was over, the machine itself needed this time: the stay is its
 //! share. If an item had come since that another machine has put there, it needed only the time since then, and the path
-//! goes on with who has put it. Otherwise another machine has let it go on, which acted in this scan before it, or in the
-//! one before: what the machine waited until then cost nothing by itself, and the path goes on with the other one. So
+//! continues with who has put it. Otherwise another machine has let it continue, which acted in this scan before it, or in the
+//! one before: what the machine waited until then cost nothing by itself, and the path continues with the other one. So
 //! the shares add up to the whole time, and whoever shortens a stay on the path shortens the run, by at most this time.
 
 use super::acts::{Acts, Stay};
@@ -121,7 +121,7 @@ impl Run<'_> {
         }
     }
 
-    /// Which other machine has let a machine go on that did something in this scan, and when; none: its own device did.
+    /// Which other machine has let a machine continue that did something in this scan, and when; none: its own device did.
     fn let_go(&self, machine: usize, stay: Stay, scan: u64) -> Option<(usize, u64)> {
         let state = self.line.machines[machine].states.get(stay.state)?;
         let own = &self.acts[machine];

@@ -57,7 +57,7 @@ impl Long {
         let drawn_until_s = (until_ms < end_ms).then_some(until_ms / 1000.0);
         if let Some(until) = drawn_until_s {
             left_out.push(format!(
-                "The plan is drawn until {until:.0} s: how machines and items moved after that is too much for one page. All else is that of the whole run."
+                "The plan is drawn until {until:.0} s: the later motions are too much for one page. All other data are those of the whole run."
             ));
         }
         parts.append(&mut drawn);
@@ -77,9 +77,9 @@ const FEWER: [Fewer; 3] = [
     ),
     (
         |signal| matches!(signal.form, Form::Truth | Form::Names(_)),
-        "So are those that are whole numbers, such as the numbers of commands.",
+        "Signals that are whole numbers are left out too, such as the numbers of commands.",
     ),
-    (|_| false, "So are all other signals."),
+    (|_| false, "All other signals are left out too."),
 ];
 
 fn bytes(parts: &[(&'static str, String)]) -> usize {

@@ -12,7 +12,7 @@ pub struct Paths {
     /// Text, what it is, number of the machine or -1, number of its part or -1.
     pub carriers: String,
     /// Of each item the end of its path in ms, then its segments: begin in ms, number of the carrier, number of the law,
-    /// and the numbers of that. What goes on where the segment before has brought it does without the place: a number of
+    /// and the numbers of that. What continues where the segment before has brought it does without the place: a number of
     /// the law that is greater by [`GOES_ON`].
     pub items: String,
 }

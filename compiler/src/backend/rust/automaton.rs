@@ -52,7 +52,7 @@ struct Module {
     retained: Option<retained::Methods>,
     /// With a comma before it.
     cells_parameter: &'static str,
-    /// Statements that make its own cells as at first.
+    /// Statements that set the initial values of its own cells.
     own_cells: Vec<String>,
 }
 
@@ -89,7 +89,7 @@ pub fn module(context: &Context) -> String {
         ports(Direction::Output).filter_map(|(port, name)| stop(context, port, name)).collect();
     let module = Module {
         title: format!(
-            "{}: what every `{}` does. Made by autogen from {}.",
+            "{}: the logic of every `{}`. Made by autogen from {}.",
             names.ty,
             automaton.name,
             context.line(automaton.place)
@@ -125,7 +125,7 @@ pub fn module(context: &Context) -> String {
             .map(|(l, name)| Field {
                 doc: match l.kept_by {
                     KeptBy::Steps | KeptBy::Modes => doc(&l.doc),
-                    KeptBy::Properties => doc(&["Kept by a property.".into()]),
+                    KeptBy::Properties => doc(&["Stored value of a property.".into()]),
                 },
                 name: name.clone(),
                 ty: context.ty(l.ty),
@@ -191,7 +191,7 @@ fn role_doc(kind: RoleKind) -> &'static str {
         RoleKind::Takes => "Those within reach that offer items.",
         RoleKind::Hands => "Those within reach that accept items.",
         RoleKind::Serves => "Those to which items can get from here.",
-        RoleKind::Knows => "All of them.",
+        RoleKind::Knows => "All other members.",
     }
 }
 

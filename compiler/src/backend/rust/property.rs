@@ -1,4 +1,4 @@
-//! Properties, which are looked at behind the steps, and the alarms that they raise.
+//! Properties, which are checked after the steps, and the alarms that they raise.
 
 use super::context::Context;
 use super::format::comment;
@@ -56,7 +56,7 @@ pub fn properties(context: &Context) -> Vec<String> {
         let enabled = automaton.modes.iter().map(|modes| format!(" && {}", context.expr(&modes.may_go_on)));
         texts.push(format!(
             "{}if start && stopped{} {{ self.stopped = false; }}",
-            comment("It goes on from the next scan on."),
+            comment("It continues from the next scan."),
             closed.chain(enabled).collect::<String>()
         ));
     }

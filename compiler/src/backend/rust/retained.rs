@@ -61,7 +61,7 @@ pub fn cells_argument(context: &Context) -> &'static str {
     if has_own_cells(context) { "cells" } else { "" }
 }
 
-/// Statements that make the cells of a robot as at first.
+/// Statements that set the initial values of the cells of a robot.
 pub fn own_cells(context: &Context) -> Vec<String> {
     let implements = context.automaton().implements.iter();
     let with_cells = implements.filter(|i| !context.system.model.interface(i.interface).cells.is_empty());
@@ -164,7 +164,7 @@ fn taken(context: &Context, ty: Type) -> String {
     }
 }
 
-/// A state from which it does not go on is its beginning.
+/// A state from which it does not continue is its beginning.
 fn state(context: &Context, automaton: &Automaton) -> String {
     let names = &context.own().states;
     let resumable: Vec<usize> = automaton.resumable().collect();

@@ -199,7 +199,7 @@ struct Variant {
     limits: bool,
     has_properties: bool,
     properties_arguments: String,
-    /// Time goes on in more than its state.
+    /// Time continues in more than its state.
     counts: bool,
     begins_anew: bool,
     has_alarms: bool,
@@ -234,7 +234,7 @@ pub fn uses_cells(shared: Shared) -> bool {
     steps.cells.max(properties.cells) != Access::None
 }
 
-/// Whether something is looked at behind the steps.
+/// Whether something is checked after the steps.
 fn has_properties(automaton: &Automaton) -> bool {
     automaton.can_stop() || !automaton.properties.is_empty()
 }

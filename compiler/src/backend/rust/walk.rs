@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 pub struct Uses {
     pub wiring: bool,
     pub cells: Access,
-    /// Whether the last command has ended well.
+    /// Whether the last command has ended successfully.
     pub done: bool,
     /// Whether it has ended in error.
     pub failed: bool,

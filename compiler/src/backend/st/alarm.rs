@@ -43,8 +43,14 @@ pub fn tables(shared: Shared) -> Vec<Table> {
         tables.extend([
             table("alarms_code", Basic::Dint, "see alarms.csv", codes),
             table("alarms_robot", Basic::Dint, "number of the robot", robots),
-            table("alarms_active", Basic::Bool, "what raises it lasts", all(Ex::Bool(false))),
-            sized(entries.len(), "alarms_acknowledged", Basic::Bool, "it has been seen", acknowledged),
+            table("alarms_active", Basic::Bool, "its cause is present", all(Ex::Bool(false))),
+            sized(
+                entries.len(),
+                "alarms_acknowledged",
+                Basic::Bool,
+                "a person has acknowledged it",
+                acknowledged,
+            ),
             table("alarms_count", Basic::Dint, "how often it was raised", all(Ex::Int(0))),
             table("alarms_first", Basic::Dint, "scan in which it was raised first", all(Ex::Int(0))),
             table("alarms_last", Basic::Dint, "scan in which it was raised last", all(Ex::Int(0))),
@@ -97,7 +103,7 @@ pub fn told(shared: Shared) -> Vec<Stmt> {
         assign("oldest", of("alarms_last")),
     ];
     let mut body = vec![
-        Stmt::Comment("Alarms: of those that are not acknowledged, the one that was raised first.".into()),
+        Stmt::Comment("Alarms: the first raised one that is not acknowledged.".into()),
         assign("alarm", Ex::Bool(false)),
         assign("alarm_code", Ex::Int(0)),
         assign("alarm_robot", Ex::Int(-1)),

@@ -22,25 +22,25 @@ pub fn table(shared: Shared, translate: &mut Translate) -> String {
                 "Do what the text says. Nothing was stopped; reset acknowledges the alarm."
             }
             _ if site.severity == Severity::Machine => {
-                "Do what the text says. The robot is held until the cause is gone, the alarm is acknowledged by reset, and start has a rising edge; the others run meanwhile. To reach in, take run_permit away by the safety system first."
+                "Do what the text says. The robot is held until the cause is gone, the alarm is acknowledged by reset, and start has a rising edge; the others continue to run. Before you reach in, remove run_permit by the safety system."
             }
             FaultKind::OutOfBounds => {
-                "The number was limited to its bounds. Look at the state of the robot and at what it counts. After reset and start the step is made again from its beginning: what it counted before the fault is counted twice."
+                "The number was limited to its bounds. Check the state of the robot and its counters. After reset and start the step is repeated from its beginning: items counted before the fault are counted twice."
             }
             FaultKind::NotFinite => {
-                "The old value was kept. Look at the inputs and parameters from which it is computed; after reset and start the step is made again from its beginning: what it counted before the fault is counted twice."
+                "The old value was kept. Check the inputs and parameters from which it is computed. After reset and start the step is repeated from its beginning: items counted before the fault are counted twice."
             }
             FaultKind::InvariantFails => {
-                "Do what the text says. If it is a condition, look at the values that it names, and set them right before reset, or the fault returns."
+                "Do what the text says. If it is a condition, check the values that it names, and correct them before reset, or the fault returns."
             }
             FaultKind::NotKept => {
-                "A value has changed that the text promises to keep. Look at who writes it."
+                "A value has changed that the text promises to keep. Check which robots write it."
             }
             FaultKind::NotFollowed => {
-                "Look for what was waited for: the answer of a device, another robot, or somebody who has to do something."
+                "Check what did not happen in time: the answer of a device, the action of another robot, or the action of a person."
             }
             FaultKind::TooLong => {
-                "Look for what the state waits for: the answer of the device, or another robot. After reset and start the state has its whole time again."
+                "Check what the state waits for: the answer of the device, or another robot. After reset and start the time of the state begins anew."
             }
         };
         let about = format!("{} ({})", translate(Use::Alarm, &site.text), shared.line(site.place));
@@ -79,20 +79,20 @@ fn of_the_line(shared: Shared) -> Vec<(i32, &'static str, &'static str)> {
         (
             LATE_SCAN,
             "a scan came later than late_ms after the one before, by the clock of the PLC",
-            "The PLC was stopped while the line was running, or its task has not enough time: look at the load of the processor and at tasks of higher priority. Then reset and start.",
+            "The PLC was stopped while the line was running, or its task has not enough time: check the load of the processor and tasks of higher priority. Then reset and start.",
         ),
     ];
     if restart::retains(shared) {
         faults.push((
             NOT_RETAINED,
-            "what was retained is not of this program, or not of one scan",
-            "The program was changed while power was off, or power was lost within a scan. The line begins as at first: secure the parts on the grippers, empty trays and briefcases, then reset and start.",
+            "the retained values are not of this program, or not of one scan",
+            "The program was changed while power was off, or power was lost within a scan. The line begins with its initial values: secure the parts on the grippers, empty trays and briefcases, then reset and start.",
         ));
     }
     faults.push((
         NO_SUCH_STATE,
         "the state has a number that does not exist",
-        "The memory of the controller is damaged: only a cold start helps. Secure the parts on the grippers first: without power they are let go. Empty trays and briefcases: the controller forgets what lies there.",
+        "The memory of the controller is damaged: only a cold start helps. Secure the parts on the grippers first: without power they fall. Empty trays and briefcases: the controller loses the data of their parts.",
     ));
     faults
 }

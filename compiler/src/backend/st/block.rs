@@ -153,7 +153,7 @@ fn state_variable(shared: Shared, id: AutomatonId) -> Variable {
     let retained = &shared.system.model.automaton(id).retained;
     let mut variable = Variable::new("state", Basic::Dint).retained(retained.state);
     for (number, state) in states.iter().enumerate() {
-        let about = if number == 0 { "nothing was done yet".into() } else { state.doc.join(" ") };
+        let about = if number == 0 { "before the first step".into() } else { state.doc.join(" ") };
         let about = if about.is_empty() { about } else { format!(": {}", about.trim()) };
         variable = variable.with_comment(format!("{number} {}{about}", state.name));
     }
@@ -294,7 +294,7 @@ pub fn locals(
     let automaton = shared.system.model.automaton(id);
     let own = &shared.names.automata[id.0];
     let mut all = vec![
-        Variable::new("done", Basic::Bool).with_comment("the last command has ended well"),
+        Variable::new("done", Basic::Bool).with_comment("the last command has ended successfully"),
         Variable::new("failed", Basic::Bool).with_comment("the last command has ended in error"),
     ];
     let defines = automaton.defines.iter().zip(&own.defines).map(|(define, held)| {

@@ -30,7 +30,7 @@ pub fn report(shared: Shared, line: &Line) -> String {
         .map(|unit| Bound { name: &unit.name, once: greatest(&unit.body), instances: count(unit) })
         .collect();
     let mut text = String::from(
-        "The most statements that one scan executes. An assignment, a call, a test and a round of a loop count one.\nThe program is not a safety function.\n\n",
+        "The most statements that one scan executes. An assignment, a call, a test and an iteration of a loop count one each.\nThe program is not a safety function.\n\n",
     );
     let _ = writeln!(text, "{:<32} {:>8} {:>9} {:>9}", "unit", "once", "instances", "together");
     for bound in &bounds {

@@ -85,7 +85,7 @@ impl Globals {
             list("GVL_System", "inputs and outputs of the line", OF_WHAT_IS_SHOWN, self.system.clone()),
             List {
                 name: "GVL_Retained",
-                about: "what outlasts a loss of power",
+                about: "retained values",
                 attributes: OF_WHAT_IS_SHOWN,
                 variables: retained,
                 is_retained: true,
@@ -121,7 +121,7 @@ fn system(shared: Shared) -> Vec<Variable> {
         ),
         variable("start", Ex::Bool(false), "input: its rising edge starts the line"),
         variable("reset", Ex::Bool(false), "input: its rising edge clears a fault"),
-        variable("running", Ex::Bool(false), "output: the blocks step"),
+        variable("running", Ex::Bool(false), "output: the line runs"),
         variable("fault", Ex::Bool(false), "output: a fault is latched"),
         variable("fault_code", Ex::Int(0), "output: see alarms.csv; 0 without a fault"),
         variable(
@@ -150,7 +150,7 @@ fn system(shared: Shared) -> Vec<Variable> {
             variable(
                 "alarm_code",
                 Ex::Int(0),
-                "output: of the alarms that are not acknowledged, the one raised first, see alarms.csv; 0: none",
+                "output: first raised alarm that is not acknowledged, see alarms.csv; 0: none",
             ),
             variable("alarm_robot", Ex::Int(-1), "output: number of its robot; -1: none"),
             variable("scan_no", Ex::Int(0), "scans since power-up"),
@@ -304,7 +304,7 @@ fn relations(shared: Shared) -> Vec<Table> {
             let n = reaches.iter().map(Vec::len).sum::<usize>();
             let width = reaches.first().map_or(0, Vec::len);
             let comments = vec![
-                "whether items get from the one to the other".to_string(),
+                "whether items get from the first robot to the second".to_string(),
                 rows(shared, relation.from, Some(width)),
                 rows(shared, relation.to, None),
             ];

@@ -83,7 +83,7 @@ impl Lowering<'_> {
         out
     }
 
-    /// Its own elements of those arrays of cells, as at first.
+    /// The initial values of its own elements of those arrays of cells.
     pub fn own_cells(&self, globals: &Globals, is_wanted: impl Fn(&Table) -> bool) -> Vec<Stmt> {
         let automaton = self.automaton();
         let mut out = Vec::new();

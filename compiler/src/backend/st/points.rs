@@ -71,7 +71,7 @@ fn line(system: &System) -> Vec<Terminal> {
         ),
         ("start", input, Kind::Bool, None, "its rising edge starts the line"),
         ("reset", input, Kind::Bool, None, "its rising edge clears a fault"),
-        ("running", output, Kind::Bool, truth(), "the robots step"),
+        ("running", output, Kind::Bool, truth(), "the line runs"),
         ("fault", output, Kind::Bool, truth(), "a fault is latched"),
         ("fault_code", output, codes, Some(Ex::Int(0)), "see alarms.csv; 0 without a fault"),
         (
@@ -89,7 +89,7 @@ fn line(system: &System) -> Vec<Terminal> {
             output,
             codes,
             Some(Ex::Int(0)),
-            "of the alarms that are not acknowledged, the one raised first: see alarms.csv; 0 without one",
+            "first raised alarm that is not acknowledged: see alarms.csv; 0 without one",
         ),
         ("alarm_robot", output, robots, Some(Ex::Int(-1)), "number of its robot; -1 without one"),
     ];

@@ -67,7 +67,7 @@ pub fn program(shared: Shared, blocks: &[Option<Blocks>], globals: &Globals, ima
     body.push(when(name("fault"), vec![assign("running", Ex::Bool(false))]));
     body.extend(alarm::told(shared));
     body.push(Stmt::Comment(
-        "Outputs: as the blocks left them, or with stop values while the line does not run.".into(),
+        "Outputs: the values of the blocks, or stop values while the line does not run.".into(),
     ));
     for (robot, _, blocks) in &robots {
         body.extend(publish(shared, *robot, &blocks.steps));
@@ -94,7 +94,7 @@ pub fn program(shared: Shared, blocks: &[Option<Blocks>], globals: &Globals, ima
                 .with_comment("scan of the first alarm that is not acknowledged"),
             Variable::new(ELEMENT, Basic::Dint).with_comment("number of an element"),
             Variable::new(ROUNDED, Basic::Dint)
-                .with_comment("a raw value before it becomes one of its narrow type"),
+                .with_comment("a raw value before its conversion to a narrower type"),
         ]
         .into_iter()
         .filter(|variable| used.contains(&variable.name))
@@ -117,7 +117,7 @@ fn status(shared: Shared) -> Vec<Stmt> {
     let arm = |condition: Ex, body: Vec<Stmt>| Arm { comments: Vec::new(), condition, body };
     let mut body = vec![
         Stmt::Comment(
-            "Running: from a rising edge of start, as long as there are permit and no fault.".into(),
+            "Running: from a rising edge of start, while run_permit is true and there is no fault.".into(),
         ),
         assign("had_fault", has_fault()),
         assign("fault_cleared", and(vec![name("had_fault"), edge("reset")])),
@@ -231,7 +231,7 @@ pub fn layout(globals: &Globals) -> Unit {
     let counter = Variable::new(ELEMENT, Basic::Dint).with_comment("number of an element");
     Unit {
         name: LAYOUT.into(),
-        comments: vec!["The numbers of this layout, and what shared cells hold at power-up.".into()],
+        comments: vec!["The values of this layout, and the initial values of shared cells.".into()],
         inputs: vec![Variable::new("cold_start", Basic::Bool).with_comment("this is the first scan")],
         externals: globals.all().filter(|v| used.contains(&v.name)).map(Variable::uncommented).collect(),
         variables: if used.contains(ELEMENT) { vec![counter] } else { Vec::new() },

@@ -68,12 +68,9 @@ pub fn block(shared: Shared, id: AutomatonId, globals: &Globals) -> Option<Block
         unit: Unit {
             name: lowering.own().properties.clone(),
             comments: vec![if automaton.properties.is_empty() {
-                format!(
-                    "When each {} goes on that was stopped, behind the steps of all robots.",
-                    automaton.name
-                )
+                format!("Restart of each {} that was stopped, after the steps of all robots.", automaton.name)
             } else {
-                format!("What each {} promises, looked at behind the steps of all robots.", automaton.name)
+                format!("The properties of each {}, checked after the steps of all robots.", automaton.name)
             }],
             inputs,
             externals: externals(globals, &used),
@@ -109,7 +106,7 @@ pub fn body(lowering: &mut Lowering) -> Vec<Stmt> {
         [not(of("alarms_active")), of("alarms_acknowledged")]
     });
     if automaton.can_stop() {
-        out.push(Stmt::Comment("It goes on from the next scan on.".into()));
+        out.push(Stmt::Comment("It continues from the next scan.".into()));
         let mut enabled = Vec::new();
         if let Some(modes) = &automaton.modes {
             enabled.push(lowering.condition(&modes.may_go_on, &mut out));

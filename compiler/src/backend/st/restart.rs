@@ -1,7 +1,7 @@
 //! Going on after a loss of power: what is retained, and the first scan after it.
 //!
 //! Retained variables are declared so, and the first scan leaves them alone if [`WARM`] says that all of them are of
-//! this program and of one scan. Otherwise everything is as at first.
+//! this program and of one scan. Otherwise everything has its initial value.
 
 use super::block::{Candidate, kept_values};
 use super::code::{Arm, Ex, Stmt, and, assign, binary, name, not, when};
@@ -39,11 +39,10 @@ pub fn variables(shared: Shared) -> Vec<Variable> {
         Variable::new(name, basic).with_initial(initial).with_comment(about)
     };
     vec![
-        variable(WARM, Basic::Bool, Ex::Bool(false), "the first scan begins with what was retained"),
-        variable(OF, Basic::Dint, Ex::Int(0), "of which program the retained values are; 0: of none")
+        variable(WARM, Basic::Bool, Ex::Bool(false), "the first scan begins with retained values"),
+        variable(OF, Basic::Dint, Ex::Int(0), "identifies the program of the retained values; 0: none")
             .retained(true),
-        variable(WHOLE, Basic::Bool, Ex::Bool(false), "the retained values are all of one scan")
-            .retained(true),
+        variable(WHOLE, Basic::Bool, Ex::Bool(false), "all retained values are of one scan").retained(true),
     ]
 }
 
@@ -60,7 +59,7 @@ pub fn begin(shared: Shared) -> Vec<Stmt> {
         body: vec![assign("fault_code", Ex::Int(code)), assign("fault_robot", Ex::Int(-1))],
     };
     let first = vec![
-        Stmt::Comment("What was retained counts if it is of this program and of one scan.".into()),
+        Stmt::Comment("Retained values are used if they are of this program and of one scan.".into()),
         assign(WARM, and(vec![name(WHOLE), binary("=", name(OF), shape())])),
         Stmt::If(
             vec![
@@ -117,7 +116,7 @@ impl Lowering<'_> {
             .map(|state| binary("=", name("state"), Ex::Member(self.state(self.id, state))))
             .collect();
         if !begins_anew.is_empty() {
-            body.push(Stmt::Comment("It goes on from states that say `resume` only.".into()));
+            body.push(Stmt::Comment("It continues only in states that say `resume`.".into()));
             body.push(when(super::code::or(begins_anew), vec![beginning()]));
         }
         body.push(assign("elapsed", Ex::Int(0)));

@@ -17,7 +17,7 @@ impl Lowering<'_> {
         let mut body = self.chain(number, &state.transitions);
         body.extend(self.within(state));
         if body.is_empty() {
-            let text = if state.is_final { "the end" } else { "nothing leads on" };
+            let text = if state.is_final { "final state" } else { "no transition leaves it" };
             body.push(Stmt::Comment(text.into()));
             body.push(assign("state", Ex::Member(self.state(self.id, number))));
         }

@@ -16,7 +16,7 @@ pub fn table(shared: Shared, translate: &mut Translate) -> String {
             continue;
         }
         for (number, state) in automaton.states.iter().enumerate() {
-            let meaning = if number == 0 { "nothing was done yet".into() } else { state.doc.join(" ") };
+            let meaning = if number == 0 { "before the first step".into() } else { state.doc.join(" ") };
             let [name, meaning] =
                 [translate(Use::State, &state.name), translate(Use::Meaning, meaning.trim())];
             text += &row(&[&automaton.name, &robots.join(" "), &number.to_string(), &name, &meaning]);

@@ -48,7 +48,7 @@ pub fn globals(shared: Shared) -> [Variable; 2] {
         variable(
             LATE,
             late,
-            "setting: if a scan comes later than this after the one before, the line stops; ms",
+            "setting: greatest time between two scans, ms; if a scan comes later, the line stops",
         ),
     ]
 }
@@ -86,20 +86,20 @@ pub fn block() -> Unit {
     let variable = |(name, about): (&str, &str)| Variable::new(name, Basic::Dint).with_comment(about);
     let truth = |name: &str, about: &str| Variable::new(name, Basic::Bool).with_comment(about);
     let inputs = [
-        (NOW, "its clock: ms from 0 to 2147483647 and again from 0; -1: no clock"),
-        (INTERVAL, "what the interval of the task has to be, ms"),
-        (LIMIT, "a scan that comes later than this after the one before is late, ms"),
+        (NOW, "clock of the PLC: ms from 0 to 2147483647 and again from 0; -1: no clock"),
+        (INTERVAL, "required interval of the task, ms"),
+        (LIMIT, "greatest time between two scans, ms; a later scan is a fault"),
     ];
     Unit {
         name: WATCHDOG.into(),
-        comments: vec!["Looks whether the task keeps its time, by the clock of the PLC.".into()],
+        comments: vec!["Checks the interval of the task by the clock of the PLC.".into()],
         inputs: [truth("cold_start", "this is the first scan")]
             .into_iter()
             .chain(inputs.map(variable))
-            .chain([truth("runs", "the line is running"), truth("starts", "somebody wants to start it")])
+            .chain([truth("runs", "the line is running"), truth("starts", "a person starts it")])
             .collect(),
         outputs: [
-            (CODE, "fault: 0 none, 32764 the interval of the task is another one, 32765 a scan came late"),
+            (CODE, "fault: 0 none, 32764 wrong interval of the task, 32765 a scan came late"),
             (PASSED, "ms since the scan before; -1: not known"),
             (HUNDRED, "ms that the last 100 scans took; -1: not measured"),
         ]
@@ -107,8 +107,8 @@ pub fn block() -> Unit {
         .into(),
         variables: [
             (BEFORE, "clock_ms in the scan before"),
-            (MEASURED, "ms of the scans that are counted so far"),
-            (SCANS, "how many they are"),
+            (MEASURED, "ms of the scans counted so far"),
+            (SCANS, "number of these scans"),
         ]
         .map(variable)
         .into(),

@@ -39,7 +39,7 @@ impl Context<'_, '_> {
             _ => {
                 self.report(
                     Diagnostic::new("E0316", span, "this whole number is not proved to fit into 32 bits")
-                        .label(format!("it is in {lo}..{hi} for all that is known"))
+                        .label(format!("its derived bounds are {lo}..{hi}"))
                         .help("declare the variables with narrower bounds"),
                 );
                 None
@@ -120,7 +120,7 @@ impl Context<'_, '_> {
             (Scalar::Point, Scalar::Point) => {
                 self.report(
                     Diagnostic::new("E0317", span, "points cannot be compared")
-                        .help("whether a machine is in position its device answers: use `done`"),
+                        .help("the device says whether the machine is in position: use `done`"),
                 );
                 return None;
             }
@@ -213,11 +213,11 @@ impl Context<'_, '_> {
         let parameter = of.into_iter().find_map(|part| self.unbounded_parameter(part));
         let help = match parameter {
             Some(name) => format!("bound the parameter: `require {name} <= 60 min else \"{name} is over an hour\";`"),
-            None => "bound what it is made of: compare it in the guard, such as `t <= 60 min`, or write `min(t, 60 min)`".into(),
+            None => "bound its operands: compare them in the guard, such as `t <= 60 min`, or write `min(t, 60 min)`".into(),
         };
         let label = match most_ms < f64::from(i32::MAX) * 2.0 {
-            true => "one of the two may be as long as a time can be".to_string(),
-            false => "for all that is known it may be too long".to_string(),
+            true => "one of the two may have the greatest value of a time".to_string(),
+            false => "its derived bounds allow a longer time".to_string(),
         };
         self.report(
             Diagnostic::new(

@@ -68,7 +68,7 @@ impl Context<'_, '_> {
             _ => {
                 let known = ["count", "min", "max", "abs", "point", "up", "squared_distance"];
                 let help = match self.automaton.device.verbs.iter().find(|v| v.name == name.value) {
-                    Some(verb) => format!("`{}` is a command: it stands in updates", verb.name),
+                    Some(verb) => format!("`{}` is a command: use it in updates", verb.name),
                     None => crate::diagnostic::suggestion(&name.value, known)
                         .map_or(format!("functions are {}", known.join(", ")), |n| {
                             format!("is `{n}` meant?")
@@ -105,7 +105,7 @@ impl Context<'_, '_> {
         };
         let Path::Place(mut place, ty) = self.path(array, None)? else {
             self.report(
-                Diagnostic::new("E0312", array.span, "this is no array").help("count a role or an array"),
+                Diagnostic::new("E0312", array.span, "this is not an array").help("count a role or an array"),
             );
             return None;
         };
@@ -113,7 +113,8 @@ impl Context<'_, '_> {
         let (domain, scalar, size) = match ty.extent {
             Extent::One => {
                 self.report(
-                    Diagnostic::new("E0312", array.span, "this is no array").help("count a role or an array"),
+                    Diagnostic::new("E0312", array.span, "this is not an array")
+                        .help("count a role or an array"),
                 );
                 return None;
             }

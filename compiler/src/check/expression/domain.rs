@@ -149,7 +149,7 @@ impl Context<'_, '_> {
                 Diagnostic::new(
                     "E0301",
                     name.span,
-                    format!("`{}` has another meaning here already", name.value),
+                    format!("`{}` already has another meaning here", name.value),
                 )
                 .help("choose another name for the variable"),
             );

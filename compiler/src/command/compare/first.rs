@@ -1,4 +1,4 @@
-//! Where two runs differ first. Both go on side by side, so that nothing has to be kept of either.
+//! Where two runs differ first. Both continue side by side, so that nothing has to be kept of either.
 
 use super::super::progress::Progress;
 use autogen::executor::{Entry, Executor};
@@ -65,7 +65,7 @@ pub fn find(projects: [&Project; 2], progress: Progress) -> Result<Found, String
     })
 }
 
-/// Ends both channels with the first difference; the runs go on without them.
+/// Ends both channels with the first difference; the runs continue without them.
 fn difference(a: Receiver<Changes>, b: Receiver<Changes>) -> Option<First> {
     loop {
         match (a.recv().ok(), b.recv().ok()) {
@@ -129,7 +129,7 @@ fn run(
     let mut observe = |seen: &Seen| progress.show(seen.scan * u64::from(project.plant.scan_ms) / 1000);
     let report = simulate(&project.plant, &mut side, Stepping::Events, &mut observe)?;
     progress.end();
-    serde_json::from_str(&report.to_json()).map_err(|e| format!("the report is no JSON: {e}"))
+    serde_json::from_str(&report.to_json()).map_err(|e| format!("the report is not JSON: {e}"))
 }
 
 struct Side<'a> {

@@ -66,7 +66,7 @@ fn items(a: &Value, b: &Value, rows: &mut Vec<Row>) {
     let names = a.iter().chain(b.iter().filter(|item| find(&a, &item["name"]).is_none()));
     for name in names.map(|item| &item["name"]) {
         let carrier = |list: &[Value]| find(list, name).and_then(|item| item.get("carrier").cloned());
-        let what = format!("{} in the end", name.as_str().unwrap_or("?"));
+        let what = format!("{} at the end", name.as_str().unwrap_or("?"));
         rows.push(row(what, carrier(&a).as_ref(), carrier(&b).as_ref()));
     }
 }

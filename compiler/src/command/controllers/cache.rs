@@ -48,7 +48,7 @@ impl Entry {
         if made.is_some_and(|made| made == hash(&bytes)) {
             return Some(path);
         }
-        notice.say("the compiled controllers in the cache are not what was compiled, and are not used");
+        notice.say("the compiled controllers in the cache were changed, and are not used");
         None
     }
 
@@ -74,8 +74,7 @@ impl Entry {
 fn cache() -> Result<PathBuf, String> {
     let set = |name: &str| env::var_os(name).map(PathBuf::from).filter(|path| path.is_absolute());
     set("XDG_CACHE_HOME").or_else(|| Some(set("HOME")?.join(".cache"))).ok_or_else(|| {
-        "compiled controllers have to be kept somewhere: set HOME or XDG_CACHE_HOME to an absolute path"
-            .into()
+        "there is no folder for compiled controllers: set HOME or XDG_CACHE_HOME to an absolute path".into()
     })
 }
 

@@ -67,7 +67,7 @@ impl SharedLibrary {
                 *library.get::<unsafe extern "C" fn() -> u32>(b"autogen_version\0").map_err(failed)?;
             match version() {
                 VERSION => {}
-                other => return Err(format!("{}: it speaks version {other}", path.display())),
+                other => return Err(format!("{}: its interface has version {other}", path.display())),
             }
             Ok(Self(Arc::new(Functions {
                 open: *library.get(b"autogen_open\0").map_err(failed)?,
@@ -96,7 +96,7 @@ impl SharedLibrary {
         if session.is_null() {
             let message = message.get(..length).unwrap_or_default();
             return Err(format!(
-                "the controllers refuse their parameters: {}",
+                "the controllers do not accept their parameters: {}",
                 String::from_utf8_lossy(message)
             ));
         }

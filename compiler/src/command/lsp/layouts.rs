@@ -10,9 +10,9 @@ use std::time::SystemTime;
 
 /// Folders above that of a file in which its layouts are looked for, at most to that of the workspace.
 const MOST_ABOVE: usize = 4;
-/// Files of JSON of one folder that are looked at.
+/// JSON files of one folder that are read.
 const MOST_FILES: usize = 200;
-/// Bytes of all files that are looked at for one question.
+/// Bytes of all files that are read for one question.
 const MOST_BYTES: usize = 20_000_000;
 /// Layouts of one file.
 const MOST_LAYOUTS: usize = 16;

@@ -18,7 +18,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 use transport::Incoming;
 
-/// Messages that are kept before they are looked at.
+/// Messages that are kept before they are checked.
 const MOST_WAITING: usize = 100;
 /// Nothing is checked while somebody types: until nothing has come for so long,
 const QUIET: Duration = Duration::from_millis(150);

@@ -29,7 +29,7 @@ impl Published {
             let of_file = new.entry(path.into()).or_default();
             if document.text.is_none() {
                 let most = MOST_BYTES / 1_000_000;
-                let text = format!("this file is larger than {most} MB, the most that is read");
+                let text = format!("this file is larger than {most} MB, which is the limit");
                 of_file.push(diagnostics::of_file(&text));
             }
         }
@@ -61,7 +61,7 @@ impl Published {
     }
 }
 
-/// Of what several roots find in a file each is told once.
+/// Of what several roots find in a file each is reported once.
 fn add(new: &mut BTreeMap<PathBuf, Vec<Diagnostic>>, open: &[PathBuf], found: &Found, documents: &Documents) {
     let mut tell = |path: &Path, diagnostic: Diagnostic| {
         let of_file = new.entry(path.into()).or_default();

@@ -175,7 +175,7 @@ impl Questions {
     /// The place and text of a name that can be renamed.
     pub fn renamed_at(&mut self, asked: &Asked, layouts: &mut Layouts) -> Result<(Range, String), String> {
         let all = self.at(asked, layouts);
-        let mut first = Err("no name stands here that could be renamed".to_string());
+        let mut first = Err("there is no name here that can be renamed".to_string());
         for at in all.iter().rev() {
             let (_, place) = rename::renamed_at(at.specs, at.span())?;
             first = Ok((at.range(place), at.specs.sources.text(place).to_string()));
@@ -194,12 +194,12 @@ impl Questions {
         let mut known = HashSet::new();
         let all = self.at(asked, layouts);
         if all.is_empty() {
-            return Err("no name stands here that could be renamed".into());
+            return Err("there is no name here that can be renamed".into());
         }
         for at in &all {
             for (span, new_text) in rename::rename(at.specs, at.span(), name)? {
                 let location = at.files.location(span);
-                let location = location.ok_or("a file that is to be changed is not on this machine")?;
+                let location = location.ok_or("a file that has to be changed is not on this machine")?;
                 if known.insert(location.clone()) {
                     let edit = TextEdit { range: location.range, new_text };
                     changes.entry(location.uri).or_default().push(edit);

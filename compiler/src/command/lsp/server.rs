@@ -121,12 +121,14 @@ impl<W: Write> Server<W> {
                 self.folders = folders(&params);
                 result::<InitializeRequest>(capabilities())
             }
-            (Stage::Begun, _) => Err(error(ErrorCodes::ServerNotInitialized, "`initialize` comes first")),
+            (Stage::Begun, _) => {
+                Err(error(ErrorCodes::ServerNotInitialized, "`initialize` has to be the first request"))
+            }
             (Stage::ShutDown, _) => {
-                Err(error(ErrorCodes::InvalidRequest, "after `shutdown` only `exit` comes"))
+                Err(error(ErrorCodes::InvalidRequest, "after `shutdown` only `exit` is allowed"))
             }
             (Stage::Running, LspRequestMethod::Initialize) => {
-                Err(error(ErrorCodes::InvalidRequest, "`initialize` came already"))
+                Err(error(ErrorCodes::InvalidRequest, "`initialize` was already received"))
             }
             (Stage::Running, LspRequestMethod::Shutdown) => {
                 self.stage = Stage::ShutDown;

@@ -36,14 +36,14 @@ pub fn read(input: &mut impl BufRead) -> Incoming {
 fn parsed(body: &[u8]) -> Incoming {
     let json: Value = match serde_json::from_slice(body) {
         Ok(json) => json,
-        Err(why) => return Incoming::Wrong(ErrorCodes::ParseError, format!("this is no JSON: {why}")),
+        Err(why) => return Incoming::Wrong(ErrorCodes::ParseError, format!("this is not JSON: {why}")),
     };
     if json.get("method").is_none() && json.get("id").is_some() {
         return Incoming::Answer;
     }
     match serde_json::from_value(json) {
         Ok(request) => Incoming::Request(request),
-        Err(why) => Incoming::Wrong(ErrorCodes::InvalidRequest, format!("this is no request: {why}")),
+        Err(why) => Incoming::Wrong(ErrorCodes::InvalidRequest, format!("this is not a request: {why}")),
     }
 }
 
@@ -90,7 +90,7 @@ fn length(input: &mut impl BufRead) -> Result<Option<u64>, Incoming> {
         if let Some((name, value)) = line.split_once(':')
             && name.trim().eq_ignore_ascii_case("Content-Length")
         {
-            let wrong = |_| Incoming::Lost("the `Content-Length` of a header is no number".into());
+            let wrong = |_| Incoming::Lost("the `Content-Length` of a header is not a number".into());
             length = Some(value.trim().parse().map_err(wrong)?);
         }
     }

@@ -8,26 +8,26 @@ use std::path::{Path, PathBuf};
 pub struct WhyOptions {
     #[command(flatten)]
     pub input: InputOptions,
-    /// Seconds of the run; default: its end
+    /// Time of the run in seconds; default: its end
     #[arg(long, value_name = "SECONDS")]
     pub at: Option<String>,
-    /// This machine only; may be given several times
+    /// Only this machine; may be given several times
     #[arg(long, value_name = "NAME")]
     pub robot: Vec<String>,
     /// Also say when the clauses became true after that time, and when the machines left their states
     #[arg(long, requires = "at")]
     pub until: bool,
-    /// How many scans late devices answer: a number, or `random` or `random:SEED` for 0 to 5
+    /// Number of scans by which devices answer late: a number, or `random` or `random:SEED` for 0 to 5
     #[arg(long, value_name = "N", default_value = "0")]
     pub io_delay: String,
 }
 
 #[derive(Args, Debug)]
 pub struct CompareOptions {
-    /// A layout, a `results.json`, or a folder that holds one
+    /// A layout, a `results.json`, or a folder with one
     #[arg(value_name = "A")]
     pub first: PathBuf,
-    /// What it is compared with: another one of the same kind
+    /// The other one, of the same kind
     #[arg(value_name = "B")]
     pub second: PathBuf,
     /// Of layouts: a folder of automata (*.aut), or one such file, for both
@@ -76,13 +76,13 @@ pub struct FmtOptions {
 
 #[derive(Args, Debug)]
 pub struct CompletionsOptions {
-    /// The shell that completes
+    /// The shell
     pub shell: clap_complete::Shell,
 }
 
 #[derive(Args, Debug)]
 pub struct LspOptions {
-    /// Nothing else: many editors say so
+    /// No effect; many editors give this option
     #[arg(long, hide = true)]
     pub stdio: bool,
 }
@@ -107,17 +107,17 @@ pub enum SchemaOf {
 
 #[derive(Args, Debug)]
 pub struct TestOptions {
-    /// Files of tests (*.test), or folders in which they are looked for, at any depth up to 8
+    /// Files of tests (*.test), or folders that are searched for them, to a depth of 8
     #[arg(required = true, value_name = "PATH")]
     pub paths: Vec<PathBuf>,
-    /// What runs the controllers, such as `executor,rust,st`: the reference executor, the compiled Rust, the Structured
-    /// Text by an evaluator
+    /// Engines of the controllers, such as `executor,rust,st`: the reference executor, the compiled Rust, the
+    /// Structured Text on an evaluator
     #[arg(long, value_enum, value_delimiter = ',', value_name = "ENGINE", default_value = "executor")]
     pub on: Vec<TestEngine>,
     /// A folder of automata (*.aut), or one such file: adds to the library and replaces types of the same name
     #[arg(long, value_name = "PATH")]
     pub specs: Vec<PathBuf>,
-    /// Also write the results to this file, as XML in the form of JUnit
+    /// Also write the results to this file, as XML in the JUnit format
     #[arg(long, value_name = "FILE")]
     pub junit: Option<PathBuf>,
     /// Print failures only
@@ -145,7 +145,7 @@ impl TestEngine {
 
 #[derive(Args, Debug)]
 pub struct NewOptions {
-    /// The folder, which is made; it may be there if it is empty
+    /// The new folder; it may exist if it is empty
     #[arg(value_name = "DIR")]
     pub folder: PathBuf,
     /// Print errors only

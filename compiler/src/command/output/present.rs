@@ -37,7 +37,7 @@ pub fn text(path: &Path) -> io::Result<String> {
     let there = path.symlink_metadata()?;
     match there.is_file() && there.len() <= MOST_BYTES {
         true => fs::read_to_string(path),
-        false => Err(io::Error::other("this is no file that autogen has written")),
+        false => Err(io::Error::other("autogen did not write this file")),
     }
 }
 

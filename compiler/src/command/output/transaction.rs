@@ -160,9 +160,7 @@ fn undo(folder: &Path, staged: &Path, inputs: &[PathBuf]) -> Result<(), Refusal>
     let named = |entry: &Value| Some(entry["name"].as_str()?.to_string());
     let names: Vec<String> = all.iter().filter_map(named).collect();
     if names.len() < all.len() || !names.iter().all(|name| is_within(name)) {
-        return Err(failed(io::Error::other(
-            "this is no journal of autogen; remove the folder that it is in",
-        )));
+        return Err(failed(io::Error::other("this is not a journal of autogen; remove its folder")));
     }
     let read = among(inputs, names.iter().map(|name| folder.join(name)));
     if !read.is_empty() {

@@ -22,7 +22,7 @@ pub const COMMON: [(&str, &str); 9] = [
     ("io_delay", "it has another `--io-delay`"),
     ("replications", "it has another number of replications"),
     ("warm_up", "it has another `--warm-up`"),
-    ("parts", "it is of another number of parts"),
+    ("parts", "it has another number of parts"),
 ];
 
 pub struct Head {

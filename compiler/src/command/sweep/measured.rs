@@ -60,7 +60,7 @@ impl Measured {
                 )));
             }
             if keys[..i].contains(key) {
-                return Err(said(format!("the column `{key}` stands twice")));
+                return Err(said(format!("the column `{key}` occurs twice")));
             }
         }
         let mut rows = BTreeMap::new();
@@ -76,11 +76,11 @@ impl Measured {
                 match written.as_str() {
                     "" => None,
                     text => Some(text.parse::<f64>().ok().filter(|s| s.is_finite() && *s > 0.0).ok_or_else(
-                        || said(format!("line {}: `{text}` is no number of seconds above 0", number())),
+                        || said(format!("line {}: `{text}` is not a number of seconds above 0", number())),
                     )?),
                 };
             if rows.insert(point, value).is_some() {
-                return Err(said(format!("line {}: this point stands twice", number())));
+                return Err(said(format!("line {}: this point occurs twice", number())));
             }
         }
         Ok(Self { rows, keys, squares: 0.0, ratios: 0 })

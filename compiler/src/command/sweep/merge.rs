@@ -99,8 +99,8 @@ fn of_another_sweep(sources: &mut Sources, path: &Path, head: &Head, first: &Fou
     let message = format!("{file} is a part of another sweep than {other}: {what}");
     Some(
         Diagnostic::new("E0804", place(sources, path), message)
-            .note("parts go together if layouts, types, scenario, options and autogen are the same, by their hashes")
-            .help("merge the parts of each sweep by themselves, or run this part again as the others were"),
+            .note("the layouts, types, scenario, options and autogen of all parts have to be the same, by their hashes")
+            .help("merge the parts of each sweep separately, or run this part again with the options of the others"),
     )
 }
 
@@ -111,7 +111,7 @@ fn given_twice(sources: &mut Sources, path: &Path, head: &Head, parts: &[Found])
     Some(Diagnostic::new("E0805", place(sources, path), message).help("name one of the two files"))
 }
 
-/// Numbers of missing parts that are told.
+/// Numbers of missing parts that are reported.
 const MOST_TOLD: usize = 20;
 
 fn missing(sources: &mut Sources, parts: &[Found]) -> Option<Diagnostic> {

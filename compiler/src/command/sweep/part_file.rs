@@ -60,8 +60,8 @@ impl PartFile {
         }
         // Nothing of a file of another kind is shown.
         let place = Span::new(sources.add(self.name.as_str(), ""), 0, 0);
-        Ok(Err(Diagnostic::new("E0801", place, format!("{} is no part of a sweep", self.name))
-            .note("the first line of a part says which one it is, and of what sweep")
+        Ok(Err(Diagnostic::new("E0801", place, format!("{} is not a part of a sweep", self.name))
+            .note("the first line of a part says which part of which sweep it is")
             .help("name files that `autogen sweep --part K/N` wrote")))
     }
 
@@ -76,7 +76,7 @@ impl PartFile {
                     let all = head.part.runs(count).count();
                     let message = format!("part {} ends after {done} of its {all} runs", head.part);
                     return Ok(Err(Diagnostic::new("E0803", self.place(sources, ""), message)
-                        .note("it was interrupted, or is still at work")
+                        .note("it was interrupted, or is not finished")
                         .help(again)));
                 }
             };
@@ -84,7 +84,7 @@ impl PartFile {
                 let number = head.design.run(index);
                 let (point, replication) = (number.point + 1, number.replication + 1);
                 let message = format!(
-                    "this is not what part {} has of point {point}, replication {replication}: {what}",
+                    "this is not the result of part {} for point {point}, replication {replication}: {what}",
                     head.part
                 );
                 return Ok(Err(Diagnostic::new("E0802", self.place(sources, &text), message)
@@ -95,7 +95,7 @@ impl PartFile {
         match self.line()? {
             Line::End => Ok(Ok(())),
             Line::Text(_) | Line::Broken => {
-                let message = format!("part {} goes on behind its last run", head.part);
+                let message = format!("part {} continues after its last run", head.part);
                 Ok(Err(Diagnostic::new("E0803", self.place(sources, ""), message)
                     .note("the file was changed, or two processes wrote into it")
                     .help(again)))
@@ -116,9 +116,9 @@ pub fn outcome(line: &str, head: &Head, index: usize) -> Result<Outcome, String>
     match serde_json::from_str(line) {
         Ok(Value::Object(line)) => {
             let outcome = Outcome::from_line(&line, &head.design, head.design.run(index));
-            outcome.map_err(|key| format!("`{key}` is another"))
+            outcome.map_err(|key| format!("`{key}` is different"))
         }
-        Ok(_) => Err("it is no object".into()),
-        Err(error) => Err(format!("it is no JSON ({error})")),
+        Ok(_) => Err("it is not an object".into()),
+        Err(error) => Err(format!("it is not JSON ({error})")),
     }
 }

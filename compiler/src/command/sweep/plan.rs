@@ -44,7 +44,7 @@ pub struct Line {
     /// Its own, or that of its file.
     name: String,
     library: Mutex<Option<Result<SharedLibrary, String>>>,
-    /// What runs of this layout have found; one for each that goes on at the same time.
+    /// What runs of this layout have found; one for each that continues at the same time.
     memories: Mutex<Vec<Memory>>,
 }
 
@@ -60,7 +60,7 @@ impl Plan {
         for (number, axis) in axes.iter().enumerate() {
             if axes[..number].iter().any(|other| other.name == axis.name) {
                 return Err(Refusal::Said(format!(
-                    "--set {} stands twice; give all its values in one list, separated by commas",
+                    "--set {} is given twice; give all its values in one list, separated by commas",
                     axis.name
                 )));
             }

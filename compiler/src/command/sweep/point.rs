@@ -113,7 +113,7 @@ fn run(plan: &Plan, point: &Point, replication: u32, notice: Notice) -> Result<V
 
 fn results(report: &Report, system: &System, sources: &Sources) -> Result<Value, End> {
     let mut results = serde_json::from_str(&report.to_json())
-        .map_err(|e| End::NoReport(format!("the report is no JSON: {e}")))?;
+        .map_err(|e| End::NoReport(format!("the report is not JSON: {e}")))?;
     fault::name(&mut results, system, sources);
     Ok(results)
 }

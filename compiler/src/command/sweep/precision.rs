@@ -20,7 +20,7 @@ impl Precision {
 
     /// The sequential rule of Chow and Robbins, On the asymptotic theory of fixed-width sequential confidence intervals
     /// for the mean, Annals of Mathematical Statistics 36 (1965), for a relative width: Law, Simulation Modeling and
-    /// Analysis, section 9.4.1. The sample is looked at after each run, in the order of the replications.
+    /// Analysis, section 9.4.1. The sample is checked after each run, in the order of the replications.
     pub fn is_reached(self, seconds_per_order: &Sample) -> bool {
         let figures = seconds_per_order.half_width().zip(seconds_per_order.mean());
         seconds_per_order.count >= FEWEST && figures.is_some_and(|(half, mean)| half <= self.0 * mean)

@@ -189,7 +189,7 @@ impl<'a> Table<'a> {
         if self.format == TableFormat::Text
             && let Some((rms, ratios)) = rms
         {
-            say!("\nRMS of what the {ratios} ratios differ from 1: {:.1} %", rms * 100.0);
+            say!("\nRMS of the difference between the {ratios} ratios and 1: {:.1} %", rms * 100.0);
         }
         self.kept.unwrap_or_default()
     }

@@ -1,4 +1,4 @@
-//! The warm-up of a run: orders that say how the line starts and not how it goes on.
+//! The warm-up of a run: orders that say how the line starts and not how it continues.
 
 use std::fmt;
 

@@ -60,7 +60,7 @@ pub fn text(files: &[OfFile], not_run: &[NotRun]) -> String {
     out + "</testsuites>\n"
 }
 
-/// As it may stand in XML, in attributes too.
+/// As it may be in XML, in attributes too.
 fn escaped(text: &str) -> String {
     let mut out = String::new();
     for c in plain::lines(text).chars() {

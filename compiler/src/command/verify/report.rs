@@ -33,15 +33,15 @@ impl Report<'_> {
         }
     }
 
-    /// Why the search ended before all states were looked at.
+    /// Why the search ended before all states were checked.
     fn cut(&self) -> Option<&'static str> {
         match self.outcome.end {
             End::Complete => None,
             End::Violated => Some("it ended with the violation"),
-            End::TimeIsUp => Some("the time was up"),
-            End::MemoryIsFull => Some("the memory was full"),
+            End::TimeIsUp => Some("the time limit was reached"),
+            End::MemoryIsFull => Some("the memory limit was reached"),
             End::Stopped => Some("it was interrupted"),
-            End::TooManyValues => Some("more than 65,536 places or numbers came up"),
+            End::TooManyValues => Some("there are more than 65,536 places or numbers"),
         }
     }
 
@@ -58,24 +58,25 @@ impl Report<'_> {
             },
             match self.options.orders {
                 StepOrders::One => "steps: in the order of the line".into(),
-                StepOrders::All => "steps: in any order, another one in each scan".into(),
+                StepOrders::All => "steps: in any order, which may change with each scan".into(),
             },
             if self.options.no_faults {
                 "faults: none".into()
             } else {
                 "faults: commands end in each of their errors, grippers lose what they hold".into()
             },
-            "belts bring parts of every kind, without end; times come in any scan, none is too long".into(),
-            "the system runs: no pauses, no operator".into(),
+            "belts bring parts of every kind, without end; timers expire in any scan, `within` never expires"
+                .into(),
+            "the system runs, without pauses and without an operator".into(),
         ];
         if self.outcome.covered.stops > 0 {
             bounds.push(format!(
-                "{} transitions end in a stop whose text calls the operator: what follows is not searched",
+                "{} transitions end in a stop whose text calls the operator; the search does not continue after it",
                 self.outcome.covered.stops
             ));
         }
         if plant.scenario.orders.is_empty() {
-            bounds.push("nothing is ordered: whether anything can be made is not asked".into());
+            bounds.push("nothing is ordered: whether orders can be made is not checked".into());
         }
         bounds
     }

@@ -9,7 +9,7 @@ impl Reader<'_> {
         let quote = self.peek().unwrap_or('"');
         self.advance();
         if quote == '\'' {
-            self.syntax(self.span(start), "texts stand in double quotes", "write \" instead of '");
+            self.syntax(self.span(start), "texts are in double quotes", "write \" instead of '");
         }
         let mut out = String::new();
         loop {
@@ -26,7 +26,7 @@ impl Reader<'_> {
                     self.report(
                         Diagnostic::new("E0102", self.span(start), "the text is not closed on its line")
                             .label("opened here")
-                            .note("the rest was not read: what is text there and what is not cannot be told")
+                            .note("the rest was not read, because it is unknown which part of it is text")
                             .help(format!("add the closing {quote}; for a line break in a text write \\n")),
                     );
                     self.give_up();
@@ -37,7 +37,7 @@ impl Reader<'_> {
                     self.advance();
                     let what =
                         if c.is_control() { "a control character" } else { "a byte that is not UTF-8" };
-                    self.bad_text(at, format!("the text holds {what}"));
+                    self.bad_text(at, format!("the text contains {what}"));
                 }
                 Some(c) => {
                     out.push(c);
@@ -75,7 +75,7 @@ impl Reader<'_> {
                     None => self.bad_text(start, "the escape names no character".into()),
                 }
             }
-            _ => self.bad_text(start, "JSON knows no such escape".into()),
+            _ => self.bad_text(start, "JSON has no such escape".into()),
         }
     }
 

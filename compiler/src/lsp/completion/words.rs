@@ -5,7 +5,7 @@ use crate::lsp::hover::signature;
 use crate::lsp::specs::Specs;
 use crate::spec::lexer::Token;
 
-/// One word that can stand there.
+/// One word that can be there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Word {
     pub text: String,

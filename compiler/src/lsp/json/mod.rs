@@ -1,4 +1,4 @@
-//! What can stand at a place of a layout or a scenario that is being typed: keys and values by the schema, and names of
+//! What can be at a place of a layout or a scenario that is being typed: keys and values by the schema, and names of
 //! what the line has.
 
 mod names;
@@ -41,7 +41,7 @@ pub struct Thing {
     pub kind: String,
 }
 
-/// What a word would replace, and what may stand there.
+/// What a word would replace, and what may be there.
 #[derive(Debug)]
 pub struct Completion {
     pub span: Range<usize>,

@@ -20,7 +20,7 @@ pub enum Kind {
     Text(String),
     /// A number, a word, or the beginning of one.
     Bare,
-    /// Only space, where a value is to stand.
+    /// Only space, where a value has to be.
     Nothing,
 }
 

@@ -32,7 +32,7 @@ impl Decoder {
             let message = "a button of the line takes no \"value\"";
             self.report(
                 Diagnostic::new("E0133", value.span, message)
-                    .help("remove it; or name the robot whose part is set by \"robot\""),
+                    .help("remove it, or name the robot of the part by \"robot\""),
             );
             return None;
         }

@@ -8,7 +8,7 @@ use crate::source::{Span, Spanned};
 use std::collections::HashMap;
 
 pub const MOST_ORDERS: u32 = 10_000;
-/// The `count` of orders that go on until the time limit.
+/// The `count` of orders that continue until the time limit.
 pub const WITHOUT_END: &str = "without end";
 /// Highest value of the port `order_parts` of a station.
 pub const MOST_OF_A_KIND: u32 = 12;
@@ -76,7 +76,7 @@ impl Decoder {
             let first = *before.entry(&name.value).or_insert(name.span);
             if first != name.span {
                 self.report(
-                    Diagnostic::new("E0113", name.span, format!("\"{}\" stands here twice", name.value))
+                    Diagnostic::new("E0113", name.span, format!("\"{}\" occurs here twice", name.value))
                         .other(first, "here first")
                         .note("an order opens once at each of its stations")
                         .help("remove one"),
@@ -101,7 +101,7 @@ impl Decoder {
         if complete && parts.iter().all(|n| *n == 0) {
             self.report(
                 Diagnostic::new("E0132", json.span, "an order asks for no part")
-                    .note("an order is made when its parts lie in the briefcase: this one would be made already")
+                    .note("an order is made when its parts are in the briefcase: this one would be made at once")
                     .help("ask for at least one part, or remove the order"),
             );
         }
@@ -122,7 +122,9 @@ impl Decoder {
             _ => {
                 self.report(
                     Diagnostic::new("E0115", json.span, "stations must be \"in turn\" or a list of names")
-                        .note("\"in turn\" spreads the orders over all stations of the layout, in its order")
+                        .note(
+                            "\"in turn\" distributes the orders to all stations of the layout, in its order",
+                        )
                         .help("write \"in turn\", or a list such as [\"as1\"]"),
                 );
                 None

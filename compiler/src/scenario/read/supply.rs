@@ -31,9 +31,9 @@ impl Decoder {
         };
         if let Some(surplus) = members.iter().find(|m| m.key.value == "surplus") {
             self.report(
-                Diagnostic::new("E0133", surplus.key.span, "\"surplus\" has no effect beside \"items\"")
-                    .other(items.span, "the belt brings just these parts")
-                    .note("it makes a list of parts where none is given")
+                Diagnostic::new("E0133", surplus.key.span, "\"surplus\" has no effect with \"items\"")
+                    .other(items.span, "the belt brings exactly these parts")
+                    .note("it is for a list of parts that autogen makes")
                     .help("remove \"surplus\" or \"items\""),
             );
         }

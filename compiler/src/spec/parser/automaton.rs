@@ -165,10 +165,10 @@ impl Parser {
                     Token::Word(w) => suggestion(w, MEMBERS.iter().copied()),
                     _ => None,
                 };
-                let help = near.map_or(format!("an automaton holds {}", MEMBERS.join(", ")), |w| {
+                let help = near.map_or(format!("an automaton has {}", MEMBERS.join(", ")), |w| {
                     format!("is `{w}` meant?")
                 });
-                self.error("E0204", format!("{found} cannot stand in an automaton"), help);
+                self.error("E0204", format!("{found} is not allowed in an automaton"), help);
                 self.next();
                 self.recover();
             }
@@ -183,7 +183,7 @@ impl Parser {
                     initial.span,
                     "an automaton begins in one state only",
                 )
-                .other(before.span, "the beginning is given here already")
+                .other(before.span, "the first initial state is here")
                 .help("remove one `initial`"),
             );
             return;
@@ -213,8 +213,8 @@ impl Parser {
         }
         if let Some(before) = &automaton.retain {
             self.report(
-                crate::diagnostic::Diagnostic::new("E0208", span, "an automaton says once what it retains")
-                    .other(before.span, "it is said here already")
+                crate::diagnostic::Diagnostic::new("E0208", span, "an automaton has one `retain`")
+                    .other(before.span, "the first one is here")
                     .help("put the names into one list"),
             );
             return;
@@ -243,7 +243,7 @@ impl Parser {
             self.error(
                 "E0205",
                 "the reason of the requirement is missing".into(),
-                "write what to tell the user as a text after `else`",
+                "write a text for the user after `else`",
             );
             return None;
         };

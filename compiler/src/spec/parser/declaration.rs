@@ -62,8 +62,8 @@ impl Parser {
                     let found = self.found();
                     self.error(
                         "E0204",
-                        format!("{found} cannot stand in an interface"),
-                        "an interface holds `parameter`, `shared`, `invariant`, `keep` and `whenever`",
+                        format!("{found} is not allowed in an interface"),
+                        "an interface has `parameter`, `shared`, `invariant`, `keep` and `whenever`",
                     );
                     self.next();
                     self.recover_declaration();
@@ -170,7 +170,7 @@ impl Parser {
                 let found = self.found();
                 self.error(
                     "E0207",
-                    format!("{found} is no rule of writing"),
+                    format!("{found} is not a rule of writing"),
                     "write `owner`, `handshake`, `lock`, `counter` or `token { Value: owner, ... }` after `by`",
                 );
                 return None;

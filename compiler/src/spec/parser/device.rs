@@ -46,8 +46,8 @@ impl Parser {
                 let found = self.found();
                 self.error(
                     "E0204",
-                    format!("{found} cannot stand in a device"),
-                    format!("a device holds `{}`", MEMBERS.join("`, `")),
+                    format!("{found} is not allowed in a device"),
+                    format!("a device has `{}`", MEMBERS.join("`, `")),
                 );
                 self.next();
                 self.recover_member();
@@ -178,7 +178,7 @@ impl Parser {
             self.error(
                 "E0205",
                 format!("the number of the command is missing before {found}"),
-                "write the number that the output `verb` has for it: `command 1 move(goal) = ...`",
+                "write the number of the command for the output `verb`: `command 1 move(goal) = ...`",
             );
             return None;
         };

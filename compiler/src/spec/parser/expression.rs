@@ -26,8 +26,12 @@ impl Parser {
             ExprKind::Error => ast::Domain::Range(error(low.span), error(low.span)),
             _ => {
                 self.report(
-                    crate::diagnostic::Diagnostic::new("E0210", low.span, "this is nothing to choose from")
-                        .help("write a role, an enumeration or a range such as `0..capacity - 1`"),
+                    crate::diagnostic::Diagnostic::new(
+                        "E0210",
+                        low.span,
+                        "there are no values to choose from",
+                    )
+                    .help("write a role, an enumeration or a range such as `0..capacity - 1`"),
                 );
                 ast::Domain::Range(error(low.span), error(low.span))
             }
@@ -58,7 +62,7 @@ impl Parser {
 
     fn too_large(&mut self, message: &str) -> Expr {
         let span = self.span();
-        self.error("E0211", message.into(), "give its parts names with `define`");
+        self.error("E0211", message.into(), "name its parts with `define`");
         self.skip_to(&["->"]);
         error(span)
     }
@@ -250,7 +254,7 @@ impl Parser {
                 let found = self.found();
                 self.error(
                     "E0213",
-                    format!("{found} is no value"),
+                    format!("{found} is not a value"),
                     "write a name, a number or an expression in parentheses",
                 );
                 if !matches!(self.peek(), Token::Sign("}" | ";" | ")" | "]" | "->" | ",") | Token::End) {
@@ -284,7 +288,7 @@ impl Parser {
                     true => format!("binders are joined with a comma: `when ready, {word} x in ...`"),
                     false => "write a name, a number or an expression".into(),
                 };
-                self.error("E0213", format!("`{word}` is no value"), help);
+                self.error("E0213", format!("`{word}` is not a value"), help);
                 self.next();
                 error(span)
             }

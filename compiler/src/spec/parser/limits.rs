@@ -68,7 +68,7 @@ impl Parser {
     fn too_many(&mut self, name: &ast::Name, who: &str, what: &str, count: usize) {
         let diagnostic = Diagnostic::new("E0215", name.span, format!("{who} has more than {MOST} {what}"))
             .note(format!("there are {count}"))
-            .help("make several of it, or compute in updates what is written out here");
+            .help("divide it into several, or compute values in updates instead");
         collect(&mut self.diagnostics, diagnostic);
     }
 }

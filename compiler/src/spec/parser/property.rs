@@ -29,7 +29,7 @@ impl Parser {
                     if values.len() == MOST_KEPT {
                         self.error(
                             "E0211",
-                            format!("a `keep` has {MOST_KEPT} values at most"),
+                            format!("a `keep` has at most {MOST_KEPT} values"),
                             "make several of it",
                         );
                         break;
@@ -98,7 +98,7 @@ impl Parser {
             self.error(
                 "E0205",
                 "the text of the property is missing".into(),
-                "write what to tell the operator as a text; or leave `else` out, and it is a fault",
+                "write a text for the operator; or remove `else`, and it is a fault",
             );
             return None;
         };

@@ -76,8 +76,8 @@ impl Parser {
                 let found = self.found();
                 self.error(
                     "E0204",
-                    format!("{found} cannot stand in a state"),
-                    "a state holds transitions, such as `when done -> Next { }`",
+                    format!("{found} is not allowed in a state"),
+                    "a state has transitions, such as `when done -> Next { }`",
                 );
                 if !self.at_sign("{") {
                     self.next();
@@ -111,7 +111,7 @@ impl Parser {
         let mut clauses: Vec<_> = self.clause().into_iter().collect();
         while self.errors == errors && self.maybe_sign(",") {
             if clauses.len() == MOST_CLAUSES {
-                let message = format!("a guard has {MOST_CLAUSES} clauses at most");
+                let message = format!("a guard has at most {MOST_CLAUSES} clauses");
                 self.error("E0211", message, "join conditions with `and`, or split the transition");
                 break;
             }
@@ -211,13 +211,13 @@ impl Parser {
                 let help = if self.at_sign("=") {
                     "an assignment is written with `:=`"
                 } else if matches!(&target.kind, ast::ExprKind::Name(n) if n == "goto") {
-                    "the next state stands behind the guard: `when done -> State {}`; a command has parentheses: `goto(place);`"
+                    "write the next state after the guard: `when done -> State {}`; a command has parentheses: `goto(place);`"
                 } else if matches!(&target.kind, ast::ExprKind::Name(n) if n.eq_ignore_ascii_case("if")) {
                     "there is no `if`: write two transitions with different guards"
                 } else {
                     "an update is `name := value;` or a command such as `move(place);`"
                 };
-                self.error("E0209", format!("{found} cannot follow here"), help);
+                self.error("E0209", format!("{found} is not allowed here"), help);
             }
             return None;
         };

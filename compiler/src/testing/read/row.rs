@@ -30,7 +30,9 @@ impl Reader {
                 self.next();
                 if number > MOST_SCANS {
                     let help = format!("scans go from 0 to {MOST_SCANS}");
-                    self.report(Diagnostic::new("E0903", span, "no test lasts so long").help(help));
+                    self.report(
+                        Diagnostic::new("E0903", span, "this is longer than a test can last").help(help),
+                    );
                     return None;
                 }
                 Time::Scan(number)

@@ -13,7 +13,7 @@ use std::sync::Arc;
 /// Boxes that do not meet are farther apart than this, m: than what is in contact, and than what joints can differ by
 /// that have the same fingerprint.
 const NEAR: f64 = TOLERANCE + UNCERTAIN;
-/// Pieces of the path of an arm, each of which has a box, and places in each of them at which it is looked at.
+/// Pieces of the path of an arm, each of which has a box, and places in each of them at which it is checked.
 const PIECES: usize = 16;
 const PLACES: usize = 4;
 

@@ -52,7 +52,7 @@ impl Stroke {
     }
 }
 
-/// A stroke as it goes on from now, until a valve changes it.
+/// A stroke as it continues from now, until a valve changes it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stroking {
     pub stroke: Stroke,

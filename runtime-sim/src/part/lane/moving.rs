@@ -19,7 +19,7 @@ pub struct Moving {
     /// Milliseconds at full speed since the start of the run.
     travel_ms: u64,
     now_ms: u64,
-    /// The foremost first. Items that have come since the conveyors were looked at last are not among them yet: they go
+    /// The foremost first. Items that have come since the conveyors were checked last are not among them yet: they go
     /// with the surface.
     pub(crate) riders: Vec<Rider>,
 }
@@ -143,7 +143,7 @@ impl Moving {
         Some(known.map_or(Motion::Goes { at }, |rider| rider.motion))
     }
 
-    /// How an item that has this carrier goes on.
+    /// How an item that has this carrier continues.
     pub fn conveyed(&self, item: usize, carrier: &Carrier) -> Option<Conveyed> {
         let Carrier::Lane { across, .. } = *carrier else { return None };
         let motion = self.motion(item, carrier)?;

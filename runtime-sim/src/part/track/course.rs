@@ -3,7 +3,7 @@
 use crate::frame::Frame;
 use crate::point::Point;
 
-/// Straight from corner to corner. Places on it are metres along it, from the first corner on; on a closed one they go on
+/// Straight from corner to corner. Places on it are metres along it, from the first corner on; on a closed one they continue
 /// beyond its length.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Course {

@@ -131,7 +131,7 @@ impl Ride {
         self.phase(ms).map_or(0.0, |(number, seconds)| self.phases[number].speed_after(seconds).max(0.0))
     }
 
-    /// Along the track; on a closed one it goes on beyond the length.
+    /// Along the track; on a closed one it continues beyond the length.
     pub fn place(&self, ms: f64) -> f64 {
         let Some((number, seconds)) = self.phase(ms) else { return self.to };
         let before: f64 = self.phases[..number].iter().map(Phase::length).sum();

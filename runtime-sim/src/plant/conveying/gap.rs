@@ -22,7 +22,7 @@ pub struct Gap {
     pub turn: f64,
 }
 
-/// The gaps of a line. Conveyors that go on as another one, or end in a sink, have none.
+/// The gaps of a line. Conveyors that continue as another one, or end in a sink, have none.
 pub fn gaps(line: &Line) -> Vec<Gap> {
     let mut lanes = Vec::new();
     for (number, machine) in line.machines.iter().enumerate() {

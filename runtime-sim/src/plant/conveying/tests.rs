@@ -248,7 +248,7 @@ struct Steps<'a> {
 
 /// Of a millisecond.
 const STEPS: u64 = 4;
-/// m: what the steps may be off after a minute of waiting and going on.
+/// m: what the steps may be off after a minute of waiting and continuing.
 const CLOSE: f64 = 0.004;
 
 impl Steps<'_> {

@@ -126,7 +126,7 @@ pub fn centre_lines(machine: &Machine, lane: &Lane) -> Vec<(Option<End>, CentreL
     vec![(Some(End::In), moved(0.0)), (Some(End::Out), moved(1.0))]
 }
 
-/// The lanes on which a lane goes on.
+/// The lanes on which a lane continues.
 fn joints(centre_lines: &[Vec<(Option<End>, CentreLine)>], index: usize) -> Vec<Joint> {
     let mut joints = Vec::new();
     for (own, from) in &centre_lines[index] {
@@ -138,7 +138,7 @@ fn joints(centre_lines: &[Vec<(Option<End>, CentreLine)>], index: usize) -> Vec<
     joints
 }
 
-/// Settles which lane goes on as which one at a time.
+/// Settles which lane continues as which one at a time.
 pub fn join(tracks: &mut [Track], ms: f64) {
     let is_at = |track: &Track, end: Option<End>| {
         end.is_none_or(|end| track.carried.as_ref().is_some_and(|ends| ends.is_at(end, ms)))
@@ -157,7 +157,7 @@ pub fn join(tracks: &mut [Track], ms: f64) {
     }
 }
 
-/// Whether a lane goes on as another one.
+/// Whether a lane continues as another one.
 pub fn joins(from: &CentreLine, to: &CentreLine) -> bool {
     let (end, begin) = (from.frame(from.end()), to.frame(to.begin()));
     let turn = crate::frame::whole_turn(end.yaw - begin.yaw);
@@ -294,7 +294,7 @@ impl Track {
         }
     }
 
-    /// When the next item appears, if all goes on as it does, ms; infinity: never.
+    /// When the next item appears, if all continues as it does, ms; infinity: never.
     pub fn feed_ms(&self, among: &Among, ms: f64) -> f64 {
         let Some(feed) = &self.feed else { return f64::INFINITY };
         let Some(next) = feed.supply.last() else { return f64::INFINITY };
