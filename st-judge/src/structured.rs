@@ -133,11 +133,7 @@ struct Parsed<'a> {
 }
 
 impl Parsed<'_> {
-    fn each(
-        &self,
-        kind: &str,
-        mut visit: impl FnMut(Node) -> Result<(), String>,
-    ) -> Result<(), String> {
+    fn each(&self, kind: &str, mut visit: impl FnMut(Node) -> Result<(), String>) -> Result<(), String> {
         let root = self.tree.root_node();
         let mut cursor = root.walk();
         root.children(&mut cursor).filter(|node| node.kind() == kind).try_for_each(&mut visit)

@@ -58,9 +58,8 @@ impl<'a> Beside<'a> {
         Controllers::trace(other, &mut second);
         let bits = |words: &[Vec<f64>]| words.concat().iter().map(|w| w.to_bits()).collect::<Vec<_>>();
         // A coordinate that nobody reads is left out, or a part of its point that nobody sets.
-        let differs = |i: &usize| {
-            self.text.has(*i) && other.has(*i) && first[*i].to_bits() != second[*i].to_bits()
-        };
+        let differs =
+            |i: &usize| self.text.has(*i) && other.has(*i) && first[*i].to_bits() != second[*i].to_bits();
         let at = (0..first.len()).find(differs);
         let is_same = answered == answer
             && bits(&outputs) == bits(&self.outputs)
@@ -70,7 +69,8 @@ impl<'a> Beside<'a> {
         if is_same {
             return Ok(());
         }
-        let at = at.map(|i| format!("{} is {}, in the other dialect {}", other.names[i], first[i], second[i]));
+        let at =
+            at.map(|i| format!("{} is {}, in the other dialect {}", other.names[i], first[i], second[i]));
         Err(format!("scan {scan}: {}", at.or(other.ended.clone()).unwrap_or("outputs differ".into())))
     }
 

@@ -63,9 +63,7 @@ fn declared(text: &str) -> (Vec<Declared>, String) {
             (
                 "VAR" | "VAR_INPUT" | "VAR_OUTPUT" | "VAR_IN_OUT" | "VAR_EXTERNAL" | "VAR_GLOBAL" | "STRUCT",
                 None,
-            ) => {
-                section = Some(line)
-            }
+            ) => section = Some(line),
             ("END_VAR" | "END_STRUCT", Some(_)) => {
                 section = None;
                 body.clear();

@@ -141,8 +141,7 @@ pub fn unit(object: &Parsed, node: Node, known: &Known) -> Result<(String, Strin
     let stores: String = known.lists.globals.values().map(|global| global.stores.as_str()).collect();
     if signature.is_program && !stores.is_empty() {
         text += &format!("VAR\n{DECLARED} : BOOL;\nEND_VAR\n");
-        statements =
-            format!("IF NOT {DECLARED} THEN\n{DECLARED} := TRUE;\n{stores}END_IF;\n{statements}");
+        statements = format!("IF NOT {DECLARED} THEN\n{DECLARED} := TRUE;\n{stores}END_IF;\n{statements}");
         for global in known.lists.globals.values().filter(|global| !global.stores.is_empty()) {
             body.uses(global);
         }

@@ -188,7 +188,8 @@ impl Variable {
 
     /// The declaration, with its comments.
     pub fn line(&self, dialect: Dialect, ty: &str) -> String {
-        let initial = self.initial.as_ref().map(|e| format!(" := {}", dialect.initial(e))).unwrap_or_default();
+        let initial =
+            self.initial.as_ref().map(|e| format!(" := {}", dialect.initial(e))).unwrap_or_default();
         let address = self.address.as_ref().map(|at| format!(" AT {at}")).unwrap_or_default();
         let mut text = format!("    {}{address} : {ty}{initial};", self.name);
         for (i, line) in self.comments.iter().enumerate() {

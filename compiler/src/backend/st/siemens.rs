@@ -136,12 +136,13 @@ fn sections(keyword: &str, variables: &[Variable]) -> String {
 fn structure(structure: &Structure) -> String {
     let field = |field: &Variable| {
         let field = Variable { name: quoted(&field.name), ..field.clone() };
-        field.line(DIALECT, &field.ty(DIALECT))
+        let lines = field.line(DIALECT, &field.ty(DIALECT));
+        lines.lines().map(|line| format!("    {line}\n")).collect::<String>()
     };
     render(&StructureText {
         name: structure.name.clone(),
         about: structure.about.clone(),
-        fields: structure.fields.iter().map(field).map(|line| line.replace("\n    ", "\n        ")).map(|line| format!("    {line}")).collect(),
+        fields: structure.fields.iter().map(field).collect(),
     })
 }
 

@@ -199,7 +199,8 @@ fn variable(variable: &Variable, dialect: Dialect, indent: usize) -> String {
             last.iter().map(dimension).collect::<String>()
         ),
     };
-    let initial = variable.initial.as_ref().map(|e| format!("<initialValue>{}</initialValue>", value(e, dialect)));
+    let initial =
+        variable.initial.as_ref().map(|e| format!("<initialValue>{}</initialValue>", value(e, dialect)));
     let about = escaped(&variable.comments.join("; "));
     let about = match (about.is_empty(), dialect) {
         (true, _) => String::new(),

@@ -104,7 +104,9 @@ impl Places {
         let part = |of: Ex, field: &str| Ex::Part(Box::new(of), field.into());
         let found = match (&place.field, index) {
             (None, None) => name(&place.of),
-            (None, Some(Ex::Within(row, _, element))) => Ex::Item(Box::new(name(&place.of)), vec![*row, *element]),
+            (None, Some(Ex::Within(row, _, element))) => {
+                Ex::Item(Box::new(name(&place.of)), vec![*row, *element])
+            }
             (None, Some(index)) => Ex::Element(place.of.clone(), Box::new(index)),
             (Some(field), None) => part(name(&place.of), field),
             (Some(field), Some(Ex::Within(row, _, element))) => {

@@ -1,8 +1,8 @@
 //! Calls of blocks in the program.
 
+use super::POINT;
 use super::access::{COORDINATES, Place, Places};
 use super::units::Given;
-use super::POINT;
 use crate::backend::st::code::{Ex, Stmt, name};
 use crate::backend::st::context::Shared;
 use crate::backend::st::declaration::{Basic, Unit, Variable, constants};
@@ -29,8 +29,9 @@ impl<'a> Calls<'a> {
         let blocks: BTreeMap<&str, &Given> =
             program.instances.iter().filter_map(|i| Some((i.name.as_str(), of(&i.block)?))).collect();
         let robots = shared.names.robots.iter().enumerate();
-        let robots = robots
-            .flat_map(|(robot, names)| [(names.instance.as_str(), robot), (names.properties.as_str(), robot)]);
+        let robots = robots.flat_map(|(robot, names)| {
+            [(names.instance.as_str(), robot), (names.properties.as_str(), robot)]
+        });
         Self {
             shared,
             blocks,

@@ -41,7 +41,11 @@ pub fn typed(shared: Shared, line: &Line, enumerated: Enumerated) -> Typed {
     }
     let model = &shared.system.model;
     for (interface, names) in model.interfaces.iter().zip(&shared.names.interfaces) {
-        interface.cells.iter().zip(&names.cells).for_each(|(c, held)| typed.add(shared, "", held, c.ty.scalar));
+        interface
+            .cells
+            .iter()
+            .zip(&names.cells)
+            .for_each(|(c, held)| typed.add(shared, "", held, c.ty.scalar));
         let parameters = interface.parameters.iter().zip(&names.parameters);
         parameters.for_each(|(p, held)| typed.add(shared, "", held, p.ty.scalar));
     }

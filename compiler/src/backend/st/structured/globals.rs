@@ -47,12 +47,7 @@ fn point() -> Structure {
 }
 
 /// The cells of an interface that are used.
-fn interface(
-    shared: Shared,
-    line: &Line,
-    id: InterfaceId,
-    typed: &Typed,
-) -> Option<(Structure, Variable)> {
+fn interface(shared: Shared, line: &Line, id: InterfaceId, typed: &Typed) -> Option<(Structure, Variable)> {
     let (interface, names) = (shared.system.model.interface(id), &shared.names.interfaces[id.0]);
     let is_used = |held: &[String]| {
         line.globals.cells.iter().any(|table| held.iter().any(|name| *name == table.variable.name))
@@ -61,7 +56,8 @@ fn interface(
     let fields: Vec<Variable> = cells
         .filter(|((_, held), _)| is_used(held))
         .map(|((cell, held), field)| {
-            let elements = (cell.ty.extent != Extent::One).then(|| shared.system.model.elements(cell.ty.extent));
+            let elements =
+                (cell.ty.extent != Extent::One).then(|| shared.system.model.elements(cell.ty.extent));
             let variable = Variable::new(field, Basic::of(cell.ty.scalar)).with_elements(elements);
             Variable {
                 comments: about(&cell.doc, meaning(shared, cell.ty.scalar)),
@@ -75,8 +71,8 @@ fn interface(
         return None;
     }
     let mut tables = line.globals.cells.iter();
-    let is_retained =
-        tables.any(|t| t.variable.is_retained && names.cells.iter().any(|held| held.contains(&t.variable.name)));
+    let is_retained = tables
+        .any(|t| t.variable.is_retained && names.cells.iter().any(|held| held.contains(&t.variable.name)));
     let array = Variable {
         structure: Some(names.structure.clone()),
         comments: vec![format!("cells of {}", interface.name), rows(shared, id, None)],
@@ -138,8 +134,7 @@ fn parameters(shared: Shared, line: &Line, places: &Places, typed: &Typed) -> Ve
     let mut out = Vec::new();
     for table in &globals.parameters {
         let variable = with_values(table);
-        let comments =
-            variable.comments.iter().map(|text| rows.get(text).unwrap_or(text).clone()).collect();
+        let comments = variable.comments.iter().map(|text| rows.get(text).unwrap_or(text).clone()).collect();
         let variable = Variable { comments, ..variable };
         let variable = match of(table) {
             None => Variable { enumeration: typed.get("", &variable.name).cloned(), ..variable },

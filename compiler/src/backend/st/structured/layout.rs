@@ -27,7 +27,9 @@ pub fn unit(shared: Shared, line: &Line) -> Unit {
     let counters = counters.into_iter().filter(|(name, _)| used.contains(*name));
     Unit {
         comments: vec!["What shared cells hold at power-up.".into()],
-        variables: counters.map(|(name, about)| Variable::new(name, Basic::Dint).with_comment(about)).collect(),
+        variables: counters
+            .map(|(name, about)| Variable::new(name, Basic::Dint).with_comment(about))
+            .collect(),
         body,
         ..line.layout.clone()
     }

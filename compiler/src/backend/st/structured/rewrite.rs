@@ -22,7 +22,10 @@ impl Places {
             }
             Stmt::Case { selector, branches, otherwise } => Stmt::Case {
                 selector: self.ex(selector),
-                branches: branches.iter().map(|(label, body)| (label.clone(), self.statements(body))).collect(),
+                branches: branches
+                    .iter()
+                    .map(|(label, body)| (label.clone(), self.statements(body)))
+                    .collect(),
                 otherwise: self.statements(otherwise),
             },
             Stmt::While { condition, body, most } => {

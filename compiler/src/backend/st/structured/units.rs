@@ -1,10 +1,10 @@
 //! Blocks, and what they are given.
 
+use super::POINT;
 use super::access::Places;
 use super::calls::Calls;
 use super::enumerations::Typed;
 use super::rewrite::joined;
-use super::POINT;
 use crate::backend::st::code::{self, Ex, Stmt};
 use crate::backend::st::declaration::{Unit, Variable};
 use crate::backend::st::globals::Globals;
@@ -37,15 +37,7 @@ pub fn unit(unit: &Unit, places: &Places, globals: &Globals, typed: &Typed) -> G
         if is_read { &mut inputs } else { &mut references }.push(global.external());
         shared.push(global.name.clone());
     }
-    let unit = Unit {
-        inputs,
-        outputs,
-        references,
-        externals: Vec::new(),
-        variables,
-        body,
-        ..unit.clone()
-    };
+    let unit = Unit { inputs, outputs, references, externals: Vec::new(), variables, body, ..unit.clone() };
     Given { unit, shared, places: Rc::new(places.clone()) }
 }
 
