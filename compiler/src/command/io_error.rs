@@ -24,8 +24,8 @@ mod tests {
 
     #[test]
     fn what_can_be_done_is_said() {
-        assert!(text(&io::ErrorKind::StorageFull.into()).contains("make room"));
-        assert!(text(&io::ErrorKind::PermissionDenied.into()).contains("change the rights"));
+        assert!(text(&io::ErrorKind::StorageFull.into()).contains("delete files"));
+        assert!(text(&io::ErrorKind::PermissionDenied.into()).contains("change the permissions"));
         assert_eq!(text(&io::Error::other("no more")), "no more");
     }
 }

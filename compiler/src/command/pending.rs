@@ -189,7 +189,9 @@ mod tests {
             fs::write(&path, "{}").unwrap();
             let refused = Pending::new(&path, content, Overwrite::Own).unwrap_err();
             assert!(refused.contains(content.name()), "{refused}");
-            assert!(Pending::new(&folder, content, Overwrite::Everything).unwrap_err().contains("no file"));
+            assert!(
+                Pending::new(&folder, content, Overwrite::Everything).unwrap_err().contains("not a file")
+            );
             assert!(Pending::new(&folder.join("none/file"), content, Overwrite::Own).is_err());
             let pending = Pending::new(&path, content, Overwrite::Everything).unwrap();
             pending.write(text).unwrap();

@@ -6,6 +6,8 @@ use autogen::backend::{Files, dot as dot_files, plan, rust, sdf as sdf_files, st
 use autogen::io_map::IoMap;
 use autogen::lower::Project;
 use autogen::source::Sources;
+use autogen_st_judge::scl;
+use autogen_st_judge::structured::{self, Object};
 use autogen_tests::sdf;
 use roxmltree::Document;
 use runtime_sim::line::Line;
@@ -66,11 +68,9 @@ pub fn structured_text(files: &Files) {
                 let found = found.map(|found| autogen_st_judge::listed(&found, text));
                 assert_eq!(found, None, "{name}\n{text}");
             }
-            "st" => {
-                let found = autogen_st_judge::parse::parse(text).err();
-                let found = found.map(|found| autogen_st_judge::listed(&found, text));
-                assert_eq!(found, None, "{name}\n{text}");
-            }
+            // Judged together below.
+            "st" => assert!(name.starts_with("codesys/"), "{name}"),
+            "scl" => dialect(name, scl::portable(text)),
             "xml" => {
                 Document::parse(text).unwrap_or_else(|e| panic!("{name}: {e}"));
             }
@@ -78,6 +78,20 @@ pub fn structured_text(files: &Files) {
             _ => {}
         });
     }
+    let objects = files.iter().filter(|(name, _)| name.starts_with("codesys/") && name.ends_with(".st"));
+    let objects: Vec<Object> = objects.map(|(name, text)| Object { name, text }).collect();
+    let all: String = objects.iter().map(|object| object.text).collect();
+    if !all.is_empty() {
+        once(&all, || dialect("codesys/", structured::portable(&objects)));
+    }
+}
+
+/// A text of a dialect with structures, read as one of the portable core.
+fn dialect(name: &str, text: Result<String, String>) {
+    let text = text.unwrap_or_else(|found| panic!("{name}: {found}"));
+    let found = autogen_st_judge::judge(&text).err();
+    let found = found.map(|found| autogen_st_judge::listed(&found, &text));
+    assert_eq!(found, None, "{name}\n{text}");
 }
 
 /// A head, and rows as long as it.
