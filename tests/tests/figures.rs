@@ -113,7 +113,7 @@ fn a_mill_too_far_away_is_brought_back_by_217_mm() {
 #[test]
 fn a_mill_that_is_started_with_its_door_open_ends_the_run() {
     let mut texts = side_by_side("tending/tending");
-    texts.specs[0] = texts.specs[0].replace("when door_closed -> Cutting", "when true -> Cutting");
+    texts.specs[0] = texts.specs[0].replace("when door_closed -> Starting", "when true -> Starting");
     let report = run(texts, &mut |_: &Seen| {});
     assert!(!report.finished);
     assert_eq!(report.reason, "interlock of mill: a process was started without its door in");

@@ -142,14 +142,12 @@ fn value(node: Node) -> String {
     let values = node.children().filter(|n| n.is_element());
     match node.tag_name().name() {
         "arrayValue" => {
-            let one = |node: Node| {
-                let times = node.attribute("repetitionValue").map_or(1, |n| n.parse().expect("a number"));
-                match times {
-                    3.. => format!("{times}({})", inner(node)),
-                    _ => vec![inner(node); times].join(", "),
-                }
-            };
-            format!("[{}]", values.map(one).collect::<Vec<_>>().join(", "))
+            let values: Vec<String> = values.map(inner).collect();
+            let alike = values.chunk_by(|a, b| a == b).map(|alike| match alike.len() {
+                n @ 3.. => format!("{n}({})", alike[0]),
+                _ => alike.join(", "),
+            });
+            format!("[{}]", alike.collect::<Vec<_>>().join(", "))
         }
         "structValue" => {
             let one =

@@ -201,7 +201,12 @@ fn variable(variable: &Variable, dialect: Dialect, indent: usize) -> String {
     };
     let initial =
         variable.initial.as_ref().map(|e| format!("<initialValue>{}</initialValue>", value(e, dialect)));
-    let about = escaped(&variable.comments.join("; "));
+    let about = variable.comments.iter().fold(String::new(), |text, line| match text.as_str() {
+        "" => line.clone(),
+        text if text.ends_with('.') => format!("{text} {line}"),
+        text => format!("{text}; {line}"),
+    });
+    let about = escaped(&about);
     let about = match (about.is_empty(), dialect) {
         (true, _) => String::new(),
         (false, Dialect::Portable) => format!("<documentation><xhtml:p>{about}</xhtml:p></documentation>"),
@@ -219,15 +224,8 @@ fn variable(variable: &Variable, dialect: Dialect, indent: usize) -> String {
 fn value(ex: &Ex, dialect: Dialect) -> String {
     match ex {
         Ex::List(values) => {
-            let one = |alike: &[Ex]| {
-                let times = if alike.len() > 1 {
-                    format!(" repetitionValue=\"{}\"", alike.len())
-                } else {
-                    String::new()
-                };
-                format!("<value{times}>{}</value>", value(&alike[0], dialect))
-            };
-            let values: String = values.chunk_by(|a, b| a == b).map(one).collect();
+            let one = |ex: &Ex| format!("<value>{}</value>", value(ex, dialect));
+            let values: String = values.iter().map(one).collect();
             format!("<arrayValue>{values}</arrayValue>")
         }
         Ex::Fields(fields) => {
