@@ -113,7 +113,8 @@ pub fn files(shared: Shared, line: &Line) -> Files {
         is_retained,
     }));
     parts.extend(line.functions.iter().map(|function| function_text(function.text)));
-    let is_global = |name: &str| all.iter().any(|variable| variable.name == name);
+    let names: BTreeSet<&str> = all.iter().map(|variable| variable.name.as_str()).collect();
+    let is_global = |name: &str| names.contains(name);
     parts.extend(line.units().map(|unit| block(shared, unit, &is_global)));
     let instance = include_str!("../../../../templates/plc/siemens/instance.scl");
     // What its blocks retain, they say.
@@ -170,6 +171,9 @@ fn assign(place: &str, value: &Ex, each: Option<usize>, lines: &mut String) {
                 assign(&format!("{place}.{}", quoted(field)), value, None, lines);
             }
         }
+        // What a data block has without a start value.
+        Ex::Bool(false) | Ex::Int(0) => {}
+        Ex::Real(real) if real.to_bits() == 0 => {}
         Ex::Member(member) => {
             *lines += &format!("    {place} := {}; {}\n", member.value, comment(&member.note));
         }

@@ -24,6 +24,8 @@ pub struct Place {
 /// By the names of the portable text. What is not among them is a variable by itself.
 #[derive(Clone, Default)]
 pub struct Places {
+    /// What all units share.
+    shared: Rc<BTreeMap<String, Place>>,
     own: BTreeMap<String, Place>,
     /// What the instances of blocks have.
     instances: BTreeMap<String, Rc<Places>>,
@@ -47,7 +49,7 @@ impl Places {
             let place = Place { of: "alarms".into(), field: Some(column.into()), coordinate: None };
             places.own.insert(format!("alarms_{column}"), place);
         }
-        places
+        Self { shared: Rc::new(places.own), ..Self::default() }
     }
 
     /// With what the blocks of a type have.
@@ -61,7 +63,7 @@ impl Places {
 
     /// With what the instances of the program have.
     pub fn of_program(&self, instances: BTreeMap<String, Rc<Places>>) -> Self {
-        Self { own: self.own.clone(), instances }
+        Self { instances, ..self.clone() }
     }
 
     fn point(&mut self, held: &Held) {
@@ -82,7 +84,7 @@ impl Places {
     }
 
     pub fn get(&self, name: &str) -> Option<&Place> {
-        self.own.get(name)
+        self.own.get(name).or_else(|| self.shared.get(name))
     }
 
     /// An output of an instance.
