@@ -79,12 +79,12 @@ pub fn mapped(system: &System, sources: &Sources, map: &IoMap) -> (Files, Column
     let line = line(shared, &image);
     let mut files = Files::new();
     files.insert("portable/main.st".into(), text::portable(shared, &line));
-    let with_types = structured(shared, &line, Enumerated::ByType, &mut program.clone());
-    for (name, text) in text::codesys(shared, &with_types) {
+    // One of them at a time: each is as large as the line.
+    let with = |enumerated: Enumerated| structured(shared, &line, enumerated, &mut program.clone());
+    for (name, text) in text::codesys(shared, &with(Enumerated::ByType)) {
         files.insert(format!("codesys/{name}"), text);
     }
-    let with_numbers = structured(shared, &line, Enumerated::ByNumber, &mut program.clone());
-    for (name, text) in siemens::files(shared, &with_numbers) {
+    for (name, text) in siemens::files(shared, &with(Enumerated::ByNumber)) {
         files.insert(format!("siemens/{name}"), text);
     }
     files.insert("io.csv".into(), table::io(shared, map));
