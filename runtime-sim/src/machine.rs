@@ -96,7 +96,11 @@ impl Machine {
                 return Err(format!("the part {} refers to one that is not before it", part.name));
             };
             let schema = other.schema();
-            if !primitives.contains(&schema.name) || *frame >= schema.frames.len().max(1) {
+            let frames = match &other.primitive {
+                Primitive::Chain(chain) => chain.joints.len() + 1,
+                _ => schema.frames.len().max(1),
+            };
+            if !primitives.contains(&schema.name) || *frame >= frames {
                 return Err(format!("the part {} cannot refer to {}", part.name, other.name));
             }
         }
@@ -269,9 +273,19 @@ impl Machine {
         self.chain().map_or(Vec::new(), |chain| chain.carriers(axis))
     }
 
+    /// Its chain has no joints but the axes that carry it.
+    pub(crate) fn has_only_axes(&self) -> bool {
+        self.chain().is_some_and(|chain| chain.joints.is_empty())
+    }
+
     /// The axes that carry the chain, the first one first.
     pub fn axes(&self) -> Vec<&Axis> {
         self.carriers().into_iter().map(|(_, axis)| axis).collect()
+    }
+
+    /// The same with the names of their parts.
+    pub fn named_axes(&self) -> Vec<(&str, &Axis)> {
+        self.carriers().into_iter().map(|(part, axis)| (self.parts[part].name.as_str(), axis)).collect()
     }
 
     /// Which of the joints of the chain and of the axes that carry it moves with this part.

@@ -38,18 +38,20 @@ impl Point {
         self.dot(self).sqrt()
     }
 
-    pub fn coordinate(self, axis: Axis) -> f64 {
-        match axis {
-            Axis::X => self.x,
-            Axis::Y => self.y,
+    pub fn coordinate(self, along: impl Into<Direction>) -> f64 {
+        match along.into() {
+            Direction::X => self.x,
+            Direction::Y => self.y,
+            Direction::Z => self.z,
         }
     }
 
     /// The same place with another coordinate along one axis.
-    pub fn with_coordinate(self, axis: Axis, value: f64) -> Self {
-        match axis {
-            Axis::X => Self { x: value, ..self },
-            Axis::Y => Self { y: value, ..self },
+    pub fn with_coordinate(self, along: impl Into<Direction>, value: f64) -> Self {
+        match along.into() {
+            Direction::X => Self { x: value, ..self },
+            Direction::Y => Self { y: value, ..self },
+            Direction::Z => Self { z: value, ..self },
         }
     }
 }
@@ -73,4 +75,34 @@ impl Sub for Point {
 pub enum Axis {
     X,
     Y,
+}
+
+/// An axis of a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Direction {
+    X,
+    Y,
+    Z,
+}
+
+impl Direction {
+    pub const ALL: [Self; 3] = [Self::X, Self::Y, Self::Z];
+
+    /// None for the vertical.
+    pub fn level(self) -> Option<Axis> {
+        match self {
+            Self::X => Some(Axis::X),
+            Self::Y => Some(Axis::Y),
+            Self::Z => None,
+        }
+    }
+}
+
+impl From<Axis> for Direction {
+    fn from(axis: Axis) -> Self {
+        match axis {
+            Axis::X => Self::X,
+            Axis::Y => Self::Y,
+        }
+    }
 }

@@ -51,6 +51,7 @@ impl Machine {
     pub fn solids(&self) -> Vec<Solid> {
         let arm = self.arm();
         let axes = self.axes().len();
+        let chain = self.chain().and_then(|chain| chain.on);
         let mut solids = Vec::new();
         for part in &self.parts {
             let Primitive::Body(body) = &part.primitive else { continue };
@@ -67,6 +68,10 @@ impl Machine {
                         (Link::Joint(axes - 1), arm.mount().then(&body.pose))
                     }
                     (Primitive::Chain(_), _) => (Link::Joint(axes + frame - 1), body.pose),
+                    // The last axis of a Cartesian robot moves with its tool.
+                    (Primitive::Axis(_), Some(arm)) if chain == Some(other) && self.has_only_axes() => {
+                        (Link::Joint(axes - 1), arm.mount().then(&body.pose))
+                    }
                     _ => (self.joint_of(other).map_or(Link::World, Link::Joint), body.pose),
                 },
             };

@@ -131,7 +131,7 @@ const Motion = (() => {
       let frame = IDENTITY;
       Data.machines[machine].links.forEach((link, i) => {
         const value = joints[i];
-        const moved = link.joint === 'turns' ? turned(value) : shifted(link.joint === 'x' ? [value, 0, 0] : [0, value, 0]);
+        const moved = link.joint === 'turns' ? turned(value) : shifted(['x', 'y', 'z'].map((axis) => (axis === link.joint ? value : 0)));
         frame = then(then(then(frame, link.before), moved), link.behind);
         frames.push(frame);
       });

@@ -184,6 +184,7 @@ fn form_of(form: Form) -> String {
         Form::Point => "point".into(),
         Form::Frame => "frame".into(),
         Form::Axis => "axis".into(),
+        Form::Direction => "axis, or z".into(),
         Form::Word => "word".into(),
         Form::Part(primitives) => primitives.join(" or "),
         Form::Range => "two numbers, the lower one first".into(),

@@ -6,7 +6,7 @@ use runtime_sim::part::axis::Motion;
 use runtime_sim::part::lane::{CentreLine, Lane};
 use runtime_sim::part::place::Place;
 use runtime_sim::part::track::Track;
-use runtime_sim::point::{Axis, Point};
+use runtime_sim::point::{Axis, Direction, Point};
 
 /// A part of a machine as it is drawn, in the world's x and y.
 #[derive(Clone, Debug, PartialEq)]
@@ -89,8 +89,15 @@ fn of_place(place: &Place, origin: Point) -> Shape {
     }
 }
 
-/// The rail of an arm on one, the range of one on two.
+/// Where the tool of a Cartesian robot can be; the rail of an arm on one, the range of one on two.
 fn of_axes(machine: &Machine) -> Vec<(Shape, &'static str)> {
+    if let Some(robot) = machine.arm().as_ref().and_then(|arm| arm.cartesian()) {
+        return match robot.ground()[..] {
+            [centre] => vec![(Shape::Circle { centre, radius: 0.1 }, "arm")],
+            [from, to] => vec![(Shape::Line { from, to }, "rail")],
+            _ => vec![(Shape::Polygon(robot.ground()), "range")],
+        };
+    }
     let axes = machine.axes();
     let pose = machine.pose;
     match axes.iter().map(|axis| axis.motion).collect::<Vec<_>>()[..] {
@@ -167,11 +174,16 @@ pub fn label(machine: &Machine) -> Point {
             }
         };
     }
+    if let Some(robot) = machine.arm().as_ref().and_then(|arm| arm.cartesian()) {
+        let ground = robot.ground();
+        let least = |value: fn(&Point) -> f64| ground.iter().map(value).fold(f64::INFINITY, f64::min);
+        return Point::new(least(|point| point.x), least(|point| point.y) - 0.1, 0.0);
+    }
     match (machine.axes().first().map(|axis| axis.motion), machine.axes().len()) {
-        (Some(Motion::Slides { along: Axis::X, range }), 1) => {
+        (Some(Motion::Slides { along: Direction::X, range }), 1) => {
             return Point::new(range[0], pose.y - 0.35, 0.0);
         }
-        (Some(Motion::Slides { along: Axis::Y, range }), 1) => {
+        (Some(Motion::Slides { along: Direction::Y, range }), 1) => {
             return Point::new(pose.x, range[0] - 0.35, 0.0);
         }
         (Some(_), _) => return pose + Point::new(0.0, 0.5, 0.0),

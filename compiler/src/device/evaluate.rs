@@ -5,7 +5,7 @@ use crate::diagnostic::{Diagnostic, suggestion};
 use crate::source::Span;
 use crate::spec::ast::{self, ExprKind, Operator};
 use runtime_sim::frame::Frame;
-use runtime_sim::part::{Form, Setting};
+use runtime_sim::part::{Form, Setting, VERTICAL};
 use runtime_sim::point::{Axis, Point};
 use runtime_sim::value::Value;
 
@@ -115,7 +115,7 @@ impl Environment<'_> {
             | (Form::Number, Value::Number(_))
             | (Form::Point, Value::Point(_))
             | (Form::Frame, Value::Frame(_))
-            | (Form::Axis, Value::Axis(_))
+            | (Form::Axis | Form::Direction, Value::Axis(_))
             | (Form::Word, Value::Word(_)) => true,
             (Form::Positive, Value::Number(number)) => *number > 0.0 || self.values == Values::Sample,
             (Form::Part(primitives), Value::Part { part, .. }) => {
@@ -274,8 +274,9 @@ fn words(form: Form, expr: &ast::Expr) -> Option<Result<Value, Wrong>> {
     };
     match (form, &expr.kind) {
         (Form::Word, _) => Some(word(expr)),
-        (Form::Axis, ExprKind::Name(name)) if name == "x" => Some(Ok(Value::Axis(Axis::X))),
-        (Form::Axis, ExprKind::Name(name)) if name == "y" => Some(Ok(Value::Axis(Axis::Y))),
+        (Form::Axis | Form::Direction, ExprKind::Name(name)) if name == "x" => Some(Ok(Value::Axis(Axis::X))),
+        (Form::Axis | Form::Direction, ExprKind::Name(name)) if name == "y" => Some(Ok(Value::Axis(Axis::Y))),
+        (Form::Direction, ExprKind::Name(name)) if name == VERTICAL => Some(Ok(Value::Word(name.clone()))),
         (Form::Words, ExprKind::List(elements)) => {
             Some(elements.iter().map(word).collect::<Result<_, _>>().map(Value::List))
         }
@@ -291,6 +292,7 @@ fn described(form: Form) -> String {
         Form::Point => "a point".into(),
         Form::Frame => "a frame".into(),
         Form::Axis => "an axis".into(),
+        Form::Direction => "an axis: x, y or z".into(),
         Form::Word => "a word".into(),
         Form::Part(primitives) => format!("a part that is a {}", primitives.join(" or a ")),
         Form::Range => "two numbers, the lower one first".into(),

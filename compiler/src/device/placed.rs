@@ -206,11 +206,20 @@ impl Placed {
     pub fn ground(&self) -> [[f64; 2]; 2] {
         let at = |value: f64| [value, value];
         let mut ground = [at(self.pose.position.x), at(self.pose.position.y)];
+        let with = |[low, high]: [f64; 2], value: f64| [low.min(value), high.max(value)];
+        let arm = self.arm();
+        if let Some(robot) = arm.as_ref().and_then(|arm| arm.cartesian()) {
+            for point in robot.ground() {
+                ground = [with(ground[0], point.x), with(ground[1], point.y)];
+            }
+            return ground;
+        }
         for (_, part) in self.parts_of(&["axis", "route", "track"]) {
-            let with = |[low, high]: [f64; 2], value: f64| [low.min(value), high.max(value)];
             match &part.primitive {
                 Primitive::Axis(axis) => {
-                    if let Motion::Slides { along, range } = axis.motion {
+                    if let Motion::Slides { along, range } = axis.motion
+                        && let Some(along) = along.level()
+                    {
                         ground[along as usize] = range;
                     }
                 }

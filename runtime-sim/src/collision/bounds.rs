@@ -122,6 +122,10 @@ impl Chain {
 
 fn ends(arm: &Arm, machine: &Machine, start: &Joints) -> Vec<Frames> {
     let ranges: Vec<[f64; 2]> = machine.axes().iter().map_while(|axis| axis.range()).collect();
-    let at = |end: usize| arm.frames(&start.map(|i, value| ranges.get(i).map_or(value, |range| range[end])));
-    vec![at(0), at(1)]
+    // Each bit of the number is an end of one axis.
+    let at = |corner: usize| {
+        let end = |i: usize| corner >> i & 1;
+        arm.frames(&start.map(|i, value| ranges.get(i).map_or(value, |range| range[end(i)])))
+    };
+    (0..1 << ranges.len()).map(at).collect()
 }

@@ -1,14 +1,16 @@
 //! Both robots alike: joints, reach, limits.
 
+use super::cartesian::{Cartesian, Slide};
 use super::fixed::FixedArm;
 use super::gantry::{self, Gantry, Stance};
 use super::links::Link;
 use super::pose::Pose;
 use super::rail_arm::{self, RailArm};
 use super::{nearest_equivalent, nearest_turn};
-use crate::part::axis::{Axis, Motion};
-use crate::part::chain::Chain;
-use crate::point::{self, Point};
+use crate::frame::Frame;
+use crate::part::axis::{Axis, Motion, Place};
+use crate::part::chain::{Chain, Geometry};
+use crate::point::{Direction, Point};
 use std::f64::consts::PI;
 use std::ops::Deref;
 
@@ -60,6 +62,7 @@ pub struct Arm {
 /// The inverse kinematics, in closed form.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Solver {
+    Cartesian(Cartesian),
     /// Upright where it is.
     Fixed(FixedArm),
     /// Upright on one rail.
@@ -138,36 +141,56 @@ impl Limits {
 impl Arm {
     /// `axes` carry the chain, the first one first. None if there is no closed form for it.
     pub fn new(axes: &[&Axis], chain: &Chain) -> Option<Self> {
-        let at = axes.first().and_then(|axis| axis.at).unwrap_or_default();
-        let solver = match axes.iter().map(|axis| axis.motion).collect::<Vec<_>>()[..] {
-            [] => Solver::Fixed(FixedArm::new(chain.base?, chain.lengths?)),
-            [Motion::Slides { along, range }] => Solver::Rail(RailArm::new(at, along, range)),
-            [
-                Motion::Slides { along: point::Axis::X, range: x },
-                Motion::Slides { along: point::Axis::Y, range: y },
-                Motion::Turns,
-            ] => Solver::Gantry(Gantry::new(at, x, y)),
-            _ => return None,
+        let motions: Vec<Motion> = axes.iter().map(|axis| axis.motion).collect();
+        let solver = match chain.geometry {
+            Geometry::Fixed(geometry, ranges) => {
+                Solver::Fixed(FixedArm::new(chain.base?, geometry, ranges))
+            }
+            Geometry::Tool(length) => Solver::Cartesian(cartesian(axes, length)?),
+            Geometry::Ur10 => {
+                let at = axes.first()?.at()?;
+                match motions[..] {
+                    [Motion::Slides { along, range }] => {
+                        Solver::Rail(RailArm::new(at, along.level()?, range))
+                    }
+                    [
+                        Motion::Slides { along: Direction::X, range: x },
+                        Motion::Slides { along: Direction::Y, range: y },
+                        Motion::Turns,
+                    ] => Solver::Gantry(Gantry::new(at, x, y)),
+                    _ => return None,
+                }
+            }
         };
         let velocities: Vec<f64> =
-            axes.iter().map(|axis| axis.speed).chain(chain.speeds.iter().copied()).collect();
+            axes.iter().map(|axis| axis.speed).chain(chain.joints.iter().map(|joint| joint.speed)).collect();
         let velocity = Joints::new(&velocities);
         let acceleration =
             velocity.map(|i, _| axes.get(i).map_or(chain.acceleration, |axis| axis.acceleration));
         Some(Self { solver, limits: Limits { velocity, acceleration } })
     }
 
+    /// None for an arm with joints of its own.
+    pub fn cartesian(&self) -> Option<&Cartesian> {
+        match &self.solver {
+            Solver::Cartesian(robot) => Some(robot),
+            Solver::Fixed(_) | Solver::Rail(_) | Solver::Gantry(_) => None,
+        }
+    }
+
     /// Its two rails and its torso, if it has them.
     pub fn gantry(&self) -> Option<&Gantry> {
         match &self.solver {
             Solver::Gantry(gantry) => Some(gantry),
-            Solver::Fixed(_) | Solver::Rail(_) => None,
+            Solver::Cartesian(_) | Solver::Fixed(_) | Solver::Rail(_) => None,
         }
     }
 
-    /// The frame of the chain's base in that of the axis that carries it.
+    /// The frame of the chain's base in that of the axis that carries it; of a Cartesian robot that of the last axis in
+    /// the frame of the tool.
     pub fn mount(&self) -> Pose {
         match self.solver {
+            Solver::Cartesian(robot) => robot.mount(),
             Solver::Fixed(arm) => arm.base(),
             Solver::Rail(_) => Pose::IDENTITY,
             Solver::Gantry(_) => gantry::MOUNT,
@@ -177,6 +200,7 @@ impl Arm {
     /// How far the wrist stays within its reach when the tool, pointing down, is at a place; negative out of reach, m.
     pub fn margin(&self, tool: Point) -> f64 {
         match &self.solver {
+            Solver::Cartesian(robot) => robot.margin(tool),
             Solver::Fixed(arm) => arm.margin(tool),
             Solver::Rail(arm) => arm.margin(tool),
             Solver::Gantry(arm) => arm.margin(tool),
@@ -187,6 +211,7 @@ impl Arm {
     /// A part on the tool keeps its direction: the last joint turns back what the others turn.
     pub fn solve(&self, tool: Point, from: &Joints) -> Option<Joints> {
         let joints = match &self.solver {
+            Solver::Cartesian(robot) => return robot.solve(tool).map(|values| Joints::new(&values)),
             Solver::Fixed(arm) => return arm.solve(tool, &from.array()).map(|joints| Joints::new(&joints)),
             Solver::Rail(arm) => arm.solve(tool, &from.array()).map(|joints| Joints::new(&joints)),
             Solver::Gantry(arm) => arm.solve(tool, &from.array()).map(|joints| Joints::new(&joints)),
@@ -203,8 +228,9 @@ impl Arm {
     }
 
     fn vertical(&self, tool: Point, from: &Joints) -> Option<Vec<Joints>> {
+        // The tool of a Cartesian robot moves in straight lines.
+        let carriers = from.len().checked_sub(WRIST_JOINTS)?;
         let start = self.tool(from);
-        let carriers = from.len() - WRIST_JOINTS;
         let is_over = (tool.x - start.x).abs() < ALIGNED && (tool.y - start.y).abs() < ALIGNED;
         let steps = ((tool.z - start.z).abs() / LINE_STEP).ceil();
         (is_over && steps > 1.0 && steps <= MOST_STEPS).then_some(())?;
@@ -231,7 +257,7 @@ impl Arm {
     /// direction of a part.
     pub fn directed(&self, joints: &Joints, direction: f64) -> Joints {
         let off = self.direction(joints) - direction;
-        if off == 0.0 || matches!(self.solver, Solver::Fixed(_)) {
+        if off == 0.0 || matches!(self.solver, Solver::Cartesian(_) | Solver::Fixed(_)) {
             return *joints;
         }
         let last = joints.len() - 1;
@@ -262,7 +288,7 @@ impl Arm {
     /// forbid it, and for a robot without a torso.
     pub fn solve_stance(&self, tool: Point, stance: &Stance, from: &Joints) -> Option<Joints> {
         match &self.solver {
-            Solver::Fixed(_) | Solver::Rail(_) => None,
+            Solver::Cartesian(_) | Solver::Fixed(_) | Solver::Rail(_) => None,
             Solver::Gantry(arm) => {
                 let joints = Joints::new(&arm.solve_stance(tool, stance, &from.array())?);
                 Some(Self::within_limits(self.with_direction_of(from, joints)))
@@ -286,7 +312,7 @@ impl Arm {
     /// reach forbids it, and for a robot without a torso.
     pub fn solve_standing(&self, tool: Point, from: &Joints) -> Option<Joints> {
         match &self.solver {
-            Solver::Fixed(_) | Solver::Rail(_) => None,
+            Solver::Cartesian(_) | Solver::Fixed(_) | Solver::Rail(_) => None,
             Solver::Gantry(arm) => arm.solve_standing(tool, &from.array()).map(|joints| Joints::new(&joints)),
         }
     }
@@ -295,7 +321,7 @@ impl Arm {
     /// none where the limits forbid it, and for a robot without a torso.
     pub fn solve_turned(&self, tool: Point, turn: f64, from: &Joints) -> Option<Joints> {
         match &self.solver {
-            Solver::Fixed(_) | Solver::Rail(_) => None,
+            Solver::Cartesian(_) | Solver::Fixed(_) | Solver::Rail(_) => None,
             Solver::Gantry(arm) => arm.solve_turned(tool, turn, &from.array()).map(|j| Joints::new(&j)),
         }
     }
@@ -306,6 +332,7 @@ impl Arm {
 
     pub fn tool_pose(&self, joints: &Joints) -> Pose {
         match &self.solver {
+            Solver::Cartesian(robot) => robot.tool_pose(joints),
             Solver::Fixed(arm) => arm.tool_pose(&joints.array()),
             Solver::Rail(arm) => arm.tool_pose(&joints.array::<{ rail_arm::JOINTS }>()),
             Solver::Gantry(arm) => arm.tool_pose(&joints.array::<{ gantry::JOINTS }>()),
@@ -315,6 +342,7 @@ impl Arm {
     /// Pose of the link behind each joint, world frame, in the order of the joints; the last is the tool's.
     pub fn frames(&self, joints: &Joints) -> Frames {
         match &self.solver {
+            Solver::Cartesian(robot) => Frames::new(&robot.frames(joints)),
             Solver::Fixed(arm) => Frames::new(&arm.frames(&joints.array())),
             Solver::Rail(arm) => Frames::new(&arm.frames(&joints.array())),
             Solver::Gantry(arm) => Frames::new(&arm.frames(&joints.array())),
@@ -324,6 +352,7 @@ impl Arm {
     /// The joints, from the world on: those of [`Arm::frames`].
     pub fn links(&self) -> Vec<Link> {
         match &self.solver {
+            Solver::Cartesian(robot) => robot.links(),
             Solver::Fixed(arm) => arm.links(),
             Solver::Rail(arm) => arm.links(),
             Solver::Gantry(arm) => arm.links(),
@@ -337,6 +366,7 @@ impl Arm {
     /// Joints to start from, the tool pointing down.
     pub fn start(&self) -> Joints {
         match &self.solver {
+            Solver::Cartesian(robot) => Joints::new(&robot.start()),
             Solver::Fixed(arm) => Joints::new(&arm.start()),
             Solver::Rail(arm) => Joints::new(&arm.start()),
             Solver::Gantry(arm) => Joints::new(&arm.start()),
@@ -346,4 +376,22 @@ impl Arm {
     pub fn limits(&self) -> Limits {
         self.limits
     }
+}
+
+/// The axes of a Cartesian robot, its tool so far below the last one; none if they are not at right angles.
+fn cartesian(axes: &[&Axis], tool_length: f64) -> Option<Cartesian> {
+    let slide = |axis: &&Axis| match axis.motion {
+        Motion::Slides { along, range } => Some(Slide { along, range }),
+        Motion::Turns => None,
+    };
+    let slides: Vec<Slide> = axes.iter().map(slide).collect::<Option<_>>()?;
+    let base = match axes.first()?.place? {
+        Place::From(frame) => frame,
+        // Ranges in the world begin at its origin.
+        Place::At(point) => {
+            let at = slides.iter().fold(point, |at, slide| at.with_coordinate(slide.along, 0.0));
+            Frame::new(at, 0.0)
+        }
+    };
+    Cartesian::new(base, &slides, tool_length)
 }

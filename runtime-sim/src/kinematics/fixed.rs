@@ -1,53 +1,123 @@
-//! An arm of the Universal Robots kind that stands where it is, its tool pointing down.
+//! An arm of six joints that stands where it is, its tool pointing down.
 
 use super::links::Link;
+use super::opw::Opw;
 use super::pose::Pose;
 use super::ur::{Angles, Lengths};
 use super::{is_finite, nearest_turn, root};
 use crate::frame::Frame;
 use crate::point::Point;
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 pub const JOINTS: usize = 6;
 
-/// How the maker draws it: upper arm up, forearm level, tool down.
+/// How Universal Robots draws it: upper arm up, forearm level, tool down.
 const USUAL: Angles = [0.0, -FRAC_PI_2, FRAC_PI_2, -FRAC_PI_2, -FRAC_PI_2, 0.0];
 
 /// The frame of the base is the maker's: z along the first joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FixedArm {
     base: Frame,
-    lengths: Lengths,
+    geometry: Geometry,
+    ranges: Option<[[f64; 2]; JOINTS]>,
+}
+
+/// Links and joints, as far as the inverse kinematics has a closed form for them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Geometry {
+    UniversalRobots(Lengths),
+    OrthoParallel(Opw),
+}
+
+/// Joints for a place of the tool.
+#[derive(Clone, Copy, Debug)]
+struct Candidate {
+    angles: Angles,
+    is_usual: bool,
+    /// By how much the limits of the joints forbid it: for each angle beyond its range, this angle times the distance of
+    /// the tool from the joint; the greatest of these, m.
+    beyond: f64,
 }
 
 impl FixedArm {
-    pub fn new(base: Frame, lengths: Lengths) -> Self {
-        Self { base, lengths }
+    /// `ranges` are the limits of the joints, rad; without them every joint turns once to either side.
+    pub fn new(base: Frame, geometry: Geometry, ranges: Option<[[f64; 2]; JOINTS]>) -> Self {
+        Self { base, geometry, ranges }
     }
 
     pub fn base(&self) -> Pose {
         self.base.pose()
     }
 
-    /// Distance of the wrist to the limit of reach, the tool pointing down; negative out of reach, m.
+    /// Distance of the wrist to the limit of reach, the tool pointing down; negative out of reach, m. Where only limits of
+    /// joints forbid the place: less than 0 by the angle that is lacking times the distance of the tool from this joint.
     pub fn margin(&self, tool: Point) -> f64 {
         if !is_finite(tool) {
             return f64::NEG_INFINITY;
         }
-        let Lengths { d1, a2, a3, d4, d5, tool: length } = self.lengths;
         let seen = self.base.seen(tool);
-        let from_axis = libm::hypot(seen.x, seen.y);
-        if from_axis < d4.abs() {
-            return from_axis - d4.abs();
-        }
-        let ahead = root((from_axis - d4) * (from_axis + d4));
-        let height = seen.z + length - d1;
-        let (longest, shortest) = (a2.abs() + a3.abs(), (a2.abs() - a3.abs()).abs());
-        let slack = |out: f64| {
-            let wrist = libm::hypot(out, height);
-            (longest - wrist).min(wrist - shortest)
+        let margin = match &self.geometry {
+            Geometry::UniversalRobots(lengths) => margin(lengths, seen),
+            Geometry::OrthoParallel(opw) => opw.margin(&down(seen, 1.0)),
         };
-        slack(ahead - d5).max(slack(ahead + d5))
+        if margin < 0.0 || self.ranges.is_none() {
+            return margin;
+        }
+        let least = self.candidates(seen, &self.start()).map(|found| found.beyond).fold(f64::INFINITY, f64::min);
+        // Of a place at the very limit of reach rounding may leave no solution.
+        if least > 0.0 { -least.min(self.longest()) } else { margin }
+    }
+
+    /// From the first joint to the tool at most, m.
+    fn longest(&self) -> f64 {
+        match &self.geometry {
+            Geometry::UniversalRobots(Lengths { d1, a2, a3, d4, d5, tool }) => {
+                [d1, a2, a3, d4, d5, tool].into_iter().map(|length| length.abs()).sum()
+            }
+            Geometry::OrthoParallel(Opw { a1, a2, b, c1, c2, c3, tool, .. }) => {
+                [a1, a2, b, c1, c2, c3, tool].into_iter().map(|length| length.abs()).sum()
+            }
+        }
+    }
+
+    /// All joints that bring the tool, pointing down, to a place in the frame of the base, near `from`.
+    fn candidates(&self, seen: Point, from: &Angles) -> impl Iterator<Item = Candidate> {
+        let solutions = [1.0, -1.0].into_iter().flat_map(move |x| {
+            let tool = down(seen, x);
+            match &self.geometry {
+                Geometry::UniversalRobots(lengths) => {
+                    let all = lengths.inverse(&tool).into_iter();
+                    all.map(|angles| (angles, angles[2] >= 0.0)).collect::<Vec<_>>()
+                }
+                Geometry::OrthoParallel(opw) => {
+                    let all = opw.inverse(&tool).into_iter();
+                    all.map(|solution| (solution.angles, solution.is_usual)).collect()
+                }
+            }
+        });
+        let from = *from;
+        solutions.map(move |(angles, is_usual)| self.candidate(angles, is_usual, &from))
+    }
+
+    fn candidate(&self, angles: Angles, is_usual: bool, from: &Angles) -> Candidate {
+        let Some(ranges) = &self.ranges else {
+            let angles = std::array::from_fn(|joint| nearest_turn(angles[joint], from[joint]));
+            return Candidate { angles, is_usual, beyond: 0.0 };
+        };
+        let near = std::array::from_fn(|joint| turn_within(angles[joint], ranges[joint], from[joint]));
+        let frames = self.in_base(&near);
+        let tool = frames[JOINTS - 1];
+        let beyond = (0..JOINTS).map(|joint| {
+            let [low, high] = ranges[joint];
+            let lacks = (low - near[joint]).max(near[joint] - high);
+            // A joint that turns the tool about its own axis moves nothing: it counts as a tenth of a metre.
+            let reach = (frames[joint].position - tool.position).length().max(0.1);
+            if lacks > ROUNDED { lacks * reach } else { 0.0 }
+        });
+        let beyond = beyond.fold(0.0, f64::max);
+        let clamped = |joint: usize| near[joint].clamp(ranges[joint][0], ranges[joint][1]);
+        let angles = if beyond > 0.0 { near } else { std::array::from_fn(clamped) };
+        Candidate { angles, is_usual, beyond }
     }
 
     /// Joints that bring the tool, pointing down, to a place; some exactly when [`Self::margin`] is not negative. Its x lies
@@ -57,38 +127,84 @@ impl FixedArm {
         if self.margin(tool) < 0.0 {
             return None;
         }
-        let seen = self.base.seen(tool);
-        let down =
-            |x: f64| Pose { rotation: [[x, 0.0, 0.0], [0.0, -x, 0.0], [0.0, 0.0, -1.0]], position: seen };
-        let solutions = [1.0, -1.0].into_iter().flat_map(|x| self.lengths.inverse(&down(x)));
-        let near = solutions.map(|angles| -> Angles {
-            std::array::from_fn(|joint| nearest_turn(angles[joint], from[joint]))
-        });
-        let cost = |angles: &Angles| {
-            let farthest = angles.iter().zip(from).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-            if angles[2] < 0.0 { farthest + 4.0 * PI } else { farthest }
+        let cost = |found: &Candidate| {
+            let farthest = found.angles.iter().zip(from).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            if found.is_usual { farthest } else { farthest + 4.0 * PI }
         };
+        let found = self.candidates(self.base.seen(tool), from).filter(|found| found.beyond == 0.0);
         // Of equals the first.
-        near.reduce(|best, next| if cost(&next) < cost(&best) - 1e-9 { next } else { best })
+        let best = found.reduce(|best, next| if cost(&next) < cost(&best) - 1e-9 { next } else { best });
+        best.map(|found| found.angles)
+    }
+
+    fn in_base(&self, joints: &Angles) -> [Pose; JOINTS] {
+        match &self.geometry {
+            Geometry::UniversalRobots(lengths) => lengths.frames(joints),
+            Geometry::OrthoParallel(opw) => opw.frames(joints),
+        }
     }
 
     pub fn tool_pose(&self, joints: &Angles) -> Pose {
-        self.base().then(&self.lengths.forward(joints))
+        let tool = match &self.geometry {
+            Geometry::UniversalRobots(lengths) => lengths.forward(joints),
+            Geometry::OrthoParallel(opw) => opw.forward(joints),
+        };
+        self.base().then(&tool)
     }
 
     pub fn frames(&self, joints: &Angles) -> [Pose; JOINTS] {
         let base = self.base();
-        self.lengths.frames(joints).map(|frame| base.then(&frame))
+        self.in_base(joints).map(|frame| base.then(&frame))
     }
 
     /// The joints, from the world on.
     pub fn links(&self) -> Vec<Link> {
-        self.lengths.links(self.base()).into()
+        match &self.geometry {
+            Geometry::UniversalRobots(lengths) => lengths.links(self.base()).into(),
+            Geometry::OrthoParallel(opw) => opw.links(self.base()).into(),
+        }
     }
 
     pub fn start(&self) -> Angles {
-        USUAL
+        match &self.geometry {
+            Geometry::UniversalRobots(_) => USUAL,
+            Geometry::OrthoParallel(opw) => opw.usual(),
+        }
     }
+}
+
+/// An angle beyond its range by less is rounding, rad.
+const ROUNDED: f64 = 1e-9;
+
+/// Of the equivalents of an angle that are within a range the one nearest to `present`; if there is none, the one that
+/// lacks least.
+fn turn_within(angle: f64, [low, high]: [f64; 2], present: f64) -> f64 {
+    let lacks = |turn: f64| (low - turn).max(turn - high).max(ROUNDED);
+    let turns = [angle, angle - TAU, angle + TAU, angle - 2.0 * TAU, angle + 2.0 * TAU];
+    let cost = |turn: f64| (lacks(turn), (turn - present).abs());
+    turns.into_iter().reduce(|best, next| if cost(next) < cost(best) { next } else { best }).unwrap_or(angle)
+}
+
+/// The tool pointing down, its x along the base's x or against it.
+fn down(position: Point, x: f64) -> Pose {
+    Pose { rotation: [[x, 0.0, 0.0], [0.0, -x, 0.0], [0.0, 0.0, -1.0]], position }
+}
+
+/// That of an arm of Universal Robots, the tool pointing down at a place in the frame of the base.
+fn margin(lengths: &Lengths, seen: Point) -> f64 {
+    let Lengths { d1, a2, a3, d4, d5, tool: length } = *lengths;
+    let from_axis = libm::hypot(seen.x, seen.y);
+    if from_axis < d4.abs() {
+        return from_axis - d4.abs();
+    }
+    let ahead = root((from_axis - d4) * (from_axis + d4));
+    let height = seen.z + length - d1;
+    let (longest, shortest) = (a2.abs() + a3.abs(), (a2.abs() - a3.abs()).abs());
+    let slack = |out: f64| {
+        let wrist = libm::hypot(out, height);
+        (longest - wrist).min(wrist - shortest)
+    };
+    slack(ahead - d5).max(slack(ahead + d5))
 }
 
 #[cfg(test)]
@@ -104,7 +220,7 @@ mod tests {
     fn what_is_in_reach_is_reached_and_nothing_else() {
         let mut random = Random::new(12);
         let base = Frame::new(Point::new(0.3, -0.2, 0.75), 30.0);
-        let arm = FixedArm::new(base, UR10E);
+        let arm = FixedArm::new(base, Geometry::UniversalRobots(UR10E), None);
         let (mut reached, mut from) = (0, arm.start());
         for _ in 0..100_000 {
             let mut drawn = || random.between(-1.8, 1.8);
@@ -125,7 +241,7 @@ mod tests {
     #[test]
     fn the_margin_changes_by_no_more_than_the_tool_goes() {
         let mut random = Random::new(13);
-        let arm = FixedArm::new(Frame::default(), UR10E);
+        let arm = FixedArm::new(Frame::default(), Geometry::UniversalRobots(UR10E), None);
         for _ in 0..100_000 {
             let mut drawn = || random.between(-1.8, 1.8);
             let (a, b) = (Point::new(drawn(), drawn(), drawn()), Point::new(drawn(), drawn(), drawn()));
@@ -136,5 +252,53 @@ mod tests {
                 assert!((arm.margin(a) - arm.margin(b)).abs() <= stretched * goes + 1e-9, "{a:?} {b:?}");
             }
         }
+    }
+
+    const OPW: Opw = Opw {
+        a1: 0.025,
+        a2: -0.035,
+        b: 0.0,
+        c1: 0.400,
+        c2: 0.315,
+        c3: 0.365,
+        tool: 0.180,
+        offsets: [0.0, -FRAC_PI_2, 0.0, 0.0, 0.0, 0.0],
+        signs: [-1.0, 1.0, 1.0, -1.0, 1.0, -1.0],
+    };
+
+    fn degrees(ranges: [[f64; 2]; 6]) -> Option<[[f64; 2]; 6]> {
+        Some(ranges.map(|range| range.map(f64::to_radians)))
+    }
+
+    /// Limits of the maker, KUKA KR 6 R700 sixx.
+    const KR6: [[f64; 2]; 6] =
+        [[-170.0, 170.0], [-190.0, 45.0], [-120.0, 156.0], [-185.0, 185.0], [-120.0, 120.0], [-350.0, 350.0]];
+
+    #[test]
+    fn limits_of_joints_are_kept_and_only_they_forbid_places_in_reach() {
+        let mut random = Random::new(14);
+        let base = Frame::new(Point::new(0.3, -0.2, 0.4), 20.0);
+        let geometry = Geometry::OrthoParallel(OPW);
+        let (free, limited) = (FixedArm::new(base, geometry, None), FixedArm::new(base, geometry, degrees(KR6)));
+        let (mut reached, mut forbidden, mut from) = (0, 0, limited.start());
+        for _ in 0..50_000 {
+            let mut drawn = || random.between(-0.9, 0.9);
+            let tool = Point::new(0.3 + drawn(), drawn() - 0.2, 0.5 + drawn());
+            let found = limited.solve(tool, &from);
+            assert_eq!(found.is_some(), limited.margin(tool) >= 0.0, "{tool:?}");
+            assert!(free.margin(tool) >= limited.margin(tool));
+            let Some(joints) = found else {
+                forbidden += usize::from(free.margin(tool) >= 0.0);
+                continue;
+            };
+            let pose = limited.tool_pose(&joints);
+            assert!((pose.position - tool).length() < 1e-6, "{tool:?} {joints:?}");
+            assert!((pose.axis(2).z + 1.0).abs() < 1e-9, "{joints:?}");
+            for (joint, [low, high]) in joints.iter().zip(KR6) {
+                assert!((low.to_radians()..=high.to_radians()).contains(joint), "{joints:?}");
+            }
+            (reached, from) = (reached + 1, joints);
+        }
+        assert!(reached > 5_000 && forbidden > 500, "{reached} {forbidden}");
     }
 }

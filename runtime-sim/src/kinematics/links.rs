@@ -1,7 +1,7 @@
 //! The links of an arm one after the other, for whoever computes their frames elsewhere.
 
 use super::pose::Pose;
-use crate::point::{Axis, Point};
+use crate::point::{Direction, Point};
 
 /// A joint with what is fixed before and behind it: its frame is that of the joint before (of the first: the world),
 /// then `before`, then the joint's own motion, then `behind`.
@@ -14,14 +14,14 @@ pub struct Link {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Joint {
-    Slides(Axis),
+    Slides(Direction),
     /// About z.
     Turns,
 }
 
 impl Link {
-    pub fn slides(before: Pose, along: Axis, behind: Pose) -> Self {
-        Self { before, joint: Joint::Slides(along), behind }
+    pub fn slides(before: Pose, along: impl Into<Direction>, behind: Pose) -> Self {
+        Self { before, joint: Joint::Slides(along.into()), behind }
     }
 
     pub fn turns(before: Pose, behind: Pose) -> Self {

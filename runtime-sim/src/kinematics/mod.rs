@@ -4,9 +4,11 @@
 //! every build computes the same bits.
 
 pub mod arm;
+pub mod cartesian;
 pub mod fixed;
 pub mod gantry;
 pub mod links;
+pub mod opw;
 mod planar;
 pub mod pose;
 pub mod rail_arm;

@@ -1,14 +1,18 @@
 //! Both robots: every solution through the general forward kinematics, every refusal through the general inverse.
 
 use super::arm::{Arm, Joints};
+use super::fixed;
 use super::gantry::Gantry;
+use super::opw::Opw;
 use super::pose::Pose;
 use super::rail_arm::RailArm;
 use super::random::Random;
+use super::ur::Lengths;
 use super::ur10::{self, D1};
-use crate::part::axis::Motion;
-use crate::part::chain::Chain;
-use crate::point::{Axis, Point};
+use crate::frame::Frame;
+use crate::part::axis::{Motion, Place};
+use crate::part::chain::{Chain, Geometry, Joint};
+use crate::point::{Axis, Direction, Point};
 use std::f64::consts::{PI, TAU};
 
 const KITTING: Point = Point::new(-1.3, 0.0, 1.127);
@@ -335,17 +339,15 @@ fn assert_near(a: &Pose, b: &Pose) {
 }
 
 fn axis(at: Point, motion: Motion) -> crate::part::axis::Axis {
-    let word = String::new();
-    let link = word.clone();
     let (speed, acceleration, mass, effort, damping, friction) = (1.0, 1.0, 1.0, 1.0, 0.0, 0.0);
     crate::part::axis::Axis {
         on: None,
-        at: Some(at),
+        place: Some(crate::part::axis::Place::At(at)),
         motion,
         speed,
         acceleration,
-        joint: word,
-        link,
+        joint: None,
+        link: None,
         mass,
         effort,
         damping,
@@ -354,20 +356,22 @@ fn axis(at: Point, motion: Motion) -> crate::part::axis::Axis {
 }
 
 fn chain() -> Chain {
-    let (numbers, names) = (vec![1.0; 6], vec![String::new(); 6]);
+    let joint = Joint {
+        name: String::new(),
+        link: String::new(),
+        speed: 1.0,
+        mass: 1.0,
+        effort: 1.0,
+        damping: 1.0,
+        friction: 1.0,
+    };
     Chain {
         on: Some(0),
         base: None,
-        lengths: None,
+        geometry: Geometry::Ur10,
         rest: Point::default(),
-        speeds: numbers.clone(),
+        joints: vec![joint; 6],
         acceleration: 1.0,
-        joints: names.clone(),
-        links: names,
-        masses: numbers.clone(),
-        efforts: numbers.clone(),
-        damping: numbers.clone(),
-        friction: numbers,
         envelope: None,
         clearances: Vec::new(),
     }
@@ -377,28 +381,66 @@ fn chain() -> Chain {
 fn links_keep_their_lengths_and_end_at_the_tool() {
     let mut random = Random::new(11);
     for rail in [Axis::X, Axis::Y] {
-        let rail = axis(KITTING, Motion::Slides { along: rail, range: [-4.8, 4.8] });
+        let rail = axis(KITTING, Motion::Slides { along: rail.into(), range: [-4.8, 4.8] });
         assert_arm(&Arm::new(&[&rail], &chain()).unwrap(), 7, &mut random);
     }
-    let x = axis(ABOVE, Motion::Slides { along: Axis::X, range: [-14.4, 0.4] });
-    let y = axis(ABOVE, Motion::Slides { along: Axis::Y, range: [-4.5, 4.5] });
+    let x = axis(ABOVE, Motion::Slides { along: Direction::X, range: [-14.4, 0.4] });
+    let y = axis(ABOVE, Motion::Slides { along: Direction::Y, range: [-4.5, 4.5] });
     let torso = axis(ABOVE, Motion::Turns);
     assert_arm(&Arm::new(&[&x, &y, &torso], &chain()).unwrap(), 9, &mut random);
     assert!(Arm::new(&[&y, &x, &torso], &chain()).is_none());
 }
 
-fn assert_arm(arm: &Arm, count: usize, random: &mut Random) {
+#[test]
+fn the_links_of_other_arms_end_at_the_tool_too() {
+    let mut random = Random::new(12);
+    let base = Frame::new(Point::new(0.4, -0.3, 0.7), 35.0);
+    let fixed = |geometry| Chain { on: None, base: Some(base), geometry: Geometry::Fixed(geometry, None), ..chain() };
+    let ur = Lengths { d1: 0.1807, a2: -0.6127, a3: -0.57155, d4: 0.17415, d5: 0.11985, tool: 0.26655 };
+    let opw = Opw {
+        a1: 0.15,
+        a2: -0.11,
+        b: 0.02,
+        c1: 0.4865,
+        c2: 0.7,
+        c3: 0.678,
+        tool: 0.235,
+        offsets: [0.0, 0.0, -1.5, 0.0, 0.2, PI],
+        signs: [1.0, -1.0, 1.0, -1.0, 1.0, 1.0],
+    };
+    for geometry in [fixed::Geometry::UniversalRobots(ur), fixed::Geometry::OrthoParallel(opw)] {
+        assert_composed(&Arm::new(&[], &fixed(geometry)).unwrap(), 6, &mut random);
+    }
+    let place = Some(Place::From(base));
+    let slide = |along, place| crate::part::axis::Axis { place, ..axis(ABOVE, Motion::Slides { along, range: [-1.0, 1.0] }) };
+    let axes = [slide(Direction::Y, place), slide(Direction::Z, None), slide(Direction::X, None)];
+    let axes: Vec<_> = axes.iter().collect();
+    for count in 1..=3 {
+        let tool = Chain { geometry: Geometry::Tool(0.2), joints: Vec::new(), ..chain() };
+        assert_composed(&Arm::new(&axes[..count], &tool).unwrap(), count, &mut random);
+    }
+}
+
+fn assert_composed(arm: &Arm, count: usize, random: &mut Random) {
     for _ in 0..1000 {
         let joints: Vec<f64> = (0..count).map(|_| random.between(-TAU, TAU)).collect();
         let frames = arm.frames(&Joints::new(&joints));
         assert_eq!(frames.len(), count);
         assert_eq!(frames.last(), Some(&arm.tool_pose(&Joints::new(&joints))));
-        assert_links(&frames, count - 6);
         let mut composed = Pose::IDENTITY;
         for ((link, value), frame) in arm.links().iter().zip(&joints).zip(frames.iter()) {
             composed = composed.then(&link.frame(*value));
             assert_near(&composed, frame);
         }
+    }
+}
+
+fn assert_arm(arm: &Arm, count: usize, random: &mut Random) {
+    assert_composed(arm, count, random);
+    for _ in 0..1000 {
+        let joints: Vec<f64> = (0..count).map(|_| random.between(-TAU, TAU)).collect();
+        let frames = arm.frames(&Joints::new(&joints));
+        assert_links(&frames, count - 6);
         // A joint moves the links from its own on, and none before it.
         for moved in 0..count {
             let mut other = joints.clone();

@@ -1,18 +1,19 @@
 //! The joints of an arm behind the axes that carry it, moved together.
 
-use super::settings::{Form, Setting, Settings};
-use super::{Described, Action, Begun, Progress, Running, Schema, See, Signal, World, Start, Primitive};
+use super::settings::{Form, Setting};
+use super::{Action, Begun, Progress, Running, Schema, See, Signal, World};
 use crate::device::{Extent, PortType, error};
-use crate::kinematics::arm::Joints;
 use crate::frame::Frame;
+use crate::kinematics::arm::Joints;
+use crate::kinematics::fixed;
 use crate::kinematics::pose::Pose;
-use crate::kinematics::ur::Lengths;
 use crate::part::axis::Axis;
 use crate::plant::trajectory::Trajectory;
 use crate::point::Point;
 use crate::planner::{End, Load, Transfer};
 use drive::{Drive, Moved, Target};
 
+mod described;
 pub mod drive;
 pub(crate) mod motions;
 
@@ -30,41 +31,47 @@ pub const SCHEMA: Schema = Schema {
     ],
     ..Schema::new(
         "chain",
-        "Six joints as in a Universal Robots arm, with the tool pointing down: either carried by axes, with the lengths of the UR10, or fixed at `from`, with the given lengths.",
+        "The joints of an arm that move together, with the tool pointing down. On one axis, or on two that slide and one that turns: the six joints of a UR10. Fixed at `from`: the six joints of an arm of Universal Robots with `lengths`, or of an arm with a spherical wrist by the parameters `opw`. On one to three axes at right angles, without `speeds`: a Cartesian robot, which has no joints but its axes.",
         &[
             Setting::new("on", Form::Part(&["axis"]), "", "the last of the axes that carry it").optional(),
             Setting::new("from", Form::Frame, "m", "frame of its base, if no axis carries it").optional(),
-            Setting::new("lengths", Form::Numbers, "m", "d1, a2, a3, d4, d5, d6 of the manufacturer, for a fixed one")
+            Setting::new("lengths", Form::Numbers, "m", "d1, a2, a3, d4, d5, d6 of the manufacturer, for an arm of Universal Robots")
                 .optional(),
-            Setting::new("tool_length", Form::Number, "m", "from the flange to the tool centre point, for a fixed one")
+            Setting::new("opw", Form::Numbers, "m", "a1, a2, b, c1, c2, c3, c4 of an arm with an ortho-parallel base and a spherical wrist")
+                .optional(),
+            Setting::new("offsets", Form::Numbers, "deg", "with `opw`: of each joint; without it 0").optional(),
+            Setting::new("signs", Form::Numbers, "", "with `opw`: 1, or -1 for a joint that the manufacturer counts the other way; without it 1")
+                .optional(),
+            Setting::new("lowest", Form::Numbers, "deg", "lower limit of each joint of a fixed arm; without it -360").optional(),
+            Setting::new("highest", Form::Numbers, "deg", "upper limit of each joint of a fixed arm; without it 360").optional(),
+            Setting::new("tool_length", Form::Number, "m", "from the flange, or from the last axis of a Cartesian robot, to the tool centre point")
                 .optional(),
             Setting::new("rest", Form::Point, "m", "place of the tool at the start"),
-            Setting::new("speeds", Form::Numbers, "rad/s", "greatest velocity of each joint"),
-            Setting::new("acceleration", Form::Positive, "rad/s2", "greatest of each joint, initially"),
-            Setting::new("joints", Form::Words, "", "names of the joints, in the world"),
-            Setting::new("links", Form::Words, "", "names of the links, in the world"),
-            Setting::new("masses", Form::Numbers, "kg", "of the links, for the world"),
-            Setting::new("efforts", Form::Numbers, "N m", "greatest, for the world"),
-            Setting::new("damping", Form::Numbers, "N m s/rad", "for the world"),
-            Setting::new("friction", Form::Numbers, "N m", "for the world"),
+            Setting::new("speeds", Form::Numbers, "rad/s", "greatest velocity of each joint").optional(),
+            Setting::new("acceleration", Form::Positive, "rad/s2", "greatest of each joint, initially").optional(),
+            Setting::new("joints", Form::Words, "", "names of the joints, in the world").optional(),
+            Setting::new("links", Form::Words, "", "names of the links, in the world").optional(),
+            Setting::new("masses", Form::Numbers, "kg", "of the links, for the world; without it 5 each").optional(),
+            Setting::new("efforts", Form::Numbers, "N m", "greatest, for the world; without it 300").optional(),
+            Setting::new("damping", Form::Numbers, "N m s/rad", "for the world; without it 0").optional(),
+            Setting::new("friction", Form::Numbers, "N m", "for the world; without it 0").optional(),
             Setting::new(
                 "envelope",
                 Form::Numbers,
                 "m",
-                "workspace that others keep free: half of its width across the axis, and its height over the shoulder; empty: none",
-            ),
+                "workspace that others keep free: half of its width across the axis, and its height over the shoulder; empty or left out: none",
+            )
+            .optional(),
             Setting::new(
                 "clearances",
                 Form::Points,
                 "m",
                 "of the bodies that turn with it about the vertical: lower and upper end from the shoulder's height, and the distance of the axis from obstacles between them",
-            ),
+            )
+            .optional(),
         ],
     )
 };
-
-/// Joints behind the axes.
-const JOINTS: usize = 6;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chain {
@@ -72,94 +79,43 @@ pub struct Chain {
     pub on: Option<usize>,
     /// Where its base stands, if none does.
     pub base: Option<Frame>,
-    /// Of a fixed one.
-    pub lengths: Option<Lengths>,
+    pub geometry: Geometry,
     pub rest: Point,
-    pub speeds: Vec<f64>,
+    /// Behind the axes; none for a Cartesian robot.
+    pub joints: Vec<Joint>,
+    /// Of these joints, rad/s2; 0 without any.
     pub acceleration: f64,
-    pub joints: Vec<String>,
-    pub links: Vec<String>,
-    pub masses: Vec<f64>,
-    pub efforts: Vec<f64>,
-    pub damping: Vec<f64>,
-    pub friction: Vec<f64>,
     pub envelope: Option<[f64; 2]>,
     /// Lower end, upper end and radius of each.
     pub clearances: Vec<[f64; 3]>,
 }
 
-impl Described for Chain {
-    fn new(settings: &Settings) -> Result<Self, String> {
-        let numbers = |name: &str| {
-            let numbers = settings.numbers(name)?;
-            if numbers.len() == JOINTS {
-                Ok(numbers)
-            } else {
-                Err(format!("the setting {name} has not a number for each of {JOINTS} joints"))
-            }
-        };
-        let words = |name: &str| {
-            let words = settings.words(name)?;
-            if words.len() == JOINTS {
-                Ok(words)
-            } else {
-                Err(format!("the setting {name} has not a name for each of {JOINTS} joints"))
-            }
-        };
-        let speeds = numbers("speeds")?;
-        if speeds.iter().any(|speed| *speed <= 0.0) {
-            return Err("a number of the setting speeds is not over 0".into());
-        }
-        let envelope = match settings.numbers("envelope")?[..] {
-            [] => None,
-            [half, height] => Some([half, height]),
-            _ => return Err("the setting envelope has neither two numbers nor none".into()),
-        };
-        let on = settings.optional("on", Settings::part)?;
-        let base = settings.optional("from", Settings::upright)?;
-        let lengths = lengths(settings)?;
-        if on.is_some() == base.is_some() || base.is_some() != lengths.is_some() {
-            return Err("a chain is on an axis, or it has from, lengths and tool_length".into());
-        }
-        Ok(Self {
-            on,
-            base,
-            lengths,
-            rest: settings.point("rest")?,
-            speeds,
-            acceleration: settings.positive("acceleration")?,
-            joints: words("joints")?,
-            links: words("links")?,
-            masses: numbers("masses")?,
-            efforts: numbers("efforts")?,
-            damping: numbers("damping")?,
-            friction: numbers("friction")?,
-            envelope,
-            clearances: settings.points("clearances")?.iter().map(|p| [p.x, p.y, p.z]).collect(),
-        })
-    }
-
-    fn start(&self, start: &mut Start) -> Result<Option<Box<dyn Running>>, String> {
-        let (machine, part) = (start.machine(), start.part);
-        let name = &machine.name;
-        let motions = start.memory.motions(start.line, start.machine);
-        let motions = motions.ok_or_else(|| format!("{name} has no inverse kinematics"))?;
-        let drive = Drive::new(motions, self.rest)
-            .ok_or_else(|| format!("{name} cannot reach its own rest position"))?;
-        let grip = start.find(|other| matches!(other, Primitive::Grip(grip) if grip.chain == part));
-        Ok(Some(Box::new(Swinging::new(drive, grip))))
-    }
+/// What is between its base, or the last axis, and the tool.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Geometry {
+    /// A UR10 with the gripper of the library.
+    Ur10,
+    /// The limits of its joints, rad.
+    Fixed(fixed::Geometry, Option<[[f64; 2]; fixed::JOINTS]>),
+    /// No joints: the tool is so far below the last axis, m.
+    Tool(f64),
 }
 
-fn lengths(settings: &Settings) -> Result<Option<Lengths>, String> {
-    let numbers = settings.optional("lengths", Settings::numbers)?;
-    match (numbers.as_deref(), settings.optional("tool_length", Settings::number)?) {
-        (None, None) => Ok(None),
-        (Some(&[d1, a2, a3, d4, d5, d6]), Some(tool)) if a2 != 0.0 && a3 != 0.0 => {
-            Ok(Some(Lengths { d1, a2, a3, d4, d5, tool: d6 + tool }))
-        }
-        _ => Err("the settings lengths and tool_length are d1, a2, a3, d4, d5, d6, of which a2 and a3 are not 0, and a length".into()),
-    }
+/// A joint that turns, and its link as the world describes it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Joint {
+    pub name: String,
+    pub link: String,
+    /// rad/s
+    pub speed: f64,
+    /// kg
+    pub mass: f64,
+    /// N m
+    pub effort: f64,
+    /// N m s/rad
+    pub damping: f64,
+    /// N m
+    pub friction: f64,
 }
 
 impl Chain {

@@ -1,7 +1,7 @@
 //! The settings of a part, read by name.
 
 use crate::frame::Frame;
-use crate::point::{Axis, Point};
+use crate::point::{Axis, Direction, Point};
 use crate::value::Value;
 
 /// A setting that a primitive knows.
@@ -24,7 +24,10 @@ pub enum Form {
     Positive,
     Point,
     Frame,
+    /// A level axis, x or y.
     Axis,
+    /// x, y or z.
+    Direction,
     Word,
     /// Another part, of one of these primitives.
     Part(&'static [&'static str]),
@@ -48,6 +51,9 @@ impl Setting {
 /// Names and values, in the order of the text.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Settings(Vec<(&'static str, Value)>);
+
+/// The word of a setting that is a direction, for the axis that is not level.
+pub const VERTICAL: &str = "z";
 
 /// No number is farther from 0.
 const FARTHEST: f64 = 1e6;
@@ -118,6 +124,14 @@ impl Settings {
     pub fn axis(&self, name: &str) -> Result<Axis, String> {
         self.read(name, "axis", |value| match value {
             Value::Axis(axis) => Some(*axis),
+            _ => None,
+        })
+    }
+
+    pub fn direction(&self, name: &str) -> Result<Direction, String> {
+        self.read(name, "axis", |value| match value {
+            Value::Axis(axis) => Some((*axis).into()),
+            Value::Word(word) if word == VERTICAL => Some(Direction::Z),
             _ => None,
         })
     }

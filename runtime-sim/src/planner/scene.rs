@@ -92,7 +92,7 @@ impl Scene {
         let own = line.machines.get(index)?;
         let arm = own.arm()?;
         arm.gantry()?;
-        let shoulder = own.axes().first()?.at?.z;
+        let shoulder = own.axes().first()?.at()?.z;
         let around = own.chain()?.clearances.iter();
         let around: Vec<AroundAxis> =
             around.map(|&[low, high, radius]| AroundAxis { heights: [low, high], radius }).collect();
@@ -329,8 +329,9 @@ fn workspaces(machine: &Machine) -> Vec<Vec<Solid>> {
     let Motion::Slides { along, range: [low, high] } = axis.motion else { return Vec::new() };
     let long = high - low + 2.0 * half;
     let middle = (high + low) / 2.0;
-    let Some(at) = axis.at else { return Vec::new() };
+    let Some(at) = axis.at() else { return Vec::new() };
     let tall = at.z + height;
+    let Some(along) = along.level() else { return Vec::new() };
     let (position, size) = match along {
         Axis::X => (Point::new(middle, at.y, tall / 2.0), Point::new(long, 2.0 * half, tall)),
         Axis::Y => (Point::new(at.x, middle, tall / 2.0), Point::new(2.0 * half, long, tall)),

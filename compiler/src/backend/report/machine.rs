@@ -11,7 +11,7 @@ use runtime_sim::part::Primitive;
 use runtime_sim::part::cylinder::Stroke;
 use runtime_sim::part::lane::CentreLine;
 use runtime_sim::part::track::Track;
-use runtime_sim::point::{Axis, Point};
+use runtime_sim::point::{Axis, Direction, Point};
 use runtime_sim::solid::{Link, Shape, Solid};
 use runtime_sim::wiring::{self, Drives};
 use serde_json::{Value, json};
@@ -112,8 +112,9 @@ fn links(machine: &Machine) -> Value {
     let Some(arm) = machine.arm() else { return Value::Null };
     let link = |link: runtime_sim::kinematics::links::Link| {
         let joint = match link.joint {
-            Joint::Slides(Axis::X) => "x",
-            Joint::Slides(Axis::Y) => "y",
+            Joint::Slides(Direction::X) => "x",
+            Joint::Slides(Direction::Y) => "y",
+            Joint::Slides(Direction::Z) => "z",
             Joint::Turns => "turns",
         };
         json!({ "before": pose(&link.before), "joint": joint, "behind": pose(&link.behind) })
@@ -206,7 +207,8 @@ fn rails(machine: &Machine) -> Vec<Value> {
             let at = |i: f64, j: f64| centre + Point::new(i * x / 2.0, j * y / 2.0, 0.0);
             vec![at(-1.0, -1.0), at(1.0, -1.0), at(1.0, 1.0), at(-1.0, 1.0)]
         }
-        footprint::Shape::Circle { .. } | footprint::Shape::Polygon(_) => Vec::new(),
+        footprint::Shape::Polygon(points) => points,
+        footprint::Shape::Circle { .. } => Vec::new(),
     };
     let rail = |(shape, class)| {
         let points: Vec<Value> = corners(shape).into_iter().map(|p| json!([p.x, p.y])).collect();

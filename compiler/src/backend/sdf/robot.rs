@@ -8,7 +8,7 @@ use runtime_sim::kinematics::arm::{Arm, Joints};
 use runtime_sim::kinematics::pose::Pose;
 use runtime_sim::machine::Machine;
 use runtime_sim::part::axis;
-use runtime_sim::point::{Axis, Point};
+use runtime_sim::point::Point;
 use runtime_sim::solid::{self, Solid};
 use std::f64::consts::TAU;
 
@@ -37,8 +37,8 @@ struct Drive {
 }
 
 enum Motion {
-    /// Along an axis of the world, within a range of coordinates.
-    Slide { axis: Axis, range: [f64; 2] },
+    /// Along a direction of the world, within a range of its values.
+    Slide { along: Point, range: [f64; 2] },
     /// About the vertical through the link's own origin.
     Turn,
     /// About the z axis of the frame at which the arm is mounted on the link before.
@@ -49,28 +49,32 @@ enum Motion {
 
 /// The axes that carry the chain, then its joints.
 fn drives(machine: &Machine, mount: Pose) -> Vec<Drive> {
-    let of_axis = |axis: &axis::Axis| Drive {
-        joint: axis.joint.clone(),
-        link: axis.link.clone(),
+    let base = machine.axes().first().and_then(|axis| axis.base()).unwrap_or_default();
+    let of_axis = |(part, axis): (&str, &axis::Axis)| Drive {
+        joint: axis.joint.clone().unwrap_or_else(|| format!("{part}_drive")),
+        link: axis.link.clone().unwrap_or_else(|| format!("{part}_slide")),
         mass: axis.mass,
         motion: match axis.motion {
-            axis::Motion::Slides { along, range } => Motion::Slide { axis: along, range },
+            axis::Motion::Slides { along, range } => {
+                let along = base.direction(Point::default().with_coordinate(along, 1.0));
+                Motion::Slide { along, range }
+            }
             axis::Motion::Turns => Motion::Turn,
         },
         effort: axis.effort,
         damping: axis.damping,
         friction: axis.friction,
     };
-    let mut drives: Vec<Drive> = machine.axes().into_iter().map(of_axis).collect();
+    let mut drives: Vec<Drive> = machine.named_axes().into_iter().map(of_axis).collect();
     let Some(chain) = machine.chain() else { return drives };
-    drives.extend((0..chain.joints.len()).map(|i| Drive {
-        joint: chain.joints[i].clone(),
-        link: chain.links[i].clone(),
-        mass: chain.masses[i],
+    drives.extend(chain.joints.iter().enumerate().map(|(i, joint)| Drive {
+        joint: joint.name.clone(),
+        link: joint.link.clone(),
+        mass: joint.mass,
         motion: if i == 0 { Motion::Pan { mount } } else { Motion::Swing },
-        effort: chain.efforts[i],
-        damping: chain.damping[i],
-        friction: chain.friction[i],
+        effort: joint.effort,
+        damping: joint.damping,
+        friction: joint.friction,
     }));
     drives
 }
@@ -199,12 +203,10 @@ impl Drive {
 
     fn axis(&self, frame: &Pose, velocity: f64) -> model::Axis {
         let (xyz, [lower, upper]) = match self.motion {
-            Motion::Slide { axis, range } => {
-                let row = match axis {
-                    Axis::X => frame.rotation[0],
-                    Axis::Y => frame.rotation[1],
-                };
-                (row, range.map(|end| end - self.middle()))
+            Motion::Slide { along, range } => {
+                let turned = Pose { position: Point::default(), ..*frame };
+                let Point { x, y, z } = turned.inverse().direction(along);
+                ([x, y, z], range.map(|end| end - self.middle()))
             }
             // Limits of all turning joints in the robots' descriptions.
             _ => ([0.0, 0.0, 1.0], [-TAU, TAU]),
