@@ -70,12 +70,14 @@ pub struct Track<T> {
     pub changes: Vec<(u64, T)>,
 }
 
-/// A cylinder as it continues, 0 (in) to 1 (out).
+/// A cylinder or a positioner as it continues, 0 (in) to 1 (out).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stroke {
     pub out: f64,
     /// 1/s.
     pub rate: f64,
+    /// Where it stops.
+    pub until: f64,
 }
 
 /// A word of a controller.
@@ -93,10 +95,10 @@ impl History {
                 let parts = machine.parts.iter().enumerate();
                 parts.filter(move |(_, part)| wanted(&part.primitive)).map(|(number, _)| number)
             };
-            let cylinders = numbers(|part| matches!(part, Primitive::Cylinder(_)));
+            let carriages = numbers(|part| matches!(part, Primitive::Cylinder(_) | Primitive::Positioner(_)));
             let lanes = numbers(|part| matches!(part, Primitive::Lane(_)));
             MachineHistory {
-                strokes: cylinders.map(|part| Track { part, changes: Vec::new() }).collect(),
+                strokes: carriages.map(|part| Track { part, changes: Vec::new() }).collect(),
                 surfaces: lanes.map(|part| Track { part, changes: Vec::new() }).collect(),
                 ..MachineHistory::default()
             }
@@ -167,9 +169,9 @@ impl MachineHistory {
             self.motions.push(Motion { begin_ms: now_ms, from, trajectory });
         }
         for track in &mut self.strokes {
-            let Some((out, rate)) = plant.cylinder_going(machine, track.part) else { continue };
-            let stroke = Stroke { out, rate };
-            track.note(now_ms, stroke, |last| last.rate != stroke.rate);
+            let Some([out, rate, until]) = plant.carriage_going(machine, track.part) else { continue };
+            let stroke = Stroke { out, rate, until };
+            track.note(now_ms, stroke, |last| (last.rate, last.until) != (rate, until));
         }
         for track in &mut self.surfaces {
             let Some(speed) = plant.surface_speed(machine, track.part) else { continue };

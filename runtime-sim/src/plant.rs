@@ -4,7 +4,7 @@ mod command;
 pub(crate) mod conveyed;
 mod conveying;
 mod delay;
-mod fall;
+pub(crate) mod fall;
 mod sight;
 pub mod trajectory;
 mod working;
@@ -18,7 +18,7 @@ use crate::kinematics::arm::Joints;
 use crate::line::{Line, Obstacle};
 use crate::memory::Memory;
 use crate::part::Looks;
-use crate::part::cylinder::Stroking;
+use crate::part::stroke::Stroking;
 use crate::part::orders::Desk;
 use crate::part::track::Driving;
 use crate::point::Point;
@@ -225,10 +225,21 @@ impl Plant {
                 if let Some(item) = self.machines[machine].meets(part, contact, now_ms, next_ms)
                     && let Some(place) = self.place(item)
                 {
+                    self.take_from_under(machine, item);
                     let hang = tool.inverse().point(place);
                     self.items.pass(item, Carrier::Grip { machine, part, hang }, place);
                 }
             }
+        }
+    }
+
+    /// An item on which another one lies is not lifted alone.
+    fn take_from_under(&mut self, machine: usize, item: usize) {
+        let carrier = self.items.all()[item].carrier;
+        let working = carrier.machine().and_then(|bearing| self.machines.get(bearing));
+        let upper = working.and_then(|working| working.lies_on(item, &carrier, &self.items, &self.desk));
+        if upper.is_some() {
+            self.items.crash(machine, "took an item on which another one lies".into());
         }
     }
 
@@ -301,8 +312,8 @@ impl Plant {
         let carrier = &self.items.all().get(item)?.carrier;
         let machine = self.machines.get(carrier.machine()?)?;
         let lane = machine.lane(carrier.part()?)?;
-        let cylinder = lane.lane().on.and_then(|cylinder| machine.cylinder(cylinder));
-        let carried = cylinder.and_then(|cylinder| cylinder.stroking(self.now_ms()));
+        let carriage = lane.lane().on.and_then(|carriage| machine.carriage(carriage));
+        let carried = carriage.and_then(|carriage| carriage.stroking(self.now_ms()));
         Some(Conveyed { carried, ..lane.conveyed(item, carrier)? })
     }
 
@@ -321,14 +332,14 @@ impl Plant {
         Some(self.machines.get(machine)?.lane(part)?.speed())
     }
 
-    /// How a cylinder of a machine continues from now: [`crate::part::cylinder::Working::going`].
-    pub(crate) fn cylinder_going(&self, machine: usize, part: usize) -> Option<(f64, f64)> {
-        Some(self.machines.get(machine)?.cylinder(part)?.going(self.now_ms()))
+    /// How a cylinder or a positioner of a machine continues from now: [`crate::part::stroke::Carriage::going`].
+    pub(crate) fn carriage_going(&self, machine: usize, part: usize) -> Option<[f64; 3]> {
+        Some(self.machines.get(machine)?.carriage(part)?.going(self.now_ms()))
     }
 
-    /// How a cylinder of a machine moves what is on it from now on.
+    /// How a cylinder or a positioner of a machine moves what is on it from now on.
     pub(crate) fn stroking(&self, machine: usize, part: usize) -> Option<Stroking> {
-        self.machines.get(machine)?.cylinder(part)?.stroking(self.now_ms())
+        self.machines.get(machine)?.carriage(part)?.stroking(self.now_ms())
     }
 
     /// How a machine moves from now on.
@@ -362,7 +373,7 @@ impl Plant {
     /// Whether a machine moves at the start of this scan.
     pub(crate) fn moves(&self, machine: usize) -> bool {
         self.trajectory(machine).since(self.now_ms() as f64) != Trajectory::Rests
-            || self.machines.get(machine).is_some_and(Working::flows)
+            || self.machines.get(machine).is_some_and(|working| working.flows(self.now_ms()))
     }
 }
 

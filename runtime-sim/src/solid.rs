@@ -29,8 +29,8 @@ pub enum Link {
     /// Moves along the route or the track; the frame has its origin at the position, and of a route the world's axes, of a
     /// track x ahead.
     Route,
-    /// Moves with a cylinder, a part of the machine; the frame is the world's at its inner end.
-    Cylinder(usize),
+    /// Moves with a cylinder or a positioner, a part of the machine; the frame is the world's at its inner end.
+    Carriage(usize),
     /// Moves with the link behind joint number so and so of the arm:
     /// an index into [`crate::kinematics::arm::Arm::frames`].
     Joint(usize),
@@ -59,7 +59,7 @@ impl Machine {
                 None => (Link::World, body.pose),
                 Some((other, frame)) => match (&self.parts[other].primitive, &arm) {
                     (Primitive::Route(_) | Primitive::Track(_), _) => (Link::Route, body.pose),
-                    (Primitive::Cylinder(_), _) => (Link::Cylinder(other), body.pose),
+                    (Primitive::Cylinder(_) | Primitive::Positioner(_), _) => (Link::Carriage(other), body.pose),
                     // The base is a part of what carries it.
                     (Primitive::Chain(_), Some(arm)) if frame == 0 && axes == 0 => {
                         (Link::World, arm.mount().then(&body.pose))

@@ -95,7 +95,7 @@ fn names_are_unique_and_shapes_have_room() {
             match link {
                 Link::World => assert!(!placed.device.has("route")),
                 Link::Route => assert!(placed.device.has("route")),
-                Link::Cylinder(_) => assert!(placed.device.has("cylinder")),
+                Link::Carriage(_) => assert!(placed.device.has("cylinder")),
                 Link::Joint(i) => assert!(i < joints),
             }
         }

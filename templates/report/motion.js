@@ -45,7 +45,7 @@ const Motion = (() => {
     swings: rows(motion.swings, 3),
     drives: rows(motion.drives, 9),
     rides: rows(motion.rides, 9),
-    strokes: new Map(motion.strokes.map(([part, list]) => [part, rows(list, 3)])),
+    strokes: new Map(motion.strokes.map(([part, list]) => [part, rows(list, 4)])),
     surfaces: new Map(motion.surfaces.map(([part, list]) => [part, rows(list, 2)])),
   }));
 
@@ -171,13 +171,18 @@ const Motion = (() => {
     return [x + vx * s, y + vy * s, z + vz * s];
   }
 
-  /* The part of its stroke that a cylinder is out. */
+  /* The part of a stroke after so many seconds, which stops at a part of it. */
+  function goneOut(out, rate, until, s) {
+    return Math.min(Math.max(out + rate * s, Math.min(out, until)), Math.max(out, until));
+  }
+
+  /* The part of its stroke that a cylinder or a positioner is out. */
   function outAt(machine, part, ms) {
     const track = machines[machine].strokes.get(part);
     const index = track ? indexAt(track.at, ms) : -1;
     if (index < 0) return 0;
-    const [begin, out, rate] = track.list.slice(3 * index, 3 * index + 3);
-    return Math.min(Math.max(out + (rate * (ms - begin)) / 1000, 0), 1);
+    const [begin, out, rate, until] = track.list.slice(4 * index, 4 * index + 4);
+    return goneOut(out, rate, until, (ms - begin) / 1000);
   }
 
   /* What is on a cylinder, from where it is at the inner end. */
@@ -283,12 +288,12 @@ const Motion = (() => {
   }
 
   /* How far an item has come on its conveyor, and how that itself has moved. */
-  function conveyed([, carrier, , at, across, speed, stopsAt, out, rate], s) {
+  function conveyed([, carrier, , at, across, speed, stopsAt, out, rate, until], s) {
     const [, , machine, part] = raw.carriers[carrier];
     const least = stopsAt === null ? -Infinity : Math.min(stopsAt, at);
     const place = Math.max(at - speed * s, least);
     const cylinder = out === undefined ? null : cylinderOf(machine, laneOf(machine, part).on);
-    return { place, across, frame: cylinder && strokeFrame(cylinder, Math.min(Math.max(out + rate * s, 0), 1)) };
+    return { place, across, frame: cylinder && strokeFrame(cylinder, goneOut(out, rate, until, s)) };
   }
 
   /* How an item is turned, rad: it keeps its heading but on a conveyor with a frame, and on a gripper. */

@@ -12,8 +12,7 @@ use crate::kinematics::pose::Pose;
 use crate::line::{Line, Obstacle};
 use crate::machine::Machine;
 use crate::motion::Travel;
-use crate::part::Primitive;
-use crate::part::cylinder::Stroking;
+use crate::part::stroke::Stroking;
 use crate::part::lane::CentreLine;
 use crate::plant::Plant;
 use crate::plant::conveyed::Conveyed;
@@ -52,8 +51,8 @@ pub enum Anchor {
     Link(usize),
     /// Along the route.
     Route,
-    /// On a cylinder, a part of the machine.
-    Cylinder(usize),
+    /// On a cylinder or a positioner, a part of the machine.
+    Carriage(usize),
     /// Lies on the machine; the frame has its origin at the underside of the item and is turned by so many radians.
     Lying {
         item: usize,
@@ -94,7 +93,7 @@ pub struct Group {
 pub enum Kind {
     Obstacle,
     Machine { index: usize, machine: Machine },
-    Arm { index: usize, arm: Arm, chain: Chain },
+    Arm { index: usize, machine: Machine, arm: Arm, chain: Chain },
 }
 
 impl Body {
@@ -102,7 +101,7 @@ impl Body {
     fn lying(&self) -> Option<usize> {
         match self.anchor {
             Anchor::Lying { item, .. } => Some(item),
-            Anchor::World | Anchor::Link(_) | Anchor::Route | Anchor::Cylinder(_) => None,
+            Anchor::World | Anchor::Link(_) | Anchor::Route | Anchor::Carriage(_) => None,
         }
     }
 }
@@ -111,7 +110,9 @@ impl Group {
     pub fn of_machine(line: &Line, index: usize) -> Self {
         let machine = &line.machines[index];
         let kind = match machine.arm() {
-            Some(arm) => Kind::Arm { index, arm, chain: Chain::new(&arm, machine) },
+            Some(arm) => {
+                Kind::Arm { index, machine: machine.clone(), arm, chain: Chain::new(&arm, machine) }
+            }
             None => Kind::Machine { index, machine: machine.clone() },
         };
         Self::new(machine.name.clone(), kind, machine.solids())
@@ -143,7 +144,7 @@ impl Group {
                 Link::World => Anchor::World,
                 Link::Joint(link) => Anchor::Link(link),
                 Link::Route => Anchor::Route,
-                Link::Cylinder(part) => Anchor::Cylinder(part),
+                Link::Carriage(part) => Anchor::Carriage(part),
             };
             let pieces =
                 solids.iter().map(|solid| Piece::new(solid.name.clone(), &solid.pose, solid.shape)).collect();
@@ -159,9 +160,11 @@ impl Group {
             (Anchor::Link(link), Kind::Arm { chain, .. }) => {
                 (Some(chain.radii(link, &ball)), chain.bounds(link, &ball))
             }
-            (Anchor::Route, Kind::Machine { machine, .. }) => (None, at_stops(machine, &ball)),
-            (Anchor::Cylinder(part), Kind::Machine { machine, .. }) => {
-                (None, on_cylinder(machine, part, &ball))
+            (Anchor::Route, Kind::Machine { machine, .. } | Kind::Arm { machine, .. }) => {
+                (None, at_stops(machine, &ball))
+            }
+            (Anchor::Carriage(part), Kind::Machine { machine, .. } | Kind::Arm { machine, .. }) => {
+                (None, on_carriage(machine, part, &ball))
             }
             _ => (None, still(&ball)),
         };
@@ -173,7 +176,10 @@ impl Group {
     pub fn add_item(&mut self, anchor: Anchor, piece: Piece, item: Fingerprint, plant: &Plant) -> usize {
         self.forget();
         let mut body = match (anchor, &self.kind) {
-            (Anchor::Lying { item, .. }, Kind::Machine { index, machine }) => {
+            (
+                Anchor::Lying { item, .. },
+                Kind::Machine { index, machine } | Kind::Arm { index, machine, .. },
+            ) => {
                 let place = plant.place(item).unwrap_or_default();
                 let offset = place - plant.position(*index).unwrap_or_default();
                 let conveyed = plant.conveyed(item);
@@ -278,11 +284,15 @@ impl Group {
         let number = |body: &Body| match body.anchor {
             Anchor::World => Some(0),
             Anchor::Link(link) => Some(link + 1),
-            Anchor::Route | Anchor::Cylinder(_) | Anchor::Lying { .. } => None,
+            Anchor::Route | Anchor::Carriage(_) | Anchor::Lying { .. } => None,
         };
-        let (Some(a), Some(b)) = (number(a), number(b)) else { return true };
-        // Neighbours and their neighbours always touch.
-        a.abs_diff(b) > 2
+        match (number(a), number(b)) {
+            // Neighbours and their neighbours always touch.
+            (Some(a), Some(b)) => a.abs_diff(b) > 2,
+            // What else moves on a machine is checked against its arm only.
+            (Some(link), None) | (None, Some(link)) => link > 0,
+            (None, None) => false,
+        }
     }
 
     /// The frame of a link now.
@@ -312,7 +322,7 @@ impl Group {
         self.conveyed = lying.filter_map(|item| Some((item, plant.conveyed(item)?))).collect();
         let moved = conveyed.values().any(Conveyed::moves) || self.strokes.values().any(Stroking::moves);
         let cylinders = self.bodies.iter().flatten().filter_map(|body| match body.anchor {
-            Anchor::Cylinder(part) => Some(part),
+            Anchor::Carriage(part) => Some(part),
             _ => None,
         });
         self.strokes = cylinders.filter_map(|part| Some((part, plant.stroking(index, part)?))).collect();
@@ -372,7 +382,7 @@ impl Group {
                 let place = self.machine().and_then(|index| plant.position(index)).unwrap_or_default();
                 Pose { position: place + self.movement.shift(time), ..Pose::IDENTITY }
             }
-            Anchor::Cylinder(part) => {
+            Anchor::Carriage(part) => {
                 let stroking = self.strokes.get(&part).copied();
                 let index = self.machine();
                 let stroking = stroking.or_else(|| plant.stroking(index?, part));
@@ -410,7 +420,7 @@ fn path(
     body: &Body,
     [from, to]: [f64; 2],
 ) -> f64 {
-    if let Anchor::Cylinder(part) = body.anchor {
+    if let Anchor::Carriage(part) = body.anchor {
         let Some(stroking) = strokes.get(&part) else { return 0.0 };
         let part = (stroking.out(to) - stroking.out(from)).abs();
         return stroking.stroke.path(body.ball.middle, body.ball.radius, part);
@@ -433,13 +443,10 @@ fn at_stops(machine: &Machine, ball: &Ball) -> BoundingBox {
     boxes.reduce(|a, b| a.with(&b)).unwrap_or(BoundingBox::around(ball))
 }
 
-/// What a body can take on a cylinder.
-fn on_cylinder(machine: &Machine, part: usize, ball: &Ball) -> BoundingBox {
-    let stroke = match &machine.parts[part].primitive {
-        Primitive::Cylinder(cylinder) => cylinder.stroke,
-        _ => None,
-    };
-    let Some(stroke) = stroke else { return BoundingBox::around(ball) };
+/// What a body can take on a cylinder or a positioner.
+fn on_carriage(machine: &Machine, part: usize, ball: &Ball) -> BoundingBox {
+    let strokes = machine.parts[part].strokes();
+    let Some(stroke) = strokes.and_then(|strokes| strokes.stroke) else { return BoundingBox::around(ball) };
     let piece = 1.0 / ARC_PIECES as f64;
     let beside = stroke.path(ball.middle, ball.radius, piece);
     let boxes = (0..=ARC_PIECES).map(|number| {

@@ -6,7 +6,6 @@ use crate::frame::Frame;
 use crate::kinematics::pose::Pose;
 use crate::line::Line;
 use crate::machine::Machine;
-use crate::part::Primitive;
 use crate::point::Axis;
 use crate::solid::{Link, Solid};
 
@@ -32,7 +31,7 @@ pub fn overlaps(line: &Line, most: usize) -> Vec<Overlap> {
         let solids = machine.solids().into_iter().filter_map(|solid| match solid.link {
             Link::World => Some(solid),
             Link::Route => Some(Solid { pose: start.then(&solid.pose), ..solid }),
-            Link::Cylinder(part) => {
+            Link::Carriage(part) => {
                 let frame = at_begin(machine, part);
                 Some(Solid { pose: frame.pose().then(&solid.pose), ..solid })
             }
@@ -61,12 +60,9 @@ pub fn overlaps(line: &Line, most: usize) -> Vec<Overlap> {
     found
 }
 
-/// What is on a cylinder when a run begins.
+/// What is on a cylinder or a positioner when a run begins.
 fn at_begin(machine: &Machine, part: usize) -> Frame {
-    match &machine.parts[part].primitive {
-        Primitive::Cylinder(cylinder) => cylinder.begin(),
-        _ => Frame::default(),
-    }
+    machine.parts[part].strokes().map_or(Frame::default(), |strokes| strokes.begin())
 }
 
 fn thing(name: &str, is_machine: bool, solids: impl Iterator<Item = Solid>) -> Thing<'_> {

@@ -12,7 +12,7 @@ pub const SCHEMA: Schema = Schema::new(
     &[
         Setting::new(
             "on",
-            Form::Part(&["route", "track", "axis", "chain", "cylinder"]),
+            Form::Part(&["route", "track", "axis", "chain", "cylinder", "positioner"]),
             "",
             "what moves it; without it, it is at rest",
         )

@@ -1,13 +1,9 @@
 //! What goes from one end to the other and back: cylinder, door, clamp, lift, turntable.
 
-mod stroke;
-
-pub use stroke::{Stroke, Stroking};
-
 use super::settings::{Form, Setting, Settings};
+use super::stroke::{Carriage, Stroke, Strokes};
 use super::{Described, Level, Progress, Running, Schema, See, Signal, Start, World};
 use crate::device::{Extent, PortType};
-use crate::frame::Frame;
 use crate::wiring::Drives;
 
 pub const SCHEMA: Schema = Schema {
@@ -58,8 +54,8 @@ pub enum End {
 }
 
 impl End {
-    /// Number of the signal that tells that it is there.
-    pub fn signal(self) -> usize {
+    /// Number of the stop, and of the signal that tells that it is there.
+    pub fn stop(self) -> usize {
         match self {
             End::In => 0,
             End::Out => 1,
@@ -89,10 +85,9 @@ impl Described for Cylinder {
 }
 
 impl Cylinder {
-    /// What is on it when a run begins, from where it is at the inner end.
-    pub fn begin(&self) -> Frame {
-        let out = if self.begins == End::Out { 1.0 } else { 0.0 };
-        self.stroke.map_or(Frame::default(), |stroke| stroke.frame(out))
+    /// It stops at [`End::stop`].
+    pub fn strokes(&self) -> Strokes {
+        Strokes { stroke: self.stroke, stops: vec![0.0, 1.0], begins: self.begins.stop() }
     }
 }
 
@@ -186,45 +181,40 @@ impl Working {
         (self.toward, self.drive, self.since_ms) = (toward, drive, now_ms);
     }
 
-    /// From when on it is at an end, if its valves stay as they are from `now_ms` on, ms; infinity: never.
-    pub fn is_at_from(&self, end: End, now_ms: u64) -> f64 {
+    fn is_at(&self, end: End) -> bool {
+        self.toward == end && self.left(self.now_ms) <= 0.0
+    }
+}
+
+impl Carriage for Working {
+    fn stroke(&self) -> Option<Stroke> {
+        self.cylinder.stroke
+    }
+
+    fn going(&self, now_ms: u64) -> [f64; 3] {
         let mut sent = self.clone();
         sent.turn(now_ms);
-        match (sent.toward == end, sent.drive) {
+        let left = sent.left(now_ms);
+        let moves = sent.drive == Drive::Moves && left > 0.0;
+        let (out, way_ms, end) = match sent.toward {
+            End::Out => (1.0 - left, self.cylinder.extend_ms as f64, 1.0),
+            End::In => (left, -(self.cylinder.retract_ms as f64), 0.0),
+        };
+        if moves { [out, 1000.0 / way_ms, end] } else { [out, 0.0, out] }
+    }
+
+    fn is_at_from(&self, stop: usize, now_ms: u64) -> f64 {
+        let mut sent = self.clone();
+        sent.turn(now_ms);
+        match (sent.toward.stop() == stop, sent.drive) {
             (false, _) => f64::INFINITY,
             (true, Drive::Stands) if sent.left > 0.0 => f64::INFINITY,
             (true, _) => sent.arrives_ms(),
         }
     }
 
-    /// The part of its stroke that it is out now, and how that continues if its valves stay as they are, parts per second.
-    pub fn going(&self, now_ms: u64) -> (f64, f64) {
-        let mut sent = self.clone();
-        sent.turn(now_ms);
-        let left = sent.left(now_ms);
-        let moves = sent.drive == Drive::Moves && left > 0.0;
-        let (out, way_ms) = match sent.toward {
-            End::Out => (1.0 - left, self.cylinder.extend_ms as f64),
-            End::In => (left, -(self.cylinder.retract_ms as f64)),
-        };
-        (out, if moves { 1000.0 / way_ms } else { 0.0 })
-    }
-
-    /// How it moves what is on it from now on, if its valves stay as they are; none if nothing is on it.
-    pub fn stroking(&self, now_ms: u64) -> Option<Stroking> {
-        let stroke = self.cylinder.stroke?;
-        let (out, rate) = self.going(now_ms);
-        Some(Stroking { stroke, out, rate })
-    }
-
-    /// What is on it at a time from the start of this span on, ms, from where it is at the inner end.
-    pub fn frame(&self, ms: f64) -> Frame {
-        let seconds = (ms - self.now_ms as f64) / 1000.0;
-        self.stroking(self.now_ms).map_or(Frame::default(), |stroking| stroking.frame(seconds))
-    }
-
-    fn is_at(&self, end: End) -> bool {
-        self.toward == end && self.left(self.now_ms) <= 0.0
+    fn now_ms(&self) -> u64 {
+        self.now_ms
     }
 }
 
@@ -259,7 +249,7 @@ impl Running for Working {
         self.next_change(see, self.now_ms).is_finite()
     }
 
-    fn cylinder(&self) -> Option<&Working> {
+    fn carriage(&self) -> Option<&dyn Carriage> {
         Some(self)
     }
 

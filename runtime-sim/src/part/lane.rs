@@ -19,7 +19,7 @@ pub const SCHEMA: Schema = Schema {
         "lane",
         "A conveyor. It runs while its level `run` is on, or after its command `run` until `rest`; with neither it always runs, like a chute. With `from` and `length` it has any direction, straight or as an arc; with `along`, `range` and `surface` it lies along an axis of the world, from the upper to the lower end of its range.",
         &[
-            Setting::new("on", Form::Part(&["cylinder"]), "", "what carries it; `from` is then its frame at the inner end").optional(),
+            Setting::new("on", Form::Part(&["cylinder", "positioner"]), "", "what carries it; `from` is then its frame at the inner end, or at 0").optional(),
             Setting::new("from", Form::Frame, "m", "its beginning, on its surface; x is its direction").optional(),
             Setting::new("length", Form::Positive, "m", "along its middle line").optional(),
             Setting::new("turn", Form::Number, "deg", "turn to the left over its length; without it, it is straight")
@@ -56,7 +56,7 @@ impl Described for Lane {
         let width = settings.positive("width")?;
         let (on, centre_line) = (settings.optional("on", Settings::part)?, CentreLine::new(settings)?);
         if on.is_some() && !centre_line.turns_items() {
-            return Err("a lane on a cylinder is given by from and length".into());
+            return Err("a lane on a cylinder or a positioner is given by from and length".into());
         }
         Ok(Self {
             on,

@@ -6,6 +6,7 @@
 mod operated;
 mod running;
 mod settings;
+pub mod stroke;
 
 pub use operated::Operated;
 pub(crate) use running::milliseconds;
@@ -13,6 +14,7 @@ pub use running::{Begun, Looks, Progress, Running, See, Start, World};
 pub use settings::{Form, Setting, Settings, VERTICAL};
 
 use crate::device::{Extent, PortType};
+use stroke::Strokes;
 use crate::value::Value;
 use crate::words::Words;
 
@@ -134,6 +136,7 @@ primitives! {
     material::Material,
     orders::Orders,
     place::Place,
+    positioner::Positioner,
     process::Process,
     pusher::Pusher,
     route::Route,
@@ -167,6 +170,15 @@ impl Part {
 
     pub fn schema(&self) -> &'static Schema {
         self.primitive.schema()
+    }
+
+    /// None for a part that moves no others along a stroke.
+    pub fn strokes(&self) -> Option<Strokes> {
+        match &self.primitive {
+            Primitive::Cylinder(cylinder) => Some(cylinder.strokes()),
+            Primitive::Positioner(positioner) => Some(positioner.strokes()),
+            _ => None,
+        }
     }
 
     /// None for a part of another primitive.

@@ -3,6 +3,7 @@
 use super::settings::{Form, Setting, Settings};
 use super::{Described, Running, Schema, See, Start, Primitive};
 use crate::carrier::Carrier;
+use crate::plant::fall::SINK;
 use crate::point::Point;
 
 pub const SCHEMA: Schema = Schema::new(
@@ -28,6 +29,13 @@ pub const SCHEMA: Schema = Schema::new(
             "lengths along x and y in drawings, around the origin; without it those of the floor",
         )
         .optional(),
+        Setting::new(
+            "stacks",
+            Form::Truth,
+            "",
+            "items lie on one another; without it each lies on the floor. Taking an item on which another one lies ends the run",
+        )
+        .optional(),
         Setting::new("title", Form::Word, "", "its name in reports, after the machine's name").optional(),
     ],
 );
@@ -42,6 +50,7 @@ pub struct Place {
     pub floor_x: [f64; 2],
     pub floor_y: [f64; 2],
     pub drawn: Option<Point>,
+    pub stacks: bool,
     pub title: Option<String>,
 }
 
@@ -56,6 +65,7 @@ impl Described for Place {
             floor_x: settings.range("floor_x")?,
             floor_y: settings.range("floor_y")?,
             drawn: settings.optional("drawn", Settings::point)?,
+            stacks: settings.optional("stacks", Settings::truth)?.unwrap_or(false),
             title: settings.optional("title", Settings::word)?.map(Into::into),
         })
     }
@@ -64,9 +74,14 @@ impl Described for Place {
         let part = start.part;
         let orders =
             start.find(|other| matches!(other, Primitive::Orders(orders) if orders.place == part));
-        Ok(Some(Box::new(Bearing::new(self, part, orders))))
+        let kinds = start.line.kinds.iter();
+        let sizes = kinds.map(|kind| Point::new(kind.size[0], kind.size[1], kind.height)).collect();
+        Ok(Some(Box::new(Bearing { place: self.clone(), part, orders, sizes })))
     }
 }
+
+/// Upper side and underside of two items of which one lies on the other one, m.
+const SAME_HEIGHT: f64 = 1e-6;
 
 /// A place at work.
 #[derive(Clone, Debug)]
@@ -75,11 +90,26 @@ pub struct Bearing {
     part: usize,
     /// The order desk that takes the place away and brings it.
     orders: Option<usize>,
+    /// Of an item of each kind, m.
+    sizes: Vec<Point>,
 }
 
 impl Bearing {
-    pub fn new(place: &Place, part: usize, orders: Option<usize>) -> Self {
-        Self { place: place.clone(), part, orders }
+    /// The highest upper side of an item under a point, over the origin; none if no item is there.
+    fn top_under(&self, point: Point, see: &See) -> Option<f64> {
+        if !self.place.stacks {
+            return None;
+        }
+        let origin = self.origin(see);
+        let tops = see.borne_by(self.part).filter_map(|item| {
+            let item = &see.items.all()[item];
+            let Carrier::Place { offset, .. } = item.carrier else { return None };
+            let (size, from_middle) = (self.sizes[item.kind], point - (origin + offset));
+            let is_over = from_middle.x.abs() < size.x / 2.0 && from_middle.y.abs() < size.y / 2.0;
+            let top = offset.z + size.z;
+            (is_over && origin.z + top <= point.z + SINK).then_some(top)
+        });
+        tops.reduce(f64::max)
     }
 
     fn origin(&self, see: &See) -> Point {
@@ -101,9 +131,27 @@ impl Running for Bearing {
         let from_middle = point - (origin + floor);
         let is_within = |at: f64, [low, high]: [f64; 2]| (low..=high).contains(&at);
         let meets = is_within(from_middle.x, floor_x) && is_within(from_middle.y, floor_y);
-        let offset = Point { z: floor.z, ..point - origin };
+        let height = self.top_under(point, see).unwrap_or(floor.z);
+        let offset = Point { z: height, ..point - origin };
         let carrier = Carrier::Place { machine: see.machine, part: self.part, offset };
-        meets.then_some((origin.z + floor.z, carrier))
+        meets.then_some((origin.z + height, carrier))
+    }
+
+    /// Its underside is at the upper side of the other one, and over it.
+    fn lies_on(&self, item: usize, see: &See) -> Option<usize> {
+        let on = |item: usize| match see.items.all()[item].carrier {
+            Carrier::Place { offset, .. } => Some((offset, self.sizes[see.items.all()[item].kind])),
+            _ => None,
+        };
+        let (under, size) = on(item).filter(|_| self.place.stacks)?;
+        see.borne_by(self.part).find(|other| {
+            on(*other).is_some_and(|(offset, _)| {
+                let from_middle = offset - under;
+                (from_middle.z - size.z).abs() < SAME_HEIGHT
+                    && from_middle.x.abs() < size.x / 2.0
+                    && from_middle.y.abs() < size.y / 2.0
+            })
+        })
     }
 
     fn place(&self, _item: usize, carrier: &Carrier, see: &See) -> Option<Point> {

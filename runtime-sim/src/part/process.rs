@@ -135,7 +135,7 @@ impl Cycle {
         }
         for (cylinder, end, name) in &self.needs {
             let mut is_there = [0.0];
-            see.read(*cylinder, end.signal(), &mut is_there);
+            see.read(*cylinder, end.stop(), &mut is_there);
             if is_there[0] == 0.0 {
                 lacks.push(format!("its {name} {}", if *end == End::In { "in" } else { "out" }));
             }

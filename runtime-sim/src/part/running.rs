@@ -10,7 +10,8 @@ use crate::machine::Machine;
 use crate::memory::Memory;
 use crate::part::Primitive;
 use crate::part::orders::Desk;
-use crate::part::{cylinder, lane, scanner, track};
+use crate::part::stroke::Carriage;
+use crate::part::{lane, scanner, track};
 use crate::plant::trajectory::Trajectory;
 use crate::point::Point;
 
@@ -124,8 +125,8 @@ impl<'a> See<'a> {
         }
     }
 
-    pub fn cylinder(&self, part: usize) -> Option<&'a cylinder::Working> {
-        self.part(part)?.cylinder()
+    pub fn carriage(&self, part: usize) -> Option<&'a dyn Carriage> {
+        self.part(part)?.carriage()
     }
 
     /// Where the origin is of what this part carries.
@@ -244,6 +245,11 @@ pub trait Running: std::fmt::Debug + Send + Sync {
         None
     }
 
+    /// An item that lies on this one, at the same place.
+    fn lies_on(&self, _item: usize, _see: &See) -> Option<usize> {
+        None
+    }
+
     /// Where the underside of an item is that it bears.
     fn place(&self, _item: usize, _carrier: &Carrier, _see: &See) -> Option<Point> {
         None
@@ -271,7 +277,8 @@ pub trait Running: std::fmt::Debug + Send + Sync {
         None
     }
 
-    fn cylinder(&self) -> Option<&cylinder::Working> {
+    /// A cylinder or a positioner.
+    fn carriage(&self) -> Option<&dyn Carriage> {
         None
     }
 

@@ -1,7 +1,7 @@
 //! How an item on a conveyor continues.
 
 use crate::frame::Frame;
-use crate::part::cylinder::{Stroke, Stroking};
+use crate::part::stroke::{Stroke, Stroking};
 use crate::part::lane::CentreLine;
 use crate::point::{Axis, Point};
 
@@ -82,7 +82,7 @@ impl Conveyed {
     /// Whether what is decided of it is the same at two times: where it is may differ.
     pub fn goes_on_as(&self, other: &Self) -> bool {
         let law = |conveyed: &Self| {
-            let carried = conveyed.carried.map(|carried| (carried.stroke, carried.rate));
+            let carried = conveyed.carried.map(|carried| (carried.stroke, carried.rate, carried.until));
             (conveyed.speed, conveyed.stops_at, carried)
         };
         law(self) == law(other)

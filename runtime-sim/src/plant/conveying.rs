@@ -101,7 +101,7 @@ impl Conveying {
             let borne = borne.filter(|item| among.carrier(**item).part() == Some(track.part)).count();
             has_changed |= *known != lane.speed() || lane.riders.len() != borne || !track.bears_riders(among);
             *known = lane.speed();
-            let branches = track.branches.iter_mut().map(|branch| &mut branch.ends);
+            let branches = track.branches.iter_mut().map(|branch| &mut branch.stops);
             for ends in branches.chain(&mut track.carried) {
                 has_changed |= ends.look(&among.machines[track.machine], now_ms);
             }

@@ -5,10 +5,10 @@ use crate::carrier::Carrier;
 use crate::point::Point;
 
 /// An item that is let go at most so far below a surface lies on it: the reach of a contact, twice, m.
-const SINK: f64 = 0.01;
+pub(crate) const SINK: f64 = 0.01;
 
 /// The highest surface under `point`, the top of an obstacle or the floor, and where the item then rests. It stays there however
-/// deep it fell. Items do not lie on one another.
+/// deep it fell. Items lie on one another only where a place says so.
 pub fn fall(plant: &Plant, point: Point, ms: f64) -> (Carrier, Point) {
     let mut lands: Option<(f64, Carrier)> = None;
     for machine in &plant.machines {

@@ -8,10 +8,10 @@ use crate::kinematics::arm::Joints;
 use crate::kinematics::pose::Pose;
 use crate::line::Line;
 use crate::memory::Memory;
-use crate::part::cylinder::Working as Cylinder;
 use crate::part::lane::Moving;
 use crate::part::orders::Desk;
 use crate::part::scanner::Scanning;
+use crate::part::stroke::Carriage;
 use crate::part::track::Driving;
 use crate::part::{Begun, Looks, Part, Progress, Running, See, Start, World, milliseconds};
 use crate::plant::trajectory::Trajectory;
@@ -229,8 +229,8 @@ impl Working {
         self.parts.get_mut(part)?.as_mut()?.lane_mut()
     }
 
-    pub fn cylinder(&self, part: usize) -> Option<&Cylinder> {
-        self.parts.get(part)?.as_ref()?.cylinder()
+    pub fn carriage(&self, part: usize) -> Option<&dyn Carriage> {
+        self.parts.get(part)?.as_ref()?.carriage()
     }
 
     /// The vehicle that a part is.
@@ -261,8 +261,15 @@ impl Working {
     }
 
     /// Whether one of its surfaces moves, or a number that it shows changes all the while.
-    pub fn flows(&self) -> bool {
+    pub fn flows(&self, now_ms: u64) -> bool {
         self.running().any(|part| part.flows() || part.lane().is_some_and(Moving::is_moving))
+            || self.strokes(now_ms)
+    }
+
+    /// Whether something moves what is on it along a stroke.
+    fn strokes(&self, now_ms: u64) -> bool {
+        let moves = |carriage: &dyn Carriage| carriage.stroking(now_ms).is_some_and(|stroking| stroking.moves());
+        self.running().filter_map(|part| part.carriage()).any(moves)
     }
 
     /// All grippers that look for an item.
@@ -270,8 +277,11 @@ impl Working {
         self.running().filter_map(|part| part.looks())
     }
 
-    /// The highest speed of what its parts carry along, m/s.
+    /// The highest speed of what its parts carry along, m/s; infinity for what moves along a stroke.
     pub fn speed(&self, now_ms: u64) -> f64 {
+        if self.strokes(now_ms) {
+            return f64::INFINITY;
+        }
         let speed =
             |part: &dyn Running| part.trajectory(now_ms).speed().max(part.lane().map_or(0.0, Moving::speed));
         self.running().map(speed).fold(0.0, f64::max)
@@ -361,6 +371,12 @@ impl Working {
         let see = self.see(items, desk);
         let surfaces = self.parts.iter().flatten().filter_map(|part| part.below(point, ms, &see));
         surfaces.reduce(|best, other| if other.0 > best.0 { other } else { best })
+    }
+
+    /// An item that lies on this one.
+    pub fn lies_on(&self, item: usize, carrier: &Carrier, items: &Items, desk: &Desk) -> Option<usize> {
+        let part = self.parts.get(carrier.part()?)?.as_ref()?;
+        part.lies_on(item, &self.see(items, desk))
     }
 
     pub fn place(&self, item: usize, carrier: &Carrier, items: &Items, desk: &Desk) -> Option<Point> {

@@ -8,7 +8,7 @@ use runtime_sim::kinematics::pose::Pose;
 use runtime_sim::line::{Line, Obstacle};
 use runtime_sim::machine::Machine;
 use runtime_sim::part::Primitive;
-use runtime_sim::part::cylinder::Stroke;
+use runtime_sim::part::stroke::Stroke;
 use runtime_sim::part::lane::CentreLine;
 use runtime_sim::part::track::Track;
 use runtime_sim::point::{Axis, Direction, Point};
@@ -97,7 +97,7 @@ fn body(solid: &Solid) -> Value {
     let on = match solid.link {
         Link::World => json!("world"),
         Link::Route => json!("route"),
-        Link::Cylinder(part) => json!({ "cylinder": part }),
+        Link::Carriage(part) => json!({ "cylinder": part }),
         Link::Joint(joint) => json!({ "joint": joint }),
     };
     let shape = match solid.shape {
@@ -165,8 +165,7 @@ fn track(track: &Track) -> Value {
 }
 
 fn cylinder(machine: &Machine, part: usize) -> Option<Value> {
-    let Primitive::Cylinder(cylinder) = &machine.parts[part].primitive else { return None };
-    let stroke = cylinder.stroke.map(|stroke| match stroke {
+    let stroke = machine.parts[part].strokes()?.stroke.map(|stroke| match stroke {
         Stroke::Slides(far) => json!({ "slides": point(far) }),
         Stroke::Turns { pivot, degrees } => json!({ "pivot": point(pivot), "degrees": degrees }),
     });

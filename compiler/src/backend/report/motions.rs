@@ -84,7 +84,7 @@ fn machine(history: &MachineHistory, until_ms: f64, trajectories: &mut Known) ->
     let strokes = history.strokes.iter().map(|track| {
         let mut changes = List::default();
         for (ms, stroke) in &track.changes {
-            changes.put_whole(ms).put(stroke.out).put(stroke.rate);
+            changes.put_whole(ms).put(stroke.out).put(stroke.rate).put(stroke.until);
         }
         format!("[{},{}]", track.part, changes.end())
     });

@@ -82,7 +82,7 @@ fn law(segment: &Segment, carrier: usize, goes_on: bool) -> String {
                 conveyed.stops_at,
             ]);
             match conveyed.carried {
-                Some(carried) => numbers.put_all([carried.out, carried.rate]),
+                Some(carried) => numbers.put_all([carried.out, carried.rate, carried.until]),
                 None => &mut numbers,
             }
         }

@@ -69,7 +69,7 @@ impl Group {
     fn item(&self, body: &Body, plant: &Plant) -> Option<Fingerprint> {
         let place = match body.anchor {
             Anchor::Lying { item, .. } => plant.place(item).unwrap_or_default() - self.position(plant),
-            Anchor::World | Anchor::Link(_) | Anchor::Route | Anchor::Cylinder(_) => Point::default(),
+            Anchor::World | Anchor::Link(_) | Anchor::Route | Anchor::Carriage(_) => Point::default(),
         };
         Some(near(body.item?, place))
     }

@@ -78,8 +78,8 @@ impl Moving {
 
     /// Where it is at a time from the start of this span on, ms.
     fn centre_line(&self, see: &See, ms: f64) -> CentreLine {
-        let carried = self.lane.on.and_then(|cylinder| see.cylinder(cylinder));
-        carried.map_or(self.lane.centre_line, |cylinder| self.lane.centre_line.moved(cylinder.frame(ms)))
+        let carried = self.lane.on.and_then(|carriage| see.carriage(carriage));
+        carried.map_or(self.lane.centre_line, |carriage| self.lane.centre_line.moved(carriage.frame(ms)))
     }
 
     /// Metres that the surface has moved since the start of the run.

@@ -187,8 +187,8 @@ fn next_ms(tracks: &[Track], among: &Among, entries: &[Entry], ms: f64) -> f64 {
         }
     }
     let others = tracks.iter().map(|track| {
-        let cylinders = track.branches.iter().map(|branch| &branch.ends).chain(&track.carried);
-        let branches = cylinders.map(|ends| ends.next_ms(ms));
+        let carriages = track.branches.iter().map(|branch| &branch.stops).chain(&track.carried);
+        let branches = carriages.map(|stops| stops.next_ms(ms));
         let feed = track.feed_ms(among, ms);
         branches.fold(if feed > ms + AT_ONCE { feed } else { f64::INFINITY }, f64::min)
     });

@@ -3,51 +3,53 @@
 use super::super::working::Working;
 use super::ahead::LIES_ON;
 use super::{AT_ONCE, SAME};
-use crate::part::cylinder::End;
+use crate::machine::Machine;
 use crate::part::lane::Rider;
 
-/// From when on a cylinder is at its ends.
+/// From when on a cylinder or a positioner is at each of its stops.
 #[derive(Clone, Debug)]
-pub struct Ends {
-    pub cylinder: usize,
-    /// At the inner end and at the outer one, ms; infinity: it is not going there.
-    in_ms: f64,
-    out_ms: f64,
+pub struct Stops {
+    /// Of the machine.
+    pub part: usize,
+    /// Of each stop, ms; infinity: it is not going there.
+    from_ms: Vec<f64>,
 }
 
-impl Ends {
+/// Stops of a cylinder.
+const IN: usize = 0;
+const OUT: usize = 1;
+
+impl Stops {
     /// Not looked at yet.
-    pub fn new(cylinder: usize) -> Self {
-        Self { cylinder, in_ms: f64::NAN, out_ms: f64::NAN }
+    pub fn of(machine: &Machine, part: usize) -> Self {
+        let stops = machine.parts[part].strokes().map_or(0, |strokes| strokes.stops.len());
+        Self { part, from_ms: vec![f64::NAN; stops] }
     }
 
-    /// Takes note of the cylinder; whether that has changed.
+    /// Takes note of where it is; whether that has changed.
     pub fn look(&mut self, machine: &Working, now_ms: u64) -> bool {
-        let from = |end: End| {
-            machine.cylinder(self.cylinder).map_or(f64::INFINITY, |cylinder| cylinder.is_at_from(end, now_ms))
-        };
-        let now = (from(End::In), from(End::Out));
-        let has_changed = (self.in_ms, self.out_ms) != now;
-        (self.in_ms, self.out_ms) = now;
+        let carriage = machine.carriage(self.part);
+        let mut has_changed = false;
+        for (stop, known) in self.from_ms.iter_mut().enumerate() {
+            let from_ms = carriage.map_or(f64::INFINITY, |carriage| carriage.is_at_from(stop, now_ms));
+            has_changed |= *known != from_ms;
+            *known = from_ms;
+        }
         has_changed
     }
 
-    pub fn is_at(&self, end: End, ms: f64) -> bool {
-        let from_ms = match end {
-            End::In => self.in_ms,
-            End::Out => self.out_ms,
-        };
-        from_ms <= ms + AT_ONCE
+    pub fn is_at(&self, stop: usize, ms: f64) -> bool {
+        self.from_ms[stop] <= ms + AT_ONCE
     }
 
-    /// It is at the outer end, or going there.
+    /// A cylinder is at the outer end, or going there.
     pub fn goes_out(&self) -> bool {
-        self.out_ms.is_finite()
+        self.from_ms[OUT].is_finite()
     }
 
-    /// When the cylinder next comes to an end, ms.
+    /// When it next comes to a stop, ms.
     pub fn next_ms(&self, ms: f64) -> f64 {
-        let times = [self.in_ms, self.out_ms].into_iter();
+        let times = self.from_ms.iter().copied();
         times.filter(|time| *time > ms + AT_ONCE).fold(f64::INFINITY, f64::min)
     }
 }
@@ -58,7 +60,7 @@ pub struct Branch {
     pub kind: Kind,
     /// On the centre line.
     pub place: f64,
-    pub ends: Ends,
+    pub stops: Stops,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -81,24 +83,24 @@ impl Branch {
             Kind::Stopper => None,
             Kind::Diverter { onto } => self.meets(rider, place, ms).then_some(onto),
             Kind::Pusher { onto, half } => {
-                (self.ends.is_at(End::Out, ms) && (place - self.place).abs() <= half).then_some(onto)
+                (self.stops.is_at(OUT, ms) && (place - self.place).abs() <= half).then_some(onto)
             }
         }
     }
 
     /// Whether a diverter has the front edge of an item before it.
     fn meets(&self, rider: &Rider, place: f64, ms: f64) -> bool {
-        self.ends.is_at(End::Out, ms) && (place - rider.half - self.place).abs() <= SAME
+        self.stops.is_at(OUT, ms) && (place - rider.half - self.place).abs() <= SAME
     }
 
     /// Where the middle of an item stops that is at a place now; none if this is not in its way.
     pub fn stops(&self, rider: &Rider, place: f64, ms: f64) -> Option<f64> {
         let front_at = |edge: f64| (place - rider.half >= edge - LIES_ON).then_some(edge + rider.half);
         match self.kind {
-            Kind::Stopper if !self.ends.is_at(End::In, ms) => front_at(self.place),
+            Kind::Stopper if !self.stops.is_at(IN, ms) => front_at(self.place),
             // It has not gone over: there is no room.
             Kind::Diverter { .. } if self.meets(rider, place, ms) => Some(place),
-            Kind::Pusher { half, .. } if !self.ends.is_at(End::In, ms) => {
+            Kind::Pusher { half, .. } if !self.stops.is_at(IN, ms) => {
                 if (place - self.place).abs() <= half { Some(place) } else { front_at(self.place + half) }
             }
             _ => None,
@@ -108,7 +110,7 @@ impl Branch {
     /// Place of the middle of an item at which a diverter may take it.
     pub fn awaits(&self, rider: &Rider) -> Option<f64> {
         match self.kind {
-            Kind::Diverter { .. } if self.ends.goes_out() => Some(self.place + rider.half),
+            Kind::Diverter { .. } if self.stops.goes_out() => Some(self.place + rider.half),
             _ => None,
         }
     }

@@ -1,15 +1,15 @@
 //! The lanes of a line: what stands at each, and where they lead.
 
 use super::super::working::Working;
-use super::branch::{Branch, Ends, Kind};
+use super::branch::{Branch, Kind, Stops};
 use super::{AT_ONCE, Among, Goes, SAME};
 use crate::carrier::Carrier;
 use crate::line::Line;
 use crate::machine::Machine;
 use crate::part::Primitive;
-use crate::part::cylinder::End;
 use crate::part::lane::{CentreLine, Lane, Rider};
 use crate::part::source::{self, Spawn};
+use crate::part::stroke::Strokes;
 use crate::point::Axis;
 
 /// A lane with all that stands at it. Places are those of its centre line.
@@ -21,9 +21,9 @@ pub struct Track {
     pub sink: Option<Leaves>,
     pub feed: Option<Feed>,
     pub branches: Vec<Branch>,
-    /// Where its cylinder is, if it is on one.
-    pub carried: Option<Ends>,
-    /// The lanes that begin where this one ends, at an end of the cylinder of either.
+    /// Where its cylinder or its positioner is, if it is on one.
+    pub carried: Option<Stops>,
+    /// The lanes that begin where this one ends, at a stop of what carries either.
     joints: Vec<Joint>,
     /// The one that does so now.
     pub onto: Option<usize>,
@@ -34,7 +34,7 @@ pub struct Track {
 }
 
 impl Track {
-    /// Whether that one begins where this one ends, at some end of their cylinders.
+    /// Whether that one begins where this one ends, at some stop of what carries them.
     pub fn leads_onto(&self, other: usize) -> bool {
         self.joints.iter().any(|joint| joint.onto == other)
     }
@@ -44,8 +44,8 @@ impl Track {
 #[derive(Clone, Copy, Debug)]
 struct Joint {
     onto: usize,
-    /// Where the cylinder of the first lane is then, and that of the second.
-    when: [Option<End>; 2],
+    /// The stop at which the first lane is then, and that of the second.
+    when: [Option<usize>; 2],
 }
 
 /// A sink: its part of the machine, and the place of the middles of items that leave.
@@ -98,7 +98,7 @@ pub fn tracks(line: &Line) -> Vec<Track> {
         })
     };
     let places: Vec<(usize, usize)> = lanes().map(|(machine, part, _)| (machine, part)).collect();
-    let centre_lines: Vec<Vec<(Option<End>, CentreLine)>> =
+    let centre_lines: Vec<Vec<(Option<usize>, CentreLine)>> =
         lanes().map(|(machine, _, lane)| centre_lines(&line.machines[machine], lane)).collect();
     let number = |machine: usize, part: usize| places.iter().position(|place| *place == (machine, part));
     let track = |(index, (machine, part, lane)): (usize, (usize, usize, &Lane))| Track {
@@ -107,7 +107,7 @@ pub fn tracks(line: &Line) -> Vec<Track> {
         sink: sink(&line.machines[machine], part, lane),
         feed: feed(line, machine, part, lane),
         branches: branches(&line.machines[machine], part, lane, &|onto| number(machine, onto)),
-        carried: lane.on.map(Ends::new),
+        carried: lane.on.map(|part| Stops::of(&line.machines[machine], part)),
         joints: joints(&centre_lines, index),
         onto: None,
         inputs: Vec::new(),
@@ -116,18 +116,17 @@ pub fn tracks(line: &Line) -> Vec<Track> {
     lanes().enumerate().map(track).collect()
 }
 
-/// Where a lane lies: at both ends of its cylinder, if it is on one.
-pub fn centre_lines(machine: &Machine, lane: &Lane) -> Vec<(Option<End>, CentreLine)> {
-    let cylinder = lane.on.map(|part| &machine.parts[part].primitive);
-    let Some(Primitive::Cylinder(cylinder)) = cylinder else { return vec![(None, lane.centre_line)] };
-    let moved = |out: f64| {
-        cylinder.stroke.map_or(lane.centre_line, |stroke| lane.centre_line.moved(stroke.frame(out)))
+/// Where a lane lies: at each stop of its cylinder or positioner, if it is on one.
+pub fn centre_lines(machine: &Machine, lane: &Lane) -> Vec<(Option<usize>, CentreLine)> {
+    let Some(Strokes { stroke, stops, .. }) = lane.on.and_then(|part| machine.parts[part].strokes()) else {
+        return vec![(None, lane.centre_line)];
     };
-    vec![(Some(End::In), moved(0.0)), (Some(End::Out), moved(1.0))]
+    let moved = |out: f64| stroke.map_or(lane.centre_line, |stroke| lane.centre_line.moved(stroke.frame(out)));
+    stops.iter().enumerate().map(|(stop, out)| (Some(stop), moved(*out))).collect()
 }
 
 /// The lanes on which a lane continues.
-fn joints(centre_lines: &[Vec<(Option<End>, CentreLine)>], index: usize) -> Vec<Joint> {
+fn joints(centre_lines: &[Vec<(Option<usize>, CentreLine)>], index: usize) -> Vec<Joint> {
     let mut joints = Vec::new();
     for (own, from) in &centre_lines[index] {
         for (onto, others) in centre_lines.iter().enumerate().filter(|(onto, _)| *onto != index) {
@@ -140,8 +139,8 @@ fn joints(centre_lines: &[Vec<(Option<End>, CentreLine)>], index: usize) -> Vec<
 
 /// Settles which lane continues as which one at a time.
 pub fn join(tracks: &mut [Track], ms: f64) {
-    let is_at = |track: &Track, end: Option<End>| {
-        end.is_none_or(|end| track.carried.as_ref().is_some_and(|ends| ends.is_at(end, ms)))
+    let is_at = |track: &Track, stop: Option<usize>| {
+        stop.is_none_or(|stop| track.carried.as_ref().is_some_and(|stops| stops.is_at(stop, ms)))
     };
     let onto: Vec<Option<usize>> = tracks
         .iter()
@@ -201,7 +200,7 @@ fn branches(
 ) -> Vec<Branch> {
     let begin = lane.centre_line.begin();
     let branch =
-        |kind: Kind, at: f64, cylinder: usize| Branch { kind, place: begin - at, ends: Ends::new(cylinder) };
+        |kind: Kind, at: f64, cylinder: usize| Branch { kind, place: begin - at, stops: Stops::of(machine, cylinder) };
     let parts = machine.parts.iter().filter_map(|other| match &other.primitive {
         Primitive::Stopper(stopper) if stopper.lane == part => {
             Some(branch(Kind::Stopper, stopper.at, stopper.cylinder))
@@ -255,8 +254,8 @@ impl Track {
     pub fn centre_line(&self, among: &Among, ms: f64) -> CentreLine {
         let centre_line = among.lane(self).lane().centre_line;
         let carried = self.carried.as_ref();
-        let cylinder = carried.and_then(|ends| among.machines[self.machine].cylinder(ends.cylinder));
-        cylinder.map_or(centre_line, |cylinder| centre_line.moved(cylinder.frame(ms)))
+        let carriage = carried.and_then(|stops| among.machines[self.machine].carriage(stops.part));
+        carriage.map_or(centre_line, |carriage| centre_line.moved(carriage.frame(ms)))
     }
 
     /// Where an item goes that has come to the end of the lane.
