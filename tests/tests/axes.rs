@@ -16,6 +16,44 @@ fn changed(scene: &str, changes: &[(&str, &str)]) -> Texts {
     texts
 }
 
+/// The tending cell with an ABB IRB 2400/10 instead of its UR10e, for three parts. Lengths and offsets: the examples of the
+/// library opw_kinematics. Limits: the maker's data sheet.
+fn tending_by_abb() -> Texts {
+    let mut texts = side_by_side("tending/tending");
+    let text = &mut texts.specs[0];
+    let cut = |text: &mut String, from: &str, to: &str, new: &str| {
+        let begin = text.find(from).expect("the text of the arm");
+        let end = begin + text[begin..].find(to).expect("its end");
+        text.replace_range(begin..end, new);
+    };
+    cut(
+        text,
+        "lengths: [",
+        "rest:",
+        "opw: [0.100, -0.135, 0, 0.615, 0.705, 0.755, 0.085]; offsets: [0, 0, -90, 0, 0, 0]; tool_length: 0.15;
+        lowest: [-180, -100, -60, -200, -120, -400]; highest: [180, 110, 65, 200, 120, 400];
+        ",
+    );
+    cut(text, "joints: [shoulder_pan", "};", "");
+    *text = text.replace("rest: pose + point(0.70, 0, 0.55)", "rest: pose + point(0.80, 0, 0.55)");
+    let scenario = texts.scenario.as_mut().expect("a scenario");
+    *scenario = scenario.replace("\"bracket\": 41", "\"bracket\": 3");
+    texts
+}
+
+/// How far the wrist of that arm stays from what its upper arm and its forearm reach, from its measures: the tool points
+/// down, fingers and flange are 0.235 m long, the base is 0.75 m high.
+fn margin_by_abb(tool: [f64; 3]) -> f64 {
+    let [x, y, z] = tool;
+    let forearm = 0.135_f64.hypot(0.755);
+    let height = z + 0.235 - 0.75 - 0.615;
+    let slack = |ahead: f64| {
+        let wrist = ahead.hypot(height);
+        (0.705 + forearm - wrist).min(wrist - (0.705 - forearm).abs())
+    };
+    slack(x.hypot(y) - 0.1).max(slack(-x.hypot(y) - 0.1))
+}
+
 fn run(texts: &Texts, mut observer: impl FnMut(&Seen)) -> Report {
     let project = texts.project();
     let mut executor = Executor::new(&project.system);
@@ -95,4 +133,27 @@ fn a_positioner_takes_its_way_over_its_speed() {
         // The command is read in the scan after it is given, and its answer in the scan after that.
         assert!((time - wanted).abs() <= 0.02 + 1e-9, "{times:?}");
     }
+}
+
+#[test]
+fn an_arm_of_another_maker_tends_the_mill() {
+    let texts = tending_by_abb();
+    let project = texts.project();
+    // Upper sides of a part at the stopper of the infeed, and 0.18 m over it.
+    let at = [0.55, -2.55 + 1.92 - 0.02, 0.05 + 0.80 + 0.02];
+    let over = [at[0], at[1], at[2] + 0.18];
+    let wanted = margin_by_abb(at).min(margin_by_abb(over));
+    let margin = project.edges[0].margin;
+    assert!((margin - wanted).abs() < 1e-9, "{margin} {wanted}");
+    assert_eq!(reason(&texts), "all items collected");
+}
+
+#[test]
+fn limits_of_joints_put_places_out_of_reach() {
+    // The second joint goes no farther than 20 degrees forwards: the mill and the conveyors are too far.
+    let mut texts = tending_by_abb();
+    texts.specs[0] = texts.specs[0].replace("highest: [180, 110,", "highest: [180, 20,");
+    let outcome = texts.compile();
+    assert!(outcome.project.is_none());
+    assert!(outcome.diagnostics.iter().any(|found| found.code == "E0401"), "{:?}", outcome.diagnostics);
 }

@@ -30,6 +30,52 @@ fn a_chain_on_axes_without_inverse_kinematics_is_told() {
     );
 }
 
+/// What is wrong with an arm, an axis or a positioner: the settings, the code, and words of the message.
+const WRONG: &[(&str, &str, &str)] = &[
+    ("part x = axis { from: origin; along: x; range: [0, 1]; speed: 1; acceleration: 1; };
+      part y = axis { on: x; along: x; range: [0, 1]; speed: 1; acceleration: 1; };
+      part arm = chain { on: y; tool_length: 0.1; rest: pose; };", "E0711", "no inverse kinematics"),
+    ("part x = axis { from: origin; speed: 1; acceleration: 1; };
+      part arm = chain { on: x; tool_length: 0.1; rest: pose; };", "E0711", "no inverse kinematics"),
+    ("part x = axis { from: origin; along: x; range: [0, 1]; speed: 1; acceleration: 1; };
+      part arm = chain { on: x; tool_length: 0.1; rest: pose; };", "E0711", "cannot reach its own rest position"),
+    ("part x = axis { from: origin; at: pose; along: x; range: [0, 1]; speed: 1; acceleration: 1; };
+      part arm = chain { on: x; tool_length: 0.1; rest: pose; };", "E0704", "on, at and from"),
+    ("part x = axis { from: origin; along: w; range: [0, 1]; speed: 1; acceleration: 1; };
+      part arm = chain { on: x; tool_length: 0.1; rest: pose; };", "E0710", "there is no `w`"),
+    ("part x = axis { from: origin; along: x; range: [0, 1]; speed: 1; acceleration: 1; };
+      part arm = chain { on: x; rest: pose; };", "E0704", "tool_length is missing"),
+    ("part x = axis { from: origin; along: x; range: [-1, 1]; speed: 1; acceleration: 1; };
+      part arm = chain { on: x; tool_length: 0.1; rest: pose - point(0, 0, 0.1); };
+      part hand = body { on: arm.wrist_1; low: pose; high: pose + point(1, 1, 1); };", "E0711", "cannot refer to arm"),
+    ("part arm = chain { from: origin; tool_length: 0.1; rest: pose; };", "E0704", "speeds is missing"),
+    ("part arm = chain { from: origin; opw: [0.1, 0, 0, 0.6, 0.7]; tool_length: 0; speeds: [1, 1, 1, 1, 1, 1]; acceleration: 1; rest: pose; };",
+     "E0704", "a1, a2, b, c1, c2, c3, c4"),
+    ("part arm = chain { from: origin; opw: [0.1, 0, 0, 0.6, 0.7, 0.7, 0]; lengths: [1, 1, 1, 1, 1, 1]; tool_length: 0;
+      speeds: [1, 1, 1, 1, 1, 1]; acceleration: 1; rest: pose; };", "E0704", "has lengths or opw"),
+    ("part arm = chain { from: origin; opw: [0.1, 0, 0, 0.6, 0.7, 0.7, 0]; signs: [1, 1, 1, 0, 1, 1]; tool_length: 0;
+      speeds: [1, 1, 1, 1, 1, 1]; acceleration: 1; rest: pose; };", "E0704", "neither 1 nor -1"),
+    ("part arm = chain { from: origin; opw: [0.1, 0, 0, 0.6, 0.7, 0.7, 0]; lowest: [0, 0, 0, 0, 0, 400]; tool_length: 0;
+      speeds: [1, 1, 1, 1, 1, 1]; acceleration: 1; rest: pose; };", "E0704", "the range of joint 6, 400 to 360 degrees"),
+    ("part arm = chain { from: origin; opw: [0.1, 0, 0, 0.6, 0.7, 0.7, 0]; tool_length: 0.1;
+      speeds: [1, 1, 1, 1, 1, 1]; acceleration: 1; rest: pose + point(9, 0, 0); };", "E0711", "cannot reach its own rest position"),
+    ("part lift = positioner { slides: point(0, 0, 1); positions: [0, 1.5]; speed: 1; };", "E0704", "1.5 is not within the stroke, 0 to 1"),
+    ("part lift = positioner { slides: point(0, 0, 1); positions: [0, 1, 0]; speed: 1; };", "E0704", "two positions are the same"),
+    ("part lift = positioner { slides: point(0, 0, 1); positions: []; speed: 1; };", "E0704", "1 to 32 positions"),
+    ("part lift = positioner { slides: point(0, 0, 0); positions: [0]; speed: 1; };", "E0704", "not over 0"),
+    ("part lift = positioner { positions: [0]; speed: 1; };", "E0704", "slides, or turns about a pivot"),
+    ("part lift = positioner { slides: point(0, 0, 1); positions: [0, 1]; speed: 1; begins: 2; };", "E0704", "no number of a position, 0 to 1"),
+];
+
+#[test]
+fn arms_and_positioners_that_are_wrong_are_told() {
+    for (parts, code, words) in WRONG {
+        let device = format!("device thing {{ {parts} part light = lamp {{ at: pose; colour: red; }}; out on: bool = light.on; }}");
+        let told = told(&device, "");
+        assert!(told.iter().any(|(found, text)| found == code && text.contains(words)), "{parts}: {told:?}");
+    }
+}
+
 #[test]
 fn a_limit_that_the_layout_breaks_is_told() {
     let device = "device thing {
