@@ -41,6 +41,7 @@ fn check(schema: &Value, value: &Value, at: &str, found: &mut Vec<String>) {
                 members.keys().all(|key| is_valid(wanted, &Value::String(key.clone())))
             }),
             "anyOf" => list(wanted).iter().any(|option| is_valid(option, value)),
+            "oneOf" => list(wanted).iter().filter(|option| is_valid(option, value)).count() == 1,
             "not" => !is_valid(wanted, value),
             "allOf" => {
                 list(wanted).iter().for_each(|part| check(part, value, at, found));

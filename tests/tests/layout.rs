@@ -71,3 +71,74 @@ fn the_built_in_scenario_is_shown() {
     let shown = blocks(&document).into_iter().any(|(_, _, text)| text == autogen::scenario::DEFAULT);
     assert!(shown, "docs/layout.md shows another scenario than the built-in one");
 }
+
+/// Two modules, with what the second one says of its place; the types of `docs/layout.md`.
+fn told(second: &str) -> Vec<(&'static str, String)> {
+    let document = text("docs/layout.md");
+    let mut specs: Vec<String> =
+        blocks(&document).into_iter().filter(|(_, kind, _)| kind == "aut").map(|(_, _, text)| text).collect();
+    specs.push(
+        "device two { part one = lane { from: origin; length: 1.0; width: 0.4; speed: 0.3; };
+           part other = lane { from: pose_frame; length: 1.0; width: 0.4; speed: 0.3; };
+           define pose_frame = frame(0, 3, 0, 0); out run: bool = one.run; out go: bool = other.run; }
+         automaton Two on two { initial -> Running { run := true; go := true; } state Running { when false -> Running {} } }
+         device bare { part light = lamp { at: pose; colour: red; }; out on: bool = light.on; }
+         automaton Bare on bare { initial -> Lit { on := true; } state Lit { when false -> Lit {} } }"
+            .into(),
+    );
+    let layout = format!(
+        r#"{{"robots": [{{"name": "first", "type": "module", "pose": [0, 0, 0]}}, {second}],
+            "stationary": [{{"name": "stone", "type": "box", "pose": [9, 9, 0]}}]}}"#
+    );
+    let texts = Texts { specs, ..Texts::of_layout(layout) };
+    texts.compile().diagnostics.into_iter().map(|d| (d.code, format!("{} {}", d.message, d.help))).collect()
+}
+
+#[test]
+fn a_place_that_cannot_be_found_is_told() {
+    let module = |at: &str| format!(r#"{{"name": "second", "type": "module", "at": {at}}}"#);
+    let cases = [
+        (module(r#""first""#), "E0148", "names no lane of a machine"),
+        (module(r#""fist.belt""#), "E0148", "did you mean \"first\"?"),
+        (module(r#""first.belt_2""#), "E0148", "its lane is \"belt\""),
+        (module(r#"["bet", "first.belt"]"#), "E0148", "\"second\" has no lane \"bet\""),
+        (module(r#"["belt"]"#), "E0113", "at must have 2 elements"),
+        (module("7"), "E0110", "at must be a text"),
+        (module(r#""stone.belt""#), "E0148", "\"stone\" has no lane"),
+        (module(r#""second.belt""#), "E0149", "the place of \"second\" depends on itself"),
+        (module(r#""first.belt", "pose": [0, 0, 0]"#), "E0148", "leave out one of the two"),
+        (
+            r#"{"name": "a", "type": "module", "at": "b.belt"}, {"name": "b", "type": "module", "at": "a.belt"}"#.into(),
+            "E0149",
+            "depends on itself",
+        ),
+        (r#"{"name": "second", "type": "two", "at": "first.belt"}"#.into(), "E0148", "has 2 lanes"),
+        (r#"{"name": "second", "type": "two", "at": ["other", "first.belt"]}"#.into(), "E0148", "does not move and turn"),
+        (module(r#""first.belt", "turn": "left""#), "E0110", "turn"),
+        (r#"{"name": "second", "type": "nobody", "at": "first.belt"}"#.into(), "E0126", "no automaton `Nobody`"),
+        (r#"{"name": "second", "type": "bare", "at": "first.belt"}"#.into(), "E0148", "it has no lane"),
+    ];
+    for (second, code, words) in cases {
+        let told = told(&second);
+        assert!(told.iter().any(|(found, text)| *found == code && text.contains(words)), "{second}: {told:?}");
+    }
+}
+
+#[test]
+fn machines_in_any_order_begin_where_others_end() {
+    // A quarter of a circle of 1 m, then one more: 2/pi m ahead and to the left each time.
+    let layout = r#"{"robots": [
+        {"name": "third", "type": "module", "at": "second.belt"},
+        {"name": "second", "type": "module", "at": "first.belt", "turn": 90},
+        {"name": "first", "type": "module", "pose": [1, 2, 0.1, 90], "turn": 90}
+    ]}"#;
+    let document = text("docs/layout.md");
+    let specs = blocks(&document).into_iter().filter(|(_, kind, _)| kind == "aut").map(|(_, _, text)| text);
+    let project = Texts { specs: specs.collect(), ..Texts::of_layout(layout) }.project();
+    let radius = 2.0 / std::f64::consts::PI;
+    let wanted = [[1.0 - 2.0 * radius, 2.0], [1.0 - radius, 2.0 + radius], [1.0, 2.0]];
+    for (machine, [x, y]) in project.plant.machines.iter().zip(wanted) {
+        let pose = machine.pose;
+        assert!((pose.x - x).abs() < 1e-9 && (pose.y - y).abs() < 1e-9 && (pose.z - 0.1).abs() < 1e-9, "{pose:?}");
+    }
+}

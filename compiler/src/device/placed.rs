@@ -10,6 +10,7 @@ use runtime_sim::frame::Frame;
 use runtime_sim::kinematics::arm::Arm;
 use runtime_sim::machine::Machine;
 use runtime_sim::part::axis::Motion;
+use runtime_sim::part::lane::CentreLine;
 use runtime_sim::part::{Part, Primitive, Settings};
 use runtime_sim::point::Point;
 use runtime_sim::value::Value;
@@ -188,6 +189,16 @@ impl Placed {
         let all = self.device.program.parts.iter().enumerate();
         let wanted = all.filter(|(_, part)| primitives.contains(&part.schema.name)).map(|(i, _)| i);
         self.some(&wanted.collect::<Vec<_>>(), &[], self.device.place, &mut Vec::new())
+    }
+
+    /// The names and the centre lines of its lanes, on a carriage at its inner end, as far as they are right.
+    pub fn lanes(&self) -> Vec<(String, CentreLine)> {
+        let parts = self.parts_of(&["lane"]);
+        let lane = |(_, part): (usize, Arc<Part>)| match &part.primitive {
+            Primitive::Lane(lane) => Some((part.name.clone(), lane.centre_line)),
+            _ => None,
+        };
+        parts.into_iter().filter_map(lane).collect()
     }
 
     /// None for a machine without a chain.

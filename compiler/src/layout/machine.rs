@@ -6,6 +6,7 @@ use super::object::COMMON_KEYS;
 use super::{Number, Object, Part};
 use crate::device::{Device, Form, Parameter, Placed};
 use crate::diagnostic::{Diagnostic, sort};
+use runtime_sim::frame::Frame;
 use runtime_sim::line::Obstacle;
 use runtime_sim::point::Axis;
 use runtime_sim::value::Value;
@@ -16,20 +17,28 @@ pub const LONGEST_S: f64 = 1e5;
 
 pub const OBSTACLES: [&str; 6] = ["bin", "station", "assembly_station", "collector", "rail", "box"];
 
-/// A machine whose type is bound to a device, and all numbers of its object, those of the pose first.
-pub fn machine(object: &Object, device: &Arc<Device>) -> Result<(Placed, Vec<Number>), Vec<Diagnostic>> {
+/// A machine whose type is bound to a device, at this place, and all numbers of its object, those of the pose first.
+pub fn machine(
+    object: &Object,
+    device: &Arc<Device>,
+    pose: Frame,
+) -> Result<(Placed, Vec<Number>), Vec<Diagnostic>> {
+    let (arguments, numbers) = arguments(object, device)?;
+    turned(object, device, pose)?;
+    let placed = Placed { device: device.clone(), pose, arguments };
+    unmet(object, &placed)?;
+    Ok((placed, numbers))
+}
+
+/// Values of the parameters of its device, and all numbers of its object, those of the pose first.
+pub fn arguments(object: &Object, device: &Device) -> Result<(Vec<Value>, Vec<Number>), Vec<Diagnostic>> {
     let mut reader = Reader { object, decoder: Decoder::default(), numbers: object.pose_numbers.clone() };
     let known: Vec<&str> = device.parameters.iter().map(|parameter| parameter.name.as_str()).collect();
     unknown_keys(&mut reader.decoder, object, &known, &format!("an object on the device {}", device.name));
     let arguments: Vec<_> = device.parameters.iter().map(|parameter| reader.argument(parameter)).collect();
     let mut diagnostics = std::mem::take(&mut reader.decoder.diagnostics);
     match arguments.into_iter().collect::<Option<Vec<_>>>().filter(|_| diagnostics.is_empty()) {
-        Some(arguments) => {
-            turned(object, device)?;
-            let placed = Placed { device: device.clone(), pose: object.pose.value, arguments };
-            unmet(object, &placed)?;
-            Ok((placed, reader.numbers))
-        }
+        Some(arguments) => Ok((arguments, reader.numbers)),
         None => {
             sort(&mut diagnostics);
             Err(diagnostics)
@@ -38,8 +47,8 @@ pub fn machine(object: &Object, device: &Arc<Device>) -> Result<(Placed, Vec<Num
 }
 
 /// A machine that is turned has parts that turn with it.
-fn turned(object: &Object, device: &Device) -> Result<(), Vec<Diagnostic>> {
-    if object.pose.value.yaw == 0.0 || device.can_turn {
+fn turned(object: &Object, device: &Device, pose: Frame) -> Result<(), Vec<Diagnostic>> {
+    if pose.yaw == 0.0 || device.can_turn {
         return Ok(());
     }
     let message =

@@ -1,5 +1,6 @@
 //! The layout: which machines there are and where they stand.
 
+pub mod at;
 pub mod decode;
 pub mod json;
 pub(crate) mod machine;

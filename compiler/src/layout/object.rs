@@ -1,6 +1,7 @@
 //! One machine or thing of the layout, before its type is bound to a device.
 
 use super::Number;
+use super::at::At;
 use super::decode::{Decoder, find, readable};
 use super::json::{Json, Member, Value};
 use crate::diagnostic::Diagnostic;
@@ -22,9 +23,10 @@ pub struct Object {
     pub kind: Spanned<String>,
     pub part: Part,
     pub span: Span,
-    /// Where it stands; the key `pose`.
+    /// Where it stands; the key `pose`. The origin for one with `at`.
     pub pose: Spanned<Frame>,
     pub pose_numbers: Vec<Number>,
+    pub at: Option<At>,
     /// The key `box` of a stationary thing: its lengths along x, y and z.
     pub size: Option<Spanned<Point>>,
     /// All keys that depend on the device.
@@ -35,7 +37,7 @@ pub struct Object {
 }
 
 /// Keys that every object may have.
-pub const COMMON_KEYS: [&str; 6] = ["name", "type", "pose", "parameters", "takes_from", "hands_to"];
+pub const COMMON_KEYS: [&str; 7] = ["name", "type", "pose", "at", "parameters", "takes_from", "hands_to"];
 
 /// No coordinate of a factory is farther from the origin, in metres.
 pub const FARTHEST: f64 = 1000.0;
@@ -98,8 +100,22 @@ impl Decoder {
         let described = name.as_ref().map_or(what.to_string(), |n| format!("\"{}\"", n.value));
         let kind = self.required(members, "type", json.span, &described);
         let kind = kind.and_then(|j| self.text(j, "type"));
-        let pose = self.required(members, "pose", json.span, &described);
-        let pose = pose.and_then(|j| Some((j.span, self.pose(j)?)));
+        let (at, pose) = match (find(members, "at"), find(members, "pose")) {
+            (Some(at), None) => {
+                let found = self.at(at);
+                let pose = found.as_ref().map(|_| (at.span, (Frame::default(), Vec::new())));
+                (found, pose)
+            }
+            (Some(at), Some(_)) => {
+                let message = format!("{described} has a pose, and begins at the end of another machine");
+                self.report(Diagnostic::new("E0148", at.span, message).help("leave out one of the two"));
+                (None, None)
+            }
+            (None, _) => {
+                let pose = self.required(members, "pose", json.span, &described);
+                (None, pose.and_then(|j| Some((j.span, self.pose(j)?))))
+            }
+        };
         let parameters = find(members, "parameters").and_then(|j| self.object(j, "parameters"));
         let takes_from = find(members, "takes_from").and_then(|j| self.texts(j, "takes_from"));
         let hands_to = find(members, "hands_to").and_then(|j| self.texts(j, "hands_to"));
@@ -122,6 +138,7 @@ impl Decoder {
             span: json.span,
             pose: Spanned { value: pose, span: pose_span },
             pose_numbers,
+            at,
             size,
             members: specific.cloned().collect(),
             parameters: parameters

@@ -23,10 +23,16 @@ pub struct Robot<'a> {
 pub fn bind<'a>(layout: &'a Layout, model: &Model, diagnostics: &mut Vec<Diagnostic>) -> Bound<'a> {
     let mut bound = Bound { robots: Vec::new(), obstacles: Vec::new() };
     let automata: HashMap<&str, &Automaton> = model.automata.iter().map(|a| (a.name.as_str(), a)).collect();
-    for object in &layout.objects {
+    let device = |object: &Object| {
+        automata.get(automaton_name(&object.kind.value).as_str()).map(|automaton| automaton.device.clone())
+    };
+    let (frames, found) = layout::at::frames(&layout.objects, device);
+    found.into_iter().for_each(|d| collect(diagnostics, d));
+    for (object, pose) in layout.objects.iter().zip(frames) {
         let name = automaton_name(&object.kind.value);
+        let Some(pose) = pose else { continue };
         match automata.get(name.as_str()) {
-            Some(automaton) => match layout::machine(object, &automaton.device) {
+            Some(automaton) => match layout::machine(object, &automaton.device, pose) {
                 Ok((placed, numbers)) => {
                     bound.robots.push(Robot { object, automaton: name, placed, numbers });
                 }

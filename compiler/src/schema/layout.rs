@@ -90,6 +90,11 @@ impl Types<'_> {
                 json!({ "type": "array", "items": pose, "minItems": 3, "maxItems": 4 }),
                 "Its position: x, y, z in m, and degrees if it is turned",
             ),
+            property(
+                "at",
+                json!({ "anyOf": [text(), tuple(&[text(), text()])] }),
+                "Instead of a pose: its lane begins where this lane of another machine ends, such as c1.belt",
+            ),
             property("parameters", json!({ "type": "object" }), "Values of the parameters of its type"),
             property("takes_from", list(text()), "An arm takes only from these"),
             property("hands_to", list(text()), "An arm hands over only to these"),
@@ -109,7 +114,8 @@ impl Types<'_> {
         let types: Vec<Value> =
             self.model.automata.iter().map(|automaton| self.of_type(automaton, &keys)).collect();
         json!({
-            "type": "object", "properties": Map::from_iter(all), "required": ["name", "type", "pose"], "allOf": types,
+            "type": "object", "properties": Map::from_iter(all), "required": ["name", "type"],
+            "oneOf": [{ "required": ["pose"] }, { "required": ["at"] }], "allOf": types,
         })
     }
 
