@@ -208,6 +208,16 @@ impl Device {
         self.ports.iter().filter(|p| p.direction == direction).map(|p| p.words(kinds)).sum()
     }
 
+    /// The inputs, each with its first word in a process image.
+    pub fn inputs(&self, kinds: usize) -> impl Iterator<Item = (usize, &Port)> {
+        let inputs = self.ports.iter().filter(|port| port.direction == Direction::Input);
+        inputs.scan(0, move |next, port| {
+            let word = *next;
+            *next += port.words(kinds);
+            Some((word, port))
+        })
+    }
+
     /// Where a port begins among the ports of its own direction.
     pub fn offset(&self, name: &str, kinds: usize) -> Option<usize> {
         let port = self.port(name)?;

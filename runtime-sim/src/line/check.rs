@@ -139,6 +139,9 @@ impl Line {
                 return Err(format!("an answer of {} in an error that is none", machine.name));
             }
         }
+        for stuck in &scenario.sensors {
+            stuck.check(self.machine(stuck.machine, "a sensor that sticks")?, self.kinds.len())?;
+        }
         for operation in &scenario.operations {
             let panel = self.machine(operation.machine, "an operation")?;
             let part = panel.parts.get(operation.part);

@@ -1,6 +1,7 @@
 //! A machine at work: its parts, and the head that commands them.
 
 use super::command::{Answer, Asked, Head};
+use super::faults::Faults;
 use crate::carrier::Carrier;
 use crate::device::error;
 use crate::item::Items;
@@ -33,6 +34,7 @@ pub struct Working {
     outputs: Vec<Range<usize>>,
     /// The parts of which commands ask something.
     commanded: Vec<usize>,
+    faults: Faults,
 }
 
 /// What all machines share.
@@ -86,7 +88,12 @@ impl Working {
             outputs: ranges(machine.wiring.outputs.iter().map(|output| output.size.words(kinds))),
             wiring: machine.wiring.clone(),
             commanded,
+            faults: Faults::new(line, index),
         })
+    }
+
+    pub fn faults(&self) -> &Faults {
+        &self.faults
     }
 
     /// Numbers of all inputs.
