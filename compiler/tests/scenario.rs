@@ -3,13 +3,22 @@
 mod fixture;
 
 use autogen::diagnostic::Diagnostic;
-use autogen::scenario::{self, Input, Line, Number, Panel, ResolvedScenario, Words};
+use autogen::scenario::{self, Input, Line, MachinePart, Number, Panel, ResolvedScenario, Words};
 use autogen::source::{FileId, Sources};
 use fixture::{root, walk};
 use runtime_sim::device::{Extent, PortType};
-use runtime_sim::part::Operated;
+use runtime_sim::part::{Operated, Schema, button, place, process, route};
 
 const STOPS: PortType = PortType::Int { lo: -1, hi: 2 };
+
+const fn part(
+    robot: &'static str,
+    part: &'static str,
+    numbers: [usize; 2],
+    primitive: &'static Schema,
+) -> MachinePart<'static> {
+    MachinePart { robot, part, primitive, numbers }
+}
 
 const LINE: Line = Line {
     stations: &[("as1", 7), ("as2", 8), ("as3", 9), ("as4", 10)],
@@ -59,6 +68,12 @@ const LINE: Line = Line {
             machine: 0,
             word: 1,
         },
+    ],
+    parts: &[
+        part("agv1", "drive", [2, 0], &route::SCHEMA),
+        part("agv1", "load", [2, 1], &place::SCHEMA),
+        part("desk", "start", [11, 0], &button::SCHEMA),
+        part("desk", "cycle", [11, 2], &process::SCHEMA),
     ],
     panels: &[
         Panel { robot: "desk", part: "start", numbers: [11, 0], operated: Operated::Press },
@@ -214,6 +229,17 @@ fn sensors_find_the_words_of_their_inputs() {
         of(r#""desk", "signal": "speed", "element": 1, "reads": 0.3"#, ""),
         (words(11, 5, 1), 0.3, None)
     );
+}
+
+#[test]
+fn jams_and_slow_cycles_find_their_parts() {
+    let faults = r#""faults": {"jams": [{"robot": "agv1", "part": "drive", "at_s": 3}],
+        "slow": [{"robot": "desk", "part": "cycle", "cycle": 2, "longer_s": 30}]}, "time"#;
+    let resolved = resolve(&scenario::DEFAULT.replace("\"time", faults), &LINE).unwrap();
+    let jam = &resolved.jams[0];
+    assert_eq!((jam.part, jam.at_s, jam.for_s), ([2, 0], 3.0, None));
+    let slow = &resolved.slow[0];
+    assert_eq!((slow.part, slow.cycle, slow.longer_s), ([11, 2], 2, 30.0));
 }
 
 #[test]

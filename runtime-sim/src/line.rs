@@ -6,7 +6,7 @@ mod text;
 
 use crate::machine::Machine;
 use crate::point::Point;
-pub use faults::{Answer, During, Pause, Refusal, Slip, Stuck};
+pub use faults::{Answer, During, Jam, Pause, Refusal, Slip, SlowCycle, Stuck};
 
 /// A factory line, its machines in the order of the layout, and what is to happen on it.
 #[derive(Clone, Debug, PartialEq)]
@@ -84,6 +84,8 @@ pub struct Scenario {
     /// which the permit is back.
     pub power_offs: Vec<Pause>,
     pub sensors: Vec<Stuck>,
+    pub jams: Vec<Jam>,
+    pub slow: Vec<SlowCycle>,
     pub operations: Vec<Operation>,
     pub presses: Vec<Press>,
     /// Of all times that are drawn.
@@ -204,6 +206,8 @@ impl Default for Scenario {
             pauses: Vec::new(),
             power_offs: Vec::new(),
             sensors: Vec::new(),
+            jams: Vec::new(),
+            slow: Vec::new(),
             operations: Vec::new(),
             presses: Vec::new(),
             seed: 1,

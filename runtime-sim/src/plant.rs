@@ -94,6 +94,7 @@ impl Plant {
     /// All machines, and what they share on the way to the start of a scan.
     fn split(&mut self, scan: u64) -> (&mut Vec<Working>, Shared<'_>) {
         let shared = Shared {
+            scan: self.scan,
             items: &mut self.items,
             desk: &mut self.desk,
             now_ms: self.scan * self.scan_ms,
@@ -360,7 +361,7 @@ impl Plant {
     pub fn is_busy(&self) -> bool {
         let now_ms = self.now_ms();
         self.machines.iter().any(|machine| machine.faults().is_passing(self.scan))
-            || self.machines.iter().any(|machine| machine.is_busy(&self.items, &self.desk, now_ms))
+            || self.machines.iter().any(|machine| machine.is_busy(&self.items, &self.desk, self.scan, now_ms))
             || self.conveying.is_busy(&self.machines)
     }
 

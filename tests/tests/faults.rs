@@ -1,7 +1,7 @@
 //! Faults of the plant that a scenario asks for, on small lines whose times follow from the rules.
 
 use autogen::executor::Executor;
-use autogen_tests::Texts;
+use autogen_tests::{Texts, side_by_side};
 use runtime_sim::line::{IoDelay, Line};
 use runtime_sim::report::Report;
 use runtime_sim::run::{Recorded, Stepping, record};
@@ -176,6 +176,230 @@ fn answers_of_commands_may_stick() {
     assert_eq!(ended(r#""signal": "ack", "reads": 0, "at_s": 0, "for_s": 5"#)[2], (5000, 2));
     assert_eq!(ended(r#""signal": "ack", "reads": 0, "at_s": 0"#)[2], (10_020, 3));
     assert_eq!(ended(r#""signal": "error", "reads": 2, "at_s": 0"#)[2], (10_020, 3));
+}
+
+/// Faults of parts of the machine.
+fn jams(faults: &[&str]) -> String {
+    let faults: Vec<String> = faults.iter().map(|fault| format!(r#"{{"robot": "it", {fault}}}"#)).collect();
+    format!(r#""faults": {{"jams": [{}]}}"#, faults.join(", "))
+}
+
+#[test]
+fn a_cylinder_that_jams_stands_and_goes_on_afterwards() {
+    let opened = |faults: &[&str]| entries(&line(BAR, OPENS, &jams(faults)));
+    let at = |ms| vec![(0, 0), (20, 1), (ms, 2)];
+    // 0.38 s gone, 2 s at rest, 0.62 s left.
+    assert_eq!(opened(&[r#""part": "bar", "at_s": 0.4, "for_s": 2"#]), at(3020));
+    // Before it begins to move.
+    assert_eq!(opened(&[r#""part": "bar", "at_s": 0, "for_s": 2"#]), at(3000));
+    // When it has arrived nothing changes.
+    assert_eq!(opened(&[r#""part": "bar", "at_s": 1.02, "for_s": 2"#]), at(1020));
+    // Two jams, apart and one within the other.
+    let apart =
+        [r#""part": "bar", "at_s": 0.1, "for_s": 0.2"#, r#""part": "bar", "at_s": 0.5, "for_s": 0.3"#];
+    assert_eq!(opened(&apart), at(1520));
+    let within = [r#""part": "bar", "at_s": 0.1, "for_s": 2"#, r#""part": "bar", "at_s": 0.5, "for_s": 0.3"#];
+    assert_eq!(opened(&within), at(3020));
+    // Without an end it never arrives.
+    assert_eq!(opened(&[r#""part": "bar", "at_s": 1.01"#]), [(0, 0), (20, 1)]);
+}
+
+/// The valve goes off while the cylinder is 0.3 s out and stands: afterwards the spring needs 0.3 s.
+#[test]
+fn valves_that_change_during_a_jam_act_after_it() {
+    let closes = "initial -> Opening { open := true; }
+        state Opening { when after 1 s -> Closing { open := false; } }
+        state Closing { when is_closed -> Closed {} }
+        final state Closed;";
+    let jam = jams(&[r#""part": "bar", "at_s": 0.32, "for_s": 2"#]);
+    assert_eq!(entries(&line(BAR, closes, &jam)), [(0, 0), (20, 1), (1020, 2), (2620, 3)]);
+    // On and off again while it jams at its inner end: it is never seen to leave it.
+    let leaves = "initial -> Opening { open := true; }
+        state Opening { when not is_closed -> Left {} when after 1 s -> Closing { open := false; } }
+        state Closing { when not is_closed -> Left {} when is_open -> Left {} }
+        final state Left;";
+    let jam = jams(&[r#""part": "bar", "at_s": 0, "for_s": 3"#]);
+    assert_eq!(entries(&line(BAR, leaves, &jam)), [(0, 0), (20, 1), (1020, 2)]);
+}
+
+/// Two valves that keep their position: a pulse during the jam counts afterwards. With a closed centre it does not.
+#[test]
+fn a_valve_that_keeps_its_position_keeps_it_during_a_jam() {
+    let device = |centre: &str| {
+        format!(
+            "part bar = cylinder {{ extend: 1 s; retract: 1 s; {centre} }};
+            in is_closed: bool = bar.is_in;
+            in is_open: bool = bar.is_out;
+            out outward: bool = bar.extend;
+            out inward: bool = bar.retract;"
+        )
+    };
+    // Out from 20 ms on; from 1020 ms to 1120 ms the other valve.
+    let automaton = "initial -> Going { outward := true; }
+        state Going { when after 1 s -> Coming { outward := false; inward := true; } }
+        state Coming { when after 100 ms -> Resting { inward := false; } }
+        state Resting { when is_closed -> In {} when is_open -> Out {} }
+        final state In;
+        final state Out;";
+    let jam = jams(&[r#""part": "bar", "at_s": 0.32, "for_s": 2"#]);
+    let began = [(0, 0), (20, 1), (1020, 2), (1120, 3)];
+    let both = entries(&line(&device(""), automaton, &jam));
+    assert_eq!((&both[..4], &both[4..]), (&began[..], &[(2620, 4)][..]));
+    assert_eq!(entries(&line(&device("closed_centre: true;"), automaton, &jam)), began);
+}
+
+/// In a pause a cylinder goes on if its valve stays on, and comes back by its spring if the valve goes off.
+#[test]
+fn a_jam_and_a_pause_overlap() {
+    let faults = r#""faults": {"jams": [{"robot": "it", "part": "bar", "at_s": 0.4, "for_s": 2}],
+        "pauses": [{"at_s": 2, "for_s": 3}]}"#;
+    // The permit is back at 5 s, and start is given one scan later.
+    assert_eq!(entries(&line(BAR, OPENS, faults)), [(0, 0), (20, 1), (5010, 2)]);
+    let stops = BAR.replace("bar.extend;", "bar.extend stop false;");
+    assert_eq!(entries(&line(&stops, OPENS, faults)), [(0, 0), (20, 1), (6010, 2)]);
+    // Without power the valve goes off too. The machine begins anew in the scan of the start.
+    let off = faults.replace("pauses", "power_offs");
+    assert_eq!(entries(&line(&stops, OPENS, &off)).last(), Some(&(6010, 2)));
+}
+
+/// An item of 0.1 m appears after 2 s, its front 0.5 m before the beam, at 0.1 m/s.
+#[test]
+fn a_conveyor_that_jams_stands_with_its_items() {
+    let device = "part belt = lane { from: origin; length: 2.0; width: 0.2; speed: 0.1; };
+        part feed = source { on: belt; inset: 0.1; };
+        part eye = beam { across: belt; at: 0.65; };
+        in sees: bool = eye.sees;
+        in moves: bool = belt.moves;";
+    let automaton = "initial -> Waiting {}
+        state Waiting { when sees -> Seen {} when not moves -> Standing {} }
+        state Standing { when sees -> Seen {} when moves -> Waiting {} }
+        final state Seen;";
+    let supply = r#""kinds": [{"name": "box", "height": 0.1}], "supply": {"items": ["box"]}"#;
+    let seen = |faults: &str| entries(&line(device, automaton, &format!("{supply}, {faults}")));
+    let usual = seen(r#""faults": {}"#);
+    assert_eq!(usual, [(0, 0), (20, 1), (7000, 3)]);
+    let jammed = seen(&jams(&[r#""part": "belt", "at_s": 3, "for_s": 4"#]));
+    assert_eq!(jammed, [(0, 0), (20, 1), (3010, 2), (7010, 1), (11_000, 3)]);
+    // Time until the first item counts while the lane moves.
+    let jammed = seen(&jams(&[r#""part": "belt", "at_s": 0.5, "for_s": 1"#]));
+    assert_eq!(jammed.last(), Some(&(8000, 3)));
+}
+
+/// A route has no ramps: it stands where it is. A track brakes: from 1.5 m/s with 0.5 m/s2 in 2.25 m and 3 s.
+#[test]
+fn vehicles_that_jam_halt_and_continue_to_their_goals() {
+    let route = "part drive = route {
+            stops: [pose, pose + point(10, 0, 0)]; speed: 1.0; latency: 0 ms; tolerance: 0.1; mass: 1.0;
+        };
+        out goal: point;
+        command 1 go(goal) = drive.to(goal);";
+    let goes = |command: &str| {
+        format!(
+            "initial -> Going {{ {command} }}
+            state Going {{ when done -> There {{}} when failed -> Failed {{}} }}
+            final state There;
+            final state Failed;"
+        )
+    };
+    let there = |device: &str, automaton: &str, faults: &[&str]| {
+        let found = entries(&line(device, automaton, &jams(faults)));
+        assert_eq!((found[..2].to_vec(), found[2].1), (vec![(0, 0), (20, 1)], 2), "{found:?}");
+        found[2].0
+    };
+    let to = goes("go(point(10, 0, 0));");
+    assert_eq!(there(route, &to, &[]), 10_020);
+    assert_eq!(there(route, &to, &[r#""part": "drive", "at_s": 3, "for_s": 4"#]), 14_020);
+    assert_eq!(there(route, &to, &[r#""part": "drive", "at_s": 0, "for_s": 4"#]), 14_000);
+
+    let track = "part drive = track {
+            corners: [pose, pose + point(10, 0, 0)]; places: [0.0, 10.0];
+            speed: 1.5; acceleration: 0.5; mass: 10.0;
+        };
+        out goal: int 0..1;
+        command 1 go(goal) = drive.to(goal);
+        command 2 halt() = drive.halt();";
+    let is_near = |found: u64, seconds: f64| (found as f64 / 1000.0 - seconds).abs() < 0.015;
+    // 10 m at 1.5 m/s, and 3 s for the ramps.
+    let usual = there(track, &goes("go(1);"), &[]);
+    assert!(is_near(usual, 0.02 + 10.0 / 1.5 + 3.0), "{usual}");
+    // After 4 s 3.75 m, at rest after 6 m; from 14.02 s on 4 m from rest to rest.
+    let jammed = there(track, &goes("go(1);"), &[r#""part": "drive", "at_s": 4.02, "for_s": 10"#]);
+    assert!(is_near(jammed, 14.02 + 2.0 * (4.0_f64 / 0.5).sqrt()), "{jammed}");
+    // A command to stand ends with the jam.
+    assert_eq!(there(track, &goes("halt();"), &[r#""part": "drive", "at_s": 0, "for_s": 4"#]), 4010);
+}
+
+/// A run of the tending cell for three parts.
+fn tending(faults: &str) -> Report {
+    let mut texts = side_by_side("tending/tending");
+    let scenario = texts.scenario.expect("a scenario").replace("41", "3");
+    texts.scenario = Some(scenario.replacen('{', &format!(r#"{{"faults": {{{faults}}},"#), 1));
+    run(&texts, |_| {}).report
+}
+
+/// The mill limits the cell: what its cycle takes longer, the run takes longer.
+#[test]
+fn a_slow_cycle_of_the_mill_delays_the_cell() {
+    let slow = |cycle: u32, longer_s: f64| {
+        format!(r#"{{"robot": "mill", "part": "cycle", "cycle": {cycle}, "longer_s": {longer_s}}}"#)
+    };
+    let usual = tending("");
+    assert!(usual.finished, "{}", usual.reason);
+    let later = |faults: &[String]| {
+        let report = tending(&format!(r#""slow": [{}]"#, faults.join(", ")));
+        assert!(report.finished, "{}", report.reason);
+        (report.scans - usual.scans) as f64 / 100.0
+    };
+    for cycle in 1..=3 {
+        assert_eq!(later(&[slow(cycle, 30.0)]), 30.0, "{cycle}");
+    }
+    assert_eq!(later(&[slow(2, 7.5), slow(3, 20.0), slow(2, 2.5)]), 30.0);
+    // It never begins before the goal is reached.
+    assert_eq!(tending(&format!(r#""slow": [{}]"#, slow(9, 30.0))), usual);
+}
+
+/// What the types say of a sensor that sticks or a door that jams: the state that waits for it lasts too long.
+#[test]
+fn the_mill_reports_what_does_not_come() {
+    let fault = |faults: &str| {
+        let report = tending(faults);
+        let fault = report.fault.map(|(_, machine)| machine);
+        (report.finished, fault.unwrap_or_default())
+    };
+    let sensor = |signal: &str, reads: bool, more: &str| {
+        format!(
+            r#""sensors": [{{"robot": "mill", "signal": "{signal}", "reads": {reads}, "at_s": 0{more}}}]"#
+        )
+    };
+    let door = |for_s: &str| format!(r#""jams": [{{"robot": "mill", "part": "door", "at_s": 20{for_s}}}]"#);
+    let mill = || (false, "mill".to_string());
+    for signal in ["door_closed", "cutting"] {
+        assert_eq!(fault(&sensor(signal, false, "")), mill(), "{signal}");
+    }
+    // The arm holds the blank until the vise is seen to hold it: it reports first.
+    let vise = fault(&sensor("clamped", false, ""));
+    assert!(!vise.0 && ["mill", "arm"].contains(&vise.1.as_str()), "{vise:?}");
+    assert_eq!(fault(&door("")), mill());
+    // The door takes 4 s of the 15 s that it has.
+    assert_eq!(fault(&door(r#", "for_s": 8"#)), (true, String::new()));
+}
+
+/// A red piece passes a gate that does not close, or is not seen to be red.
+#[test]
+fn a_gate_that_jams_puts_pieces_into_the_wrong_box() {
+    let run = |faults: &str| {
+        let mut texts = side_by_side("sorting/sorting");
+        let scenario = texts.scenario.expect("a scenario");
+        texts.scenario = Some(scenario.replacen('{', &format!(r#"{{"faults": {{{faults}}},"#), 1));
+        run(&texts, |_| {}).report.reason
+    };
+    let of_sorter = |key: &str, fault: &str| format!(r#""{key}": [{{"robot": "sorter", {fault}}}]"#);
+    let gate = run(&of_sorter("jams", r#""part": "first_arm", "at_s": 0"#));
+    assert_eq!(gate, "sorter.last_box has collected more red than 0");
+    let colour = run(&of_sorter("sensors", r#""signal": "is_red", "reads": false, "at_s": 0"#));
+    assert_eq!(colour, "sorter.last_box has collected more red than 0");
+    let piece = run(&of_sorter("sensors", r#""signal": "at_stopper", "reads": false, "at_s": 0"#));
+    assert!(piece.starts_with("fault"), "{piece}");
 }
 
 /// A fault that ends is something that is to come: the line waits for it. One without an end is none.

@@ -18,7 +18,7 @@ pub use placed::{Place, Placed};
 use crate::source::Span;
 use program::Program;
 use runtime_sim::device::{Direction, Extent, PortType, Stop};
-use runtime_sim::part::Operated;
+use runtime_sim::part::{Operated, Schema};
 use runtime_sim::value::Value;
 use runtime_sim::wiring::Wiring;
 use std::sync::Arc;
@@ -189,6 +189,12 @@ impl Device {
     pub fn operated(&self) -> impl Iterator<Item = (usize, &str, Operated)> {
         let parts = self.program.parts.iter().enumerate();
         parts.filter_map(|(number, part)| Some((number, part.name.value.as_str(), part.schema.operated?)))
+    }
+
+    /// Number, name and primitive of each of its parts.
+    pub fn parts(&self) -> impl Iterator<Item = (usize, &str, &'static Schema)> {
+        let parts = self.program.parts.iter().enumerate();
+        parts.map(|(number, part)| (number, part.name.value.as_str(), part.schema))
     }
 
     /// Numbers and names of its parts of one primitive.

@@ -5,7 +5,7 @@ use crate::diagnostic::Diagnostic;
 use crate::executor::Executor;
 use crate::ir::{Automaton, Element, InterfaceId, PropertyKind, RoleKind, System, Value};
 use crate::reads::{self, ReadCell, Reads, Whose};
-use crate::scenario::{self, Input, Number, Panel, ResolvedScenario, Scenario};
+use crate::scenario::{self, Input, MachinePart, Number, Panel, ResolvedScenario, Scenario};
 use runtime_sim::line;
 use runtime_sim::machine::Machine;
 use runtime_sim::monitor::{ALARM_WORDS, Alarm, Counter, Monitor};
@@ -40,6 +40,18 @@ pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec
             })
         })
         .collect();
+    let parts: Vec<MachinePart> = (0..line.robots.len())
+        .flat_map(|r| {
+            let robot = line.robots[r].object.name.value.as_str();
+            let parts = line.automaton(r).device.parts();
+            parts.map(move |(number, part, primitive)| MachinePart {
+                robot,
+                part,
+                primitive,
+                numbers: [r, number],
+            })
+        })
+        .collect();
     let sinks: Vec<(String, [usize; 2])> = (0..line.robots.len())
         .flat_map(|r| {
             let robot = line.robots[r].object.name.value.as_str();
@@ -56,6 +68,7 @@ pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec
             commanded: &named(&|r| line.automaton(r).device.is_commanded()),
             panels: &panels,
             inputs: &inputs,
+            parts: &parts,
             sinks: &sinks,
         },
     )
@@ -151,6 +164,21 @@ pub fn line(
                     words: stuck.input.count,
                     value: stuck.reads,
                     during: during(stuck.at_s, stuck.for_s),
+                })
+                .collect(),
+            jams: (scenario.jams.iter())
+                .map(|jam| line::Jam {
+                    machine: jam.part[0],
+                    part: jam.part[1],
+                    during: during(jam.at_s, jam.for_s),
+                })
+                .collect(),
+            slow: (scenario.slow.iter())
+                .map(|slow| line::SlowCycle {
+                    machine: slow.part[0],
+                    part: slow.part[1],
+                    cycle: slow.cycle,
+                    longer_s: slow.longer_s,
                 })
                 .collect(),
             operations: (scenario.operations.iter())

@@ -10,6 +10,8 @@ pub struct Faults {
     pub pauses: Vec<Pause>,
     pub power_offs: Vec<Pause>,
     pub sensors: Vec<Stuck<Signal, Spanned<Reading>>>,
+    pub jams: Vec<Jam<PartName>>,
+    pub slow: Vec<SlowCycle<PartName>>,
 }
 
 /// A part falls off the gripper of `robot` so long after its pick number `pick`, counted from 1.
@@ -73,6 +75,30 @@ pub enum Element {
 pub enum Reading {
     Truth(bool),
     Number(f64),
+}
+
+/// A part stands for a time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Jam<Part> {
+    pub part: Part,
+    pub at_s: f64,
+    /// None: to the end of the run.
+    pub for_s: Option<f64>,
+}
+
+/// Cycle number `cycle` of a process, counted from 1, takes longer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SlowCycle<Part> {
+    pub part: Part,
+    pub cycle: u32,
+    pub longer_s: f64,
+}
+
+/// A part of a machine, by its names.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PartName {
+    pub robot: Spanned<String>,
+    pub part: Spanned<String>,
 }
 
 /// Words of the inputs of a machine.

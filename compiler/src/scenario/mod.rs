@@ -5,9 +5,11 @@ pub(crate) mod read;
 mod resolve;
 mod supply;
 
-pub use faults::{Answer, Element, Faults, Pause, Reading, Refusal, Signal, Slip, Stuck, Words};
+pub use faults::{
+    Answer, Element, Faults, Jam, PartName, Pause, Reading, Refusal, Signal, Slip, SlowCycle, Stuck, Words,
+};
 pub use read::parse;
-pub use resolve::{Input, Line, Panel, resolve};
+pub use resolve::{Input, Line, MachinePart, Panel, resolve};
 
 use crate::source::{FileId, Sources, Span, Spanned};
 use runtime_sim::line::LineButton;
@@ -202,8 +204,11 @@ pub struct ResolvedScenario {
     pub power_offs: Vec<Pause>,
     pub sensors: Vec<Stuck<Words, f64>>,
     /// By numbers of the machine and of its part.
+    pub jams: Vec<Jam<[usize; 2]>>,
+    pub slow: Vec<SlowCycle<[usize; 2]>>,
+    /// The same.
     pub operations: Vec<Operation<[usize; 2]>>,
     pub presses: Vec<Operation<LineButton>>,
-    /// The same of sinks.
+    /// The same, of sinks.
     pub goal: Vec<Collected<[usize; 2]>>,
 }

@@ -5,6 +5,7 @@ use crate::dictionary::NUMBERS;
 use arbitrary::{Result, Unstructured};
 
 const SIGNALS: [&str; 4] = ["attached", "at_stop", "sees", "ack"];
+const PARTS: [&str; 4] = ["drive", "conveyor", "joints", "cycle"];
 const KINDS: [&str; 5] = ["battery", "sensor", "regulator", "pump", "kitting"];
 
 pub fn scenario(u: &mut Unstructured) -> Result<String> {
@@ -118,6 +119,16 @@ fn faults(u: &mut Unstructured) -> Result<String> {
         }
         object(u, &members)
     })?;
+    let jams = list(u, 2, |u| {
+        let members =
+            [("robot", name(u)?), ("part", part(u)?), ("at_s", seconds(u)?), ("for_s", seconds(u)?)];
+        object(u, &members)
+    })?;
+    let slow = list(u, 1, |u| {
+        let members =
+            [("robot", name(u)?), ("part", part(u)?), ("cycle", whole(u, 3)?), ("longer_s", seconds(u)?)];
+        object(u, &members)
+    })?;
     let members = [
         ("slips", slips),
         ("refusals", refusals),
@@ -125,8 +136,14 @@ fn faults(u: &mut Unstructured) -> Result<String> {
         ("pauses", pauses),
         ("power_offs", power_offs),
         ("sensors", sensors),
+        ("jams", jams),
+        ("slow", slow),
     ];
     object(u, &members)
+}
+
+fn part(u: &mut Unstructured) -> Result<String> {
+    Ok(format!("\"{}\"", u.choose(&PARTS)?))
 }
 
 fn whole(u: &mut Unstructured, most: u32) -> Result<String> {

@@ -1,5 +1,6 @@
 //! What goes wrong in a run.
 
+use super::check::LONGEST_TIME;
 use crate::machine::Machine;
 
 /// A gripper loses what it holds.
@@ -60,6 +61,24 @@ pub struct Stuck {
     pub during: During,
 }
 
+/// A part of a machine stands, whatever moves it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Jam {
+    pub machine: usize,
+    pub part: usize,
+    pub during: During,
+}
+
+/// A cycle of a process takes longer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SlowCycle {
+    pub machine: usize,
+    pub part: usize,
+    /// The how manieth cycle that was started, from 1.
+    pub cycle: u32,
+    pub longer_s: f64,
+}
+
 impl Pause {
     /// The scan in which it is over.
     pub fn end(&self) -> u64 {
@@ -95,6 +114,27 @@ impl Stuck {
         }
         if !self.value.is_finite() {
             return Err(format!("a sensor of {} sticks at no number", machine.name));
+        }
+        Ok(())
+    }
+}
+
+impl Jam {
+    pub(super) fn check(&self, machine: &Machine) -> Result<(), String> {
+        match machine.parts.get(self.part) {
+            Some(part) if part.schema().can_jam => Ok(()),
+            _ => Err(format!("a jam of {}, in a part that does not move", machine.name)),
+        }
+    }
+}
+
+impl SlowCycle {
+    pub(super) fn check(&self, machine: &Machine) -> Result<(), String> {
+        if machine.parts.get(self.part).is_none_or(|part| part.schema().name != "process") {
+            return Err(format!("a slow cycle of {}, of a part that is no process", machine.name));
+        }
+        if !(0.0..=LONGEST_TIME).contains(&self.longer_s) {
+            return Err(format!("a cycle of {} that takes {:?} s longer", machine.name, self.longer_s));
         }
         Ok(())
     }

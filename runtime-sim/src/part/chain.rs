@@ -28,6 +28,7 @@ pub const SCHEMA: Schema = Schema {
         Action { name: "onto", arguments: &[PortType::Point, PortType::Point] },
         Action { name: "direct", arguments: &[PortType::Point] },
     ],
+    can_jam: true,
     ..Schema::new(
         "chain",
         "Six joints as in a Universal Robots arm, with the tool pointing down: either carried by axes, with the lengths of the UR10, or fixed at `from`, with the given lengths.",

@@ -1,12 +1,13 @@
 //! What goes wrong in the plant at given times.
 
-use crate::line::{During, Line, Stuck};
+use crate::line::{During, Jam, Line, Stuck};
 
 /// The faults of one machine.
 #[derive(Clone, Debug)]
 pub struct Faults {
     /// The one that begins first comes first.
     sensors: Vec<Stuck>,
+    jams: Vec<Jam>,
 }
 
 impl Faults {
@@ -14,16 +15,21 @@ impl Faults {
         let sensors = line.scenario.sensors.iter().filter(|stuck| stuck.machine == machine);
         let mut sensors: Vec<Stuck> = sensors.cloned().collect();
         sensors.sort_by_key(|stuck| stuck.during.at_scan);
-        Self { sensors }
+        let jams = line.scenario.jams.iter().filter(|jam| jam.machine == machine).cloned().collect();
+        Self { sensors, jams }
     }
 
     fn all(&self) -> impl Iterator<Item = &During> {
-        self.sensors.iter().map(|stuck| &stuck.during)
+        let jams = self.jams.iter().map(|jam| &jam.during);
+        self.sensors.iter().map(|stuck| &stuck.during).chain(jams)
     }
 
-    /// The first scan after this one in which a fault begins or ends. None: there is none.
+    /// The first scan after this one in which a fault begins or ends, or in which the plant shows that it did in this
+    /// one. None: there is none.
     pub fn next_change(&self, scan: u64) -> Option<u64> {
-        self.all().flat_map(During::changes).filter(|at| *at > scan).min()
+        let changes = self.all().flat_map(During::changes).filter(|at| *at > scan);
+        let mut jams = self.jams.iter().flat_map(|jam| jam.during.changes());
+        changes.chain(jams.any(|at| at == scan).then_some(scan + 1)).min()
     }
 
     /// A fault holds that ends.
@@ -36,5 +42,14 @@ impl Faults {
         for stuck in self.sensors.iter().filter(|stuck| stuck.during.holds(scan)) {
             image[stuck.word..stuck.word + stuck.words].fill(stuck.value);
         }
+    }
+
+    /// The parts that jam at some time.
+    pub fn jamming(&self) -> impl Iterator<Item = usize> {
+        self.jams.iter().map(|jam| jam.part)
+    }
+
+    pub fn is_jammed(&self, part: usize, scan: u64) -> bool {
+        self.jams.iter().any(|jam| jam.part == part && jam.during.holds(scan))
     }
 }

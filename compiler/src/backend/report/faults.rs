@@ -12,6 +12,10 @@ pub fn faults(line: &Line, signals: &[Signal]) -> Vec<(u64, i64, String)> {
         let texts = [format!("{name} sticks: it reads {}", value(signals, stuck)), format!("{name} is free")];
         put(&mut faults, stuck.machine, stuck.during, texts);
     }
+    for jam in &line.scenario.jams {
+        let name = &line.machines[jam.machine].parts[jam.part].name;
+        put(&mut faults, jam.machine, jam.during, [format!("{name} jams"), format!("{name} is free")]);
+    }
     faults
 }
 

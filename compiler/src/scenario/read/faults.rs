@@ -4,7 +4,9 @@ use super::LONGEST_S;
 use super::operator::MOST;
 use crate::layout::decode::{Decoder, find};
 use crate::layout::json::{Json, Member, Value};
-use crate::scenario::{Answer, Element, Faults, Pause, Reading, Refusal, Signal, Slip, Stuck};
+use crate::scenario::{
+    Answer, Element, Faults, Jam, PartName, Pause, Reading, Refusal, Signal, Slip, SlowCycle, Stuck,
+};
 use crate::source::Spanned;
 use runtime_sim::machine::MOST_ELEMENTS;
 
@@ -14,7 +16,8 @@ pub const LAST: u32 = 1_000_000;
 /// The highest number of an element of an input.
 pub const LAST_ELEMENT: u32 = MOST_ELEMENTS as u32 - 1;
 
-pub const KEYS: [&str; 6] = ["slips", "refusals", "answers", "pauses", "power_offs", "sensors"];
+pub const KEYS: [&str; 8] =
+    ["slips", "refusals", "answers", "pauses", "power_offs", "sensors", "jams", "slow"];
 
 impl Decoder {
     pub(super) fn faults(&mut self, json: &Json) -> Option<Faults> {
@@ -27,6 +30,8 @@ impl Decoder {
             pauses: self.each(members, "pauses", Self::pause),
             power_offs: self.each(members, "power_offs", Self::pause),
             sensors: self.each(members, "sensors", Self::stuck),
+            jams: self.each(members, "jams", Self::jam),
+            slow: self.each(members, "slow", Self::slow_cycle),
         })
     }
 
@@ -99,6 +104,33 @@ impl Decoder {
         let for_s = find(members, "for_s").map(|j| self.seconds(j, "for_s"));
         let input = Signal { robot: robot?, signal: signal?, element: given(element)? };
         Some(Stuck { input, reads: reads?, at_s: at_s?, for_s: given(for_s)? })
+    }
+
+    fn jam(&mut self, json: &Json) -> Option<Jam<PartName>> {
+        const WHAT: &str = "a jam";
+        let members = self.object(json, WHAT)?;
+        self.unknown_keys(members, &["robot", "part", "at_s", "for_s"], WHAT);
+        let part = self.part_name(members, json, WHAT);
+        let at_s = self.begins(members, json, WHAT);
+        let for_s = find(members, "for_s").map(|j| self.seconds(j, "for_s"));
+        Some(Jam { part: part?, at_s: at_s?, for_s: given(for_s)? })
+    }
+
+    fn slow_cycle(&mut self, json: &Json) -> Option<SlowCycle<PartName>> {
+        const WHAT: &str = "a slow cycle";
+        let members = self.object(json, WHAT)?;
+        self.unknown_keys(members, &["robot", "part", "cycle", "longer_s"], WHAT);
+        let part = self.part_name(members, json, WHAT);
+        let cycle = self.count(members, json, "cycle", WHAT);
+        let longer_s = self.required(members, "longer_s", json.span, WHAT);
+        let longer_s = longer_s.and_then(|j| self.seconds(j, "longer_s"));
+        Some(SlowCycle { part: part?, cycle: cycle?, longer_s: longer_s? })
+    }
+
+    fn part_name(&mut self, members: &[Member], json: &Json, what: &str) -> Option<PartName> {
+        let robot = self.robot(members, json, what);
+        let part = self.required(members, "part", json.span, what).and_then(|j| self.text(j, "part"));
+        Some(PartName { robot: robot?, part: part? })
     }
 
     fn element(&mut self, json: &Json) -> Option<Spanned<Element>> {

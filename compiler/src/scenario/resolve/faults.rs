@@ -4,9 +4,10 @@ use super::Resolver;
 use crate::device::type_text;
 use crate::diagnostic::{Diagnostic, collect};
 use crate::layout::decode::{instead, listing, readable};
-use crate::scenario::{Element, Reading, Signal, Stuck, Words};
+use crate::scenario::{Element, Jam, PartName, Reading, Signal, SlowCycle, Stuck, Words};
 use crate::source::Spanned;
 use runtime_sim::device::{Extent, PortType};
+use runtime_sim::part::Schema;
 
 /// An input of a machine.
 #[derive(Clone, Copy, Debug)]
@@ -20,7 +21,75 @@ pub struct Input<'a> {
     pub word: usize,
 }
 
+/// A part of a machine.
+#[derive(Clone, Copy, Debug)]
+pub struct MachinePart<'a> {
+    pub robot: &'a str,
+    pub part: &'a str,
+    pub primitive: &'static Schema,
+    /// Of the machine and of the part.
+    pub numbers: [usize; 2],
+}
+
+/// What a fault needs of a part.
+struct Wanted {
+    robot: &'static str,
+    parts: &'static str,
+    cannot: &'static str,
+    holds: fn(&Schema) -> bool,
+}
+
+const JAMS: Wanted = Wanted {
+    robot: "robot with a part that can jam",
+    parts: "that can jam",
+    cannot: "cannot jam",
+    holds: |primitive| primitive.can_jam,
+};
+const PROCESS: Wanted = Wanted {
+    robot: "robot with a process",
+    parts: "that are processes",
+    cannot: "has no cycles",
+    holds: |primitive| primitive.name == "process",
+};
+
 impl<'a> Resolver<'a> {
+    pub(super) fn jam(&mut self, jam: &Jam<PartName>) -> Option<Jam<[usize; 2]>> {
+        let part = self.part(&jam.part, &JAMS)?;
+        Some(Jam { part, at_s: jam.at_s, for_s: jam.for_s })
+    }
+
+    pub(super) fn slow_cycle(&mut self, slow: &SlowCycle<PartName>) -> Option<SlowCycle<[usize; 2]>> {
+        let part = self.part(&slow.part, &PROCESS)?;
+        Some(SlowCycle { part, cycle: slow.cycle, longer_s: slow.longer_s })
+    }
+
+    /// Machine and part.
+    fn part(&mut self, PartName { robot, part }: &PartName, wanted: &Wanted) -> Option<[usize; 2]> {
+        let is_wanted = |other: &&MachinePart| (wanted.holds)(other.primitive);
+        let robots = self.line.parts.iter().filter(is_wanted);
+        let mut robots: Vec<(&str, usize)> = robots.map(|other| (other.robot, other.numbers[0])).collect();
+        robots.dedup();
+        self.named(robot, &robots, wanted.robot)?;
+        let of_robot = || self.line.parts.iter().filter(|other| other.robot == robot.value);
+        let found = of_robot().find(|other| other.part == part.value);
+        if let Some(found) = found.filter(is_wanted) {
+            return Some(found.numbers);
+        }
+        let message = match found {
+            None => format!("{} has no part \"{}\"", robot.value, part.value),
+            Some(found) => {
+                let primitive = found.primitive.name;
+                format!("{} of {} is a {primitive}, which {}", part.value, robot.value, wanted.cannot)
+            }
+        };
+        let names: Vec<&str> = of_robot().filter(is_wanted).map(|other| other.part).collect();
+        let diagnostic = Diagnostic::new("E0147", part.span, message)
+            .note(format!("its parts {} are: {}", wanted.parts, listing(&names)))
+            .help(instead(&part.value, &names));
+        collect(&mut self.diagnostics, diagnostic);
+        None
+    }
+
     pub(super) fn stuck(&mut self, stuck: &Stuck<Signal, Spanned<Reading>>) -> Option<Stuck<Words, f64>> {
         let Stuck { input: Signal { robot, signal, element }, reads, at_s, for_s } = stuck;
         let input = self.input(robot, signal)?;

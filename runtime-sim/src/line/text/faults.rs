@@ -1,6 +1,6 @@
 //! The faults of a scenario.
 
-use super::super::{Answer, Pause, Refusal, Scenario, Slip, Stuck};
+use super::super::{Answer, Jam, Pause, Refusal, Scenario, Slip, SlowCycle, Stuck};
 use super::{during_text, read_during};
 use crate::words::Words;
 
@@ -27,6 +27,14 @@ pub fn write(scenario: &Scenario, put: &mut impl FnMut(String)) {
     for Stuck { machine, word, words, value, during } in &scenario.sensors {
         put(format!("  {machine} {word} {words} {value:?} {}", during_text(*during)));
     }
+    put(format!("jams {}", scenario.jams.len()));
+    for Jam { machine, part, during } in &scenario.jams {
+        put(format!("  {machine} {part} {}", during_text(*during)));
+    }
+    put(format!("slow {}", scenario.slow.len()));
+    for SlowCycle { machine, part, cycle, longer_s } in &scenario.slow {
+        put(format!("  {machine} {part} {cycle} {longer_s:?}"));
+    }
 }
 
 /// A scenario with these faults and nothing else.
@@ -49,7 +57,14 @@ pub fn read(words: &mut Words) -> Result<Scenario, String> {
         let (machine, word, words, value) = (w.int()?, w.int()?, w.int()?, w.real()?);
         Ok(Stuck { machine, word, words, value, during: read_during(w)? })
     })?;
-    Ok(Scenario { slips, refusals, answers, pauses, power_offs, sensors, ..Scenario::default() })
+    words.expect("jams")?;
+    let jams = words.list(|w| Ok(Jam { machine: w.int()?, part: w.int()?, during: read_during(w)? }))?;
+    words.expect("slow")?;
+    let slow = words.list(|w| {
+        let (machine, part, cycle) = (w.int()?, w.int()?, w.int()?);
+        Ok(SlowCycle { machine, part, cycle, longer_s: w.real()? })
+    })?;
+    Ok(Scenario { slips, refusals, answers, pauses, power_offs, sensors, jams, slow, ..Scenario::default() })
 }
 
 fn read_pause(words: &mut Words) -> Result<Pause, String> {
