@@ -3,10 +3,22 @@
 mod fixture;
 
 use autogen::diagnostic::Diagnostic;
-use autogen::scenario::{self, Line, Number, Panel, ResolvedScenario};
+use autogen::scenario::{self, Input, Line, MachinePart, Number, Panel, ResolvedScenario, Words};
 use autogen::source::{FileId, Sources};
 use fixture::{root, walk};
-use runtime_sim::part::Operated;
+use runtime_sim::device::{Extent, PortType};
+use runtime_sim::part::{Operated, Schema, button, place, process, route};
+
+const STOPS: PortType = PortType::Int { lo: -1, hi: 2 };
+
+const fn part(
+    robot: &'static str,
+    part: &'static str,
+    numbers: [usize; 2],
+    primitive: &'static Schema,
+) -> MachinePart<'static> {
+    MachinePart { robot, part, primitive, numbers }
+}
 
 const LINE: Line = Line {
     stations: &[("as1", 7), ("as2", 8), ("as3", 9), ("as4", 10)],
@@ -22,6 +34,47 @@ const LINE: Line = Line {
         ("gantry", 6),
     ],
     sinks: &[],
+    inputs: &[
+        Input {
+            robot: "kitting",
+            signal: "attached",
+            ty: PortType::Bool,
+            extent: Extent::One,
+            machine: 1,
+            word: 0,
+        },
+        Input {
+            robot: "kitting",
+            signal: "tool",
+            ty: PortType::Point,
+            extent: Extent::One,
+            machine: 1,
+            word: 1,
+        },
+        Input { robot: "agv1", signal: "at_stop", ty: STOPS, extent: Extent::One, machine: 2, word: 3 },
+        Input {
+            robot: "desk",
+            signal: "speed",
+            ty: PortType::Real,
+            extent: Extent::Times(3),
+            machine: 11,
+            word: 4,
+        },
+        Input {
+            robot: "conveyor_belt",
+            signal: "sees",
+            ty: PortType::Bool,
+            extent: Extent::PerKind,
+            machine: 0,
+            word: 1,
+        },
+    ],
+    parts: &[
+        part("agv1", "drive", [2, 0], &route::SCHEMA),
+        part("agv1", "load", [2, 1], &place::SCHEMA),
+        part("desk", "start", [11, 0], &button::SCHEMA),
+        part("desk", "cycle", [11, 2], &process::SCHEMA),
+    ],
     panels: &[
         Panel { robot: "desk", part: "start", numbers: [11, 0], operated: Operated::Press },
         Panel { robot: "desk", part: "speed", numbers: [11, 1], operated: Operated::SetNumber },
@@ -149,6 +202,44 @@ fn faults_find_their_machines() {
     assert_eq!((resolved.slips[0].robot, resolved.slips[0].pick), (1, 3));
     assert_eq!((resolved.refusals[0].robot, resolved.refusals[0].command), (4, 2));
     assert_eq!((resolved.pauses[0].at_s, resolved.pauses[0].for_s), (60.0, 3.0));
+}
+
+/// The words of an input are those of its elements: two kinds after `moving`.
+#[test]
+fn sensors_find_the_words_of_their_inputs() {
+    let stuck = |members: &str, rest: &str| format!(r#"{{"robot": {members}, "at_s": 2{rest}}}"#);
+    let of = |members: &str, rest: &str| {
+        let faults = format!(r#""faults": {{"sensors": [{}]}}, "time"#, stuck(members, rest));
+        let resolved = resolve(&scenario::DEFAULT.replace("\"time", &faults), &LINE).unwrap();
+        let stuck = &resolved.sensors[0];
+        (stuck.input, stuck.reads, stuck.for_s)
+    };
+    let words = |robot, first, count| Words { robot, first, count };
+    assert_eq!(
+        of(r#""kitting", "signal": "attached", "reads": true"#, r#", "for_s": 3"#),
+        (words(1, 0, 1), 1.0, Some(3.0))
+    );
+    assert_eq!(of(r#""agv1", "signal": "at_stop", "reads": -1"#, ""), (words(2, 3, 1), -1.0, None));
+    assert_eq!(of(r#""conveyor_belt", "signal": "sees", "reads": true"#, ""), (words(0, 1, 4), 1.0, None));
+    assert_eq!(
+        of(r#""conveyor_belt", "signal": "sees", "element": "pump", "reads": false"#, ""),
+        (words(0, 4, 1), 0.0, None)
+    );
+    assert_eq!(
+        of(r#""desk", "signal": "speed", "element": 1, "reads": 0.3"#, ""),
+        (words(11, 5, 1), 0.3, None)
+    );
+}
+
+#[test]
+fn jams_and_slow_cycles_find_their_parts() {
+    let faults = r#""faults": {"jams": [{"robot": "agv1", "part": "drive", "at_s": 3}],
+        "slow": [{"robot": "desk", "part": "cycle", "cycle": 2, "longer_s": 30}]}, "time"#;
+    let resolved = resolve(&scenario::DEFAULT.replace("\"time", faults), &LINE).unwrap();
+    let jam = &resolved.jams[0];
+    assert_eq!((jam.part, jam.at_s, jam.for_s), ([2, 0], 3.0, None));
+    let slow = &resolved.slow[0];
+    assert_eq!((slow.part, slow.cycle, slow.longer_s), ([11, 2], 2, 30.0));
 }
 
 #[test]

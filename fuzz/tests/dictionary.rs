@@ -25,7 +25,8 @@ fn layouts_have_every_key_of_their_reader() {
         {"?": 0, "name": "d", "type": "gantry", "pose": [0, 0, 0], "x_rail_range": [-5, 5], "y_rail_range": [-5, 5]}],
         "stationary": [{"?": 0, "name": "e", "type": "box", "pose": [0, 0, 0]}]}"#;
     let scenario = r#"{"?": 0, "kinds": [{"?": 0}], "orders": [{"?": 0}], "supply": {"?": 0},
-        "faults": {"?": 0, "slips": [{"?": 0}], "refusals": [{"?": 0}], "answers": [{"?": 0}], "pauses": [{"?": 0}], "power_offs": [{"?": 0}]}}"#;
+        "faults": {"?": 0, "slips": [{"?": 0}], "refusals": [{"?": 0}], "answers": [{"?": 0}], "pauses": [{"?": 0}], "power_offs": [{"?": 0}],
+        "sensors": [{"?": 0}], "jams": [{"?": 0}], "slow": [{"?": 0}]}}"#;
     let orders = r#"{"kinds": [{}], "orders": {"?": 0}}"#;
     let lines = [
         (dictionary::layout(), Texts::of_layout(unknown)),

@@ -1,10 +1,12 @@
 //! What a run needs to know of a factory line, as plain data.
 
 mod check;
+mod faults;
 mod text;
 
 use crate::machine::Machine;
 use crate::point::Point;
+pub use faults::{Answer, During, Jam, Pause, Refusal, Slip, SlowCycle, Stuck};
 
 /// A factory line, its machines in the order of the layout, and what is to happen on it.
 #[derive(Clone, Debug, PartialEq)]
@@ -81,6 +83,9 @@ pub struct Scenario {
     /// As pauses; beside the permit, in the first scan, the controller loses its power, and has it again in the scan in
     /// which the permit is back.
     pub power_offs: Vec<Pause>,
+    pub sensors: Vec<Stuck>,
+    pub jams: Vec<Jam>,
+    pub slow: Vec<SlowCycle>,
     pub operations: Vec<Operation>,
     pub presses: Vec<Press>,
     /// Of all times that are drawn.
@@ -124,44 +129,6 @@ pub struct Supply {
     pub items: Vec<usize>,
 }
 
-/// A gripper loses what it holds.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Slip {
-    pub machine: usize,
-    /// The how manieth part that this gripper has attached, from 1.
-    pub pick: u32,
-    /// Counted from the moment it was attached.
-    pub after_s: f64,
-}
-
-/// A device answers a command with [`crate::device::error::REFUSED`].
-#[derive(Clone, Debug, PartialEq)]
-pub struct Refusal {
-    pub machine: usize,
-    /// The how manieth command that this device has accepted, from 1.
-    pub command: u32,
-}
-
-/// How a device answers one of its commands.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Answer {
-    pub machine: usize,
-    /// The how manieth command that this device has accepted, from 1.
-    pub command: u32,
-    /// So long after it has ended.
-    pub late_s: f64,
-    /// It ends in this error: if it is the one of a signal that the command awaits, that does not come; with any other
-    /// nothing moves.
-    pub error: Option<i32>,
-}
-
-/// `run_permit` is taken away; when it is back, an edge of `start` is given.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Pause {
-    pub at_scan: u64,
-    pub scans: u64,
-}
-
 /// A person presses a button or sets a number.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Operation {
@@ -178,37 +145,13 @@ pub struct Operation {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Press {
     pub button: LineButton,
-    pub at_scan: u64,
-    /// None: to the end of the run.
-    pub scans: Option<u64>,
+    pub during: During,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LineButton {
     Start,
     Reset,
-}
-
-impl Press {
-    /// The scan in which it is released.
-    fn end(&self) -> Option<u64> {
-        self.scans.map(|scans| self.at_scan.saturating_add(scans))
-    }
-
-    fn holds(&self, scan: u64) -> bool {
-        self.at_scan <= scan && self.end().is_none_or(|end| scan < end)
-    }
-}
-
-impl Pause {
-    /// The scan in which it is over.
-    pub fn end(&self) -> u64 {
-        self.at_scan.saturating_add(self.scans)
-    }
-
-    pub fn holds(&self, scan: u64) -> bool {
-        (self.at_scan..self.end()).contains(&scan)
-    }
 }
 
 impl Scenario {
@@ -224,12 +167,12 @@ impl Scenario {
 
     /// Whether somebody presses a button of the line in this scan.
     pub fn presses(&self, button: LineButton, scan: u64) -> bool {
-        self.presses.iter().any(|press| press.button == button && press.holds(scan))
+        self.presses.iter().any(|press| press.button == button && press.during.holds(scan))
     }
 
     /// Scans in which a button of the line is pressed or released.
     pub fn press_changes(&self) -> impl Iterator<Item = u64> {
-        self.presses.iter().flat_map(|press| [Some(press.at_scan), press.end()]).flatten()
+        self.presses.iter().flat_map(|press| press.during.changes())
     }
 }
 
@@ -262,6 +205,9 @@ impl Default for Scenario {
             answers: Vec::new(),
             pauses: Vec::new(),
             power_offs: Vec::new(),
+            sensors: Vec::new(),
+            jams: Vec::new(),
+            slow: Vec::new(),
             operations: Vec::new(),
             presses: Vec::new(),
             seed: 1,

@@ -5,6 +5,7 @@ pub(crate) mod conveyed;
 mod conveying;
 mod delay;
 pub(crate) mod fall;
+mod faults;
 mod sight;
 pub mod trajectory;
 mod working;
@@ -93,6 +94,7 @@ impl Plant {
     /// All machines, and what they share on the way to the start of a scan.
     fn split(&mut self, scan: u64) -> (&mut Vec<Working>, Shared<'_>) {
         let shared = Shared {
+            scan: self.scan,
             items: &mut self.items,
             desk: &mut self.desk,
             now_ms: self.scan * self.scan_ms,
@@ -111,7 +113,9 @@ impl Plant {
         let next_ms = next.chain(looks).chain(sights).fold(self.conveying.next_ms(), f64::min);
         // What is rounded may be early.
         let scan = ((next_ms - EARLY_MS) / self.scan_ms as f64).ceil() as u64;
-        next_ms.is_finite().then(|| scan.max(self.scan + 1))
+        let next = next_ms.is_finite().then(|| scan.max(self.scan + 1));
+        let faults = self.machines.iter().map(|machine| machine.faults().next_change(self.scan));
+        faults.chain([next]).flatten().min()
     }
 
     /// When a gripper of a machine next looks and could find an item, ms; infinity: never, as everything moves now.
@@ -269,6 +273,7 @@ impl Plant {
     fn write_images(&mut self) {
         for (machine, image) in self.machines.iter().zip(&mut self.images) {
             machine.write(image, &self.items, &self.desk);
+            machine.faults().stick(self.scan, image);
         }
     }
 
@@ -363,10 +368,11 @@ impl Plant {
     }
 
     /// Whether something will change even if no output does: a command under way that is not held, an arm that brakes, or
-    /// a moving lane that bears items or will.
+    /// a moving lane that bears items or will, a fault that ends.
     pub fn is_busy(&self) -> bool {
         let now_ms = self.now_ms();
-        self.machines.iter().any(|machine| machine.is_busy(&self.items, &self.desk, now_ms))
+        self.machines.iter().any(|machine| machine.faults().is_passing(self.scan))
+            || self.machines.iter().any(|machine| machine.is_busy(&self.items, &self.desk, self.scan, now_ms))
             || self.conveying.is_busy(&self.machines)
     }
 

@@ -6,7 +6,7 @@ use common::*;
 use runtime_sim::carrier::Carrier;
 use runtime_sim::item;
 use runtime_sim::kinematics::arm::Joints;
-use runtime_sim::line::{IoDelay, Line, Pause, Refusal, Slip, Supply};
+use runtime_sim::line::{During, IoDelay, Jam, Line, Pause, Refusal, Slip, Supply};
 use runtime_sim::path::{Law, Path, table_csv};
 use runtime_sim::plant::Plant;
 use runtime_sim::point::Point;
@@ -108,6 +108,30 @@ fn paths_follow_pauses_and_late_answers() {
         let most = paths.iter().map(|path| path.segments.len()).max();
         assert!(most.is_some_and(|most| (30..150).contains(&most)), "{most:?}");
     }
+}
+
+/// The belt, the arms and the vehicle jam in turn, also while they are held.
+#[test]
+fn paths_follow_jams() {
+    let mut line = line();
+    let part = |machine: usize, primitive: &str| {
+        line.machines[machine].parts.iter().position(|part| part.schema().name == primitive).unwrap()
+    };
+    let parts =
+        [(BELT, "lane"), (KITTING, "chain"), (AGV, "route"), (GANTRY, "chain")].map(|(m, p)| (m, part(m, p)));
+    let jam = |i: u64| {
+        let (machine, part) = parts[i as usize % parts.len()];
+        Jam { machine, part, during: During { at_scan: i * 41, scans: Some(59) } }
+    };
+    let usual = agree(&line, whole_order()).0;
+    line.scenario.jams = (1..120).map(jam).collect();
+    let (report, paths) = agree(&line, whole_order());
+    assert!(report.finished, "{}", report.reason);
+    assert!(report.scans > usual.scans + 59, "{} {}", report.scans, usual.scans);
+    let most = paths.iter().map(|path| path.segments.len()).max();
+    assert!(most.is_some_and(|most| (30..300).contains(&most)), "{most:?}");
+    line.scenario.pauses = (1..30).map(|i| Pause { at_scan: i * 113, scans: 37 }).collect();
+    assert!(agree(&line, whole_order()).0.finished);
 }
 
 /// Vehicles start and stop between scans, and parts appear there.

@@ -3,7 +3,9 @@
 mod common;
 
 use common::*;
-use runtime_sim::line::{Answer, IoDelay, Line, Obstacle, Pause, Refusal, Slip};
+use runtime_sim::line::{
+    Answer, During, IoDelay, Jam, Line, Obstacle, Pause, Refusal, Slip, SlowCycle, Stuck,
+};
 use runtime_sim::point::Point;
 
 fn rich_line() -> Line {
@@ -16,6 +18,12 @@ fn rich_line() -> Line {
     line.scenario.refusals = vec![Refusal { machine: AGV, command: 3 }];
     line.scenario.answers = vec![Answer { machine: AGV, command: 4, late_s: 0.5, error: Some(1) }];
     line.scenario.pauses = vec![Pause { at_scan: 17, scans: u64::MAX }];
+    let during = |scans| During { at_scan: 23, scans };
+    let stuck = |value, scans| Stuck { machine: KITTING, word: 0, words: 1, value, during: during(scans) };
+    line.scenario.sensors = vec![stuck(1.0, Some(u64::MAX)), stuck(-0.0, None)];
+    let lane = line.machines[BELT].parts.iter().position(|part| part.schema().name == "lane");
+    let jam = |scans| Jam { machine: BELT, part: lane.unwrap(), during: during(scans) };
+    line.scenario.jams = vec![jam(None), jam(Some(7))];
     line.io_delay = IoDelay::Random { max: 5, seed: u64::MAX };
     line
 }
@@ -79,6 +87,19 @@ fn what_cannot_be_run_is_refused() {
         "the supply of belt names kind 2, which is not there"
     );
     assert_eq!(refused(|l| l.scenario.slips[0].machine = 9), "a slip names machine 9, which is not there");
+    assert_eq!(refused(|l| l.scenario.jams[1].part += 1), "a jam of belt, in a part that does not move");
+    assert_eq!(
+        refused(|l| l.scenario.slow = vec![SlowCycle { machine: AGV, part: 0, cycle: 1, longer_s: 0.5 }]),
+        "a slow cycle of agv, of a part that is no process"
+    );
+    assert_eq!(
+        refused(|l| l.scenario.sensors[1].word = 1000),
+        "a sensor of kitting that is not there sticks"
+    );
+    assert_eq!(
+        refused(|l| l.scenario.sensors[0].words = usize::MAX),
+        "a sensor of kitting that is not there sticks"
+    );
     assert_eq!(
         refused(|l| l.machines[0].states[0].awaits[0] = 6),
         "a state names machine 6, which is not there"

@@ -1,6 +1,6 @@
 //! The examples of `docs/layout.md` are right.
 
-use autogen_tests::{Texts, plain, text};
+use autogen_tests::{Texts, plain, side_by_side, text};
 
 /// Line, what stands behind the backquotes, and text of each block of a document.
 fn blocks(document: &str) -> Vec<(usize, String, String)> {
@@ -27,7 +27,8 @@ fn blocks(document: &str) -> Vec<(usize, String, String)> {
 }
 
 /// A block `json` is a whole layout or a whole scenario, `json stationary` and `json may_touch` an object of
-/// these lists, `json operator` a scenario for a desk.
+/// these lists, `json operator` a scenario for a desk,
+/// `json tending` one for that example.
 /// Objects and scenarios are tried in the first layout, with the types of the document.
 #[test]
 fn examples_are_right() {
@@ -41,11 +42,13 @@ fn examples_are_right() {
         .iter()
         .find(|(_, kind, text)| kind == "json" && text.contains("\"robots\""))
         .expect("the document has a layout");
+    let tending = side_by_side("tending/tending");
     let mut cases = 0;
     for (line, kind, text) in &blocks {
         let (layout, scenario) = match kind.as_str() {
             "json" if text.contains("\"kinds\"") => (frame.clone(), Some(text.clone())),
             "json" => (text.clone(), None),
+            "json tending" => (tending.layout.clone(), Some(text.clone())),
             "json operator" => (DESK.into(), Some(text.clone())),
             "json stationary" => {
                 (frame.replacen(STATIONARY, &format!("{STATIONARY}\n{},", text.trim_end()), 1), None)
@@ -58,6 +61,7 @@ fn examples_are_right() {
             _ => panic!("line {line}: what is a block `{kind}`?"),
         };
         cases += 1;
+        let specs = if kind == "json tending" { &tending.specs } else { &specs };
         let outcome = Texts { layout, specs: specs.clone(), scenario, ..Texts::default() }.compile();
         let is_right = outcome.diagnostics.is_empty() && outcome.project.is_some();
         assert!(is_right, "docs/layout.md:{line}\n{}", plain(&outcome.sources, &outcome.diagnostics));

@@ -226,6 +226,29 @@ fn the_mill_limits_the_tending_cell() {
     assert!((cutting - 180.0).abs() < 1.0, "two pieces: {cutting}");
 }
 
+/// Faults of the scenario are in the table of alarms, those that come after the end are not.
+#[test]
+fn faults_of_the_scenario_are_told() {
+    let mut texts = side_by_side("sorting/sorting");
+    let faults = r#"{"time_limit_s": 40, "faults": {
+        "sensors": [{"robot": "sorter", "signal": "is_red", "reads": true, "at_s": 9, "for_s": 2}],
+        "jams": [{"robot": "sorter", "part": "second_arm", "at_s": 12.5},
+                 {"robot": "sorter", "part": "belt", "at_s": 500}]},"#;
+    texts.scenario =
+        texts.scenario.map(|text| text.replacen('{', faults, 1).replace("\"times\": 10", "\"times\": 1"));
+    let data = data(&run(&texts).page);
+    let told = data["alarms"].as_array().expect("a list").iter();
+    let told: Vec<(f64, i64, &str)> = told
+        .map(|row| {
+            let text = row[2].as_str().expect("a text");
+            (row[0].as_f64().expect("a number"), row[1].as_i64().expect("a number"), text)
+        })
+        .collect();
+    let expected =
+        [(9.0, 0, "is_red sticks: it reads true"), (11.0, 0, "is_red is free"), (12.5, 0, "second_arm jams")];
+    assert_eq!(told, expected);
+}
+
 /// The states of the page are those of the accounts.
 #[test]
 fn times_in_states_add_up_to_the_accounts() {

@@ -11,6 +11,7 @@ macro_rules! part {
 mod acts;
 mod alarms;
 mod automata;
+mod faults;
 mod handovers;
 mod limit;
 mod long;
@@ -136,7 +137,7 @@ fn data(project: &Project, sources: &Sources, line: &Line, recorded: &Recorded, 
         "signals": signals::signals_json(&signals),
         "words_until_s": history.words_until.map(|scan| (scan * u64::from(line.scan_ms)) as f64 / 1000.0),
         "items": items,
-        "alarms": alarms::alarms(line, history, &signals, results),
+        "alarms": alarms::alarms(line, recorded, &signals, results),
         "limit": limit::limit_json(line, &path),
         "left_out": long.left_out,
         "drawn_until_s": long.drawn_until_s,

@@ -18,7 +18,7 @@ pub use placed::{Place, Placed};
 use crate::source::Span;
 use program::Program;
 use runtime_sim::device::{Direction, Extent, PortType, Stop};
-use runtime_sim::part::Operated;
+use runtime_sim::part::{Operated, Schema};
 use runtime_sim::value::Value;
 use runtime_sim::wiring::Wiring;
 use std::sync::Arc;
@@ -191,6 +191,12 @@ impl Device {
         parts.filter_map(|(number, part)| Some((number, part.name.value.as_str(), part.schema.operated?)))
     }
 
+    /// Number, name and primitive of each of its parts.
+    pub fn parts(&self) -> impl Iterator<Item = (usize, &str, &'static Schema)> {
+        let parts = self.program.parts.iter().enumerate();
+        parts.map(|(number, part)| (number, part.name.value.as_str(), part.schema))
+    }
+
     /// Numbers and names of its parts of one primitive.
     pub fn parts_called(&self, primitive: &str) -> impl Iterator<Item = (usize, &str)> {
         let parts = self.program.parts.iter().enumerate();
@@ -206,6 +212,16 @@ impl Device {
     /// Numbers of all ports of one direction in a process image.
     pub fn words(&self, direction: Direction, kinds: usize) -> usize {
         self.ports.iter().filter(|p| p.direction == direction).map(|p| p.words(kinds)).sum()
+    }
+
+    /// The inputs, each with its first word in a process image.
+    pub fn inputs(&self, kinds: usize) -> impl Iterator<Item = (usize, &Port)> {
+        let inputs = self.ports.iter().filter(|port| port.direction == Direction::Input);
+        inputs.scan(0, move |next, port| {
+            let word = *next;
+            *next += port.words(kinds);
+            Some((word, port))
+        })
     }
 
     /// Where a port begins among the ports of its own direction.

@@ -189,6 +189,9 @@ impl Places<'_> {
     ) -> Result<Placed, Vec<Diagnostic>> {
         let object = &self.objects[number];
         let Some(device) = device(object) else {
+            if object.part == Part::Robot {
+                return Err(Vec::new());
+            }
             let message = format!("\"{}\" has no device, so it has no lane", object.name.value);
             let span = object.at.as_ref().map_or(object.span, |at| at.span);
             return Err(vec![Diagnostic::new("E0148", span, message).help("write a pose")]);

@@ -84,7 +84,7 @@ impl Decoder {
         collect(&mut self.diagnostics, diagnostic);
     }
 
-    fn wrong_type(&mut self, json: &Json, what: &str, wanted: &str) {
+    pub fn wrong_type(&mut self, json: &Json, what: &str, wanted: &str) {
         let found = json.value.noun();
         self.report(
             Diagnostic::new("E0110", json.span, format!("{what} must be {wanted}, not {found}"))

@@ -30,13 +30,13 @@ pub fn bind<'a>(layout: &'a Layout, model: &Model, diagnostics: &mut Vec<Diagnos
     found.into_iter().for_each(|d| collect(diagnostics, d));
     for (object, pose) in layout.objects.iter().zip(frames) {
         let name = automaton_name(&object.kind.value);
-        let Some(pose) = pose else { continue };
         match automata.get(name.as_str()) {
-            Some(automaton) => match layout::machine(object, &automaton.device, pose) {
-                Ok((placed, numbers)) => {
+            Some(automaton) => match pose.map(|pose| layout::machine(object, &automaton.device, pose)) {
+                Some(Ok((placed, numbers))) => {
                     bound.robots.push(Robot { object, automaton: name, placed, numbers });
                 }
-                Err(found) => found.into_iter().for_each(|d| collect(diagnostics, d)),
+                Some(Err(found)) => found.into_iter().for_each(|d| collect(diagnostics, d)),
+                None => {}
             },
             None if object.part == Part::Robot => {
                 if diagnostics.len() < MOST {

@@ -5,7 +5,7 @@ use crate::diagnostic::Diagnostic;
 use crate::executor::Executor;
 use crate::ir::{Automaton, Element, InterfaceId, PropertyKind, RoleKind, System, Value};
 use crate::reads::{self, ReadCell, Reads, Whose};
-use crate::scenario::{self, Number, Panel, ResolvedScenario, Scenario};
+use crate::scenario::{self, Input, MachinePart, Number, Panel, ResolvedScenario, Scenario};
 use runtime_sim::line;
 use runtime_sim::machine::Machine;
 use runtime_sim::monitor::{ALARM_WORDS, Alarm, Counter, Monitor};
@@ -26,6 +26,32 @@ pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec
             parts.map(move |(number, part, operated)| Panel { robot, part, numbers: [r, number], operated })
         })
         .collect();
+    let kinds = scenario.kinds.len();
+    let inputs: Vec<Input> = (0..line.robots.len())
+        .flat_map(|r| {
+            let robot = line.robots[r].object.name.value.as_str();
+            line.automaton(r).device.inputs(kinds).map(move |(word, port)| Input {
+                robot,
+                signal: &port.name,
+                ty: port.ty,
+                extent: port.extent,
+                machine: r,
+                word,
+            })
+        })
+        .collect();
+    let parts: Vec<MachinePart> = (0..line.robots.len())
+        .flat_map(|r| {
+            let robot = line.robots[r].object.name.value.as_str();
+            let parts = line.automaton(r).device.parts();
+            parts.map(move |(number, part, primitive)| MachinePart {
+                robot,
+                part,
+                primitive,
+                numbers: [r, number],
+            })
+        })
+        .collect();
     let sinks: Vec<(String, [usize; 2])> = (0..line.robots.len())
         .flat_map(|r| {
             let robot = line.robots[r].object.name.value.as_str();
@@ -41,6 +67,8 @@ pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec
             arms: &named(&|r| has(r, "grip")),
             commanded: &named(&|r| line.automaton(r).device.is_commanded()),
             panels: &panels,
+            inputs: &inputs,
+            parts: &parts,
             sinks: &sinks,
         },
     )
@@ -57,6 +85,10 @@ pub fn line(
     let asks_nothing = scenario.number == Number::None && scenario.goal.is_empty();
     let scans = |seconds: f64| (seconds * 1000.0 / f64::from(scan_ms)).round() as u64;
     let pause = |p: &scenario::Pause| line::Pause { at_scan: scans(p.at_s), scans: scans(p.for_s) };
+    let during = |at_s: f64, for_s: Option<f64>| line::During {
+        at_scan: scans(at_s),
+        scans: for_s.map(|for_s| scans(for_s).max(1)),
+    };
     let arms = arms(system);
     let mut executor = Executor::new(system);
     let traces = system.traces();
@@ -125,6 +157,30 @@ pub fn line(
                 .collect(),
             pauses: scenario.pauses.iter().map(pause).collect(),
             power_offs: scenario.power_offs.iter().map(pause).collect(),
+            sensors: (scenario.sensors.iter())
+                .map(|stuck| line::Stuck {
+                    machine: stuck.input.robot,
+                    word: stuck.input.first,
+                    words: stuck.input.count,
+                    value: stuck.reads,
+                    during: during(stuck.at_s, stuck.for_s),
+                })
+                .collect(),
+            jams: (scenario.jams.iter())
+                .map(|jam| line::Jam {
+                    machine: jam.part[0],
+                    part: jam.part[1],
+                    during: during(jam.at_s, jam.for_s),
+                })
+                .collect(),
+            slow: (scenario.slow.iter())
+                .map(|slow| line::SlowCycle {
+                    machine: slow.part[0],
+                    part: slow.part[1],
+                    cycle: slow.cycle,
+                    longer_s: slow.longer_s,
+                })
+                .collect(),
             operations: (scenario.operations.iter())
                 .map(|o| line::Operation {
                     machine: o.part[0],
@@ -135,11 +191,7 @@ pub fn line(
                 })
                 .collect(),
             presses: (scenario.presses.iter())
-                .map(|press| line::Press {
-                    button: press.part,
-                    at_scan: scans(press.at_s),
-                    scans: press.for_s.map(|for_s| scans(for_s).max(1)),
-                })
+                .map(|press| line::Press { button: press.part, during: during(press.at_s, press.for_s) })
                 .collect(),
             ..line::Scenario::default()
         },

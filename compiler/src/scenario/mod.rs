@@ -1,11 +1,15 @@
 //! The scenario: which orders are to be made of which parts, and what the belts bring.
 
+mod faults;
 pub(crate) mod read;
 mod resolve;
 mod supply;
 
+pub use faults::{
+    Answer, Element, Faults, Jam, PartName, Pause, Reading, Refusal, Signal, Slip, SlowCycle, Stuck, Words,
+};
 pub use read::parse;
-pub use resolve::{Line, Panel, resolve};
+pub use resolve::{Input, Line, MachinePart, Panel, resolve};
 
 use crate::source::{FileId, Sources, Span, Spanned};
 use runtime_sim::line::LineButton;
@@ -153,15 +157,6 @@ impl Items {
     }
 }
 
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Faults {
-    pub slips: Vec<Slip<Spanned<String>>>,
-    pub refusals: Vec<Refusal<Spanned<String>>>,
-    pub answers: Vec<Answer<Spanned<String>>>,
-    pub pauses: Vec<Pause>,
-    pub power_offs: Vec<Pause>,
-}
-
 /// What a person operates.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Operated {
@@ -189,37 +184,6 @@ pub struct Operation<Whose> {
     pub value: f64,
 }
 
-/// A part falls off the gripper of `robot` so long after its pick number `pick`, counted from 1.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Slip<Robot> {
-    pub robot: Robot,
-    pub pick: u32,
-    pub after_s: f64,
-}
-
-/// `robot` refuses its command number `command`, counted from 1.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Refusal<Robot> {
-    pub robot: Robot,
-    pub command: u32,
-}
-
-/// How `robot` answers its command number `command`, counted from 1: so late, and in this error if there is one.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Answer<Robot> {
-    pub robot: Robot,
-    pub command: u32,
-    pub late_s: f64,
-    pub error: Option<i32>,
-}
-
-/// The permit to run is taken away for a time.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Pause {
-    pub at_s: f64,
-    pub for_s: f64,
-}
-
 /// A scenario for one line: machines are indices, everything is decided.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ResolvedScenario {
@@ -238,9 +202,13 @@ pub struct ResolvedScenario {
     pub answers: Vec<Answer<usize>>,
     pub pauses: Vec<Pause>,
     pub power_offs: Vec<Pause>,
+    pub sensors: Vec<Stuck<Words, f64>>,
     /// By numbers of the machine and of its part.
+    pub jams: Vec<Jam<[usize; 2]>>,
+    pub slow: Vec<SlowCycle<[usize; 2]>>,
+    /// The same.
     pub operations: Vec<Operation<[usize; 2]>>,
     pub presses: Vec<Operation<LineButton>>,
-    /// The same of sinks.
+    /// The same, of sinks.
     pub goal: Vec<Collected<[usize; 2]>>,
 }

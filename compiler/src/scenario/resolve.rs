@@ -1,5 +1,9 @@
 //! A scenario meets a line: names of machines become indices, and the supply is laid out.
 
+mod faults;
+
+pub use faults::{Input, MachinePart};
+
 use super::{
     Answer, Collected, Faults, Items, MOST_PARTS, Number, Operation, Order, Part, Refusal, ResolvedScenario,
     Scenario, Slip, supply,
@@ -23,6 +27,9 @@ pub struct Line<'a> {
     pub commanded: &'a [(&'a str, usize)],
     /// Those with something that a person operates.
     pub panels: &'a [Panel<'a>],
+    /// Of all machines.
+    pub inputs: &'a [Input<'a>],
+    pub parts: &'a [MachinePart<'a>],
     /// By `robot.part`.
     pub sinks: &'a [(String, [usize; 2])],
 }
@@ -41,7 +48,7 @@ pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec
     let mut resolver = Resolver { scenario, line, by_name: HashMap::new(), diagnostics: Vec::new() };
     let orders = resolver.orders();
     let supply = resolver.supply();
-    let Faults { slips, refusals, answers, pauses, power_offs } = &scenario.faults;
+    let Faults { slips, refusals, answers, pauses, power_offs, sensors, jams, slow } = &scenario.faults;
     let slips = slips.iter().filter_map(|s| {
         let robot = resolver.named(&s.robot, line.arms, "robot with a gripper")?;
         Some(Slip { robot, pick: s.pick, after_s: s.after_s })
@@ -57,6 +64,9 @@ pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec
         Some(Answer { robot, command: a.command, late_s: a.late_s, error: a.error })
     });
     let answers = answers.collect();
+    let sensors = sensors.iter().filter_map(|stuck| resolver.stuck(stuck)).collect();
+    let jams = jams.iter().filter_map(|jam| resolver.jam(jam)).collect();
+    let slow = slow.iter().filter_map(|slow| resolver.slow_cycle(slow)).collect();
     let mut operations = Vec::new();
     let mut presses = Vec::new();
     for Operation { part, at_s, for_s, value } in &scenario.operations {
@@ -92,6 +102,9 @@ pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec
             answers,
             pauses: pauses.clone(),
             power_offs: power_offs.clone(),
+            sensors,
+            jams,
+            slow,
             operations,
             presses,
             goal,

@@ -156,6 +156,46 @@ fn faults() -> Value {
         ],
         &["at_s", "for_s"],
     );
+    let begins = || property("at_s", seconds_from_0(), "Beginning, s");
+    let lasts = || property("for_s", seconds(), "For how long, s. Without it: to the end of the run");
+    let part = |meaning: &str| property("part", text(), meaning);
+    let jam = object(
+        vec![
+            robot(),
+            part("The name of a cylinder, a conveyor, a vehicle or an arm in its device"),
+            begins(),
+            lasts(),
+        ],
+        &["robot", "part", "at_s"],
+    );
+    let slow = object(
+        vec![
+            robot(),
+            part("The name of a process in its device"),
+            property("cycle", nth(), "Which cycle of it, from 1"),
+            property("longer_s", seconds(), "How much longer it takes, s"),
+        ],
+        &["robot", "part", "cycle", "longer_s"],
+    );
+    let stuck = {
+        let element = json!({ "anyOf": [whole(0, faults::LAST_ELEMENT), text()] });
+        let reads = json!({ "anyOf": [{ "type": "boolean" }, number(-operator::MOST, operator::MOST)] });
+        object(
+            vec![
+                robot(),
+                property("signal", text(), "The name of an input of its device"),
+                property(
+                    "element",
+                    element,
+                    "Of several elements: a number from 0, or a kind. Without it: all",
+                ),
+                property("reads", reads, "The value that the controller reads"),
+                begins(),
+                lasts(),
+            ],
+            &["robot", "signal", "reads", "at_s"],
+        )
+    };
     let all = vec![
         property("slips", list(slip), "Parts that fall off a gripper"),
         property("refusals", list(refusal), "Commands that a machine refuses"),
@@ -166,7 +206,11 @@ fn faults() -> Value {
             list(pause),
             "The controller loses its power; when it has it again, the line is started again",
         ),
+        property("sensors", list(stuck), "Inputs that stick at a value"),
+        property("jams", list(jam), "Parts that stand though they should move"),
+        property("slow", list(slow), "Cycles of processes that take longer"),
     ];
+    debug_assert!(all.iter().map(|(key, _)| key.as_str()).eq(faults::KEYS));
     object(all, &[])
 }
 

@@ -127,6 +127,9 @@ impl<'a> Director<'a> {
         line.scenario.answers.clear();
         line.scenario.pauses.clear();
         line.scenario.power_offs.clear();
+        line.scenario.sensors.clear();
+        line.scenario.jams.clear();
+        line.scenario.slow.clear();
         line.scenario.spawn_first_s = APART_S;
         line.scenario.spawn_every_s = APART_S;
         let mut supply: Vec<Vec<usize>> = vec![Vec::new(); instances];

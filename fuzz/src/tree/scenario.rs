@@ -4,6 +4,8 @@ use super::json::{any, list, name, object};
 use crate::dictionary::NUMBERS;
 use arbitrary::{Result, Unstructured};
 
+const SIGNALS: [&str; 4] = ["attached", "at_stop", "sees", "ack"];
+const PARTS: [&str; 4] = ["drive", "conveyor", "joints", "cycle"];
 const KINDS: [&str; 5] = ["battery", "sensor", "regulator", "pump", "kitting"];
 
 pub fn scenario(u: &mut Unstructured) -> Result<String> {
@@ -102,14 +104,46 @@ fn faults(u: &mut Unstructured) -> Result<String> {
         })
     };
     let (pauses, power_offs) = (pauses()?, pauses()?);
+    let sensors = list(u, 2, |u| {
+        let mut members = vec![
+            ("robot", name(u)?),
+            ("signal", format!("\"{}\"", u.choose(&SIGNALS)?)),
+            ("reads", if u.ratio(1, 2)? { "true".into() } else { whole(u, 3)? }),
+            ("at_s", seconds(u)?),
+        ];
+        if u.ratio(1, 3)? {
+            members.push(("element", whole(u, 4)?));
+        }
+        if u.ratio(1, 2)? {
+            members.push(("for_s", seconds(u)?));
+        }
+        object(u, &members)
+    })?;
+    let jams = list(u, 2, |u| {
+        let members =
+            [("robot", name(u)?), ("part", part(u)?), ("at_s", seconds(u)?), ("for_s", seconds(u)?)];
+        object(u, &members)
+    })?;
+    let slow = list(u, 1, |u| {
+        let members =
+            [("robot", name(u)?), ("part", part(u)?), ("cycle", whole(u, 3)?), ("longer_s", seconds(u)?)];
+        object(u, &members)
+    })?;
     let members = [
         ("slips", slips),
         ("refusals", refusals),
         ("answers", answers),
         ("pauses", pauses),
         ("power_offs", power_offs),
+        ("sensors", sensors),
+        ("jams", jams),
+        ("slow", slow),
     ];
     object(u, &members)
+}
+
+fn part(u: &mut Unstructured) -> Result<String> {
+    Ok(format!("\"{}\"", u.choose(&PARTS)?))
 }
 
 fn whole(u: &mut Unstructured, most: u32) -> Result<String> {

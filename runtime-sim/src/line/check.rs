@@ -6,7 +6,7 @@ use crate::machine::Machine;
 /// Scans that a telegram may be late.
 const LONGEST_DELAY: u32 = 1000;
 /// Seconds: about a year.
-const LONGEST_TIME: f64 = 3.2e7;
+pub(super) const LONGEST_TIME: f64 = 3.2e7;
 
 impl Line {
     /// The first thing that makes this line impossible to run: an index without a machine,
@@ -138,6 +138,15 @@ impl Line {
             if answer.error.is_some_and(|error| !(1..=255).contains(&error)) {
                 return Err(format!("an answer of {} in an error that is none", machine.name));
             }
+        }
+        for stuck in &scenario.sensors {
+            stuck.check(self.machine(stuck.machine, "a sensor that sticks")?, self.kinds.len())?;
+        }
+        for jam in &scenario.jams {
+            jam.check(self.machine(jam.machine, "a jam")?)?;
+        }
+        for cycle in &scenario.slow {
+            cycle.check(self.machine(cycle.machine, "a slow cycle")?)?;
         }
         for operation in &scenario.operations {
             let panel = self.machine(operation.machine, "an operation")?;

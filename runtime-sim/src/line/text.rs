@@ -1,11 +1,13 @@
 //! The text form of a line: words between white space, an entry on each line.
 
+mod faults;
+
 use std::fmt::Write;
 use std::sync::Arc;
 
 use super::{
-    Answer, Collected, Goal, IoDelay, Kind, Line, LineButton, Obstacle, Operation, Order, Pause, Press,
-    Refusal, Scenario, Slip, State, Supply,
+    Collected, During, Goal, IoDelay, Kind, Line, LineButton, Obstacle, Operation, Order, Press, Scenario,
+    State, Supply,
 };
 use crate::machine::Machine;
 use crate::monitor::{Alarm, Counter, Monitor};
@@ -22,7 +24,7 @@ impl Line {
             out.push_str(entry.trim_end());
             out.push('\n');
         };
-        put("line 7".into());
+        put("line 8".into());
         put(format!("scan_ms {}", self.scan_ms));
         put(match self.io_delay {
             IoDelay::Fixed(scans) => format!("io_delay fixed {scans}"),
@@ -115,37 +117,19 @@ impl Line {
         for supply in &scenario.supply {
             put(format!("  {} {}", supply.belt, list(&supply.items)));
         }
-        put(format!("slips {}", scenario.slips.len()));
-        for slip in &scenario.slips {
-            put(format!("  {} {} {:?}", slip.machine, slip.pick, slip.after_s));
-        }
-        put(format!("refusals {}", scenario.refusals.len()));
-        for refusal in &scenario.refusals {
-            put(format!("  {} {}", refusal.machine, refusal.command));
-        }
-        put(format!("answers {}", scenario.answers.len()));
-        for Answer { machine, command, late_s, error } in &scenario.answers {
-            put(format!("  {machine} {command} {late_s:?} {}", error.unwrap_or(0)));
-        }
-        for (name, pauses) in [("pauses", &scenario.pauses), ("power_offs", &scenario.power_offs)] {
-            put(format!("{name} {}", pauses.len()));
-            for pause in pauses {
-                put(format!("  {} {}", pause.at_scan, pause.scans));
-            }
-        }
+        faults::write(scenario, &mut put);
         put(format!("operations {}", scenario.operations.len()));
         for Operation { machine, part, at_s, for_s, value } in &scenario.operations {
             let until = for_s.map_or("on".into(), |for_s| format!("for {for_s:?}"));
             put(format!("  {machine} {part} {at_s:?} {until} {value:?}"));
         }
         put(format!("presses {}", scenario.presses.len()));
-        for Press { button, at_scan, scans } in &scenario.presses {
+        for Press { button, during } in &scenario.presses {
             let button = match button {
                 LineButton::Start => "start",
                 LineButton::Reset => "reset",
             };
-            let until = scans.map_or("on".into(), |scans| format!("at {scans}"));
-            put(format!("  {button} {at_scan} {until}"));
+            put(format!("  {button} {}", during_text(*during)));
         }
         put(format!("seed {}", scenario.seed));
         put("end".into());
@@ -167,7 +151,7 @@ impl Line {
     /// Reads the text form, and leaves what follows it.
     pub fn read(words: &mut Words) -> Result<Line, String> {
         words.expect("line")?;
-        words.expect("7")?;
+        words.expect("8")?;
         words.expect("scan_ms")?;
         let scan_ms = words.int()?;
         words.expect("io_delay")?;
@@ -306,19 +290,7 @@ fn read_scenario(words: &mut Words) -> Result<Scenario, String> {
     let orders = words.list(|w| Ok(Order { stations: w.list(|w| w.int())?, parts: w.list(|w| w.int())? }))?;
     words.expect("supply")?;
     let supply = words.list(|w| Ok(Supply { belt: w.int()?, items: w.list(|w| w.int())? }))?;
-    words.expect("slips")?;
-    let slips = words.list(|w| Ok(Slip { machine: w.int()?, pick: w.int()?, after_s: w.real()? }))?;
-    words.expect("refusals")?;
-    let refusals = words.list(|w| Ok(Refusal { machine: w.int()?, command: w.int()? }))?;
-    words.expect("answers")?;
-    let answers = words.list(|w| {
-        let (machine, command, late_s, error) = (w.int()?, w.int()?, w.real()?, w.int()?);
-        Ok(Answer { machine, command, late_s, error: (error != 0).then_some(error) })
-    })?;
-    words.expect("pauses")?;
-    let pauses = words.list(read_pause)?;
-    words.expect("power_offs")?;
-    let power_offs = words.list(read_pause)?;
+    let faults = faults::read(words)?;
     words.expect("operations")?;
     let operations = words.list(read_operation)?;
     words.expect("presses")?;
@@ -334,19 +306,11 @@ fn read_scenario(words: &mut Words) -> Result<Scenario, String> {
         time_limit_s,
         stall_limit_s,
         start_scan,
-        slips,
-        refusals,
-        answers,
-        pauses,
-        power_offs,
         operations,
         presses,
         seed,
+        ..faults
     })
-}
-
-fn read_pause(words: &mut Words) -> Result<Pause, String> {
-    Ok(Pause { at_scan: words.int()?, scans: words.int()? })
 }
 
 fn read_operation(words: &mut Words) -> Result<Operation, String> {
@@ -365,5 +329,14 @@ fn read_press(words: &mut Words) -> Result<Press, String> {
         "reset" => LineButton::Reset,
         other => return Err(words.error(format_args!("`{other}` is no button of the line"))),
     };
-    Ok(Press { button, at_scan: words.int()?, scans: optional(words, "on")? })
+    Ok(Press { button, during: read_during(words)? })
+}
+
+fn during_text(During { at_scan, scans }: During) -> String {
+    let until = scans.map_or("on".into(), |scans| format!("at {scans}"));
+    format!("{at_scan} {until}")
+}
+
+fn read_during(words: &mut Words) -> Result<During, String> {
+    Ok(During { at_scan: words.int()?, scans: optional(words, "on")? })
 }

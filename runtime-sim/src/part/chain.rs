@@ -29,6 +29,7 @@ pub const SCHEMA: Schema = Schema {
         Action { name: "onto", arguments: &[PortType::Point, PortType::Point] },
         Action { name: "direct", arguments: &[PortType::Point] },
     ],
+    can_jam: true,
     ..Schema::new(
         "chain",
         "The joints of an arm that move together, with the tool pointing down. On one axis, or on two that slide and one that turns: the six joints of a UR10. Fixed at `from`: the six joints of an arm of Universal Robots with `lengths`, or of an arm with a spherical wrist by the parameters `opw`. On one to three axes at right angles, without `speeds`: a Cartesian robot, which has no joints but its axes.",

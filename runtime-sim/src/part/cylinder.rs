@@ -15,6 +15,7 @@ pub const SCHEMA: Schema = Schema {
         Level { name: "extend", ty: PortType::Bool },
         Level { name: "retract", ty: PortType::Bool },
     ],
+    can_jam: true,
     ..Schema::new(
         "cylinder",
         "Moves from one end to the other at a constant speed, with a switch at each end. With a valve only for `extend`, a spring brings it back. With a second valve for `retract`, it moves to the end of the valve that alone is on.",
@@ -112,6 +113,9 @@ pub struct Working {
     /// What the levels say.
     extend: bool,
     retract: bool,
+    /// Where the valves sent it last.
+    sent_to: End,
+    held: bool,
     toward: End,
     drive: Drive,
     /// Part of the stroke that was left to where it goes, 0 to 1, when it began to move or to stand.
@@ -133,6 +137,8 @@ impl Working {
             valves,
             extend: cylinder.begins == End::Out,
             retract: cylinder.begins == End::In,
+            sent_to: cylinder.begins,
+            held: false,
             toward: cylinder.begins,
             drive: Drive::Moves,
             left: 0.0,
@@ -143,11 +149,20 @@ impl Working {
 
     /// Where the valves send it, and whether it moves.
     fn sent(&self) -> (End, Drive) {
+        match self.valve() {
+            _ if self.held => (self.toward, Drive::Stands),
+            Some(end) => (end, Drive::Moves),
+            None if self.cylinder.has_closed_centre => (self.toward, Drive::Stands),
+            None => (self.sent_to, Drive::Moves),
+        }
+    }
+
+    /// The end of the valve that alone is on; of a single valve that of the spring, if it is off.
+    fn valve(&self) -> Option<End> {
         match (self.valves, self.extend, self.retract) {
-            (Valves::One, true, _) | (Valves::Two, true, false) => (End::Out, Drive::Moves),
-            (Valves::One, false, _) | (Valves::Two, false, true) => (End::In, Drive::Moves),
-            (Valves::Two, ..) if self.cylinder.has_closed_centre => (self.toward, Drive::Stands),
-            (Valves::Two, ..) => (self.toward, Drive::Moves),
+            (Valves::One, true, _) | (Valves::Two, true, false) => Some(End::Out),
+            (Valves::One, false, _) | (Valves::Two, false, true) => Some(End::In),
+            (Valves::Two, ..) => None,
         }
     }
 
@@ -172,6 +187,7 @@ impl Working {
     }
 
     fn turn(&mut self, now_ms: u64) {
+        self.sent_to = self.valve().unwrap_or(self.sent_to);
         let (toward, drive) = self.sent();
         if (toward, drive) == (self.toward, self.drive) {
             return;
@@ -221,6 +237,10 @@ impl Carriage for Working {
 impl Running for Working {
     fn boxed(&self) -> Box<dyn Running> {
         Box::new(self.clone())
+    }
+
+    fn hold(&mut self, held: bool, _now_ms: u64) {
+        self.held = held;
     }
 
     fn level(&mut self, level: usize, value: &[f64]) {

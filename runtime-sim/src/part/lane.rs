@@ -15,6 +15,7 @@ pub const SCHEMA: Schema = Schema {
     signals: &[Signal { name: "moves", ty: PortType::Bool, extent: Extent::One }],
     levels: &[Level { name: "run", ty: PortType::Bool }],
     actions: &[Action { name: "run", arguments: &[] }, Action { name: "rest", arguments: &[] }],
+    can_jam: true,
     ..Schema::new(
         "lane",
         "A conveyor. It runs while its level `run` is on, or after its command `run` until `rest`; with neither it always runs, like a chute. With `from` and `length` it has any direction, straight or as an arc; with `along`, `range` and `surface` it lies along an axis of the world, from the upper to the lower end of its range.",

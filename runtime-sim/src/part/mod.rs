@@ -31,6 +31,8 @@ pub struct Schema {
     pub actions: &'static [Action],
     /// What a person does to it, as the scenario says.
     pub operated: Option<Operated>,
+    /// It moves, and stands where it is while it jams.
+    pub can_jam: bool,
 }
 
 /// What a controller may read of a part.
@@ -58,7 +60,17 @@ pub struct Action {
 impl Schema {
     /// A primitive with settings alone.
     const fn new(name: &'static str, purpose: &'static str, settings: &'static [Setting]) -> Self {
-        Self { name, purpose, settings, frames: &[], signals: &[], levels: &[], actions: &[], operated: None }
+        Self {
+            name,
+            purpose,
+            settings,
+            frames: &[],
+            signals: &[],
+            levels: &[],
+            actions: &[],
+            operated: None,
+            can_jam: false,
+        }
     }
 
     pub fn find(name: &str) -> Option<&'static Schema> {

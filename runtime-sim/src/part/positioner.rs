@@ -6,6 +6,7 @@ use super::{Action, Begun, Described, Progress, Running, Schema, See, Signal, St
 use crate::device::{Extent, PortType, error};
 
 pub const SCHEMA: Schema = Schema {
+    can_jam: true,
     signals: &[
         Signal { name: "place", ty: PortType::Int { lo: -1, hi: 31 }, extent: Extent::One },
         Signal { name: "stands", ty: PortType::Bool, extent: Extent::One },

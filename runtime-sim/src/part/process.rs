@@ -2,9 +2,9 @@
 
 use super::cylinder::End;
 use super::settings::{Form, Setting, Settings};
-use super::{Described, Level, Progress, Running, Schema, See, Signal, Start, World};
+use super::{Described, Level, Progress, Running, Schema, See, Signal, Start, World, milliseconds};
 use crate::device::{Extent, PortType};
-use crate::line::Kind;
+use crate::line::{Kind, SlowCycle};
 use crate::random::Random;
 
 pub const SCHEMA: Schema = Schema {
@@ -65,6 +65,9 @@ impl Described for Process {
         let place = [start.machine as u64, start.part as u64];
         let mut cycle = Cycle::new(self, &start.line.kinds, start.line.scenario.seed, place);
         let parts = &start.machine().parts;
+        let mine = |slow: &&SlowCycle| (slow.machine, slow.part) == (start.machine, start.part);
+        let slow = start.line.scenario.slow.iter().filter(mine);
+        cycle.longer_ms = slow.map(|slow| (slow.cycle, milliseconds(slow.longer_s))).collect();
         let need = |part: Option<usize>, end: End| part.map(|part| (part, end, parts[part].name.clone()));
         let needs = [need(self.needs_in, End::In), need(self.needs_out, End::Out)];
         cycle.needs = needs.into_iter().flatten().collect();
@@ -87,6 +90,10 @@ pub struct Cycle {
     /// The item, and when it is ready.
     works: Option<(usize, u64)>,
     has_ended: bool,
+    /// Cycles that were started.
+    started: u32,
+    /// Numbers of cycles, from 1, and by how much each takes longer.
+    longer_ms: Vec<(u32, u64)>,
 }
 
 impl Cycle {
@@ -106,7 +113,15 @@ impl Cycle {
             is_asked: false,
             works: None,
             has_ended: false,
+            started: 0,
+            longer_ms: Vec::new(),
         }
+    }
+
+    /// How much longer than usual the last cycle that was started takes.
+    fn longer_ms(&self) -> u64 {
+        let longer = self.longer_ms.iter().filter(|(cycle, _)| *cycle == self.started);
+        longer.map(|(_, ms)| ms).sum()
     }
 
     /// The next time, whole milliseconds.
@@ -162,7 +177,8 @@ impl Running for Cycle {
             match item.filter(|_| lacks.is_empty()) {
                 Some(item) => {
                     self.has_ended = false;
-                    self.works = Some((item, world.now_ms + self.time_ms()));
+                    self.started = self.started.saturating_add(1);
+                    self.works = Some((item, world.now_ms + self.time_ms() + self.longer_ms()));
                 }
                 None => world.crash(format!("a process was started without {lacks}")),
             }

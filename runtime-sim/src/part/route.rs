@@ -12,6 +12,7 @@ pub const SCHEMA: Schema = Schema {
         Signal { name: "at_stop", ty: PortType::Int { lo: -1, hi: 2 }, extent: Extent::One },
     ],
     actions: &[Action { name: "to", arguments: &[PortType::Point] }],
+    can_jam: true,
     ..Schema::new(
         "route",
         "A vehicle that moves straight from stop to stop, always with the same orientation. It starts at the first stop.",

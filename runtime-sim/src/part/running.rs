@@ -170,7 +170,7 @@ pub trait Running: std::fmt::Debug + Send + Sync {
     /// The command is void, or has ended in error.
     fn abandon(&mut self, _now_ms: u64) {}
 
-    /// Halts on its path, or continues.
+    /// Halts on its path, or continues: a command holds it, or it jams.
     fn hold(&mut self, _held: bool, _now_ms: u64) {}
 
     fn level(&mut self, _level: usize, _value: &[f64]) {}

@@ -27,6 +27,7 @@ pub const SCHEMA: Schema = Schema {
         Action { name: "to", arguments: &[PortType::Int { lo: 0, hi: MOST_PLACES - 1 }] },
         Action { name: "halt", arguments: &[] },
     ],
+    can_jam: true,
     ..Schema::new(
         "track",
         "A vehicle that follows a track on the floor, straight from corner to corner. It does not slow down at corners, and turns there at once. It goes round a closed track in one direction; on an open track it also drives back.",

@@ -1,6 +1,7 @@
 //! A machine at work: its parts, and the head that commands them.
 
 use super::command::{Answer, Asked, Head};
+use super::faults::Faults;
 use crate::carrier::Carrier;
 use crate::device::error;
 use crate::item::Items;
@@ -33,10 +34,15 @@ pub struct Working {
     outputs: Vec<Range<usize>>,
     /// The parts of which commands ask something.
     commanded: Vec<usize>,
+    /// Those, and the parts that jam.
+    halting: Vec<usize>,
+    faults: Faults,
 }
 
 /// What all machines share.
 pub struct Shared<'a> {
+    /// At whose start it is.
+    pub scan: u64,
     pub items: &'a mut Items,
     pub desk: &'a mut Desk,
     /// Start of the scan.
@@ -65,6 +71,10 @@ impl Working {
         let mut commanded: Vec<usize> = machine.wiring.commands.iter().map(|command| command.part).collect();
         commanded.sort_unstable();
         commanded.dedup();
+        let faults = Faults::new(line, index);
+        let mut halting: Vec<usize> = commanded.iter().copied().chain(faults.jamming()).collect();
+        halting.sort_unstable();
+        halting.dedup();
         let refusals = line.scenario.refusals.iter().filter(|refusal| refusal.machine == index);
         let refusals = refusals.map(|refusal| refusal.command).collect();
         let answers = line.scenario.answers.iter().filter(|answer| answer.machine == index);
@@ -86,7 +96,13 @@ impl Working {
             outputs: ranges(machine.wiring.outputs.iter().map(|output| output.size.words(kinds))),
             wiring: machine.wiring.clone(),
             commanded,
+            halting,
+            faults,
         })
+    }
+
+    pub fn faults(&self) -> &Faults {
+        &self.faults
     }
 
     /// Numbers of all inputs.
@@ -136,6 +152,7 @@ impl Working {
     /// Takes a command and all levels.
     pub fn obey(&mut self, outputs: &[f64], shared: &mut Shared) {
         self.command(outputs, shared);
+        self.halt(shared);
         for (index, range) in self.outputs.iter().enumerate() {
             if let Drives::Level { part, level } = self.wiring.outputs[index].drives
                 && let Some(part) = &mut self.parts[part]
@@ -153,11 +170,18 @@ impl Working {
             Asked::Refused => self.abandon(shared.now_ms),
             Asked::Start(command) => self.begin(command, before, outputs, shared),
         }
-        let Some(head) = &mut self.head else { return };
-        head.held = head.is_held_by(outputs);
-        for part in &self.commanded {
-            if let Some(part) = &mut self.parts[*part] {
-                part.hold(head.held, shared.now_ms);
+        if let Some(head) = &mut self.head {
+            head.held = head.is_held_by(outputs);
+        }
+    }
+
+    /// What the command holds, and what jams.
+    fn halt(&mut self, shared: &Shared) {
+        let is_held = self.head.as_ref().is_some_and(|head| head.held);
+        for number in &self.halting {
+            let is_jammed = self.faults.is_jammed(*number, shared.scan);
+            if let Some(part) = &mut self.parts[*number] {
+                part.hold(is_jammed || is_held && self.commanded.contains(number), shared.now_ms);
             }
         }
     }
@@ -411,9 +435,11 @@ impl Working {
     }
 
     /// Something will change even if no output does.
-    pub fn is_busy(&self, items: &Items, desk: &Desk, now_ms: u64) -> bool {
+    pub fn is_busy(&self, items: &Items, desk: &Desk, scan: u64, now_ms: u64) -> bool {
         let see = self.see(items, desk);
-        self.head.as_ref().is_some_and(|head| head.is_under_way() && !head.held)
+        let is_jammed =
+            |head: &Head| head.acting().is_some_and(|command| self.faults.is_jammed(command.part, scan));
+        self.head.as_ref().is_some_and(|head| head.is_under_way() && !head.held && !is_jammed(head))
             || self
                 .running()
                 .any(|part| part.is_busy(&see) || part.trajectory(now_ms).comes_to_rest(now_ms as f64))

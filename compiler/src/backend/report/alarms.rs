@@ -1,20 +1,24 @@
 //! What went wrong or was stopped in a run, with its times.
 
+use super::faults;
 use super::signals::Signal;
 use runtime_sim::device::error;
-use runtime_sim::history::{History, Word};
+use runtime_sim::history::Word;
 use runtime_sim::io_trace::Source;
 use runtime_sim::line::Line;
+use runtime_sim::run::Recorded;
 use runtime_sim::wiring;
 use serde_json::{Value, json};
 
 /// Time in s, number of the machine or -1, and what happened; in the order of time.
-pub fn alarms(line: &Line, history: &History, signals: &[Signal], results: &Value) -> Vec<Value> {
+pub fn alarms(line: &Line, recorded: &Recorded, signals: &[Signal], results: &Value) -> Vec<Value> {
     let kinds = line.kinds.len();
     let errors: Vec<Option<usize>> =
         line.machines.iter().map(|machine| machine.wiring.input_at(wiring::Source::Error, kinds)).collect();
-    let mut alarms: Vec<(u64, i64, String)> = Vec::new();
-    for (signal, word) in signals.iter().zip(&history.words) {
+    let end = recorded.report.scans;
+    let mut alarms: Vec<(u64, i64, String)> = faults::faults(line, signals);
+    alarms.retain(|(scan, ..)| *scan < end);
+    for (signal, word) in signals.iter().zip(&recorded.history.words) {
         let machine = signal.machine.map_or(-1, |machine| machine as i64);
         let mut put = |scan: u64, text: String| alarms.push((scan, machine, text));
         match signal.source {

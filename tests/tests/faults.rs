@@ -1,0 +1,424 @@
+//! Faults of the plant that a scenario asks for, on small lines whose times follow from the rules.
+
+use autogen::executor::Executor;
+use autogen_tests::{Texts, side_by_side};
+use runtime_sim::line::{IoDelay, Line};
+use runtime_sim::report::Report;
+use runtime_sim::run::{Recorded, Stepping, record};
+
+/// A machine of this device and automaton, run for 60 s.
+fn line(device: &str, automaton: &str, scenario: &str) -> Texts {
+    Texts {
+        layout: r#"{"robots": [{"name": "it", "type": "it", "pose": [0, 0, 0]}]}"#.into(),
+        specs: vec![format!("device it {{ {device} }} automaton It on it {{ {automaton} }}")],
+        scenario: Some(format!(r#"{{"time_limit_s": 60, {scenario}}}"#)),
+        ..Texts::default()
+    }
+}
+
+/// The run, which is the same however it is stepped.
+fn run(texts: &Texts, change: impl Fn(&mut Line)) -> Recorded {
+    let outcome = texts.compile();
+    let Some(mut project) = outcome.project else {
+        panic!("{}", autogen_tests::plain(&outcome.sources, &outcome.diagnostics))
+    };
+    change(&mut project.plant);
+    let execute = |stepping| {
+        let mut executor = Executor::new(&project.system);
+        record(&project.plant, &mut executor, stepping, &[], &mut |_| {}).expect("a line that can be run")
+    };
+    let every = execute(Stepping::EveryScan);
+    for stepping in [Stepping::Events, Stepping::Checked] {
+        let other = execute(stepping);
+        assert_eq!(other.report, every.report, "{stepping:?}");
+        assert_eq!(other.history.machines[0].stays, every.history.machines[0].stays, "{stepping:?}");
+    }
+    every
+}
+
+/// When each state of the machine is entered, ms. The beginning is state 0.
+fn entries(texts: &Texts) -> Vec<(u64, usize)> {
+    entries_with(texts, |_| {})
+}
+
+fn entries_with(texts: &Texts, change: impl Fn(&mut Line)) -> Vec<(u64, usize)> {
+    let mut entered: Vec<(u64, usize)> = Vec::new();
+    for stay in &run(texts, change).history.machines[0].stays {
+        if entered.last().is_none_or(|(_, state)| *state != stay.state) {
+            entered.push((stay.scan * 10, stay.state));
+        }
+    }
+    entered
+}
+
+/// A bar of 1 s that is opened in the scan of the start, at 20 ms, so that it is out at 1020 ms; the automaton is then in
+/// state 2.
+const BAR: &str = "part bar = cylinder { extend: 1 s; retract: 1 s; };
+    in is_open: bool = bar.is_out;
+    in is_closed: bool = bar.is_in;
+    out open: bool = bar.extend;";
+const OPENS: &str = "initial -> Opening { open := true; }
+    state Opening { when is_open -> Opened {} }
+    final state Opened;";
+
+/// Faults of sensors of the machine.
+fn sensors(faults: &[&str]) -> String {
+    let faults: Vec<String> = faults.iter().map(|fault| format!(r#"{{"robot": "it", {fault}}}"#)).collect();
+    format!(r#""faults": {{"sensors": [{}]}}"#, faults.join(", "))
+}
+
+#[test]
+fn a_sensor_that_sticks_is_read_and_the_plant_goes_on() {
+    let opened = |faults: &[&str]| entries(&line(BAR, OPENS, &sensors(faults)));
+    let at = |ms| vec![(0, 0), (20, 1), (ms, 2)];
+    assert_eq!(opened(&[]), at(1020));
+    // Too early, for a while.
+    assert_eq!(opened(&[r#""signal": "is_open", "reads": true, "at_s": 0.4, "for_s": 0.2"#]), at(400));
+    // Until it is over the cylinder is not seen to be out.
+    assert_eq!(opened(&[r#""signal": "is_open", "reads": false, "at_s": 0.9, "for_s": 2"#]), at(2900));
+    // Over before anybody asks.
+    assert_eq!(opened(&[r#""signal": "is_open", "reads": false, "at_s": 0.1, "for_s": 0.5"#]), at(1020));
+    assert_eq!(opened(&[r#""signal": "is_closed", "reads": false, "at_s": 0.1"#]), at(1020));
+    // To the end of the run.
+    assert_eq!(opened(&[r#""signal": "is_open", "reads": false, "at_s": 0"#]), [(0, 0), (20, 1)]);
+    // In the first scan as well; the first step is that of the start.
+    assert_eq!(opened(&[r#""signal": "is_open", "reads": true, "at_s": 0"#]), at(30));
+}
+
+#[test]
+fn of_faults_of_one_input_the_one_that_began_last_counts() {
+    let never = r#""signal": "is_open", "reads": false, "at_s": 0.3"#;
+    let once = r#""signal": "is_open", "reads": true, "at_s": 0.7, "for_s": 0.01"#;
+    let early = r#""signal": "is_open", "reads": true, "at_s": 0.2, "for_s": 5"#;
+    let at = |ms| vec![(0, 0), (20, 1), (ms, 2)];
+    for order in [[never, once], [once, never]] {
+        assert_eq!(entries(&line(BAR, OPENS, &sensors(&order))), at(700));
+    }
+    let both = [early, never];
+    assert_eq!(entries(&line(BAR, OPENS, &sensors(&both))), at(200));
+    // What comes after a fault is the true value, not that of the one before.
+    let wrong_then_right = [r#""signal": "is_open", "reads": false, "at_s": 0.5, "for_s": 1"#, once];
+    assert_eq!(entries(&line(BAR, OPENS, &sensors(&wrong_then_right))), at(700));
+}
+
+/// The bus carries the wrong value as it carries a right one.
+#[test]
+fn a_wrong_value_comes_as_late_as_any_other() {
+    let texts =
+        line(BAR, OPENS, &sensors(&[r#""signal": "is_open", "reads": true, "at_s": 0.4, "for_s": 0.01"#]));
+    let late = |scans| entries_with(&texts, |line| line.io_delay = IoDelay::Fixed(scans));
+    assert_eq!(late(0)[2], (400, 2));
+    assert_eq!(late(7)[2], (470, 2));
+    let random = entries_with(&texts, |line| line.io_delay = IoDelay::Random { max: 5, seed: 3 });
+    // It may be overtaken by none, and lie between two telegrams.
+    let opened = random[2].0;
+    assert!((400..=450).contains(&opened) || (1020..=1070).contains(&opened), "{random:?}");
+}
+
+/// Numbers, and elements of inputs: the machine counts the values that it sees as states.
+#[test]
+fn numbers_and_single_elements_stick() {
+    let device = "part level = setpoint { begins: 1.0; };
+        part choice = selector { begins: 2; };
+        part belt = lane { from: origin; length: 2.0; width: 0.2; speed: 0.1; };
+        part eye = beam { across: belt; at: 1.0; };
+        in level_is: real = level.value;
+        in chosen: int 0..5 = choice.position;
+        in sees: bool[Kind] = eye.sees_kind;";
+    let automaton = "initial -> Level {}
+        state Level { when level_is < 0.35 and level_is > 0.25 -> Choice {} }
+        state Choice { when chosen = 4 -> Both {} }
+        state Both { when sees[bolt] and sees[nut] -> Nut {} }
+        state Nut { when sees[nut] and not sees[bolt] -> Right {} }
+        state Right { when level_is = 1.0 and chosen = 2 -> Ended {} }
+        final state Ended;";
+    let faults = [
+        r#""signal": "level_is", "reads": 0.3, "at_s": 1, "for_s": 4"#,
+        r#""signal": "chosen", "reads": 4, "at_s": 2, "for_s": 4"#,
+        r#""signal": "sees", "reads": true, "at_s": 3, "for_s": 1"#,
+        r#""signal": "sees", "element": "nut", "reads": true, "at_s": 4"#,
+    ];
+    let kinds = r#""kinds": [{"name": "bolt", "height": 0.05}, {"name": "nut", "height": 0.03}]"#;
+    let texts = line(device, automaton, &format!("{kinds}, {}", sensors(&faults)));
+    let expected = [(0, 0), (20, 1), (1000, 2), (2000, 3), (3000, 4), (4000, 5), (6000, 6)];
+    assert_eq!(entries(&texts), expected);
+}
+
+/// A command waits for the signal itself; a process needs its cylinder, not what the controller reads of it.
+#[test]
+fn the_device_reads_its_own_sensors() {
+    let device = "part belt = lane { from: origin; length: 2.0; width: 0.2; speed: 0.1; };
+        part key = button {};
+        in pressed: bool = key.on;
+        command 1 run() = belt.run() then key.on within 2 s else 2;";
+    let automaton = "initial -> Waiting { run(); }
+        state Waiting { when done -> Ended {} when failed -> Failed {} }
+        final state Ended;
+        final state Failed;";
+    let press = r#""operator": [{"robot": "it", "part": "key", "at_s": 1}]"#;
+    let dead = sensors(&[r#""signal": "pressed", "reads": false, "at_s": 0"#]);
+    assert_eq!(entries(&line(device, automaton, &format!("{press}, {dead}"))), [(0, 0), (20, 1), (1000, 2)]);
+    let on = sensors(&[r#""signal": "pressed", "reads": true, "at_s": 0"#]);
+    // The lane runs one scan after the command, and the wait begins.
+    assert_eq!(entries(&line(device, automaton, &on)), [(0, 0), (20, 1), (2030, 3)]);
+}
+
+/// An answer that is not seen is no answer, and one that is seen too early is taken for one.
+#[test]
+fn answers_of_commands_may_stick() {
+    let device = "part belt = lane { from: origin; length: 2.0; width: 0.2; speed: 0.1; };
+        command 1 run() = belt.run();";
+    let automaton = "initial -> Waiting { run(); }
+        state Waiting { when done -> Ended {} when after 10 s -> Late {} }
+        final state Ended;
+        final state Late;";
+    let ended = |fault: &str| entries(&line(device, automaton, &sensors(&[fault])));
+    assert_eq!(ended(r#""signal": "ack", "reads": 0, "at_s": 0, "for_s": 5"#)[2], (5000, 2));
+    assert_eq!(ended(r#""signal": "ack", "reads": 0, "at_s": 0"#)[2], (10_020, 3));
+    assert_eq!(ended(r#""signal": "error", "reads": 2, "at_s": 0"#)[2], (10_020, 3));
+}
+
+/// Faults of parts of the machine.
+fn jams(faults: &[&str]) -> String {
+    let faults: Vec<String> = faults.iter().map(|fault| format!(r#"{{"robot": "it", {fault}}}"#)).collect();
+    format!(r#""faults": {{"jams": [{}]}}"#, faults.join(", "))
+}
+
+#[test]
+fn a_cylinder_that_jams_stands_and_goes_on_afterwards() {
+    let opened = |faults: &[&str]| entries(&line(BAR, OPENS, &jams(faults)));
+    let at = |ms| vec![(0, 0), (20, 1), (ms, 2)];
+    // 0.38 s gone, 2 s at rest, 0.62 s left.
+    assert_eq!(opened(&[r#""part": "bar", "at_s": 0.4, "for_s": 2"#]), at(3020));
+    // Before it begins to move.
+    assert_eq!(opened(&[r#""part": "bar", "at_s": 0, "for_s": 2"#]), at(3000));
+    // When it has arrived nothing changes.
+    assert_eq!(opened(&[r#""part": "bar", "at_s": 1.02, "for_s": 2"#]), at(1020));
+    // Two jams, apart and one within the other.
+    let apart =
+        [r#""part": "bar", "at_s": 0.1, "for_s": 0.2"#, r#""part": "bar", "at_s": 0.5, "for_s": 0.3"#];
+    assert_eq!(opened(&apart), at(1520));
+    let within = [r#""part": "bar", "at_s": 0.1, "for_s": 2"#, r#""part": "bar", "at_s": 0.5, "for_s": 0.3"#];
+    assert_eq!(opened(&within), at(3020));
+    // Without an end it never arrives.
+    assert_eq!(opened(&[r#""part": "bar", "at_s": 1.01"#]), [(0, 0), (20, 1)]);
+}
+
+/// The valve goes off while the cylinder is 0.3 s out and stands: afterwards the spring needs 0.3 s.
+#[test]
+fn valves_that_change_during_a_jam_act_after_it() {
+    let closes = "initial -> Opening { open := true; }
+        state Opening { when after 1 s -> Closing { open := false; } }
+        state Closing { when is_closed -> Closed {} }
+        final state Closed;";
+    let jam = jams(&[r#""part": "bar", "at_s": 0.32, "for_s": 2"#]);
+    assert_eq!(entries(&line(BAR, closes, &jam)), [(0, 0), (20, 1), (1020, 2), (2620, 3)]);
+    // On and off again while it jams at its inner end: it is never seen to leave it.
+    let leaves = "initial -> Opening { open := true; }
+        state Opening { when not is_closed -> Left {} when after 1 s -> Closing { open := false; } }
+        state Closing { when not is_closed -> Left {} when is_open -> Left {} }
+        final state Left;";
+    let jam = jams(&[r#""part": "bar", "at_s": 0, "for_s": 3"#]);
+    assert_eq!(entries(&line(BAR, leaves, &jam)), [(0, 0), (20, 1), (1020, 2)]);
+}
+
+/// Two valves that keep their position: a pulse during the jam counts afterwards. With a closed centre it does not.
+#[test]
+fn a_valve_that_keeps_its_position_keeps_it_during_a_jam() {
+    let device = |centre: &str| {
+        format!(
+            "part bar = cylinder {{ extend: 1 s; retract: 1 s; {centre} }};
+            in is_closed: bool = bar.is_in;
+            in is_open: bool = bar.is_out;
+            out outward: bool = bar.extend;
+            out inward: bool = bar.retract;"
+        )
+    };
+    // Out from 20 ms on; from 1020 ms to 1120 ms the other valve.
+    let automaton = "initial -> Going { outward := true; }
+        state Going { when after 1 s -> Coming { outward := false; inward := true; } }
+        state Coming { when after 100 ms -> Resting { inward := false; } }
+        state Resting { when is_closed -> In {} when is_open -> Out {} }
+        final state In;
+        final state Out;";
+    let jam = jams(&[r#""part": "bar", "at_s": 0.32, "for_s": 2"#]);
+    let began = [(0, 0), (20, 1), (1020, 2), (1120, 3)];
+    let both = entries(&line(&device(""), automaton, &jam));
+    assert_eq!((&both[..4], &both[4..]), (&began[..], &[(2620, 4)][..]));
+    assert_eq!(entries(&line(&device("closed_centre: true;"), automaton, &jam)), began);
+}
+
+/// In a pause a cylinder goes on if its valve stays on, and comes back by its spring if the valve goes off.
+#[test]
+fn a_jam_and_a_pause_overlap() {
+    let faults = r#""faults": {"jams": [{"robot": "it", "part": "bar", "at_s": 0.4, "for_s": 2}],
+        "pauses": [{"at_s": 2, "for_s": 3}]}"#;
+    // The permit is back at 5 s, and start is given one scan later.
+    assert_eq!(entries(&line(BAR, OPENS, faults)), [(0, 0), (20, 1), (5010, 2)]);
+    let stops = BAR.replace("bar.extend;", "bar.extend stop false;");
+    assert_eq!(entries(&line(&stops, OPENS, faults)), [(0, 0), (20, 1), (6010, 2)]);
+    // Without power the valve goes off too. The machine begins anew in the scan of the start.
+    let off = faults.replace("pauses", "power_offs");
+    assert_eq!(entries(&line(&stops, OPENS, &off)).last(), Some(&(6010, 2)));
+}
+
+/// An item of 0.1 m appears after 2 s, its front 0.5 m before the beam, at 0.1 m/s.
+#[test]
+fn a_conveyor_that_jams_stands_with_its_items() {
+    let device = "part belt = lane { from: origin; length: 2.0; width: 0.2; speed: 0.1; };
+        part feed = source { on: belt; inset: 0.1; };
+        part eye = beam { across: belt; at: 0.65; };
+        in sees: bool = eye.sees;
+        in moves: bool = belt.moves;";
+    let automaton = "initial -> Waiting {}
+        state Waiting { when sees -> Seen {} when not moves -> Standing {} }
+        state Standing { when sees -> Seen {} when moves -> Waiting {} }
+        final state Seen;";
+    let supply = r#""kinds": [{"name": "box", "height": 0.1}], "supply": {"items": ["box"]}"#;
+    let seen = |faults: &str| entries(&line(device, automaton, &format!("{supply}, {faults}")));
+    let usual = seen(r#""faults": {}"#);
+    assert_eq!(usual, [(0, 0), (20, 1), (7000, 3)]);
+    let jammed = seen(&jams(&[r#""part": "belt", "at_s": 3, "for_s": 4"#]));
+    assert_eq!(jammed, [(0, 0), (20, 1), (3010, 2), (7010, 1), (11_000, 3)]);
+    // Time until the first item counts while the lane moves.
+    let jammed = seen(&jams(&[r#""part": "belt", "at_s": 0.5, "for_s": 1"#]));
+    assert_eq!(jammed.last(), Some(&(8000, 3)));
+}
+
+/// A route has no ramps: it stands where it is. A track brakes: from 1.5 m/s with 0.5 m/s2 in 2.25 m and 3 s.
+#[test]
+fn vehicles_that_jam_halt_and_continue_to_their_goals() {
+    let route = "part drive = route {
+            stops: [pose, pose + point(10, 0, 0)]; speed: 1.0; latency: 0 ms; tolerance: 0.1; mass: 1.0;
+        };
+        out goal: point;
+        command 1 go(goal) = drive.to(goal);";
+    let goes = |command: &str| {
+        format!(
+            "initial -> Going {{ {command} }}
+            state Going {{ when done -> There {{}} when failed -> Failed {{}} }}
+            final state There;
+            final state Failed;"
+        )
+    };
+    let there = |device: &str, automaton: &str, faults: &[&str]| {
+        let found = entries(&line(device, automaton, &jams(faults)));
+        assert_eq!((found[..2].to_vec(), found[2].1), (vec![(0, 0), (20, 1)], 2), "{found:?}");
+        found[2].0
+    };
+    let to = goes("go(point(10, 0, 0));");
+    assert_eq!(there(route, &to, &[]), 10_020);
+    assert_eq!(there(route, &to, &[r#""part": "drive", "at_s": 3, "for_s": 4"#]), 14_020);
+    assert_eq!(there(route, &to, &[r#""part": "drive", "at_s": 0, "for_s": 4"#]), 14_000);
+
+    let track = "part drive = track {
+            corners: [pose, pose + point(10, 0, 0)]; places: [0.0, 10.0];
+            speed: 1.5; acceleration: 0.5; mass: 10.0;
+        };
+        out goal: int 0..1;
+        command 1 go(goal) = drive.to(goal);
+        command 2 halt() = drive.halt();";
+    let is_near = |found: u64, seconds: f64| (found as f64 / 1000.0 - seconds).abs() < 0.015;
+    // 10 m at 1.5 m/s, and 3 s for the ramps.
+    let usual = there(track, &goes("go(1);"), &[]);
+    assert!(is_near(usual, 0.02 + 10.0 / 1.5 + 3.0), "{usual}");
+    // After 4 s 3.75 m, at rest after 6 m; from 14.02 s on 4 m from rest to rest.
+    let jammed = there(track, &goes("go(1);"), &[r#""part": "drive", "at_s": 4.02, "for_s": 10"#]);
+    assert!(is_near(jammed, 14.02 + 2.0 * (4.0_f64 / 0.5).sqrt()), "{jammed}");
+    // A command to stand ends with the jam.
+    assert_eq!(there(track, &goes("halt();"), &[r#""part": "drive", "at_s": 0, "for_s": 4"#]), 4010);
+}
+
+/// A run of the tending cell for three parts.
+fn tending(faults: &str) -> Report {
+    let mut texts = side_by_side("tending/tending");
+    let scenario = texts.scenario.expect("a scenario").replace("41", "3");
+    texts.scenario = Some(scenario.replacen('{', &format!(r#"{{"faults": {{{faults}}},"#), 1));
+    run(&texts, |_| {}).report
+}
+
+/// The mill limits the cell: what its cycle takes longer, the run takes longer.
+#[test]
+fn a_slow_cycle_of_the_mill_delays_the_cell() {
+    let slow = |cycle: u32, longer_s: f64| {
+        format!(r#"{{"robot": "mill", "part": "cycle", "cycle": {cycle}, "longer_s": {longer_s}}}"#)
+    };
+    let usual = tending("");
+    assert!(usual.finished, "{}", usual.reason);
+    let later = |faults: &[String]| {
+        let report = tending(&format!(r#""slow": [{}]"#, faults.join(", ")));
+        assert!(report.finished, "{}", report.reason);
+        (report.scans - usual.scans) as f64 / 100.0
+    };
+    for cycle in 1..=3 {
+        assert_eq!(later(&[slow(cycle, 30.0)]), 30.0, "{cycle}");
+    }
+    assert_eq!(later(&[slow(2, 7.5), slow(3, 20.0), slow(2, 2.5)]), 30.0);
+    // It never begins before the goal is reached.
+    assert_eq!(tending(&format!(r#""slow": [{}]"#, slow(9, 30.0))), usual);
+}
+
+/// What the types say of a sensor that sticks or a door that jams: the state that waits for it lasts too long.
+#[test]
+fn the_mill_reports_what_does_not_come() {
+    let fault = |faults: &str| {
+        let report = tending(faults);
+        let fault = report.fault.map(|(_, machine)| machine);
+        (report.finished, fault.unwrap_or_default())
+    };
+    let sensor = |signal: &str, reads: bool, more: &str| {
+        format!(
+            r#""sensors": [{{"robot": "mill", "signal": "{signal}", "reads": {reads}, "at_s": 0{more}}}]"#
+        )
+    };
+    let door = |for_s: &str| format!(r#""jams": [{{"robot": "mill", "part": "door", "at_s": 20{for_s}}}]"#);
+    let mill = || (false, "mill".to_string());
+    for signal in ["door_closed", "cutting"] {
+        assert_eq!(fault(&sensor(signal, false, "")), mill(), "{signal}");
+    }
+    // The arm holds the blank until the vise is seen to hold it: it reports first.
+    let vise = fault(&sensor("clamped", false, ""));
+    assert!(!vise.0 && ["mill", "arm"].contains(&vise.1.as_str()), "{vise:?}");
+    assert_eq!(fault(&door("")), mill());
+    // The door takes 4 s of the 15 s that it has.
+    assert_eq!(fault(&door(r#", "for_s": 8"#)), (true, String::new()));
+}
+
+/// A red piece passes a gate that does not close, or is not seen to be red.
+#[test]
+fn a_gate_that_jams_puts_pieces_into_the_wrong_box() {
+    let run = |faults: &str| {
+        let mut texts = side_by_side("sorting/sorting");
+        let scenario = texts.scenario.expect("a scenario");
+        texts.scenario = Some(scenario.replacen('{', &format!(r#"{{"faults": {{{faults}}},"#), 1));
+        run(&texts, |_| {}).report.reason
+    };
+    let of_sorter = |key: &str, fault: &str| format!(r#""{key}": [{{"robot": "sorter", {fault}}}]"#);
+    let gate = run(&of_sorter("jams", r#""part": "first_arm", "at_s": 0"#));
+    assert_eq!(gate, "sorter.last_box has collected more red than 0");
+    let colour = run(&of_sorter("sensors", r#""signal": "is_red", "reads": false, "at_s": 0"#));
+    assert_eq!(colour, "sorter.last_box has collected more red than 0");
+    let piece = run(&of_sorter("sensors", r#""signal": "at_stopper", "reads": false, "at_s": 0"#));
+    assert!(piece.starts_with("fault"), "{piece}");
+}
+
+/// A fault that ends is something that is to come: the line waits for it. One without an end is none.
+#[test]
+fn a_run_waits_for_the_end_of_a_fault() {
+    let report = |for_s: &str| -> Report {
+        let fault = format!(r#""signal": "is_open", "reads": false, "at_s": 0.5{for_s}"#);
+        let texts = line(BAR, OPENS, &sensors(&[fault.as_str()]));
+        run(&texts, |line| {
+            line.scenario.stall_limit_s = 5.0;
+            line.scenario.time_limit_s = 40.0;
+        })
+        .report
+    };
+    // It is out at 1.02 s, and 5 s later nothing has changed since.
+    let ended = report("");
+    assert!(ended.reason.starts_with("deadlock"), "{}", ended.reason);
+    assert!((6.0..6.1).contains(&ended.simulated_s), "{}", ended.simulated_s);
+    // Until 20.5 s it lasts; in state 2 nothing happens any more.
+    let ended = report(r#", "for_s": 20"#);
+    assert!((25.5..25.6).contains(&ended.simulated_s), "{}", ended.simulated_s);
+}
