@@ -13,7 +13,7 @@ pub fn fall(plant: &Plant, point: Point, ms: f64) -> (Carrier, Point) {
     let mut lands: Option<(f64, Carrier)> = None;
     for machine in &plant.machines {
         let Some((height, carrier)) = machine.below(point, ms, &plant.items, &plant.desk) else { continue };
-        if height <= point.z + SINK && lands.is_none_or(|(highest, _)| height > highest) {
+        if lands.is_none_or(|(highest, _)| height > highest) {
             lands = Some((height, carrier));
         }
     }

@@ -1,5 +1,6 @@
 //! A machine at work: its parts, and the head that commands them.
 
+use super::fall::SINK;
 use super::command::{Answer, Asked, Head};
 use super::faults::Faults;
 use crate::carrier::Carrier;
@@ -394,7 +395,8 @@ impl Working {
     pub fn below(&self, point: Point, ms: f64, items: &Items, desk: &Desk) -> Option<(f64, Carrier)> {
         let see = self.see(items, desk);
         let surfaces = self.parts.iter().flatten().filter_map(|part| part.below(point, ms, &see));
-        surfaces.reduce(|best, other| if other.0 > best.0 { other } else { best })
+        // What is over the item does not bear it.
+        surfaces.filter(|(height, _)| *height <= point.z + SINK).reduce(|best, other| if other.0 > best.0 { other } else { best })
     }
 
     /// An item that lies on this one.
