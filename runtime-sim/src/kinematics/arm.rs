@@ -142,11 +142,11 @@ impl Arm {
     /// `axes` carry the chain, the first one first. None if there is no closed form for it.
     pub fn new(axes: &[&Axis], chain: &Chain) -> Option<Self> {
         let motions: Vec<Motion> = axes.iter().map(|axis| axis.motion).collect();
-        let solver = match chain.geometry {
+        let solver = match &chain.geometry {
             Geometry::Fixed(geometry, ranges) => {
-                Solver::Fixed(FixedArm::new(chain.base?, geometry, ranges))
+                Solver::Fixed(FixedArm::new(chain.base?, **geometry, ranges.as_deref().copied()))
             }
-            Geometry::Tool(length) => Solver::Cartesian(cartesian(axes, length)?),
+            Geometry::Tool(length) => Solver::Cartesian(cartesian(axes, *length)?),
             Geometry::Ur10 => {
                 let at = axes.first()?.at()?;
                 match motions[..] {

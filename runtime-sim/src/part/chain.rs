@@ -92,12 +92,12 @@ pub struct Chain {
 }
 
 /// What is between its base, or the last axis, and the tool.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Geometry {
     /// A UR10 with the gripper of the library.
     Ur10,
-    /// The limits of its joints, rad.
-    Fixed(fixed::Geometry, Option<[[f64; 2]; fixed::JOINTS]>),
+    /// With the limits of its joints, rad.
+    Fixed(Box<fixed::Geometry>, Option<Box<[[f64; 2]; fixed::JOINTS]>>),
     /// No joints: the tool is so far below the last axis, m.
     Tool(f64),
 }

@@ -50,12 +50,12 @@ impl Types {
     /// The members and fields of types that are declared.
     pub fn read(&mut self, object: &Parsed, node: Node) -> Result<(), String> {
         for (_, name, inner) in definitions(object, node) {
-            if self.enumerations.contains_key(&name) {
-                self.enumerations.insert(name, enumeration(object, inner)?);
-            } else {
-                let fields = self.fields(object, inner)?;
-                self.structures.insert(name, fields);
+            if let Some(members) = self.enumerations.get_mut(&name) {
+                *members = enumeration(object, inner)?;
+                continue;
             }
+            let fields = self.fields(object, inner)?;
+            self.structures.insert(name, fields);
         }
         Ok(())
     }

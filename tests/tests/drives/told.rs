@@ -96,9 +96,9 @@ macro_rules! of_each_drive {
     ($($name:ident)*) => {
         $(#[test]
         fn $name() {
-            told::$name::<Axis>();
-            told::$name::<Robot>();
-            told::$name::<Inverter>();
+            each::$name::<Axis>();
+            each::$name::<Robot>();
+            each::$name::<Inverter>();
         })*
     };
 }
@@ -121,7 +121,7 @@ of_each_drive! {
     numbers_go_on_with_1
 }
 
-mod told {
+mod each {
     use super::*;
 
     pub fn a_command_comes_to_its_end<D: Drive>() {

@@ -133,7 +133,8 @@ fn values(context: &Context) -> Vec<(String, Type)> {
     }
     for (number, (port, name)) in automaton.device.ports.iter().zip(&context.own().ports).enumerate() {
         let is_command = automaton.device.is_commanded() && matches!(port.name.as_str(), "cmd" | "verb");
-        if !retained.ports.contains(&number) && !(retained.state && is_command) {
+        let is_kept = retained.ports.contains(&number) || retained.state && is_command;
+        if !is_kept {
             continue;
         }
         let scalar = match port.ty {

@@ -27,7 +27,7 @@ impl Described for Chain {
         let geometry = match (on.is_some(), has_joints) {
             (true, true) => of_ur10(settings)?,
             (true, false) => Geometry::Tool(settings.number("tool_length")?),
-            (false, true) => Geometry::Fixed(fixed(settings)?, ranges(settings)?),
+            (false, true) => Geometry::Fixed(Box::new(fixed(settings)?), ranges(settings)?.map(Box::new)),
             (false, false) => return Err("the setting speeds is missing".into()),
         };
         let clearances = settings.optional("clearances", Settings::points)?.unwrap_or_default();

@@ -50,7 +50,7 @@ fn point() -> Structure {
 fn interface(shared: Shared, line: &Line, id: InterfaceId, typed: &Typed) -> Option<(Structure, Variable)> {
     let (interface, names) = (shared.system.model.interface(id), &shared.names.interfaces[id.0]);
     let is_used = |held: &[String]| {
-        line.globals.cells.iter().any(|table| held.iter().any(|name| *name == table.variable.name))
+        line.globals.cells.iter().any(|table| held.contains(&table.variable.name))
     };
     let cells = interface.cells.iter().zip(&names.cells).zip(&names.fields);
     let fields: Vec<Variable> = cells
