@@ -20,6 +20,8 @@ pub enum Carrier {
     Sink { machine: usize, part: usize },
     /// It lay at a place whose order was made elsewhere.
     Collector,
+    /// It has become a part of another item.
+    Part { of: usize },
     /// Taken away with an order.
     Shipped { order: usize },
 }
@@ -34,6 +36,7 @@ impl Carrier {
             | Carrier::Floor { .. }
             | Carrier::Sink { .. }
             | Carrier::Collector
+            | Carrier::Part { .. }
             | Carrier::Shipped { .. } => None,
         }
     }
@@ -47,12 +50,16 @@ impl Carrier {
             | Carrier::Floor { .. }
             | Carrier::Sink { .. }
             | Carrier::Collector
+            | Carrier::Part { .. }
             | Carrier::Shipped { .. } => None,
         }
     }
 
     /// Nothing takes an item from there.
     pub fn is_final(&self) -> bool {
-        matches!(self, Carrier::Sink { .. } | Carrier::Collector | Carrier::Shipped { .. })
+        matches!(
+            self,
+            Carrier::Sink { .. } | Carrier::Collector | Carrier::Part { .. } | Carrier::Shipped { .. }
+        )
     }
 }

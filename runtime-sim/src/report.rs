@@ -318,6 +318,7 @@ pub fn carrier_text(line: &Line, carrier: Carrier) -> String {
         },
         Carrier::Floor { .. } => "floor".into(),
         Carrier::Sink { .. } | Carrier::Collector => "collector".into(),
+        Carrier::Part { .. } => "another item".into(),
         Carrier::Shipped { order } => format!("order {}", order + 1),
     }
 }

@@ -86,7 +86,11 @@ fn can_come(line: &Line, carrier: &Carrier) -> bool {
     match *carrier {
         Carrier::Supply | Carrier::Lane { .. } | Carrier::Grip { .. } => true,
         Carrier::Place { machine, part, .. } => !line.machines[machine].is_place_of_orders(part),
-        Carrier::Floor { .. } | Carrier::Sink { .. } | Carrier::Collector | Carrier::Shipped { .. } => false,
+        Carrier::Floor { .. }
+        | Carrier::Sink { .. }
+        | Carrier::Collector
+        | Carrier::Part { .. }
+        | Carrier::Shipped { .. } => false,
     }
 }
 

@@ -333,7 +333,7 @@ const Motion = (() => {
     const index = indexAt(item.at, ms);
     if (index < 0) return null;
     const segment = item.segments[index], carrier = carrierOf(segment);
-    if (['sink', 'collector', 'order', 'supply'].includes(carrier.what)) return null;
+    if (['sink', 'collector', 'part', 'order', 'supply'].includes(carrier.what)) return null;
     const until = Math.min(ms, item.endMs);
     return { place: placeBy(segment, until), turn: turnBy(item, index, until), carrier };
   }

@@ -30,7 +30,7 @@ const Tables = (() => {
   function items() {
     const rows = Motion.items.filter((item) => item.segments.length).map((item) => {
       const way = stations(item);
-      const isGone = ['sink', 'collector', 'order'].includes(Motion.carrierOf(item.segments[item.segments.length - 1]).what);
+      const isGone = ['sink', 'collector', 'part', 'order'].includes(Motion.carrierOf(item.segments[item.segments.length - 1]).what);
       return { item, way, begin: item.segments[0][0], end: isGone ? item.endMs : null };
     });
     const kind = ({ item }) => item.kinds.map(([, number]) => Data.raw.kinds[number].name).join(' → ');

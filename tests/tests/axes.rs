@@ -1,7 +1,9 @@
-//! Machines with positioned axes: what their arms touch, what lies on what, and how long a positioner takes.
+//! Machines with positioned axes: what their arms touch, what lies on what and becomes a part of what, and how long a
+//! positioner takes.
 
 use autogen::executor::Executor;
 use autogen_tests::{Texts, side_by_side};
+use runtime_sim::carrier::Carrier;
 use runtime_sim::memory::Memory;
 use runtime_sim::report::Report;
 use runtime_sim::run::{Seen, Stepping, run_again};
@@ -156,4 +158,25 @@ fn limits_of_joints_put_places_out_of_reach() {
     let outcome = texts.compile();
     assert!(outcome.project.is_none());
     assert!(outcome.diagnostics.iter().any(|found| found.code == "E0401"), "{:?}", outcome.diagnostics);
+}
+
+#[test]
+fn a_press_joins_what_lies_in_it_and_nothing_less() {
+    let texts = side_by_side("scenes/assembler");
+    let mut ends = Vec::new();
+    run(&texts, |seen: &Seen| {
+        let name = |item: usize| seen.plant.items().all()[item].kind;
+        let part_of = |item: usize| match seen.plant.items().all()[item].carrier {
+            Carrier::Part { of } => Some((name(item), name(of))),
+            _ => None,
+        };
+        ends = (0..seen.plant.items().all().len()).map(part_of).collect();
+    });
+    // Kinds: 0 base, 1 lid, 2 box. Each lid is a part of a box.
+    assert_eq!(ends, [None, None, Some((1, 2)), Some((1, 2))]);
+
+    let lid = "move(lid_at + up(0.2)); move(lid_at); grip := true; until attached at most 1 s; move(lid_at + up(0.2));
+        move(nest_at + up(0.2)); move(nest_at + up(0.101)); grip := false; until not attached at most 1 s;";
+    let without = reason(&changed("assembler", &[(lid, "")]));
+    assert_eq!(without, "interlock of assembler: a process was started without a lid beside it");
 }

@@ -24,6 +24,13 @@ pub const SCHEMA: Schema = Schema {
             Setting::new("needs_in", Form::Part(&["cylinder"]), "", "has to be at its inner end at the start").optional(),
             Setting::new("needs_out", Form::Part(&["cylinder"]), "", "has to be at its outer end at the start").optional(),
             Setting::new("makes", Form::Words, "", "pairs of a kind and the kind that it becomes; all others do not change").optional(),
+            Setting::new(
+                "joins",
+                Form::Words,
+                "",
+                "kinds of other items that have to be at the place at the start and at the end; at the end they become parts of the item that came first, and leave the line",
+            )
+            .optional(),
         ],
     )
 };
@@ -37,6 +44,8 @@ pub struct Process {
     pub needs_out: Option<usize>,
     /// Names of kinds: what it was, and what it becomes.
     pub makes: Vec<[String; 2]>,
+    /// Names of kinds.
+    pub joins: Vec<String>,
 }
 
 impl Described for Process {
@@ -58,6 +67,7 @@ impl Described for Process {
             needs_in: settings.optional("needs_in", Settings::part)?,
             needs_out: settings.optional("needs_out", Settings::part)?,
             makes: makes.collect(),
+            joins: settings.optional("joins", Settings::words)?.unwrap_or_default(),
         })
     }
 
@@ -83,6 +93,8 @@ pub struct Cycle {
     needs: Vec<(usize, End, String)>,
     /// What becomes of each kind.
     becomes: Vec<usize>,
+    /// Kinds of the items that are joined to the first one; none for a name that no kind has.
+    joins: Vec<Option<usize>>,
     random: Random,
     is_on: bool,
     /// An edge of `start` that has not been checked yet.
@@ -108,6 +120,7 @@ impl Cycle {
             process: process.clone(),
             needs: Vec::new(),
             becomes: (0..kinds.len()).map(becomes).collect(),
+            joins: process.joins.iter().map(number).collect(),
             random: Random::at(seed, place),
             is_on: false,
             is_asked: false,
@@ -141,12 +154,27 @@ impl Cycle {
         libm::round(time) as u64
     }
 
+    /// The items that are joined to one, in the order of their kinds; the name of a kind of which none is there.
+    fn joined(&self, item: usize, see: &See) -> Result<Vec<usize>, &str> {
+        let mut joined = Vec::new();
+        for (kind, name) in self.joins.iter().zip(&self.process.joins) {
+            let is_wanted = |other: &usize| {
+                *other != item && !joined.contains(other) && Some(see.items.all()[*other].kind) == *kind
+            };
+            joined.push(see.borne_by(self.process.place).find(is_wanted).ok_or(name.as_str())?);
+        }
+        Ok(joined)
+    }
+
     /// What is missing for a start; empty if nothing is.
     fn lacks(&self, item: Option<usize>, world: &World) -> String {
         let see = world.see();
         let mut lacks = Vec::new();
         if item.is_none() {
             lacks.push("an item".to_string());
+        }
+        if let Some(Err(kind)) = item.map(|item| self.joined(item, &see)) {
+            lacks.push(format!("a {kind} beside it"));
         }
         for (cylinder, end, name) in &self.needs {
             let mut is_there = [0.0];
@@ -187,6 +215,11 @@ impl Running for Cycle {
             && ready_ms <= world.next_ms()
         {
             (self.works, self.has_ended) = (None, true);
+            let joined = self.joined(item, &world.see()).map_err(|kind| format!("a {kind} was taken from a process"));
+            match joined {
+                Ok(joined) => joined.into_iter().for_each(|other| world.join(other, item)),
+                Err(reason) => world.crash(reason),
+            }
             let kind = world.items.all()[item].kind;
             world.items.remake(item, self.becomes[kind]);
         }
@@ -216,7 +249,7 @@ mod tests {
     #[test]
     fn times_of_a_triangle_have_its_mean_and_its_spread() {
         let times_ms = [85_000, 90_000, 100_000];
-        let process = Process { place: 0, times_ms, needs_in: None, needs_out: None, makes: Vec::new() };
+        let process = Process { place: 0, times_ms, needs_in: None, needs_out: None, makes: Vec::new(), joins: Vec::new() };
         let mut cycle = Cycle::new(&process, &[], 7, [1, 2]);
         let count = 200_000;
         let times: Vec<f64> = (0..count).map(|_| cycle.time_ms() as f64 / 1000.0).collect();

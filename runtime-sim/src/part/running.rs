@@ -98,6 +98,13 @@ impl<'a> World<'a> {
         See { machine: self.machine, parts: self.parts, items: self.items, desk: self.desk }
     }
 
+    /// An item becomes a part of another one.
+    pub fn join(&mut self, item: usize, of: usize) {
+        let carrier = self.items.all()[item].carrier;
+        let place = carrier.part().and_then(|part| self.see().place(part, item)).unwrap_or_default();
+        self.items.pass(item, Carrier::Part { of }, place);
+    }
+
     /// The machine did what would break it: the run ends.
     pub fn crash(&mut self, reason: String) {
         self.items.crash(self.machine, reason);

@@ -100,6 +100,7 @@ fn carrier_json(line: &Line, carrier: Carrier) -> String {
         Carrier::Floor { .. } => "floor",
         Carrier::Sink { .. } => "sink",
         Carrier::Collector => "collector",
+        Carrier::Part { .. } => "part",
         Carrier::Shipped { .. } => "order",
     };
     let (machine, part) = match carrier {
