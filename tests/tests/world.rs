@@ -6,7 +6,7 @@ use autogen_tests::machines::{belt, bin, gantry, machine, rail_arm, station, veh
 use autogen_tests::sdf::chain::{self, Frame};
 use autogen_tests::sdf::findings;
 use autogen_tests::xml::{self, Element};
-use autogen_tests::{LAYOUTS, Texts, ariac, own_line, text};
+use autogen_tests::{LAYOUTS, Texts, ariac, own_line, text, side_by_side};
 use runtime_sim::kinematics::arm::Joints;
 use runtime_sim::kinematics::pose::Pose;
 use runtime_sim::line::{IoDelay, Line, Scenario};
@@ -46,15 +46,31 @@ fn workshop() -> Line {
         bin(at(-1.9, 3.4)),
     ];
     let machine = |(i, placed)| machine(&format!("machine{i}"), placed);
+    let machines = machines.iter().enumerate().map(machine).chain(turned());
     Line {
         scan_ms: 10,
         kinds: Vec::new(),
-        machines: machines.iter().enumerate().map(machine).collect(),
+        machines: machines.collect(),
         obstacles: Vec::new(),
         may_touch: Vec::new(),
         scenario: Scenario::default(),
         io_delay: IoDelay::Fixed(0),
     }
+}
+
+/// A Cartesian robot and an arm with a spherical wrist, turned about the vertical.
+fn turned() -> Vec<Machine> {
+    let mut robot = side_by_side("scenes/palletizer");
+    robot.layout = robot.layout.replace("[0, 0, 0]", "[20, 1, 0.3, 30]");
+    let mut cell = side_by_side("tending/tending");
+    let arm = cell.specs[0].find("lengths: [").expect("the arm");
+    let end = arm + cell.specs[0][arm..].find("tool_length").expect("its tool");
+    let opw = "opw: [0.100, -0.135, 0.02, 0.615, 0.705, 0.755, 0.085]; offsets: [10, 0, -90, 0, 20, 0]; signs: [1, -1, 1, -1, 1, -1];
+        lowest: [-180, -100, -160, -200, -220, -400]; highest: [180, 110, 165, 200, 220, 400]; ";
+    cell.specs[0].replace_range(arm..end, opw);
+    cell.layout = cell.layout.replace("\"pose\": [0, 0, 0.75]", "\"pose\": [0, 0, 0.75, 40]");
+    let [robot, cell] = [robot, cell].map(|texts| texts.project().plant.machines);
+    robot.into_iter().chain(cell).filter(|machine| machine.arm().is_some()).collect()
 }
 
 fn models(text: &str) -> Vec<Element> {
@@ -240,7 +256,7 @@ fn joints_put_tool_and_shapes_where_the_simulator_has_them() {
             }
         }
     }
-    assert_eq!(robots, 3);
+    assert_eq!(robots, 5);
 }
 
 /// A collision by the name of its solid, and the name of its link.

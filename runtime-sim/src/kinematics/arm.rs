@@ -170,6 +170,14 @@ impl Arm {
         Some(Self { solver, limits: Limits { velocity, acceleration } })
     }
 
+    /// Limits of the joints that turn, rad; none if each turns once to either side.
+    pub fn turns(&self) -> Option<&[[f64; 2]; WRIST_JOINTS]> {
+        match &self.solver {
+            Solver::Fixed(arm) => arm.ranges(),
+            Solver::Cartesian(_) | Solver::Rail(_) | Solver::Gantry(_) => None,
+        }
+    }
+
     /// None for an arm with joints of its own.
     pub fn cartesian(&self) -> Option<&Cartesian> {
         match &self.solver {

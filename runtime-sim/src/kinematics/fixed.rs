@@ -45,6 +45,11 @@ impl FixedArm {
         Self { base, geometry, ranges }
     }
 
+    /// Limits of the joints, rad; none if each turns once to either side.
+    pub fn ranges(&self) -> Option<&[[f64; 2]; JOINTS]> {
+        self.ranges.as_ref()
+    }
+
     pub fn base(&self) -> Pose {
         self.base.pose()
     }

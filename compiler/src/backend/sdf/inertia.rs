@@ -20,12 +20,16 @@ pub struct Inertial {
 
 type Tensor = [[f64; 3]; 3];
 
+/// Of a link without solids, a cube about its origin, m.
+const UNKNOWN: Shape = Shape::Box { size: Point::new(0.1, 0.1, 0.1) };
+
 /// `mass` in kg, spread evenly over the solids; where solids overlap it counts twice.
 pub fn inertial(mass: f64, solids: &[Solid]) -> Inertial {
-    let bodies: Vec<(f64, Tensor, Point)> = solids
-        .iter()
-        .map(|s| (volume(s.shape), turned(moments(s.shape), &s.pose), s.pose.position))
-        .collect();
+    let body = |shape: Shape, pose: &Pose| (volume(shape), turned(moments(shape), pose), pose.position);
+    let mut bodies: Vec<(f64, Tensor, Point)> = solids.iter().map(|s| body(s.shape, &s.pose)).collect();
+    if bodies.is_empty() {
+        bodies.push(body(UNKNOWN, &Pose::IDENTITY));
+    }
     let whole: f64 = bodies.iter().map(|(volume, ..)| volume).sum();
     let along = |coordinate: fn(&Point) -> f64| -> f64 {
         bodies.iter().map(|(volume, _, at)| volume * coordinate(at)).sum::<f64>() / whole

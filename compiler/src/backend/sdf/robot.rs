@@ -41,14 +41,12 @@ enum Motion {
     Slide { along: Point, range: [f64; 2] },
     /// About the vertical through the link's own origin.
     Turn,
-    /// About the z axis of the frame at which the arm is mounted on the link before.
-    Pan { mount: Pose },
-    /// About the z axis of the link before.
-    Swing,
+    /// About the z axis of a frame that is fixed to the link before, within a range of angles.
+    Swing { mount: Pose, range: [f64; 2] },
 }
 
 /// The axes that carry the chain, then its joints.
-fn drives(machine: &Machine, mount: Pose) -> Vec<Drive> {
+fn drives(machine: &Machine, kinematics: &Arm) -> Vec<Drive> {
     let base = machine.axes().first().and_then(|axis| axis.base()).unwrap_or_default();
     let of_axis = |(part, axis): (&str, &axis::Axis)| Drive {
         joint: axis.joint.clone().unwrap_or_else(|| format!("{part}_drive")),
@@ -67,11 +65,13 @@ fn drives(machine: &Machine, mount: Pose) -> Vec<Drive> {
     };
     let mut drives: Vec<Drive> = machine.named_axes().into_iter().map(of_axis).collect();
     let Some(chain) = machine.chain() else { return drives };
-    drives.extend(chain.joints.iter().enumerate().map(|(i, joint)| Drive {
+    let links = kinematics.links().into_iter().skip(drives.len());
+    let ranges = kinematics.turns().copied().unwrap_or([[-TAU, TAU]; 6]);
+    drives.extend(chain.joints.iter().zip(links).zip(ranges).map(|((joint, link), range)| Drive {
         joint: joint.name.clone(),
         link: joint.link.clone(),
         mass: joint.mass,
-        motion: if i == 0 { Motion::Pan { mount } } else { Motion::Swing },
+        motion: Motion::Swing { mount: link.before, range },
         effort: joint.effort,
         damping: joint.damping,
         friction: joint.friction,
@@ -81,7 +81,7 @@ fn drives(machine: &Machine, mount: Pose) -> Vec<Drive> {
 
 /// The model of a robot, its rails at the middle of their ranges and its arm stretched, all angles 0.
 pub fn model(name: String, machine: &Machine, kinematics: &Arm) -> Model {
-    let drives = drives(machine, kinematics.mount());
+    let drives = drives(machine, kinematics);
     let carriers = machine.axes().len();
     let zero: Vec<f64> = drives.iter().map(|drive| drive.middle()).collect();
     let frames = kinematics.frames(&Joints::new(&zero));
@@ -196,8 +196,7 @@ impl Drive {
     fn frame(&self, before: &Pose, behind: &Pose) -> Pose {
         match &self.motion {
             Motion::Slide { .. } | Motion::Turn => *behind,
-            Motion::Pan { mount } => before.then(mount),
-            Motion::Swing => *before,
+            Motion::Swing { mount, .. } => before.then(mount),
         }
     }
 
@@ -208,8 +207,9 @@ impl Drive {
                 let Point { x, y, z } = turned.inverse().direction(along);
                 ([x, y, z], range.map(|end| end - self.middle()))
             }
+            Motion::Swing { range, .. } => ([0.0, 0.0, 1.0], range),
             // Limits of all turning joints in the robots' descriptions.
-            _ => ([0.0, 0.0, 1.0], [-TAU, TAU]),
+            Motion::Turn => ([0.0, 0.0, 1.0], [-TAU, TAU]),
         };
         model::Axis {
             xyz: number::list(&xyz),
