@@ -94,6 +94,13 @@ pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -
         let state = store.state(next).to_vec();
         expander.expand(&state, restless[next], &mut |successor| {
             covered.transitions += 1;
+            let mut find = |violation: &Violation| {
+                if found.len() < bounds.violations && known.insert(violation.clone()) {
+                    let events = successor.events.to_vec();
+                    found.push(Found { violation: violation.clone(), from: next, events });
+                }
+            };
+            successor.noted.iter().for_each(&mut find);
             match successor.result {
                 Ok(()) => {
                     let (number, is_new) = store.add(successor.state, next);
@@ -110,9 +117,7 @@ pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -
                 }
                 Err(violation) => {
                     edges.lead_out(next);
-                    if found.len() < bounds.violations && known.insert(violation.clone()) {
-                        found.push(Found { violation, from: next, events: successor.events.to_vec() });
-                    }
+                    find(&violation);
                 }
             }
         });

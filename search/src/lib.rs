@@ -14,6 +14,7 @@ pub mod plant;
 mod possible;
 pub mod program;
 pub mod promela;
+pub mod property;
 mod scan;
 pub mod store;
 pub mod story;

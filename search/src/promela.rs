@@ -153,8 +153,8 @@ impl Printer<'_> {
 
     fn step(&mut self, instance: usize) -> Result<(), String> {
         let program = &self.model.instances[instance];
-        if !program.invariants.is_empty() {
-            return Err("invariants".into());
+        if !program.properties.is_empty() {
+            return Err("properties".into());
         }
         let state = self.name(program.state);
         self.line("if");

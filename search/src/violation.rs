@@ -5,6 +5,8 @@
 pub enum Violation {
     /// A fault at run time: index into the faults of the model.
     Fault { instance: usize, fault: usize },
+    /// A property is violated that only warns: index into the faults of the model.
+    Warning { instance: usize, fault: usize },
     /// None: the line stops as its types say, until an operator has come. What follows is not searched.
     Stop,
     /// From here the orders cannot be made any more, whatever happens.

@@ -1,5 +1,6 @@
 //! What of an instance is of no use in a state: whatever it holds, it is written before it is read.
 
+use super::{Asked, Remembered};
 use crate::ir::{Automaton, Clause, Domain, Expr, ExprKind, Place, Property, Update, UpdateKind};
 use std::collections::BTreeSet;
 
@@ -7,11 +8,14 @@ use std::collections::BTreeSet;
 type Set = BTreeSet<usize>;
 
 /// For each state what may be read before it is written; the number of the locals stands for the answer.
-pub fn live(automaton: &Automaton) -> Vec<Set> {
+pub fn live(automaton: &Automaton, asked: &Asked) -> Vec<Set> {
     let mut always = Set::new();
-    super::properties::searched(automaton)
+    super::properties::searched(automaton, asked)
         .flat_map(Property::exprs)
         .for_each(|read| expr(automaton, read, &mut always));
+    if asked.remembered == Remembered::Whole {
+        always.extend(0..=automaton.locals.len());
+    }
     let mut live = vec![always; automaton.states.len()];
     loop {
         let mut has_changed = false;

@@ -1,5 +1,6 @@
 //! An execution in words.
 
+use super::Skipped;
 use crate::lower::Project;
 use crate::source::{Sources, Span};
 use autogen_search::Fired;
@@ -24,6 +25,10 @@ impl Teller<'_> {
             Violation::Fault { instance, fault } => {
                 let site = &self.project.system.model.faults[fault];
                 format!("fault of {}: {} ({})", name(instance), site.text, self.place(site.place))
+            }
+            Violation::Warning { instance, fault } => {
+                let site = &self.project.system.model.faults[fault];
+                format!("warning of {}: {} ({})", name(instance), site.text, self.place(site.place))
             }
             Violation::Stop => "the line stops until an operator comes".into(),
             Violation::NeverMade => "from here the orders cannot be made any more".into(),
@@ -52,8 +57,29 @@ impl Teller<'_> {
             for fired in &happened.told.fired {
                 let _ = writeln!(out, "{:>4}    {}", number + 1, self.fired(fired));
             }
+            // Nothing but what was read can have brought the last scan about.
+            let is_last = number + 1 == execution.scans.len();
+            if is_last && happened.events.is_empty() && happened.told.fired.is_empty() {
+                for (input, value) in &happened.told.read {
+                    let _ = writeln!(out, "{:>4}  {} is {value}", number + 1, self.input(*input));
+                }
+            }
         }
         out
+    }
+
+    /// `shelf.(key on)`
+    fn input(&self, input: usize) -> &str {
+        let var = self.model.inputs[input].var;
+        let found = self.model.variables.iter().find(|variable| variable.var == var);
+        found.map_or("an input", |variable| variable.name.trim_end_matches("[0]"))
+    }
+
+    /// A property that is left out: `mill: keep level while is_closed (mill.aut:12:5)`
+    pub fn skipped(&self, skipped: &Skipped) -> String {
+        let automaton = self.project.system.automaton_of(skipped.instance);
+        let property = &automaton.properties[skipped.property];
+        format!("{}: {} ({})", self.name(skipped.instance), property.text, self.place(property.place))
     }
 
     fn name(&self, machine: usize) -> &str {

@@ -1,6 +1,7 @@
 //! What a search has shown, and exactly what not.
 
-use super::super::options::{StepOrders, VerifyOptions};
+use super::super::options::{StepOrders, VerifyOptions, Warnings};
+use autogen::verify::Skipped;
 use autogen::verify::replay::Replay;
 use autogen::verify::story::Teller;
 use autogen_search::explore::{End, Outcome};
@@ -16,6 +17,8 @@ pub struct Report<'a> {
     /// Answers in one scan of the last search.
     pub answers: Option<usize>,
     pub shown: &'a [Shown<'a>],
+    /// Properties that were left out.
+    pub skipped: &'a [Skipped],
 }
 
 pub struct Shown<'a> {
@@ -73,6 +76,19 @@ impl Report<'_> {
             bounds.push(format!(
                 "{} transitions end in a stop whose text calls the operator; the search does not continue after it",
                 self.outcome.covered.stops
+            ));
+        }
+        match self.options.warnings {
+            Warnings::None => bounds.push("properties that only warn are not searched".into()),
+            Warnings::Own => {
+                bounds.push("properties of the library that only warn are not searched: `--warnings all`".into());
+            }
+            Warnings::All => {}
+        }
+        for skipped in self.skipped {
+            bounds.push(format!(
+                "not searched, because it reads what no contract describes: {}",
+                self.teller.skipped(skipped)
             ));
         }
         if plant.scenario.orders.is_empty() {
