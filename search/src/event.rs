@@ -72,7 +72,7 @@ pub(crate) fn events(model: &Model, values: &Values, state: &[u8], source: usize
     let mut add = |what| out.push(Event { machine, what });
     if source % 2 == 1 {
         let program = &model.instances[machine];
-        if let Some(times) = program.times_come {
+        if let Some(times) = program.times_come.filter(|_| !model.stands(state, machine)) {
             let number = program.state.load(state) as usize;
             if (times.load(state) as usize) < program.states[number].times.len() {
                 add(What::TimeComes);
@@ -84,6 +84,7 @@ pub(crate) fn events(model: &Model, values: &Values, state: &[u8], source: usize
     let has_faults = model.faults == Faults::All;
     if let Some(head) = &plant.head
         && head.status.load(state) == status::UNDER_WAY
+        && !model.stands(state, machine)
     {
         endings(model, values, state, plant, head, &mut |ending| add(What::Ends(ending)));
     }
@@ -152,7 +153,7 @@ fn endings(
 }
 
 fn is_closed(arm: &Arm, state: &[u8]) -> bool {
-    arm.closes.is_some_and(|level| level.load(state) != 0)
+    arm.closes.is_some_and(|level| level.is_on(state))
 }
 
 fn found_at_goal(model: &Model, values: &Values, state: &[u8], arm: &Arm) -> Option<surface::Found> {

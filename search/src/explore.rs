@@ -2,7 +2,7 @@
 
 use crate::event::Event;
 use crate::model::Model;
-use crate::possible::{Edges, never_made};
+use crate::possible::{Edges, never_followed, never_made};
 use crate::store::Store;
 use crate::story::{self, Execution};
 use crate::successor::{Expander, Orders};
@@ -31,6 +31,8 @@ pub struct Covered {
     pub transitions: u64,
     /// Of these, how many end in a stop for an operator.
     pub stops: u64,
+    /// States in which a machine is stopped by itself; 0 if the search is not complete.
+    pub stopped: usize,
     /// Scans from the start to the farthest state that has been checked.
     pub depth: usize,
     /// Bytes of memory.
@@ -153,10 +155,17 @@ pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -
             (found.violation, execution)
         })
         .collect();
-    if end == End::Complete
-        && let Some(state) = never_made(&store, &edges, &mut expander)
-    {
-        violations.push((Violation::NeverMade, story::to_state(&store, &mut expander, state)));
+    if end == End::Complete {
+        let never = never_made(&store, &edges, &mut expander).map(|state| (Violation::NeverMade, state));
+        let mut never: Vec<(Violation, usize)> = never.into_iter().collect();
+        if violations.len() + never.len() < bounds.violations {
+            never.extend(never_followed(&store, &edges, &mut expander));
+        }
+        for (violation, state) in never {
+            violations.push((violation, story::to_state(&store, &mut expander, state)));
+        }
+        violations.truncate(bounds.violations);
+        covered.stopped = (0..store.len()).filter(|state| model.any_stands(store.state(*state))).count();
     }
     covered.time = begin.elapsed();
     Outcome { covered, end, violations, reached: store, values: expander.values }

@@ -63,6 +63,16 @@ impl Model {
         self.orders.iter().all(|order| order.made.load(state) != 0)
     }
 
+    /// Whether a machine is stopped by itself.
+    pub fn stands(&self, state: &[u8], machine: usize) -> bool {
+        self.instances[machine].stopped.is_some_and(|stopped| stopped.load(state) != 0)
+    }
+
+    /// Whether any machine is: then an operator has to come.
+    pub fn any_stands(&self, state: &[u8]) -> bool {
+        (0..self.instances.len()).any(|machine| self.stands(state, machine))
+    }
+
     /// Variables of binders and quantifiers that one instance has at most.
     pub(crate) fn most_variables(&self) -> usize {
         self.instances.iter().map(|instance| instance.variables).max().unwrap_or(0)

@@ -180,6 +180,8 @@ pub struct State {
 #[derive(Clone, Debug)]
 pub struct Instance {
     pub state: Var,
+    /// Whether it is stopped by itself; none if nothing can stop it.
+    pub stopped: Option<Var>,
     /// How many times of its state have come; none if none of its states waits for a time.
     pub times_come: Option<Var>,
     pub states: Vec<State>,

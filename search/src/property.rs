@@ -19,6 +19,7 @@ pub struct Property {
 pub enum Check {
     Always(Int),
     Keep(Keep),
+    Whenever(Whenever),
 }
 
 /// What a violation does.
@@ -27,6 +28,7 @@ pub enum Effect {
     Fault,
     /// A stop that is meant: somebody has to come.
     AsksOperator,
+    StopsMachine,
     /// It stops nothing.
     Warns,
 }
@@ -49,6 +51,17 @@ pub struct Memory {
     pub before: Vec<Var>,
 }
 
+/// A goal that has to follow a trigger, after any number of scans.
+#[derive(Clone, Debug)]
+pub struct Whenever {
+    pub trigger: Int,
+    pub goal: Int,
+    /// Whether the goal is waited for. If the state behind a scan tells whether trigger and goal hold, it is kept only
+    /// where neither of them does.
+    pub waits: Var,
+    pub is_told: bool,
+}
+
 #[derive(Clone, Debug)]
 pub enum Value {
     /// With how much less the memory holds.
@@ -69,15 +82,23 @@ impl Scan<'_> {
     pub(crate) fn properties(&mut self, touched: u64) -> Result<(), Violation> {
         let model = self.model;
         for (instance, program) in model.instances.iter().enumerate() {
+            let stands = program.stopped.is_some_and(|stopped| stopped.load(self.before) != 0);
             for property in &program.properties {
                 let is_due = (touched | self.fired) & bit(instance) != 0
                     || self.written & property.reads != 0
                     || property.check.is_due_always();
-                if is_due && self.is_violated(program, &property.check) {
+                if is_due && self.is_violated(program, &property.check, stands) {
                     let fault = property.fault;
                     match property.effect {
                         Effect::Fault => return Err(Violation::Fault { instance, fault }),
                         Effect::AsksOperator => return Err(Violation::Stop),
+                        Effect::StopsMachine => {
+                            self.noted.push(Violation::MachineStops { instance, fault });
+                            if let Some(stopped) = program.stopped {
+                                stopped.store(self.bytes, 1);
+                            }
+                            self.fired |= bit(instance);
+                        }
                         Effect::Warns => self.noted.push(Violation::Warning { instance, fault }),
                     }
                 }
@@ -86,13 +107,20 @@ impl Scan<'_> {
         Ok(())
     }
 
-    fn is_violated(&mut self, program: &Instance, check: &Check) -> bool {
+    /// `stands`: the instance was stopped before this scan.
+    fn is_violated(&mut self, program: &Instance, check: &Check, stands: bool) -> bool {
         match check {
             Check::Always(condition) => !self.holds(condition),
             Check::Keep(keep) => match &keep.memory {
-                None => self.has_changed(program, keep),
-                Some(memory) => self.has_changed_since(keep, memory),
+                None => !stands && self.has_changed(program, keep),
+                Some(memory) => self.has_changed_since(keep, memory, stands),
             },
+            Check::Whenever(whenever) => {
+                let waits = !stands && self.has_to_wait(program, whenever);
+                let is_told = whenever.is_told && self.holds(&whenever.trigger);
+                whenever.waits.store(self.bytes, i32::from(waits && !is_told));
+                false
+            }
         }
     }
 
@@ -113,9 +141,9 @@ impl Scan<'_> {
         })
     }
 
-    fn has_changed_since(&mut self, keep: &Keep, memory: &Memory) -> bool {
+    fn has_changed_since(&mut self, keep: &Keep, memory: &Memory, stands: bool) -> bool {
         let held = memory.held.load(self.bytes) != 0;
-        let holds = self.holds(&keep.condition);
+        let holds = !stands && self.holds(&keep.condition);
         memory.held.store(self.bytes, i32::from(holds));
         let mut has_changed = false;
         for (value, before) in keep.values.iter().zip(&memory.before) {
@@ -125,6 +153,35 @@ impl Scan<'_> {
             before.store(self.bytes, now);
         }
         has_changed
+    }
+
+    /// Whether the goal is waited for behind this scan.
+    fn has_to_wait(&mut self, program: &Instance, whenever: &Whenever) -> bool {
+        if self.holds(&whenever.goal) {
+            return false;
+        }
+        if self.holds(&whenever.trigger) {
+            return true;
+        }
+        if !whenever.is_told {
+            return whenever.waits.load(self.bytes) != 0;
+        }
+        std::mem::swap(&mut self.bytes, &mut self.before);
+        let waited = self.is_waiting(program, whenever);
+        std::mem::swap(&mut self.bytes, &mut self.before);
+        waited
+    }
+
+    /// Whether the goal is waited for in a state between two scans.
+    pub(crate) fn is_waiting(&mut self, program: &Instance, whenever: &Whenever) -> bool {
+        if program.stopped.is_some_and(|stopped| stopped.load(self.bytes) != 0) {
+            return false;
+        }
+        if !whenever.is_told || whenever.waits.load(self.bytes) != 0 {
+            return whenever.waits.load(self.bytes) != 0;
+        }
+        // In the beginning nothing has been checked.
+        program.state.load(self.bytes) != 0 && !self.holds(&whenever.goal) && self.holds(&whenever.trigger)
     }
 
     fn read(&mut self, value: &Value) -> Read {
@@ -151,6 +208,10 @@ impl Scan<'_> {
 impl Check {
     /// Whether it reads what changes in scans in which nothing else does.
     fn is_due_always(&self) -> bool {
-        matches!(self, Self::Keep(Keep { memory: Some(_), .. }))
+        match self {
+            Self::Always(_) => false,
+            Self::Keep(keep) => keep.memory.is_some(),
+            Self::Whenever(whenever) => !whenever.is_told,
+        }
     }
 }

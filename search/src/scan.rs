@@ -75,6 +75,9 @@ impl Scan<'_> {
 
     pub(crate) fn step_if_due(&mut self, instance: usize, touched: u64) -> Result<(), Violation> {
         let program = &self.model.instances[instance];
+        if self.model.stands(self.bytes, instance) {
+            return Ok(());
+        }
         let state = program.state.load(self.bytes) as usize;
         if touched & bit(instance) == 0 && self.written & program.states[state].reads == 0 {
             return Ok(());

@@ -3,7 +3,8 @@
 use crate::choice::Choices;
 use crate::event::{self, Event};
 use crate::model::Model;
-use crate::program::bit;
+use crate::program::{Instance, bit};
+use crate::property::Whenever;
 use crate::scan::{Scan, Told};
 use crate::value::Values;
 use crate::violation::Violation;
@@ -113,6 +114,13 @@ impl<'a> Expander<'a> {
             }
         }
         restless
+    }
+
+    /// Whether the goal of a property is waited for in a state.
+    pub fn is_waiting(&mut self, state: &[u8], program: &Instance, whenever: &Whenever) -> bool {
+        self.choices.clear();
+        self.work.copy_from_slice(state);
+        self.begin().is_waiting(program, whenever)
     }
 
     /// A scan of the state that is worked on.

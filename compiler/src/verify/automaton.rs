@@ -28,6 +28,8 @@ pub struct Line<'a> {
     pub plant: &'a runtime_sim::line::Line,
     /// Of each instance: the automaton's state, and how many times have come.
     pub states: Vec<(Var, Option<Var>)>,
+    /// Whether each is stopped by itself, if anything can stop it.
+    pub stopped: Vec<Option<Var>>,
     pub locals: Vec<Vec<Vars>>,
     /// `[interface][row][cell]`.
     pub cells: Vec<Vec<Vec<Vars>>>,
@@ -177,6 +179,7 @@ impl<'a> Instance<'a> {
         let properties = self.properties(asked, memory, skipped);
         autogen_search::program::Instance {
             state,
+            stopped: self.line.stopped[self.number],
             times_come,
             states,
             properties,

@@ -2,12 +2,12 @@
 
 use super::automaton::{Instance, Line, Vars};
 use super::memory::{Kept, Memory, kept};
-use super::plant::plant;
-use super::properties::searched;
+use super::plant::{Known, plant};
+use super::properties::{can_stop, read_by, searched};
 use super::{Asked, Skipped};
 use crate::diagnostic::Diagnostic;
 use crate::ir::{
-    Automaton, Expr, ExprKind, KeptBy, Place, Property, Scalar, System, Type, UpdateKind, Value,
+    Automaton, Expr, ExprKind, KeptBy, Place, Scalar, System, Type, UpdateKind, Value,
 };
 use crate::lower::Project;
 use autogen_search::model::{Model, Reach};
@@ -32,6 +32,7 @@ pub fn model(project: &Project, asked: &Asked) -> Result<Searched, Vec<Diagnosti
         system,
         plant: line,
         states: Vec::new(),
+        stopped: Vec::new(),
         locals: Vec::new(),
         cells: Vec::new(),
         plants: Vec::new(),
@@ -64,7 +65,10 @@ pub fn model(project: &Project, asked: &Asked) -> Result<Searched, Vec<Diagnosti
             .iter()
             .any(|state| !crate::reads::Reads::of_guards(automaton, state).timers.is_empty());
         let times = waits.then(|| memory.number(number, format!("{name}.(times)"), 255, 0));
+        let stopped = can_stop(automaton, asked)
+            .then(|| memory.number(number, format!("{name}.(stopped)"), 1, 0));
         whole.states.push((state, times));
+        whole.stopped.push(stopped);
         let locals = automaton.locals.iter().map(|local| match local.kept_by {
             // Nothing that is searched reads it.
             KeptBy::Properties | KeptBy::Modes => (Vec::new(), 0),
@@ -77,7 +81,7 @@ pub fn model(project: &Project, asked: &Asked) -> Result<Searched, Vec<Diagnosti
             line,
             number,
             &automaton.device.ports,
-            reads_error(automaton, asked),
+            Known { reads_error: reads_error(automaton, asked), stopped },
             &mut memory,
             &mut inputs,
         ));
@@ -199,7 +203,7 @@ fn reads_port(automaton: &Automaton, port: usize, asked: &Asked) -> bool {
         }
     };
     let defines = automaton.defines.iter().any(|define| reads(&define.value, port));
-    let properties = searched(automaton, asked).flat_map(Property::exprs).any(|expr| reads(expr, port));
+    let properties = searched(automaton, asked).flat_map(read_by).any(|expr| reads(expr, port));
     let mut transitions = automaton.states.iter().flat_map(|state| &state.transitions);
     defines
         || properties

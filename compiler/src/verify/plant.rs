@@ -7,10 +7,10 @@ use super::memory::Memory;
 use crate::device::Port;
 use crate::device::panel;
 use autogen_search::plant::{
-    Action, Arm, Asked, Awaits, Desk, Head, Input, Lane, Place, Route, Zone, motion, phase, status,
+    Action, Arm, Asked, Awaits, Desk, Head, Input, Lane, Level, Place, Route, Zone, motion, phase, status,
 };
 use autogen_search::value::Var;
-use runtime_sim::device::error;
+use runtime_sim::device::{Direction, Stop, error};
 use runtime_sim::line::Line;
 use runtime_sim::machine::Machine;
 use runtime_sim::part::Primitive;
@@ -52,6 +52,15 @@ pub struct Plant {
     pub inputs: Vec<Signal>,
     /// For each output port the place of a level that the plant reads.
     pub outputs: Vec<Option<Var>>,
+}
+
+/// What is known of the automaton of a machine.
+#[derive(Clone, Copy, Debug)]
+pub struct Known {
+    /// It reads the port `error` by itself.
+    pub reads_error: bool,
+    /// Whether it is stopped by itself, if anything can stop it.
+    pub stopped: Option<Var>,
 }
 
 fn coordinates(p: Point) -> [f64; 3] {
@@ -99,16 +108,16 @@ pub fn places_of_commands(machine: &Machine) -> Vec<usize> {
     machine.wiring.commands.iter().map(|command| asked(machine, command, false).1).collect()
 }
 
-/// Lays out what the plant remembers of a machine. `ports` are those of its device; `reads_error` says whether its
-/// automaton reads the port `error` by itself.
+/// Lays out what the plant remembers of a machine. `ports` are those of its device.
 pub fn plant(
     line: &Line,
     number: usize,
     ports: &[Port],
-    reads_error: bool,
+    known: Known,
     memory: &mut Memory,
     inputs: &mut Vec<Input>,
 ) -> Plant {
+    let Known { reads_error, stopped } = known;
     let machine = &line.machines[number];
     let mut found = autogen_search::plant::Machine::default();
     let name = |what: &str| format!("{}.{what}", machine.name);
@@ -123,13 +132,16 @@ pub fn plant(
     }
     let levels = levels(machine, number, ports, memory);
     let level = |part: usize, wanted: &str| {
-        let outputs = machine.wiring.outputs.iter().zip(&levels);
-        let mut named = outputs.filter_map(|(output, var)| match output.drives {
-            Drives::Level { part: of, level } => Some((of, level, (*var)?)),
-            _ => None,
-        });
+        let published = ports.iter().filter(|port| port.direction == Direction::Output);
+        let outputs = machine.wiring.outputs.iter().zip(published).zip(&levels);
         let is_wanted = |level: usize| machine.parts[part].schema().levels[level].name == wanted;
-        named.find(|(of, level, _)| *of == part && is_wanted(*level)).map(|(_, _, var)| var)
+        outputs.into_iter().find_map(|((output, port), var)| match output.drives {
+            Drives::Level { part: of, level } if of == part && is_wanted(level) => {
+                let stop = stopped.zip(stop_value(port));
+                var.map(|var| Level { var, stop })
+            }
+            _ => None,
+        })
     };
     for (part, made) in machine.parts.iter().enumerate() {
         match &made.primitive {
@@ -231,9 +243,16 @@ pub fn plant(
     Plant { inputs: signals.collect(), machine: found, outputs: levels }
 }
 
+/// What is published of a truth while its machine is stopped; none: what the automaton wrote last.
+fn stop_value(port: &Port) -> Option<bool> {
+    match port.stop {
+        Stop::Value(value) => Some(value != 0.0),
+        Stop::Hold => None,
+    }
+}
+
 /// Places for the levels that the plant reads.
 fn levels(machine: &Machine, number: usize, ports: &[Port], memory: &mut Memory) -> Vec<Option<Var>> {
-    use runtime_sim::device::Direction;
     let outputs = ports.iter().filter(|port| port.direction == Direction::Output);
     let levels = outputs.zip(&machine.wiring.outputs).map(|(port, output)| match output.drives {
         Drives::Level { part, level } => {

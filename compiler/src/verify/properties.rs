@@ -6,20 +6,40 @@ use super::{Asked, Remembered, Warnings};
 use crate::ir::{self, Automaton, Expr, ExprKind, Place, PropertyKind, Scalar, Severity, Value};
 use crate::library;
 use autogen_search::program::bit;
-use autogen_search::property::{self, Check, Effect, Keep, Property};
+use autogen_search::property::{self, Check, Effect, Keep, Property, Whenever};
 
-/// Which properties of a type are searched. What follows within a time is left out: time has no measure here.
+/// Which properties of a type are searched. Of obligations those are left out whose violation calls the operator, because
+/// that is meant, and `answer` (which alone begins anew): contracts say that every command can be answered.
 pub fn searched<'a>(
     automaton: &'a Automaton,
     asked: &'a Asked,
 ) -> impl Iterator<Item = &'a ir::Property> {
-    let is_asked = |property: &&ir::Property| match (&property.kind, property.severity, asked.warnings) {
-        (PropertyKind::Whenever { .. }, ..) => false,
+    let is_asked = |property: &&'a ir::Property| match (&property.kind, property.severity, asked.warnings) {
+        (PropertyKind::Whenever { anew: Some(_), .. }, ..) => false,
+        (PropertyKind::Whenever { .. }, ..) if property.asks_operator => false,
         (_, Severity::Machine | Severity::Line, _) | (_, _, Warnings::All) => true,
         (_, Severity::Warning, Warnings::None) => false,
         (_, Severity::Warning, Warnings::Own(sources)) => !library::has(sources.file(property.place.file)),
     };
     automaton.properties.iter().filter(is_asked)
+}
+
+/// What is read for a property.
+pub fn read_by(property: &ir::Property) -> Vec<&Expr> {
+    match &property.kind {
+        PropertyKind::Always(condition) => vec![condition],
+        PropertyKind::Keep { condition, values, .. } => {
+            std::iter::once(condition).chain(values.iter().map(|kept| &kept.value)).collect()
+        }
+        PropertyKind::Whenever { trigger, goal, .. } => vec![trigger, goal],
+    }
+}
+
+/// Whether a property that is searched stops the machine.
+pub fn can_stop(automaton: &Automaton, asked: &Asked) -> bool {
+    searched(automaton, asked).any(|property| {
+        property.severity == Severity::Machine && !matches!(property.kind, PropertyKind::Whenever { .. })
+    })
 }
 
 /// A property of an instance that cannot be searched: it reads what no contract describes.
@@ -47,7 +67,13 @@ impl Instance<'_> {
                 PropertyKind::Keep { condition, values, .. } => {
                     self.keep(condition, values.iter().map(|kept| &kept.value), asked, memory)
                 }
-                PropertyKind::Whenever { .. } => continue,
+                PropertyKind::Whenever { trigger, goal, .. } => {
+                    let (trigger, goal) = (self.int(trigger), self.int(goal));
+                    let name = format!("{}.(waits)", self.instance().name);
+                    let waits = memory.number(self.number, name, 1, 0);
+                    let is_told = !self.asks_inputs && asked.remembered == Remembered::Least;
+                    Check::Whenever(Whenever { trigger, goal, waits, is_told })
+                }
             };
             let is_new_refusal = self.refused.len() > refused;
             let is_invariant =
@@ -60,10 +86,11 @@ impl Instance<'_> {
             }
             let effect = match property.severity {
                 Severity::Warning => Effect::Warns,
+                Severity::Machine => Effect::StopsMachine,
                 _ if property.asks_operator => Effect::AsksOperator,
                 _ => Effect::Fault,
             };
-            let reads = property.exprs().into_iter().fold(0, |bits, expr| bits | self.cells_of(expr));
+            let reads = read_by(property).into_iter().fold(0, |bits, expr| bits | self.cells_of(expr));
             found.push(Property { check, fault: property.site.0, effect, reads });
         }
         found

@@ -30,6 +30,17 @@ impl Teller<'_> {
                 let site = &self.project.system.model.faults[fault];
                 format!("warning of {}: {} ({})", name(instance), site.text, self.place(site.place))
             }
+            Violation::MachineStops { instance, fault } => {
+                let site = &self.project.system.model.faults[fault];
+                format!("stop of {}: {} ({})", name(instance), site.text, self.place(site.place))
+            }
+            Violation::NeverFollowed { instance, fault } => {
+                let properties = &self.project.system.automaton_of(instance).properties;
+                let property = properties.iter().find(|property| property.site.0 == fault);
+                let text = property.map_or("a property", |property| property.text.as_str());
+                let place = self.place(self.project.system.model.faults[fault].place);
+                format!("from here `{text}` of {} cannot be fulfilled any more ({place})", name(instance))
+            }
             Violation::Stop => "the line stops until an operator comes".into(),
             Violation::NeverMade => "from here the orders cannot be made any more".into(),
             Violation::TwoArms { arms: [a, b], machine } => {

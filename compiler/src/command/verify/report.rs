@@ -5,6 +5,7 @@ use autogen::verify::Skipped;
 use autogen::verify::replay::Replay;
 use autogen::verify::story::Teller;
 use autogen_search::explore::{End, Outcome};
+use autogen_search::property::Check;
 use autogen_search::story::Execution;
 use autogen_search::violation::Violation;
 use serde_json::{Value, json};
@@ -78,6 +79,19 @@ impl Report<'_> {
                 self.outcome.covered.stops
             ));
         }
+        if self.outcome.covered.stopped > 0 {
+            bounds.push(format!(
+                "in {} states a machine is stopped by itself, which calls the operator: what can follow there is not decided",
+                self.outcome.covered.stopped
+            ));
+        }
+        let has_obligations = self.teller.model.instances.iter().flat_map(|instance| &instance.properties);
+        if has_obligations.into_iter().any(|property| matches!(property.check, Check::Whenever(_))) {
+            bounds.push(
+                "what a `whenever` waits for can always still come, after any number of scans; whether it comes in time is not decided"
+                    .into(),
+            );
+        }
         match self.options.warnings {
             Warnings::None => bounds.push("properties that only warn are not searched".into()),
             Warnings::Own => {
@@ -146,6 +160,7 @@ impl Report<'_> {
             "states": covered.states,
             "transitions": covered.transitions,
             "stops": covered.stops,
+            "stopped_states": covered.stopped,
             "depth": covered.depth,
             "time_s": covered.time.as_secs_f64(),
             "memory_bytes": covered.memory,
