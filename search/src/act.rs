@@ -111,6 +111,7 @@ impl Scan<'_> {
                 self.forget_answer(machine, plant);
             }
         }
+        self.valves(touched);
         for (machine, plant) in model.machines.iter().enumerate() {
             if let Some(desk) = &plant.desk {
                 self.serve(machine, plant, desk)?;

@@ -18,6 +18,7 @@ pub mod property;
 mod scan;
 pub mod store;
 pub mod story;
+pub mod stroke;
 pub mod successor;
 mod surface;
 pub mod value;

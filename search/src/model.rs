@@ -2,6 +2,7 @@
 
 use crate::plant::{Faults, Input, Machine, Order, Watch};
 use crate::program::Instance;
+use crate::stroke::{Cylinder, Process};
 use crate::value::{Point, Values, Var};
 use std::fmt;
 use std::sync::Arc;
@@ -17,6 +18,8 @@ pub struct Model {
     /// The machine of each instance.
     pub machines: Vec<Machine>,
     pub inputs: Vec<Input>,
+    pub cylinders: Vec<Cylinder>,
+    pub processes: Vec<Process>,
     pub orders: Vec<Order>,
     /// Heights of the kinds, m.
     pub heights: Vec<f64>,

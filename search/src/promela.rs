@@ -27,6 +27,9 @@ pub fn promela(model: &Model) -> Result<String, String> {
     if !model.inputs.is_empty() {
         return Err("inputs that change by themselves".into());
     }
+    if !model.cylinders.is_empty() || !model.processes.is_empty() {
+        return Err("cylinders and processes".into());
+    }
     let numbers = model.variables.iter().enumerate().map(|(number, v)| (v.var.at, number)).collect();
     let mut printer =
         Printer { model, numbers, values: model.values.clone(), bound: HashMap::new(), out: String::new() };

@@ -91,7 +91,8 @@ pub fn run(options: &VerifyOptions) -> Status {
         }
     }
     let teller = verify::story::Teller { project, model: &model, sources: &outcome.sources };
-    let report = Report { options, teller: &teller, outcome: &found, answers, shown: &shown, skipped: &skipped };
+    let report =
+        Report { options, teller: &teller, outcome: &found, answers, shown: &shown, skipped: &skipped };
     match options.input.format {
         Format::Json => say!("{}", report.json()),
         Format::Text => say_part!("{}", report.text()),

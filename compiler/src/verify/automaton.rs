@@ -6,9 +6,7 @@ use super::memory::Memory;
 use super::plant::{Plant, Signal};
 use super::{Asked, Skipped};
 use crate::executor::Executor;
-use crate::ir::{
-    self, Automaton, Expr, InterfaceId, Place, RoleId, Scalar, System, UpdateKind, Value,
-};
+use crate::ir::{self, Automaton, Expr, InterfaceId, Place, RoleId, Scalar, System, UpdateKind, Value};
 use crate::reads::{Reads, Whose, is_fixed};
 use autogen_search::plant::Machine;
 use autogen_search::program::{

@@ -228,6 +228,9 @@ impl Instance<'_> {
                 }
             }
             (Signal::Held(var), _) => Int::Load(var, 0),
+            (Signal::Is(var, value), _) => {
+                Int::Binary(Op::Equal, Box::new([Int::Load(var, 0), Int::Constant(value)]))
+            }
             (Signal::Moves(var), _) => {
                 Int::Binary(Op::NotEqual, Box::new([Int::Load(var, 0), Int::Constant(0)]))
             }

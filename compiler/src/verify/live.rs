@@ -11,9 +11,7 @@ type Set = BTreeSet<usize>;
 /// For each state what may be read before it is written; the number of the locals stands for the answer.
 pub fn live(automaton: &Automaton, asked: &Asked) -> Vec<Set> {
     let mut always = Set::new();
-    searched(automaton, asked)
-        .flat_map(read_by)
-        .for_each(|read| expr(automaton, read, &mut always));
+    searched(automaton, asked).flat_map(read_by).for_each(|read| expr(automaton, read, &mut always));
     if asked.remembered == Remembered::Whole {
         always.extend(0..=automaton.locals.len());
     }

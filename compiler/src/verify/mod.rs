@@ -11,6 +11,7 @@ mod properties;
 pub mod replay;
 pub mod scenario;
 pub mod story;
+mod strokes;
 
 pub use asked::{Asked, Remembered, Warnings};
 pub use model::{Searched, model};

@@ -4,11 +4,10 @@ use super::automaton::{Instance, Line, Vars};
 use super::memory::{Kept, Memory, kept};
 use super::plant::{Known, plant};
 use super::properties::{can_stop, read_by, searched};
+use super::strokes::Changing;
 use super::{Asked, Skipped};
 use crate::diagnostic::Diagnostic;
-use crate::ir::{
-    Automaton, Expr, ExprKind, KeptBy, Place, Scalar, System, Type, UpdateKind, Value,
-};
+use crate::ir::{Automaton, Expr, ExprKind, KeptBy, Place, Scalar, System, Type, UpdateKind, Value};
 use crate::lower::Project;
 use autogen_search::model::{Model, Reach};
 use autogen_search::plant::{Order, Watch};
@@ -27,7 +26,7 @@ pub struct Searched {
 pub fn model(project: &Project, asked: &Asked) -> Result<Searched, Vec<Diagnostic>> {
     let Project { system, plant: line, .. } = project;
     let mut memory = Memory::default();
-    let mut inputs = Vec::new();
+    let mut changing = Changing::default();
     let mut whole = Line {
         system,
         plant: line,
@@ -65,8 +64,8 @@ pub fn model(project: &Project, asked: &Asked) -> Result<Searched, Vec<Diagnosti
             .iter()
             .any(|state| !crate::reads::Reads::of_guards(automaton, state).timers.is_empty());
         let times = waits.then(|| memory.number(number, format!("{name}.(times)"), 255, 0));
-        let stopped = can_stop(automaton, asked)
-            .then(|| memory.number(number, format!("{name}.(stopped)"), 1, 0));
+        let stopped =
+            can_stop(automaton, asked).then(|| memory.number(number, format!("{name}.(stopped)"), 1, 0));
         whole.states.push((state, times));
         whole.stopped.push(stopped);
         let locals = automaton.locals.iter().map(|local| match local.kept_by {
@@ -77,13 +76,15 @@ pub fn model(project: &Project, asked: &Asked) -> Result<Searched, Vec<Diagnosti
             }
         });
         whole.locals.push(locals.collect());
+        let ports = 0..automaton.device.ports.len();
+        let reads: Vec<bool> = ports.map(|port| reads_port(automaton, port, asked)).collect();
         whole.plants.push(plant(
             line,
             number,
             &automaton.device.ports,
-            Known { reads_error: reads_error(automaton, asked), stopped },
+            Known { reads_error: reads_error(automaton, asked), stopped, reads: &reads },
             &mut memory,
-            &mut inputs,
+            &mut changing,
         ));
         let mut outputs = vec![None; automaton.device.ports.len()];
         let mut levels = whole.plants[number].outputs.iter();
@@ -145,7 +146,9 @@ pub fn model(project: &Project, asked: &Asked) -> Result<Searched, Vec<Diagnosti
         owners,
         instances,
         machines: whole.plants.into_iter().map(|plant| plant.machine).collect(),
-        inputs,
+        inputs: changing.inputs,
+        cylinders: changing.cylinders,
+        processes: changing.processes,
         orders,
         heights: line.kinds.iter().map(|kind| kind.height).collect(),
         faults: asked.faults,

@@ -10,10 +10,7 @@ use autogen_search::property::{self, Check, Effect, Keep, Property, Whenever};
 
 /// Which properties of a type are searched. Of obligations those are left out whose violation calls the operator, because
 /// that is meant, and `answer` (which alone begins anew): contracts say that every command can be answered.
-pub fn searched<'a>(
-    automaton: &'a Automaton,
-    asked: &'a Asked,
-) -> impl Iterator<Item = &'a ir::Property> {
+pub fn searched<'a>(automaton: &'a Automaton, asked: &'a Asked) -> impl Iterator<Item = &'a ir::Property> {
     let is_asked = |property: &&'a ir::Property| match (&property.kind, property.severity, asked.warnings) {
         (PropertyKind::Whenever { anew: Some(_), .. }, ..) => false,
         (PropertyKind::Whenever { .. }, ..) if property.asks_operator => false,

@@ -7,6 +7,7 @@ use autogen_search::Fired;
 use autogen_search::event::{Ending, Event, From, What};
 use autogen_search::model::Model;
 use autogen_search::story::{Execution, Happened};
+use autogen_search::stroke::position;
 use autogen_search::violation::Violation;
 use std::fmt::Write;
 
@@ -93,6 +94,10 @@ impl Teller<'_> {
         format!("{}: {} ({})", self.name(skipped.instance), property.text, self.place(property.place))
     }
 
+    fn part(&self, machine: usize, part: usize) -> &str {
+        &self.project.plant.machines[machine].parts[part].name
+    }
+
     fn name(&self, machine: usize) -> &str {
         &self.project.system.instances[machine].name
     }
@@ -169,6 +174,26 @@ impl Teller<'_> {
             What::IsGone => {
                 let order = plant.desk.as_ref().map_or(0, |desk| desk.order.load(&happened.before));
                 format!("{name}: order {} has been taken away", order + 1)
+            }
+            What::Strokes { cylinder, to, .. } => {
+                let part = self.part(event.machine, self.model.cylinders[cylinder].part);
+                match to {
+                    position::IN => format!("{name}: `{part}` has come to its inner end"),
+                    position::OUT => format!("{name}: `{part}` has come to its outer end"),
+                    _ => format!("{name}: `{part}` has left its end"),
+                }
+            }
+            What::Settles(cylinder) => {
+                let part = self.part(event.machine, self.model.cylinders[cylinder].part);
+                format!("{name}: `{part}` rests")
+            }
+            What::Begins(process) => {
+                let part = self.part(event.machine, self.model.processes[process].part);
+                format!("{name}: `{part}` begins")
+            }
+            What::Leaps(process) | What::Completes(process) => {
+                let part = self.part(event.machine, self.model.processes[process].part);
+                format!("{name}: `{part}` has ended")
             }
             What::TimeComes => format!("{name}: a timer of its state expires"),
         }

@@ -95,7 +95,9 @@ impl Report<'_> {
         match self.options.warnings {
             Warnings::None => bounds.push("properties that only warn are not searched".into()),
             Warnings::Own => {
-                bounds.push("properties of the library that only warn are not searched: `--warnings all`".into());
+                bounds.push(
+                    "properties of the library that only warn are not searched: `--warnings all`".into(),
+                );
             }
             Warnings::All => {}
         }
