@@ -1,7 +1,7 @@
 //! The types that come with the tool: those of ARIAC 2021.
 
 use crate::device::{self, Device};
-use crate::source::Sources;
+use crate::source::{SourceFile, Sources};
 use crate::spec::parser;
 use std::sync::{Arc, LazyLock};
 
@@ -24,6 +24,11 @@ pub const FILES: &[(&str, &str)] = &[
     ("library/gantry.aut", include_str!("../library/gantry.aut")),
     ("library/station.aut", include_str!("../library/station.aut")),
 ];
+
+/// Whether a file is one of the library, as it comes with the tool.
+pub fn has(file: &SourceFile) -> bool {
+    FILES.iter().any(|(name, text)| file.name == *name && file.text == *text)
+}
 
 static ALL: LazyLock<Vec<Arc<Device>>> = LazyLock::new(|| {
     let mut sources = Sources::default();

@@ -111,6 +111,7 @@ impl Scan<'_> {
                 self.forget_answer(machine, plant);
             }
         }
+        self.valves(touched);
         for (machine, plant) in model.machines.iter().enumerate() {
             if let Some(desk) = &plant.desk {
                 self.serve(machine, plant, desk)?;
@@ -142,7 +143,7 @@ impl Scan<'_> {
     fn release(&mut self, machine: usize, plant: &Machine) -> Result<(), Violation> {
         let Some(arm) = &plant.arm else { return Ok(()) };
         let held = arm.holds.load(self.bytes);
-        if held == 0 || arm.closes.is_none_or(|level| level.load(self.bytes) != 0) {
+        if held == 0 || arm.closes.is_none_or(|level| level.is_on(self.bytes)) {
             return Ok(());
         }
         let kind = held as usize - 1;
@@ -161,7 +162,7 @@ impl Scan<'_> {
     }
 
     fn serve(&mut self, machine: usize, plant: &Machine, desk: &Desk) -> Result<(), Violation> {
-        let is_complete = desk.complete.is_some_and(|level| level.load(self.bytes) != 0);
+        let is_complete = desk.complete.is_some_and(|level| level.is_on(self.bytes));
         let order = desk.order.load(self.bytes) as usize;
         let place = &plant.places[desk.place];
         match desk.phase.load(self.bytes) {

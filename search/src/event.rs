@@ -2,6 +2,7 @@
 
 use crate::model::Model;
 use crate::plant::{Action, Arm, Asked, Faults, Head, Machine, motion, phase, status};
+use crate::stroke;
 use crate::surface::{self, Landing};
 use crate::value::{Point, Values};
 
@@ -28,6 +29,19 @@ pub enum What {
     IsGone,
     /// The next time of the state has come.
     TimeComes,
+    /// A cylinder comes to one of [`crate::stroke::position`], sent by one of [`crate::stroke::drive`].
+    Strokes {
+        cylinder: usize,
+        drive: i32,
+        to: i32,
+    },
+    /// A cylinder rests: what its valves have asked for before does not move it any more.
+    Settles(usize),
+    /// A process begins.
+    Begins(usize),
+    /// It begins and is over at once.
+    Leaps(usize),
+    Completes(usize),
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -61,18 +75,22 @@ const BESIDE: f64 = 0.2;
 /// So far it is over nothing that an automaton knows.
 const FAR: f64 = 100.0;
 
-/// Who may do something in a scan: each machine at most one thing, each instance at most one time.
+/// Who may do something in a scan: each machine at most one thing beside its cylinders and processes, each instance at
+/// most one time.
 pub(crate) fn sources(model: &Model) -> usize {
-    2 * model.machines.len()
+    2 * model.machines.len() + stroke::sources(model)
 }
 
 /// What a source may do in this state.
 pub(crate) fn events(model: &Model, values: &Values, state: &[u8], source: usize, out: &mut Vec<Event>) {
     let machine = source / 2;
+    if machine >= model.machines.len() {
+        return stroke::events(model, state, source - 2 * model.machines.len(), out);
+    }
     let mut add = |what| out.push(Event { machine, what });
     if source % 2 == 1 {
         let program = &model.instances[machine];
-        if let Some(times) = program.times_come {
+        if let Some(times) = program.times_come.filter(|_| !model.stands(state, machine)) {
             let number = program.state.load(state) as usize;
             if (times.load(state) as usize) < program.states[number].times.len() {
                 add(What::TimeComes);
@@ -84,6 +102,7 @@ pub(crate) fn events(model: &Model, values: &Values, state: &[u8], source: usize
     let has_faults = model.faults == Faults::All;
     if let Some(head) = &plant.head
         && head.status.load(state) == status::UNDER_WAY
+        && !model.stands(state, machine)
     {
         endings(model, values, state, plant, head, &mut |ending| add(What::Ends(ending)));
     }
@@ -152,7 +171,7 @@ fn endings(
 }
 
 fn is_closed(arm: &Arm, state: &[u8]) -> bool {
-    arm.closes.is_some_and(|level| level.load(state) != 0)
+    arm.closes.is_some_and(|level| level.is_on(state))
 }
 
 fn found_at_goal(model: &Model, values: &Values, state: &[u8], arm: &Arm) -> Option<surface::Found> {
@@ -253,6 +272,9 @@ pub(crate) fn apply(model: &Model, values: &mut Values, state: &mut [u8], event:
             if let Some(desk) = &plant.desk {
                 desk.phase.store(state, phase::GONE);
             }
+        }
+        What::Strokes { .. } | What::Settles(_) | What::Begins(_) | What::Leaps(_) | What::Completes(_) => {
+            stroke::apply(model, state, event.what)
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::event::Event;
 use crate::model::Model;
-use crate::possible::{Edges, never_made};
+use crate::possible::{Edges, never_followed, never_made};
 use crate::store::Store;
 use crate::story::{self, Execution};
 use crate::successor::{Expander, Orders};
@@ -31,6 +31,8 @@ pub struct Covered {
     pub transitions: u64,
     /// Of these, how many end in a stop for an operator.
     pub stops: u64,
+    /// States in which a machine is stopped by itself; 0 if the search is not complete.
+    pub stopped: usize,
     /// Scans from the start to the farthest state that has been checked.
     pub depth: usize,
     /// Bytes of memory.
@@ -94,6 +96,13 @@ pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -
         let state = store.state(next).to_vec();
         expander.expand(&state, restless[next], &mut |successor| {
             covered.transitions += 1;
+            let mut find = |violation: &Violation| {
+                if found.len() < bounds.violations && known.insert(violation.clone()) {
+                    let events = successor.events.to_vec();
+                    found.push(Found { violation: violation.clone(), from: next, events });
+                }
+            };
+            successor.noted.iter().for_each(&mut find);
             match successor.result {
                 Ok(()) => {
                     let (number, is_new) = store.add(successor.state, next);
@@ -110,9 +119,7 @@ pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -
                 }
                 Err(violation) => {
                     edges.lead_out(next);
-                    if found.len() < bounds.violations && known.insert(violation.clone()) {
-                        found.push(Found { violation, from: next, events: successor.events.to_vec() });
-                    }
+                    find(&violation);
                 }
             }
         });
@@ -148,10 +155,17 @@ pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -
             (found.violation, execution)
         })
         .collect();
-    if end == End::Complete
-        && let Some(state) = never_made(&store, &edges, &mut expander)
-    {
-        violations.push((Violation::NeverMade, story::to_state(&store, &mut expander, state)));
+    if end == End::Complete {
+        let never = never_made(&store, &edges, &mut expander).map(|state| (Violation::NeverMade, state));
+        let mut never: Vec<(Violation, usize)> = never.into_iter().collect();
+        if violations.len() + never.len() < bounds.violations {
+            never.extend(never_followed(&store, &edges, &mut expander));
+        }
+        for (violation, state) in never {
+            violations.push((violation, story::to_state(&store, &mut expander, state)));
+        }
+        violations.truncate(bounds.violations);
+        covered.stopped = (0..store.len()).filter(|state| model.any_stands(store.state(*state))).count();
     }
     covered.time = begin.elapsed();
     Outcome { covered, end, violations, reached: store, values: expander.values }

@@ -87,14 +87,16 @@ impl Scan<'_> {
             let plant = &model.machines[machine];
             if is_lane {
                 let lane = plant.lane.as_ref().map(|lane| lane.motion.load(self.bytes));
-                if matches!(lane, Some(motion::RUNS | motion::STARTS)) {
+                if matches!(lane, Some(motion::RUNS | motion::STARTS)) && !model.stands(self.bytes, machine) {
                     return Err(Violation::MovesUnder { machine, arm: *arm });
                 }
                 continue;
             }
             if let (Some(stop), Some(route)) = (stop, &plant.route) {
                 let (is_here, is_coming) = stands_at(self.values, self.bytes, route, stop);
-                if surface::is_driving(model, self.bytes, machine) && (is_here || is_coming) {
+                let moves =
+                    surface::is_driving(model, self.bytes, machine) && !model.stands(self.bytes, machine);
+                if moves && (is_here || is_coming) {
                     return Err(Violation::MovesUnder { machine, arm: *arm });
                 }
                 if !is_here {

@@ -2,6 +2,7 @@
 
 use crate::plant::{Faults, Input, Machine, Order, Watch};
 use crate::program::Instance;
+use crate::stroke::{Cylinder, Process};
 use crate::value::{Point, Values, Var};
 use std::fmt;
 use std::sync::Arc;
@@ -17,6 +18,8 @@ pub struct Model {
     /// The machine of each instance.
     pub machines: Vec<Machine>,
     pub inputs: Vec<Input>,
+    pub cylinders: Vec<Cylinder>,
+    pub processes: Vec<Process>,
     pub orders: Vec<Order>,
     /// Heights of the kinds, m.
     pub heights: Vec<f64>,
@@ -61,6 +64,16 @@ impl Model {
     /// Whether all orders are made.
     pub fn is_made(&self, state: &[u8]) -> bool {
         self.orders.iter().all(|order| order.made.load(state) != 0)
+    }
+
+    /// Whether a machine is stopped by itself.
+    pub fn stands(&self, state: &[u8], machine: usize) -> bool {
+        self.instances[machine].stopped.is_some_and(|stopped| stopped.load(state) != 0)
+    }
+
+    /// Whether any machine is: then an operator has to come.
+    pub fn any_stands(&self, state: &[u8]) -> bool {
+        (0..self.instances.len()).any(|machine| self.stands(state, machine))
     }
 
     /// Variables of binders and quantifiers that one instance has at most.

@@ -51,6 +51,7 @@ impl Expander<'_> {
                             state: &next.bytes,
                             events: &self.chosen,
                             result: Err(violation),
+                            noted: &[],
                             restless: 0,
                             told: &next.told,
                         }),
@@ -95,11 +96,13 @@ impl Expander<'_> {
         self.choices.clear();
         loop {
             let mut end = midway.clone();
+            self.noted.clear();
             let result = self.on(&mut end, |scan| scan.finish(touched));
             emit(Successor {
                 state: &end.bytes,
                 events: &self.chosen,
                 result,
+                noted: &self.noted,
                 restless: end.restless | midway.restless,
                 told: &end.told,
             });
@@ -117,6 +120,7 @@ impl Expander<'_> {
         let mut scan = Scan {
             model: self.model,
             bytes: &mut midway.bytes,
+            before: &mut self.before,
             values: &mut self.values,
             choices: &mut self.choices,
             variables: &mut self.variables,
@@ -124,6 +128,7 @@ impl Expander<'_> {
             fired: midway.fired,
             moved: midway.moved,
             restless: midway.restless,
+            noted: &mut self.noted,
             story: self.tell.then_some(&mut midway.told),
         };
         let result = work(&mut scan);

@@ -62,6 +62,23 @@ pub enum Action {
     Other,
 }
 
+/// An output that acts as long as it is on.
+#[derive(Clone, Copy, Debug)]
+pub struct Level {
+    pub var: Var,
+    /// Whether the machine is stopped, and what is published then; none: what the automaton wrote.
+    pub stop: Option<(Var, bool)>,
+}
+
+impl Level {
+    pub fn is_on(&self, state: &[u8]) -> bool {
+        match self.stop {
+            Some((stopped, value)) if stopped.load(state) != 0 => value,
+            _ => self.var.load(state) != 0,
+        }
+    }
+}
+
 #[derive(Clone, Debug)]
 pub struct Arm {
     /// Where the tool is, or was when the motion under way began.
@@ -74,7 +91,7 @@ pub struct Arm {
     /// What the controller sees of that.
     pub shown: Var,
     /// The level that closes the gripper.
-    pub closes: Option<Var>,
+    pub closes: Option<Level>,
     /// m.
     pub near: f64,
 }
@@ -127,7 +144,7 @@ pub struct Desk {
     pub order: Var,
     /// How many of its orders have had their turn.
     pub next: Var,
-    pub complete: Option<Var>,
+    pub complete: Option<Level>,
     /// Number among the places of the machine.
     pub place: usize,
     /// Numbers of the orders that open here, in their order.

@@ -1,7 +1,10 @@
-//! Whether the orders can always still be made: from every state that was reached there is a way to one in which they are.
+//! Whether the orders can always still be made, and what is waited for can always still come: from every state that was
+//! reached there is a way to one in which it is so.
 
+use crate::property::Check;
 use crate::store::Store;
 use crate::successor::Expander;
+use crate::violation::Violation;
 
 /// Ways on by which at most one device did something. If they lead to the orders, these can be made; if they do not, all
 /// ways are checked.
@@ -38,7 +41,41 @@ pub(crate) fn never_made(store: &Store, edges: &Edges, expander: &mut Expander) 
     if model.orders.is_empty() {
         return None;
     }
-    let mut can: Vec<bool> = (0..store.len()).map(|state| model.is_made(store.state(state))).collect();
+    let is_there = |state: &[u8]| model.is_made(state) || model.any_stands(state);
+    let can: Vec<bool> = (0..store.len()).map(|state| is_there(store.state(state))).collect();
+    reach(can, store, edges, expander)
+}
+
+/// Of each property the first state in which its goal is waited for and cannot come any more, if there is one.
+pub(crate) fn never_followed(
+    store: &Store,
+    edges: &Edges,
+    expander: &mut Expander,
+) -> Vec<(Violation, usize)> {
+    let model = expander.model;
+    let ends = |state: &[u8]| !model.orders.is_empty() && model.is_made(state) || model.any_stands(state);
+    let mut found = Vec::new();
+    for (instance, program) in model.instances.iter().enumerate() {
+        for property in &program.properties {
+            let Check::Whenever(whenever) = &property.check else { continue };
+            let mut can = Vec::with_capacity(store.len());
+            for number in 0..store.len() {
+                let state = store.state(number);
+                can.push(!expander.is_waiting(state, program, whenever) || ends(state));
+            }
+            if let Some(state) = reach(can, store, edges, expander) {
+                found.push((Violation::NeverFollowed { instance, fault: property.fault }, state));
+            }
+        }
+    }
+    found
+}
+
+/// The first state that does not lead to one of these.
+fn reach(mut can: Vec<bool>, store: &Store, edges: &Edges, expander: &mut Expander) -> Option<usize> {
+    if can.iter().all(|can| *can) {
+        return None;
+    }
     edges.out.iter().for_each(|state| can[*state as usize] = true);
     spread(&mut can, &edges.list);
     if can.iter().all(|can| *can) {

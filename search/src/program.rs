@@ -1,5 +1,6 @@
 //! Automata of one line, each by itself: every name is a place in the state, a table or a number.
 
+use crate::property::Property;
 use crate::value::{Point, Var};
 use std::sync::Arc;
 
@@ -179,21 +180,14 @@ pub struct State {
 #[derive(Clone, Debug)]
 pub struct Instance {
     pub state: Var,
+    /// Whether it is stopped by itself; none if nothing can stop it.
+    pub stopped: Option<Var>,
     /// How many times of its state have come; none if none of its states waits for a time.
     pub times_come: Option<Var>,
     pub states: Vec<State>,
-    pub invariants: Vec<Invariant>,
+    pub properties: Vec<Property>,
     /// Variables of binders and quantifiers.
     pub variables: usize,
-}
-
-#[derive(Clone, Debug)]
-pub struct Invariant {
-    pub condition: Int,
-    pub fault: usize,
-    /// A stop that is meant: somebody has to come.
-    pub asks_operator: bool,
-    pub reads: u64,
 }
 
 /// The bit of an instance in a mask.

@@ -27,6 +27,9 @@ pub fn promela(model: &Model) -> Result<String, String> {
     if !model.inputs.is_empty() {
         return Err("inputs that change by themselves".into());
     }
+    if !model.cylinders.is_empty() || !model.processes.is_empty() {
+        return Err("cylinders and processes".into());
+    }
     let numbers = model.variables.iter().enumerate().map(|(number, v)| (v.var.at, number)).collect();
     let mut printer =
         Printer { model, numbers, values: model.values.clone(), bound: HashMap::new(), out: String::new() };
@@ -153,8 +156,8 @@ impl Printer<'_> {
 
     fn step(&mut self, instance: usize) -> Result<(), String> {
         let program = &self.model.instances[instance];
-        if !program.invariants.is_empty() {
-            return Err("invariants".into());
+        if !program.properties.is_empty() {
+            return Err("properties".into());
         }
         let state = self.name(program.state);
         self.line("if");

@@ -11,6 +11,8 @@ use crate::violation::Violation;
 pub struct Scan<'a> {
     pub(crate) model: &'a Model,
     pub(crate) bytes: &'a mut [u8],
+    /// The state before devices did anything; only its values are read.
+    pub(crate) before: &'a mut [u8],
     pub(crate) values: &'a mut Values,
     pub(crate) choices: &'a mut Choices,
     pub(crate) variables: &'a mut [i32],
@@ -21,6 +23,8 @@ pub struct Scan<'a> {
     pub(crate) moved: bool,
     /// Instances that may do something in the next scan even if no device does.
     pub(crate) restless: u64,
+    /// Violations after which the line continues.
+    pub(crate) noted: &'a mut Vec<Violation>,
     pub(crate) story: Option<&'a mut Told>,
 }
 
@@ -57,18 +61,7 @@ impl Scan<'_> {
     /// What comes after the steps.
     pub(crate) fn finish(&mut self, touched: u64) -> Result<(), Violation> {
         let model = self.model;
-        for (instance, program) in model.instances.iter().enumerate() {
-            for invariant in &program.invariants {
-                let is_due =
-                    (touched | self.fired) & bit(instance) != 0 || self.written & invariant.reads != 0;
-                if is_due && !self.holds(&invariant.condition) {
-                    return Err(match invariant.asks_operator {
-                        true => Violation::Stop,
-                        false => Violation::Fault { instance, fault: invariant.fault },
-                    });
-                }
-            }
-        }
+        self.properties(touched)?;
         self.act(touched)?;
         self.restless |= self.fired;
         for (instance, program) in model.instances.iter().enumerate() {
@@ -82,6 +75,9 @@ impl Scan<'_> {
 
     pub(crate) fn step_if_due(&mut self, instance: usize, touched: u64) -> Result<(), Violation> {
         let program = &self.model.instances[instance];
+        if self.model.stands(self.bytes, instance) {
+            return Ok(());
+        }
         let state = program.state.load(self.bytes) as usize;
         if touched & bit(instance) == 0 && self.written & program.states[state].reads == 0 {
             return Ok(());

@@ -55,7 +55,8 @@ pub(crate) fn to_violation(
     let mut execution = to_state(store, expander, from);
     let before = store.state(from).to_vec();
     let last = expander.shortest(&before, |successor| {
-        successor.events == events && successor.result.as_ref() == Err(violation)
+        successor.events == events
+            && (successor.noted.contains(violation) || successor.result.as_ref() == Err(violation))
     });
     execution.scans.extend(last);
     execution

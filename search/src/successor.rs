@@ -3,7 +3,8 @@
 use crate::choice::Choices;
 use crate::event::{self, Event};
 use crate::model::Model;
-use crate::program::bit;
+use crate::program::{Instance, bit};
+use crate::property::Whenever;
 use crate::scan::{Scan, Told};
 use crate::value::Values;
 use crate::violation::Violation;
@@ -30,7 +31,10 @@ pub(crate) struct Expander<'a> {
     options: Vec<Vec<Event>>,
     /// The state after the events chosen so far, by their number.
     pub(crate) levels: Vec<Vec<u8>>,
+    /// The state that is expanded.
+    pub(crate) before: Vec<u8>,
     work: Vec<u8>,
+    pub(crate) noted: Vec<Violation>,
     pub(crate) chosen: Vec<Event>,
     restless: u64,
     /// Whether successors are to say what has fired.
@@ -43,6 +47,8 @@ pub(crate) struct Successor<'a> {
     pub state: &'a [u8],
     pub events: &'a [Event],
     pub result: Result<(), Violation>,
+    /// Violations after which the line continues.
+    pub noted: &'a [Violation],
     /// Instances that may do something in the next scan even if no device does.
     pub restless: u64,
     /// What is told of it, if that was asked for.
@@ -61,7 +67,9 @@ impl<'a> Expander<'a> {
             variables: vec![0; model.most_variables()],
             options: Vec::new(),
             levels: Vec::new(),
+            before: vec![0; model.initial.len()],
             work: vec![0; model.initial.len()],
+            noted: Vec::new(),
             chosen: Vec::new(),
             restless: 0,
             tell: false,
@@ -72,6 +80,7 @@ impl<'a> Expander<'a> {
     /// Calls `emit` with every successor; a state may come several times.
     /// `restless` are the instances that may do something even if no device does.
     pub fn expand(&mut self, state: &[u8], restless: u64, emit: &mut impl FnMut(Successor)) {
+        self.before.copy_from_slice(state);
         self.restless = self.restless_in(state, restless);
         let sources = event::sources(self.model);
         let mut options: Vec<Vec<Event>> = std::mem::take(&mut self.options);
@@ -107,11 +116,19 @@ impl<'a> Expander<'a> {
         restless
     }
 
+    /// Whether the goal of a property is waited for in a state.
+    pub fn is_waiting(&mut self, state: &[u8], program: &Instance, whenever: &Whenever) -> bool {
+        self.choices.clear();
+        self.work.copy_from_slice(state);
+        self.begin().is_waiting(program, whenever)
+    }
+
     /// A scan of the state that is worked on.
     fn begin(&mut self) -> Scan<'_> {
         Scan {
             model: self.model,
             bytes: &mut self.work,
+            before: &mut self.before,
             values: &mut self.values,
             choices: &mut self.choices,
             variables: &mut self.variables,
@@ -119,6 +136,7 @@ impl<'a> Expander<'a> {
             fired: 0,
             moved: false,
             restless: 0,
+            noted: &mut self.noted,
             story: self.tell.then_some(&mut self.told),
         }
     }
@@ -152,6 +170,7 @@ impl<'a> Expander<'a> {
         self.choices.clear();
         loop {
             self.work.copy_from_slice(&self.levels[level]);
+            self.noted.clear();
             self.told.fired.clear();
             self.told.read.clear();
             let order = std::mem::take(&mut self.order);
@@ -159,7 +178,14 @@ impl<'a> Expander<'a> {
             let result = scan.run(&order, touched);
             let restless = scan.restless;
             self.order = order;
-            emit(Successor { state: &self.work, events: &self.chosen, result, restless, told: &self.told });
+            emit(Successor {
+                state: &self.work,
+                events: &self.chosen,
+                result,
+                noted: &self.noted,
+                restless,
+                told: &self.told,
+            });
             if !self.choices.advance() {
                 return;
             }

@@ -5,6 +5,12 @@
 pub enum Violation {
     /// A fault at run time: index into the faults of the model.
     Fault { instance: usize, fault: usize },
+    /// A property is violated that only warns: index into the faults of the model.
+    Warning { instance: usize, fault: usize },
+    /// A property stops the machine: index into the faults of the model. The others go on.
+    MachineStops { instance: usize, fault: usize },
+    /// From here the goal of a property, which is waited for, cannot come any more.
+    NeverFollowed { instance: usize, fault: usize },
     /// None: the line stops as its types say, until an operator has come. What follows is not searched.
     Stop,
     /// From here the orders cannot be made any more, whatever happens.

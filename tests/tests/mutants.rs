@@ -1,7 +1,7 @@
 //! Mistakes in the library's types are found: those that show without faults of devices here, all others in the long form.
 
 use autogen::library;
-use autogen::verify::model;
+use autogen::verify::{Asked, model};
 use autogen_search::explore::{Bounds, explore};
 use autogen_search::plant::Faults;
 use autogen_search::successor::Orders;
@@ -22,7 +22,7 @@ const TWO_PARTS: &str = r#"{
 /// What a search finds; none if the line is refused.
 fn found(texts: &Texts, faults: Faults) -> Option<BTreeSet<String>> {
     let project = texts.compile().project?;
-    let model = model(&project, faults).ok()?;
+    let model = model(&project, &Asked::with(faults)).ok()?.model;
     let bounds = Bounds {
         answers: Some(1),
         orders: Orders::One,

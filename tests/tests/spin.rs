@@ -1,6 +1,6 @@
 //! SPIN counts the states of small lines too: a search of its own on the same models.
 
-use autogen::verify::model;
+use autogen::verify::{Asked, model};
 use autogen_search::explore::{Bounds, End, explore};
 use autogen_search::plant::Faults;
 use autogen_search::promela::promela;
@@ -78,7 +78,7 @@ fn states_and_transitions_are_those_that_spin_counts() {
     ];
     for (number, (types, faults)) in lines.into_iter().enumerate() {
         let project = line(types).project();
-        let model = model(&project, faults).expect("a line that can be searched");
+        let model = model(&project, &Asked::with(faults)).expect("a line that can be searched").model;
         let bounds =
             Bounds { answers: None, orders: Orders::One, time: None, memory: 1_000_000_000, violations: 1 };
         let outcome = explore(&model, &bounds, &mut |_| true);

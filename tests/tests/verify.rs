@@ -2,7 +2,7 @@
 
 use autogen::executor::Executor;
 use autogen::lower::Project;
-use autogen::verify::{model, replay::replay};
+use autogen::verify::{Asked, model, replay::replay};
 use autogen_search::explore::{Bounds, End, Outcome, explore};
 use autogen_search::model::Model;
 use autogen_search::plant::{Faults, Watch};
@@ -45,7 +45,7 @@ fn search(model: &Model, bounds: &Bounds) -> Outcome {
 }
 
 fn model_of(project: &Project, faults: Faults) -> Model {
-    model(project, faults).expect("a line that can be searched")
+    model(project, &Asked::with(faults)).expect("a line that can be searched").model
 }
 
 #[test]

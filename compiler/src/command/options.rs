@@ -315,6 +315,9 @@ pub struct VerifyOptions {
     /// Orders in which the machines step
     #[arg(long, value_enum, default_value = "one")]
     pub orders: StepOrders,
+    /// Properties that are searched although a violation only warns
+    #[arg(long, value_enum, default_value = "own")]
+    pub warnings: Warnings,
     /// Limit of time or memory, such as 90s, 10min, 500MB or 2GB; may be given twice. Default: 10min and 2GB
     #[arg(long, value_name = "LIMIT")]
     pub limit: Vec<String>,
@@ -324,6 +327,16 @@ pub struct VerifyOptions {
     /// Write the scenario that shows the first violation in `commission` to this file
     #[arg(long, value_name = "FILE")]
     pub counterexample: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Warnings {
+    /// None of them
+    None,
+    /// Those of your own types and interfaces
+    Own,
+    /// Those of the library too
+    All,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -3,12 +3,12 @@
 mod report;
 
 use super::interrupt;
-use super::options::{Format, VerifyOptions};
+use super::options::{self, Format, VerifyOptions};
 use super::pending::{Content, Pending};
 use super::{load, print};
 use crate::Status;
 use autogen::lower::compile;
-use autogen::verify::{self, replay, scenario};
+use autogen::verify::{self, Asked, Remembered, Searched, Warnings, replay, scenario};
 use autogen_search::explore::{Bounds, Covered, End, Outcome, explore};
 use autogen_search::model::Model;
 use autogen_search::plant::Faults;
@@ -47,7 +47,13 @@ pub fn run(options: &VerifyOptions) -> Status {
     };
     let outcome = compile(input);
     let faults = if options.no_faults { Faults::None } else { Faults::All };
-    let model = outcome.project.as_ref().map(|project| verify::model(project, faults));
+    let warnings = match options.warnings {
+        options::Warnings::None => Warnings::None,
+        options::Warnings::Own => Warnings::Own(&outcome.sources),
+        options::Warnings::All => Warnings::All,
+    };
+    let asked = Asked { faults, warnings, remembered: Remembered::Least };
+    let searched = outcome.project.as_ref().map(|project| verify::model(project, &asked));
     let refused = |found: &[autogen::diagnostic::Diagnostic]| {
         match options.input.format {
             Format::Text => print::diagnostics(&outcome.sources, found),
@@ -60,20 +66,20 @@ pub fn run(options: &VerifyOptions) -> Status {
         }
         Status::WrongInput
     };
-    let (Some(project), Some(model)) = (&outcome.project, model) else {
+    let (Some(project), Some(searched)) = (&outcome.project, searched) else {
         return refused(&outcome.diagnostics);
     };
-    let model = match model {
-        Ok(model) => model,
+    let Searched { model, skipped } = match searched {
+        Ok(searched) => searched,
         Err(found) => return refused(&found),
     };
     if options.orders == super::options::StepOrders::All && model.instances.len() > MOST_IN_ANY_ORDER {
         complain!("autogen: --orders all takes lines of {MOST_IN_ANY_ORDER} machines at most");
         return Status::WrongCommand;
     }
-    let (searched, answers) = search(options, &model, limits);
+    let (found, answers) = search(options, &model, limits);
     let mut shown: Vec<Shown> = Vec::new();
-    for (violation, execution) in &searched.violations {
+    for (violation, execution) in &found.violations {
         let replay = replay::replay(project, &model, execution);
         shown.push(Shown { violation, execution, replay });
     }
@@ -85,12 +91,13 @@ pub fn run(options: &VerifyOptions) -> Status {
         }
     }
     let teller = verify::story::Teller { project, model: &model, sources: &outcome.sources };
-    let report = Report { options, teller: &teller, outcome: &searched, answers, shown: &shown };
+    let report =
+        Report { options, teller: &teller, outcome: &found, answers, shown: &shown, skipped: &skipped };
     match options.input.format {
         Format::Json => say!("{}", report.json()),
         Format::Text => say_part!("{}", report.text()),
     }
-    match (searched.violations.is_empty(), searched.end) {
+    match (found.violations.is_empty(), found.end) {
         (false, _) => Status::NotReached,
         (true, End::Complete) => Status::Done,
         (true, _) => Status::Undecided,

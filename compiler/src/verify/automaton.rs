@@ -2,15 +2,15 @@
 
 use super::expression::Stored;
 use super::live::live;
+use super::memory::Memory;
 use super::plant::{Plant, Signal};
+use super::{Asked, Skipped};
 use crate::executor::Executor;
-use crate::ir::{
-    self, Automaton, Expr, InterfaceId, Place, PropertyKind, RoleId, Scalar, System, UpdateKind, Value,
-};
+use crate::ir::{self, Automaton, Expr, InterfaceId, Place, RoleId, Scalar, System, UpdateKind, Value};
 use crate::reads::{Reads, Whose, is_fixed};
 use autogen_search::plant::Machine;
 use autogen_search::program::{
-    Bounds, Clause, Command, Int, Invariant, Key, Operator, State, Target, Transition, Update, bit,
+    Bounds, Clause, Command, Int, Key, Operator, State, Target, Transition, Update, bit,
 };
 use autogen_search::value::Var;
 use runtime_sim::device::Direction;
@@ -26,6 +26,8 @@ pub struct Line<'a> {
     pub plant: &'a runtime_sim::line::Line,
     /// Of each instance: the automaton's state, and how many times have come.
     pub states: Vec<(Var, Option<Var>)>,
+    /// Whether each is stopped by itself, if anything can stop it.
+    pub stopped: Vec<Option<Var>>,
     pub locals: Vec<Vec<Vars>>,
     /// `[interface][row][cell]`.
     pub cells: Vec<Vec<Vec<Vars>>>,
@@ -47,8 +49,21 @@ pub struct Instance<'a> {
     /// Variables of quantifiers that stand for one value each, and how many copies of an expression that makes.
     pub fixed_variables: HashMap<usize, i32>,
     pub copies: usize,
+    /// Whether an input was read since [`Instance::begin_anew`] that the state does not tell behind the scan.
+    pub asks_inputs: bool,
     /// Names of inputs of which nothing is known that could be searched.
     pub refused: Vec<String>,
+}
+
+impl Line<'_> {
+    /// Of an enumeration, or of an interface to whose rows a reference refers.
+    pub fn members(&self, ty: Scalar) -> usize {
+        match ty {
+            Scalar::Enum(id) => self.system.model.enums[id.0].members.len(),
+            Scalar::Ref(id) => self.system.members[id.0].len(),
+            _ => 0,
+        }
+    }
 }
 
 impl<'a> Instance<'a> {
@@ -62,6 +77,7 @@ impl<'a> Instance<'a> {
             defines: HashMap::new(),
             fixed_variables: HashMap::new(),
             copies: 1,
+            asks_inputs: false,
             refused: Vec::new(),
         }
     }
@@ -92,6 +108,13 @@ impl<'a> Instance<'a> {
         self.copies = copies;
         self.defines.insert(define, value.clone());
         Int::Shared(value)
+    }
+
+    /// What was read before is of no importance to the next expressions.
+    pub fn begin_anew(&mut self) {
+        self.defines.clear();
+        self.times.clear();
+        self.asks_inputs = false;
     }
 
     /// What stands at a port of the device.
@@ -139,42 +162,27 @@ impl<'a> Instance<'a> {
         }
     }
 
-    pub fn program(&mut self) -> autogen_search::program::Instance {
+    /// What its properties remember is laid out in the state.
+    pub fn program(
+        &mut self,
+        asked: &Asked,
+        memory: &mut Memory,
+        skipped: &mut Vec<Skipped>,
+    ) -> autogen_search::program::Instance {
         let (state, times_come) = self.line.states[self.number];
         let automaton = self.automaton;
-        let live = live(automaton);
+        let live = live(automaton, asked);
         let states =
             automaton.states.iter().zip(&live).map(|(state, live)| self.state(state, live)).collect();
-        let invariants = super::properties::searched(automaton).filter_map(|property| {
-            let PropertyKind::Always(condition) = &property.kind else { return None };
-            Some(Invariant {
-                condition: self.int(condition),
-                fault: property.site.0,
-                asks_operator: property.asks_operator,
-                reads: self.cells_of(condition),
-            })
-        });
-        let invariants = invariants.collect();
+        let properties = self.properties(asked, memory, skipped);
         autogen_search::program::Instance {
             state,
+            stopped: self.line.stopped[self.number],
             times_come,
             states,
-            invariants,
+            properties,
             variables: automaton.variables.len(),
         }
-    }
-
-    /// Whose cells an expression reads, a bit for each instance.
-    fn cells_of(&self, expr: &Expr) -> u64 {
-        let own = match &expr.kind {
-            ir::ExprKind::Define(define) => self.cells_of(&self.automaton.defines[*define].value),
-            ir::ExprKind::Read(Place::Cell { of: None, .. }) => bit(self.number),
-            ir::ExprKind::Read(Place::Cell { interface, .. }) => {
-                self.line.system.members[interface.0].iter().fold(0, |bits, member| bits | bit(*member))
-            }
-            _ => 0,
-        };
-        expr.parts().into_iter().fold(own, |bits, part| bits | self.cells_of(part))
     }
 
     fn state(&mut self, state: &ir::State, live: &BTreeSet<usize>) -> State {

@@ -220,13 +220,24 @@ impl Instance<'_> {
     fn signal(&mut self, place: &Place, signal: Signal, index: Int) -> Int {
         match (signal, index) {
             (Signal::Fixed(value), _) => Int::Constant(value),
-            (Signal::Free(inputs), Int::Constant(index)) => Int::Input(inputs[index as usize]),
-            (Signal::Free(inputs), index) => Int::InputElement(inputs.into(), Box::new(index)),
+            (Signal::Free(inputs), index) => {
+                self.asks_inputs = true;
+                match index {
+                    Int::Constant(index) => Int::Input(inputs[index as usize]),
+                    index => Int::InputElement(inputs.into(), Box::new(index)),
+                }
+            }
             (Signal::Held(var), _) => Int::Load(var, 0),
+            (Signal::Is(var, value), _) => {
+                Int::Binary(Op::Equal, Box::new([Int::Load(var, 0), Int::Constant(value)]))
+            }
             (Signal::Moves(var), _) => {
                 Int::Binary(Op::NotEqual, Box::new([Int::Load(var, 0), Int::Constant(0)]))
             }
-            (Signal::AtStop, _) => Int::AtStop(self.number),
+            (Signal::AtStop, _) => {
+                self.asks_inputs = true;
+                Int::AtStop(self.number)
+            }
             (Signal::IsOpen, _) => self.is_open(),
             (Signal::Parts, index) => {
                 let Some(desk) = self.machine().desk.clone() else { return Int::Constant(0) };

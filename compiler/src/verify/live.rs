@@ -1,17 +1,20 @@
 //! What of an instance is of no use in a state: whatever it holds, it is written before it is read.
 
-use crate::ir::{Automaton, Clause, Domain, Expr, ExprKind, Place, Property, Update, UpdateKind};
+use super::properties::{read_by, searched};
+use super::{Asked, Remembered};
+use crate::ir::{Automaton, Clause, Domain, Expr, ExprKind, Place, Update, UpdateKind};
 use std::collections::BTreeSet;
 
 /// Locals by their numbers; behind them the answer of the last command.
 type Set = BTreeSet<usize>;
 
 /// For each state what may be read before it is written; the number of the locals stands for the answer.
-pub fn live(automaton: &Automaton) -> Vec<Set> {
+pub fn live(automaton: &Automaton, asked: &Asked) -> Vec<Set> {
     let mut always = Set::new();
-    super::properties::searched(automaton)
-        .flat_map(Property::exprs)
-        .for_each(|read| expr(automaton, read, &mut always));
+    searched(automaton, asked).flat_map(read_by).for_each(|read| expr(automaton, read, &mut always));
+    if asked.remembered == Remembered::Whole {
+        always.extend(0..=automaton.locals.len());
+    }
     let mut live = vec![always; automaton.states.len()];
     loop {
         let mut has_changed = false;

@@ -1,5 +1,6 @@
 //! The line as it is searched for executions that must not be.
 
+mod asked;
 mod automaton;
 mod expression;
 mod live;
@@ -10,5 +11,8 @@ mod properties;
 pub mod replay;
 pub mod scenario;
 pub mod story;
+mod strokes;
 
-pub use model::model;
+pub use asked::{Asked, Remembered, Warnings};
+pub use model::{Searched, model};
+pub use properties::Skipped;

@@ -2,28 +2,36 @@
 
 use super::automaton::{Instance, Line, Vars};
 use super::memory::{Kept, Memory, kept};
-use super::plant::plant;
-use super::properties::searched;
+use super::plant::{Known, plant};
+use super::properties::{can_stop, read_by, searched};
+use super::strokes::Changing;
+use super::{Asked, Skipped};
 use crate::diagnostic::Diagnostic;
-use crate::ir::{
-    Automaton, Expr, ExprKind, KeptBy, Place, Property, Scalar, System, Type, UpdateKind, Value,
-};
+use crate::ir::{Automaton, Expr, ExprKind, KeptBy, Place, Scalar, System, Type, UpdateKind, Value};
 use crate::lower::Project;
 use autogen_search::model::{Model, Reach};
-use autogen_search::plant::{Faults, Order, Watch};
+use autogen_search::plant::{Order, Watch};
 use runtime_sim::device::{Direction, PortType};
 use runtime_sim::point::Point;
 use std::sync::Arc;
 
+/// A line as it is searched.
+pub struct Searched {
+    pub model: Model,
+    /// Properties that are left out.
+    pub skipped: Vec<Skipped>,
+}
+
 /// A line as it is searched; or why it cannot be.
-pub fn model(project: &Project, faults: Faults) -> Result<Model, Vec<Diagnostic>> {
+pub fn model(project: &Project, asked: &Asked) -> Result<Searched, Vec<Diagnostic>> {
     let Project { system, plant: line, .. } = project;
     let mut memory = Memory::default();
-    let mut inputs = Vec::new();
+    let mut changing = Changing::default();
     let mut whole = Line {
         system,
         plant: line,
         states: Vec::new(),
+        stopped: Vec::new(),
         locals: Vec::new(),
         cells: Vec::new(),
         plants: Vec::new(),
@@ -56,7 +64,10 @@ pub fn model(project: &Project, faults: Faults) -> Result<Model, Vec<Diagnostic>
             .iter()
             .any(|state| !crate::reads::Reads::of_guards(automaton, state).timers.is_empty());
         let times = waits.then(|| memory.number(number, format!("{name}.(times)"), 255, 0));
+        let stopped =
+            can_stop(automaton, asked).then(|| memory.number(number, format!("{name}.(stopped)"), 1, 0));
         whole.states.push((state, times));
+        whole.stopped.push(stopped);
         let locals = automaton.locals.iter().map(|local| match local.kept_by {
             // Nothing that is searched reads it.
             KeptBy::Properties | KeptBy::Modes => (Vec::new(), 0),
@@ -65,13 +76,15 @@ pub fn model(project: &Project, faults: Faults) -> Result<Model, Vec<Diagnostic>
             }
         });
         whole.locals.push(locals.collect());
+        let ports = 0..automaton.device.ports.len();
+        let reads: Vec<bool> = ports.map(|port| reads_port(automaton, port, asked)).collect();
         whole.plants.push(plant(
             line,
             number,
             &automaton.device.ports,
-            reads_error(automaton),
+            Known { reads_error: reads_error(automaton, asked), stopped, reads: &reads },
             &mut memory,
-            &mut inputs,
+            &mut changing,
         ));
         let mut outputs = vec![None; automaton.device.ports.len()];
         let mut levels = whole.plants[number].outputs.iter();
@@ -81,7 +94,7 @@ pub fn model(project: &Project, faults: Faults) -> Result<Model, Vec<Diagnostic>
             }
             let level = levels.next().copied().flatten();
             outputs[port] = level.map(|var| (vec![var], 0));
-            if level.is_none() && reads_port(automaton, port) {
+            if level.is_none() && reads_port(automaton, port, asked) {
                 let ty = Type { scalar: output.ty.into(), extent: output.extent.into() };
                 let initial = match output.ty {
                     PortType::Bool => Value::Bool(false),
@@ -111,10 +124,10 @@ pub fn model(project: &Project, faults: Faults) -> Result<Model, Vec<Diagnostic>
     let orders: Vec<Order> = orders.collect();
     let initial = memory.initial.clone();
     whole.initial = &initial;
-    let mut refused = Vec::new();
+    let (mut refused, mut skipped) = (Vec::new(), Vec::new());
     let instances = (0..system.instances.len()).map(|number| {
         let mut instance = Instance::new(&whole, number);
-        let program = instance.program();
+        let program = instance.program(asked, &mut memory, &mut skipped);
         refused.extend(instance.refused.into_iter().map(|port| (number, port)));
         program
     });
@@ -128,20 +141,23 @@ pub fn model(project: &Project, faults: Faults) -> Result<Model, Vec<Diagnostic>
         arms[machine].as_ref().is_some_and(|arm| arm.solve(Point { x, y, z }, &arm.start()).is_some())
     }));
     let Memory { initial, owners, variables, values } = memory;
-    Ok(Model {
+    let model = Model {
         initial,
         owners,
         instances,
         machines: whole.plants.into_iter().map(|plant| plant.machine).collect(),
-        inputs,
+        inputs: changing.inputs,
+        cylinders: changing.cylinders,
+        processes: changing.processes,
         orders,
         heights: line.kinds.iter().map(|kind| kind.height).collect(),
-        faults,
+        faults: asked.faults,
         watch: Watch::Everything,
         reach,
         values,
         variables,
-    })
+    };
+    Ok(Searched { model, skipped })
 }
 
 fn unbounded(system: &System, number: usize, port: &str) -> Diagnostic {
@@ -155,13 +171,13 @@ fn unbounded(system: &System, number: usize, port: &str) -> Diagnostic {
     .help("verify lines whose automata read booleans, whole numbers of few values, and places that commands fix")
 }
 
-fn reads_error(automaton: &Automaton) -> bool {
+fn reads_error(automaton: &Automaton, asked: &Asked) -> bool {
     let port = automaton.device.ports.iter().position(|port| port.name == "error");
-    port.is_some_and(|port| reads_port(automaton, port))
+    port.is_some_and(|port| reads_port(automaton, port, asked))
 }
 
 /// Whether an expression reads a port by its name.
-fn reads_port(automaton: &Automaton, port: usize) -> bool {
+fn reads_port(automaton: &Automaton, port: usize, asked: &Asked) -> bool {
     fn reads(expr: &Expr, port: usize) -> bool {
         let here = matches!(&expr.kind, ExprKind::Read(Place::Port { port: p, .. }) if *p == port);
         here || expr.parts().into_iter().any(|part| reads(part, port))
@@ -190,7 +206,7 @@ fn reads_port(automaton: &Automaton, port: usize) -> bool {
         }
     };
     let defines = automaton.defines.iter().any(|define| reads(&define.value, port));
-    let properties = searched(automaton).flat_map(Property::exprs).any(|expr| reads(expr, port));
+    let properties = searched(automaton, asked).flat_map(read_by).any(|expr| reads(expr, port));
     let mut transitions = automaton.states.iter().flat_map(|state| &state.transitions);
     defines
         || properties

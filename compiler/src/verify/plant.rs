@@ -4,13 +4,15 @@
 //! primitive that is not named there changes freely, which is sound for every primitive and says little.
 
 use super::memory::Memory;
+use super::strokes::{Changing, Of};
 use crate::device::Port;
 use crate::device::panel;
 use autogen_search::plant::{
-    Action, Arm, Asked, Awaits, Desk, Head, Input, Lane, Place, Route, Zone, motion, phase, status,
+    Action, Arm, Asked, Awaits, Desk, Head, Input, Lane, Level, Place, Route, Zone, motion, phase, status,
 };
+use autogen_search::stroke::position;
 use autogen_search::value::Var;
-use runtime_sim::device::error;
+use runtime_sim::device::{Direction, Stop, error};
 use runtime_sim::line::Line;
 use runtime_sim::machine::Machine;
 use runtime_sim::part::Primitive;
@@ -30,6 +32,8 @@ pub enum Signal {
     At(Var),
     /// A truth that is at its place in the state.
     Held(Var),
+    /// Whether this is at its place in the state.
+    Is(Var, i32),
     /// Unlike 0.
     Moves(Var),
     /// The number of the stop at which it stands.
@@ -52,6 +56,17 @@ pub struct Plant {
     pub inputs: Vec<Signal>,
     /// For each output port the place of a level that the plant reads.
     pub outputs: Vec<Option<Var>>,
+}
+
+/// What is known of the automaton of a machine.
+#[derive(Clone, Copy, Debug)]
+pub struct Known<'a> {
+    /// It reads the port `error` by itself.
+    pub reads_error: bool,
+    /// Whether it is stopped by itself, if anything can stop it.
+    pub stopped: Option<Var>,
+    /// Of each port of the device whether an expression reads it.
+    pub reads: &'a [bool],
 }
 
 fn coordinates(p: Point) -> [f64; 3] {
@@ -99,17 +114,18 @@ pub fn places_of_commands(machine: &Machine) -> Vec<usize> {
     machine.wiring.commands.iter().map(|command| asked(machine, command, false).1).collect()
 }
 
-/// Lays out what the plant remembers of a machine. `ports` are those of its device; `reads_error` says whether its
-/// automaton reads the port `error` by itself.
+/// Lays out what the plant remembers of a machine. `ports` are those of its device.
 pub fn plant(
     line: &Line,
     number: usize,
     ports: &[Port],
-    reads_error: bool,
+    known: Known,
     memory: &mut Memory,
-    inputs: &mut Vec<Input>,
+    changing: &mut Changing,
 ) -> Plant {
+    let Known { reads_error, stopped, reads } = known;
     let machine = &line.machines[number];
+    let watched = watched(machine, ports, reads);
     let mut found = autogen_search::plant::Machine::default();
     let name = |what: &str| format!("{}.{what}", machine.name);
     if machine.wiring.is_commanded() {
@@ -121,15 +137,18 @@ pub fn plant(
             commands: commands.map(|command| asked(machine, command, reads_error).0).collect(),
         });
     }
-    let levels = levels(machine, number, ports, memory);
+    let levels = levels(machine, number, ports, &watched, memory);
     let level = |part: usize, wanted: &str| {
-        let outputs = machine.wiring.outputs.iter().zip(&levels);
-        let mut named = outputs.filter_map(|(output, var)| match output.drives {
-            Drives::Level { part: of, level } => Some((of, level, (*var)?)),
-            _ => None,
-        });
+        let published = ports.iter().filter(|port| port.direction == Direction::Output);
+        let outputs = machine.wiring.outputs.iter().zip(published).zip(&levels);
         let is_wanted = |level: usize| machine.parts[part].schema().levels[level].name == wanted;
-        named.find(|(of, level, _)| *of == part && is_wanted(*level)).map(|(_, _, var)| var)
+        outputs.into_iter().find_map(|((output, port), var)| match output.drives {
+            Drives::Level { part: of, level } if of == part && is_wanted(level) => {
+                let stop = stop_value(port);
+                var.map(|var| (Level { var, stop: stopped.zip(stop) }, stop.unwrap_or(false)))
+            }
+            _ => None,
+        })
     };
     for (part, made) in machine.parts.iter().enumerate() {
         match &made.primitive {
@@ -146,7 +165,7 @@ pub fn plant(
                     goal: memory.point(number, name("(goal)"), [0.0; 3]),
                     holds: memory.number(number, name("(holds)"), line.kinds.len(), 0),
                     shown: memory.number(number, name("(attached)"), 1, 0),
-                    closes: grip.and_then(|grip| level(grip, "close")),
+                    closes: grip.and_then(|grip| level(grip, "close")).map(|(level, _)| level),
                     near: near.unwrap_or(0.0),
                 });
             }
@@ -159,11 +178,20 @@ pub fn plant(
                     tolerance: route.tolerance,
                 });
             }
+            Primitive::Cylinder(cylinder) if watched[part] => {
+                let valves = ["extend", "retract"].map(|valve| level(part, valve));
+                let of = Of { machine, number, part, scan_ms: u64::from(line.scan_ms) };
+                changing.add_cylinder(of, cylinder, valves, memory);
+            }
+            Primitive::Process(process) if watched[part] => {
+                let of = Of { machine, number, part, scan_ms: u64::from(line.scan_ms) };
+                changing.add_process(of, process, level(part, "start"), memory);
+            }
             Primitive::Lane(lane) if machine.wiring.commands.iter().any(|command| command.part == part) => {
                 let zones =
                     machine.parts.iter().enumerate().filter_map(|(of, other)| match &other.primitive {
                         Primitive::Zone(field) if field.lane == part => {
-                            Some(zone(line, number, of, lane, field, memory, inputs))
+                            Some(zone(line, number, of, lane, field, memory, &mut changing.inputs))
                         }
                         _ => None,
                     });
@@ -214,7 +242,7 @@ pub fn plant(
                         first.unwrap_or(0) as i32,
                     ),
                     next: memory.number(number, name("(orders begun)"), here.len(), i32::from(is_open)),
-                    complete: level(part, "complete"),
+                    complete: level(part, "complete").map(|(level, _)| level),
                     place,
                     orders: here,
                 });
@@ -226,14 +254,39 @@ pub fn plant(
         Source::Ready => Signal::Fixed(1),
         Source::Error => Signal::Error,
         Source::Got | Source::Ack => Signal::Unbounded,
-        Source::Signal { part, signal } => self::signal(line, number, part, signal, &found, memory, inputs),
+        Source::Signal { part, signal } => self::signal(line, number, part, signal, &found, memory, changing),
     });
     Plant { inputs: signals.collect(), machine: found, outputs: levels }
 }
 
+/// What is published of a truth while its machine is stopped; none: what the automaton wrote last.
+fn stop_value(port: &Port) -> Option<bool> {
+    match port.stop {
+        Stop::Value(value) => Some(value != 0.0),
+        Stop::Hold => None,
+    }
+}
+
+/// Of each part whether its automaton reads any of its signals.
+fn watched(machine: &Machine, ports: &[Port], reads: &[bool]) -> Vec<bool> {
+    let mut watched = vec![false; machine.parts.len()];
+    let inputs = ports.iter().zip(reads).filter(|(port, _)| port.direction == Direction::Input);
+    for ((_, is_read), input) in inputs.zip(&machine.wiring.inputs) {
+        if let (true, Source::Signal { part, .. }) = (*is_read, input.source) {
+            watched[part] = true;
+        }
+    }
+    watched
+}
+
 /// Places for the levels that the plant reads.
-fn levels(machine: &Machine, number: usize, ports: &[Port], memory: &mut Memory) -> Vec<Option<Var>> {
-    use runtime_sim::device::Direction;
+fn levels(
+    machine: &Machine,
+    number: usize,
+    ports: &[Port],
+    watched: &[bool],
+    memory: &mut Memory,
+) -> Vec<Option<Var>> {
     let outputs = ports.iter().filter(|port| port.direction == Direction::Output);
     let levels = outputs.zip(&machine.wiring.outputs).map(|(port, output)| match output.drives {
         Drives::Level { part, level } => {
@@ -241,7 +294,7 @@ fn levels(machine: &Machine, number: usize, ports: &[Port], memory: &mut Memory)
             let is_read = matches!(
                 (schema.name, schema.levels[level].name),
                 ("grip", "close") | ("orders", "complete")
-            );
+            ) || (matches!(schema.name, "cylinder" | "process") && watched[part]);
             is_read.then(|| memory.number(number, format!("{}.{}", machine.name, port.name), 1, 0))
         }
         _ => None,
@@ -318,7 +371,7 @@ fn signal(
     signal: usize,
     found: &autogen_search::plant::Machine,
     memory: &mut Memory,
-    inputs: &mut Vec<Input>,
+    changing: &mut Changing,
 ) -> Signal {
     use runtime_sim::device::PortType;
     let machine = &line.machines[number];
@@ -345,6 +398,17 @@ fn signal(
                 return Signal::Found(zone.found.clone());
             }
         }
+        (("cylinder", name), ..) => {
+            if let Some(cylinder) = changing.cylinder(number, part) {
+                let end = if name == "is_in" { position::IN } else { position::OUT };
+                return Signal::Is(cylinder.position, end);
+            }
+        }
+        (("process", name), ..) => {
+            if let Some(process) = changing.process(number, part) {
+                return Signal::Held(if name == "runs" { process.runs } else { process.ended });
+            }
+        }
         (("orders", "open"), ..) => return Signal::IsOpen,
         (("orders", "parts"), ..) => return Signal::Parts,
         (("orders", "number"), ..) => return Signal::OrderNumber,
@@ -363,8 +427,8 @@ fn signal(
     let free = (0..elements).map(|element| {
         let name = format!("{}.({} {})[{element}]", machine.name, machine.parts[part].name, schema.name);
         let var = memory.number(number, name, 255, 0);
-        inputs.push(Input { var, low, values, stays: None, machine: number });
-        inputs.len() - 1
+        changing.inputs.push(Input { var, low, values, stays: None, machine: number });
+        changing.inputs.len() - 1
     });
     Signal::Free(free.collect())
 }

@@ -1,9 +1,149 @@
-//! Which properties are searched.
+//! Properties as they are searched.
 
-use crate::ir::{Automaton, Property, PropertyKind, Severity};
+use super::automaton::Instance;
+use super::memory::{Memory, kept};
+use super::{Asked, Remembered, Warnings};
+use crate::ir::{self, Automaton, Expr, ExprKind, Place, PropertyKind, Scalar, Severity, Value};
+use crate::library;
+use autogen_search::program::bit;
+use autogen_search::property::{self, Check, Effect, Keep, Property, Whenever};
 
-/// What always holds, unless a violation only warns. What follows within a time is left out: time has no measure here.
-pub fn searched(automaton: &Automaton) -> impl Iterator<Item = &Property> {
-    let properties = automaton.properties.iter();
-    properties.filter(|p| p.severity != Severity::Warning && matches!(p.kind, PropertyKind::Always(_)))
+/// Which properties of a type are searched. Of obligations those are left out whose violation calls the operator, because
+/// that is meant, and `answer` (which alone begins anew): contracts say that every command can be answered.
+pub fn searched<'a>(automaton: &'a Automaton, asked: &'a Asked) -> impl Iterator<Item = &'a ir::Property> {
+    let is_asked = |property: &&'a ir::Property| match (&property.kind, property.severity, asked.warnings) {
+        (PropertyKind::Whenever { anew: Some(_), .. }, ..) => false,
+        (PropertyKind::Whenever { .. }, ..) if property.asks_operator => false,
+        (_, Severity::Machine | Severity::Line, _) | (_, _, Warnings::All) => true,
+        (_, Severity::Warning, Warnings::None) => false,
+        (_, Severity::Warning, Warnings::Own(sources)) => !library::has(sources.file(property.place.file)),
+    };
+    automaton.properties.iter().filter(is_asked)
+}
+
+/// What is read for a property.
+pub fn read_by(property: &ir::Property) -> Vec<&Expr> {
+    match &property.kind {
+        PropertyKind::Always(condition) => vec![condition],
+        PropertyKind::Keep { condition, values, .. } => {
+            std::iter::once(condition).chain(values.iter().map(|kept| &kept.value)).collect()
+        }
+        PropertyKind::Whenever { trigger, goal, .. } => vec![trigger, goal],
+    }
+}
+
+/// Whether a property that is searched stops the machine.
+pub fn can_stop(automaton: &Automaton, asked: &Asked) -> bool {
+    searched(automaton, asked).any(|property| {
+        property.severity == Severity::Machine && !matches!(property.kind, PropertyKind::Whenever { .. })
+    })
+}
+
+/// A property of an instance that cannot be searched: it reads what no contract describes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Skipped {
+    pub instance: usize,
+    /// Number among the properties of its type.
+    pub property: usize,
+}
+
+impl Instance<'_> {
+    /// The properties that are searched; what they remember is laid out in the state.
+    pub fn properties(
+        &mut self,
+        asked: &Asked,
+        memory: &mut Memory,
+        skipped: &mut Vec<Skipped>,
+    ) -> Vec<Property> {
+        let mut found = Vec::new();
+        for property in searched(self.automaton, asked) {
+            let refused = self.refused.len();
+            self.begin_anew();
+            let check = match &property.kind {
+                PropertyKind::Always(condition) => Check::Always(self.int(condition)),
+                PropertyKind::Keep { condition, values, .. } => {
+                    self.keep(condition, values.iter().map(|kept| &kept.value), asked, memory)
+                }
+                PropertyKind::Whenever { trigger, goal, .. } => {
+                    let (trigger, goal) = (self.int(trigger), self.int(goal));
+                    let name = format!("{}.(waits)", self.instance().name);
+                    let waits = memory.number(self.number, name, 1, 0);
+                    let is_told = !self.asks_inputs && asked.remembered == Remembered::Least;
+                    Check::Whenever(Whenever { trigger, goal, waits, is_told })
+                }
+            };
+            let is_new_refusal = self.refused.len() > refused;
+            let is_invariant =
+                matches!(property.kind, PropertyKind::Always(_)) && property.severity != Severity::Warning;
+            if is_new_refusal && !is_invariant {
+                self.refused.truncate(refused);
+                let number = self.automaton.properties.iter().position(|other| std::ptr::eq(other, property));
+                skipped.extend(number.map(|property| Skipped { instance: self.number, property }));
+                continue;
+            }
+            let effect = match property.severity {
+                Severity::Warning => Effect::Warns,
+                Severity::Machine => Effect::StopsMachine,
+                _ if property.asks_operator => Effect::AsksOperator,
+                _ => Effect::Fault,
+            };
+            let reads = read_by(property).into_iter().fold(0, |bits, expr| bits | self.cells_of(expr));
+            found.push(Property { check, fault: property.site.0, effect, reads });
+        }
+        found
+    }
+
+    fn keep<'a>(
+        &mut self,
+        condition: &Expr,
+        values: impl Iterator<Item = &'a Expr>,
+        asked: &Asked,
+        memory: &mut Memory,
+    ) -> Check {
+        let condition = self.int(condition);
+        let types: Vec<(Scalar, property::Value)> =
+            values.map(|value| (value.ty, self.property_value(value))).collect();
+        let is_told = !self.asks_inputs && asked.remembered == Remembered::Least;
+        let remembered = || {
+            let name = |what: &str| format!("{}.(kept {what})", self.instance().name);
+            let held = memory.number(self.number, name("while"), 1, 0);
+            let before = types.iter().map(|(ty, _)| {
+                let initial = match ty {
+                    Scalar::Bool => Value::Bool(false),
+                    Scalar::Real => Value::Real(0.0),
+                    Scalar::Point => Value::Point([0.0; 3]),
+                    _ => Value::Int(self.kept(*ty).low),
+                };
+                memory.value(self.number, name("value"), *ty, self.kept(*ty), initial)
+            });
+            property::Memory { held, before: before.collect() }
+        };
+        let memory = (!is_told).then(remembered);
+        Check::Keep(Keep { condition, values: types.into_iter().map(|(_, value)| value).collect(), memory })
+    }
+
+    fn property_value(&mut self, value: &Expr) -> property::Value {
+        match value.ty {
+            Scalar::Real => property::Value::Real(self.real(value)),
+            Scalar::Point => property::Value::Point(self.point(value)),
+            ty => property::Value::Int(self.int(value), self.kept(ty).low),
+        }
+    }
+
+    fn kept(&self, ty: Scalar) -> super::memory::Kept {
+        kept(ty, |ty| self.line.members(ty))
+    }
+
+    /// Whose cells an expression reads, a bit for each instance.
+    fn cells_of(&self, expr: &Expr) -> u64 {
+        let own = match &expr.kind {
+            ExprKind::Define(define) => self.cells_of(&self.automaton.defines[*define].value),
+            ExprKind::Read(Place::Cell { of: None, .. }) => bit(self.number),
+            ExprKind::Read(Place::Cell { interface, .. }) => {
+                self.line.system.members[interface.0].iter().fold(0, |bits, member| bits | bit(*member))
+            }
+            _ => 0,
+        };
+        expr.parts().into_iter().fold(own, |bits, part| bits | self.cells_of(part))
+    }
 }

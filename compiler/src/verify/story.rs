@@ -1,11 +1,13 @@
 //! An execution in words.
 
+use super::Skipped;
 use crate::lower::Project;
 use crate::source::{Sources, Span};
 use autogen_search::Fired;
 use autogen_search::event::{Ending, Event, From, What};
 use autogen_search::model::Model;
 use autogen_search::story::{Execution, Happened};
+use autogen_search::stroke::position;
 use autogen_search::violation::Violation;
 use std::fmt::Write;
 
@@ -24,6 +26,21 @@ impl Teller<'_> {
             Violation::Fault { instance, fault } => {
                 let site = &self.project.system.model.faults[fault];
                 format!("fault of {}: {} ({})", name(instance), site.text, self.place(site.place))
+            }
+            Violation::Warning { instance, fault } => {
+                let site = &self.project.system.model.faults[fault];
+                format!("warning of {}: {} ({})", name(instance), site.text, self.place(site.place))
+            }
+            Violation::MachineStops { instance, fault } => {
+                let site = &self.project.system.model.faults[fault];
+                format!("stop of {}: {} ({})", name(instance), site.text, self.place(site.place))
+            }
+            Violation::NeverFollowed { instance, fault } => {
+                let properties = &self.project.system.automaton_of(instance).properties;
+                let property = properties.iter().find(|property| property.site.0 == fault);
+                let text = property.map_or("a property", |property| property.text.as_str());
+                let place = self.place(self.project.system.model.faults[fault].place);
+                format!("from here `{text}` of {} cannot be fulfilled any more ({place})", name(instance))
             }
             Violation::Stop => "the line stops until an operator comes".into(),
             Violation::NeverMade => "from here the orders cannot be made any more".into(),
@@ -52,8 +69,33 @@ impl Teller<'_> {
             for fired in &happened.told.fired {
                 let _ = writeln!(out, "{:>4}    {}", number + 1, self.fired(fired));
             }
+            // Nothing but what was read can have brought the last scan about.
+            let is_last = number + 1 == execution.scans.len();
+            if is_last && happened.events.is_empty() && happened.told.fired.is_empty() {
+                for (input, value) in &happened.told.read {
+                    let _ = writeln!(out, "{:>4}  {} is {value}", number + 1, self.input(*input));
+                }
+            }
         }
         out
+    }
+
+    /// `shelf.(key on)`
+    fn input(&self, input: usize) -> &str {
+        let var = self.model.inputs[input].var;
+        let found = self.model.variables.iter().find(|variable| variable.var == var);
+        found.map_or("an input", |variable| variable.name.trim_end_matches("[0]"))
+    }
+
+    /// A property that is left out: `mill: keep level while is_closed (mill.aut:12:5)`
+    pub fn skipped(&self, skipped: &Skipped) -> String {
+        let automaton = self.project.system.automaton_of(skipped.instance);
+        let property = &automaton.properties[skipped.property];
+        format!("{}: {} ({})", self.name(skipped.instance), property.text, self.place(property.place))
+    }
+
+    fn part(&self, machine: usize, part: usize) -> &str {
+        &self.project.plant.machines[machine].parts[part].name
     }
 
     fn name(&self, machine: usize) -> &str {
@@ -132,6 +174,26 @@ impl Teller<'_> {
             What::IsGone => {
                 let order = plant.desk.as_ref().map_or(0, |desk| desk.order.load(&happened.before));
                 format!("{name}: order {} has been taken away", order + 1)
+            }
+            What::Strokes { cylinder, to, .. } => {
+                let part = self.part(event.machine, self.model.cylinders[cylinder].part);
+                match to {
+                    position::IN => format!("{name}: `{part}` has come to its inner end"),
+                    position::OUT => format!("{name}: `{part}` has come to its outer end"),
+                    _ => format!("{name}: `{part}` has left its end"),
+                }
+            }
+            What::Settles(cylinder) => {
+                let part = self.part(event.machine, self.model.cylinders[cylinder].part);
+                format!("{name}: `{part}` rests")
+            }
+            What::Begins(process) => {
+                let part = self.part(event.machine, self.model.processes[process].part);
+                format!("{name}: `{part}` begins")
+            }
+            What::Leaps(process) | What::Completes(process) => {
+                let part = self.part(event.machine, self.model.processes[process].part);
+                format!("{name}: `{part}` has ended")
             }
             What::TimeComes => format!("{name}: a timer of its state expires"),
         }

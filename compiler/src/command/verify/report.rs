@@ -1,9 +1,11 @@
 //! What a search has shown, and exactly what not.
 
-use super::super::options::{StepOrders, VerifyOptions};
+use super::super::options::{StepOrders, VerifyOptions, Warnings};
+use autogen::verify::Skipped;
 use autogen::verify::replay::Replay;
 use autogen::verify::story::Teller;
 use autogen_search::explore::{End, Outcome};
+use autogen_search::property::Check;
 use autogen_search::story::Execution;
 use autogen_search::violation::Violation;
 use serde_json::{Value, json};
@@ -16,6 +18,8 @@ pub struct Report<'a> {
     /// Answers in one scan of the last search.
     pub answers: Option<usize>,
     pub shown: &'a [Shown<'a>],
+    /// Properties that were left out.
+    pub skipped: &'a [Skipped],
 }
 
 pub struct Shown<'a> {
@@ -75,6 +79,34 @@ impl Report<'_> {
                 self.outcome.covered.stops
             ));
         }
+        if self.outcome.covered.stopped > 0 {
+            bounds.push(format!(
+                "in {} states a machine is stopped by itself, which calls the operator: what can follow there is not decided",
+                self.outcome.covered.stopped
+            ));
+        }
+        let has_obligations = self.teller.model.instances.iter().flat_map(|instance| &instance.properties);
+        if has_obligations.into_iter().any(|property| matches!(property.check, Check::Whenever(_))) {
+            bounds.push(
+                "what a `whenever` waits for can always still come, after any number of scans; whether it comes in time is not decided"
+                    .into(),
+            );
+        }
+        match self.options.warnings {
+            Warnings::None => bounds.push("properties that only warn are not searched".into()),
+            Warnings::Own => {
+                bounds.push(
+                    "properties of the library that only warn are not searched: `--warnings all`".into(),
+                );
+            }
+            Warnings::All => {}
+        }
+        for skipped in self.skipped {
+            bounds.push(format!(
+                "not searched, because it reads what no contract describes: {}",
+                self.teller.skipped(skipped)
+            ));
+        }
         if plant.scenario.orders.is_empty() {
             bounds.push("nothing is ordered: whether orders can be made is not checked".into());
         }
@@ -130,6 +162,7 @@ impl Report<'_> {
             "states": covered.states,
             "transitions": covered.transitions,
             "stops": covered.stops,
+            "stopped_states": covered.stopped,
             "depth": covered.depth,
             "time_s": covered.time.as_secs_f64(),
             "memory_bytes": covered.memory,

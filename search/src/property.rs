@@ -1,0 +1,217 @@
+//! What types promise: it is checked after the steps of each scan.
+
+use crate::program::{Instance, Int, PointValue, Real, bit};
+use crate::scan::Scan;
+use crate::value::{Point, Var};
+use crate::violation::Violation;
+
+#[derive(Clone, Debug)]
+pub struct Property {
+    pub check: Check,
+    /// Index into the faults of the model.
+    pub fault: usize,
+    pub effect: Effect,
+    /// Instances whose cells it reads, a bit each.
+    pub reads: u64,
+}
+
+#[derive(Clone, Debug)]
+pub enum Check {
+    Always(Int),
+    Keep(Keep),
+    Whenever(Whenever),
+}
+
+/// What a violation does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Effect {
+    Fault,
+    /// A stop that is meant: somebody has to come.
+    AsksOperator,
+    StopsMachine,
+    /// It stops nothing.
+    Warns,
+}
+
+/// Values that stay as they are while a condition holds.
+#[derive(Clone, Debug)]
+pub struct Keep {
+    pub condition: Int,
+    pub values: Vec<Value>,
+    /// None: the state before the scan tells what was at the last check.
+    pub memory: Option<Memory>,
+}
+
+/// What was at the last check.
+#[derive(Clone, Debug)]
+pub struct Memory {
+    /// Whether the condition held.
+    pub held: Var,
+    /// The values, while it holds.
+    pub before: Vec<Var>,
+}
+
+/// A goal that has to follow a trigger, after any number of scans.
+#[derive(Clone, Debug)]
+pub struct Whenever {
+    pub trigger: Int,
+    pub goal: Int,
+    /// Whether the goal is waited for. If the state behind a scan tells whether trigger and goal hold, it is kept only
+    /// where neither of them does.
+    pub waits: Var,
+    pub is_told: bool,
+}
+
+#[derive(Clone, Debug)]
+pub enum Value {
+    /// With how much less the memory holds.
+    Int(Int, i32),
+    Real(Real),
+    Point(PointValue),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Read {
+    Int(i32),
+    Real(f64),
+    Point(Point),
+}
+
+impl Scan<'_> {
+    /// All properties of those instances of which anything has changed.
+    pub(crate) fn properties(&mut self, touched: u64) -> Result<(), Violation> {
+        let model = self.model;
+        for (instance, program) in model.instances.iter().enumerate() {
+            let stands = program.stopped.is_some_and(|stopped| stopped.load(self.before) != 0);
+            for property in &program.properties {
+                let is_due = (touched | self.fired) & bit(instance) != 0
+                    || self.written & property.reads != 0
+                    || property.check.is_due_always();
+                if is_due && self.is_violated(program, &property.check, stands) {
+                    let fault = property.fault;
+                    match property.effect {
+                        Effect::Fault => return Err(Violation::Fault { instance, fault }),
+                        Effect::AsksOperator => return Err(Violation::Stop),
+                        Effect::StopsMachine => {
+                            self.noted.push(Violation::MachineStops { instance, fault });
+                            if let Some(stopped) = program.stopped {
+                                stopped.store(self.bytes, 1);
+                            }
+                            self.fired |= bit(instance);
+                        }
+                        Effect::Warns => self.noted.push(Violation::Warning { instance, fault }),
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// `stands`: the instance was stopped before this scan.
+    fn is_violated(&mut self, program: &Instance, check: &Check, stands: bool) -> bool {
+        match check {
+            Check::Always(condition) => !self.holds(condition),
+            Check::Keep(keep) => match &keep.memory {
+                None => !stands && self.has_changed(program, keep),
+                Some(memory) => self.has_changed_since(keep, memory, stands),
+            },
+            Check::Whenever(whenever) => {
+                let waits = !stands && self.has_to_wait(program, whenever);
+                let is_told = whenever.is_told && self.holds(&whenever.trigger);
+                whenever.waits.store(self.bytes, i32::from(waits && !is_told));
+                false
+            }
+        }
+    }
+
+    fn has_changed(&mut self, program: &Instance, keep: &Keep) -> bool {
+        // In the beginning nothing has been checked.
+        if program.state.load(self.before) == 0 || !self.holds(&keep.condition) {
+            return false;
+        }
+        std::mem::swap(&mut self.bytes, &mut self.before);
+        let held = self.holds(&keep.condition);
+        std::mem::swap(&mut self.bytes, &mut self.before);
+        held && keep.values.iter().any(|value| {
+            let now = self.read(value);
+            std::mem::swap(&mut self.bytes, &mut self.before);
+            let before = self.read(value);
+            std::mem::swap(&mut self.bytes, &mut self.before);
+            now != before
+        })
+    }
+
+    fn has_changed_since(&mut self, keep: &Keep, memory: &Memory, stands: bool) -> bool {
+        let held = memory.held.load(self.bytes) != 0;
+        let holds = !stands && self.holds(&keep.condition);
+        memory.held.store(self.bytes, i32::from(holds));
+        let mut has_changed = false;
+        for (value, before) in keep.values.iter().zip(&memory.before) {
+            // What was while it did not hold is of no use.
+            let now = if holds { self.number(value) } else { 0 };
+            has_changed |= held && holds && before.load(self.bytes) != now;
+            before.store(self.bytes, now);
+        }
+        has_changed
+    }
+
+    /// Whether the goal is waited for behind this scan.
+    fn has_to_wait(&mut self, program: &Instance, whenever: &Whenever) -> bool {
+        if self.holds(&whenever.goal) {
+            return false;
+        }
+        if self.holds(&whenever.trigger) {
+            return true;
+        }
+        if !whenever.is_told {
+            return whenever.waits.load(self.bytes) != 0;
+        }
+        std::mem::swap(&mut self.bytes, &mut self.before);
+        let waited = self.is_waiting(program, whenever);
+        std::mem::swap(&mut self.bytes, &mut self.before);
+        waited
+    }
+
+    /// Whether the goal is waited for in a state between two scans.
+    pub(crate) fn is_waiting(&mut self, program: &Instance, whenever: &Whenever) -> bool {
+        if program.stopped.is_some_and(|stopped| stopped.load(self.bytes) != 0) {
+            return false;
+        }
+        if !whenever.is_told || whenever.waits.load(self.bytes) != 0 {
+            return whenever.waits.load(self.bytes) != 0;
+        }
+        // In the beginning nothing has been checked.
+        program.state.load(self.bytes) != 0 && !self.holds(&whenever.goal) && self.holds(&whenever.trigger)
+    }
+
+    fn read(&mut self, value: &Value) -> Read {
+        match value {
+            Value::Int(value, _) => Read::Int(self.int(value)),
+            Value::Real(value) => Read::Real(self.real(value)),
+            Value::Point(value) => Read::Point(self.point(value)),
+        }
+    }
+
+    /// A value as the memory holds it.
+    fn number(&mut self, value: &Value) -> i32 {
+        match self.read(value) {
+            Read::Int(now) => match value {
+                Value::Int(_, low) => now.wrapping_sub(*low),
+                _ => now,
+            },
+            Read::Real(now) => self.values.number_of_real(now),
+            Read::Point(now) => self.values.number_of_point(now),
+        }
+    }
+}
+
+impl Check {
+    /// Whether it reads what changes in scans in which nothing else does.
+    fn is_due_always(&self) -> bool {
+        match self {
+            Self::Always(_) => false,
+            Self::Keep(keep) => keep.memory.is_some(),
+            Self::Whenever(whenever) => !whenever.is_told,
+        }
+    }
+}

@@ -1,0 +1,89 @@
+//! Properties as they are searched: small lines of which each keeps its promises or breaks them, with the executions that do.
+
+use autogen::verify::story::Teller;
+use autogen::verify::{Asked, Remembered, Searched, Warnings, model};
+use autogen_search::explore::{Bounds, End, Outcome, explore};
+use autogen_search::plant::Faults;
+use autogen_search::successor::Orders;
+use autogen_tests::{Texts, root};
+use std::fmt::Write;
+
+const BOUNDS: Bounds =
+    Bounds { answers: None, orders: Orders::One, time: None, memory: 1_000_000_000, violations: 100 };
+
+/// A line by its type: the first line of the text has its layout.
+fn line(name: &str) -> Texts {
+    let path = root().join(format!("tests/fixtures/verify/properties/{name}.aut"));
+    let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    let (layout, _) = text.split_once('\n').expect("a layout");
+    let layout = layout.strip_prefix("// ").expect("a layout in a comment").to_string();
+    Texts { layout, specs: vec![text], ..Texts::default() }
+}
+
+fn names() -> Vec<String> {
+    let folder = root().join("tests/fixtures/verify/properties");
+    let entries = std::fs::read_dir(folder).expect("the folder of the lines");
+    let files = entries.map(|entry| entry.expect("an entry").file_name().into_string().expect("a name"));
+    let mut names: Vec<String> =
+        files.filter_map(|name| name.strip_suffix(".aut").map(String::from)).collect();
+    names.sort();
+    names
+}
+
+/// What is found, with its executions.
+fn told(name: &str) -> String {
+    let outcome = line(name).compile();
+    let project = outcome.project.as_ref().unwrap_or_else(|| {
+        panic!("{name}: {}", autogen_tests::plain(&outcome.sources, &outcome.diagnostics))
+    });
+    let asked = Asked { warnings: Warnings::Own(&outcome.sources), ..Asked::with(Faults::All) };
+    let Searched { model, skipped } = model(project, &asked).expect("a line that can be searched");
+    let teller = Teller { project, model: &model, sources: &outcome.sources };
+    let found = explore(&model, &BOUNDS, &mut |_| true);
+    assert_eq!(found.end, End::Complete, "{name}");
+    let mut text = format!("{} states, {} stops\n", found.covered.states, found.covered.stops);
+    for skipped in &skipped {
+        let _ = writeln!(text, "not searched: {}", teller.skipped(skipped));
+    }
+    for (violation, execution) in &found.violations {
+        let _ = write!(text, "\n{}\n{}", teller.title(violation), teller.tell(execution));
+    }
+    text
+}
+
+#[test]
+fn promises_that_are_kept_and_promises_that_are_broken() {
+    for name in names() {
+        let text = told(&name);
+        let breaks = name.starts_with("not_") || name.starts_with("never_");
+        assert_eq!(text.lines().count() > 1, breaks, "{name}:\n{text}");
+        insta::assert_snapshot!(format!("searched_{name}"), text);
+    }
+}
+
+fn verdict(outcome: &Outcome) -> (End, Vec<String>) {
+    let mut violations: Vec<String> = outcome.violations.iter().map(|(v, _)| format!("{v:?}")).collect();
+    violations.sort();
+    (outcome.end, violations)
+}
+
+/// A state remembers only what makes a difference: with all that the controller remembers the same is found.
+#[test]
+fn remembering_everything_changes_no_verdict() {
+    for name in names() {
+        let outcome = line(&name).compile();
+        let project = outcome.project.as_ref().expect("a right line");
+        for (faults, orders) in [(Faults::All, Orders::One), (Faults::None, Orders::All)] {
+            let search = |remembered| {
+                let warnings = Warnings::Own(&outcome.sources);
+                let asked = Asked { faults, warnings, remembered };
+                let searched = model(project, &asked).expect("a line that can be searched");
+                explore(&searched.model, &Bounds { orders, ..BOUNDS }, &mut |_| true)
+            };
+            let (least, whole) = (search(Remembered::Least), search(Remembered::Whole));
+            assert_eq!(verdict(&least), verdict(&whole), "{name}, {faults:?}, {orders:?}");
+            assert!(least.covered.states <= whole.covered.states, "{name}, {faults:?}, {orders:?}");
+            println!("{name}: {} states, {} with all", least.covered.states, whole.covered.states);
+        }
+    }
+}
