@@ -1,4 +1,4 @@
-//! Boxes that contain a group where it is, on each piece of its path, or for a time.
+//! Boxes that contain a group and each of its bodies where it is, on each piece of its path, or for a time.
 
 use super::super::body::Ball;
 use super::super::bounds::BoundingBox;
@@ -17,25 +17,48 @@ const NEAR: f64 = TOLERANCE + UNCERTAIN;
 const PIECES: usize = 16;
 const PLACES: usize = 4;
 
+/// What contains a group for a time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Swept {
+    pub all: BoundingBox,
+    /// By the numbers of the bodies; that of nothing where there is none.
+    pub bodies: Vec<BoundingBox>,
+}
+
+impl Swept {
+    fn new(bodies: Vec<BoundingBox>) -> Self {
+        Self { all: bodies.iter().fold(BoundingBox::NOTHING, |all, next| all.with(next)), bodies }
+    }
+
+    fn with(&self, other: &Self) -> Self {
+        Self::new(self.bodies.iter().zip(&other.bodies).map(|(one, other)| one.with(other)).collect())
+    }
+}
+
 impl Group {
     /// What contains it on each piece of its path, or all the while.
-    pub fn boxes(&mut self, plant: &Plant, memory: &mut Memory) -> Arc<[BoundingBox]> {
+    pub fn boxes(&mut self, plant: &Plant, memory: &mut Memory) -> Arc<[Swept]> {
         if self.boxes.is_empty() {
             let moving = self.moving(plant).zip(self.machine());
             self.boxes = match (&self.movement, moving) {
                 (Movement::Swings { motion, .. }, Some((moving, machine))) => {
-                    memory.boxes(moving.with(machine as u64), || self.swept(motion))
+                    let key = moving.with(machine as u64).and(self.numbered(plant));
+                    memory.boxes(key, || self.swept(motion))
                 }
                 (Movement::Swings { motion, .. }, None) => self.swept(motion),
                 // All that it can ever be in.
                 (Movement::Slides { .. } | Movement::Rides { .. }, _) => {
-                    [self.around(|body| body.bounds)].into()
+                    [self.each(|body| body.bounds)].into()
                 }
-                (Movement::Still, _) if self.moves_parts() => [self.around(|body| body.bounds)].into(),
+                (Movement::Still, _) if self.moves_parts() => [self.each(|body| body.bounds)].into(),
                 (Movement::Still, _) => [self.present(plant)].into(),
             };
         }
         self.boxes.clone()
+    }
+
+    fn each(&self, of: impl Fn(&Body) -> BoundingBox) -> Swept {
+        Swept::new(self.bodies.iter().map(|body| body.as_ref().map_or(BoundingBox::NOTHING, &of)).collect())
     }
 
     fn around(&self, of: impl Fn(&Body) -> BoundingBox) -> BoundingBox {
@@ -44,29 +67,30 @@ impl Group {
     }
 
     /// What contains all bodies where they are.
-    fn present(&mut self, plant: &Plant) -> BoundingBox {
-        let mut all = BoundingBox::NOTHING;
-        for number in 0..self.bodies.len() {
+    fn present(&mut self, plant: &Plant) -> Swept {
+        let mut bodies = vec![BoundingBox::NOTHING; self.bodies.len()];
+        for (number, here) in bodies.iter_mut().enumerate() {
             let Some((anchor, ball)) = self.bodies[number].as_ref().map(|body| (body.anchor, body.ball))
             else {
                 continue;
             };
             let frame = self.frame(anchor, plant, 0.0);
             let Ball { middle, radius } = ball.within(&frame);
-            all = all.with(&BoundingBox::around(&Ball { middle, radius: radius + NEAR }));
+            *here = BoundingBox::around(&Ball { middle, radius: radius + NEAR });
         }
-        all
+        Swept::new(bodies)
     }
 
     /// On each piece of a path.
-    fn swept(&self, motion: &Motion) -> Arc<[BoundingBox]> {
+    fn swept(&self, motion: &Motion) -> Arc<[Swept]> {
         let Kind::Arm { arm, .. } = &self.kind else { return Arc::default() };
         let half = 0.5 / (PIECES * PLACES) as f64;
         let piece = |piece: usize| {
-            (0..PLACES).fold(BoundingBox::NOTHING, |all, place| {
+            let nothing = self.each(|_| BoundingBox::NOTHING);
+            (0..PLACES).fold(nothing, |all, place| {
                 let middle = (2 * (piece * PLACES + place) + 1) as f64 * half;
                 let frames = arm.frames(&motion.along(middle));
-                let here = self.around(|body| {
+                let here = self.each(|body| {
                     let Anchor::Link(link) = body.anchor else { return body.bounds };
                     let gone = body.travel.to(middle);
                     let reach =
@@ -97,6 +121,6 @@ impl Group {
         };
         let boxes = self.boxes(plant, memory);
         let at = |place: f64| ((place * PIECES as f64) as usize).min(boxes.len() - 1);
-        boxes[at(from)..=at(to)].iter().fold(BoundingBox::NOTHING, |all, next| all.with(next))
+        boxes[at(from)..=at(to)].iter().fold(BoundingBox::NOTHING, |all, next| all.with(&next.all))
     }
 }
