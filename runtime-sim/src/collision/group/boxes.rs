@@ -7,6 +7,7 @@ use super::super::{TOLERANCE, UNCERTAIN};
 use super::{Anchor, Body, Group, Kind};
 use crate::memory::Memory;
 use crate::motion::Motion;
+use crate::part::lane::CentreLine;
 use crate::plant::Plant;
 use std::sync::Arc;
 
@@ -61,11 +62,6 @@ impl Group {
         Swept::new(self.bodies.iter().map(|body| body.as_ref().map_or(BoundingBox::NOTHING, &of)).collect())
     }
 
-    fn around(&self, of: impl Fn(&Body) -> BoundingBox) -> BoundingBox {
-        let boxes = self.bodies.iter().flatten().map(of);
-        boxes.fold(BoundingBox::NOTHING, |all, next| all.with(&next))
-    }
-
     /// What contains all bodies where they are.
     fn present(&mut self, plant: &Plant) -> Swept {
         let mut bodies = vec![BoundingBox::NOTHING; self.bodies.len()];
@@ -105,22 +101,52 @@ impl Group {
     }
 
     /// What contains it for so many seconds from now on.
-    pub fn box_for(&mut self, seconds: f64, plant: &Plant, memory: &mut Memory) -> BoundingBox {
-        if let Movement::Rides { ride, now_ms } = &self.movement {
-            let corners = ride.corners(*now_ms, now_ms + 1000.0 * seconds);
-            return self.around(|body| {
-                let radius = body.ball.middle.length() + body.ball.radius + NEAR;
-                let boxes =
-                    corners.iter().map(|corner| BoundingBox::around(&Ball { middle: *corner, radius }));
-                boxes.fold(BoundingBox::NOTHING, |all, next| all.with(&next))
-            });
+    pub fn boxes_for(&mut self, seconds: f64, plant: &Plant, memory: &mut Memory) -> Swept {
+        match &self.movement {
+            Movement::Swings { .. } => {
+                let [from, to] = self.movement.span(0.0, seconds);
+                let boxes = self.boxes(plant, memory);
+                let at = |place: f64| ((place * PIECES as f64) as usize).min(boxes.len() - 1);
+                let mut pieces = boxes[at(from)..=at(to)].iter();
+                let first = pieces.next().cloned().unwrap_or_else(|| self.each(|_| BoundingBox::NOTHING));
+                pieces.fold(first, |all, next| all.with(next))
+            }
+            Movement::Rides { ride, now_ms } => {
+                let corners = ride.corners(*now_ms, now_ms + 1000.0 * seconds);
+                self.each(|body| {
+                    let radius = body.ball.middle.length() + body.ball.radius + NEAR;
+                    let boxes =
+                        corners.iter().map(|corner| BoundingBox::around(&Ball { middle: *corner, radius }));
+                    boxes.fold(BoundingBox::NOTHING, |all, next| all.with(&next))
+                })
+            }
+            Movement::Slides { .. } | Movement::Still => {
+                let mut bodies = vec![BoundingBox::NOTHING; self.bodies.len()];
+                for (number, all) in bodies.iter_mut().enumerate() {
+                    let Some(body) = &self.bodies[number] else { continue };
+                    let (anchor, ball) = (body.anchor, Ball { radius: body.ball.radius + NEAR, ..body.ball });
+                    *all = if self.goes_straight(anchor) {
+                        let ends = [0.0, seconds].map(|time| self.frame(anchor, plant, time));
+                        let [begin, end] = ends.map(|frame| BoundingBox::around(&ball.within(&frame)));
+                        begin.with(&end)
+                    } else {
+                        body.bounds.wider(NEAR)
+                    };
+                }
+                Swept::new(bodies)
+            }
         }
-        let [from, to] = match &self.movement {
-            Movement::Swings { .. } => self.movement.span(0.0, seconds),
-            Movement::Still | Movement::Slides { .. } | Movement::Rides { .. } => [0.0; 2],
-        };
-        let boxes = self.boxes(plant, memory);
-        let at = |place: f64| ((place * PIECES as f64) as usize).min(boxes.len() - 1);
-        boxes[at(from)..=at(to)].iter().fold(BoundingBox::NOTHING, |all, next| all.with(&next.all))
+    }
+
+    /// Whether what has this anchor is at any time between where it is at the ends of that time, or rests.
+    fn goes_straight(&self, anchor: Anchor) -> bool {
+        match anchor {
+            Anchor::World | Anchor::Link(_) | Anchor::Route => true,
+            Anchor::Carriage(_) => false,
+            Anchor::Lying { item, .. } => self.conveyed.get(&item).is_none_or(|conveyed| {
+                let is_carried = conveyed.carried.is_some_and(|carried| carried.moves());
+                !is_carried && !matches!(conveyed.centre_line, CentreLine::Arc { .. })
+            }),
+        }
     }
 }
