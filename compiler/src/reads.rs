@@ -1,11 +1,13 @@
 //! What a state reads: the ports, cells and timers that decide whether a guard holds.
 
 use crate::ir::{
-    Action, Automaton, Binder, ByHand, Clause, Domain, Expr, ExprKind, InterfaceId, Place, Property, State,
-    Update, UpdateKind,
+    Action, Automaton, Binder, ByHand, Clause, Domain, Expr, ExprKind, InterfaceId, Operator, Place,
+    Property, State, Update, UpdateKind,
 };
-use runtime_sim::device::Direction;
+use runtime_sim::device::{Direction, Extent, PortType};
+use runtime_sim::line::ReadWhile;
 use std::collections::BTreeSet;
+use std::ops::Range;
 
 /// What something depends on. What only says which of several comes first is not among what a guard reads: a key of
 /// `nearest` changes what is chosen, and not whether something is.
@@ -13,11 +15,22 @@ pub struct Reads<'a> {
     automaton: &'a Automaton,
     /// Inputs of the device, by their numbers among its ports.
     pub inputs: BTreeSet<usize>,
+    /// Inputs that are read only behind conditions that have to hold first, with these.
+    behind: BTreeSet<(usize, Vec<Gate>)>,
     pub cells: BTreeSet<ReadCell>,
     /// Times of `after` and `within`.
     pub timers: Vec<&'a Expr>,
+    /// Conditions that hold where is being read.
+    gates: Vec<Gate>,
     /// Definitions that were read already, as each may be used many times.
-    seen: BTreeSet<usize>,
+    seen: BTreeSet<(usize, Vec<Gate>)>,
+}
+
+/// An input of the device with one bit, by its number among the ports, and what it has to be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Gate {
+    pub port: usize,
+    pub is: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -39,8 +52,10 @@ impl<'a> Reads<'a> {
         Self {
             automaton,
             inputs: BTreeSet::new(),
+            behind: BTreeSet::new(),
             cells: BTreeSet::new(),
             timers: Vec::new(),
+            gates: Vec::new(),
             seen: BTreeSet::new(),
         }
     }
@@ -48,14 +63,9 @@ impl<'a> Reads<'a> {
     /// What the guards of a state read.
     pub fn of_guards(automaton: &'a Automaton, state: &'a State) -> Self {
         let mut reads = Self::new(automaton);
-        for clause in state.transitions.iter().flat_map(|transition| &transition.clauses) {
-            match clause {
-                Clause::Condition(condition) => reads.expr(condition),
-                Clause::Bind(binder) => {
-                    reads.domain(&binder.domain);
-                    binder.condition.iter().for_each(|condition| reads.expr(condition));
-                }
-            }
+        for transition in &state.transitions {
+            reads.guard(&transition.clauses);
+            reads.gates.clear();
         }
         reads
     }
@@ -66,12 +76,14 @@ impl<'a> Reads<'a> {
     pub fn of_state(automaton: &'a Automaton, state: &'a State) -> Self {
         let mut reads = Self::of_guards(automaton, state);
         for transition in state.transitions.iter().filter(|transition| transition.target.is_none()) {
+            reads.guard(&transition.clauses);
             for clause in &transition.clauses {
                 if let Clause::Bind(Binder { key: Some(key), .. }) = clause {
                     reads.expr(key);
                 }
             }
             transition.updates.iter().for_each(|update| reads.update(update));
+            reads.gates.clear();
         }
         if let Some((longest, _)) = &state.within {
             reads.timers.push(longest);
@@ -92,6 +104,45 @@ impl<'a> Reads<'a> {
             }
         }
         reads
+    }
+
+    /// Reads a guard, and leaves behind what holds when it does.
+    fn guard(&mut self, clauses: &'a [Clause]) {
+        for clause in clauses {
+            match clause {
+                Clause::Condition(condition) => {
+                    self.expr(condition);
+                    self.assume(condition);
+                }
+                Clause::Bind(binder) => {
+                    self.domain(&binder.domain);
+                    binder.condition.iter().for_each(|condition| self.expr(condition));
+                }
+            }
+        }
+    }
+
+    /// What is read next is read only if this holds.
+    fn assume(&mut self, condition: &'a Expr) {
+        match &condition.kind {
+            ExprKind::Binary(Operator::And, left, right) => {
+                self.assume(left);
+                self.assume(right);
+            }
+            ExprKind::Define(define) => self.assume(&self.automaton.defines[*define].value),
+            ExprKind::Not(negated) => self.gate(negated, false),
+            _ => self.gate(condition, true),
+        }
+    }
+
+    fn gate(&mut self, bit: &'a Expr, is: bool) {
+        let ExprKind::Read(Place::Port { port, index: None, .. }) = &bit.kind else { return };
+        let gate = Gate { port: *port, is };
+        let declared = &self.automaton.device.ports[*port];
+        let is_bit = declared.ty == PortType::Bool && declared.extent == Extent::One;
+        if declared.direction == Direction::Input && is_bit && !self.gates.contains(&gate) {
+            self.gates.push(gate);
+        }
     }
 
     fn action(&mut self, action: &'a Action) {
@@ -139,8 +190,15 @@ impl<'a> Reads<'a> {
                 self.input("error");
             }
             ExprKind::Read(place) => self.place(place),
+            ExprKind::Binary(Operator::And, left, right) => {
+                self.expr(left);
+                let known = self.gates.len();
+                self.assume(left);
+                self.expr(right);
+                self.gates.truncate(known);
+            }
             ExprKind::Define(define) => {
-                if self.seen.insert(*define) {
+                if self.seen.insert((*define, self.gates.clone())) {
                     self.expr(&self.automaton.defines[*define].value);
                 }
             }
@@ -162,7 +220,11 @@ impl<'a> Reads<'a> {
     fn place(&mut self, place: &'a Place) {
         match place {
             Place::Port { port, .. } => {
-                if self.automaton.device.ports[*port].direction == Direction::Input {
+                let declared = &self.automaton.device.ports[*port];
+                let moves = matches!(declared.ty, PortType::Real | PortType::Point);
+                if declared.direction == Direction::Input && moves && !self.gates.is_empty() {
+                    self.behind.insert((*port, self.gates.clone()));
+                } else if declared.direction == Direction::Input {
                     self.inputs.insert(*port);
                 }
             }
@@ -175,20 +237,33 @@ impl<'a> Reads<'a> {
         place.parts().into_iter().for_each(|part| self.expr(part));
     }
 
+    /// Numbers that change while something moves, and the conditions under which they are read; not those that are also
+    /// read without.
+    pub fn inputs_while(&self) -> impl Iterator<Item = (usize, &[Gate])> {
+        let behind = self.behind.iter().filter(|(port, _)| !self.inputs.contains(port));
+        behind.map(|(port, gates)| (*port, gates.as_slice()))
+    }
+
     /// The inputs as words of the process image; `kinds` is the number of kinds of part.
     pub fn words(&self, kinds: usize) -> Vec<usize> {
-        let mut words = Vec::new();
-        let mut begin = 0;
-        for (number, port) in self.automaton.device.ports.iter().enumerate() {
-            if port.direction == Direction::Input {
-                let end = begin + port.ty.words() * port.extent.elements(kinds);
-                if self.inputs.contains(&number) {
-                    words.extend(begin..end);
-                }
-                begin = end;
-            }
-        }
-        words
+        self.inputs.iter().flat_map(|port| self.words_of(*port, kinds)).collect()
+    }
+
+    /// The same of those that are read under conditions.
+    pub fn words_while(&self, kinds: usize) -> Vec<ReadWhile> {
+        let words = self.inputs_while().flat_map(|(port, gates)| {
+            let gates = gates.iter().map(|gate| (self.words_of(gate.port, kinds).start, gate.is));
+            let gates: Vec<(usize, bool)> = gates.collect();
+            self.words_of(port, kinds).map(move |word| ReadWhile { word, gates: gates.clone() })
+        });
+        words.collect()
+    }
+
+    fn words_of(&self, input: usize, kinds: usize) -> Range<usize> {
+        let ports = self.automaton.device.ports.iter();
+        let before = ports.take(input).filter(|port| port.direction == Direction::Input);
+        let begin = before.map(|port| port.words(kinds)).sum();
+        begin..begin + self.automaton.device.ports[input].words(kinds)
     }
 }
 

@@ -57,8 +57,26 @@ pub struct State {
     pub awaits: Vec<usize>,
     /// Words of its inputs that guards read, not counting what only says which of several comes first.
     pub reads: Vec<usize>,
+    /// The same for numbers that change while something moves, if guards read them under conditions.
+    pub reads_while: Vec<ReadWhile>,
     /// Times in the state, ms, at which a guard may begin to hold or the stay becomes too long; none: any.
     pub timers: Option<Vec<u32>>,
+}
+
+/// A word of the inputs that guards read only while bits of the inputs are as said: these stand before it in the guard,
+/// and the rest of a guard that has already failed is not evaluated.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct ReadWhile {
+    pub word: usize,
+    /// Words of the inputs, and what each has to be.
+    pub gates: Vec<(usize, bool)>,
+}
+
+impl ReadWhile {
+    /// Whether guards read it, with these inputs.
+    pub fn is_read(&self, inputs: &[f64]) -> bool {
+        self.gates.iter().all(|(word, is)| inputs.get(*word).is_none_or(|value| (*value != 0.0) == *is))
+    }
 }
 
 /// What is asked of the line, what its belts bring, and what goes wrong.

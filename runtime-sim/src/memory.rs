@@ -1,6 +1,6 @@
 //! What runs of the same machines have in common: motions that were computed, and what was found free of contact.
 
-use crate::collision::BoundingBox;
+use crate::collision::Swept;
 use crate::fingerprint::Fingerprint;
 use crate::line::{Kind, Line, Obstacle};
 use crate::part::Part;
@@ -20,7 +20,7 @@ pub struct Memory {
     /// Whether a motion is free of contact with what rests.
     free: HashMap<Fingerprint, bool>,
     /// What contains an arm on each piece of its path.
-    boxes: HashMap<Fingerprint, Arc<[BoundingBox]>>,
+    boxes: HashMap<Fingerprint, Arc<[Swept]>>,
 }
 
 /// All that paths and contacts depend on.
@@ -40,8 +40,8 @@ impl Surroundings {
 
 /// So many answers are remembered: 24 bytes each.
 const MOST: usize = 1_000_000;
-/// So many motions have their boxes remembered: 800 bytes each.
-const MOST_BOXES: usize = 50_000;
+/// So many motions have their boxes remembered: 9 kB each.
+const MOST_BOXES: usize = 10_000;
 
 impl Memory {
     /// Forgets what is about other machines.
@@ -67,8 +67,8 @@ impl Memory {
     pub(crate) fn boxes(
         &mut self,
         motion: Fingerprint,
-        compute: impl FnOnce() -> Arc<[BoundingBox]>,
-    ) -> Arc<[BoundingBox]> {
+        compute: impl FnOnce() -> Arc<[Swept]>,
+    ) -> Arc<[Swept]> {
         if self.boxes.len() >= MOST_BOXES {
             self.boxes.clear();
         }

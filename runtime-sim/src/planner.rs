@@ -379,7 +379,7 @@ impl Planner {
         let lifted = ends.map(|end| self.arm.tool(end).z + self.scene.load_height + LIFTED);
         let near = self.scene.near(path.knots().iter().map(axis));
         // What the gap is at a place on the path, and what it has to be.
-        let gap = |place: f64| {
+        let gap = |place: f64, enough: f64| {
             let joints = path.at(place);
             let frames = self.arm.frames(&joints);
             let height = frames.last().map_or(0.0, |tool| tool.position.z);
@@ -388,10 +388,10 @@ impl Planner {
             let lies = end.is_some_and(|end| height < lifted[end]);
             let load = if lies { Load::None } else { load };
             let margin = if end.is_some() { MARGIN_AT_PLACE } else { margin };
-            (self.scene.gap(&near, &frames, load, [margin, ENOUGH]), margin)
+            (self.scene.gap(&near, &frames, load, [margin, margin.max(enough)]), margin)
         };
         let is_apart = |place: f64| {
-            let (gap, margin) = gap(place);
+            let (gap, margin) = gap(place, 0.0);
             gap >= margin
         };
         // Most that are not free are not by far.
@@ -403,7 +403,7 @@ impl Planner {
         let sections = path.sections(&RADII);
         let mut place = 0.0;
         while place < 1.0 {
-            let (gap, margin) = gap(place);
+            let (gap, margin) = gap(place, ENOUGH);
             if gap < margin {
                 *suspect = place;
                 return false;

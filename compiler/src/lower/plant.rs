@@ -256,6 +256,7 @@ fn states(
             working: !guards.timers.is_empty() || !guards.inputs.is_empty(),
             awaits: owners(system, arms, instance, guards).into_iter().collect(),
             reads: all.words(system.kinds()),
+            reads_while: all.words_while(system.kinds()),
             timers: is_fixed.then(|| times.collect()),
         });
     }

@@ -71,7 +71,10 @@ fn keys_of_a_layout_are_those_that_are_not_there_yet() {
     let mut open = open("layout-keys", "line.json");
     let found = open.labels(&LAYOUT.replacen('|', "", 1).replacen('{', "{\n  ^", 1));
     assert_eq!(found, ["$schema", "may_touch", "name", "panel", "scan_ms", "scenario"]);
-    assert_eq!(open.with_robot("{\"^"), ["hands_to", "name", "parameters", "pose", "takes_from", "type"]);
+    assert_eq!(
+        open.with_robot("{\"^"),
+        ["at", "hands_to", "name", "parameters", "pose", "takes_from", "type"]
+    );
     // Of a type that is known its own keys too, wherever the type stands.
     let found = open.with_robot("{\"ori^\", \"name\": \"b\", \"type\": \"conveyor\"}");
     assert_eq!(found, ["hands_to", "orient", "orient_range", "parameters", "pose", "takes_from"]);
@@ -117,7 +120,9 @@ fn a_word_replaces_what_is_typed_with_its_quotes() {
     assert_eq!(pose["textEdit"]["range"]["start"], json!({"line": 0, "character": 13}));
     assert_eq!(pose["textEdit"]["range"]["end"], json!({"line": 0, "character": 16}));
     assert_eq!(pose["filterText"], "\"pose\"");
-    assert_eq!(pose["detail"], "needed");
+    let text = "{\"robots\": [{\"ty^\n\"name\": \"a\"}]}";
+    let found = open.offered(text);
+    assert_eq!(found.iter().find(|item| item["label"] == "type").expect("it is offered")["detail"], "needed");
     let text = "{\"robots\": [{\"p^\": [0, 0, 0]}]}";
     let pose = open.offered(text).into_iter().find(|item| item["label"] == "pose").expect("it is offered");
     assert_eq!(pose["textEdit"]["newText"], "\"pose\"");

@@ -35,6 +35,13 @@ impl Ball {
         ((other.middle - self.middle).length() - self.radius - other.radius).max(0.0)
     }
 
+    /// Whether two balls are no nearer than this, m.
+    pub fn is_apart_by(&self, other: &Ball, distance: f64) -> bool {
+        let offset = other.middle - self.middle;
+        let reach = self.radius + other.radius + distance;
+        offset.dot(offset) >= reach * reach
+    }
+
     pub fn shifted(&self, offset: Point) -> Self {
         Self { middle: self.middle + offset, ..*self }
     }
@@ -121,6 +128,23 @@ impl Placed {
         axes.flatten().map(along).fold(balls, f64::max)
     }
 
+    /// Whether they are no nearer than this, m, as far as their balls and their widths along the directions of the faces
+    /// show.
+    pub fn is_apart_by(&self, other: &Placed, distance: f64) -> bool {
+        if self.ball.is_apart_by(&other.ball, distance) {
+            return true;
+        }
+        let offset = other.ball.middle - self.ball.middle;
+        let along_faces = |of: &Placed, to: &Placed| match &of.core {
+            Core::Segment(_) => false,
+            Core::Block(block) => (0..3).any(|i| {
+                let axis = block.axes[i];
+                offset.dot(axis).abs() - block.half[i] - to.extent(axis) >= distance
+            }),
+        };
+        along_faces(self, other) || along_faces(other, self)
+    }
+
     /// What contains it.
     pub fn bounds(&self) -> BoundingBox {
         let axes = [Point::new(1.0, 0.0, 0.0), Point::new(0.0, 1.0, 0.0), Point::new(0.0, 0.0, 1.0)];
@@ -133,7 +157,11 @@ impl Placed {
     fn extent(&self, direction: Point) -> f64 {
         let core = match &self.core {
             Core::Segment([a, b]) => (*b - *a).dot(direction).abs() / 2.0,
-            Core::Block(block) => (0..3).map(|i| block.half[i] * block.axes[i].dot(direction).abs()).sum(),
+            Core::Block(Block { axes: [x, y, z], half, .. }) => {
+                half[0] * x.dot(direction).abs()
+                    + half[1] * y.dot(direction).abs()
+                    + half[2] * z.dot(direction).abs()
+            }
         };
         core + self.radius
     }

@@ -44,6 +44,12 @@ impl BoundingBox {
         Self { low, high }
     }
 
+    /// By so much on each side, m.
+    pub fn wider(&self, by: f64) -> Self {
+        let corner = Point::new(by, by, by);
+        Self { low: self.low - corner, high: self.high + corner }
+    }
+
     pub fn is_apart(&self, other: &BoundingBox) -> bool {
         let beyond = |low: Point, high: Point| low.x > high.x || low.y > high.y || low.z > high.z;
         beyond(self.low, other.high) || beyond(other.low, self.high)

@@ -7,9 +7,8 @@
 
 use super::TOLERANCE;
 use super::body::Piece;
-use super::bounds::BoundingBox;
 use super::free::{Question, is_free};
-use super::group::{Anchor, Group, Kind};
+use super::group::{Anchor, Group, Kind, Swept};
 use super::pair::{Pair, Span, Touch};
 use crate::carrier::Carrier;
 use crate::event::Event;
@@ -135,7 +134,7 @@ impl CollisionCheck {
             group.begin(plant, seconds);
         }
         let sets_out: Vec<bool> = self.groups.iter().map(Group::is_about_to_slide).collect();
-        let mut boxes: Vec<Option<BoundingBox>> = vec![None; self.groups.len()];
+        let mut boxes: Vec<Option<Swept>> = vec![None; self.groups.len()];
         let mut found = Vec::new();
         for (index, pair) in self.pairs.iter_mut().enumerate() {
             let [a, b] = pair.groups;
@@ -146,14 +145,14 @@ impl CollisionCheck {
             }
             for group in [a, b] {
                 if boxes[group].is_none() {
-                    boxes[group] = Some(self.groups[group].box_for(seconds, plant, memory));
+                    boxes[group] = Some(self.groups[group].boxes_for(seconds, plant, memory));
                 }
             }
-            if let (Some(first), Some(second)) = (&boxes[a], &boxes[b])
-                && a != b
-                && !pair.touches()
-                && first.is_apart(second)
-            {
+            let swept = match (&boxes[a], &boxes[b]) {
+                (Some(first), Some(second)) if a != b => Some([first, second]),
+                _ => None,
+            };
+            if !pair.touches() && swept.is_some_and(|[first, second]| first.all.is_apart(&second.all)) {
                 continue;
             }
             if let Some(question) = Question::of(&mut self.groups, index, [a, b], plant)
@@ -166,7 +165,7 @@ impl CollisionCheck {
             if is_clear {
                 continue;
             }
-            let mut span = Span { groups: &mut self.groups, plant, seconds, contact };
+            let mut span = Span { groups: &mut self.groups, plant, seconds, contact, swept };
             if let Some(touch) = pair.look(&mut span) {
                 found.push((index, touch));
             }

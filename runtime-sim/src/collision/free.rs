@@ -4,14 +4,15 @@
 //! for each item: where an item comes or goes, all else is known.
 
 use super::body::{Ball, Placed};
-use super::bounds::BoundingBox;
-use super::group::{Anchor, Body, Group};
+use super::group::{Anchor, Body, Group, Swept};
 use super::{TOLERANCE, UNCERTAIN};
 use crate::fingerprint::Fingerprint;
 use crate::kinematics::pose::Pose;
 use crate::memory::Memory;
+use crate::motion::Travel;
 use crate::plant::Plant;
 use std::cell::OnceCell;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// A motion is checked in pieces no smaller than its path divided by two so often.
@@ -61,9 +62,9 @@ pub fn is_free(
         return known;
     }
     let near = if a == b {
-        vec![[0.0, 1.0]]
+        vec![Piece { path: [0.0, 1.0], boxes: None }]
     } else {
-        near_pieces(&[a, b].map(|group| groups[group].boxes(plant, memory)))
+        near_pieces([a, b].map(|group| groups[group].boxes(plant, memory)))
     };
     if near.is_empty() {
         memory.note_free(all, true);
@@ -93,7 +94,10 @@ pub fn is_free(
     }
     open.sort_by_key(|two| two.bodies);
     let mut path = Path::new([a, b], groups, plant);
-    let found = near.into_iter().try_for_each(|piece| path.keep_off(&open, piece, HALVINGS));
+    let found = near.into_iter().try_for_each(|piece| {
+        let open: Vec<Two> = open.iter().filter(|two| piece.may_meet(two.bodies)).copied().collect();
+        path.keep_off(&open, piece.path, HALVINGS)
+    });
     match found {
         Ok(()) => asked.iter().for_each(|key| memory.note_free(*key, true)),
         Err(number) => memory.note_free(asked[number], false),
@@ -102,13 +106,35 @@ pub fn is_free(
     found.is_ok()
 }
 
-/// The equal pieces of the path of one of two groups, from place to place, on which its box meets one of the other's.
-fn near_pieces([a, b]: &[Arc<[BoundingBox]>; 2]) -> Vec<[f64; 2]> {
-    let [along, other] = if a.len() > b.len() { [a, b] } else { [b, a] };
-    let count = along.len() as f64;
-    let meets = |piece: &BoundingBox| !other.iter().all(|other| piece.is_apart(other));
-    let near = along.iter().enumerate().filter(|(_, piece)| meets(piece));
-    near.map(|(number, _)| [number, number + 1].map(|end| end as f64 / count)).collect()
+/// A piece of a path.
+struct Piece {
+    /// From place to place.
+    path: [f64; 2],
+    /// Of both groups on it, if they are known.
+    boxes: Option<[Swept; 2]>,
+}
+
+impl Piece {
+    /// Whether the boxes of two bodies meet.
+    fn may_meet(&self, [i, j]: [usize; 2]) -> bool {
+        self.boxes.as_ref().is_none_or(|[a, b]| !a.bodies[i].is_apart(&b.bodies[j]))
+    }
+}
+
+/// The equal pieces of the path of one of two groups on which its box meets the other's.
+fn near_pieces(boxes: [Arc<[Swept]>; 2]) -> Vec<Piece> {
+    if boxes.iter().any(|boxes| boxes.is_empty()) {
+        return vec![Piece { path: [0.0, 1.0], boxes: None }];
+    }
+    let count = boxes[0].len().max(boxes[1].len());
+    // One of them rests: its only box holds all the while.
+    let of = |group: usize, number: usize| &boxes[group][number.min(boxes[group].len() - 1)];
+    let near = (0..count).filter(|number| !of(0, *number).all.is_apart(&of(1, *number).all));
+    let piece = |number: usize| Piece {
+        path: [number, number + 1].map(|end| end as f64 / count as f64),
+        boxes: Some([0, 1].map(|group| of(group, number).clone())),
+    };
+    near.map(piece).collect()
 }
 
 /// Whether two bodies can ever come into contact.
@@ -156,13 +182,15 @@ struct Path<'a> {
     plant: &'a Plant,
     /// Of the bodies that rest, by group; none that nobody has asked for.
     resting: [Vec<Option<There>>; 2],
+    /// How far two bodies of the same arm go at most as seen from one another.
+    between: BTreeMap<[usize; 2], Option<Travel>>,
     looks: usize,
 }
 
 impl<'a> Path<'a> {
     fn new(numbers: [usize; 2], groups: &'a mut [Group], plant: &'a Plant) -> Self {
         let resting = numbers.map(|group| groups[group].bodies.iter().map(|_| None).collect());
-        Self { numbers, groups, plant, resting, looks: 0 }
+        Self { numbers, groups, plant, resting, between: BTreeMap::new(), looks: 0 }
     }
 
     /// Whether these bodies, in order, stay so far apart between two places of the path that it does not matter where
@@ -177,10 +205,15 @@ impl<'a> Path<'a> {
         let middle = from + (to - from) / 2.0;
         let mut near = Vec::new();
         let mut moving = [None, None];
+        let places = [from, middle, to];
+        let sections = self.numbers.map(|number| self.groups[number].sections(places));
         for two in all {
-            let [of_a, of_b] =
-                [0, 1].map(|side| self.look(side, two.bodies[side], [from, middle, to], &mut moving[side]));
-            let travel = of_a + of_b;
+            let [of_a, of_b] = [0, 1]
+                .map(|side| self.look(side, two.bodies[side], places, sections[side], &mut moving[side]));
+            let travel = match self.between(two.bodies, places, sections[0]) {
+                Some(between) => between.min(of_a + of_b),
+                None => of_a + of_b,
+            };
             let there = |side: usize| {
                 let moving: Option<&Moving> = moving[side].as_ref();
                 moving.map(|moving| &moving.there).or(self.resting[side][two.bodies[side]].as_ref())
@@ -199,7 +232,14 @@ impl<'a> Path<'a> {
     }
 
     /// Looks where a body is in the middle, unless it is known; metres that it goes at most from there to either end.
-    fn look(&mut self, side: usize, body: usize, places: [f64; 3], moving: &mut Option<Moving>) -> f64 {
+    fn look(
+        &mut self,
+        side: usize,
+        body: usize,
+        places: [f64; 3],
+        sections: Option<[usize; 3]>,
+        moving: &mut Option<Moving>,
+    ) -> f64 {
         if !self.groups[self.numbers[side]].moves() {
             if self.resting[side][body].is_none() {
                 self.resting[side][body] = self.there(side, body, places[1]);
@@ -207,7 +247,7 @@ impl<'a> Path<'a> {
             return 0.0;
         }
         if moving.as_ref().is_none_or(|known| known.body != body) {
-            let travel = self.travel(side, body, places);
+            let travel = self.travel(side, body, places, sections);
             *moving = self.there(side, body, places[1]).map(|there| Moving { body, there, travel });
         }
         moving.as_ref().map_or(0.0, |moving| moving.travel)
@@ -225,14 +265,31 @@ impl<'a> Path<'a> {
         Some(There { frame, ball, pieces: OnceCell::new() })
     }
 
-    /// Metres that the body goes at most from the middle to either end.
-    fn travel(&self, side: usize, body: usize, [from, middle, to]: [f64; 3]) -> f64 {
-        let group = &self.groups[self.numbers[side]];
-        self.body(side, body).map_or(0.0, |body| {
-            let path = |from, to| group.path_along(body, [from, to]);
-            path(from, middle).max(path(middle, to))
-        })
+    /// Metres that two bodies of the same arm go at most as seen from one another, from the middle to either end.
+    fn between(&mut self, bodies: [usize; 2], places: [f64; 3], sections: Option<[usize; 3]>) -> Option<f64> {
+        let [group, other] = self.numbers;
+        let sections = sections.filter(|_| group == other)?;
+        let groups = &*self.groups;
+        let travel = self.between.entry(bodies).or_insert_with(|| groups[group].travel_between(bodies));
+        travel.as_ref().map(|travel| from_middle(travel, places, sections))
     }
+
+    /// Metres that the body goes at most from the middle to either end.
+    fn travel(&self, side: usize, body: usize, places: [f64; 3], sections: Option<[usize; 3]>) -> f64 {
+        let group = &self.groups[self.numbers[side]];
+        let Some(body) = self.body(side, body) else { return 0.0 };
+        if let Some(sections) = sections {
+            return from_middle(&body.travel, places, sections);
+        }
+        let [from, middle, to] = places;
+        group.path_along(body, [from, middle]).max(group.path_along(body, [middle, to]))
+    }
+}
+
+/// Metres to either end at most.
+fn from_middle(travel: &Travel, places: [f64; 3], sections: [usize; 3]) -> f64 {
+    let [from, middle, to] = [0, 1, 2].map(|i| travel.within(sections[i], places[i]));
+    (middle - from).max(to - middle)
 }
 
 /// Whether two bodies keep off one another while they go so far.
@@ -253,12 +310,12 @@ impl There {
 fn keeps_off(there: [&There; 2], [a, b]: [&Body; 2], travel: f64) -> KeepsOff {
     let least = TOLERANCE + UNCERTAIN;
     let needed = least + travel;
-    if there[0].ball.gap(&there[1].ball) >= needed {
+    if there[0].ball.is_apart_by(&there[1].ball, needed) {
         return KeepsOff::Yes;
     }
     for a in there[0].pieces(a) {
         for b in there[1].pieces(b) {
-            if a.apart_at_least(b, needed) >= needed {
+            if a.is_apart_by(b, needed) {
                 continue;
             }
             if travel > SHORT {

@@ -12,12 +12,13 @@ use crate::kinematics::pose::Pose;
 use crate::line::{Line, Obstacle};
 use crate::machine::Machine;
 use crate::motion::Travel;
-use crate::part::stroke::Stroking;
 use crate::part::lane::CentreLine;
+use crate::part::stroke::Stroking;
 use crate::plant::Plant;
 use crate::plant::conveyed::Conveyed;
 use crate::point::Point;
 use crate::solid::{Link, Solid};
+pub use boxes::Swept;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -85,7 +86,7 @@ pub struct Group {
     /// Of all items, and of where they are on the machine.
     borne: Option<Fingerprint>,
     /// What contains it on each of [`PIECES`] of the path of an arm, or all the while. Empty until somebody asks.
-    boxes: Arc<[BoundingBox]>,
+    boxes: Arc<[Swept]>,
 }
 
 #[derive(Clone, Debug)]
@@ -110,9 +111,7 @@ impl Group {
     pub fn of_machine(line: &Line, index: usize) -> Self {
         let machine = &line.machines[index];
         let kind = match machine.arm() {
-            Some(arm) => {
-                Kind::Arm { index, machine: machine.clone(), arm, chain: Chain::new(&arm, machine) }
-            }
+            Some(arm) => Kind::Arm { index, machine: machine.clone(), arm, chain: Chain::new(&arm, machine) },
             None => Kind::Machine { index, machine: machine.clone() },
         };
         Self::new(machine.name.clone(), kind, machine.solids())
@@ -250,6 +249,35 @@ impl Group {
             }
             _ => self.frame(anchor, plant, self.movement.end() * place),
         }
+    }
+
+    /// How far two of its bodies go at most along the path of an arm as seen from one another: only joints between their
+    /// links move them. None if one of them is on no link.
+    pub fn travel_between(&self, bodies: [usize; 2]) -> Option<Travel> {
+        let Movement::Swings { motion, .. } = &self.movement else { return None };
+        let on_link = |number: usize| {
+            let body = self.bodies[number].as_ref()?;
+            match body.anchor {
+                Anchor::Link(link) => Some((link, body.radii.as_ref()?)),
+                _ => None,
+            }
+        };
+        let [first, second] = [on_link(bodies[0])?, on_link(bodies[1])?];
+        let [(near, _), (_, radii)] = if first.0 <= second.0 { [first, second] } else { [second, first] };
+        let between: Vec<f64> = radii
+            .iter()
+            .enumerate()
+            .map(|(joint, radius)| if joint > near { *radius } else { 0.0 })
+            .collect();
+        Some(motion.travel(&between))
+    }
+
+    /// Where these places are among the sections of the path of an arm, which are the same for all of its bodies; none if
+    /// it is no arm that moves.
+    pub fn sections(&self, places: [f64; 3]) -> Option<[usize; 3]> {
+        let Movement::Swings { .. } = &self.movement else { return None };
+        let body = self.bodies.iter().flatten().find(|body| body.radii.is_some())?;
+        Some(places.map(|place| body.travel.section(place)))
     }
 
     /// Metres that no point of the body goes more than between two places on the whole path.

@@ -17,7 +17,7 @@ mod movement;
 mod pair;
 mod standing;
 
-pub(crate) use bounds::BoundingBox;
+pub(crate) use group::Swept;
 
 /// How far the joints of an arm can carry what is fixed to it.
 pub(crate) mod reach {

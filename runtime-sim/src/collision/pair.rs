@@ -3,7 +3,7 @@
 use super::body::Placed;
 use super::distance::Gap;
 use super::free::{Question, can_meet};
-use super::group::{Anchor, Body, Group};
+use super::group::{Anchor, Body, Group, Swept};
 use super::{SKIN, TOLERANCE};
 use crate::plant::Plant;
 use crate::point::Point;
@@ -49,6 +49,8 @@ pub struct Span<'a> {
     pub seconds: f64,
     /// Bodies that are no farther apart than this meet, m.
     pub contact: f64,
+    /// What contains the bodies of the first group and those of the second; none if that is not known.
+    pub swept: Option<[&'a Swept; 2]>,
 }
 
 /// Two bodies by the numbers of their groups and by their own.
@@ -138,6 +140,9 @@ impl Pair {
                 if *clear == f64::NEG_INFINITY && !can_meet(span.groups, two, span.plant) {
                     *clear = f64::INFINITY;
                 }
+                if paths > *clear && !span.may_meet([i, j]) {
+                    *clear = paths;
+                }
                 if paths > *clear {
                     match span.search(two) {
                         Search::Clear(further) => *clear = paths + further,
@@ -163,6 +168,11 @@ impl Pair {
 impl Span<'_> {
     fn body(&self, (group, body): (usize, usize)) -> Option<&Body> {
         self.groups[group].bodies[body].as_ref()
+    }
+
+    /// Whether the boxes of a body of the first group and of one of the second meet.
+    fn may_meet(&self, [i, j]: [usize; 2]) -> bool {
+        self.swept.is_none_or(|[a, b]| !a.bodies[i].is_apart(&b.bodies[j]))
     }
 
     /// Of both bodies by the end of the span.

@@ -40,7 +40,10 @@ impl Line {
                     self.machine(owner, "a state")?;
                 }
                 let words = machine.wiring.input_words(self.kinds.len());
-                if let Some(word) = state.reads.iter().find(|word| **word >= words) {
+                let under = state.reads_while.iter();
+                let under =
+                    under.flat_map(|read| read.gates.iter().map(|(word, _)| word).chain([&read.word]));
+                if let Some(word) = state.reads.iter().chain(under).find(|word| **word >= words) {
                     return Err(format!("a state of {} reads word {word} of {words}", machine.name));
                 }
             }

@@ -6,8 +6,8 @@ use std::fmt::Write;
 use std::sync::Arc;
 
 use super::{
-    Collected, During, Goal, IoDelay, Kind, Line, LineButton, Obstacle, Operation, Order, Press, Scenario,
-    State, Supply,
+    Collected, During, Goal, IoDelay, Kind, Line, LineButton, Obstacle, Operation, Order, Press, ReadWhile,
+    Scenario, State, Supply,
 };
 use crate::machine::Machine;
 use crate::monitor::{Alarm, Counter, Monitor};
@@ -24,7 +24,7 @@ impl Line {
             out.push_str(entry.trim_end());
             out.push('\n');
         };
-        put("line 8".into());
+        put("line 9".into());
         put(format!("scan_ms {}", self.scan_ms));
         put(match self.io_delay {
             IoDelay::Fixed(scans) => format!("io_delay fixed {scans}"),
@@ -64,10 +64,11 @@ impl Line {
                 let timers =
                     state.timers.as_ref().map_or("any".into(), |timers| format!("at {}", list(timers)));
                 put(format!(
-                    "      {} {activity} {} reads {} timers {timers}",
+                    "      {} {activity} {} reads {} while {} timers {timers}",
                     state.name,
                     list(&state.awaits),
-                    list(&state.reads)
+                    list(&state.reads),
+                    reads_while(&state.reads_while)
                 ));
             }
             let Monitor { stopped, counters, alarms, panel } = &machine.monitor;
@@ -151,7 +152,7 @@ impl Line {
     /// Reads the text form, and leaves what follows it.
     pub fn read(words: &mut Words) -> Result<Line, String> {
         words.expect("line")?;
-        words.expect("8")?;
+        words.expect("9")?;
         words.expect("scan_ms")?;
         let scan_ms = words.int()?;
         words.expect("io_delay")?;
@@ -178,6 +179,17 @@ impl Line {
         words.expect("end")?;
         Ok(Line { scan_ms, kinds, machines, obstacles, may_touch, scenario, io_delay })
     }
+}
+
+fn reads_while(reads: &[ReadWhile]) -> String {
+    let mut text = reads.len().to_string();
+    for ReadWhile { word, gates } in reads {
+        let _ = write!(text, " {word} {}", gates.len());
+        for (gate, is) in gates {
+            let _ = write!(text, " {gate} {}", u8::from(*is));
+        }
+    }
+    text
 }
 
 fn list<T: std::fmt::Display>(values: &[T]) -> String {
@@ -221,13 +233,18 @@ fn read_machine(words: &mut Words, devices: &[Arc<Wiring>]) -> Result<Machine, S
         let awaits = w.list(|w| w.int())?;
         w.expect("reads")?;
         let reads = w.list(|w| w.int())?;
+        w.expect("while")?;
+        let reads_while = w.list(|w| {
+            let word = w.int()?;
+            Ok(ReadWhile { word, gates: w.list(|w| Ok((w.int()?, w.int::<u8>()? != 0)))? })
+        })?;
         w.expect("timers")?;
         let timers = match w.name()? {
             "any" => None,
             "at" => Some(w.list(|w| w.int())?),
             other => return Err(w.error(format_args!("`{other}` is neither `any` nor `at`"))),
         };
-        Ok(State { name, working, awaits, reads, timers })
+        Ok(State { name, working, awaits, reads, reads_while, timers })
     })?;
     let monitor = Monitor {
         stopped: {

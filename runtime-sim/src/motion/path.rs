@@ -75,7 +75,16 @@ impl Travel {
 
     /// From the beginning to a place.
     pub fn to(&self, place: f64) -> f64 {
-        let number = self.sections.partition_point(|section| section.end < place);
+        self.within(self.section(place), place)
+    }
+
+    /// Number of the section in which a place is.
+    pub fn section(&self, place: f64) -> usize {
+        self.sections.partition_point(|section| section.end < place)
+    }
+
+    /// As [`Self::to`], of a place in the section with this number.
+    pub fn within(&self, number: usize, place: f64) -> f64 {
         match self.sections.get(number) {
             Some(section) => self.gone[number] - (section.end - place) * section.rate,
             None => self.gone.last().copied().unwrap_or(0.0),

@@ -27,7 +27,7 @@ pub struct Scene {
     members: Vec<Member>,
     /// The largest part, under the gripper.
     load: Member,
-    obstacles: Vec<Obstruction>,
+    obstacles: Vec<Cluster>,
     /// The lowest point of what does not turn with the torso, m.
     lowest_beam: f64,
     /// Obstacles higher than the torso hangs down, seen from above, and how far its axis keeps off.
@@ -45,6 +45,14 @@ pub struct Scene {
 #[derive(Clone, Debug)]
 pub struct Obstruction {
     placed: Placed,
+    low: Point,
+    high: Point,
+}
+
+/// Obstacles that stand together, and the corners of all of them.
+#[derive(Clone, Debug)]
+pub struct Cluster {
+    all: Vec<Obstruction>,
     low: Point,
     high: Point,
 }
@@ -112,7 +120,7 @@ impl Scene {
         let largest = |value: fn(&Kind) -> f64| line.kinds.iter().map(value).fold(0.0, f64::max);
         let size = Point::new(largest(|k| k.size[0]), largest(|k| k.size[1]), largest(|k| k.height));
         let tallest = obstacles.clone().map(top).filter(|top| *top < shoulder).fold(0.0, f64::max);
-        let obstacles: Vec<Obstruction> = obstacles.map(Obstruction::new).collect();
+        let obstacles = boxes.iter().filter_map(|solids| Cluster::new(solids)).collect();
         let load = Pose { position: Point::new(0.0, 0.0, size.z / 2.0 + 0.001), ..Pose::IDENTITY };
         let members = members(own);
         let hand = members.last()?.link;
@@ -145,7 +153,7 @@ impl Scene {
                 Point::new(high.x.max(place.x), high.y.max(place.y), 0.0),
             ]
         });
-        let is_near = |other: &&Obstruction| {
+        let is_near = |other: &&Cluster| {
             let beside = other.low.x > high.x + REACH || other.high.x < low.x - REACH;
             let behind = other.low.y > high.y + REACH || other.high.y < low.y - REACH;
             !(beside || behind)
@@ -164,13 +172,18 @@ impl Scene {
         let mut least = enough;
         for (i, member) in members.iter().enumerate() {
             let obstacles = if member.link < TORSO { &near.high } else { &near.all };
-            for other in obstacles {
-                if other.is_within(&member.ball, least) {
-                    least = member.gap_to(other, least);
+            for cluster in obstacles {
+                if !is_within([cluster.low, cluster.high], &member.ball, least) {
+                    continue;
+                }
+                for other in &cluster.all {
+                    if other.is_within(&member.ball, least) {
+                        least = member.gap_to(other, least);
+                    }
                 }
             }
             for other in members[i..].iter().filter(|other| other.link >= member.link + FREE) {
-                if member.ball.gap(&other.ball) < least {
+                if !member.ball.is_apart_by(&other.ball, least) {
                     least = other.pieces().iter().fold(least, |least, piece| member.gap(piece, least));
                 }
             }
@@ -205,9 +218,9 @@ impl Scene {
 
 /// The obstacles that the robot can come near.
 pub struct Nearby<'s> {
-    all: Vec<&'s Obstruction>,
+    all: Vec<&'s Cluster>,
     /// What travels on the rails without turning can come near these.
-    high: Vec<&'s Obstruction>,
+    high: Vec<&'s Cluster>,
 }
 
 impl Obstruction {
@@ -219,14 +232,33 @@ impl Obstruction {
 
     /// Whether it is nearer to a ball than this, m.
     fn is_within(&self, ball: &Ball, distance: f64) -> bool {
-        let outside = |at: f64, low: f64, high: f64| (low - at).max(at - high).max(0.0);
-        let Ball { middle, radius } = *ball;
-        let x = outside(middle.x, self.low.x, self.high.x);
-        let y = outside(middle.y, self.low.y, self.high.y);
-        let z = outside(middle.z, self.low.z, self.high.z);
-        let reach = radius + distance;
-        x * x + y * y + z * z < reach * reach
+        is_within([self.low, self.high], ball, distance)
     }
+}
+
+impl Cluster {
+    /// None of nothing.
+    fn new(solids: &[Solid]) -> Option<Self> {
+        let all: Vec<Obstruction> = solids.iter().map(Obstruction::new).collect();
+        let corners = all.iter().map(|one| [one.low, one.high]);
+        let by = |a: Point, b: Point, rule: fn(f64, f64) -> f64| {
+            Point::new(rule(a.x, b.x), rule(a.y, b.y), rule(a.z, b.z))
+        };
+        let [low, high] =
+            corners.reduce(|[low, high], [a, b]| [by(low, a, f64::min), by(high, b, f64::max)])?;
+        Some(Self { all, low, high })
+    }
+}
+
+/// Whether what is between two corners is nearer to a ball than this, m.
+fn is_within([low, high]: [Point; 2], ball: &Ball, distance: f64) -> bool {
+    let outside = |at: f64, low: f64, high: f64| (low - at).max(at - high).max(0.0);
+    let Ball { middle, radius } = *ball;
+    let x = outside(middle.x, low.x, high.x);
+    let y = outside(middle.y, low.y, high.y);
+    let z = outside(middle.z, low.z, high.z);
+    let reach = radius + distance;
+    x * x + y * y + z * z < reach * reach
 }
 
 impl AroundAxis {
@@ -270,8 +302,7 @@ impl<'a> Located<'a> {
     /// The lesser of `least` and the distance.
     fn gap_to(&self, other: &Obstruction, least: f64) -> f64 {
         self.pieces().iter().fold(least, |least, piece| {
-            let is_near =
-                other.is_within(&piece.ball, least) && piece.apart_at_least(&other.placed, least) < least;
+            let is_near = other.is_within(&piece.ball, least) && !piece.is_apart_by(&other.placed, least);
             if is_near { least.min(piece.gap(&other.placed).distance) } else { least }
         })
     }
@@ -279,7 +310,7 @@ impl<'a> Located<'a> {
     /// The lesser of `least` and the distance.
     fn gap(&self, other: &Placed, least: f64) -> f64 {
         self.pieces().iter().fold(least, |least, piece| {
-            if piece.apart_at_least(other, least) >= least {
+            if piece.is_apart_by(other, least) {
                 return least;
             }
             least.min(piece.gap(other).distance)

@@ -83,6 +83,10 @@ impl<'a> Agenda<'a> {
                 && (state.timers.as_ref().is_none_or(|timers| timers.iter().any(ends))
                     || monitor.counters.iter().any(counter_ends))
                 || state.reads.iter().any(|word| differs(machine, word))
+                || state
+                    .reads_while
+                    .iter()
+                    .any(|read| differs(machine, &read.word) && read.is_read(&self.latched[machine]))
         })
     }
 
@@ -116,8 +120,14 @@ impl<'a> Agenda<'a> {
         let mut next: Option<u64> = None;
         for (machine, description) in self.line.machines.iter().enumerate() {
             let Some(state) = description.states.get(states[machine]) else { return Some(scan + 1) };
-            let reads_analogue =
-                || state.reads.iter().any(|word| self.analogue[machine].get(*word) == Some(&true));
+            let is_analogue = |word: &usize| self.analogue[machine].get(*word) == Some(&true);
+            let reads_analogue = || {
+                state.reads.iter().any(is_analogue)
+                    || state
+                        .reads_while
+                        .iter()
+                        .any(|read| is_analogue(&read.word) && read.is_read(&self.latched[machine]))
+            };
             if plant.moves(machine) && reads_analogue() {
                 return Some(scan + 1);
             }

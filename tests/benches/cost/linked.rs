@@ -18,13 +18,17 @@ use runtime_sim::kinematics::arm::{Arm, Joints};
 use runtime_sim::line::Line;
 use runtime_sim::plant::Plant;
 use runtime_sim::point::Point;
-use runtime_sim::run::{Stepping, run};
+use runtime_sim::memory::Memory;
+use runtime_sim::random::Random;
+use runtime_sim::run::{Stepping, run, run_again};
 use runtime_sim::scan::{Controllers, SystemInputs};
 use std::fs;
 use std::hint::black_box;
 use std::time::Instant;
 
 const ROUNDS: usize = 7;
+/// Runs of the same line with other orders of its supply.
+const SEEDS: u64 = 20;
 /// Times that a step is repeated where that changes nothing, so that it is long beside what goes before it.
 const AGAIN: usize = 50;
 
@@ -151,7 +155,48 @@ fn main() {
     row("report as JSON", written);
     row("rest: collision check, bus, accounts", rest);
 
+    events(&line, deployed, files.get(2).and_then(|figure| figure.parse().ok()));
     vehicle(&record, &parameters);
+}
+
+/// Runs that go from event to event, with contacts, accounts and report. `simpy`: what a model in SimPy simulates, s per s.
+fn events(line: &Line, deployed: impl Fn() -> Deployed, simpy: Option<f64>) {
+    let run = |line: &Line, memory: &mut Memory| {
+        let report = run_again(line, &mut deployed(), Stepping::Events, memory, &mut |_| {});
+        report.expect("a line that can be run").simulated_s
+    };
+    let row = |name: &str, simulated: f64, seconds: f64, runs: usize| {
+        let rate = simulated / seconds;
+        let beside = simpy.map_or_else(String::new, |simpy| format!(", {:.4} of SimPy", rate / simpy));
+        println!("  {name:44} {:8.2} ms a run {rate:10.0} simulated s/s{beside}", seconds / runs as f64 * 1e3);
+    };
+    println!("\nfrom event to event, on one processor");
+    let mut memory = Memory::default();
+    let mut simulated = 0.0;
+    let first = timed(|| simulated = run(line, &mut memory));
+    row("first run of a layout", simulated, first, 1);
+    let again = (0..ROUNDS).map(|_| timed(|| simulated = run(line, &mut memory))).fold(f64::INFINITY, f64::min);
+    row("the same run again", simulated, again, 1);
+    let lines: Vec<Line> = (1..=SEEDS).map(|seed| shuffled(line, seed)).collect();
+    let mut all = 0.0;
+    let seconds = timed(|| all = lines.iter().map(|line| run(line, &mut memory)).sum());
+    row(&format!("{SEEDS} runs with other orders of the supply"), all, seconds, lines.len());
+    if simpy.is_none() {
+        println!("  no model in SimPy beside it: python3 with the package simpy is needed");
+    }
+}
+
+/// The parts of each belt in another order.
+fn shuffled(line: &Line, seed: u64) -> Line {
+    let mut line = line.clone();
+    let mut random = Random::new(seed);
+    for supply in &mut line.scenario.supply {
+        for last in (1..supply.items.len()).rev() {
+            let other = random.up_to(last as u32) as usize;
+            supply.items.swap(last, other);
+        }
+    }
+    line
 }
 
 fn timed(work: impl FnOnce()) -> f64 {

@@ -17,6 +17,14 @@ fn main() {
     build::measure();
 }
 
+/// Simulated seconds per second of a model of the same line in SimPy; none where Python or SimPy is missing.
+fn simpy() -> Option<String> {
+    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/cost/line.py");
+    let output = Command::new("python3").arg(script).output().ok()?;
+    let figure = String::from_utf8_lossy(&output.stdout).trim().to_string();
+    output.status.success().then_some(figure)
+}
+
 /// A program beside the generated controllers does it: only there they are linked.
 fn run() {
     let outcome = ariac("default").compile();
@@ -26,8 +34,10 @@ fn run() {
     workspace.put("commissioning/examples/cost/main.rs", include_str!("linked.rs"));
     workspace.put("commissioning/examples/cost/by_hand.rs", include_str!("by_hand.rs"));
     workspace.cargo(&["build", "--quiet", "--release", "-p", "commissioning", "--example", "cost"]);
+    let mut arguments = vec!["line.txt".to_string(), "parameters.txt".to_string()];
+    arguments.extend(simpy());
     let status = Command::new(workspace.program("examples/cost"))
-        .args(["line.txt", "parameters.txt"])
+        .args(arguments)
         .current_dir(&workspace.folder)
         .status()
         .expect("a program that can be started");

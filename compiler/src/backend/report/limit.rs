@@ -11,7 +11,7 @@ use super::acts::{Acts, Stay};
 use super::handovers::{Handover, Handovers};
 use runtime_sim::carrier::Carrier;
 use runtime_sim::event::{Event, OrderChange};
-use runtime_sim::line::Line;
+use runtime_sim::line::{Line, State};
 use runtime_sim::wiring::Source;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -129,7 +129,7 @@ impl Run<'_> {
         let passed = (scan - stay.begin) * scan_ms;
         let is_over = |timer: &u32| (passed..passed + scan_ms).contains(&u64::from(*timer)) && passed > 0;
         if state.timers.iter().flatten().any(is_over)
-            || state.reads.iter().any(|word| own.input_changed(*word, scan))
+            || words(state).any(|word| own.input_changed(word, scan))
         {
             return None;
         }
@@ -154,9 +154,14 @@ impl Run<'_> {
         let answers = [Source::Ready, Source::Got, Source::Ack, Source::Error];
         let answers = answers.map(|source| wiring.input_at(source, kinds));
         let is_sensor = |word: &usize| !answers.contains(&Some(*word));
-        let mut sensors = read.reads.iter().copied().filter(is_sensor);
+        let mut sensors = words(read).filter(is_sensor);
         sensors.any(|word| self.acts[machine].input_changed(word, scan))
     }
+}
+
+/// Words of the inputs that the guards of a state read.
+fn words(state: &State) -> impl Iterator<Item = usize> {
+    state.reads.iter().copied().chain(state.reads_while.iter().map(|read| read.word))
 }
 
 /// The last leg first.

@@ -4,7 +4,7 @@ use super::context::Context;
 use super::format::comment;
 use super::walk::Uses;
 use crate::ir::{Clause, State, Transition, UpdateKind};
-use crate::reads::{Reads, Whose};
+use crate::reads::{Gate, Reads, Whose};
 
 /// Methods of one state.
 pub struct Methods {
@@ -100,13 +100,18 @@ impl Context<'_> {
         let (automaton, model) = (self.automaton(), &self.system.model);
         let reads = Reads::of_state(automaton, state);
         let inputs = reads.inputs.iter().map(|port| format!("`{}`", automaton.device.ports[*port].name));
+        let port = |port: usize| format!("`{}`", automaton.device.ports[port].name);
+        let inputs_while = reads.inputs_while().map(|(number, gates)| {
+            let gates = gates.iter().map(|Gate { port: gate, is }| format!("{} is {is}", port(*gate)));
+            format!("{} while {}", port(number), gates.collect::<Vec<_>>().join(" and "))
+        });
         let cells = reads.cells.iter().map(|cell| {
             let interface = model.interface(cell.interface);
             let of = if cell.of == Whose::Own { "" } else { " of others" };
             format!("`{}.{}`{of}", interface.name, interface.cells[cell.cell].name)
         });
         let timer = (!reads.timers.is_empty()).then(|| "the time in it".to_string());
-        let all: Vec<String> = inputs.chain(cells).chain(timer).collect();
+        let all: Vec<String> = inputs.chain(inputs_while).chain(cells).chain(timer).collect();
         let text =
             if all.is_empty() { "Reads nothing.".into() } else { format!("Reads {}.", all.join(", ")) };
         format!("///\n/// {text}\n")

@@ -65,6 +65,13 @@ impl Group {
         borne
     }
 
+    /// Of all items with the numbers of their bodies.
+    pub fn numbered(&self, plant: &Plant) -> Fingerprint {
+        let items = self.bodies.iter().enumerate();
+        let items = items.filter_map(|(number, body)| Some((number, self.item(body.as_ref()?, plant)?)));
+        items.fold(Fingerprint::default(), |all, (number, item)| all.with(number as u64).and(item))
+    }
+
     /// Of an item, and of where it is on the machine; none for a body of the machine itself.
     fn item(&self, body: &Body, plant: &Plant) -> Option<Fingerprint> {
         let place = match body.anchor {
