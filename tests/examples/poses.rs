@@ -46,7 +46,11 @@ fn main() -> std::io::Result<()> {
         ["opw", lengths, offsets, signs, count, seed] => {
             let [a1, a2, b, c1, c2, c3, tool] = numbers(lengths);
             let offsets = numbers(offsets).map(f64::to_radians);
-            (Arm::OrthoParallel(Opw { a1, a2, b, c1, c2, c3, tool, offsets, signs: numbers(signs) }), count, seed)
+            (
+                Arm::OrthoParallel(Opw { a1, a2, b, c1, c2, c3, tool, offsets, signs: numbers(signs) }),
+                count,
+                seed,
+            )
         }
         ["ur", lengths, count, seed] => {
             let [d1, a2, a3, d4, d5, tool] = numbers(lengths);

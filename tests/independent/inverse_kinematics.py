@@ -1,6 +1,6 @@
 """Compares the kinematics of six-axis arms with libraries that have nothing in common with this project.
 
-    python3 -m venv /tmp/ik && /tmp/ik/bin/pip install numpy py-opw-kinematics==1.3.0 ur-analytic-ik==0.1.0.post3
+    python3 -m venv /tmp/ik && /tmp/ik/bin/pip install numpy scipy py-opw-kinematics==1.3.0 ur-analytic-ik==0.1.0.post3
     cargo build --release -p autogen-tests --example poses
     /tmp/ik/bin/python tests/independent/inverse_kinematics.py target/release/examples/poses 1000000
 
@@ -16,6 +16,7 @@ import sys
 import numpy as np
 import py_opw_kinematics as opw
 import ur_analytic_ik as ur
+from scipy.spatial.transform import RigidTransform
 
 # Lengths, offsets in degrees, signs. From files of ROS-Industrial (fanuc, abb, kuka_experimental, motoman, staubli).
 OPW = {
@@ -101,9 +102,9 @@ def of_opw(binary, count):
         robot = opw.Robot(model, degrees=False)
 
         def forward(angles):
-            return robot.batch_forward(np.ascontiguousarray(angles)).reshape(-1, 4, 4)
+            return robot.batch_forward(np.ascontiguousarray(angles)).as_matrix()
 
-        theirs = robot.reach(poses.reshape(-1, 16))[0]
+        theirs = robot.reach(RigidTransform.from_matrix(poses)).joints
         # What the angles of the convention are.
         angles = joints * signs - np.radians(offsets)
         a1, a2, b, c1, c2, c3, c4 = lengths

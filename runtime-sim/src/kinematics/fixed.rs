@@ -3,6 +3,7 @@
 use super::links::Link;
 use super::opw::Opw;
 use super::pose::Pose;
+use super::room::room;
 use super::ur::{Angles, Lengths};
 use super::{is_finite, nearest_turn, root};
 use crate::frame::Frame;
@@ -54,8 +55,9 @@ impl FixedArm {
         self.base.pose()
     }
 
-    /// Distance of the wrist to the limit of reach, the tool pointing down; negative out of reach, m. Where only limits of
-    /// joints forbid the place: less than 0 by the angle that is lacking times the distance of the tool from this joint.
+    /// How far the tool, pointing down, may go from a place in any direction until the arm loses it, at least; out of reach
+    /// the distance of the wrist to what it reaches, negative, m. Where only limits of joints forbid the place: less than 0
+    /// by the angle that is lacking times the distance of the tool from this joint.
     pub fn margin(&self, tool: Point) -> f64 {
         if !is_finite(tool) {
             return f64::NEG_INFINITY;
@@ -65,12 +67,20 @@ impl FixedArm {
             Geometry::UniversalRobots(lengths) => margin(lengths, seen),
             Geometry::OrthoParallel(opw) => opw.margin(&down(seen, 1.0)),
         };
-        if margin < 0.0 || self.ranges.is_none() {
-            return margin;
+        let Some(ranges) = self.ranges.as_ref().filter(|_| margin >= 0.0) else { return margin };
+        let found: Vec<Candidate> = self.candidates(seen, &self.start()).collect();
+        let least = found.iter().map(|found| found.beyond).fold(f64::INFINITY, f64::min);
+        if least > 0.0 {
+            return -least.min(self.longest());
         }
-        let least = self.candidates(seen, &self.start()).map(|found| found.beyond).fold(f64::INFINITY, f64::min);
-        // Of a place at the very limit of reach rounding may leave no solution.
-        if least > 0.0 { -least.min(self.longest()) } else { margin }
+        let rooms = found.iter().filter(|found| found.beyond == 0.0).map(|found| {
+            let bent = match &self.geometry {
+                Geometry::UniversalRobots(lengths) => lengths.bent(&down(seen, 1.0), &found.angles),
+                Geometry::OrthoParallel(opw) => opw.bent(&down(seen, 1.0), &found.angles),
+            };
+            bent.room(&found.angles, ranges)
+        });
+        rooms.fold(0.0, f64::max)
     }
 
     /// From the first joint to the tool at most, m.
@@ -209,7 +219,7 @@ fn margin(lengths: &Lengths, seen: Point) -> f64 {
         let wrist = libm::hypot(out, height);
         (longest - wrist).min(wrist - shortest)
     };
-    slack(ahead - d5).max(slack(ahead + d5))
+    room(ahead, d4, slack(ahead - d5).max(slack(ahead + d5)))
 }
 
 #[cfg(test)]
@@ -291,7 +301,7 @@ mod tests {
             let tool = Point::new(0.3 + drawn(), drawn() - 0.2, 0.5 + drawn());
             let found = limited.solve(tool, &from);
             assert_eq!(found.is_some(), limited.margin(tool) >= 0.0, "{tool:?}");
-            assert!(free.margin(tool) >= limited.margin(tool));
+            assert!(free.margin(tool) >= limited.margin(tool) - 1e-9);
             let Some(joints) = found else {
                 forbidden += usize::from(free.margin(tool) >= 0.0);
                 continue;

@@ -159,7 +159,8 @@ fn rail_arm_within_five_millimetres_of_its_limit() {
     }
 }
 
-/// The margin is the distance of the wrist's best place to the limit: found by trying.
+/// Out of reach the margin is the distance of the wrist's best place to the limit, found by trying. In reach it is at most
+/// that, and less where the plane of the arm has to turn for the tool to go on.
 #[test]
 fn rail_arm_margin_against_a_search() {
     let mut random = Random::new(13);
@@ -179,7 +180,8 @@ fn rail_arm_margin_against_a_search() {
                 }
             }
         }
-        assert!(margin >= found - 1e-12, "{margin} {found} {tool:?}");
+        let least = if found < 0.0 { found } else { 0.0 };
+        assert!(margin >= least - 1e-12, "{margin} {found} {tool:?}");
         assert!(margin - found < 0.03, "{margin} {found} {tool:?}");
     }
 }
