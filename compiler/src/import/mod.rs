@@ -9,6 +9,7 @@ mod text;
 pub mod urdf;
 mod xml;
 
+use crate::diagnostic::Diagnostic;
 use crate::layout::decode::make_identifier;
 use crate::spec::parser::RESERVED;
 
@@ -18,6 +19,11 @@ pub struct Imported {
     pub text: String,
     /// Facts for the user, a line each; the text has them as comments too.
     pub notes: Vec<String>,
+}
+
+/// An error that ends the reading.
+fn stop<T>(error: Diagnostic) -> Result<T, Box<Diagnostic>> {
+    Err(error.into())
 }
 
 /// A name of the language that is as near to `name` as possible.

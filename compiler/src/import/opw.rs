@@ -23,7 +23,7 @@ const WIDEST: f64 = 4.0 * std::f64::consts::PI;
 
 /// A device text for the arm; `name` is the device's.
 pub fn import(sources: &Sources, file: FileId, name: &str) -> Result<Imported, Vec<Diagnostic>> {
-    let root = yaml::parse(&sources.file(file).text, file).map_err(|error| vec![error])?;
+    let root = yaml::parse(&sources.file(file).text, file).map_err(|error| vec![*error])?;
     let mut reader = Reader { diagnostics: Vec::new() };
     let opw = reader.arm(&root);
     sort(&mut reader.diagnostics);

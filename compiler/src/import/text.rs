@@ -105,7 +105,8 @@ fn chain(arm: &Arm, rest: Point, out: &mut String) {
         line(format!("joints: [{}];", names(|joint| &joint.name)));
         line(format!("links: [{}];", names(|joint| &joint.link)));
     }
-    let others: [(&str, fn(&Joint) -> Option<f64>); 4] = [
+    type Of = fn(&Joint) -> Option<f64>;
+    let others: [(&str, Of); 4] = [
         ("masses", |joint| joint.mass),
         ("efforts", |joint| joint.effort),
         ("damping", |joint| joint.damping),

@@ -22,17 +22,20 @@ pub struct Options<'a> {
     /// Name of the device.
     pub name: Option<&'a str>,
     /// The bytes of a mesh by its name in the file; none if meshes are not read. An error says why it cannot be read.
-    pub mesh: Option<&'a dyn Fn(&str) -> Result<Vec<u8>, String>>,
+    pub mesh: Option<&'a Mesh<'a>>,
 }
+
+/// Reads a mesh.
+pub type Mesh<'a> = dyn Fn(&str) -> Result<Vec<u8>, String> + 'a;
 
 /// A device text for the arm that the file describes.
 pub fn import(sources: &Sources, file: FileId, options: &Options) -> Result<Imported, Vec<Diagnostic>> {
-    let root = super::xml::parse(&sources.file(file).text, file).map_err(|error| vec![error])?;
+    let root = super::xml::parse(&sources.file(file).text, file).map_err(|error| vec![*error])?;
     let robot = read::robot(&root).map_err(sorted)?;
     let tree = tree::check(&robot).map_err(sorted)?;
-    let chain = Chain::find(&robot, &tree, options).map_err(|error| vec![error])?;
+    let chain = Chain::find(&robot, &tree, options).map_err(|error| vec![*error])?;
     let mut notes = Vec::new();
-    let fit = chain.fit(&robot, &mut notes).map_err(|error| vec![error])?;
+    let fit = chain.fit(&robot, &mut notes).map_err(|error| vec![*error])?;
     let mut arm = Arm {
         device: super::identifier(options.name.unwrap_or(&robot.name.value), "arm"),
         title: robot.name.value.clone(),

@@ -1,6 +1,7 @@
 //! XML as a tree of elements with the places of all attributes. Nothing is fetched or expanded: a text with a document
 //! type declaration or with entities of its own is refused.
 
+use super::stop;
 use crate::diagnostic::Diagnostic;
 use crate::source::{FileId, Span, Spanned};
 use quick_xml::Reader;
@@ -44,11 +45,13 @@ impl Element {
 }
 
 /// The root element; the first error ends the reading.
-pub fn parse(text: &str, file: FileId) -> Result<Element, Diagnostic> {
+pub fn parse(text: &str, file: FileId) -> Result<Element, Box<Diagnostic>> {
     if let Some(at) = text.find(char::REPLACEMENT_CHARACTER) {
         let place = Span::new(file, at, at + char::REPLACEMENT_CHARACTER.len_utf8());
-        return Err(Diagnostic::new("E1101", place, "here is a byte that is not UTF-8")
-            .help("save the file again as UTF-8"));
+        return stop(
+            Diagnostic::new("E1101", place, "here is a byte that is not UTF-8")
+                .help("save the file again as UTF-8"),
+        );
     }
     Tree { text, file, count: 0, open: Vec::new(), root: None }.read()
 }
@@ -62,7 +65,7 @@ struct Tree<'a> {
 }
 
 impl Tree<'_> {
-    fn read(mut self) -> Result<Element, Diagnostic> {
+    fn read(mut self) -> Result<Element, Box<Diagnostic>> {
         let mut reader = Reader::from_str(self.text);
         loop {
             let start = reader.buffer_position() as usize;
@@ -85,13 +88,14 @@ impl Tree<'_> {
                     }
                 }
                 Event::DocType(_) => {
-                    return Err(self
-                        .wrong(start, Some(end), "a document type declaration is not read".into())
-                        .note("it may name other files and may expand to any size")
-                        .help("remove the declaration, and write what its entities stand for"));
+                    return stop(
+                        self.wrong(start, Some(end), "a document type declaration is not read".into())
+                            .note("it may name other files and may expand to any size")
+                            .help("remove the declaration, and write what its entities stand for"),
+                    );
                 }
                 Event::Text(text) if self.open.is_empty() && !text.trim().is_empty() => {
-                    return Err(self.wrong(
+                    return stop(self.wrong(
                         start,
                         Some(end),
                         "there is text outside of the root element".into(),
@@ -103,11 +107,12 @@ impl Tree<'_> {
         }
         match (self.open.pop(), self.root.take()) {
             (None, Some(root)) => Ok(root),
-            (Some(open), _) => Err(self
-                .wrong(self.text.len(), None, format!("the text ends before </{}>", open.name))
-                .other(open.span, "the element begins here")
-                .help("the file seems to be incomplete: complete it")),
-            (None, None) => Err(self.wrong(0, None, "there is no element in this text".into())),
+            (Some(open), _) => stop(
+                self.wrong(self.text.len(), None, format!("the text ends before </{}>", open.name))
+                    .other(open.span, "the element begins here")
+                    .help("the file seems to be incomplete: complete it"),
+            ),
+            (None, None) => stop(self.wrong(0, None, "there is no element in this text".into())),
         }
     }
 
@@ -123,14 +128,14 @@ impl Tree<'_> {
         Diagnostic::new("E1102", span, message).help("remove what does not describe the arm")
     }
 
-    fn element(&mut self, tag: &BytesStart, start: usize, end: usize) -> Result<Element, Diagnostic> {
+    fn element(&mut self, tag: &BytesStart, start: usize, end: usize) -> Result<Element, Box<Diagnostic>> {
         let span = Span::new(self.file, start, end);
         self.count += 1;
         if self.count > MOST_ELEMENTS {
-            return Err(self.limit(span, format!("the text has more than {MOST_ELEMENTS} elements")));
+            return stop(self.limit(span, format!("the text has more than {MOST_ELEMENTS} elements")));
         }
         if self.open.len() == DEEPEST {
-            return Err(self.limit(span, format!("more than {DEEPEST} elements are nested")));
+            return stop(self.limit(span, format!("more than {DEEPEST} elements are nested")));
         }
         let mut attributes: Vec<Attribute> = Vec::new();
         // Names that occur twice are found here, in order to limit how many are compared.
@@ -145,15 +150,17 @@ impl Tree<'_> {
                 None => span,
             };
             if attributes.len() == MOST_ATTRIBUTES {
-                return Err(
-                    self.limit(span, format!("an element has more than {MOST_ATTRIBUTES} attributes"))
+                return stop(
+                    self.limit(span, format!("an element has more than {MOST_ATTRIBUTES} attributes")),
                 );
             }
             if let Some(first) = attributes.iter().find(|other| other.name == name) {
                 let message = format!("the attribute {name} occurs twice");
-                return Err(Diagnostic::new("E1101", place, message)
-                    .other(first.value.span, "first here")
-                    .help("remove one of them"));
+                return stop(
+                    Diagnostic::new("E1101", place, message)
+                        .other(first.value.span, "first here")
+                        .help("remove one of them"),
+                );
             }
             let value = unescape(&attribute.value).map_err(|error| {
                 Diagnostic::new("E1101", place, format!("the value of {name} is wrong: {error}"))
@@ -165,14 +172,16 @@ impl Tree<'_> {
         Ok(Element { name: tag.name().as_ref().to_string(), span, attributes, children: Vec::new() })
     }
 
-    fn close(&mut self, element: Element) -> Result<(), Diagnostic> {
+    fn close(&mut self, element: Element) -> Result<(), Box<Diagnostic>> {
         match (self.open.last_mut(), &self.root) {
             (Some(parent), _) => parent.children.push(element),
             (None, None) => self.root = Some(element),
             (None, Some(first)) => {
-                return Err(Diagnostic::new("E1101", element.span, "there is a second root element")
-                    .other(first.span, "the first one")
-                    .help("a file has one root element: remove the other one"));
+                return stop(
+                    Diagnostic::new("E1101", element.span, "there is a second root element")
+                        .other(first.span, "the first one")
+                        .help("a file has one root element: remove the other one"),
+                );
             }
         }
         Ok(())

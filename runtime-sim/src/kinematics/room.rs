@@ -64,7 +64,7 @@ impl Bent {
             }
         }
         let turns = self.limits(0, angles, ranges).chain(self.limits(5, angles, ranges));
-        let turned = turns.map(|turn| self.from_plane(self.first + turn)).fold(f64::INFINITY, f64::min);
+        let turned = turns.map(|turn| self.distance_of_plane(self.first + turn)).fold(f64::INFINITY, f64::min);
         room(self.ahead, self.beside, slack.max(0.0)).min(turned)
     }
 
@@ -77,11 +77,11 @@ impl Bent {
     ) -> impl Iterator<Item = f64> {
         let [low, high] = ranges[joint];
         let (angle, rate) = (angles[joint], self.rates[joint]);
-        (high - low < TAU).then(|| [rate * (low - angle), rate * (high - angle)]).into_iter().flatten()
+        (high - low < TAU).then_some([rate * (low - angle), rate * (high - angle)]).into_iter().flatten()
     }
 
     /// Distance of the tool to the half of a plane in which the tool can be while it points there.
-    fn from_plane(&self, first: f64) -> f64 {
+    fn distance_of_plane(&self, first: f64) -> f64 {
         let (sin, cos) = libm::sincos(first);
         let seen = [self.place[0] + self.beside * sin, self.place[1] - self.beside * cos];
         let side = if self.ahead < 0.0 { -1.0 } else { 1.0 };

@@ -2,6 +2,7 @@
 //! YAML has (anchors, tags, texts over several lines, several documents) is refused with its place.
 
 use crate::diagnostic::Diagnostic;
+use crate::import::stop;
 use crate::source::{FileId, Span, Spanned};
 
 #[derive(Clone, Debug, PartialEq)]
@@ -42,21 +43,23 @@ struct Line<'a> {
 }
 
 /// The first error ends the reading.
-pub fn parse(text: &str, file: FileId) -> Result<Node, Diagnostic> {
+pub fn parse(text: &str, file: FileId) -> Result<Node, Box<Diagnostic>> {
     let mut reader = Reader { file, lines: Vec::new(), next: 0, values: 0 };
     if let Some(at) = text.find(char::REPLACEMENT_CHARACTER) {
         let place = Span::new(file, at, at + char::REPLACEMENT_CHARACTER.len_utf8());
-        return Err(Diagnostic::new("E1109", place, "here is a byte that is not UTF-8")
-            .help("save the file again as UTF-8"));
+        return stop(
+            Diagnostic::new("E1109", place, "here is a byte that is not UTF-8")
+                .help("save the file again as UTF-8"),
+        );
     }
     reader.lines(text)?;
     if reader.lines.is_empty() {
-        return Err(reader.wrong(0, 0, "there is nothing in this file"));
+        return stop(reader.wrong(0, 0, "there is nothing in this file"));
     }
     let node = reader.block(0, 0)?;
     match reader.peek() {
         Some(line) => {
-            Err(reader.wrong(line.at, line.text.len(), "this line is not indented as those before it"))
+            stop(reader.wrong(line.at, line.text.len(), "this line is not indented as those before it"))
         }
         None => Ok(node),
     }
@@ -75,7 +78,7 @@ impl<'a> Reader<'a> {
             .help("write `key: value`, a line each; deeper lines belong to the key above them")
     }
 
-    fn lines(&mut self, text: &'a str) -> Result<(), Diagnostic> {
+    fn lines(&mut self, text: &'a str) -> Result<(), Box<Diagnostic>> {
         let mut at = 0;
         for whole in text.split_inclusive('\n') {
             let start = at;
@@ -88,17 +91,17 @@ impl<'a> Reader<'a> {
             }
             let place = start + indent;
             if inner.starts_with('\t') {
-                return Err(self.wrong(place, 1, "a tab is no indentation in YAML"));
+                return stop(self.wrong(place, 1, "a tab is no indentation in YAML"));
             }
             if indent == 0 && (inner.starts_with("---") || inner.starts_with('%') || inner == "...") {
-                return Err(self.wrong(
+                return stop(self.wrong(
                     place,
                     inner.len(),
                     "only one YAML document without directives is read",
                 ));
             }
             if self.lines.len() == MOST {
-                return Err(self.wrong(place, inner.len(), &format!("the file has more than {MOST} lines")));
+                return stop(self.wrong(place, inner.len(), &format!("the file has more than {MOST} lines")));
             }
             self.lines.push(Line { at: place, indent, text: inner });
         }
@@ -109,10 +112,10 @@ impl<'a> Reader<'a> {
         self.lines.get(self.next).copied()
     }
 
-    fn deeper(&self, line: Line, depth: usize) -> Result<(), Diagnostic> {
+    fn deeper(&self, line: Line, depth: usize) -> Result<(), Box<Diagnostic>> {
         match depth < DEEPEST {
             true => Ok(()),
-            false => Err(self.wrong(
+            false => stop(self.wrong(
                 line.at,
                 line.text.len(),
                 &format!("more than {DEEPEST} maps and lists are nested"),
@@ -121,11 +124,11 @@ impl<'a> Reader<'a> {
     }
 
     /// The map or list whose lines are indented so.
-    fn block(&mut self, indent: usize, depth: usize) -> Result<Node, Diagnostic> {
-        let Some(first) = self.peek() else { return Err(self.wrong(0, 0, "there is nothing in this file")) };
+    fn block(&mut self, indent: usize, depth: usize) -> Result<Node, Box<Diagnostic>> {
+        let Some(first) = self.peek() else { return stop(self.wrong(0, 0, "there is nothing in this file")) };
         self.deeper(first, depth)?;
         if first.indent != indent {
-            return Err(self.wrong(first.at, first.text.len(), "this line is indented more than it may be"));
+            return stop(self.wrong(first.at, first.text.len(), "this line is indented more than it may be"));
         }
         match is_item(first.text) {
             true => self.list(indent, depth),
@@ -133,7 +136,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn list(&mut self, indent: usize, depth: usize) -> Result<Node, Diagnostic> {
+    fn list(&mut self, indent: usize, depth: usize) -> Result<Node, Box<Diagnostic>> {
         let mut items = Vec::new();
         let begin = self.peek().map_or(0, |line| line.at);
         let mut end = begin;
@@ -150,7 +153,7 @@ impl<'a> Reader<'a> {
                 }
                 let inner = self.peek().filter(|next| next.indent > indent);
                 let Some(inner) = inner else {
-                    return Err(self.wrong(line.at, line.text.len(), "there is nothing behind this dash"));
+                    return stop(self.wrong(line.at, line.text.len(), "there is nothing behind this dash"));
                 };
                 let node = self.block(inner.indent, depth + 1)?;
                 end = node.span.end as usize;
@@ -163,24 +166,25 @@ impl<'a> Reader<'a> {
         Ok(Node { value: Value::List(items), span: Span::new(self.file, begin, end) })
     }
 
-    fn map(&mut self, indent: usize, depth: usize) -> Result<Node, Diagnostic> {
+    fn map(&mut self, indent: usize, depth: usize) -> Result<Node, Box<Diagnostic>> {
         let mut entries: Vec<Entry> = Vec::new();
         let begin = self.peek().map_or(0, |line| line.at);
         let mut end = begin;
         while let Some(line) = self.peek().filter(|line| line.indent == indent) {
             self.deeper(line, depth)?;
             let Some((name, rest)) = key(line.text) else {
-                return Err(self.wrong(line.at, line.text.len(), "this is no `key: value`"));
+                return stop(self.wrong(line.at, line.text.len(), "this is no `key: value`"));
             };
             let name = self.word(name, line.at)?;
             if let Some(first) = entries.iter().find(|entry| entry.key.value == name.value) {
-                return Err(self
-                    .wrong(line.at, name.value.len(), &format!("the key {} occurs twice", name.value))
-                    .other(first.key.span, "first here")
-                    .help("remove one of them"));
+                return stop(
+                    self.wrong(line.at, name.value.len(), &format!("the key {} occurs twice", name.value))
+                        .other(first.key.span, "first here")
+                        .help("remove one of them"),
+                );
             }
             if entries.len() == MOST_KEYS {
-                return Err(self.wrong(
+                return stop(self.wrong(
                     line.at,
                     line.text.len(),
                     &format!("a map has more than {MOST_KEYS} keys"),
@@ -205,10 +209,10 @@ impl<'a> Reader<'a> {
     }
 
     /// What stands behind a key or a dash, on its line.
-    fn value(&mut self, text: &str, at: usize, depth: usize) -> Result<Node, Diagnostic> {
+    fn value(&mut self, text: &str, at: usize, depth: usize) -> Result<Node, Box<Diagnostic>> {
         self.values += 1;
         if self.values > MOST {
-            return Err(self.wrong(at, text.len(), &format!("the file has more than {MOST} values")));
+            return stop(self.wrong(at, text.len(), &format!("the file has more than {MOST} values")));
         }
         let span = Span::new(self.file, at, at + text.len());
         let Some(inner) = text.strip_prefix('[') else {
@@ -216,10 +220,10 @@ impl<'a> Reader<'a> {
             return Ok(Node { value: Value::Scalar(word.value), span });
         };
         let Some(inner) = inner.strip_suffix(']') else {
-            return Err(self.wrong(at, text.len(), "the bracket is not closed on this line"));
+            return stop(self.wrong(at, text.len(), "the bracket is not closed on this line"));
         };
         if depth + 1 >= DEEPEST || inner.contains(['[', ']', '{', '}']) {
-            return Err(self.wrong(at, text.len(), "brackets in brackets are not read"));
+            return stop(self.wrong(at, text.len(), "brackets in brackets are not read"));
         }
         let mut items = Vec::new();
         let mut place = at + 1;
@@ -231,7 +235,7 @@ impl<'a> Reader<'a> {
             match word.is_empty() {
                 // Behind the last comma, or in empty brackets.
                 true if index + 1 == count => {}
-                true => return Err(self.wrong(begin, 0, "there is nothing between two commas")),
+                true => return stop(self.wrong(begin, 0, "there is nothing between two commas")),
                 false => items.push(self.value(word, begin, depth + 1)?),
             }
         }
@@ -239,7 +243,7 @@ impl<'a> Reader<'a> {
     }
 
     /// A word with or without quotes.
-    fn word(&self, text: &str, at: usize) -> Result<Spanned<String>, Diagnostic> {
+    fn word(&self, text: &str, at: usize) -> Result<Spanned<String>, Box<Diagnostic>> {
         let span = Span::new(self.file, at, at + text.len());
         let plain = text.strip_prefix("!!float").or(text.strip_prefix("!!int")).map_or(text, str::trim_start);
         let quoted = ['"', '\''].into_iter().find_map(|quote| plain.strip_prefix(quote)?.strip_suffix(quote));
@@ -251,7 +255,7 @@ impl<'a> Reader<'a> {
             {
                 Ok(Spanned { value: plain.into(), span })
             }
-            _ => Err(self
+            _ => stop(self
                 .wrong(at, text.len(), "this part of YAML is not read")
                 .note("anchors, tags, braces and texts over several lines are not read, nor signs in quotes")
                 .help("write a number or a plain word")),

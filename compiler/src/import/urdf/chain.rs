@@ -5,6 +5,7 @@ use super::read::{Joint, Motion, Robot, about};
 use super::tree::Tree;
 use crate::diagnostic::{Diagnostic, suggestion};
 use crate::import::arm::fit::{self, Fit, JOINTS, Zero};
+use crate::import::stop;
 use runtime_sim::kinematics::pose::Pose;
 
 pub struct Chain {
@@ -23,7 +24,7 @@ const FLANGES: [&str; 3] = ["tool0", "flange", "ee_link"];
 const MOST_LISTED: usize = 8;
 
 impl Chain {
-    pub fn find(robot: &Robot, tree: &Tree, options: &Options) -> Result<Self, Diagnostic> {
+    pub fn find(robot: &Robot, tree: &Tree, options: &Options) -> Result<Self, Box<Diagnostic>> {
         let base = options.base.map_or(Ok(tree.root), |name| named(robot, name))?;
         let tip = match options.tip {
             Some(name) => named(robot, name)?,
@@ -35,9 +36,11 @@ impl Chain {
             let Some(joint) = tree.above[link] else {
                 let [base, tip] = [base, tip].map(|link| &robot.links[link].name);
                 let message = format!("{} does not carry {}", base.value, tip.value);
-                return Err(Diagnostic::new("E1106", tip.span, message)
-                    .other(base.span, "the base")
-                    .help("`--base` and `--tip` name two links of one arm"));
+                return stop(
+                    Diagnostic::new("E1106", tip.span, message)
+                        .other(base.span, "the base")
+                        .help("`--base` and `--tip` name two links of one arm"),
+                );
             };
             path.push(joint);
             link = robot.joints[joint].parent;
@@ -51,7 +54,7 @@ impl Chain {
         };
         match <[usize; JOINTS]>::try_from(moving.clone()) {
             Ok(moving) if moving.iter().all(turns) => Ok(Self { base, tip, path, moving }),
-            _ => Err(no_arm(robot, base, tip, &moving)),
+            _ => stop(no_arm(robot, base, tip, &moving)),
         }
     }
 
@@ -76,7 +79,7 @@ impl Chain {
     }
 
     /// Lengths, offsets and signs of a kind of arm whose inverse kinematics is known, compared with the file's.
-    pub fn fit(&self, robot: &Robot, notes: &mut Vec<String>) -> Result<Fit, Diagnostic> {
+    pub fn fit(&self, robot: &Robot, notes: &mut Vec<String>) -> Result<Fit, Box<Diagnostic>> {
         let zero = [0.0; JOINTS];
         let frames = self.frames(robot, &zero);
         let axes = self.moving.map(|joint| {
@@ -107,19 +110,20 @@ impl Chain {
                 for fact in facts {
                     error = error.note(fact);
                 }
-                error.help("arms with a spherical wrist and an ortho-parallel base, and those of Universal Robots with their nominal lengths, can be imported; name another flange with `--tip` if the tool is inclined")
+                error.help("arms with a spherical wrist and an ortho-parallel base, and those of Universal Robots with their nominal lengths, can be imported; name another flange with `--tip` if the tool is inclined").into()
             })
     }
 }
 
-fn named(robot: &Robot, name: &str) -> Result<usize, Diagnostic> {
-    robot.links.iter().position(|link| link.name.value == name).ok_or_else(|| {
+fn named(robot: &Robot, name: &str) -> Result<usize, Box<Diagnostic>> {
+    let found = robot.links.iter().position(|link| link.name.value == name);
+    found.ok_or_else(|| {
         let known = robot.links.iter().map(|link| link.name.value.as_str());
         let help = match suggestion(name, known.clone()) {
             Some(meant) => format!("did you mean {meant}?"),
             None => format!("the links are {}", listed(known)),
         };
-        Diagnostic::new("E1106", robot.name.span, format!("there is no link {name}")).help(help)
+        Diagnostic::new("E1106", robot.name.span, format!("there is no link {name}")).help(help).into()
     })
 }
 
@@ -134,7 +138,7 @@ pub fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
 }
 
 /// The flange, where the joints that move are one behind the other.
-fn tip(robot: &Robot, tree: &Tree, base: usize) -> Result<usize, Diagnostic> {
+fn tip(robot: &Robot, tree: &Tree, base: usize) -> Result<usize, Box<Diagnostic>> {
     let is_moving = |joint: &usize| robot.joints[*joint].motion != Motion::Fixed;
     // From the base on, and what is fixed behind the last joint that moves.
     let mut last = base;
@@ -156,12 +160,14 @@ fn tip(robot: &Robot, tree: &Tree, base: usize) -> Result<usize, Diagnostic> {
                 }
                 let name = &robot.links[last].name;
                 let joints = listed(next.iter().map(|joint| robot.joints[*joint].name.value.as_str()));
-                return Err(Diagnostic::new(
-                    "E1106",
-                    name.span,
-                    format!("{} carries several joints: {joints}", name.value),
-                )
-                .help("name the flange with `--tip LINK`"));
+                return stop(
+                    Diagnostic::new(
+                        "E1106",
+                        name.span,
+                        format!("{} carries several joints: {joints}", name.value),
+                    )
+                    .help("name the flange with `--tip LINK`"),
+                );
             }
         }
     }

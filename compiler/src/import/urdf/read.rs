@@ -208,7 +208,7 @@ impl Reader {
         let words: Vec<&str> = value.value.split_whitespace().take(N + 1).collect();
         let number = |word: &&str| word.parse::<f64>().ok().filter(|number| number.abs() <= FARTHEST);
         let numbers: Option<Vec<f64>> = words.iter().map(number).collect();
-        if let Some(Ok(numbers)) = numbers.map(|numbers| <[f64; N]>::try_from(numbers)) {
+        if let Some(Ok(numbers)) = numbers.map(<[f64; N]>::try_from) {
             return Some(numbers);
         }
         let wanted = if N == 1 { "a number".into() } else { format!("{N} numbers") };
