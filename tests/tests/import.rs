@@ -150,6 +150,22 @@ fn imported_arms_move() {
     }
 }
 
+#[test]
+fn a_hung_arm_moves() {
+    let upright = of_urdf(&fixture("urdf/shapes_right"), &URDF);
+    let begin = upright.find("rest: origin").expect("a place to rest");
+    let end = begin + upright[begin..].find(';').expect("its end");
+    let rest = "hung: true; rest: origin * point(0.6, 0.2, 1.0) - point(0, 0, tool_length)";
+    let device = format!("{}{rest}{}", &upright[..begin], &upright[end..]);
+    // The ceiling is 2 m over the machine's place; the machine is turned to the left by 90 degrees.
+    let device = device.replace("from: origin;", "from: origin * frame(0, 0, 2, 0);");
+    let (tool, error, ack) = moved(device.clone(), r#", "acceleration": 4.0, "tool_length": 0.1"#);
+    assert_eq!((error, ack), (0.0, 2.0), "{device}");
+    for (found, wanted) in tool.iter().zip([1.0 - 0.2, 2.0 + 0.6, 0.5 + 1.0 - 0.1]) {
+        assert!((found - wanted).abs() < 1e-6, "{tool:?}\n{device}");
+    }
+}
+
 /// The place of the flange at the start, in the machine's frame.
 fn point_of(device: &str) -> [f64; 3] {
     let (_, behind) = device.split_once("rest: origin * point(").expect("a place to rest");

@@ -5,7 +5,7 @@ use autogen_tests::{is_full_campaign, machines};
 use runtime_sim::frame::Frame;
 use runtime_sim::kinematics::arm::Arm;
 use runtime_sim::kinematics::cartesian::{Cartesian, Slide};
-use runtime_sim::kinematics::fixed::{FixedArm, Geometry};
+use runtime_sim::kinematics::fixed::{FixedArm, Geometry, Mounting};
 use runtime_sim::kinematics::opw::Opw;
 use runtime_sim::kinematics::ur::Lengths;
 use runtime_sim::point::{Axis, Direction, Point};
@@ -84,13 +84,29 @@ fn around(middle: Point, half: Point) -> [Point; 2] {
     [middle - half, middle + half]
 }
 
+/// Upright, then hung.
 fn fixed(name: &str, geometry: Geometry, ranges: Option<[[f64; 2]; 6]>, reach: f64) {
     let base = Point::new(0.3, -0.2, 0.4);
     let ranges = ranges.map(|ranges| ranges.map(|range| range.map(f64::to_radians)));
-    let arm = FixedArm::new(Frame::new(base, 20.0), geometry, ranges);
-    let start = arm.start();
-    let half = Point::new(reach, reach, reach);
-    promised(name, around(base, half), |place| arm.margin(place), |place| arm.solve(place, &start).is_some());
+    for mounting in [Mounting::Upright, Mounting::Hung] {
+        let arm = FixedArm::new(Frame::new(base, 20.0), geometry, ranges).mounted(mounting);
+        let start = arm.start();
+        // Where most of what it reaches is.
+        let middle = base.up(if mounting == Mounting::Hung { -0.6 * reach } else { 0.0 });
+        let half = Point::new(reach, reach, reach);
+        let reaches = |place: Point| {
+            let Some(joints) = arm.solve(place, &start) else { return false };
+            let tool = arm.tool_pose(&joints);
+            assert!(
+                (tool.position - place).length() < 1e-6 && tool.axis(2).z < 1e-9 - 1.0,
+                "{place:?} {joints:?}"
+            );
+            true
+        };
+        promised(&format!("{name}, {mounting:?}"), around(middle, half), |place| arm.margin(place), reaches);
+        // It starts with its tool down too.
+        assert!(arm.tool_pose(&start).axis(2).z < 1e-9 - 1.0, "{name}: {:?}", arm.tool_pose(&start));
+    }
 }
 
 const TURNS: [f64; 2] = [-360.0, 360.0];

@@ -144,7 +144,9 @@ impl Arm {
         let motions: Vec<Motion> = axes.iter().map(|axis| axis.motion).collect();
         let solver = match &chain.geometry {
             Geometry::Fixed(geometry, ranges) => {
-                Solver::Fixed(FixedArm::new(chain.base?, **geometry, ranges.as_deref().copied()))
+                Solver::Fixed(
+                    FixedArm::new(chain.base?, **geometry, ranges.as_deref().copied()).mounted(chain.mounting),
+                )
             }
             Geometry::Tool(length) => Solver::Cartesian(cartesian(axes, *length)?),
             Geometry::Ur10 => {

@@ -61,9 +61,10 @@ impl Opw {
         std::array::from_fn(|i| wrapped(self.signs[i] * (angles[i] + self.offsets[i])))
     }
 
-    /// Upper arm upright, forearm level, tool down.
-    pub fn usual(&self) -> Angles {
-        self.counted([0.0, 0.0, FRAC_PI_2, 0.0, FRAC_PI_2, 0.0])
+    /// Upper arm upright, forearm level, and this angle of the fifth joint: with a quarter of a turn the tool points to the
+    /// base, with one the other way away from it.
+    pub fn usual(&self, fifth: f64) -> Angles {
+        self.counted([0.0, 0.0, FRAC_PI_2, 0.0, fifth, 0.0])
     }
 
     fn wrist(&self, tool: &Pose) -> Point {
@@ -100,7 +101,7 @@ impl Opw {
         room(out, self.b, sides.map(slack).into_iter().fold(f64::NEG_INFINITY, f64::max))
     }
 
-    /// How the arm bends at these angles of the maker, its tool pointing down at a place.
+    /// How the arm bends at these angles of the maker, its tool vertical at a place.
     pub(super) fn bent(&self, tool: &Pose, angles: &Angles) -> Bent {
         let counted: Angles = std::array::from_fn(|i| self.signs[i] * angles[i] - self.offsets[i]);
         let [first, second, third, fourth, ..] = counted;
@@ -117,7 +118,7 @@ impl Opw {
             lengths: [self.c2, self.forearm()],
             upper_arm: FRAC_PI_2 - second,
             forearm: FRAC_PI_2 - (second + third + libm::atan2(self.a2, self.c3)),
-            rates: [signs[0], -signs[1], -signs[2], 0.0, wrist, signs[5]],
+            rates: [signs[0], -signs[1], -signs[2], 0.0, wrist, -signs[5] * tool.axis(2).z.signum()],
             wrist: 4,
         }
     }

@@ -32,7 +32,7 @@ const LAST_DIGITS: f64 = 1e-15;
 pub type Angles = [f64; 6];
 
 impl Lengths {
-    /// How the arm bends at these angles, its tool pointing down at a place.
+    /// How the arm bends at these angles, its tool vertical at a place.
     pub(super) fn bent(&self, tool: &Pose, angles: &Angles) -> Bent {
         let [first, second, third, ..] = *angles;
         let (sin, cos) = libm::sincos(first);
@@ -47,7 +47,7 @@ impl Lengths {
             lengths: [self.a2.abs(), self.a3.abs()],
             upper_arm: second + half(self.a2),
             forearm: second + third + half(self.a3),
-            rates: [1.0, 1.0, 1.0, -1.0, 0.0, 1.0],
+            rates: [1.0, 1.0, 1.0, -1.0, 0.0, -tool.axis(2).z.signum()],
             wrist: 3,
         }
     }
