@@ -13,6 +13,7 @@ pub mod csv;
 pub mod device;
 pub mod diagnostic;
 pub mod executor;
+pub mod import;
 pub mod io_map;
 pub mod ir;
 pub mod layout;

@@ -53,6 +53,7 @@ fn main() -> ExitCode {
         Command::Why(options) => command::why::run(options),
         Command::Compare(options) => command::compare::run(options),
         Command::Test(options) => command::test::run(options),
+        Command::Import(options) => command::import::run(options),
         Command::Fmt(options) => command::fmt::run(options),
         Command::Schema(options) => command::schema::run(options),
         Command::Completions(options) => command::completions::run(options),

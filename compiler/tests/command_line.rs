@@ -15,6 +15,8 @@ mod hostile;
 #[path = "command_line/hostile_folder.rs"]
 mod hostile_folder;
 #[cfg(unix)]
+#[path = "command_line/import.rs"]
+mod import;
 #[path = "command_line/interrupt.rs"]
 mod interrupt;
 #[cfg(target_os = "linux")]

@@ -6,7 +6,7 @@ use std::hash::{Hash, Hasher};
 use std::path::{Path, PathBuf};
 
 /// Where inputs of other tests stand: folder or file, and the end of their names.
-const SEEDS: [(&str, &str, &str); 14] = [
+const SEEDS: [(&str, &str, &str); 17] = [
     ("layout", "examples/ariac2021", "json"),
     ("layout", "examples/buffer", "json"),
     ("layout", "examples/shared_agv", "json"),
@@ -19,6 +19,9 @@ const SEEDS: [(&str, &str, &str); 14] = [
     ("specification", "tests/fixtures/spec", "aut"),
     ("scenario", "examples/ariac2021", "scenario.json"),
     ("scenario", "tests/fixtures/scenario", "txt"),
+    ("import", "tests/fixtures/import/urdf", "txt"),
+    ("import", "tests/fixtures/import/opw", "txt"),
+    ("import", "tests/fixtures/import/lif", "txt"),
     ("table", "tests/fixtures/io", "csv"),
     ("table", "examples/ariac2021", "csv"),
 ];

@@ -1,6 +1,7 @@
 //! What is fuzzed: a reader of inputs with all that is behind it.
 
 mod command_line;
+mod import;
 mod layout;
 mod line;
 mod scenario;
@@ -44,7 +45,7 @@ pub struct Target {
     pub tree: fn(&mut Unstructured) -> arbitrary::Result<String>,
 }
 
-pub static ALL: [Target; 5] = [
+pub static ALL: [Target; 6] = [
     Target { name: "layout", answer: layout::answer, words: dictionary::layout, tree: tree::layout::layout },
     Target {
         name: "specification",
@@ -65,6 +66,7 @@ pub static ALL: [Target; 5] = [
         words: dictionary::command_line,
         tree: tree::command_line::command_line,
     },
+    Target { name: "import", answer: import::answer, words: dictionary::import, tree: tree::import::import },
 ];
 
 impl Target {

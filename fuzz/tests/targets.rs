@@ -74,6 +74,11 @@ fn tables() {
 }
 
 #[test]
+fn imports() {
+    lots("import", 5000, 2000);
+}
+
+#[test]
 fn command_lines() {
     lots("command_line", 3000, 1000);
 }

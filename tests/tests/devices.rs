@@ -49,6 +49,8 @@ const WRONG: &[(&str, &str, &str)] = &[
       part arm = chain { on: x; tool_length: 0.1; rest: pose - point(0, 0, 0.1); };
       part hand = body { on: arm.wrist_1; low: pose; high: pose + point(1, 1, 1); };", "E0711", "cannot refer to arm"),
     ("part arm = chain { from: origin; tool_length: 0.1; rest: pose; };", "E0704", "speeds is missing"),
+    ("part x = axis { from: origin; along: x; range: [0, 1]; speed: 1; acceleration: 1; };
+      part arm = chain { on: x; hung: true; tool_length: 0.1; rest: pose; };", "E0704", "hung is for a chain that no axis carries"),
     ("part arm = chain { from: origin; opw: [0.1, 0, 0, 0.6, 0.7]; tool_length: 0; speeds: [1, 1, 1, 1, 1, 1]; acceleration: 1; rest: pose; };",
      "E0704", "a1, a2, b, c1, c2, c3, c4"),
     ("part arm = chain { from: origin; opw: [0.1, 0, 0, 0.6, 0.7, 0.7, 0]; lengths: [1, 1, 1, 1, 1, 1]; tool_length: 0;

@@ -45,8 +45,8 @@ fn margins_are_those_of_an_independent_calculation() {
             }
         }
     };
-    within("default", "conveyor_belt", 0.265, 1.0);
-    within("default", "kitting", 0.265, 1.0);
+    within("default", "conveyor_belt", 0.26, 1.0);
+    within("default", "kitting", 0.26, 1.0);
     within("default", "agv", 0.08, 0.10);
     within("default", "gantry", 0.265, 1.0);
     within("spaced", "kitting", 0.04, 0.09);

@@ -29,6 +29,7 @@ pub mod explain;
 pub mod fault;
 pub mod fmt;
 pub mod graph;
+pub mod import;
 pub mod interrupt;
 pub mod io_error;
 pub mod io_trace;

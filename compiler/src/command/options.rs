@@ -3,8 +3,8 @@
 mod tools;
 
 pub use tools::{
-    CompareOptions, CompletionsOptions, FmtOptions, LspOptions, NewOptions, SchemaOf, SchemaOptions,
-    TestEngine, TestOptions, WhyOptions,
+    CompareOptions, CompletionsOptions, FmtOptions, ImportFormat, ImportOptions, LifOptions, LspOptions,
+    NewOptions, OpwOptions, SchemaOf, SchemaOptions, TestEngine, TestOptions, UrdfOptions, WhyOptions,
 };
 
 use super::output::Overwrite;
@@ -54,6 +54,8 @@ pub enum Command {
     /// Run the tests in files next to specifications
     #[command(after_help = TEST_STATUS)]
     Test(TestOptions),
+    /// Print a device text for an arm or for tracks of vehicles from a file of another program
+    Import(ImportOptions),
     /// Format files of automata
     #[command(after_help = FMT_STATUS)]
     Fmt(FmtOptions),

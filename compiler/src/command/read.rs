@@ -94,6 +94,11 @@ pub fn text(path: &Path) -> Result<String, Unread> {
     Ok(text.strip_prefix('\u{feff}').unwrap_or(&text).into())
 }
 
+/// The bytes of a file that is no text.
+pub fn bytes_of(path: &Path) -> Result<Vec<u8>, Unread> {
+    bytes(regular(path)?)
+}
+
 /// A regular file that may be of any size, to be read piece by piece.
 pub fn regular(path: &Path) -> Result<File, Unread> {
     let file = open(path).map_err(Unread::Io)?;

@@ -192,10 +192,10 @@ fn default_layout_has_thirteen_edges() {
     assert_eq!(margins.len(), 13);
     for (from, to, margin) in &margins {
         let (low, high) = match (from.as_str(), to.as_str()) {
-            ("conveyor", "kitting_robot") => (0.269, 0.6),
+            ("conveyor", "kitting_robot") => (0.26, 0.6),
             // The outer slots of agv1 and agv4 are 55 and 76 mm past the ends of the rail.
-            ("kitting_robot", "agv1" | "agv4") => (0.266, 0.269),
-            ("kitting_robot", _) => (0.269, 0.270),
+            ("kitting_robot", "agv1" | "agv4") => (0.260, 0.264),
+            ("kitting_robot", _) => (0.264, 0.270),
             (_, "gantry_robot") => (0.08, 0.10),
             ("gantry_robot", _) => (0.3, 0.6),
             other => panic!("{other:?}"),

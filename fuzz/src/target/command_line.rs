@@ -40,6 +40,7 @@ pub fn answer(input: &[u8], effort: Effort) {
         Command::Merge(_)
         | Command::New(_)
         | Command::Test(_)
+        | Command::Import(_)
         | Command::Fmt(_)
         | Command::Schema(_)
         | Command::Completions(_)

@@ -143,9 +143,9 @@ impl Arm {
     pub fn new(axes: &[&Axis], chain: &Chain) -> Option<Self> {
         let motions: Vec<Motion> = axes.iter().map(|axis| axis.motion).collect();
         let solver = match &chain.geometry {
-            Geometry::Fixed(geometry, ranges) => {
-                Solver::Fixed(FixedArm::new(chain.base?, **geometry, ranges.as_deref().copied()))
-            }
+            Geometry::Fixed(geometry, ranges) => Solver::Fixed(
+                FixedArm::new(chain.base?, **geometry, ranges.as_deref().copied()).mounted(chain.mounting),
+            ),
             Geometry::Tool(length) => Solver::Cartesian(cartesian(axes, *length)?),
             Geometry::Ur10 => {
                 let at = axes.first()?.at()?;

@@ -3,6 +3,7 @@
 use super::links::Link;
 use super::opw::Opw;
 use super::pose::Pose;
+use super::room::room;
 use super::ur::{Angles, Lengths};
 use super::{is_finite, nearest_turn, root};
 use crate::frame::Frame;
@@ -14,12 +15,35 @@ pub const JOINTS: usize = 6;
 /// How Universal Robots draws it: upper arm up, forearm level, tool down.
 const USUAL: Angles = [0.0, -FRAC_PI_2, FRAC_PI_2, -FRAC_PI_2, -FRAC_PI_2, 0.0];
 
+/// The same with the tool away from the base.
+const USUAL_HUNG: Angles = [0.0, -FRAC_PI_2, FRAC_PI_2, FRAC_PI_2, -FRAC_PI_2, 0.0];
+
 /// The frame of the base is the maker's: z along the first joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FixedArm {
     base: Frame,
+    mounting: Mounting,
     geometry: Geometry,
     ranges: Option<[[f64; 2]; JOINTS]>,
+}
+
+/// How the base stands.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Mounting {
+    #[default]
+    Upright,
+    /// Under a ceiling: turned about its x axis by half a turn.
+    Hung,
+}
+
+impl Mounting {
+    /// The frame of the maker in that of the mounting.
+    fn pose(self) -> Pose {
+        match self {
+            Self::Upright => Pose::IDENTITY,
+            Self::Hung => down(Point::default(), 1.0),
+        }
+    }
 }
 
 /// Links and joints, as far as the inverse kinematics has a closed form for them.
@@ -42,7 +66,22 @@ struct Candidate {
 impl FixedArm {
     /// `ranges` are the limits of the joints, rad; without them every joint turns once to either side.
     pub fn new(base: Frame, geometry: Geometry, ranges: Option<[[f64; 2]; JOINTS]>) -> Self {
-        Self { base, geometry, ranges }
+        Self { base, mounting: Mounting::Upright, geometry, ranges }
+    }
+
+    /// The same arm, mounted otherwise.
+    pub fn mounted(self, mounting: Mounting) -> Self {
+        Self { mounting, ..self }
+    }
+
+    /// A place in the frame of the base.
+    fn seen(&self, tool: Point) -> Point {
+        self.mounting.pose().inverse().point(self.base.seen(tool))
+    }
+
+    /// The tool pointing down, in the frame of the base; its x lies along that of the base, or against it.
+    fn pointing_down(&self, seen: Point, x: f64) -> Pose {
+        self.mounting.pose().inverse().then(&down(self.mounting.pose().point(seen), x))
     }
 
     /// Limits of the joints, rad; none if each turns once to either side.
@@ -51,27 +90,36 @@ impl FixedArm {
     }
 
     pub fn base(&self) -> Pose {
-        self.base.pose()
+        self.base.pose().then(&self.mounting.pose())
     }
 
-    /// Distance of the wrist to the limit of reach, the tool pointing down; negative out of reach, m. Where only limits of
-    /// joints forbid the place: less than 0 by the angle that is lacking times the distance of the tool from this joint.
+    /// How far the tool, pointing down, may go from a place in any direction until the arm loses it, at least; out of reach
+    /// the distance of the wrist to what it reaches, negative, m. Where only limits of joints forbid the place: less than 0
+    /// by the angle that is lacking times the distance of the tool from this joint.
     pub fn margin(&self, tool: Point) -> f64 {
         if !is_finite(tool) {
             return f64::NEG_INFINITY;
         }
-        let seen = self.base.seen(tool);
+        let seen = self.seen(tool);
+        let pose = self.pointing_down(seen, 1.0);
         let margin = match &self.geometry {
-            Geometry::UniversalRobots(lengths) => margin(lengths, seen),
-            Geometry::OrthoParallel(opw) => opw.margin(&down(seen, 1.0)),
+            Geometry::UniversalRobots(lengths) => margin(lengths, &pose),
+            Geometry::OrthoParallel(opw) => opw.margin(&pose),
         };
-        if margin < 0.0 || self.ranges.is_none() {
-            return margin;
+        let Some(ranges) = self.ranges.as_ref().filter(|_| margin >= 0.0) else { return margin };
+        let found: Vec<Candidate> = self.candidates(seen, &self.start()).collect();
+        let least = found.iter().map(|found| found.beyond).fold(f64::INFINITY, f64::min);
+        if least > 0.0 {
+            return -least.min(self.longest());
         }
-        let least =
-            self.candidates(seen, &self.start()).map(|found| found.beyond).fold(f64::INFINITY, f64::min);
-        // Of a place at the very limit of reach rounding may leave no solution.
-        if least > 0.0 { -least.min(self.longest()) } else { margin }
+        let rooms = found.iter().filter(|found| found.beyond == 0.0).map(|found| {
+            let bent = match &self.geometry {
+                Geometry::UniversalRobots(lengths) => lengths.bent(&pose, &found.angles),
+                Geometry::OrthoParallel(opw) => opw.bent(&pose, &found.angles),
+            };
+            bent.room(&found.angles, ranges)
+        });
+        rooms.fold(0.0, f64::max)
     }
 
     /// From the first joint to the tool at most, m.
@@ -89,7 +137,7 @@ impl FixedArm {
     /// All joints that bring the tool, pointing down, to a place in the frame of the base, near `from`.
     fn candidates(&self, seen: Point, from: &Angles) -> impl Iterator<Item = Candidate> {
         let solutions = [1.0, -1.0].into_iter().flat_map(move |x| {
-            let tool = down(seen, x);
+            let tool = self.pointing_down(seen, x);
             match &self.geometry {
                 Geometry::UniversalRobots(lengths) => {
                     let all = lengths.inverse(&tool).into_iter();
@@ -137,7 +185,7 @@ impl FixedArm {
             let farthest = found.angles.iter().zip(from).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             if found.is_usual { farthest } else { farthest + 4.0 * PI }
         };
-        let found = self.candidates(self.base.seen(tool), from).filter(|found| found.beyond == 0.0);
+        let found = self.candidates(self.seen(tool), from).filter(|found| found.beyond == 0.0);
         // Of equals the first.
         let best = found.reduce(|best, next| if cost(&next) < cost(&best) - 1e-9 { next } else { best });
         best.map(|found| found.angles)
@@ -172,9 +220,11 @@ impl FixedArm {
     }
 
     pub fn start(&self) -> Angles {
-        match &self.geometry {
-            Geometry::UniversalRobots(_) => USUAL,
-            Geometry::OrthoParallel(opw) => opw.usual(),
+        match (&self.geometry, self.mounting) {
+            (Geometry::UniversalRobots(_), Mounting::Upright) => USUAL,
+            (Geometry::UniversalRobots(_), Mounting::Hung) => USUAL_HUNG,
+            (Geometry::OrthoParallel(opw), Mounting::Upright) => opw.usual(FRAC_PI_2),
+            (Geometry::OrthoParallel(opw), Mounting::Hung) => opw.usual(-FRAC_PI_2),
         }
     }
 }
@@ -196,21 +246,22 @@ fn down(position: Point, x: f64) -> Pose {
     Pose { rotation: [[x, 0.0, 0.0], [0.0, -x, 0.0], [0.0, 0.0, -1.0]], position }
 }
 
-/// That of an arm of Universal Robots, the tool pointing down at a place in the frame of the base.
-fn margin(lengths: &Lengths, seen: Point) -> f64 {
+/// That of an arm of Universal Robots, the tool vertical in the frame of the base.
+fn margin(lengths: &Lengths, tool: &Pose) -> f64 {
     let Lengths { d1, a2, a3, d4, d5, tool: length } = *lengths;
+    let seen = tool.position;
     let from_axis = libm::hypot(seen.x, seen.y);
     if from_axis < d4.abs() {
         return from_axis - d4.abs();
     }
     let ahead = root((from_axis - d4) * (from_axis + d4));
-    let height = seen.z + length - d1;
+    let height = seen.z - length * tool.axis(2).z - d1;
     let (longest, shortest) = (a2.abs() + a3.abs(), (a2.abs() - a3.abs()).abs());
     let slack = |out: f64| {
         let wrist = libm::hypot(out, height);
         (longest - wrist).min(wrist - shortest)
     };
-    slack(ahead - d5).max(slack(ahead + d5))
+    room(ahead, d4, slack(ahead - d5).max(slack(ahead + d5)))
 }
 
 #[cfg(test)]
@@ -293,7 +344,7 @@ mod tests {
             let tool = Point::new(0.3 + drawn(), drawn() - 0.2, 0.5 + drawn());
             let found = limited.solve(tool, &from);
             assert_eq!(found.is_some(), limited.margin(tool) >= 0.0, "{tool:?}");
-            assert!(free.margin(tool) >= limited.margin(tool));
+            assert!(free.margin(tool) >= limited.margin(tool) - 1e-9);
             let Some(joints) = found else {
                 forbidden += usize::from(free.margin(tool) >= 0.0);
                 continue;

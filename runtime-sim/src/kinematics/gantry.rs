@@ -4,6 +4,7 @@ use super::links::Link;
 pub use super::planar::Wrist;
 use super::planar::{self, Links};
 use super::pose::Pose;
+use super::room::room;
 use super::ur10::{self, D1, D4};
 use super::{is_finite, nearest_turn, root};
 use crate::point::{Axis, Point};
@@ -75,14 +76,18 @@ impl Gantry {
         planar::best(low, high, view.dz, WRISTS)
     }
 
-    /// Distance of the wrist to the limit of reach, at the best place of the torso, the tool pointing down and
-    /// ahead of the torso's axis; negative out of reach.
+    /// How far the tool, pointing down ahead of the torso's axis, may go in any direction with the torso where it is best;
+    /// out of reach the distance of the wrist to what it reaches, negative, m.
     pub fn margin(&self, tool: Point) -> f64 {
         if !is_finite(tool) {
             return f64::NEG_INFINITY;
         }
         let view = self.view(tool);
-        if view.distance[1] < D4 { view.distance[1] - D4 } else { self.best(&view).margin }
+        if view.distance[1] < D4 {
+            return view.distance[1] - D4;
+        }
+        let best = self.best(&view);
+        room(best.u + SHOULDER, D4, best.margin)
     }
 
     /// Joints that bring the tool, pointing down, to a place; some exactly when [`Self::margin`] is not negative.

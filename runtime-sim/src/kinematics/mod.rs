@@ -12,6 +12,7 @@ pub mod opw;
 mod planar;
 pub mod pose;
 pub mod rail_arm;
+mod room;
 pub mod ur;
 pub mod ur10;
 

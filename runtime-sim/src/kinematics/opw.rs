@@ -6,6 +6,7 @@
 
 use super::links::Link;
 use super::pose::Pose;
+use super::room::{Bent, room};
 use super::ur::Angles;
 use super::{root, wrapped};
 use crate::point::Point;
@@ -60,9 +61,10 @@ impl Opw {
         std::array::from_fn(|i| wrapped(self.signs[i] * (angles[i] + self.offsets[i])))
     }
 
-    /// Upper arm upright, forearm level, tool down.
-    pub fn usual(&self) -> Angles {
-        self.counted([0.0, 0.0, FRAC_PI_2, 0.0, FRAC_PI_2, 0.0])
+    /// Upper arm upright, forearm level, and this angle of the fifth joint: with a quarter of a turn the tool points to the
+    /// base, with one the other way away from it.
+    pub fn usual(&self, fifth: f64) -> Angles {
+        self.counted([0.0, 0.0, FRAC_PI_2, 0.0, fifth, 0.0])
     }
 
     fn wrist(&self, tool: &Pose) -> Point {
@@ -83,19 +85,42 @@ impl Opw {
         ])
     }
 
-    /// How far the centre of the wrist stays within what upper arm and forearm reach; negative out of reach, m. Limits of
-    /// joints are not considered.
+    /// How far the tool may go, keeping its direction, within what upper arm and forearm reach; out of reach how far the
+    /// centre of the wrist is from it, negative, m. Limits of joints are not considered.
     pub fn margin(&self, tool: &Pose) -> f64 {
         let wrist = self.wrist(tool);
         let Some(sides) = self.sides(wrist) else {
             return libm::hypot(wrist.x, wrist.y) - self.b.abs();
         };
         let (longest, shortest) = (self.c2 + self.forearm(), (self.c2 - self.forearm()).abs());
+        let out = sides[0].ahead + self.a1;
         let slack = |side: Side| {
             let distance = libm::hypot(side.ahead, side.height);
             (longest - distance).min(distance - shortest)
         };
-        sides.map(slack).into_iter().fold(f64::NEG_INFINITY, f64::max)
+        room(out, self.b, sides.map(slack).into_iter().fold(f64::NEG_INFINITY, f64::max))
+    }
+
+    /// How the arm bends at these angles of the maker, its tool vertical at a place.
+    pub(super) fn bent(&self, tool: &Pose, angles: &Angles) -> Bent {
+        let counted: Angles = std::array::from_fn(|i| self.signs[i] * angles[i] - self.offsets[i]);
+        let [first, second, third, fourth, ..] = counted;
+        let (sin, cos) = libm::sincos(first);
+        let Point { x, y, .. } = tool.position;
+        let signs = self.signs;
+        // With the fourth joint half a turn away, the fifth one turns the tool the other way.
+        let wrist = if libm::cos(fourth) < 0.0 { -signs[4] } else { signs[4] };
+        Bent {
+            place: [x, y],
+            first,
+            beside: self.b,
+            ahead: x * cos + y * sin,
+            lengths: [self.c2, self.forearm()],
+            upper_arm: FRAC_PI_2 - second,
+            forearm: FRAC_PI_2 - (second + third + libm::atan2(self.a2, self.c3)),
+            rates: [signs[0], -signs[1], -signs[2], 0.0, wrist, -signs[5] * tool.axis(2).z.signum()],
+            wrist: 4,
+        }
     }
 
     /// All solutions for a pose of the tool in the frame of the base, at most eight; each angle in (-pi, pi]. Where the

@@ -4,8 +4,10 @@
 
 use super::links::Link;
 use super::pose::Pose;
+use super::room::Bent;
 use super::{root, wrapped};
 use crate::point::Point;
+use std::f64::consts::PI;
 
 /// The lengths of one arm, m, named as the maker does; `tool` is from the origin of the last joint to the tool.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,6 +32,26 @@ const LAST_DIGITS: f64 = 1e-15;
 pub type Angles = [f64; 6];
 
 impl Lengths {
+    /// How the arm bends at these angles, its tool vertical at a place.
+    pub(super) fn bent(&self, tool: &Pose, angles: &Angles) -> Bent {
+        let [first, second, third, ..] = *angles;
+        let (sin, cos) = libm::sincos(first);
+        let Point { x, y, .. } = tool.position;
+        // A link with a length below 0 points the other way.
+        let half = |length: f64| if length < 0.0 { PI } else { 0.0 };
+        Bent {
+            place: [x, y],
+            first,
+            beside: -self.d4,
+            ahead: x * cos + y * sin,
+            lengths: [self.a2.abs(), self.a3.abs()],
+            upper_arm: second + half(self.a2),
+            forearm: second + third + half(self.a3),
+            rates: [1.0, 1.0, 1.0, -1.0, 0.0, -tool.axis(2).z.signum()],
+            wrist: 3,
+        }
+    }
+
     /// What is fixed behind each joint: Denavit and Hartenberg's link at the angle 0.
     fn behind(&self) -> [Pose; 6] {
         let Lengths { d1, a2, a3, d4, d5, tool } = *self;

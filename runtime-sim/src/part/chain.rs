@@ -5,7 +5,7 @@ use super::{Action, Begun, Progress, Running, Schema, See, Signal, World};
 use crate::device::{Extent, PortType, error};
 use crate::frame::Frame;
 use crate::kinematics::arm::Joints;
-use crate::kinematics::fixed;
+use crate::kinematics::fixed::{self, Mounting};
 use crate::kinematics::pose::Pose;
 use crate::part::axis::Axis;
 use crate::plant::trajectory::Trajectory;
@@ -36,6 +36,7 @@ pub const SCHEMA: Schema = Schema {
         &[
             Setting::new("on", Form::Part(&["axis"]), "", "the last of the axes that carry it").optional(),
             Setting::new("from", Form::Frame, "m", "frame of its base, if no axis carries it").optional(),
+            Setting::new("hung", Form::Truth, "", "with `from`: its base is under a ceiling, turned about its x axis by half a turn").optional(),
             Setting::new("lengths", Form::Numbers, "m", "d1, a2, a3, d4, d5, d6 of the manufacturer, for an arm of Universal Robots")
                 .optional(),
             Setting::new("opw", Form::Numbers, "m", "a1, a2, b, c1, c2, c3, c4 of an arm with an ortho-parallel base and a spherical wrist")
@@ -80,6 +81,7 @@ pub struct Chain {
     pub on: Option<usize>,
     /// Where its base stands, if none does.
     pub base: Option<Frame>,
+    pub mounting: Mounting,
     pub geometry: Geometry,
     pub rest: Point,
     /// Behind the axes; none for a Cartesian robot.

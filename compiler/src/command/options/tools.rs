@@ -1,7 +1,7 @@
 //! The options of the commands that help while a line is made.
 
 use super::{Format, InputOptions};
-use clap::{Args, ValueEnum};
+use clap::{Args, Subcommand, ValueEnum};
 use std::path::{Path, PathBuf};
 
 #[derive(Args, Debug)]
@@ -148,6 +148,71 @@ pub struct NewOptions {
     /// The new folder; it may exist if it is empty
     #[arg(value_name = "DIR")]
     pub folder: PathBuf,
+    /// Print errors only
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+#[derive(Args, Debug)]
+pub struct ImportOptions {
+    #[command(subcommand)]
+    pub format: ImportFormat,
+}
+
+#[derive(Debug, Subcommand)]
+pub enum ImportFormat {
+    /// An arm of six axes from URDF: joints, limits, velocities, collision shapes
+    Urdf(UrdfOptions),
+    /// An arm of six axes from a YAML file of OPW parameters: lengths, offsets and signs
+    Opw(OpwOptions),
+    /// Tracks of vehicles from LIF, the Layout Interchange Format of the VDMA
+    Lif(LifOptions),
+}
+
+#[derive(Args, Debug)]
+pub struct UrdfOptions {
+    /// The file; xacro is to be expanded before
+    pub file: PathBuf,
+    /// The link that stands still; default: the root of the tree
+    #[arg(long, value_name = "LINK")]
+    pub base: Option<String>,
+    /// The link whose frame is the flange; default: `tool0`, `flange` or `ee_link` behind the last joint, else its link
+    #[arg(long, value_name = "LINK")]
+    pub tip: Option<String>,
+    /// Read meshes from this folder: of `package://NAME/PATH` the file PATH in it. Only STL is read; a box is written
+    /// for each mesh
+    #[arg(long, value_name = "DIR")]
+    pub meshes: Option<PathBuf>,
+    /// Name of the device; default: that of the robot
+    #[arg(long)]
+    pub name: Option<String>,
+    /// Print errors only
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+#[derive(Args, Debug)]
+pub struct OpwOptions {
+    /// The file
+    pub file: PathBuf,
+    /// Name of the device; default: that of the file
+    #[arg(long)]
+    pub name: Option<String>,
+    /// Print errors only
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+#[derive(Args, Debug)]
+pub struct LifOptions {
+    /// The file
+    pub file: PathBuf,
+    /// The type of vehicle whose edges are taken; default: the only one of the file
+    #[arg(long, value_name = "TYPE")]
+    pub vehicle: Option<String>,
+    /// Name of the device; default: that of the project
+    #[arg(long)]
+    pub name: Option<String>,
     /// Print errors only
     #[arg(short, long)]
     pub quiet: bool,

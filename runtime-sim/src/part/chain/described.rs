@@ -2,7 +2,7 @@
 
 use super::drive::Drive;
 use super::{Chain, Geometry, Joint, Swinging};
-use crate::kinematics::fixed::{self, JOINTS};
+use crate::kinematics::fixed::{self, JOINTS, Mounting};
 use crate::kinematics::opw::Opw;
 use crate::kinematics::ur::Lengths;
 use crate::part::{Described, Primitive, Running, Settings, Start};
@@ -24,6 +24,11 @@ impl Described for Chain {
             return Err("a chain is on an axis, or it has from".into());
         }
         let has_joints = settings.has("speeds");
+        let mounting = match settings.optional("hung", Settings::truth)?.unwrap_or_default() {
+            true if on.is_some() => return Err("the setting hung is for a chain that no axis carries".into()),
+            true => Mounting::Hung,
+            false => Mounting::Upright,
+        };
         let geometry = match (on.is_some(), has_joints) {
             (true, true) => of_ur10(settings)?,
             (true, false) => Geometry::Tool(settings.number("tool_length")?),
@@ -34,6 +39,7 @@ impl Described for Chain {
         Ok(Self {
             on,
             base,
+            mounting,
             geometry,
             rest: settings.point("rest")?,
             joints: joints(settings)?,

@@ -1,0 +1,214 @@
+//! What a margin of connectivity promises: its sign is that of the solver, and a place that is moved by 99.9 % of it is
+//! still reached. `AUTOGEN_CAMPAIGN=full` tries a million places of each arm.
+
+use autogen_tests::{is_full_campaign, machines};
+use runtime_sim::frame::Frame;
+use runtime_sim::kinematics::arm::Arm;
+use runtime_sim::kinematics::cartesian::{Cartesian, Slide};
+use runtime_sim::kinematics::fixed::{FixedArm, Geometry, Mounting};
+use runtime_sim::kinematics::opw::Opw;
+use runtime_sim::kinematics::ur::Lengths;
+use runtime_sim::point::{Axis, Direction, Point};
+use runtime_sim::random::Random;
+
+struct Drawn(Random);
+
+impl Drawn {
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * f64::from(self.0.up_to(u32::MAX - 1)) / f64::from(u32::MAX - 1)
+    }
+
+    fn within(&mut self, [low, high]: [Point; 2]) -> Point {
+        Point::new(self.between(low.x, high.x), self.between(low.y, high.y), self.between(low.z, high.z))
+    }
+
+    /// A unit vector.
+    fn direction(&mut self) -> Point {
+        loop {
+            let point = self.within([Point::new(-1.0, -1.0, -1.0), Point::new(1.0, 1.0, 1.0)]);
+            let length = point.length();
+            if (0.1..=1.0).contains(&length) {
+                return point.scaled(1.0 / length);
+            }
+        }
+    }
+}
+
+/// Of how many places one is looked at in many directions.
+const LOOKED_AT: usize = 20;
+const DIRECTIONS: usize = 64;
+
+/// Places within and beyond the reach of an arm: each margin has the sign of the solver, and holds in a direction that is
+/// drawn. Most margins are not much too small either: twice as far and 5 mm more, the place is lost in some direction.
+fn promised(name: &str, around: [Point; 2], margin: impl Fn(Point) -> f64, reaches: impl Fn(Point) -> bool) {
+    let places = if is_full_campaign() { 1_000_000 } else { 5_000 };
+    let mut drawn = Drawn(Random::new(9));
+    let (mut inside, mut signs, mut moved, mut tight) = (0, Vec::new(), Vec::new(), [0, 0]);
+    for _ in 0..places {
+        let place = drawn.within(around);
+        let found = margin(place);
+        if (found >= 0.0) != reaches(place) {
+            signs.push((place, found));
+        }
+        let goes = drawn.direction().scaled(0.999 * found);
+        if found >= 0.0 {
+            inside += 1;
+            if !reaches(place + goes) {
+                moved.push((place, found, goes));
+            }
+            if inside % LOOKED_AT == 0 {
+                let goes = 2.0 * found + 0.005;
+                let is_lost = (0..DIRECTIONS).any(|_| !reaches(place + drawn.direction().scaled(goes)));
+                tight[usize::from(is_lost)] += 1;
+            }
+        }
+    }
+    println!(
+        "{name}: {places} places, {inside} within reach; {} wrong signs, {} lost when moved; {} of {} margins are more than half of what they could be",
+        signs.len(),
+        moved.len(),
+        tight[1],
+        tight[0] + tight[1]
+    );
+    assert!(
+        inside > places / 20 && inside < places - places / 20,
+        "{name}: {inside} of {places} are within reach"
+    );
+    assert!(tight[1] > 2 * tight[0], "{name}: many margins are too small: {tight:?}");
+    signs.truncate(3);
+    moved.truncate(3);
+    assert!(signs.is_empty() && moved.is_empty(), "{name}: signs {signs:?}, moved {moved:?}");
+}
+
+fn around(middle: Point, half: Point) -> [Point; 2] {
+    [middle - half, middle + half]
+}
+
+/// Upright, then hung.
+fn fixed(name: &str, geometry: Geometry, ranges: Option<[[f64; 2]; 6]>, reach: f64) {
+    let base = Point::new(0.3, -0.2, 0.4);
+    let ranges = ranges.map(|ranges| ranges.map(|range| range.map(f64::to_radians)));
+    for mounting in [Mounting::Upright, Mounting::Hung] {
+        let arm = FixedArm::new(Frame::new(base, 20.0), geometry, ranges).mounted(mounting);
+        let start = arm.start();
+        // Where most of what it reaches is.
+        let middle = base.up(if mounting == Mounting::Hung { -0.6 * reach } else { 0.0 });
+        let half = Point::new(reach, reach, reach);
+        let reaches = |place: Point| {
+            let Some(joints) = arm.solve(place, &start) else { return false };
+            let tool = arm.tool_pose(&joints);
+            assert!(
+                (tool.position - place).length() < 1e-6 && tool.axis(2).z < 1e-9 - 1.0,
+                "{place:?} {joints:?}"
+            );
+            true
+        };
+        promised(&format!("{name}, {mounting:?}"), around(middle, half), |place| arm.margin(place), reaches);
+        // It starts with its tool down too.
+        assert!(arm.tool_pose(&start).axis(2).z < 1e-9 - 1.0, "{name}: {:?}", arm.tool_pose(&start));
+    }
+}
+
+const TURNS: [f64; 2] = [-360.0, 360.0];
+
+/// KUKA KR 6 R700 sixx with its limits, and a Stäubli TX40 with its own.
+#[test]
+fn of_arms_with_a_spherical_wrist() {
+    let turn = |degrees: [f64; 6]| degrees.map(f64::to_radians);
+    let kuka = Geometry::OrthoParallel(Opw {
+        a1: 0.025,
+        a2: -0.035,
+        b: 0.0,
+        c1: 0.400,
+        c2: 0.315,
+        c3: 0.365,
+        tool: 0.180,
+        offsets: turn([0.0, -90.0, 0.0, 0.0, 0.0, 0.0]),
+        signs: [-1.0, 1.0, 1.0, -1.0, 1.0, -1.0],
+    });
+    let limits =
+        [[-170.0, 170.0], [-190.0, 45.0], [-120.0, 156.0], [-185.0, 185.0], [-120.0, 120.0], [-350.0, 350.0]];
+    fixed("KR 6", kuka, None, 0.8);
+    fixed("KR 6 with limits", kuka, Some(limits), 0.8);
+    let staubli = Geometry::OrthoParallel(Opw {
+        a1: 0.0,
+        a2: 0.0,
+        b: 0.035,
+        c1: 0.320,
+        c2: 0.225,
+        c3: 0.225,
+        tool: 0.165,
+        offsets: turn([0.0, 0.0, -90.0, 0.0, 0.0, 0.0]),
+        signs: [1.0; 6],
+    });
+    let limits = [
+        [-180.0, 180.0],
+        [-125.0, 125.0],
+        [-138.0, 138.0],
+        [-270.0, 270.0],
+        [-120.0, 133.5],
+        [-270.0, 270.0],
+    ];
+    fixed("TX40", staubli, None, 0.5);
+    fixed("TX40 with limits", staubli, Some(limits), 0.5);
+    let aside = Geometry::OrthoParallel(Opw {
+        a1: 0.2,
+        a2: -0.1,
+        b: 0.15,
+        c1: 0.5,
+        c2: 0.6,
+        c3: 0.7,
+        tool: 0.2,
+        offsets: turn([10.0, -20.0, 30.0, 40.0, -50.0, 60.0]),
+        signs: [1.0, -1.0, 1.0, -1.0, 1.0, -1.0],
+    });
+    fixed("offset to the side", aside, None, 1.8);
+    let limits = [[-100.0, 80.0], [-60.0, 110.0], [-80.0, 90.0], [-200.0, 150.0], [-100.0, 130.0], TURNS];
+    fixed("offset to the side with limits", aside, Some(limits), 1.8);
+}
+
+#[test]
+fn of_arms_of_universal_robots() {
+    let ur = Geometry::UniversalRobots(Lengths {
+        d1: 0.1807,
+        a2: -0.6127,
+        a3: -0.57155,
+        d4: 0.17415,
+        d5: 0.11985,
+        tool: 0.26655,
+    });
+    fixed("UR10e", ur, None, 1.5);
+    let limits = [[-150.0, 170.0], [-160.0, 20.0], [-150.0, 140.0], [-200.0, 60.0], [-120.0, 120.0], TURNS];
+    fixed("UR10e with limits", ur, Some(limits), 1.5);
+}
+
+#[test]
+fn of_a_cartesian_robot() {
+    let slides = [(Direction::Y, [0.0, 0.6]), (Direction::X, [0.0, 1.0]), (Direction::Z, [-0.3, 0.0])];
+    let slides = slides.map(|(along, range)| Slide { along, range });
+    let base = Frame::new(Point::new(2.0, 1.0, 1.2), 25.0);
+    let robot = Cartesian::new(base, &slides, 0.2).expect("three axes");
+    let middle = base.point(Point::new(0.5, 0.3, -0.35));
+    let half = Point::new(0.8, 0.8, 0.3);
+    promised(
+        "three axes",
+        around(middle, half),
+        |place| robot.margin(place),
+        |place| robot.solve(place).is_some(),
+    );
+}
+
+fn of_library(name: &str, arm: &Arm, around: [Point; 2]) {
+    let start = arm.start();
+    promised(name, around, |place| arm.margin(place), |place| arm.solve(place, &start).is_some());
+}
+
+#[test]
+fn of_arms_of_the_library() {
+    let place = Point::new(-1.3, 0.0, 1.127);
+    let arm = machines::arm(&machines::rail_arm(place, Axis::Y, [-2.0, 2.0]));
+    of_library("arm on a rail", &arm, around(place, Point::new(1.6, 3.6, 1.6)));
+    let place = Point::new(-4.0, 0.0, 2.0);
+    let arm = machines::arm(&machines::gantry(place, [-6.0, -2.0], [-2.0, 2.0]));
+    of_library("gantry", &arm, around(place, Point::new(4.0, 4.0, 2.0)));
+}
