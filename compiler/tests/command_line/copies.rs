@@ -30,7 +30,7 @@ fn the_copies_in_the_output_build_the_same_again() {
     write("line/scenario.json", "{}");
     write("own.aut", &own_type("Second"));
     write("more/own.aut", &own_type("Third"));
-    write("other.json", "{ \"seed\": 7 }");
+    write("other.json", "{ \"time_limit_s\": 60 }");
     let build = |more: &[&str]| {
         let line = ["build", "in/line/a line.json", "-o", "made", "-q", "--set", "agv.capacity=4"];
         let output = autogen(&folder, &[&line, more].concat());
