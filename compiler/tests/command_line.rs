@@ -4,6 +4,9 @@
 mod checked_in;
 #[path = "command_line/conveyors.rs"]
 mod conveyors;
+#[cfg(unix)]
+#[path = "command_line/copies.rs"]
+mod copies;
 #[path = "command_line/daily.rs"]
 mod daily;
 #[path = "command_line/drives.rs"]

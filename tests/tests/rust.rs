@@ -178,7 +178,80 @@ fn the_line_runs_as_on_the_executor() {
     assert_eq!(report.trim_end(), expected.to_json());
     assert_eq!(found.len(), hashes.len());
     links_without_a_panic(&workspace);
+    workspace.put("controllers/tests/restore.rs", RESTORE);
+    workspace.cargo(&["test", "--quiet", "-p", "controllers", "--test", "restore"]);
 }
+
+/// Words that are not those of the line, or of no scan of it: it begins with initial values and a fault, or with words
+/// that it would write itself.
+const RESTORE: &str = r#"use controllers::line;
+use controllers::system::{NOT_RETAINED, System, SystemInputs};
+
+/// The words after some scans with `start`, and whether there is the fault, of a line that began with words.
+fn after(words: Option<&[f64]>, scans: usize) -> (Vec<f64>, bool) {
+    let mut memory = line::Memory::NEW;
+    let mut cells = memory.cells();
+    let mut robots = line::robots();
+    let mut system = System::new();
+    if let Some(words) = words {
+        let mut rest = words.iter().copied();
+        system.restore(&mut robots, &mut cells, &mut || rest.next());
+    }
+    let mut is_lost = false;
+    for number in 0..scans {
+        let inputs = SystemInputs { run_permit: true, start: number > 0, reset: false };
+        let answer = system.scan(inputs, &line::WIRING, &mut robots, &mut cells);
+        is_lost |= answer.fault_code == NOT_RETAINED;
+        assert!(!is_lost || !answer.running);
+    }
+    let mut found = Vec::new();
+    system.retain(&robots, &cells, &mut |word| found.push(word));
+    (found, is_lost)
+}
+
+#[test]
+fn words_of_another_line_are_not_taken() {
+    let (kept, is_lost) = after(None, 50);
+    assert!(!is_lost && kept.len() > 200, "{}", kept.len());
+    // From some states a machine begins anew.
+    let own = after(Some(&kept), 1).0;
+    assert!(own != kept && own.len() == kept.len());
+    let mut fresh = after(None, 1).0;
+    // The fault itself is retained.
+    fresh[2] = f64::from(NOT_RETAINED);
+    assert_eq!(after(Some(&own), 1), (own.clone(), false), "its own words");
+    let refused = |words: &[f64], why: &str| {
+        let (found, is_lost) = after(Some(words), 1);
+        assert!(is_lost, "{why}");
+        assert_eq!((&found[..3], &found[4..]), (&fresh[..3], &fresh[4..]), "{why}");
+        after(Some(words), 50);
+    };
+    for length in 0..own.len() {
+        refused(&own[..length], &format!("{length} words"));
+    }
+    refused(&[&own[..], &[0.0]].concat(), "a word too many");
+    let mut taken = 0;
+    for at in 0..own.len() {
+        for wrong in [f64::NAN, f64::INFINITY, 0.5, -1.0, 99.0, 70_000.0, 3e9, 1e300] {
+            let mut words = own.clone();
+            words[at] = wrong;
+            if !wrong.is_finite() {
+                refused(&words, &format!("word {at} is {wrong}"));
+                continue;
+            }
+            let (found, is_lost) = after(Some(&words), 1);
+            if !is_lost {
+                taken += 1;
+                assert_eq!(found, after(Some(&found), 1).0, "word {at} is {wrong}");
+                // It may run into a fault, and never panics.
+                after(Some(&words), 50);
+            }
+        }
+    }
+    // Of a value that fits nobody knows whether it was that.
+    assert!(taken > 0);
+}
+"#;
 
 /// A program for a controller without an operating system, whose panic handler does not exist.
 const BARE: &str = r#"#![no_std]

@@ -71,6 +71,51 @@ fn what_is_retained_is_of_this_program_and_of_one_scan() {
     }
 }
 
+/// Some controllers retain what they were told to, one variable at a time. Blocks and structures that were not kept
+/// are found, in each flavour.
+#[test]
+fn what_is_retained_was_kept_everywhere() {
+    let outcome = ariac("default").compile();
+    let project = outcome.project.expect("a layout that can be built");
+    let files = st::files(&project.system, &outcome.sources);
+    let flat = Emitted::of(&files);
+    let blocks = ["agv1", "conveyor_belt", "gantry"].map(|robot| format!("{robot}.kept"));
+    let structures = ["tray_cells_kept[0]", "source_cells_kept[0]"].map(String::from);
+    let structured = || blocks.iter().chain(&structures).cloned().collect();
+    let codesys = Emitted::of_codesys(&files).expect("objects without a finding");
+    let scl = Emitted::of_scl(&files).expect("a source without a finding");
+    let flavours: [(&Emitted, &str, Vec<String>); 3] = [
+        (&flat, "tray_slot[3]", blocks.to_vec()),
+        (&codesys, "tray_cells_slot[3]", structured()),
+        (&scl, "tray_cells_slot[3]", structured()),
+    ];
+    for (text, slot, marks) in flavours {
+        let mut machine = Machine::new(&text.main).expect("a clean text");
+        machine.set("run_permit", 1.0);
+        machine.scan().expect("a scan");
+        machine.set("start", 1.0);
+        (0..500).for_each(|_| machine.scan().expect("a scan"));
+        machine.set(slot, 2.0);
+        for lost in std::iter::once(None).chain(marks.into_iter().map(Some)) {
+            let mut machine = machine.clone();
+            machine.power_up();
+            lost.iter().for_each(|mark| machine.set(mark, 0.0));
+            machine.set("run_permit", 1.0);
+            machine.scan().expect("a scan");
+            let found = ["warm_start", slot, "agv2.state", "fault_code", "fault_robot", "running"];
+            let expected = match lost {
+                None => [1.0, 2.0, 4.0, 0.0, -1.0, 0.0],
+                Some(_) => [0.0, 0.0, 0.0, 32766.0, -1.0, 0.0],
+            };
+            assert_eq!(found.map(|name| machine.get(name)), expected, "{lost:?}");
+            // The next loss finds everything kept again.
+            machine.power_up();
+            machine.scan().expect("a scan");
+            assert_eq!(machine.get("warm_start"), 1.0, "{lost:?}");
+        }
+    }
+}
+
 /// Where items are is remembered by places and numbers of slots: another layout has others.
 #[test]
 fn what_is_retained_is_of_this_layout() {

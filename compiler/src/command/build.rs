@@ -1,5 +1,6 @@
 //! `autogen build`.
 
+use super::copies::{Copies, copies};
 use super::options::{Addresses, BuildCommandOptions, BuildOptions, Format};
 use super::output::{self, Output, Refusal};
 use super::{differences, io_error, load, print, read};
@@ -98,9 +99,11 @@ pub fn build(options: &BuildOptions) -> Result<Built, Status> {
             (with_texts, Some(translations))
         }
     };
+    let Copies { files: copies, command } = copies(options, &with_texts);
     // The same input gives the same bytes, from whatever folder it is compiled.
     let sources = shown(&sources, &options.input.layout);
     let mut files = files(&project, &sources, &map);
+    files.extend(copies);
     if !options.no_plcopen {
         put(&mut files, "plc", st::plcopen(&project.system, &sources, &map));
     }
@@ -111,7 +114,7 @@ pub fn build(options: &BuildOptions) -> Result<Built, Status> {
         put(&mut files, "plc", st::translated(&project.system, &sources, translations));
     }
     // Other words on a screen make no other program.
-    let about = about(&project, &shown(&with_texts, &options.input.layout), sources.hash());
+    let about = about(&project, &shown(&with_texts, &options.input.layout), sources.hash(), &command);
     let folder = options.output.clone().unwrap_or_else(|| Path::new("out").join(&project.name));
     Ok(Built { project, sources, files, about, folder })
 }
@@ -167,16 +170,22 @@ pub fn shown(sources: &Sources, layout: &Path) -> Sources {
         if name == "--set" {
             return title;
         }
-        let numbered = (2..).map(|number| format!("{title} ({number})"));
-        std::iter::once(title.clone())
-            .chain(numbered)
-            .find(|name| taken.insert(name.clone()))
-            .unwrap_or(title)
+        apart(title, |name| taken.insert(name.to_string()))
     })
 }
 
+/// A name that is free: the wanted one, or one with a number before its extension.
+pub fn apart(wanted: String, mut is_free: impl FnMut(&str) -> bool) -> String {
+    let (stem, extension) = match wanted.rsplit_once('.') {
+        Some((stem, extension)) if !extension.contains('/') => (stem, format!(".{extension}")),
+        _ => (wanted.as_str(), String::new()),
+    };
+    let numbered = (2..).map(|number| format!("{stem} ({number}){extension}"));
+    std::iter::once(wanted.clone()).chain(numbered).find(|name| is_free(name)).unwrap_or(wanted)
+}
+
 /// The name of an input as outputs show it: its path from the layout's folder, or its own name.
-fn title(layout: &Path, name: &str) -> String {
+pub fn title(layout: &Path, name: &str) -> String {
     if library::FILES.iter().any(|(built_in, _)| *built_in == name) {
         return name.to_string();
     }
@@ -246,7 +255,7 @@ pub fn files_of_rust(system: &System, sources: &Sources) -> Files {
 }
 
 /// What the manifest says before the list of files. No dates and no paths: the same input, the same bytes.
-fn about(project: &Project, sources: &Sources, program: i32) -> Map<String, Value> {
+fn about(project: &Project, sources: &Sources, program: i32, command: &str) -> Map<String, Value> {
     let inputs: Map<String, Value> = (sources.files().iter())
         .map(|file| {
             let name = if file.name == "--set" { format!("--set {}", file.text) } else { file.name.clone() };
@@ -256,6 +265,7 @@ fn about(project: &Project, sources: &Sources, program: i32) -> Map<String, Valu
     let order: Vec<&String> = project.system.instances.iter().map(|i| &i.name).collect();
     let about = [
         ("tool", json!(format!("autogen {}", version::NUMBER))),
+        ("command", json!(command)),
         ("layout", json!(project.name)),
         ("step_order", json!(order)),
         ("program_hash", json!(program)),

@@ -16,7 +16,7 @@ use super::why;
 use crate::Status;
 use autogen::backend::rust::parameters_text;
 use autogen::backend::{Files, report as page};
-use runtime_sim::line::IoDelay;
+use runtime_sim::line::{Goal, IoDelay};
 use runtime_sim::run::{Recorded, Seen, Stepping, record, run as simulate};
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -88,6 +88,9 @@ fn commission(options: &CommissionOptions) -> Result<Status, End> {
     if let Some(waits) = why::at_the_end(&built.project, delay, &report)? {
         report["waits"] = json!(waits);
     }
+    if let Some(note) = asks_nothing(&built) {
+        report["note"] = json!(note);
+    }
     report["layout"] = json!(built.project.name);
     report["settings"] = json!(options.build.input.settings);
     report["order_seed"] = json!(options.build.input.order);
@@ -105,6 +108,22 @@ fn commission(options: &CommissionOptions) -> Result<Status, End> {
         Some(true) => Status::Done,
         _ if report["reason"].as_str().is_some_and(|r| r.starts_with("bug: ")) => Status::Bug,
         _ => Status::NotReached,
+    })
+}
+
+/// Stations that wait for orders, and a scenario that has none: it may have been meant to add to the built-in one.
+fn asks_nothing(built: &Built) -> Option<String> {
+    let scenario = &built.project.plant.scenario;
+    let is_asked = !scenario.orders.is_empty() || matches!(scenario.goal, Goal::Collected(_));
+    let system = &built.project.system;
+    let mut robots = system.instances.iter().enumerate();
+    let (_, station) = robots.find(|(robot, _)| system.automaton_of(*robot).device.has("orders"))?;
+    (!is_asked).then(|| {
+        format!(
+            "the scenario has neither orders nor a goal, so {} and the other stations have nothing to do; \
+             a scenario of your own adds nothing to the built-in one: write its \"orders\"",
+            station.name
+        )
     })
 }
 
@@ -239,6 +258,9 @@ fn are_free(options: &CommissionOptions, built: &Built) -> Result<(), String> {
 fn text(report: &Value, wall: f64, output: &Output) -> String {
     let number = |v: &Value| v.as_f64().unwrap_or(0.0);
     let mut out = format!("{}\n\n", report["reason"].as_str().unwrap_or("").replace("; ", "\n  "));
+    if let Some(note) = report["note"].as_str() {
+        out += &format!("note: {note}\n\n");
+    }
     let is_ordered = report["orders"] != 0;
     if is_ordered {
         out += &format!("orders made        {} of {}\n", report["orders_done"], report["orders"]);

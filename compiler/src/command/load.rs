@@ -120,7 +120,7 @@ pub fn texts_of(
             })?;
             add_text(sources, name, text)?
         }
-        (None, None) => sources.add("built-in scenario", scenario::DEFAULT),
+        (None, None) => sources.add(scenario::BUILT_IN, scenario::DEFAULT),
     };
     if !wrong.is_empty() {
         found.extend(wrong);

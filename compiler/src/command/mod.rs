@@ -23,6 +23,7 @@ pub mod compare;
 pub mod completions;
 pub mod contact;
 pub mod controllers;
+mod copies;
 pub mod diff;
 pub mod differences;
 pub mod explain;

@@ -1,5 +1,6 @@
 //! `autogen new`: a small line to begin with.
 
+use super::copies;
 use super::interrupt;
 use super::io_error;
 use super::options::NewOptions;
@@ -37,12 +38,7 @@ pub fn run(options: &NewOptions) -> Status {
 
 /// A path as a shell takes it.
 fn quoted(path: &Path) -> String {
-    let text = path.display().to_string();
-    let is_plain = |c: char| c.is_alphanumeric() || "/\\._-+:".contains(c);
-    match text.chars().all(is_plain) {
-        true => text,
-        false => format!("'{}'", text.replace('\'', "'\\''")),
-    }
+    copies::quoted(&path.display().to_string())
 }
 
 /// Nothing is written over: the folder is new, or empty.

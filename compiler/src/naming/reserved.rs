@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 /// Keywords, words of sequential charts and of instruction lists, types, standard functions and function blocks.
 const WORDS: &str = "
     abs abstract acos action add adr and and_then andn any any_bit any_char any_chars any_date
-    any_derived any_duration any_elementary any_int any_magnitude any_num any_real any_signed
+    any_chars any_derived any_duration any_elementary any_int any_magnitude any_num any_real any_signed
     any_string any_unsigned array asin at atan atan2 bitadr bool by byte cal calc calcn case catch
     cd ceil char class concat config configuration constant continue cos ctd ctu ctud cu date
     date_and_time delete derivative dint div divtime do dref dt dword else elsif en end_action
@@ -15,13 +15,13 @@ const WORDS: &str = "
     end_step end_struct end_task end_test_function_block end_test_program end_transition end_type
     end_union end_var end_while endtry eno eq exit exp expt extends f_edge f_trig false final
     finally find floor for from function function_block ge get gt hysteresis if implements inc
-    initial_step insert int integral interface internal interval jmp jmpc jmpcn ld ldate
+    indexof initial_step insert int integral interface internal interval jmp jmpc jmpcn ld ldate
     ldate_and_time ldn ldt le left len limit lint ln log lower_bound lreal lt ltime ltime_of_day
     ltod lword main max method mid min mod move mul multime mux namespace ne new nil non_retain not
     null of on or orn overlap override params persistent pid plc_prg pointer priority private
-    program property protected public pv r1 r_edge r_trig ramp read_only read_write real ref ref_to
+    program property protected public pv r r1 r_edge r_trig ramp read_only read_write real ref ref_to
     reference repeat replace reset_ld resource ret retain retc retcn return right rol ror round rs
-    rtc s1 sel self sema set shl shr sin single sint sizeof sqrt sr st stat step stn string struct
+    rtc s s1 sel self sema set shl shr sin single sint sizeof sqrt sr st stat step stn string struct
     sub super tan task test_function_block test_program then this throw time time_of_day to tod tof
     ton tp transition true trunc try type udint uint ulint union union_end until upper_bound using
     usint var var_access var_config var_external var_global var_in_out var_input var_output var_stat
@@ -44,7 +44,7 @@ const TYPED: &str = "
 
 /// Words of the names of types, and those between them in names of conversions.
 const TYPES: &str = "
-    any bool byte word dword lword sint int dint lint usint uint udint ulint real lreal time date
+    any bool byte char wchar word dword lword sint int dint lint usint uint udint ulint real lreal time date
     tod dt string wstring of day and bcd
 ";
 
@@ -68,6 +68,7 @@ pub fn is_reserved(name: &str) -> bool {
     let name = name.to_ascii_lowercase();
     let are_types = |words: &str| words.split('_').all(|word| types.contains(word));
     words.contains(name.as_str())
+        || name.strip_prefix("to_").or_else(|| name.strip_suffix("_to")).is_some_and(are_types)
         || name.split_once('_').is_some_and(|(function, of)| typed.contains(function) && are_types(of))
         || name.split_once("_to_").is_some_and(|(from, to)| are_types(from) && are_types(to))
 }

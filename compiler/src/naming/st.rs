@@ -144,6 +144,8 @@ mod tests {
         assert_eq!(wanted, ["at.z", "at.y", "at.x", "at_x"]);
         let given: Vec<_> = ["max_time", "Dint_to_LReal", "nan", "max_speed"].map(|n| scope.take(n)).into();
         assert_eq!(given, ["max_time_v", "Dint_to_LReal_v", "nan_v", "max_speed"]);
+        let given: Vec<_> = ["s", "R", "to_int", "char_to", "stop_to"].map(|n| scope.take(n)).into();
+        assert_eq!(given, ["s_v", "R_v", "to_int_v", "char_to_v", "stop_to"]);
         let given: Vec<_> =
             ["blend_Program", "bend_function_end_action", "initial_steps"].map(|n| scope.take(n)).into();
         assert_eq!(given, ["blend_v_Program", "bend_v_function_end_v_action", "initial_v_steps"]);

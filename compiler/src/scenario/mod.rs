@@ -17,6 +17,8 @@ use runtime_sim::line::LineButton;
 /// Parts that the belts bring: more than a plant could bring in the longest time limit.
 const MOST_PARTS: u64 = 1_000_000;
 
+/// The name of [`DEFAULT`], which is no file.
+pub const BUILT_IN: &str = "built-in scenario";
 /// For a layout that names no scenario and has none beside it.
 pub const DEFAULT: &str = include_str!("default.json");
 

@@ -174,7 +174,11 @@ impl<'e, 'a, 's> Bench<'e, 'a, 's> {
             Target::Within(scans) => (self.now + 1, self.now + scans as i64),
         };
         while self.now + 1 < first {
-            self.step(step.span, false)?;
+            self.step(step.span, true, false)?;
+        }
+        if step.loses_power {
+            self.engine.controllers().power_up();
+            self.events.push_back((first.max(0) as u64 * self.system.scan_ms as u64, "power off".into()));
         }
         for given in &step.given {
             self.give(&given.named, given.value);
@@ -192,8 +196,11 @@ impl<'e, 'a, 's> Bench<'e, 'a, 's> {
                 .push_back((first.max(0) as u64 * self.system.scan_ms as u64, format!("given {text}")));
         }
         let takes_fault = step.expected.iter().any(|wanted| matches!(wanted, Wanted::Fault(_)));
+        // After a loss of power the line is started anew: an edge of `start` needs a scan without it.
+        let mut start = !step.loses_power;
         loop {
-            self.step(step.span, takes_fault)?;
+            self.step(step.span, start, takes_fault)?;
+            start = true;
             let wrong = self.wrong(&step.expected);
             let is_over = !matches!(step.time, Time::Within(_)) || self.now >= last;
             match (wrong.is_empty(), is_over) {
@@ -208,9 +215,9 @@ impl<'e, 'a, 's> Bench<'e, 'a, 's> {
     }
 
     /// A scan; a fault that nobody expects ends the test.
-    fn step(&mut self, span: Span, takes_fault: bool) -> Result<(), Failure> {
+    fn step(&mut self, span: Span, start: bool, takes_fault: bool) -> Result<(), Failure> {
         let had = self.fault.is_some();
-        self.scan(true);
+        self.scan(start);
         match self.fault.clone() {
             Some(text) if !had && !takes_fault => {
                 Err(self.failure(span, vec!["no fault".into()], vec![format!("fault: {text}")]))

@@ -43,7 +43,7 @@ pub fn is_for_any_engine(system: &System, machine: usize, rows: &[Row]) -> bool 
         Given::Value(path, _) => {
             value::named(system, machine, path).is_ok_and(|named| named.group == Group::Input)
         }
-        Given::Answer(..) => true,
+        Given::Answer(..) | Given::PowerOff => true,
     });
     let knows_others = !system.automaton_of(machine).roles.is_empty();
     let is_known = (0..system.instances.len()).filter(|other| *other != machine).any(|other| {
@@ -67,6 +67,7 @@ pub(super) struct Step {
     pub time: Time,
     pub given: Vec<Poke>,
     pub answer: Option<i32>,
+    pub loses_power: bool,
     pub expected: Vec<Wanted>,
 }
 
@@ -141,9 +142,12 @@ fn targets(system: &System, rows: &[Row], found: &mut Vec<Diagnostic>) -> Vec<Ta
 }
 
 fn step(system: &System, machine: usize, row: &Row, found: &mut Vec<Diagnostic>) -> Step {
-    let mut step = Step { span: row.span, time: row.time, given: vec![], answer: None, expected: vec![] };
+    let loses_power = row.given.iter().any(|given| matches!(given, Given::PowerOff));
+    let (span, time) = (row.span, row.time);
+    let mut step = Step { span, time, given: vec![], answer: None, loses_power, expected: vec![] };
     for given in &row.given {
         match given {
+            Given::PowerOff => {}
             Given::Answer(span, error) => {
                 if !system.automaton_of(machine).device.is_commanded() {
                     let message = "this machine has no commands, so it has none to answer";

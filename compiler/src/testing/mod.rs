@@ -75,6 +75,8 @@ pub enum Given {
     Value(Path, Literal),
     /// The device answers the last command: it has ended successfully, or with this error.
     Answer(Span, i32),
+    /// The controller loses its power before the scan, and has it again.
+    PowerOff,
 }
 
 #[derive(Clone, Debug)]

@@ -130,3 +130,19 @@ fn every_command_is_completed() {
     }
     assert_eq!(status(&autogen(&folder, &["completions", "csh"])), 2);
 }
+
+/// A scenario of one's own has nothing of the built-in one.
+#[test]
+fn a_line_of_which_nothing_is_asked_says_so() {
+    let folder = folder("asks_nothing");
+    let layout = example("ariac2021/default.json");
+    fs::write(folder.join("none.json"), r#"{ "time_limit_s": 2, "faults": { "pauses": [] } }"#)
+        .expect("a file");
+    let arguments = ["commission", &layout, "--scenario", "none.json", "-o", "made"];
+    let output = autogen(&folder, &arguments);
+    assert_eq!(status(&output), 0, "{}", errors(&output));
+    let note = "the scenario has neither orders nor a goal, so as1 and the other stations have nothing to do";
+    assert!(said(&output).contains(&format!("note: {note}; ")), "{}", said(&output));
+    let output = autogen(&folder, &[&arguments[..], &["--format", "json"]].concat());
+    assert!(json(&output)["note"].as_str().expect("a text").starts_with(note), "{}", said(&output));
+}

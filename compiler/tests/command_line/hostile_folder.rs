@@ -310,7 +310,7 @@ fn files_of_the_same_name_stay_apart() {
     let text = |name: &str| fs::read_to_string(folder.join("made").join(name)).expect("a file");
     let manifest: serde_json::Value = serde_json::from_str(&text("manifest.json")).expect("JSON");
     let inputs = manifest["inputs"].as_object().expect("inputs");
-    assert!(inputs.contains_key("own.aut") && inputs.contains_key("own.aut (2)"), "{inputs:?}");
+    assert!(inputs.contains_key("own.aut") && inputs.contains_key("own (2).aut"), "{inputs:?}");
     assert!(text("graph/connectivity.dot").contains("conveyor_belt"));
     assert!(text("graph/connectivity_.dot").contains("Idle"));
     let graph = |of: &str| autogen(&folder, &[&["graph", "--of", of], &arguments[..]].concat()).stdout;

@@ -169,6 +169,41 @@ fn the_compiled_controllers_and_the_text_pass_the_same_tests() {
     assert!(said(&output).contains("12 passed, 0 failed\n"), "{}", said(&output));
 }
 
+/// What is retained, and what is not: the same on all engines.
+#[test]
+fn a_test_takes_the_power_away() {
+    let retains = "retain stamped;\n    initial -> Stopped {}";
+    let folder = changed("test_power", "specs/stamp.aut", "initial -> Stopped {}", retains);
+    let test = |last: &str| {
+        format!(
+            "layout \"line.json\";\ntest \"power\" of station {{
+            0 s: not_stopped = true, is_up = true, at_feeder = true, at_stamp = true -> Stopped;
+            1 s: start_button = true -> Loading;
+            after 30 ms: is_up = false, is_down = true -> Holding;
+            after 500 ms: is_up = true -> Lifting;
+            after 10 ms: power -> Passing;
+            after 10 ms: start_button = false, power off -> stamped = 1, run = false;
+            after 10 ms: -> Stopped, {last};
+            after 1 s: -> Stopped;
+            }}"
+        )
+    };
+    let path = folder.join("line/station.test");
+    let write = |text: String| fs::write(&path, text).expect("a file");
+    write(test("stamped = 1"));
+    let output = autogen(&folder, &["test", "line"]);
+    assert!(errors(&output).contains("E0901"), "`power` alone: {}", errors(&output));
+    write(test("stamped = 1").replace("power ->", "->"));
+    let output = autogen(&folder, &["test", "line", "--on", "executor,rust,st"]);
+    assert_eq!(status(&output), 0, "{}{}", said(&output), errors(&output));
+    assert!(said(&output).contains("3 passed, 0 failed\n"), "{}", said(&output));
+    write(test("stamped = 0").replace("power ->", "->"));
+    let output = autogen(&folder, &["test", "line", "--on", "executor,rust,st"]);
+    assert_eq!(status(&output), 3, "{}{}", said(&output), errors(&output));
+    assert_eq!(said(&output).matches("+    1.560 s  stamped = 1").count(), 3, "{}", said(&output));
+    assert_eq!(said(&output).matches("1.550 s  power off").count(), 3, "{}", said(&output));
+}
+
 #[test]
 fn a_machine_with_a_panel_passes_the_same_tests() {
     let folder = changed("test_panel", "line.json", "\"robots\"", "\"panel\": \"machines\", \"robots\"");

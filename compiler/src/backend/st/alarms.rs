@@ -40,7 +40,7 @@ pub fn table(shared: Shared, translate: &mut Translate) -> String {
                 "Check what did not happen in time: the answer of a device, the action of another robot, or the action of a person."
             }
             FaultKind::TooLong => {
-                "Check what the state waits for: the answer of the device, or another robot. After reset and start the time of the state begins anew."
+                "Check what the state waits for (states.csv): the answer of the device, or another robot. After reset and start the time of the state begins anew."
             }
         };
         let about = format!("{} ({})", translate(Use::Alarm, &site.text), shared.line(site.place));
@@ -85,8 +85,8 @@ fn of_the_line(shared: Shared) -> Vec<(i32, &'static str, &'static str)> {
     if restart::retains(shared) {
         faults.push((
             NOT_RETAINED,
-            "the retained values are not of this program, or not of one scan",
-            "The program was changed while power was off, or power was lost within a scan. The line begins with its initial values: secure the parts on the grippers, empty trays and briefcases, then reset and start.",
+            "the retained values are not of this program or not of one scan, or some were not kept",
+            "The program was changed while power was off, power was lost within a scan, or the PLC does not retain all that is declared so. The line begins with its initial values: secure the parts on the grippers, empty trays and briefcases, then reset and start.",
         ));
     }
     faults.push((

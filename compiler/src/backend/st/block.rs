@@ -9,6 +9,7 @@ use super::globals::{Globals, about, array_names, meaning};
 use super::modes;
 use super::names::ELEMENT;
 use super::property;
+use super::restart;
 use super::role::Members;
 use super::value::{NO_SUCH_STATE, first_value};
 use crate::ir::{Automaton, AutomatonId, Extent, KeptBy, RoleId, Scalar, Value};
@@ -96,7 +97,10 @@ pub fn steps(shared: Shared, id: AutomatonId, globals: &Globals) -> Block {
         c.is_of_steps() && (is_used || c.kept_by == KeptBy::Modes)
     };
     let kept: Vec<&Candidate> = candidates.iter().filter(is_kept).collect();
-    body.insert(0, when(not(name("init_done")), lowering.power_up(&kept, globals)));
+    let mut first = lowering.power_up(&kept, globals);
+    let retains = automaton.retained.state || kept.iter().any(|c| c.variable.is_retained);
+    first.extend(retains.then(|| assign(restart::KEPT, Ex::Bool(true))));
+    body.insert(0, when(not(name("init_done")), first));
     let used = code::names(&body);
     let mut outputs = vec![
         state_variable(shared, id),
@@ -105,6 +109,7 @@ pub fn steps(shared: Shared, id: AutomatonId, globals: &Globals) -> Block {
     if modes::tells_anew(automaton) {
         outputs.push(begun_anew().variable);
     }
+    outputs.extend(retains.then(restart::mark));
     let mut variables = Vec::new();
     for candidate in kept {
         let is_seen = candidate.is_output || asked.contains(&candidate.variable.name);

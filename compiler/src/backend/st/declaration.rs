@@ -46,6 +46,8 @@ pub struct Instance {
     pub name: String,
     pub block: String,
     pub comment: String,
+    /// Its block has variables that outlast a loss of power.
+    pub is_retained: bool,
 }
 
 /// A function block or the program.
@@ -212,21 +214,39 @@ impl Unit {
     pub fn declarations(&self, dialect: Dialect) -> String {
         let line = |v: &Variable| v.line(dialect, &v.ty(dialect));
         let section = |keyword: &str, variables: &[Variable]| sections(keyword, variables, line);
-        let instances = self.instances.iter().map(|i| {
+        let instance = |i: &Instance| {
             let about =
                 if i.comment.is_empty() { String::new() } else { format!(" {}", comment(&i.comment)) };
             format!("    {} : {};{about}\n", i.name, i.block)
-        });
+        };
+        let instances = |keyword: &str, is_retained: bool| {
+            let some = self.instances.iter().filter(|i| i.is_retained_in(dialect) == is_retained);
+            block(keyword, some.map(instance).collect())
+        };
         let externals = match dialect {
             Dialect::Portable => section("VAR_EXTERNAL", &self.externals),
             Dialect::Codesys | Dialect::Siemens => String::new(),
         };
         section("VAR_INPUT", &self.inputs)
-            + &section("VAR_OUTPUT", &self.outputs)
+            + &section("VAR_OUTPUT", &self.outputs(dialect))
             + &section("VAR_IN_OUT", &self.references)
             + &externals
             + &section("VAR", &self.variables)
-            + &block("VAR", instances.collect())
+            + &instances("VAR", false)
+            + &instances("VAR RETAIN", true)
+    }
+
+    /// STruC++ takes no outputs that are retained: in the portable text the whole instance is.
+    pub fn outputs(&self, dialect: Dialect) -> Vec<Variable> {
+        let is_retained = |v: &Variable| v.is_retained && dialect != Dialect::Portable;
+        self.outputs.iter().map(|v| v.clone().retained(is_retained(v))).collect()
+    }
+}
+
+impl Instance {
+    /// Whether this is said where it is declared, or its block says what is.
+    pub fn is_retained_in(&self, dialect: Dialect) -> bool {
+        self.is_retained && dialect == Dialect::Portable
     }
 }
 
@@ -244,7 +264,19 @@ pub fn sections(keyword: &str, variables: &[Variable], line: impl Fn(&Variable) 
 
 /// Declarations of globals.
 pub fn globals(variables: &[Variable], dialect: Dialect) -> String {
-    sections("VAR_GLOBAL", variables, |v| v.line(dialect, &v.ty(dialect)))
+    let line = |v: &Variable| v.line(dialect, &v.ty(dialect));
+    let lists = lists_of_globals(variables, dialect);
+    lists.iter().map(|list| sections("VAR_GLOBAL", list, line)).collect()
+}
+
+/// The globals as they are declared together. matiec retains the first variable of a list only, so in the portable
+/// text each has its own.
+pub fn lists_of_globals(variables: &[Variable], dialect: Dialect) -> Vec<Vec<Variable>> {
+    if dialect != Dialect::Portable {
+        return vec![variables.to_vec()];
+    }
+    let (retained, others): (Vec<_>, Vec<_>) = variables.iter().cloned().partition(|v| v.is_retained);
+    [others].into_iter().chain(retained.into_iter().map(|variable| vec![variable])).collect()
 }
 
 /// The suffixes of the variables that hold one value.

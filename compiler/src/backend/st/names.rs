@@ -1,6 +1,7 @@
 //! The identifiers of one system in Structured Text.
 
 use super::declaration::suffixes;
+use super::restart::KEPT;
 use super::role::{self, Members};
 use super::walk;
 use crate::device::Port;
@@ -79,7 +80,7 @@ const TAKEN: &[&str] = &[
 ];
 /// The counter over the elements of an array.
 pub const ELEMENT: &str = "element_no";
-const LOCAL: &[&str] = &["robot", "state", "elapsed", "done", "failed", "found", ELEMENT];
+const LOCAL: &[&str] = &["robot", "state", "elapsed", "done", "failed", "found", KEPT, ELEMENT];
 const PROGRAM: &[&str] = &[
     "start_now",
     "reset_now",
@@ -306,7 +307,7 @@ fn structure_names(
 ) {
     names.rows = global.take(&format!("{}_cells", snake(&source.name)));
     names.structure = global.take(&format!("ST_{}", camel(&source.name)));
-    let mut scope = Scope::default();
+    let mut scope = Scope::new(&[KEPT]);
     names.fields = source.cells.iter().map(|cell| scope.take(&cell.name)).collect();
     renamed.extend(scope.renamed().iter().map(|r| (names.structure.clone(), r.clone())));
 }

@@ -28,8 +28,17 @@ pub fn program(shared: Shared, blocks: &[Option<Blocks>], globals: &Globals, ima
     let mut body = Vec::new();
     let mut instances = Vec::new();
     instances.push(watchdog::instance());
-    instances.push(Instance { name: "layout".into(), block: LAYOUT.into(), comment: String::new() });
-    body.extend(restart::begin(shared));
+    instances.push(Instance {
+        name: "layout".into(),
+        block: LAYOUT.into(),
+        comment: String::new(),
+        is_retained: false,
+    });
+    let robots: Vec<_> = (shared.system.instances.iter().zip(&shared.names.robots).enumerate())
+        .filter_map(|(robot, (instance, names))| Some((robot, names, blocks[instance.automaton.0].as_ref()?)))
+        .collect();
+    let retained = robots.iter().filter(|(_, _, blocks)| publishes(&blocks.steps, restart::KEPT));
+    body.extend(restart::begin(shared, retained.map(|(_, names, _)| names.instance.as_str())));
     let cold = vec![("cold_start".to_string(), not(name("init_done")))];
     body.push(Stmt::Call { instance: "layout".into(), arguments: cold });
     body.extend(commented("Inputs: from raw values.", &image.inputs));
@@ -40,23 +49,25 @@ pub fn program(shared: Shared, blocks: &[Option<Blocks>], globals: &Globals, ima
     body.extend(watchdog::call());
     body.extend(status(shared));
     body.push(Stmt::Comment("Steps, in layout order.".into()));
-    let robots: Vec<_> = (shared.system.instances.iter().zip(&shared.names.robots).enumerate())
-        .filter_map(|(robot, (instance, names))| Some((robot, names, blocks[instance.automaton.0].as_ref()?)))
-        .collect();
     for (robot, names, blocks) in &robots {
         let comment = format!("robot {robot}");
         instances.push(Instance {
             name: names.instance.clone(),
             block: blocks.steps.unit.name.clone(),
             comment,
+            is_retained: publishes(&blocks.steps, restart::KEPT),
         });
         body.push(blocks.steps.call(shared, &names.instance, *robot));
     }
     let mut tests = Vec::new();
     for (robot, names, blocks) in &robots {
         let Some(block) = &blocks.properties else { continue };
-        let comment = String::new();
-        instances.push(Instance { name: names.properties.clone(), block: block.unit.name.clone(), comment });
+        instances.push(Instance {
+            name: names.properties.clone(),
+            block: block.unit.name.clone(),
+            comment: String::new(),
+            is_retained: false,
+        });
         tests.push(block.call(shared, &names.properties, *robot));
     }
     if !tests.is_empty() {

@@ -19,6 +19,15 @@ const OF: &str = "retained_of";
 /// They are all of one scan.
 const WHOLE: &str = "retained_whole";
 
+/// In what is retained as a whole: a block, or the cells of an interface. It is false where that was not kept.
+pub const KEPT: &str = "kept";
+
+/// The mark of a block or of a structure.
+pub fn mark() -> Variable {
+    let about = "false in the first scan if what is retained here was not kept";
+    Variable::new(KEPT, Basic::Bool).with_comment(about).retained(true)
+}
+
 /// Whether anything of the line outlasts a loss of power.
 pub fn retains(shared: Shared) -> bool {
     shared.system.instances.iter().any(|i| !shared.system.model.automaton(i.automaton).retained.is_empty())
@@ -46,8 +55,8 @@ pub fn variables(shared: Shared) -> Vec<Variable> {
     ]
 }
 
-/// The begin of MAIN.
-pub fn begin(shared: Shared) -> Vec<Stmt> {
+/// The begin of MAIN. `retained` are the instances of blocks that have a [`mark`].
+pub fn begin<'n>(shared: Shared, retained: impl Iterator<Item = &'n str>) -> Vec<Stmt> {
     if !retains(shared) {
         return Vec::new();
     }
@@ -58,9 +67,15 @@ pub fn begin(shared: Shared) -> Vec<Stmt> {
         condition,
         body: vec![assign("fault_code", Ex::Int(code)), assign("fault_robot", Ex::Int(-1))],
     };
-    let first = vec![
-        Stmt::Comment("Retained values are used if they are of this program and of one scan.".into()),
+    let mut first = vec![
+        Stmt::Comment(
+            "Retained values are used if they are of this program and of one scan, and all are there.".into(),
+        ),
         assign(WARM, and(vec![name(WHOLE), binary("=", name(OF), shape())])),
+    ];
+    let mark = |instance: &str| Ex::Field(instance.into(), KEPT.into());
+    first.extend(retained.map(|instance| assign(WARM, and(vec![name(WARM), mark(instance)]))));
+    first.extend([
         Stmt::If(
             vec![
                 lost(and(vec![is_cold(), binary("<>", name(OF), Ex::Int(0))]), NOT_RETAINED),
@@ -69,7 +84,7 @@ pub fn begin(shared: Shared) -> Vec<Stmt> {
             Vec::new(),
         ),
         assign(OF, shape()),
-    ];
+    ]);
     vec![when(not(name("init_done")), first), assign(WHOLE, Ex::Bool(false))]
 }
 

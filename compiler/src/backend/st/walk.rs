@@ -18,7 +18,7 @@ pub fn is_for_guards_only(automaton: &Automaton, define: usize) -> bool {
 }
 
 /// The defines that an expression reads, and those that these read.
-fn defines(automaton: &Automaton, expr: &Expr, found: &mut BTreeSet<usize>) {
+pub fn defines(automaton: &Automaton, expr: &Expr, found: &mut BTreeSet<usize>) {
     if let ExprKind::Define(define) = expr.kind
         && found.insert(define)
     {

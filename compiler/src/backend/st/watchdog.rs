@@ -54,7 +54,7 @@ pub fn globals(shared: Shared) -> [Variable; 2] {
 }
 
 pub fn instance() -> Instance {
-    Instance { name: INSTANCE.into(), block: WATCHDOG.into(), comment: String::new() }
+    Instance { name: INSTANCE.into(), block: WATCHDOG.into(), comment: String::new(), is_retained: false }
 }
 
 /// In MAIN, before anything is decided in the scan.

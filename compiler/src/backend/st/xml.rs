@@ -4,7 +4,7 @@ use super::Line;
 use super::attributes;
 use super::code::Ex;
 use super::context::Shared;
-use super::declaration::{Unit, Variable};
+use super::declaration::{Instance, Unit, Variable, lists_of_globals};
 use super::functions::Function;
 use super::print::Dialect;
 use super::text::{body, enumerations, made_from, render};
@@ -63,7 +63,9 @@ struct List {
 /// For Beremiz, OpenPLC and other tools that keep to the standard.
 pub fn plcopen(shared: Shared, line: &Line) -> String {
     let all: Vec<Variable> = line.globals.all().cloned().collect();
-    let globals = sections("globalVars", &all, 8, |v| variable(v, Dialect::Portable, 10));
+    let lists = lists_of_globals(&all, Dialect::Portable);
+    let of = |v: &Variable| variable(v, Dialect::Portable, 10);
+    let globals = lists.iter().map(|list| sections("globalVars", list, 8, of)).collect();
     render(&Plcopen {
         made_from: escaped(&made_from(shared)),
         version: version::NUMBER,
@@ -118,13 +120,17 @@ fn pou(unit: &Unit, dialect: Dialect) -> Pou {
     let of = |v: &Variable| variable(v, dialect, 12);
     let mut interface = String::new();
     interface += &section("inputVars", 10, unit.inputs.iter().map(of).collect());
-    interface += &sections("outputVars", &unit.outputs, 10, of);
+    interface += &sections("outputVars", &unit.outputs(dialect), 10, of);
     interface += &section("inOutVars", 10, unit.references.iter().map(of).collect());
-    let instances = unit.instances.iter();
-    let instances =
-        instances.map(|i| typed(&named(&i.name), &format!("<derived name=\"{}\"/>", i.block), "", "", 12));
+    let instance =
+        |i: &Instance| typed(&named(&i.name), &format!("<derived name=\"{}\"/>", i.block), "", "", 12);
+    let instances = |is_retained: bool| {
+        let some = unit.instances.iter().filter(|i| i.is_retained_in(dialect) == is_retained);
+        some.map(instance).collect()
+    };
     interface += &sections("localVars", &unit.variables, 10, of);
-    interface += &section("localVars", 10, instances.collect());
+    interface += &section("localVars", 10, instances(false));
+    interface += &retained("localVars", 10, instances(true));
     if dialect == Dialect::Portable {
         interface += &section("externalVars", 10, unit.externals.iter().map(of).collect());
     }
@@ -172,9 +178,13 @@ fn sections(name: &str, variables: &[Variable], indent: usize, of: impl Fn(&Vari
     let lines = |is_retained: bool| {
         variables.iter().filter(move |v| v.is_retained == is_retained).map(&of).collect::<Vec<_>>()
     };
-    let retained = section(name, indent, lines(true));
-    section(name, indent, lines(false))
-        + &retained.replacen(&format!("<{name}>"), &format!("<{name} retain=\"true\">"), 1)
+    section(name, indent, lines(false)) + &retained(name, indent, lines(true))
+}
+
+/// A section that outlasts a loss of power.
+fn retained(name: &str, indent: usize, variables: Vec<String>) -> String {
+    let section = section(name, indent, variables);
+    section.replacen(&format!("<{name}>"), &format!("<{name} retain=\"true\">"), 1)
 }
 
 fn section(name: &str, indent: usize, variables: Vec<String>) -> String {

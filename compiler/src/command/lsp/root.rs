@@ -101,7 +101,7 @@ fn texts(folder: &Path) -> Result<(Sources, Vec<FileId>, Vec<String>), String> {
         files.push(file.map_err(|_| format!("{}: this file cannot be read", path.display()))?);
     }
     let own = load::add(&mut sources, &folder.join(layouts::SCENARIO)).ok();
-    let file = own.unwrap_or_else(|| sources.add("built-in scenario", scenario::DEFAULT));
+    let file = own.unwrap_or_else(|| sources.add(scenario::BUILT_IN, scenario::DEFAULT));
     let kinds = kinds(&sources, file);
     Ok((sources, files, kinds))
 }

@@ -5,7 +5,7 @@ mod manifest;
 mod present;
 mod transaction;
 
-pub use manifest::{MANIFEST, hash};
+pub use manifest::{MANIFEST, hash, is_within};
 
 use super::lock::Lock;
 use autogen::backend::Files;

@@ -67,6 +67,11 @@ impl Reader {
                 self.next();
                 return Some(Given::Answer(span, 0));
             }
+            Some("power") if *follows == Token::Word("off".into()) => {
+                self.next();
+                self.next();
+                return Some(Given::PowerOff);
+            }
             Some("failed") => {
                 self.next();
                 let error = match *self.peek() {

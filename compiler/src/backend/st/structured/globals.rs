@@ -9,6 +9,7 @@ use crate::backend::st::code::Ex;
 use crate::backend::st::context::Shared;
 use crate::backend::st::declaration::{Basic, Variable};
 use crate::backend::st::globals::{Globals, Table, about, meaning, rows};
+use crate::backend::st::restart;
 use crate::ir::{Extent, InterfaceId, Scalar};
 use std::collections::BTreeMap;
 
@@ -69,9 +70,9 @@ fn interface(shared: Shared, line: &Line, id: InterfaceId, typed: &Typed) -> Opt
     if fields.is_empty() {
         return None;
     }
-    let mut tables = line.globals.cells.iter();
-    let is_retained = tables
-        .any(|t| t.variable.is_retained && names.cells.iter().any(|held| held.contains(&t.variable.name)));
+    let is_retained = is_retained(shared, line, id);
+    let mark = is_retained.then(|| restart::mark().retained(false));
+    let fields = fields.into_iter().chain(mark).collect();
     let array = Variable {
         structure: Some(names.structure.clone()),
         comments: vec![format!("cells of {}", interface.name), rows(shared, id, None)],
@@ -81,6 +82,13 @@ fn interface(shared: Shared, line: &Line, id: InterfaceId, typed: &Typed) -> Opt
     .retained(is_retained);
     let about = format!("what each {} shows to others", interface.name);
     Some((Structure { name: names.structure.clone(), about, fields }, array))
+}
+
+/// Whether a cell of the interface outlasts a loss of power: then the whole array does.
+pub fn is_retained(shared: Shared, line: &Line, id: InterfaceId) -> bool {
+    let cells = &shared.names.interfaces[id.0].cells;
+    let mut tables = line.globals.cells.iter();
+    tables.any(|t| t.variable.is_retained && cells.iter().any(|held| held.contains(&t.variable.name)))
 }
 
 fn table_of_alarms(line: &Line) -> Option<(Structure, Variable)> {

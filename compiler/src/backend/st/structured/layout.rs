@@ -1,12 +1,14 @@
 //! The block that sets cells to what they hold at power-up.
 
+use super::globals::is_retained;
 use crate::backend::st::Line;
-use crate::backend::st::code::{Ex, Stmt, advance, assign, binary, name, not, when, within};
+use crate::backend::st::code::{Ex, Stmt, advance, and, assign, binary, name, not, when, within};
 use crate::backend::st::context::Shared;
 use crate::backend::st::declaration::{Basic, Unit, Variable};
 use crate::backend::st::globals::Table;
 use crate::backend::st::names::ELEMENT;
-use crate::backend::st::restart::WARM;
+use crate::backend::st::restart::{KEPT, WARM};
+use crate::backend::st::value::NOT_RETAINED;
 use crate::ir::{Extent, InterfaceId};
 
 /// Counts the elements of an array within a row.
@@ -15,6 +17,18 @@ const ITEM: &str = "item_no";
 /// With the names of the portable text.
 pub fn unit(shared: Shared, line: &Line) -> Unit {
     let mut body = vec![when(not(name("cold_start")), vec![Stmt::Return])];
+    let retained: Vec<Ex> = ((0..shared.system.model.interfaces.len()).map(InterfaceId))
+        .filter(|id| is_retained(shared, line, *id))
+        .map(|id| mark(shared, id))
+        .collect();
+    if !retained.is_empty() {
+        let mut is_lost = vec![name(WARM)];
+        is_lost.push(not(and(retained.clone())));
+        let lost =
+            [(WARM, Ex::Bool(false)), ("fault_code", Ex::Int(NOT_RETAINED)), ("fault_robot", Ex::Int(-1))];
+        body.push(when(and(is_lost), lost.map(|(name, value)| assign(name, value)).into()));
+        body.extend(retained.into_iter().map(|mark| Stmt::Assign(mark, Ex::Bool(true))));
+    }
     for id in (0..shared.system.model.interfaces.len()).map(InterfaceId) {
         body.extend(cells(shared, id, line, |table| !table.variable.is_retained));
         let retained = cells(shared, id, line, |table| table.variable.is_retained);
@@ -33,6 +47,12 @@ pub fn unit(shared: Shared, line: &Line) -> Unit {
         body,
         ..line.layout.clone()
     }
+}
+
+/// The mark of the cells of an interface.
+fn mark(shared: Shared, id: InterfaceId) -> Ex {
+    let rows = shared.names.interfaces[id.0].rows.clone();
+    Ex::Part(Box::new(Ex::Element(rows, Box::new(Ex::Int(0)))), KEPT.into())
 }
 
 /// Some of the cells of an interface, in all rows.
