@@ -77,7 +77,7 @@ fn keys_of_a_layout_are_those_that_are_not_there_yet() {
     );
     // Of a type that is known its own keys too, wherever the type stands.
     let found = open.with_robot("{\"ori^\", \"name\": \"b\", \"type\": \"conveyor\"}");
-    assert_eq!(found, ["hands_to", "orient", "orient_range", "parameters", "pose", "takes_from"]);
+    assert_eq!(found, ["at", "hands_to", "orient", "orient_range", "parameters", "pose", "takes_from"]);
 }
 
 #[test]
