@@ -240,7 +240,7 @@ impl Placed {
                     }
                 }
                 Primitive::Track(track) => {
-                    for corner in track.course.corners() {
+                    for corner in track.corners() {
                         ground = [with(ground[0], corner.x), with(ground[1], corner.y)];
                     }
                 }

@@ -12,6 +12,7 @@ use crate::part::Primitive;
 use crate::part::orders::Desk;
 use crate::part::stroke::Carriage;
 use crate::part::{lane, scanner, track};
+use crate::plant::conveyed::Conveyed;
 use crate::plant::trajectory::Trajectory;
 use crate::point::Point;
 
@@ -259,6 +260,16 @@ pub trait Running: std::fmt::Debug + Send + Sync {
 
     /// Where the underside of an item is that it bears.
     fn place(&self, _item: usize, _carrier: &Carrier, _see: &See) -> Option<Point> {
+        None
+    }
+
+    /// How an item that it bears continues, as seen from what carries this part.
+    fn conveyed(&self, _item: usize, _carrier: &Carrier, _see: &See) -> Option<Conveyed> {
+        None
+    }
+
+    /// The part that carries it.
+    fn on(&self) -> Option<usize> {
         None
     }
 
