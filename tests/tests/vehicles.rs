@@ -246,3 +246,161 @@ fn what_is_wrong_with_a_track_is_told() {
         assert_eq!(told(&settings), wanted, "{settings}");
     }
 }
+
+/// A network of 10 m by 10 m: from node 1 straight to node 2, or round by 3 and 4; from 2 back to 0 by 5 and 6. `speeds` are
+/// those of the edges 0-1, 1-2, 1-3, 3-4, 4-2, 2-5, 5-6, 6-0.
+fn with_network(speeds: [f64; 8], automaton: &str, scenario: &str) -> Texts {
+    let device = format!(
+        "device cart {{
+        part drive = track {{
+            nodes: pose + [point(0, 0, 0), point(10, 0, 0), point(20, 0, 0), point(10, 10, 0), point(20, 10, 0),
+                point(20, -5, 0), point(0, -5, 0)];
+            edges: [0, 1, 1, 2, 1, 3, 3, 4, 4, 2, 2, 5, 5, 6, 6, 0]; speeds: {speeds:?};
+            speed: 1.5; acceleration: 0.5; mass: 10.0;
+        }};
+        in pos: point = drive.position;
+        in place: int -1..9 = drive.place;
+        in stands: bool = drive.stands;
+        out goal: int 0..9;
+        command 1 go(goal) = drive.to(goal);
+        command 2 halt() = drive.halt();
+    }}
+    automaton Cart on cart {{ {automaton} }}"
+    );
+    Texts { specs: vec![device], ..with_automaton("", scenario) }
+}
+
+/// From one speed to another one over so many metres, with 1.5 m/s and 0.5 m/s2 at most, s.
+fn leg(length: f64, from: f64, to: f64) -> f64 {
+    let (v, a) = (1.5, 0.5);
+    length / v + ((v - from).powi(2) + (v - to).powi(2)) / (2.0 * a * v)
+}
+
+const FAST: [f64; 8] = [1.5; 8];
+const ONCE: &str = "state There { when done -> Ended; } final state Ended;";
+
+/// Straight 10 + 10 m, of them 10 at 0.4 m/s, or round 40 m.
+#[test]
+fn on_a_network_it_takes_the_quickest_way() {
+    let slow = [1.5, 0.4, 1.5, 1.5, 1.5, 1.5, 1.5, 1.5];
+    for (speeds, length) in [(FAST, 20.0), (slow, 40.0)] {
+        let rests = rests(&with_network(
+            speeds,
+            &format!("initial -> There {{ go(2); }} {ONCE}"),
+            r#"{"time_limit_s": 60}"#,
+        ));
+        let [end] = rests[..] else { panic!("{rests:?}") };
+        assert_eq!((end.1, end.2), (2.0, [20.0, 0.0]));
+        assert!(is_near(end.0, leg(length, 0.0, 0.0), SCANS), "{rests:?}");
+    }
+}
+
+/// It brakes before a slow edge, and gains speed behind it.
+#[test]
+fn on_a_network_each_edge_has_its_speed() {
+    let speeds = [1.5, 1.5, 0.5, 1.5, 1.5, 1.5, 1.5, 1.5];
+    let rests = rests(&with_network(
+        speeds,
+        &format!("initial -> There {{ go(4); }} {ONCE}"),
+        r#"{"time_limit_s": 60}"#,
+    ));
+    let [end] = rests[..] else { panic!("{rests:?}") };
+    assert_eq!((end.1, end.2), (4.0, [20.0, 10.0]));
+    let wanted = leg(10.0, 0.0, 0.5) + 10.0 / 0.5 + leg(10.0, 0.5, 0.0);
+    assert!(is_near(end.0, wanted, SCANS), "{rests:?}");
+}
+
+/// Sent straight on, it is sent round before it is at the branch: it does not stop, and passes node 3.
+#[test]
+fn on_a_network_it_takes_another_way_without_a_stop() {
+    let rests = rests(&with_network(
+        FAST,
+        "local passed: bool := false;
+        initial -> First { go(2); }
+        state First { when after 4 s -> Then { go(4); } }
+        state Then { when place = 3 and not passed { passed := true; } when done and passed -> Ended; }
+        final state Ended;",
+        r#"{"time_limit_s": 60}"#,
+    ));
+    let [end] = rests[..] else { panic!("{rests:?}") };
+    assert_eq!((end.1, end.2), (4.0, [20.0, 10.0]));
+    assert!(is_near(end.0, leg(30.0, 0.0, 0.0), SCANS), "{rests:?}");
+}
+
+/// After 7 s it has come 8.25 m, and brakes in 2.25 m: node 1 is too near, and it comes to rest behind it, on its old way.
+/// From there it goes on to node 3 by the whole round.
+#[test]
+fn on_a_network_a_node_that_is_too_near_is_refused() {
+    let rests = rests(&with_network(
+        FAST,
+        "initial -> First { go(2); }
+        state First { when after 7 s -> Then { go(1); } }
+        state Then { when stands and failed and error = 1 -> On { go(3); } }
+        state On { when done -> Ended; }
+        final state Ended;",
+        r#"{"time_limit_s": 90}"#,
+    ));
+    let [halted, end] = rests[..] else { panic!("{rests:?}") };
+    assert_eq!(halted.1, 1.0);
+    assert!(is_near(halted.2[0], 10.5, 1.5 * SCANS), "{rests:?}");
+    assert_eq!((end.1, end.2), (3.0, [10.0, 10.0]));
+    let length = 9.5 + 5.0 + 20.0 + 5.0 + 10.0 + 10.0;
+    assert!(is_near(end.0 - halted.0, leg(length, 0.0, 0.0), 2.0 * SCANS), "{rests:?}");
+}
+
+/// As on a line: held after 3.75 m, it rests at 6 m, and has 14 m more when it is released, or when it no longer jams.
+#[test]
+fn on_a_network_it_goes_on_where_it_was_held() {
+    for faults in [
+        r#""pauses": [{"at_s": 4, "for_s": 10}]"#,
+        r#""jams": [{"robot": "cart", "part": "drive", "at_s": 4, "for_s": 10}]"#,
+    ] {
+        let rests = rests(&with_network(
+            FAST,
+            &format!("initial -> There {{ go(2); }} {ONCE}"),
+            &format!(r#"{{"time_limit_s": 60, "faults": {{{faults}}}}}"#),
+        ));
+        let [held, end] = rests[..] else { panic!("{rests:?}") };
+        assert!(is_near(held.0, 7.0, SCANS), "{rests:?}");
+        assert!(is_near(held.2[0], 6.0, 1.5 * SCANS), "{rests:?}");
+        assert_eq!((end.1, end.2), (2.0, [20.0, 0.0]));
+        assert!(is_near(end.0, 14.0 + leg(14.0, 0.0, 0.0), 2.0 * SCANS), "{rests:?}");
+    }
+}
+
+/// A way that turns back at a node has a stop there.
+#[test]
+fn on_a_network_it_stops_where_its_way_turns_back() {
+    let mut texts = with_network(FAST, &format!("initial -> There {{ go(3); }} {ONCE}"), r#"{"time_limit_s": 60}"#);
+    texts.specs[0] = texts.specs[0].replace("point(10, 10, 0)", "point(4, 8, 0)");
+    let rests = rests(&texts);
+    let [end] = rests[..] else { panic!("{rests:?}") };
+    assert_eq!((end.1, end.2), (3.0, [4.0, 8.0]));
+    assert!(is_near(end.0, leg(10.0, 0.0, 0.0) + leg(10.0, 0.0, 0.0), SCANS), "{rests:?}");
+}
+
+#[test]
+fn what_is_wrong_with_a_network_is_told() {
+    let runs = "speed: 1.5; acceleration: 0.5;";
+    let nodes = "nodes: [pose, pose + point(10, 0, 0), pose + point(at - 2.0, 5, 0)];";
+    let round = "edges: [0, 1, 1, 2, 2, 0];";
+    assert_eq!(told(&format!("{nodes} {round} {runs}")), "");
+    for (settings, wanted) in [
+        (format!("{nodes} edges: [0, 1, 1, 0]; {runs}"), "no way leads from node 0, where it begins, to node 2"),
+        (format!("{nodes} edges: [0, 1, 1, 0, 1, 2]; {runs}"), "no way leads from node 2 back to node 0, where it begins"),
+        (format!("{nodes} edges: [0, 1, 1, 2, 2]; {runs}"), "`edges` are 1 to 1024 pairs of nodes, these are 5 numbers"),
+        (format!("{nodes} edges: []; {runs}"), "`edges` are 1 to 1024 pairs of nodes, these are 0 numbers"),
+        (format!("{nodes} edges: [0, 1, 1, 3]; {runs}"), "edge 1 ends at node 3, nodes are 0 to 2"),
+        (format!("{nodes} edges: [0, 1, 1, 1]; {runs}"), "edge 1 from node 1 to node 1 has no length"),
+        (format!("{nodes} edges: [0, 1, 0, 1]; {runs}"), "two edges lead from node 0 to node 1"),
+        (format!("{nodes} {round} speeds: [1.0]; {runs}"), "1 speeds of 3 edges"),
+        (format!("{nodes} {round} speeds: [1.0, at - 12.0, 1.0]; {runs}"), "the speed of edge 1 from node 1 to node 2 is not over 0"),
+        (format!("{nodes} {round} begins: 3; {runs}"), "it begins at node 3, nodes are 0 to 2"),
+        (format!("{nodes} {round} closed: true; {runs}"), "a track is given by corners and places, or by nodes and edges"),
+        (format!("{nodes} {runs}"), "a track is given by corners and places, or by nodes and edges"),
+        (format!("nodes: [pose, pose + point(1, 0, at)]; edges: [0, 1, 1, 0]; {runs}"), "node 1 is at another height: all nodes have the same z"),
+        (format!("nodes: [pose]; edges: [0, 0]; {runs}"), "1 nodes, there are 2 to 256"),
+    ] {
+        assert_eq!(told(&settings), format!("E0704 the part drive: {wanted}"), "{settings}");
+    }
+}

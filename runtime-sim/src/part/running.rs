@@ -106,6 +106,14 @@ impl<'a> World<'a> {
         self.items.pass(item, Carrier::Part { of }, place);
     }
 
+    /// A part of another item comes to lie at a place of the machine again.
+    pub fn lay(&mut self, item: usize, part: usize, offset: Point) {
+        let carrier = Carrier::Place { machine: self.machine, part, offset };
+        let see = self.see();
+        let place = see.part(part).and_then(|place| place.place(item, &carrier, &see)).unwrap_or_default();
+        self.items.pass(item, carrier, place);
+    }
+
     /// The machine did what would break it: the run ends.
     pub fn crash(&mut self, reason: String) {
         self.items.crash(self.machine, reason);
