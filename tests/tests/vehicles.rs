@@ -1,10 +1,11 @@
 //! A vehicle on a track, by closed forms: how long it takes, where it brakes, what it refuses.
 
 use autogen::executor::Executor;
-use autogen_tests::Texts;
 use autogen_tests::words::with_words;
+use autogen_tests::{Texts, is_full_campaign};
 use runtime_sim::collision::Contact;
 use runtime_sim::memory::Memory;
+use runtime_sim::random::Random;
 use runtime_sim::run::{Seen, Stepping, run_again};
 
 /// An open track of 10 m with a corner, and what drives on it.
@@ -377,6 +378,88 @@ fn on_a_network_it_stops_where_its_way_turns_back() {
     let [end] = rests[..] else { panic!("{rests:?}") };
     assert_eq!((end.1, end.2), (3.0, [4.0, 8.0]));
     assert!(is_near(end.0, leg(10.0, 0.0, 0.0) + leg(10.0, 0.0, 0.0), SCANS), "{rests:?}");
+}
+
+/// Goals at drawn times, and pauses: in each scan it is on an edge, no faster than allowed there, and its speed changes no
+/// faster than its acceleration allows. How it is stepped makes no difference.
+#[test]
+fn on_a_network_it_keeps_to_its_edges_whatever_it_is_told() {
+    const NODES: [[f64; 2]; 7] =
+        [[0.0, 0.0], [10.0, 0.0], [20.0, 0.0], [10.0, 10.0], [20.0, 10.0], [20.0, -5.0], [0.0, -5.0]];
+    const EDGES: [[usize; 2]; 8] = [[0, 1], [1, 2], [1, 3], [3, 4], [4, 2], [2, 5], [5, 6], [6, 0]];
+    let speeds = [1.5, 0.4, 1.0, 0.7, 1.5, 1.2, 0.9, 1.5];
+    let (dt, a) = (0.01, 0.5);
+    let on = |edge: usize, [x, y]: [f64; 2]| {
+        let [from, to] = EDGES[edge].map(|node| NODES[node]);
+        let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+        let along = ((x - from[0]) * dx + (y - from[1]) * dy) / dx.hypot(dy);
+        let across = ((x - from[0]) * dy - (y - from[1]) * dx) / dx.hypot(dy);
+        (across.abs() < 1e-6 && (-1e-6..=dx.hypot(dy) + 1e-6).contains(&along)).then_some(along)
+    };
+    let seeds = if is_full_campaign() { 200 } else { 6 };
+    for seed in 0..seeds {
+        let mut random = Random::at(seed, [1, 2]);
+        let mut drawn = |most: u64| random.next_u64() % most;
+        let goals: Vec<String> = (0..40)
+            .map(|number| {
+                let at_ms = 4000 * number + drawn(4000);
+                format!(r#"{{"robot": "cart", "part": "wish", "at_s": {}, "value": {}}}"#, at_ms as f64 / 1000.0, drawn(7))
+            })
+            .collect();
+        let pauses: Vec<String> = (0..3)
+            .map(|number| format!(r#"{{"at_s": {}, "for_s": 3.3}}"#, 50 * number + 5 + drawn(40)))
+            .collect();
+        let scenario = format!(
+            r#"{{"time_limit_s": 170, "operator": [{}], "faults": {{"pauses": [{}]}}}}"#,
+            goals.join(", "),
+            pauses.join(", ")
+        );
+        let mut texts = with_network(
+            speeds,
+            "local told: int 0..6 := 0;
+            initial -> Driving {}
+            state Driving {
+                when wanted <> told -> Driving { told := wanted; go(wanted); }
+                when failed and stands -> Driving { go(told); }
+            }",
+            &scenario,
+        );
+        let wish = "part wish = selector { begins: 0; }; in wanted: int 0..6 = wish.position; in pos";
+        texts.specs[0] = texts.specs[0].replace("in pos", wish);
+        let (project, words) = with_words(&texts);
+        let position = ["cart_pos_x", "cart_pos_y"].map(|name| words[name]);
+        let execute = |stepping| {
+            let mut places: Vec<[f64; 2]> = Vec::new();
+            let mut observer = |seen: &Seen| places.push(position.map(|word| word.value(seen)));
+            let (mut executor, mut memory) = (Executor::new(&project.system), Memory::default());
+            let report = run_again(&project.plant, &mut executor, stepping, &mut memory, &mut observer);
+            (report.expect("a line that runs"), places)
+        };
+        let [events, every, checked] = [Stepping::Events, Stepping::EveryScan, Stepping::Checked].map(execute);
+        assert_eq!(events.0, every.0, "seed {seed}");
+        assert_eq!(checked.0, every.0, "seed {seed}");
+        let mut last: Option<(usize, f64)> = None;
+        let mut passed = 0;
+        for (scan, pair) in every.1.windows(2).enumerate() {
+            let [from, to] = [pair[0], pair[1]];
+            let step = (to[0] - from[0]).hypot(to[1] - from[1]);
+            let both = (0..EDGES.len()).find_map(|edge| Some((edge, on(edge, to)? - on(edge, from)?)));
+            let Some((edge, forward)) = both else {
+                assert!((0..EDGES.len()).any(|edge| on(edge, to).is_some()), "seed {seed}, scan {scan}: {to:?}");
+                assert!(step <= 1.5 * dt + 1e-6, "seed {seed}, scan {scan}: {step}");
+                last = None;
+                passed += 1;
+                continue;
+            };
+            assert!((-1e-5..=speeds[edge] * dt + 1e-6).contains(&forward), "seed {seed}, scan {scan}: {forward} on {edge}");
+            let speed = forward / dt;
+            if let Some((_, before)) = last.filter(|(last, _)| *last == edge) {
+                assert!((speed - before).abs() <= a * dt + 1e-3, "seed {seed}, scan {scan}: {before} to {speed}");
+            }
+            last = Some((edge, speed));
+        }
+        assert!(passed > 3, "seed {seed}: it passes {passed} nodes");
+    }
 }
 
 #[test]

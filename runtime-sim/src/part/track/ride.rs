@@ -76,6 +76,9 @@ impl Begin {
     }
 }
 
+/// Part of a speed that is rounded.
+const ROUNDED: f64 = 1e-9;
+
 /// The highest speed at the end of each stretch with which it can keep to the limits of those behind, and stop.
 fn ends(stretches: &[Stretch], begin: &Begin) -> Vec<f64> {
     let mut ends = vec![0.0; stretches.len()];
@@ -128,7 +131,8 @@ impl Ride {
         let Some((first, end)) = stretches.first().zip(ends(&stretches, begin).first().copied()) else {
             return false;
         };
-        begin.speed * begin.speed <= end * end + 2.0 * begin.acceleration * (first.length + spare)
+        let is_slow = begin.speed <= first.limits.speed * (1.0 + ROUNDED);
+        is_slow && begin.speed * begin.speed <= end * end + 2.0 * begin.acceleration * (first.length + spare)
     }
 
     pub fn to(&self) -> f64 {
