@@ -176,11 +176,11 @@ fn a_process_frees_the_parts_of_an_item() {
                 ),
                 (
                     "when pressed and not pressing -> Unloading {} }",
-                    "when pressed and not pressing -> Undoing { undo := true; } }
+                    "when pressed and not pressing -> Undoing { undo := true; }
+                    when pressing and pressed -> Unloading {} }
                     state Undoing within 1 s { when opening -> Opening { undo := false; } }
                     state Opening within 5 s { when opened and not opening -> Ended; }
-                    final state Ended;
-                    state Never { when false -> Unloading {} }",
+                    final state Ended;",
                 ),
             ],
         )

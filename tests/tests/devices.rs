@@ -175,6 +175,14 @@ fn an_axis_that_does_not_carry_the_chain_changes_nothing() {
 fn a_conveyor_that_nearly_meets_another_one_is_told_with_the_pose_that_joins_them() {
     let warnings = |from: &str, to: &str| -> Vec<(String, String)> {
         let mut texts = side_by_side("loop/loop");
+        for (at, pose) in [
+            (r#""module", "at": "c2.bed""#, r#""module", "pose": [6, 1, 0, 180]"#),
+            (r#""at": "s7.bed""#, r#""pose": [5, 1, 0, 180]"#),
+            (r#""at": ["bed", "s8.bed"]"#, r#""pose": [4, 1, 0, 180]"#),
+        ] {
+            assert!(texts.layout.contains(at), "{at}");
+            texts.layout = texts.layout.replacen(at, pose, 1);
+        }
         assert!(texts.layout.contains(from), "{from}");
         texts.layout = texts.layout.replacen(from, to, 1);
         let warnings = texts.compile().warnings.into_iter();

@@ -190,11 +190,11 @@ fn it_touches_with_its_rear_what_stands_beside_its_corner() {
 /// What a layout with a device of one vehicle is told.
 fn told(settings: &str) -> String {
     let device = format!(
-        "device cart {{ parameter at: real; part drive = track {{ {settings} mass: 10.0; }};
+        "device cart {{ parameter spot: real; part drive = track {{ {settings} mass: 10.0; }};
         in stands: bool = drive.stands; }}
         automaton Cart on cart {{ initial state S {{ when stands -> S {{}} }} }}"
     );
-    let layout = r#"{"robots": [{"name": "cart", "type": "cart", "pose": [0, 0, 0], "at": 12}]}"#;
+    let layout = r#"{"robots": [{"name": "cart", "type": "cart", "pose": [0, 0, 0], "spot": 12}]}"#;
     let texts = Texts { specs: vec![device], ..Texts::of_layout(layout) };
     let outcome = texts.compile();
     let all: Vec<String> = outcome
@@ -212,35 +212,35 @@ fn told(settings: &str) -> String {
 fn what_is_wrong_with_a_track_is_told() {
     let line = "corners: [pose, pose + point(10, 0, 0)];";
     let runs = "speed: 1.5; acceleration: 0.5;";
-    let right = told(&format!("{line} places: [at - 2.0]; {runs}"));
+    let right = told(&format!("{line} places: [spot - 2.0]; {runs}"));
     assert_eq!(right, "");
     for (settings, wanted) in [
         (
-            format!("{line} places: [0.0, at]; {runs}"),
+            format!("{line} places: [0.0, spot]; {runs}"),
             "E0704 the part drive: place 1 is at 12.000 m of a track of 10.000 m",
         ),
         (
-            format!("{line} places: [0.0]; begins: at; {runs}"),
+            format!("{line} places: [0.0]; begins: spot; {runs}"),
             "E0704 the part drive: it begins at 12.000 m of a track of 10.000 m",
         ),
         (
-            format!("corners: [pose, pose + point(at - 12.0, 0, 0)]; places: [0.0]; {runs}"),
+            format!("corners: [pose, pose + point(spot - 12.0, 0, 0)]; places: [0.0]; {runs}"),
             "E0704 the part drive: the track has no length at corner 0",
         ),
         (
-            format!("corners: [pose + point(at, 0, 0)]; places: [0.0]; {runs}"),
+            format!("corners: [pose + point(spot, 0, 0)]; places: [0.0]; {runs}"),
             "E0704 the part drive: a track has two corners at least",
         ),
         (
-            format!("corners: [pose, pose + point(at, 0, 1)]; places: [0.0]; {runs}"),
+            format!("corners: [pose, pose + point(spot, 0, 1)]; places: [0.0]; {runs}"),
             "E0704 the part drive: the track rises at corner 0: all corners have the same z",
         ),
         (
-            format!("{line} places: [0.0]; speed: 0.0 - at; acceleration: 0.5;"),
+            format!("{line} places: [0.0]; speed: 0.0 - spot; acceleration: 0.5;"),
             "E0704 `speed` has to be a number over 0",
         ),
         (
-            format!("{line} places: [0.0]; speed: 1.0; acceleration: at - 12.0;"),
+            format!("{line} places: [0.0]; speed: 1.0; acceleration: spot - 12.0;"),
             "E0704 `acceleration` has to be a number over 0",
         ),
     ] {
@@ -376,7 +376,8 @@ fn on_a_network_it_stops_where_its_way_turns_back() {
     texts.specs[0] = texts.specs[0].replace("point(10, 10, 0)", "point(4, 8, 0)");
     let rests = rests(&texts);
     let [end] = rests[..] else { panic!("{rests:?}") };
-    assert_eq!((end.1, end.2), (3.0, [4.0, 8.0]));
+    assert_eq!(end.1, 3.0);
+    assert!(is_near(end.2[0], 4.0, 1e-9) && is_near(end.2[1], 8.0, 1e-9), "{rests:?}");
     assert!(is_near(end.0, leg(10.0, 0.0, 0.0) + leg(10.0, 0.0, 0.0), SCANS), "{rests:?}");
 }
 
@@ -465,7 +466,7 @@ fn on_a_network_it_keeps_to_its_edges_whatever_it_is_told() {
 #[test]
 fn what_is_wrong_with_a_network_is_told() {
     let runs = "speed: 1.5; acceleration: 0.5;";
-    let nodes = "nodes: [pose, pose + point(10, 0, 0), pose + point(at - 2.0, 5, 0)];";
+    let nodes = "nodes: [pose, pose + point(10, 0, 0), pose + point(spot - 2.0, 5, 0)];";
     let round = "edges: [0, 1, 1, 2, 2, 0];";
     assert_eq!(told(&format!("{nodes} {round} {runs}")), "");
     for (settings, wanted) in [
@@ -477,11 +478,11 @@ fn what_is_wrong_with_a_network_is_told() {
         (format!("{nodes} edges: [0, 1, 1, 1]; {runs}"), "edge 1 from node 1 to node 1 has no length"),
         (format!("{nodes} edges: [0, 1, 0, 1]; {runs}"), "two edges lead from node 0 to node 1"),
         (format!("{nodes} {round} speeds: [1.0]; {runs}"), "1 speeds of 3 edges"),
-        (format!("{nodes} {round} speeds: [1.0, at - 12.0, 1.0]; {runs}"), "the speed of edge 1 from node 1 to node 2 is not over 0"),
+        (format!("{nodes} {round} speeds: [1.0, spot - 12.0, 1.0]; {runs}"), "the speed of edge 1 from node 1 to node 2 is not over 0"),
         (format!("{nodes} {round} begins: 3; {runs}"), "it begins at node 3, nodes are 0 to 2"),
         (format!("{nodes} {round} closed: true; {runs}"), "a track is given by corners and places, or by nodes and edges"),
         (format!("{nodes} {runs}"), "a track is given by corners and places, or by nodes and edges"),
-        (format!("nodes: [pose, pose + point(1, 0, at)]; edges: [0, 1, 1, 0]; {runs}"), "node 1 is at another height: all nodes have the same z"),
+        (format!("nodes: [pose, pose + point(1, 0, spot)]; edges: [0, 1, 1, 0]; {runs}"), "node 1 is at another height: all nodes have the same z"),
         (format!("nodes: [pose]; edges: [0, 0]; {runs}"), "1 nodes, there are 2 to 256"),
     ] {
         assert_eq!(told(&settings), format!("E0704 the part drive: {wanted}"), "{settings}");
