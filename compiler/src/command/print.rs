@@ -203,7 +203,7 @@ pub fn verdict(v: &Verdict) -> String {
             let by = match by {
                 By::Joint { margin: [off, turn] } => format!("{:.1} mm, {turn:.2} degrees", 1000.0 * off),
                 By::Branch => "diverter or pusher".into(),
-                By::Fall => "falls".into(),
+                By::Fall => "may fall".into(),
             };
             text += &format!("  {from:width$} -> {to:to_width$}  {by}\n");
         }
