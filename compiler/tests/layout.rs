@@ -25,9 +25,10 @@ fn check(sources: &Sources, file: FileId) -> Vec<Diagnostic> {
     let (layout, mut diagnostics) = layout::parse(sources, file);
     for object in layout.iter().flat_map(|l| &l.objects) {
         diagnostics.extend(match device(&object.kind.value) {
-            Some(device) => layout::machine(object, library::device(device).unwrap(), object.pose.value)
-                .err()
-                .unwrap_or_default(),
+            Some(device) => {
+                let device = library::device(device).unwrap();
+                layout::machine(object, device, object.pose.value, &[]).err().unwrap_or_default()
+            }
             None => layout::obstacle(object).err().unwrap_or_default(),
         });
     }
@@ -76,7 +77,8 @@ fn numbers_of_an_object_have_paths_and_places() {
     let file = sources.add("default.json", example("default.json"));
     let layout = layout::parse(&sources, file).0.unwrap();
     let agv = layout.objects.iter().find(|o| o.name.value == "agv1").unwrap();
-    let (_, numbers) = layout::machine(agv, library::device("vehicle").unwrap(), agv.pose.value).unwrap();
+    let (_, numbers) =
+        layout::machine(agv, library::device("vehicle").unwrap(), agv.pose.value, &[]).unwrap();
     let paths: Vec<&str> = numbers.iter().map(|n| n.path.as_str()).collect();
     assert_eq!(
         paths,

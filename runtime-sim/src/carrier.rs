@@ -55,7 +55,15 @@ impl Carrier {
         }
     }
 
-    /// Nothing takes an item from there.
+    /// From the origin of what carries the place.
+    pub fn offset(&self) -> Option<Point> {
+        match self {
+            Carrier::Place { offset, .. } => Some(*offset),
+            _ => None,
+        }
+    }
+
+    /// No machine takes an item from there.
     pub fn is_final(&self) -> bool {
         matches!(
             self,

@@ -53,6 +53,19 @@ impl Items {
         &self.list
     }
 
+    /// Items that became parts of another one, in the order in which they did.
+    pub fn parts_of(&self, of: usize) -> Vec<usize> {
+        let mut parts = Vec::new();
+        for event in &self.log {
+            let Event::Item { item, to, .. } = event else { continue };
+            parts.retain(|other| other != item);
+            if *to == (Carrier::Part { of }) {
+                parts.push(*item);
+            }
+        }
+        parts
+    }
+
     pub fn borne_by(&self, machine: usize) -> &[usize] {
         &self.borne[machine]
     }

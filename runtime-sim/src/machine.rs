@@ -10,6 +10,7 @@ use crate::part::chain::Chain;
 use crate::part::lane::Lane;
 use crate::part::place::Place;
 use crate::part::route::Route;
+use crate::part::stroke::Strokes;
 use crate::part::track::Track;
 use crate::part::{Form, Part, Primitive};
 use crate::point::Point;
@@ -268,6 +269,17 @@ impl Machine {
         self.parts.iter().any(|other| matches!(&other.primitive, Primitive::Orders(o) if o.place == part))
     }
 
+    /// How the cylinder or positioner moves on which a place is.
+    pub fn strokes_under(&self, place: &Place) -> Option<Strokes> {
+        self.parts.get(place.on?)?.strokes()
+    }
+
+    /// Whether a place goes from stop to stop.
+    pub fn is_driven(&self, place: &Place) -> bool {
+        let carrier = place.on.and_then(|part| self.parts.get(part));
+        carrier.is_some_and(|part| matches!(part.primitive, Primitive::Route(_)))
+    }
+
     fn carriers(&self) -> Vec<(usize, &Axis)> {
         let axis = |part: usize| self.parts.get(part).and_then(|part| part.axis());
         self.chain().map_or(Vec::new(), |chain| chain.carriers(axis))
@@ -306,7 +318,7 @@ impl Machine {
 
     /// Points of the ground between which it moves as a whole: stops of a route, corners of a track.
     pub fn turning_points(&self) -> Vec<Point> {
-        self.track().map_or_else(|| self.stops().to_vec(), |track| track.course.corners())
+        self.track().map_or_else(|| self.stops().to_vec(), Track::corners)
     }
 
     /// Where it may be, if it goes from stop to stop; the first is where it starts.

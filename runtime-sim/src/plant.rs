@@ -312,14 +312,11 @@ impl Plant {
         self.machines.get(machine)?.joints()
     }
 
-    /// How an item on a conveyor continues from now.
+    /// How an item on a conveyor, or at a place that a cylinder or a positioner carries, continues from now.
     pub(crate) fn conveyed(&self, item: usize) -> Option<Conveyed> {
         let carrier = &self.items.all().get(item)?.carrier;
         let machine = self.machines.get(carrier.machine()?)?;
-        let lane = machine.lane(carrier.part()?)?;
-        let carriage = lane.lane().on.and_then(|carriage| machine.carriage(carriage));
-        let carried = carriage.and_then(|carriage| carriage.stroking(self.now_ms()));
-        Some(Conveyed { carried, ..lane.conveyed(item, carrier)? })
+        machine.conveyed(item, carrier, &self.items, &self.desk, self.now_ms())
     }
 
     /// Whether two items lie on conveyors of which one leads onto the other.

@@ -276,6 +276,7 @@ const Motion = (() => {
       case 0: return [a, b, c];
       case 1: return [a + d * s, b + e * s, c + f * s];
       case 2: {
+        if (carrierOf(segment).what === 'place') return point(carriedBy(segment, s), [a, b, c]);
         const { place, across, frame } = conveyed(segment, s);
         const lies = pointOn(laneOf(machine, part).line, place, across);
         return frame ? point(frame, lies) : lies;
@@ -296,6 +297,13 @@ const Motion = (() => {
     return { place, across, frame: cylinder && strokeFrame(cylinder, goneOut(out, rate, until, s)) };
   }
 
+  /* How a cylinder has moved a place with an item. */
+  function carriedBy([, carrier, , , , , , out, rate, until], s) {
+    const [, , machine, part] = raw.carriers[carrier];
+    const { on } = Data.machines[machine].places.find((place) => place.part === part);
+    return strokeFrame(cylinderOf(machine, on), goneOut(out, rate, until, s));
+  }
+
   /* How an item is turned, rad: it keeps its heading but on a conveyor with a frame, and on a gripper. */
   function turnBy(item, index, ms) {
     const segment = item.segments[index];
@@ -312,6 +320,9 @@ const Motion = (() => {
       }
     }
     const begin = turnAtBegin(item, index);
+    if (what === 'place' && segment[2] === 2) {
+      return begin + yawOf(carriedBy(segment, (ms - segment[0]) / 1000)) - yawOf(carriedBy(segment, 0));
+    }
     if (what !== 'grip' || segment[2] !== 3) return begin;
     const tool = (at) => yawOf(framesAt(machine, at).slice(-1)[0]);
     const now = tool(ms);

@@ -85,11 +85,13 @@ const Plan = (() => {
   }
 
   /* The track that a vehicle follows, with its places. */
-  function drawTrack({ points, isClosed, places }, colours) {
+  function drawTrack({ sides, places }, colours) {
     context.setLineDash([2, 5]);
     context.strokeStyle = colours.muted;
-    trace(points, isClosed);
-    context.stroke();
+    for (const side of sides) {
+      trace(side, false);
+      context.stroke();
+    }
     context.setLineDash([]);
     context.fillStyle = colours.muted;
     for (const place of places) {
@@ -99,11 +101,19 @@ const Plan = (() => {
     }
   }
 
+  /* The sides of a place where it is at a time. */
+  function floorAt(machine, place, ms) {
+    if (place.carried) return floorOf(place, Motion.positionAt(machine.number, ms));
+    const floor = floorOf(place, place.at);
+    if (place.on === null) return floor;
+    const frame = Motion.cylinderFrame(machine.number, place.on, ms);
+    return floor.map(([x, y]) => Motion.point(frame, [x, y, 0]));
+  }
+
   function drawPlaces(ms) {
     const colours = Colours.get();
     for (const machine of machines) for (const place of machine.places) {
-      const at = place.carried ? Motion.positionAt(machine.number, ms) : place.at;
-      trace(floorOf(place, at));
+      trace(floorAt(machine, place, ms));
       context.fillStyle = colours.panel;
       context.globalAlpha = 0.55;
       context.fill();
@@ -331,7 +341,7 @@ const Plan = (() => {
       || [...still].reverse().find((body) => body.machine !== null && body.low <= OVERHEAD && isOn(body, p));
     if (body) return { machine: body.machine };
     const on = machines.find((machine) =>
-      machine.places.some((place) => isInside(floorOf(place, place.carried ? Motion.positionAt(machine.number, ms) : place.at), p))
+      machine.places.some((place) => isInside(floorAt(machine, place, ms), p))
       || machine.lanes.some((lane) => isInside(laneBand(lane, null, lane.outline), p)));
     return on ? { machine: on.number } : {};
   }

@@ -94,7 +94,7 @@ const Scene = (() => {
   const extent = (() => {
     const all = machines.flatMap((machine) => [
       ...machine.stops,
-      ...(machine.track ? machine.track.points : []),
+      ...(machine.track ? machine.track.sides.flat() : []),
       ...machine.rails.flatMap(({ points }) => points),
       ...boxes[machine.number].low[0] === Infinity ? [] : [boxes[machine.number].low, boxes[machine.number].high],
     ]);

@@ -171,6 +171,52 @@ fn limits_of_joints_put_places_out_of_reach() {
     assert!(outcome.diagnostics.iter().any(|found| found.code == "E0401"), "{:?}", outcome.diagnostics);
 }
 
+/// The box is taken apart again: base and lid are what they were, the lid on the free slot beside the base.
+#[test]
+fn a_process_frees_the_parts_of_an_item() {
+    let taken_apart = |slots: &str| {
+        changed(
+            "assembler",
+            &[
+                ("slots: [point(0, 0, 0)]", slots),
+                ("floor_y: [-0.08, 0.08]", "floor_y: [-0.08, 0.24]"),
+                (
+                    "part out_lane",
+                    "part open = process { on: nest; time: 1 s; frees: true; makes: [box, base]; };\n part out_lane",
+                ),
+                (
+                    "/// starts the press",
+                    "in opening: bool = open.runs; in opened: bool = open.ended; out undo: bool = open.start stop false;\n /// starts the press",
+                ),
+                (
+                    "when pressed and not pressing -> Unloading {} }",
+                    "when pressed and not pressing -> Undoing { undo := true; }
+                    when pressing and pressed -> Unloading {} }
+                    state Undoing within 1 s { when opening -> Opening { undo := false; } }
+                    state Opening within 5 s { when opened and not opening -> Ended; }
+                    final state Ended;",
+                ),
+            ],
+        )
+    };
+    let mut ends = Vec::new();
+    let texts = taken_apart("slots: [point(0, 0, 0), point(0, 0.16, 0)]");
+    run(&texts, |seen: &Seen| {
+        let items = seen.plant.items().all();
+        ends = items
+            .iter()
+            .map(|item| (item.kind, item.carrier.offset().map(|at| [at.x, at.y, at.z])))
+            .collect();
+    });
+    // Kinds: 0 base, 1 lid.
+    assert!(ends.contains(&(1, Some([0.0, 0.16, 0.0]))), "{ends:?}");
+    let base = ends.iter().find(|(kind, at)| *kind == 0 && at.is_some()).expect("a base in the press");
+    assert!(base.1.is_some_and(|at| at.iter().all(|along| along.abs() < 0.01)), "{ends:?}");
+
+    let none = reason(&taken_apart("slots: [point(0, 0, 0)]"));
+    assert_eq!(none, "interlock of assembler: a process has no free slot for a lid");
+}
+
 #[test]
 fn a_press_joins_what_lies_in_it_and_nothing_less() {
     let texts = side_by_side("scenes/assembler");

@@ -179,6 +179,14 @@ fn an_axis_that_does_not_carry_the_chain_changes_nothing() {
 fn a_conveyor_that_nearly_meets_another_one_is_told_with_the_pose_that_joins_them() {
     let warnings = |from: &str, to: &str| -> Vec<(String, String)> {
         let mut texts = side_by_side("loop/loop");
+        for (at, pose) in [
+            (r#""module", "at": "c2.bed""#, r#""module", "pose": [6, 1, 0, 180]"#),
+            (r#""at": "s7.bed""#, r#""pose": [5, 1, 0, 180]"#),
+            (r#""at": ["bed", "s8.bed"]"#, r#""pose": [4, 1, 0, 180]"#),
+        ] {
+            assert!(texts.layout.contains(at), "{at}");
+            texts.layout = texts.layout.replacen(at, pose, 1);
+        }
         assert!(texts.layout.contains(from), "{from}");
         texts.layout = texts.layout.replacen(from, to, 1);
         let warnings = texts.compile().warnings.into_iter();
@@ -199,7 +207,7 @@ fn a_conveyor_that_nearly_meets_another_one_is_told_with_the_pose_that_joins_the
     );
     assert!(found[0].1.contains("\"pose\": [5, 1, 0, 180] for s8"), "{}", found[0].1);
     let turned = warnings("[6, 1, 0, 180]", "[6, 1, 0, 175]");
-    assert!(turned.iter().any(|(_, help)| help.contains("turn one of the machines")), "{turned:?}");
+    assert!(turned.iter().any(|(_, help)| help.contains("\"pose\": [6, 1, 0, -180] for s7")), "{turned:?}");
     // Farther away it was not meant.
     assert_eq!(
         warnings(

@@ -141,3 +141,83 @@ fn a_loop_of_twenty_modules_brings_all_items_to_their_exits() {
     assert!(report.collisions.is_empty(), "{:?}", report.collisions);
     assert!(rounds >= 5, "{rounds} rounds");
 }
+
+/// Two arms of different manufacturers hand eight parts over by a turntable: nothing touches, and how the run is stepped
+/// makes no difference.
+#[test]
+fn two_arms_hand_over_by_a_turntable() {
+    let project = side_by_side("turntable/turntable").compile().project.expect("a line without errors");
+    let execute = |stepping| {
+        let (mut executor, mut memory) = (Executor::new(&project.system), Memory::default());
+        run_again(&project.plant, &mut executor, stepping, &mut memory, &mut |_: &Seen| {})
+            .expect("a line that runs")
+    };
+    let [events, every, checked] = [Stepping::Events, Stepping::EveryScan, Stepping::Checked].map(execute);
+    assert_eq!(events, every);
+    assert_eq!(checked, every);
+    assert_eq!(events.reason, "all items collected");
+    assert!(events.collisions.is_empty(), "{:?}", events.collisions);
+}
+
+/// An item at the end of a table that turns hits a post beside it: where the item is then, no body of the machine has been.
+#[test]
+fn what_lies_on_a_turntable_touches_what_is_in_its_way() {
+    let mut texts = side_by_side("turntable/turntable");
+    let post = |y: f64| {
+        format!(
+            r#", "stationary": [{{"name": "post", "type": "box", "pose": [1.0, {y}, 0], "box": [0.02, 0.02, 0.915]}}]"#
+        )
+    };
+    let layout = texts.layout.trim_end().trim_end_matches('}').to_string();
+    for (y, touches) in [(-0.26, true), (-0.40, false)] {
+        texts.layout = format!("{layout}{}}}", post(y));
+        texts.specs[0] = texts.specs[0]
+            .replace("high: pose + point(0.35, 0.06, top)", "high: pose + point(0.2, 0.06, top)");
+        texts.specs[0] = texts.specs[0].replace("low: pose + point(-0.35,", "low: pose + point(-0.2,");
+        let report = run(texts.clone(), &mut |_: &Seen| {});
+        let found: Vec<_> =
+            report.collisions.iter().map(|contact| (contact.pair.clone(), contact.parts.clone())).collect();
+        let wanted = (["table", "post"].map(String::from), ["blank_1", "body"].map(String::from));
+        assert_eq!(found, if touches { vec![wanted] } else { Vec::new() });
+    }
+}
+
+/// From one speed to another one over so many metres, with 1.5 m/s and 0.5 m/s2 at most, s.
+fn leg(length: f64, from: f64, to: f64) -> f64 {
+    let (v, a) = (1.5, 0.5);
+    length / v + ((v - from).powi(2) + (v - to).powi(2)) / (2.0 * a * v)
+}
+
+/// One vehicle alone on the routes of the scene: 3 m to the loading place, 13 m to its branch, 6 m and 4 m at 0.5 m/s to the
+/// junction, 38 m to the beginning; 5 s at each of both places.
+#[test]
+fn a_vehicle_on_routes_takes_the_time_of_its_closed_form() {
+    let lap = 2.0 * (3.0_f64 / 0.5).sqrt()
+        + 5.0
+        + leg(13.0, 0.0, 0.0)
+        + 5.0
+        + leg(6.0, 0.0, 0.5)
+        + 4.0 / 0.5
+        + leg(38.0, 0.5, 0.0);
+    let mut texts = side_by_side("scenes/branches");
+    let others = texts.layout.lines().filter(|line| !line.contains("\"v2\"")).collect::<Vec<_>>().join("\n");
+    texts.layout = others.replace("}},\n  ],", "}}\n  ],");
+    texts.scenario = Some(r#"{"time_limit_s": 700}"#.into());
+    let (mut arrivals, mut stood) = (Vec::new(), true);
+    let project = texts.compile().project.expect("a line without errors");
+    let north = project.plant.machines[0].track().expect("a vehicle").goals()[5];
+    let mut observer = |seen: &Seen| {
+        let is_there = seen.plant.position(0).is_some_and(|at| (at - north).length() < 1e-6);
+        if is_there && !stood {
+            arrivals.push(seen.scan as f64 / 100.0);
+        }
+        stood = is_there;
+    };
+    run(texts, &mut observer);
+    let laps: Vec<f64> = arrivals.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    assert!(laps.len() >= 8, "{laps:?}");
+    for found in laps {
+        // Each of eight waits is up to two scans of 10 ms long.
+        assert!((lap - 0.01..=lap + 0.16).contains(&found), "{found} s, {lap} s");
+    }
+}

@@ -131,6 +131,79 @@ fn a_place_that_cannot_be_found_is_told() {
     }
 }
 
+/// Two nodes and what a vehicle on them is told.
+#[test]
+fn routes_that_are_wrong_are_told() {
+    let device = "device cart {
+        parameter hall: routes; parameter home: node;
+        part drive = track {
+            nodes: hall.nodes; edges: hall.edges; speeds: hall.speeds; begins: home;
+            speed: 1.5; acceleration: 0.5; mass: 10.0;
+        };
+        in stands: bool = drive.stands;
+        constant home_at: int 0..255 = home;
+    }
+    automaton Cart on cart { initial state S { when stands and home_at = 1 -> S {} } }";
+    let told = |routes: &str, keys: &str| -> Vec<(&'static str, String)> {
+        let layout = format!(
+            r#"{{"robots": [{{"name": "cart", "type": "cart", "pose": [0, 0, 0], {keys}}}], "routes": {routes}}}"#
+        );
+        let texts = Texts { specs: vec![device.into()], ..Texts::of_layout(layout) };
+        let all = texts.compile().diagnostics.into_iter();
+        all.map(|d| (d.code, format!("{} {} {}", d.message, d.notes.join(" "), d.help))).collect()
+    };
+    let nodes = r#""nodes": {"a": [0, 0, 0], "b": [5, 0, 0]}"#;
+    let both = r#"[{"from": "a", "to": "b", "speed": 0.5, "both_ways": true}]"#;
+    let right = format!(r#"{{"one": {{{nodes}, "edges": {both}}}}}"#);
+    let here = r#""hall": "one", "home": "b""#;
+    assert_eq!(told(&right, here), []);
+    let of_edges = |edges: &str| format!(r#"{{"one": {{{nodes}, "edges": {edges}}}}}"#);
+    let cases = [
+        (right.clone(), r#""hall": "two", "home": "b""#, "E0155", "the layout has no routes \"two\""),
+        (right.clone(), r#""hall": "one", "home": "c""#, "E0155", "the nodes are a and b"),
+        (right.clone(), r#""hall": 1, "home": "a""#, "E0110", "hall must be a text"),
+        (right, r#""hall": "one""#, "E0112", "has no key \"home\""),
+        ("{}".into(), here, "E0155", "beside `robots`"),
+        ("[]".into(), here, "E0110", "routes must be an object"),
+        (of_edges(r#"[{"from": "a", "to": "bb"}]"#), here, "E0155", "there is no node \"bb\""),
+        (of_edges(r#"[{"from": "a"}]"#), here, "E0112", "has no key \"to\""),
+        (
+            of_edges(r#"[{"from": "a", "to": "b", "speed": 0}]"#),
+            here,
+            "E0114",
+            "speed must be a number from 0.001",
+        ),
+        (
+            of_edges(r#"[{"from": "a", "to": "b", "both_ways": 1}]"#),
+            here,
+            "E0110",
+            "both_ways must be true or false",
+        ),
+        (
+            of_edges(r#"[{"from": "a", "to": "b"}]"#),
+            here,
+            "E0704",
+            "no way leads from node 1, where it begins, to node 0",
+        ),
+        (of_edges(r#"[{"from": "a", "to": "a"}]"#), here, "E0704", "has no length"),
+        (
+            r#"{"one": {"nodes": {"a": [0, 0], "b": [1, 0, 0]}, "edges": []}}"#.into(),
+            here,
+            "E0113",
+            "must have 3 elements",
+        ),
+        (r#"{"one": {"edges": []}}"#.into(), here, "E0112", "has no key \"nodes\""),
+        (r#"{"o_": {"nodes": {}, "edges": [], "way": 1}}"#.into(), here, "E0111", "has no key \"way\""),
+    ];
+    for (routes, keys, code, words) in cases {
+        let told = told(&routes, keys);
+        assert!(
+            told.iter().any(|(found, text)| *found == code && text.contains(words)),
+            "{routes} {keys}: {told:?}"
+        );
+    }
+}
+
 #[test]
 fn machines_in_any_order_begin_where_others_end() {
     // A quarter of a circle of 1 m, then one more: 2/pi m ahead and to the left each time.

@@ -1,10 +1,11 @@
 //! A vehicle on a track, by closed forms: how long it takes, where it brakes, what it refuses.
 
 use autogen::executor::Executor;
-use autogen_tests::Texts;
 use autogen_tests::words::with_words;
+use autogen_tests::{Texts, is_full_campaign};
 use runtime_sim::collision::Contact;
 use runtime_sim::memory::Memory;
+use runtime_sim::random::Random;
 use runtime_sim::run::{Seen, Stepping, run_again};
 
 /// An open track of 10 m with a corner, and what drives on it.
@@ -189,11 +190,11 @@ fn it_touches_with_its_rear_what_stands_beside_its_corner() {
 /// What a layout with a device of one vehicle is told.
 fn told(settings: &str) -> String {
     let device = format!(
-        "device cart {{ parameter at: real; part drive = track {{ {settings} mass: 10.0; }};
+        "device cart {{ parameter spot: real; part drive = track {{ {settings} mass: 10.0; }};
         in stands: bool = drive.stands; }}
         automaton Cart on cart {{ initial state S {{ when stands -> S {{}} }} }}"
     );
-    let layout = r#"{"robots": [{"name": "cart", "type": "cart", "pose": [0, 0, 0], "at": 12}]}"#;
+    let layout = r#"{"robots": [{"name": "cart", "type": "cart", "pose": [0, 0, 0], "spot": 12}]}"#;
     let texts = Texts { specs: vec![device], ..Texts::of_layout(layout) };
     let outcome = texts.compile();
     let all: Vec<String> = outcome
@@ -211,38 +212,312 @@ fn told(settings: &str) -> String {
 fn what_is_wrong_with_a_track_is_told() {
     let line = "corners: [pose, pose + point(10, 0, 0)];";
     let runs = "speed: 1.5; acceleration: 0.5;";
-    let right = told(&format!("{line} places: [at - 2.0]; {runs}"));
+    let right = told(&format!("{line} places: [spot - 2.0]; {runs}"));
     assert_eq!(right, "");
     for (settings, wanted) in [
         (
-            format!("{line} places: [0.0, at]; {runs}"),
+            format!("{line} places: [0.0, spot]; {runs}"),
             "E0704 the part drive: place 1 is at 12.000 m of a track of 10.000 m",
         ),
         (
-            format!("{line} places: [0.0]; begins: at; {runs}"),
+            format!("{line} places: [0.0]; begins: spot; {runs}"),
             "E0704 the part drive: it begins at 12.000 m of a track of 10.000 m",
         ),
         (
-            format!("corners: [pose, pose + point(at - 12.0, 0, 0)]; places: [0.0]; {runs}"),
+            format!("corners: [pose, pose + point(spot - 12.0, 0, 0)]; places: [0.0]; {runs}"),
             "E0704 the part drive: the track has no length at corner 0",
         ),
         (
-            format!("corners: [pose + point(at, 0, 0)]; places: [0.0]; {runs}"),
+            format!("corners: [pose + point(spot, 0, 0)]; places: [0.0]; {runs}"),
             "E0704 the part drive: a track has two corners at least",
         ),
         (
-            format!("corners: [pose, pose + point(at, 0, 1)]; places: [0.0]; {runs}"),
+            format!("corners: [pose, pose + point(spot, 0, 1)]; places: [0.0]; {runs}"),
             "E0704 the part drive: the track rises at corner 0: all corners have the same z",
         ),
         (
-            format!("{line} places: [0.0]; speed: 0.0 - at; acceleration: 0.5;"),
+            format!("{line} places: [0.0]; speed: 0.0 - spot; acceleration: 0.5;"),
             "E0704 `speed` has to be a number over 0",
         ),
         (
-            format!("{line} places: [0.0]; speed: 1.0; acceleration: at - 12.0;"),
+            format!("{line} places: [0.0]; speed: 1.0; acceleration: spot - 12.0;"),
             "E0704 `acceleration` has to be a number over 0",
         ),
     ] {
         assert_eq!(told(&settings), wanted, "{settings}");
+    }
+}
+
+/// A network of 10 m by 10 m: from node 1 straight to node 2, or round by 3 and 4; from 2 back to 0 by 5 and 6. `speeds` are
+/// those of the edges 0-1, 1-2, 1-3, 3-4, 4-2, 2-5, 5-6, 6-0.
+fn with_network(speeds: [f64; 8], automaton: &str, scenario: &str) -> Texts {
+    let device = format!(
+        "device cart {{
+        part drive = track {{
+            nodes: pose + [point(0, 0, 0), point(10, 0, 0), point(20, 0, 0), point(10, 10, 0), point(20, 10, 0),
+                point(20, -5, 0), point(0, -5, 0)];
+            edges: [0, 1, 1, 2, 1, 3, 3, 4, 4, 2, 2, 5, 5, 6, 6, 0]; speeds: {speeds:?};
+            speed: 1.5; acceleration: 0.5; mass: 10.0;
+        }};
+        in pos: point = drive.position;
+        in place: int -1..9 = drive.place;
+        in stands: bool = drive.stands;
+        out goal: int 0..9;
+        command 1 go(goal) = drive.to(goal);
+        command 2 halt() = drive.halt();
+    }}
+    automaton Cart on cart {{ {automaton} }}"
+    );
+    Texts { specs: vec![device], ..with_automaton("", scenario) }
+}
+
+/// From one speed to another one over so many metres, with 1.5 m/s and 0.5 m/s2 at most, s.
+fn leg(length: f64, from: f64, to: f64) -> f64 {
+    let (v, a) = (1.5, 0.5);
+    length / v + ((v - from).powi(2) + (v - to).powi(2)) / (2.0 * a * v)
+}
+
+const FAST: [f64; 8] = [1.5; 8];
+const ONCE: &str = "state There { when done -> Ended; } final state Ended;";
+
+/// Straight 10 + 10 m, of them 10 at 0.4 m/s, or round 40 m.
+#[test]
+fn on_a_network_it_takes_the_quickest_way() {
+    let slow = [1.5, 0.4, 1.5, 1.5, 1.5, 1.5, 1.5, 1.5];
+    for (speeds, length) in [(FAST, 20.0), (slow, 40.0)] {
+        let rests = rests(&with_network(
+            speeds,
+            &format!("initial -> There {{ go(2); }} {ONCE}"),
+            r#"{"time_limit_s": 60}"#,
+        ));
+        let [end] = rests[..] else { panic!("{rests:?}") };
+        assert_eq!((end.1, end.2), (2.0, [20.0, 0.0]));
+        assert!(is_near(end.0, leg(length, 0.0, 0.0), SCANS), "{rests:?}");
+    }
+}
+
+/// It brakes before a slow edge, and gains speed behind it.
+#[test]
+fn on_a_network_each_edge_has_its_speed() {
+    let speeds = [1.5, 1.5, 0.5, 1.5, 1.5, 1.5, 1.5, 1.5];
+    let rests = rests(&with_network(
+        speeds,
+        &format!("initial -> There {{ go(4); }} {ONCE}"),
+        r#"{"time_limit_s": 60}"#,
+    ));
+    let [end] = rests[..] else { panic!("{rests:?}") };
+    assert_eq!((end.1, end.2), (4.0, [20.0, 10.0]));
+    let wanted = leg(10.0, 0.0, 0.5) + 10.0 / 0.5 + leg(10.0, 0.5, 0.0);
+    assert!(is_near(end.0, wanted, SCANS), "{rests:?}");
+}
+
+/// Sent straight on, it is sent round before it is at the branch: it does not stop, and passes node 3.
+#[test]
+fn on_a_network_it_takes_another_way_without_a_stop() {
+    let rests = rests(&with_network(
+        FAST,
+        "local passed: bool := false;
+        initial -> First { go(2); }
+        state First { when after 4 s -> Then { go(4); } }
+        state Then { when place = 3 and not passed { passed := true; } when done and passed -> Ended; }
+        final state Ended;",
+        r#"{"time_limit_s": 60}"#,
+    ));
+    let [end] = rests[..] else { panic!("{rests:?}") };
+    assert_eq!((end.1, end.2), (4.0, [20.0, 10.0]));
+    assert!(is_near(end.0, leg(30.0, 0.0, 0.0), SCANS), "{rests:?}");
+}
+
+/// After 7 s it has come 8.25 m, and brakes in 2.25 m: node 1 is too near, and it comes to rest behind it, on its old way.
+/// From there it goes on to node 3 by the whole round.
+#[test]
+fn on_a_network_a_node_that_is_too_near_is_refused() {
+    let rests = rests(&with_network(
+        FAST,
+        "initial -> First { go(2); }
+        state First { when after 7 s -> Then { go(1); } }
+        state Then { when stands and failed and error = 1 -> On { go(3); } }
+        state On { when done -> Ended; }
+        final state Ended;",
+        r#"{"time_limit_s": 90}"#,
+    ));
+    let [halted, end] = rests[..] else { panic!("{rests:?}") };
+    assert_eq!(halted.1, 1.0);
+    assert!(is_near(halted.2[0], 10.5, 1.5 * SCANS), "{rests:?}");
+    assert_eq!((end.1, end.2), (3.0, [10.0, 10.0]));
+    let length = 9.5 + 5.0 + 20.0 + 5.0 + 10.0 + 10.0;
+    assert!(is_near(end.0 - halted.0, leg(length, 0.0, 0.0), 2.0 * SCANS), "{rests:?}");
+}
+
+/// As on a line: held after 3.75 m, it rests at 6 m, and has 14 m more when it is released, or when it no longer jams.
+#[test]
+fn on_a_network_it_goes_on_where_it_was_held() {
+    for faults in [
+        r#""pauses": [{"at_s": 4, "for_s": 10}]"#,
+        r#""jams": [{"robot": "cart", "part": "drive", "at_s": 4, "for_s": 10}]"#,
+    ] {
+        let rests = rests(&with_network(
+            FAST,
+            &format!("initial -> There {{ go(2); }} {ONCE}"),
+            &format!(r#"{{"time_limit_s": 60, "faults": {{{faults}}}}}"#),
+        ));
+        let [held, end] = rests[..] else { panic!("{rests:?}") };
+        assert!(is_near(held.0, 7.0, SCANS), "{rests:?}");
+        assert!(is_near(held.2[0], 6.0, 1.5 * SCANS), "{rests:?}");
+        assert_eq!((end.1, end.2), (2.0, [20.0, 0.0]));
+        assert!(is_near(end.0, 14.0 + leg(14.0, 0.0, 0.0), 2.0 * SCANS), "{rests:?}");
+    }
+}
+
+/// A way that turns back at a node has a stop there.
+#[test]
+fn on_a_network_it_stops_where_its_way_turns_back() {
+    let mut texts =
+        with_network(FAST, &format!("initial -> There {{ go(3); }} {ONCE}"), r#"{"time_limit_s": 60}"#);
+    texts.specs[0] = texts.specs[0].replace("point(10, 10, 0)", "point(4, 8, 0)");
+    let rests = rests(&texts);
+    let [end] = rests[..] else { panic!("{rests:?}") };
+    assert_eq!(end.1, 3.0);
+    assert!(is_near(end.2[0], 4.0, 1e-9) && is_near(end.2[1], 8.0, 1e-9), "{rests:?}");
+    assert!(is_near(end.0, leg(10.0, 0.0, 0.0) + leg(10.0, 0.0, 0.0), SCANS), "{rests:?}");
+}
+
+/// Goals at drawn times, and pauses: in each scan it is on an edge, no faster than allowed there, and its speed changes no
+/// faster than its acceleration allows. How it is stepped makes no difference.
+#[test]
+fn on_a_network_it_keeps_to_its_edges_whatever_it_is_told() {
+    const NODES: [[f64; 2]; 7] =
+        [[0.0, 0.0], [10.0, 0.0], [20.0, 0.0], [10.0, 10.0], [20.0, 10.0], [20.0, -5.0], [0.0, -5.0]];
+    const EDGES: [[usize; 2]; 8] = [[0, 1], [1, 2], [1, 3], [3, 4], [4, 2], [2, 5], [5, 6], [6, 0]];
+    let speeds = [1.5, 0.4, 1.0, 0.7, 1.5, 1.2, 0.9, 1.5];
+    let (dt, a) = (0.01, 0.5);
+    let on = |edge: usize, [x, y]: [f64; 2]| {
+        let [from, to] = EDGES[edge].map(|node| NODES[node]);
+        let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+        let along = ((x - from[0]) * dx + (y - from[1]) * dy) / dx.hypot(dy);
+        let across = ((x - from[0]) * dy - (y - from[1]) * dx) / dx.hypot(dy);
+        (across.abs() < 1e-6 && (-1e-6..=dx.hypot(dy) + 1e-6).contains(&along)).then_some(along)
+    };
+    let seeds = if is_full_campaign() { 200 } else { 6 };
+    for seed in 0..seeds {
+        let mut random = Random::at(seed, [1, 2]);
+        let mut drawn = |most: u64| random.next_u64() % most;
+        let goals: Vec<String> = (0..40)
+            .map(|number| {
+                let at_ms = 4000 * number + drawn(4000);
+                format!(
+                    r#"{{"robot": "cart", "part": "wish", "at_s": {}, "value": {}}}"#,
+                    at_ms as f64 / 1000.0,
+                    drawn(7)
+                )
+            })
+            .collect();
+        let pauses: Vec<String> = (0..3)
+            .map(|number| format!(r#"{{"at_s": {}, "for_s": 3.3}}"#, 50 * number + 5 + drawn(40)))
+            .collect();
+        let scenario = format!(
+            r#"{{"time_limit_s": 170, "operator": [{}], "faults": {{"pauses": [{}]}}}}"#,
+            goals.join(", "),
+            pauses.join(", ")
+        );
+        let mut texts = with_network(
+            speeds,
+            "local told: int 0..6 := 0;
+            initial -> Driving {}
+            state Driving {
+                when wanted <> told -> Driving { told := wanted; go(wanted); }
+                when failed and stands -> Driving { go(told); }
+            }",
+            &scenario,
+        );
+        let wish = "part wish = selector { begins: 0; }; in wanted: int 0..6 = wish.position; in pos";
+        texts.specs[0] = texts.specs[0].replace("in pos", wish);
+        let (project, words) = with_words(&texts);
+        let position = ["cart_pos_x", "cart_pos_y"].map(|name| words[name]);
+        let execute = |stepping| {
+            let mut places: Vec<[f64; 2]> = Vec::new();
+            let mut observer = |seen: &Seen| places.push(position.map(|word| word.value(seen)));
+            let (mut executor, mut memory) = (Executor::new(&project.system), Memory::default());
+            let report = run_again(&project.plant, &mut executor, stepping, &mut memory, &mut observer);
+            (report.expect("a line that runs"), places)
+        };
+        let [events, every, checked] =
+            [Stepping::Events, Stepping::EveryScan, Stepping::Checked].map(execute);
+        assert_eq!(events.0, every.0, "seed {seed}");
+        assert_eq!(checked.0, every.0, "seed {seed}");
+        let mut last: Option<(usize, f64)> = None;
+        let mut passed = 0;
+        for (scan, pair) in every.1.windows(2).enumerate() {
+            let [from, to] = [pair[0], pair[1]];
+            let step = (to[0] - from[0]).hypot(to[1] - from[1]);
+            let both = (0..EDGES.len()).find_map(|edge| Some((edge, on(edge, to)? - on(edge, from)?)));
+            let Some((edge, forward)) = both else {
+                assert!(
+                    (0..EDGES.len()).any(|edge| on(edge, to).is_some()),
+                    "seed {seed}, scan {scan}: {to:?}"
+                );
+                assert!(step <= 1.5 * dt + 1e-6, "seed {seed}, scan {scan}: {step}");
+                last = None;
+                passed += 1;
+                continue;
+            };
+            assert!(
+                (-1e-5..=speeds[edge] * dt + 1e-6).contains(&forward),
+                "seed {seed}, scan {scan}: {forward} on {edge}"
+            );
+            let speed = forward / dt;
+            if let Some((_, before)) = last.filter(|(last, _)| *last == edge) {
+                assert!(
+                    (speed - before).abs() <= a * dt + 1e-3,
+                    "seed {seed}, scan {scan}: {before} to {speed}"
+                );
+            }
+            last = Some((edge, speed));
+        }
+        assert!(passed > 3, "seed {seed}: it passes {passed} nodes");
+    }
+}
+
+#[test]
+fn what_is_wrong_with_a_network_is_told() {
+    let runs = "speed: 1.5; acceleration: 0.5;";
+    let nodes = "nodes: [pose, pose + point(10, 0, 0), pose + point(spot - 2.0, 5, 0)];";
+    let round = "edges: [0, 1, 1, 2, 2, 0];";
+    assert_eq!(told(&format!("{nodes} {round} {runs}")), "");
+    for (settings, wanted) in [
+        (
+            format!("{nodes} edges: [0, 1, 1, 0]; {runs}"),
+            "no way leads from node 0, where it begins, to node 2",
+        ),
+        (
+            format!("{nodes} edges: [0, 1, 1, 0, 1, 2]; {runs}"),
+            "no way leads from node 2 back to node 0, where it begins",
+        ),
+        (
+            format!("{nodes} edges: [0, 1, 1, 2, 2]; {runs}"),
+            "`edges` are 1 to 1024 pairs of nodes, these are 5 numbers",
+        ),
+        (format!("{nodes} edges: []; {runs}"), "`edges` are 1 to 1024 pairs of nodes, these are 0 numbers"),
+        (format!("{nodes} edges: [0, 1, 1, 3]; {runs}"), "edge 1 ends at node 3, nodes are 0 to 2"),
+        (format!("{nodes} edges: [0, 1, 1, 1]; {runs}"), "edge 1 from node 1 to node 1 has no length"),
+        (format!("{nodes} edges: [0, 1, 0, 1]; {runs}"), "two edges lead from node 0 to node 1"),
+        (format!("{nodes} {round} speeds: [1.0]; {runs}"), "1 speeds of 3 edges"),
+        (
+            format!("{nodes} {round} speeds: [1.0, spot - 12.0, 1.0]; {runs}"),
+            "the speed of edge 1 from node 1 to node 2 is not over 0",
+        ),
+        (format!("{nodes} {round} begins: 3; {runs}"), "it begins at node 3, nodes are 0 to 2"),
+        (
+            format!("{nodes} {round} closed: true; {runs}"),
+            "a track is given by corners and places, or by nodes and edges",
+        ),
+        (format!("{nodes} {runs}"), "a track is given by corners and places, or by nodes and edges"),
+        (
+            format!("nodes: [pose, pose + point(1, 0, spot)]; edges: [0, 1, 1, 0]; {runs}"),
+            "node 1 is at another height: all nodes have the same z",
+        ),
+        (format!("nodes: [pose]; edges: [0, 0]; {runs}"), "1 nodes, there are 2 to 256"),
+    ] {
+        assert_eq!(told(&settings), format!("E0704 the part drive: {wanted}"), "{settings}");
     }
 }

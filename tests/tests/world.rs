@@ -11,6 +11,7 @@ use runtime_sim::kinematics::arm::Joints;
 use runtime_sim::kinematics::pose::Pose;
 use runtime_sim::line::{IoDelay, Line, Scenario};
 use runtime_sim::machine::Machine;
+use runtime_sim::part::stroke::Stroke;
 use runtime_sim::point::{Axis, Point};
 use runtime_sim::random::Random;
 use runtime_sim::solid::{Link, Shape};
@@ -25,10 +26,21 @@ fn small() -> Texts {
     Texts::of_layout(text("tests/fixtures/world/small.json"))
 }
 
+/// Lines with something on a cylinder or a positioner: the machine, that part, and a lane or a body on it.
+const CARRIED: [(&str, &str, &str, &str); 4] = [
+    ("turntable/turntable", "table", "drive", "plate"),
+    ("scenes/elevator", "lift", "hoist", "cage"),
+    ("scenes/sorting_by_height", "table", "turn", "table"),
+    ("scenes/sorting_by_height_advanced", "table", "turn", "table"),
+];
+
 fn examples() -> Vec<(String, Texts)> {
     let of_paper = LAYOUTS.iter().map(|name| (name.to_string(), ariac(name)));
     let own = ["buffer", "shared_agv"].iter().map(|name| (name.to_string(), own_line(name)));
-    of_paper.chain(own).chain([("small".into(), small())]).collect()
+    let carried = CARRIED.iter().map(|(line, ..)| (line.replace('/', "_"), side_by_side(line)));
+    let others = ["scenes/converge_station", "scenes/branches"];
+    let others = others.iter().map(|line| (line.replace('/', "_"), side_by_side(line)));
+    of_paper.chain(own).chain([("small".into(), small())]).chain(carried).chain(others).collect()
 }
 
 /// Every device, belts and rails along both axes, and ranges that do not lie about 0.
@@ -257,6 +269,39 @@ fn joints_put_tool_and_shapes_where_the_simulator_has_them() {
         }
     }
     assert_eq!(robots, 5);
+}
+
+/// Between both ends of its stroke.
+#[test]
+fn joints_move_what_is_on_cylinders_as_the_simulator_does() {
+    for (line, name, carriage, carried) in CARRIED {
+        let texts = side_by_side(line);
+        let project = texts.project();
+        let machine = project.plant.machines.iter().find(|m| m.name == name).expect("a machine");
+        let part = machine.parts.iter().find(|part| part.name == carriage).expect("a part");
+        let strokes = part.strokes().expect("a stroke");
+        let stroke = strokes.stroke.expect("something on it");
+        let begin = strokes.stops[strokes.begins];
+        let length = match stroke {
+            Stroke::Slides(far) => far.length(),
+            Stroke::Turns { degrees, .. } => degrees.to_radians().abs(),
+        };
+        let world = models(&world(&texts));
+        let model = world.iter().find(|m| m.attribute("name") == Some(name)).expect("a model");
+        let joints = chain::movable(model);
+        let joint = format!("{carriage}_joint");
+        let number = joints.iter().position(|j| j.attribute("name") == Some(&joint)).expect("a joint");
+        let (link, _) = collision(model, carried);
+        for out in (0..=20).map(|step| f64::from(step) / 20.0) {
+            let mut values = vec![0.0; joints.len()];
+            values[number] = (out - begin) * length;
+            assert_same(&chain::link_at(model, link, &values), &stroke.frame(out).pose(), line);
+        }
+        let limit = joints[number].child("axis").and_then(|axis| axis.child("limit")).expect("limits");
+        let ends: Vec<f64> =
+            limit.children.iter().take(2).map(|c| c.text.parse().expect("a number")).collect();
+        assert_close(&ends, &[-begin * length, (1.0 - begin) * length]);
+    }
 }
 
 /// A collision by the name of its solid, and the name of its link.

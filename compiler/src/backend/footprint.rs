@@ -122,12 +122,9 @@ fn of_axes(machine: &Machine) -> Vec<(Shape, &'static str)> {
 /// The track of a vehicle, its places, and the vehicle where it is at the start.
 fn of_track(machine: &Machine, track: &Track) -> Vec<(Shape, &'static str)> {
     use runtime_sim::solid::Shape as Solid;
-    let corners = track.course.corners();
-    let back = track.course.is_closed().then(|| corners[0]);
-    let ends = corners.iter().skip(1).copied().chain(back);
-    let sides = corners.iter().zip(ends).map(|(from, to)| (Shape::Line { from: *from, to }, "path"));
-    let at = |place: &f64| track.course.frame(*place).position;
-    let places = track.places.iter().map(|place| (Shape::Circle { centre: at(place), radius: 0.06 }, "stop"));
+    let sides = track.sides().into_iter().map(|[from, to]| (Shape::Line { from, to }, "path"));
+    let goals = track.goals().into_iter();
+    let places = goals.map(|centre| (Shape::Circle { centre, radius: 0.06 }, "stop"));
     let start = track.begin().pose();
     let bodies = machine.solids().into_iter().filter_map(|solid| match solid.shape {
         Solid::Box { size } => Some((of_box(&start.then(&solid.pose), size), "vehicle")),

@@ -198,7 +198,7 @@ fn supports(machine: &Machine) -> Vec<(Point, Point)> {
         let aside = Point::new(0.0, (place.floor_y[0] + place.floor_y[1]) / 2.0, 0.0);
         let middle = |origin: Point| origin + Point { z: 0.0, ..place.floor } + aside;
         let stops = machine.stops();
-        let origins = if place.route.is_some() { stops } else { std::slice::from_ref(&place.at) };
+        let origins = if machine.is_driven(place) { stops } else { std::slice::from_ref(&place.at) };
         origins.iter().map(|origin| across(middle(*origin), half, place.floor.z)).collect()
     };
     machine.places().flat_map(of_place).collect()

@@ -4,7 +4,9 @@
 //! zero but for rails: those stand at the middle of their range when their joint is at 0, so that a world
 //! opens with every joint within its limits. Shapes are those of [`runtime_sim::solid`].
 
+mod carriage;
 mod inertia;
+mod lane;
 mod model;
 mod number;
 mod robot;
@@ -67,14 +69,17 @@ fn machine(name: String, machine: &Machine) -> Model {
         _ => None,
     });
     let colour = material.map_or(OBSTACLE.to_string(), |m| format!("{} 1", number::list(&m.colour)));
-    let solids = machine.solids();
+    let mut solids = machine.solids();
+    solids.extend(lane::surfaces(machine));
+    let is_carried = |solid: &solid::Solid| matches!(solid.link, solid::Link::Carriage(_));
+    let friction = material.and_then(|material| material.friction);
     let mut model = match (machine.route(), machine.track()) {
         (Some(route), _) => Model::vehicle(name, at(machine.pose), &solids, route.mass, &colour),
         (_, Some(track)) => Model::vehicle(name, track.begin().pose(), &solids, track.mass, &colour),
-        (None, None) => {
-            let friction = material.and_then(|material| material.friction);
-            Model::standing(name, machine.pose, &solids, friction, &colour)
+        (None, None) if solids.iter().any(is_carried) => {
+            carriage::model(name, machine, &solids, friction, &colour)
         }
+        (None, None) => Model::standing(name, machine.pose, &solids, friction, &colour),
     };
     model.links.extend(sensor::cameras_over(machine));
     model

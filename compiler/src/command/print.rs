@@ -5,9 +5,10 @@ use super::load::Failure;
 use super::options::{Format, InputOptions};
 use crate::Status;
 use autogen::diagnostic::{self, Diagnostic};
-use autogen::lower::{Apart, Verdict};
+use autogen::lower::{Apart, Loss, Lost, Passage, Verdict};
 use autogen::plain;
 use autogen::source::Sources;
+use runtime_sim::plant::By;
 use serde_json::{Value, json};
 use std::io::{self, IsTerminal, Write};
 
@@ -135,7 +136,8 @@ pub fn verdict_json(verdict: Option<&Verdict>, sources: &Sources, found: &[Diagn
         "edges": v.edges.iter().map(|(a, b, m)| json!([a, b, m])).collect::<Vec<_>>(),
         "sources": v.sources,
         "destinations": v.destinations,
-        "joined": v.joined.iter().map(|(from, to)| json!([from, to])).collect::<Vec<_>>(),
+        "conveyors": v.passages.iter().map(passage_json).collect::<Vec<_>>(),
+        "losses": v.losses.iter().map(loss_json).collect::<Vec<_>>(),
         "sinks": v.sinks,
         "single_points": v.single_points,
         "unreachable": v.unreachable,
@@ -143,6 +145,22 @@ pub fn verdict_json(verdict: Option<&Verdict>, sources: &Sources, found: &[Diagn
         "apart": v.apart.iter().filter(|a| is_missed(a, v)).map(apart_json).collect::<Vec<_>>(),
         "diagnostics": diagnostics_json(sources, found),
     })
+}
+
+fn passage_json(Passage { from, to, by }: &Passage) -> Value {
+    match by {
+        By::Joint { margin: [off, turn] } => {
+            json!({ "from": from, "to": to, "by": "joint", "margin_mm": 1000.0 * off, "margin_deg": turn })
+        }
+        By::Branch => json!({ "from": from, "to": to, "by": "branch" }),
+        By::Fall => json!({ "from": from, "to": to, "by": "fall" }),
+    }
+}
+
+fn loss_json(loss: &Loss) -> Value {
+    let goals =
+        loss.goals.iter().map(|lost| json!({ "at": lost.at, "kinds": lost.kinds, "others": lost.others }));
+    json!({ "without": loss.machine, "lost": goals.collect::<Vec<_>>() })
 }
 
 /// Whether a machine is cut off that this handover could have connected.
@@ -164,7 +182,7 @@ fn apart_json(apart: &Apart) -> Value {
 pub fn verdict(v: &Verdict) -> String {
     let mut text = String::new();
     let has_ends = !v.sources.is_empty() || !v.destinations.is_empty();
-    if v.edges.is_empty() && v.joined.is_empty() {
+    if v.edges.is_empty() && v.passages.is_empty() && v.robots.len() > 1 {
         text += "no machine hands anything over to another\n";
     }
     if !v.edges.is_empty() || !v.destinations.is_empty() {
@@ -178,10 +196,18 @@ pub fn verdict(v: &Verdict) -> String {
     for (from, to, margin) in &v.edges {
         text += &format!("  {from:width$} -> {to:to_width$}  {margin:6.3} m\n");
     }
-    if !v.joined.is_empty() {
-        text += "joined conveyors\n";
-        let width = v.joined.iter().map(|(from, _)| from.len()).max().unwrap_or(0);
-        v.joined.iter().for_each(|(from, to)| text += &format!("  {from:width$} -> {to}\n"));
+    if !v.passages.is_empty() {
+        text += "conveyors (margin of a joint: by how much more the ends could be apart and turned)\n";
+        let width = |of: fn(&Passage) -> &String| v.passages.iter().map(|p| of(p).len()).max().unwrap_or(0);
+        let (width, to_width) = (width(|p| &p.from), width(|p| &p.to));
+        for Passage { from, to, by } in &v.passages {
+            let by = match by {
+                By::Joint { margin: [off, turn] } => format!("{:.1} mm, {turn:.2} degrees", 1000.0 * off),
+                By::Branch => "diverter or pusher".into(),
+                By::Fall => "may fall".into(),
+            };
+            text += &format!("  {from:width$} -> {to:to_width$}  {by}\n");
+        }
     }
     if has_ends {
         text += &format!("sources       {}\n", list(&v.sources));
@@ -195,6 +221,17 @@ pub fn verdict(v: &Verdict) -> String {
     if !v.edges.is_empty() {
         let passed = if v.single_points.is_empty() { "" } else { " (every item passes each of them)" };
         text += &format!("single points {}{passed}\n", list(&v.single_points));
+    }
+    if !v.losses.is_empty() {
+        text += "lost without\n";
+        let width = v.losses.iter().map(|loss| loss.machine.len()).max().unwrap_or(0);
+        for loss in &v.losses {
+            let goals = loss.goals.iter().map(|Lost { at, kinds, others }| match others.is_empty() {
+                true => format!("all at {at}"),
+                false => format!("{} at {at}", kinds.join(" and ")),
+            });
+            text += &format!("  {:width$}  {}\n", loss.machine, goals.collect::<Vec<_>>().join(", "));
+        }
     }
     text + &format!("step order    {}\n", list(&v.robots))
 }

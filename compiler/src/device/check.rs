@@ -33,6 +33,8 @@ pub fn check(tree: &ast::Device, declared: &Declared) -> Result<Arc<Device>, Vec
     let is_time = |parameter: &(usize, &Parameter)| parameter.1.form == Form::Time;
     checker.program.times =
         checker.parameters.iter().enumerate().filter(is_time).map(|(number, _)| number).collect();
+    checker.program.routes = checker.parameters.iter().position(|parameter| parameter.form == Form::Routes);
+    checker.routes(tree);
     checker.scope(tree, None, HashMap::new(), 0);
     let constants = checker.constants(tree);
     checker.program.places = tree.handovers.clone();
@@ -104,6 +106,8 @@ impl Checker<'_> {
         let form = match (&parameter.ty.scalar, size) {
             (Scalar::Named(name), None) if name.value == "axis" => Some(Form::Axis),
             (Scalar::Named(name), None) if name.value == "range" => Some(Form::Range),
+            (Scalar::Named(name), None) if name.value == "routes" => Some(Form::Routes),
+            (Scalar::Named(name), None) if name.value == "node" => Some(Form::Node),
             (Scalar::Real, None) => Some(Form::Real),
             (Scalar::Time, None) => Some(Form::Time),
             (Scalar::Point, None) => Some(Form::Point),
@@ -117,10 +121,36 @@ impl Checker<'_> {
                 "E0701",
                 parameter.ty.span,
                 format!("a layout has no value of this type for `{}`", parameter.name.value),
-                "types are `axis`, `range`, `real`, `time`, `point` and `point[2] of \"first\", \"second\"`",
+                "types are `axis`, `range`, `real`, `time`, `point`, `routes`, `node` and `point[2] of \"first\", \"second\"`",
             );
         }
         form
+    }
+
+    /// Nodes are those of the only routes.
+    fn routes(&mut self, tree: &ast::Device) {
+        let form_of = |parameter: &ast::DeviceParameter| {
+            let known = self.parameters.iter().find(|known| known.name == parameter.name.value);
+            known.map(|known| known.form.clone())
+        };
+        let of = |form: Form| {
+            tree.parameters.iter().filter(move |parameter| form_of(parameter) == Some(form.clone()))
+        };
+        let all: Vec<&ast::DeviceParameter> = of(Form::Routes).collect();
+        let nodes: Vec<&ast::DeviceParameter> = of(Form::Node).collect();
+        if let Some(second) = all.get(1) {
+            let message = format!("`{}` is a second parameter of type `routes`", second.name.value);
+            self.report(
+                "E0701",
+                second.name.span,
+                message,
+                "a machine drives on one graph: leave one of them",
+            );
+        }
+        if let Some(node) = nodes.first().filter(|_| all.is_empty()) {
+            let message = format!("`{}` is a node, and the device has no routes", node.name.value);
+            self.report("E0701", node.name.span, message, "add `parameter NAME: routes;` before it");
+        }
     }
 
     /// What a machine has whose object lacks the key.

@@ -15,6 +15,8 @@ pub enum Found {
     Value(Value),
     /// Milliseconds.
     Duration(i64),
+    /// Nodes, ends of edges and their speeds.
+    Routes(Vec<Value>),
     /// The scope of an assembly.
     Assembly(usize),
 }
@@ -41,6 +43,8 @@ pub enum Values {
     Sample,
 }
 
+const NO_VALUE: &str = "routes are no value: read their nodes, edges and speeds";
+
 type Evaluated = Result<Found, Wrong>;
 
 /// What is wrong with an expression.
@@ -55,6 +59,7 @@ impl Environment<'_> {
         match self.at(scope, expr, 0)? {
             Found::Value(value) => Ok(value),
             Found::Duration(_) => Err(wrong(expr.span, "a time is not allowed here")),
+            Found::Routes(_) => Err(wrong(expr.span, NO_VALUE)),
             Found::Assembly(_) => Err(wrong(expr.span, "an assembly is not a value")),
         }
     }
@@ -90,6 +95,7 @@ impl Environment<'_> {
                     .help("write the unit after the number, such as `750 ms`")
                     .into());
             }
+            Found::Routes(_) => return Err(wrong(expr.span, NO_VALUE)),
             Found::Assembly(_) => return Err(wrong(expr.span, "an assembly is not a value")),
             Found::Value(value) => value,
         };
@@ -199,9 +205,11 @@ impl Environment<'_> {
             Some(Symbol::Parameter(number)) => {
                 let argument = self.arguments.get(*number).cloned();
                 let argument = argument.ok_or_else(|| unknown(name, span, []))?;
-                Ok(match (self.program.times.contains(number), &argument) {
-                    (true, Value::Number(ms)) => Found::Duration(*ms as i64),
-                    _ => Found::Value(argument),
+                let is_routes = self.program.routes == Some(*number);
+                Ok(match (self.program.times.contains(number), argument) {
+                    (true, Value::Number(ms)) => Found::Duration(ms as i64),
+                    (_, Value::List(values)) if is_routes => Found::Routes(values),
+                    (_, argument) => Found::Value(argument),
                 })
             }
             Some(Symbol::Define(expr)) => self.at(scope, expr, depth + 1),
@@ -256,6 +264,13 @@ impl Environment<'_> {
                         Err(unknown(&member.value, member.span, names.chain(settings)))
                     }
                 }
+            }
+            Found::Routes(values) => {
+                let number = ["nodes", "edges", "speeds"].iter().position(|known| *known == member.value);
+                let found = number.and_then(|number| values.get(number).cloned());
+                found
+                    .map(Found::Value)
+                    .ok_or_else(|| wrong(member.span, "routes have nodes, edges and speeds"))
             }
             Found::Assembly(scope) => self.name(scope, &member.value, member.span, depth + 1),
             _ => Err(wrong(member.span, "this has no members")),

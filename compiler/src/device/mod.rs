@@ -64,6 +64,10 @@ pub enum Form {
     Point,
     /// So many points, with what each of them is.
     Points(Vec<String>),
+    /// Nodes and edges of the layout, by their name there.
+    Routes,
+    /// A node of the machine's routes: its name in the layout, its number in the device.
+    Node,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -104,6 +108,13 @@ pub struct Handover {
     pub name: String,
     /// Number of places, if one of several is meant by an index.
     pub indexed: Option<usize>,
+}
+
+impl Parameter {
+    /// Whether its value has numbers of the machine's own object.
+    fn has_numbers(&self) -> bool {
+        !matches!(self.form, Form::Routes | Form::Node)
+    }
 }
 
 impl Constant {

@@ -240,7 +240,7 @@ impl Placed {
                     }
                 }
                 Primitive::Track(track) => {
-                    for corner in track.course.corners() {
+                    for corner in track.corners() {
                         ground = [with(ground[0], corner.x), with(ground[1], corner.y)];
                     }
                 }
@@ -302,7 +302,9 @@ impl Placed {
         let Point { x, y, z } = self.pose.position;
         let pose = [x, y, z].into_iter().enumerate().map(|(i, value)| (format!("pose[{i}]"), value));
         let mut found: Vec<(String, f64)> = pose.collect();
-        for (parameter, value) in self.device.parameters.iter().zip(&self.arguments) {
+        let own = |parameter: &&Parameter| parameter.has_numbers();
+        let all = self.device.parameters.iter().zip(&self.arguments);
+        for (parameter, value) in all.filter(|(parameter, _)| own(parameter)) {
             collect(&parameter.name, value, &mut found);
         }
         found
@@ -318,7 +320,9 @@ impl Placed {
             Some(coordinate) => *coordinate = value,
             None => {
                 left -= 3;
-                let mut arguments = changed.arguments.iter_mut();
+                let all = self.device.parameters.iter().zip(&mut changed.arguments);
+                let mut arguments =
+                    all.filter(|(parameter, _)| parameter.has_numbers()).map(|(_, value)| value);
                 arguments.find_map(|argument| nth(argument, &mut left)).map(|place| *place = value)?;
             }
         }

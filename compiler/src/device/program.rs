@@ -17,6 +17,8 @@ pub struct Program {
     pub requires: Vec<ast::Require>,
     /// The parameters of the device that are times, by their numbers.
     pub times: Vec<usize>,
+    /// The parameter of the device that is routes.
+    pub routes: Option<usize>,
 }
 
 #[derive(Debug, Default)]

@@ -129,6 +129,13 @@ fn sample(form: &Form) -> Value {
         Form::Real => Value::Number(1.0),
         Form::Time => Value::Number(1000.0),
         Form::Point => point(1.0),
+        Form::Routes => {
+            let numbers =
+                |all: &[f64]| Value::List(all.iter().map(|number| Value::Number(*number)).collect());
+            let nodes = Value::List(vec![point(0.0), point(1.0)]);
+            Value::List(vec![nodes, numbers(&[0.0, 1.0, 1.0, 0.0]), numbers(&[1.0, 1.0])])
+        }
+        Form::Node => Value::Number(0.0),
         Form::Points(elements) => Value::List((0..elements.len()).map(|i| point(i as f64)).collect()),
     }
 }

@@ -2,7 +2,7 @@
 
 use super::decode::{Decoder, instead, some};
 use super::json::{Json, Value};
-use super::{Object, Part, machine};
+use super::{Object, Part, Routes, machine};
 use crate::device::{Device, Placed};
 use crate::diagnostic::Diagnostic;
 use crate::source::{Span, Spanned};
@@ -61,6 +61,7 @@ enum Known {
 /// The frames of all objects, in their order; none for those that have none, which is reported.
 pub fn frames(
     objects: &[Object],
+    routes: &[Routes],
     device: impl Fn(&Object) -> Option<Arc<Device>>,
 ) -> (Vec<Option<Frame>>, Vec<Diagnostic>) {
     let known = objects.iter().map(|object| match object.at {
@@ -68,8 +69,13 @@ pub fn frames(
         None => Known::At(object.pose.value),
     });
     let numbers = objects.iter().enumerate().map(|(i, object)| (object.name.value.as_str(), i));
-    let mut places =
-        Places { objects, numbers: numbers.collect(), known: known.collect(), diagnostics: Vec::new() };
+    let mut places = Places {
+        objects,
+        routes,
+        numbers: numbers.collect(),
+        known: known.collect(),
+        diagnostics: Vec::new(),
+    };
     (0..objects.len()).for_each(|object| places.settle(object, &device));
     let frame = |known: Known| match known {
         Known::At(frame) => Some(frame),
@@ -80,6 +86,7 @@ pub fn frames(
 
 struct Places<'a> {
     objects: &'a [Object],
+    routes: &'a [Routes],
     numbers: HashMap<&'a str, usize>,
     known: Vec<Known>,
     diagnostics: Vec<Diagnostic>,
@@ -200,7 +207,7 @@ impl Places<'_> {
             let span = object.at.as_ref().map_or(object.span, |at| at.span);
             return Err(vec![Diagnostic::new("E0148", span, message).help("write a pose")]);
         };
-        let (arguments, _) = machine::arguments(object, &device)?;
+        let (arguments, _) = machine::arguments(object, &device, self.routes)?;
         Ok(Placed { device, pose, arguments })
     }
 }

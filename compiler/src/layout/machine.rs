@@ -3,7 +3,7 @@
 use super::decode::{Decoder, find, instead, listing};
 use super::json::Json;
 use super::object::COMMON_KEYS;
-use super::{Number, Object, Part};
+use super::{Number, Object, Part, Routes};
 use crate::device::{Device, Form, Parameter, Placed};
 use crate::diagnostic::{Diagnostic, sort};
 use runtime_sim::frame::Frame;
@@ -22,8 +22,9 @@ pub fn machine(
     object: &Object,
     device: &Arc<Device>,
     pose: Frame,
+    routes: &[Routes],
 ) -> Result<(Placed, Vec<Number>), Vec<Diagnostic>> {
-    let (arguments, numbers) = arguments(object, device)?;
+    let (arguments, numbers) = arguments(object, device, routes)?;
     turned(object, device, pose)?;
     let placed = Placed { device: device.clone(), pose, arguments };
     unmet(object, &placed)?;
@@ -31,8 +32,15 @@ pub fn machine(
 }
 
 /// Values of the parameters of its device, and all numbers of its object, those of the pose first.
-pub fn arguments(object: &Object, device: &Device) -> Result<(Vec<Value>, Vec<Number>), Vec<Diagnostic>> {
-    let mut reader = Reader { object, decoder: Decoder::default(), numbers: object.pose_numbers.clone() };
+pub fn arguments(
+    object: &Object,
+    device: &Device,
+    routes: &[Routes],
+) -> Result<(Vec<Value>, Vec<Number>), Vec<Diagnostic>> {
+    let of_routes = device.parameters.iter().find(|parameter| parameter.form == Form::Routes);
+    let key = of_routes.map(|parameter| parameter.name.as_str());
+    let mut reader =
+        Reader { object, routes, key, decoder: Decoder::default(), numbers: object.pose_numbers.clone() };
     let known: Vec<&str> = device.parameters.iter().map(|parameter| parameter.name.as_str()).collect();
     unknown_keys(&mut reader.decoder, object, &known, &format!("an object on the device {}", device.name));
     let arguments: Vec<_> = device.parameters.iter().map(|parameter| reader.argument(parameter)).collect();
@@ -123,6 +131,10 @@ fn unknown_keys(decoder: &mut Decoder, object: &Object, own: &[&str], what: &str
 
 struct Reader<'a> {
     object: &'a Object,
+    /// Of the layout.
+    routes: &'a [Routes],
+    /// That names those of this machine.
+    key: Option<&'a str>,
     decoder: Decoder,
     numbers: Vec<Number>,
 }
@@ -155,7 +167,48 @@ impl<'a> Reader<'a> {
                 Some(Value::Point(point))
             }
             Form::Points(elements) => self.points(key, elements),
+            Form::Routes => self.routes(key).map(Routes::value),
+            Form::Node => self.node(key).map(|node| Value::Number(node as f64)),
         }
+    }
+
+    fn routes(&mut self, key: &str) -> Option<&'a Routes> {
+        let json = self.required(key)?;
+        let name = self.decoder.text(json, key)?;
+        let found = self.routes.iter().find(|routes| routes.name.value == name.value);
+        if found.is_none() {
+            let known: Vec<&str> = self.routes.iter().map(|routes| routes.name.value.as_str()).collect();
+            let message = format!("the layout has no routes \"{}\"", name.value);
+            let help = match known.is_empty() {
+                true => {
+                    "write `\"routes\": {\"...\": {\"nodes\": ..., \"edges\": ...}}` beside `robots`".into()
+                }
+                false => instead(&name.value, &known),
+            };
+            self.decoder.report(Diagnostic::new("E0155", name.span, message).help(help));
+        }
+        found
+    }
+
+    /// The number of a node of the machine's routes; what is wrong with those is told where they are named.
+    fn node(&mut self, key: &str) -> Option<usize> {
+        let json = self.required(key)?;
+        let name = self.decoder.text(json, key)?;
+        let of = find(&self.object.members, self.key?).map(|json| &json.value);
+        let super::json::Value::Text(of) = of? else { return None };
+        let routes = self.routes.iter().find(|routes| routes.name.value == *of)?;
+        let found = routes.node(&name.value);
+        if found.is_none() {
+            let known: Vec<&str> = routes.nodes.iter().map(|(name, _)| name.value.as_str()).collect();
+            let message = format!("the routes \"{of}\" have no node \"{}\"", name.value);
+            self.decoder.report(
+                Diagnostic::new("E0155", name.span, message)
+                    .other(routes.name.span, "the routes")
+                    .note(format!("the nodes are {}", listing(&known)))
+                    .help(instead(&name.value, &known)),
+            );
+        }
+        found
     }
 
     fn required(&mut self, key: &str) -> Option<&'a Json> {

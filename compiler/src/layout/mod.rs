@@ -8,11 +8,13 @@ mod may_touch;
 pub(crate) mod object;
 mod paths;
 pub(crate) mod read;
+pub mod routes;
 
 pub use machine::{machine, obstacle};
 pub use object::{Object, Part};
 pub use paths::OUTSIDE;
 pub use read::{Reading, parse};
+pub use routes::Routes;
 
 use crate::source::{FileId, Span, Spanned};
 
@@ -29,6 +31,7 @@ pub struct Layout {
     pub scenario: Option<Spanned<String>>,
     pub scan_ms: u32,
     pub panel: Panel,
+    pub routes: Vec<Routes>,
     pub may_touch: Vec<MayTouch>,
 }
 

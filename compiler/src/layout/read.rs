@@ -8,8 +8,8 @@ use crate::source::{FileId, Sources, Spanned};
 use std::collections::HashSet;
 use std::ops::RangeInclusive;
 
-pub const KEYS: [&str; 8] =
-    ["robots", "stationary", "name", "specs", "scenario", "scan_ms", "panel", "may_touch"];
+pub const KEYS: [&str; 9] =
+    ["robots", "stationary", "name", "specs", "scenario", "scan_ms", "panel", "routes", "may_touch"];
 const SCAN_MS: u32 = 10;
 pub const SCANS_MS: RangeInclusive<u32> = 1..=1000;
 /// The longest line that is measured has 10,040.
@@ -52,6 +52,7 @@ impl Decoder {
         scenario.iter().for_each(|path| self.stays_within("scenario", path));
         let scan_ms = find(members, "scan_ms").and_then(|j| self.whole(j, "scan_ms", SCANS_MS));
         let panel = find(members, "panel").and_then(|j| self.one_of(j, "panel", &Panel::ALL));
+        let routes = find(members, "routes").map(|j| self.all_routes(j));
         let may_touch = find(members, "may_touch").map(|j| self.may_touch(j, &names(members)));
         Some(Layout {
             name: name.map_or_else(|| make_identifier(stem(file_name), "layout"), |n| n.value),
@@ -61,6 +62,7 @@ impl Decoder {
             scenario,
             scan_ms: scan_ms.unwrap_or(SCAN_MS),
             panel: panel.unwrap_or_default(),
+            routes: routes.unwrap_or_default(),
             may_touch: may_touch.unwrap_or_default(),
         })
     }

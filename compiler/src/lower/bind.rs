@@ -26,18 +26,20 @@ pub fn bind<'a>(layout: &'a Layout, model: &Model, diagnostics: &mut Vec<Diagnos
     let device = |object: &Object| {
         automata.get(automaton_name(&object.kind.value).as_str()).map(|automaton| automaton.device.clone())
     };
-    let (frames, found) = layout::at::frames(&layout.objects, device);
+    let (frames, found) = layout::at::frames(&layout.objects, &layout.routes, device);
     found.into_iter().for_each(|d| collect(diagnostics, d));
     for (object, pose) in layout.objects.iter().zip(frames) {
         let name = automaton_name(&object.kind.value);
         match automata.get(name.as_str()) {
-            Some(automaton) => match pose.map(|pose| layout::machine(object, &automaton.device, pose)) {
-                Some(Ok((placed, numbers))) => {
-                    bound.robots.push(Robot { object, automaton: name, placed, numbers });
+            Some(automaton) => {
+                match pose.map(|pose| layout::machine(object, &automaton.device, pose, &layout.routes)) {
+                    Some(Ok((placed, numbers))) => {
+                        bound.robots.push(Robot { object, automaton: name, placed, numbers });
+                    }
+                    Some(Err(found)) => found.into_iter().for_each(|d| collect(diagnostics, d)),
+                    None => {}
                 }
-                Some(Err(found)) => found.into_iter().for_each(|d| collect(diagnostics, d)),
-                None => {}
-            },
+            }
             None if object.part == Part::Robot => {
                 if diagnostics.len() < MOST {
                     collect(diagnostics, without_automaton(object, &name, model));

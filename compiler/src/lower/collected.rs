@@ -1,5 +1,6 @@
 //! Whether items can get to the sinks that should collect them.
 
+use super::{Loss, Lost};
 use crate::connect::Edge;
 use crate::diagnostic::Diagnostic;
 use crate::layout::decode::listing;
@@ -26,13 +27,10 @@ pub fn out_of_reach(
     transfers: &[Transfer],
 ) -> Vec<Diagnostic> {
     let Goal::Collected(goal) = &line.scenario.goal else { return Vec::new() };
-    // What falls from a gripper, and what an arm takes that knows no handovers, may get anywhere.
-    let is_free =
-        |machine: usize| has_grip(line, machine) && !edges.iter().any(|e| [e.from, e.to].contains(&machine));
-    if !line.scenario.slips.is_empty() || (0..line.machines.len()).any(is_free) {
+    if is_anywhere(line, edges) {
         return Vec::new();
     }
-    let reached = reached(line, edges, transfers);
+    let reached = reached(line, edges, transfers, None);
     let asked = goal.iter().zip(&scenario.goal);
     let lacking = asked.flat_map(|(collected, written)| {
         let kinds = (0..line.kinds.len()).filter(|kind| collected.items[*kind] > 0);
@@ -40,6 +38,65 @@ pub fn out_of_reach(
         missed.map(|kind| diagnostic(line, &reached, kind, written)).collect::<Vec<_>>()
     });
     lacking.collect()
+}
+
+/// What falls from a gripper, and what an arm takes that knows no handovers, may get anywhere.
+fn is_anywhere(line: &Line, edges: &[Edge]) -> bool {
+    let is_free =
+        |machine: usize| has_grip(line, machine) && !edges.iter().any(|e| [e.from, e.to].contains(&machine));
+    !line.scenario.slips.is_empty() || (0..line.machines.len()).any(is_free)
+}
+
+/// Machines of a line for each of which it is found out what is lost without it.
+const MOST_LOSSES: usize = 300;
+
+/// What no longer gets to where it is collected without each machine, but for those where it is collected; none where items
+/// may get anywhere, or in a long line.
+pub fn losses(line: &Line, edges: &[Edge], transfers: &[Transfer]) -> Vec<Loss> {
+    if is_anywhere(line, edges) || line.machines.len() > MOST_LOSSES {
+        return Vec::new();
+    }
+    let mut goals: Vec<(usize, Spot, String)> = Vec::new();
+    for (number, machine) in line.machines.iter().enumerate() {
+        for part in &machine.parts {
+            match &part.primitive {
+                Primitive::Sink(sink) => {
+                    goals.push((
+                        number,
+                        Spot::Lane(number, sink.lane),
+                        format!("{}.{}", machine.name, part.name),
+                    ));
+                }
+                Primitive::Orders(_) => goals.push((number, Spot::Machine(number), machine.name.clone())),
+                _ => {}
+            }
+        }
+    }
+    let whole = reached(line, edges, transfers, None);
+    let lost = |spot: Spot, at: &str, left: &HashSet<(Spot, usize)>| -> Lost {
+        let all = (0..line.kinds.len()).filter(|kind| whole.contains(&(spot, *kind)));
+        let (others, kinds): (Vec<_>, Vec<_>) = all.partition(|kind| left.contains(&(spot, *kind)));
+        let names = |kinds: Vec<usize>| kinds.into_iter().map(|kind| line.kinds[kind].name.clone()).collect();
+        Lost { at: at.into(), kinds: names(kinds), others: names(others) }
+    };
+    let without = |machine: usize| {
+        let left = reached(line, edges, transfers, Some(machine));
+        let others = goals.iter().filter(|(at, ..)| *at != machine);
+        let lost = others.map(|(_, spot, name)| lost(*spot, name, &left));
+        let goals: Vec<_> = lost.filter(|lost| !lost.kinds.is_empty()).collect();
+        (!goals.is_empty()).then(|| Loss { machine: line.machines[machine].name.clone(), goals })
+    };
+    (0..line.machines.len()).filter_map(without).collect()
+}
+
+/// Whether a kind may get onto a lane, a part of a machine.
+pub fn comes_onto(
+    line: &Line,
+    edges: &[Edge],
+    transfers: &[Transfer],
+) -> impl Fn((usize, usize), usize) -> bool + use<> {
+    let reached = reached(line, edges, transfers, None);
+    move |(machine, part), kind| reached.contains(&(Spot::Lane(machine, part), kind))
 }
 
 fn has_grip(line: &Line, machine: usize) -> bool {
@@ -53,8 +110,13 @@ fn comes_to(line: &Line, reached: &HashSet<(Spot, usize)>, sink: &line::Collecte
     }
 }
 
-/// Where items of each kind may get to, whatever is commanded.
-fn reached(line: &Line, edges: &[Edge], transfers: &[Transfer]) -> HashSet<(Spot, usize)> {
+/// Where items of each kind may get to, whatever is commanded, if one machine is missing or none.
+fn reached(
+    line: &Line,
+    edges: &[Edge],
+    transfers: &[Transfer],
+    missing: Option<usize>,
+) -> HashSet<(Spot, usize)> {
     let lanes = |machine: usize| {
         let parts = line.machines[machine].parts.iter().enumerate();
         let lanes = parts.filter(|(_, part)| matches!(part.primitive, Primitive::Lane(_)));
@@ -70,6 +132,10 @@ fn reached(line: &Line, edges: &[Edge], transfers: &[Transfer]) -> HashSet<(Spot
     }
     let mut reached = HashSet::new();
     while let Some((spot, kind)) = open.pop() {
+        let (Spot::Lane(machine, _) | Spot::Machine(machine)) = spot;
+        if missing == Some(machine) {
+            continue;
+        }
         if !reached.insert((spot, kind)) {
             continue;
         }

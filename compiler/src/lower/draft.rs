@@ -1,7 +1,7 @@
 //! A line without its values, so that it is read and checked once for many of them.
 
 use super::setting::{self, Setting};
-use super::{Project, Verdict, bind, collected, modes, overlap, plant, restart, role};
+use super::{Project, Verdict, bind, collected, modes, overlap, plant, restart, role, short};
 use crate::check::{self, Checked};
 use crate::device::panel;
 use crate::diagnostic::{self, Diagnostic};
@@ -230,8 +230,10 @@ impl Parts {
         found.diagnostics.extend(overlap::overlaps(&layout, &plant));
         let transfers = transfers(&plant);
         found.diagnostics.extend(collected::out_of_reach(&scenario, &plant, &edges, &transfers));
+        let comes = collected::comes_onto(&plant, &edges, &transfers);
+        found.diagnostics.extend(short::lanes(&layout, &plant, comes));
         if let Some(verdict) = &mut found.verdict {
-            verdict.add_conveyors(&plant, &transfers);
+            verdict.add_conveyors(&plant, &edges, &transfers);
         }
         found.warnings = lint::of_layout(&layout, &plant);
         let Layout { name, may_touch, .. } = &*layout;

@@ -11,6 +11,7 @@ mod plant;
 pub mod restart;
 mod role;
 mod setting;
+mod short;
 mod size;
 
 pub use draft::{Draft, Line, Texts};
@@ -59,9 +60,11 @@ pub struct Verdict {
     pub edges: Vec<(String, String, f64)>,
     pub sources: Vec<String>,
     pub destinations: Vec<String>,
-    /// Conveyors of different machines of which the second begins where the first ends, as `belt.lane`; known of a
-    /// line that has no other errors.
-    pub joined: Vec<(String, String)>,
+    /// Ways of items from conveyor to conveyor; known of a line that has no other errors.
+    pub passages: Vec<Passage>,
+    /// What no longer comes to a sink or an order without one machine, of each machine without which something does not;
+    /// known of such a line too.
+    pub losses: Vec<Loss>,
     /// Where items of a goal are collected, as `station.sink`; known of such a line too.
     pub sinks: Vec<String>,
     /// Machines between sources and destinations that every item passes, in the order in which it does.
@@ -70,6 +73,31 @@ pub struct Verdict {
     pub dead_ends: Vec<String>,
     /// Pairs that should meet and do not.
     pub apart: Vec<Apart>,
+}
+
+/// From one conveyor to another one, each as `belt.lane`.
+#[derive(Clone, Debug)]
+pub struct Passage {
+    pub from: String,
+    pub to: String,
+    pub by: By,
+}
+
+/// What is lost without a machine.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Loss {
+    pub machine: String,
+    pub goals: Vec<Lost>,
+}
+
+/// Kinds at a sink, as `station.sink`, or at a machine with orders.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lost {
+    pub at: String,
+    /// That no longer get there.
+    pub kinds: Vec<String>,
+    /// That still do.
+    pub others: Vec<String>,
 }
 
 /// A pair of machines that should meet and does not.
@@ -86,14 +114,20 @@ pub struct Apart {
 
 impl Verdict {
     /// What items do without an arm: conveyors that continue as others, and sinks.
-    fn add_conveyors(&mut self, line: &runtime_sim::line::Line, transfers: &[Transfer]) {
+    fn add_conveyors(
+        &mut self,
+        line: &runtime_sim::line::Line,
+        edges: &[connect::Edge],
+        transfers: &[Transfer],
+    ) {
         let name = |(machine, part): (usize, usize)| {
             let machine = &line.machines[machine];
             format!("{}.{}", machine.name, machine.parts[part].name)
         };
-        let joined =
-            transfers.iter().filter(|transfer| transfer.by == By::Joint && transfer.from.0 != transfer.to.0);
-        self.joined = joined.map(|transfer| (name(transfer.from), name(transfer.to))).collect();
+        let passage =
+            |Transfer { from, to, by }: &Transfer| Passage { from: name(*from), to: name(*to), by: *by };
+        self.passages = transfers.iter().map(passage).collect();
+        self.losses = collected::losses(line, edges, transfers);
         for (number, machine) in line.machines.iter().enumerate() {
             for (part, of) in machine.parts.iter().enumerate() {
                 match of.primitive {

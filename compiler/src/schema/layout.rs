@@ -7,6 +7,7 @@ use crate::layout::Panel;
 use crate::layout::machine::{LONGEST_S, OBSTACLES};
 use crate::layout::object::{COMMON_KEYS, FARTHEST};
 use crate::layout::read::{KEYS, SCANS_MS};
+use crate::layout::routes::FASTEST;
 use crate::lower::bind::json_type;
 use serde_json::{Map, Value, json};
 
@@ -47,10 +48,41 @@ pub fn layout(model: &Model, are_kinds_known: bool) -> Value {
             json!({ "enum": Panel::ALL.map(|(word, _)| word) }),
             "What a person can operate: the line as a whole, or each of its machines too. Without it: line",
         ),
+        property(
+            "routes",
+            json!({ "type": "object", "additionalProperties": routes() }),
+            "Nodes and edges on which vehicles drive, by their names",
+        ),
         property("may_touch", list(may_touch()), "Pairs whose contact does not end a run"),
     ];
     debug_assert!(all.iter().map(|(key, _)| key.as_str()).eq(KEYS));
     file("Layout of autogen", all, &["robots"])
+}
+
+fn routes() -> Value {
+    let edge = vec![
+        property("from", text(), "The node at which it begins"),
+        property("to", text(), "The node at which it ends"),
+        property("speed", number(0.001, FASTEST), "Greatest velocity of vehicles on it, m/s"),
+        property(
+            "both_ways",
+            json!({ "type": "boolean" }),
+            "Vehicles also drive from its end to its beginning",
+        ),
+    ];
+    let all = vec![
+        property(
+            "nodes",
+            json!({ "type": "object", "additionalProperties": point() }),
+            "Places by their names",
+        ),
+        property(
+            "edges",
+            list(object(edge, &["from", "to"])),
+            "Each leads straight from one node to another one",
+        ),
+    ];
+    object(all, &["nodes", "edges"])
 }
 
 fn may_touch() -> Value {
@@ -194,6 +226,8 @@ fn form(form: &device::Form) -> Value {
         Form::Real => metres(),
         Form::Time => number(0.0, LONGEST_S),
         Form::Point => point(),
+        Form::Routes => described(text(), "the name of routes of the layout"),
+        Form::Node => described(text(), "the name of a node"),
         Form::Points(each) => tuple(&each.iter().map(|what| described(point(), what)).collect::<Vec<_>>()),
     }
 }

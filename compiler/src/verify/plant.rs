@@ -199,7 +199,8 @@ pub fn plant(
                 found.lane =
                     Some(Lane { motion: memory.number(number, name("(motion)"), 3, motion::STANDS), zones });
             }
-            Primitive::Place(place) => {
+            // What lies on a cylinder or a positioner is nowhere to be found.
+            Primitive::Place(place) if machine.strokes_under(place).is_none() => {
                 let count = if place.by_kind { line.kinds.len() } else { place.slots.len() };
                 let asked = line.scenario.orders.iter().flat_map(|order| &order.parts);
                 let more = asked.copied().max().unwrap_or(0) as usize + 1;
@@ -207,7 +208,7 @@ pub fn plant(
                 let items = (0..count)
                     .map(|n| memory.number(number, format!("{}.(item)[{n}]", machine.name), most, 0));
                 found.places.push(Place {
-                    stands: place.route.is_none().then_some(coordinates(place.at)),
+                    stands: (!machine.is_driven(place)).then_some(coordinates(place.at)),
                     floor: coordinates(place.floor),
                     floor_x: place.floor_x,
                     floor_y: place.floor_y,
@@ -218,7 +219,10 @@ pub fn plant(
                 });
             }
             Primitive::Orders(orders) => {
-                let is_place = |part: &&usize| matches!(machine.parts[**part].primitive, Primitive::Place(_));
+                let is_place = |part: &&usize| {
+                    matches!(&machine.parts[**part].primitive, Primitive::Place(place)
+                        if machine.strokes_under(place).is_none())
+                };
                 let before: Vec<usize> = (0..orders.place).collect();
                 let place = before.iter().filter(is_place).count();
                 let here = line.scenario.orders.iter().enumerate();

@@ -26,11 +26,25 @@ fn check_shows_joined_conveyors_and_sinks() {
     let output = checked(&folder, &[]);
     assert_eq!(status(&output), 0, "{}", errors(&output));
     let text = String::from_utf8_lossy(&output.stdout);
-    let expected = "joined conveyors\n  inlet.fast -> buffer.queue\nsources       inlet\n\
-                    sinks         buffer.out_box\nstep order    inlet, buffer\nfeasible\n";
+    let expected = "conveyors (margin of a joint: by how much more the ends could be apart and turned)
+  inlet.queue  -> inlet.fast    5.0 mm, 1.00 degrees
+  inlet.queue  -> buffer.queue  may fall
+  inlet.fast   -> buffer.queue  5.0 mm, 1.00 degrees
+  buffer.queue -> buffer.fast   5.0 mm, 1.00 degrees
+sources       inlet
+sinks         buffer.out_box
+lost without
+  inlet  all at buffer.out_box
+step order    inlet, buffer
+feasible
+";
     assert_eq!(text, expected);
     let answer = json(&checked(&folder, &["--format", "json"]));
-    assert_eq!(answer["joined"], serde_json::json!([["inlet.fast", "buffer.queue"]]));
+    let second = &answer["conveyors"][2];
+    assert_eq!([&second["from"], &second["to"], &second["by"]], ["inlet.fast", "buffer.queue", "joint"]);
+    assert!((second["margin_mm"].as_f64().expect("a number") - 5.0).abs() < 1e-6, "{second}");
+    let lost = serde_json::json!([{"without": "inlet", "lost": [{"at": "buffer.out_box", "kinds": ["box"], "others": []}]}]);
+    assert_eq!(answer["losses"], lost);
     assert_eq!(answer["sinks"], serde_json::json!(["buffer.out_box"]));
 }
 

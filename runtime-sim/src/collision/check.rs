@@ -219,8 +219,8 @@ impl CollisionCheck {
             pair.expect(index, body);
         }
         let group = &mut self.groups[index];
-        if let Some(yaw) = group.heading(item) {
-            tracked.turn = yaw.to_radians();
+        if let Some(turn) = group.turn(body) {
+            tracked.turn = turn;
         }
         if let Some(Anchor::Link(link)) = group.remove(body).map(|body| body.anchor) {
             let along = group.link_now(link, plant).then(&tracked.hang).axis(0);
@@ -247,7 +247,11 @@ impl CollisionCheck {
                 tracked.hang = group.link_now(chain.last(), plant).inverse().then(&lies);
                 (Anchor::Link(chain.last()), tracked.hang)
             }
-            _ => (Anchor::Lying { item, turn: tracked.turn }, Pose::IDENTITY),
+            _ => {
+                let carried = plant.conveyed(item).and_then(|conveyed| conveyed.carried);
+                let on = carried.map_or(0.0, |carried| carried.frame(0.0).yaw);
+                (Anchor::Lying { item, turn: tracked.turn - on.to_radians() }, Pose::IDENTITY)
+            }
         };
         let middle = Pose { position: Point::new(0.0, 0.0, tracked.size.z / 2.0), ..Pose::IDENTITY };
         let shape = Shape::Box { size: tracked.size };

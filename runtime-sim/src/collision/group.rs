@@ -13,7 +13,7 @@ use crate::line::{Line, Obstacle};
 use crate::machine::Machine;
 use crate::motion::Travel;
 use crate::part::lane::CentreLine;
-use crate::part::stroke::Stroking;
+use crate::part::stroke::{Stroke, Stroking};
 use crate::plant::Plant;
 use crate::plant::conveyed::Conveyed;
 use crate::point::Point;
@@ -54,7 +54,8 @@ pub enum Anchor {
     Route,
     /// On a cylinder or a positioner, a part of the machine.
     Carriage(usize),
-    /// Lies on the machine; the frame has its origin at the underside of the item and is turned by so many radians.
+    /// Lies on the machine; the frame has its origin at the underside of the item and is turned by so many radians, as
+    /// seen from the cylinder or positioner on which it is.
     Lying {
         item: usize,
         turn: f64,
@@ -221,9 +222,11 @@ impl Group {
         !matches!(self.movement, Movement::Still) || self.moves_parts()
     }
 
-    /// Of an item that lies along a conveyor, degrees about the vertical.
-    pub fn heading(&self, item: usize) -> Option<f64> {
-        self.conveyed.get(&item)?.yaw(0.0)
+    /// How a body is turned that is an item on a conveyor or on what is carried, radians about the vertical.
+    pub fn turn(&self, body: usize) -> Option<f64> {
+        let Anchor::Lying { item, turn } = self.bodies.get(body)?.as_ref()?.anchor else { return None };
+        let conveyed = self.conveyed.get(&item)?;
+        Some(conveyed.yaw(0.0, turn.to_degrees()).to_radians())
     }
 
     /// Whether something moves on it, but not it as a whole.
@@ -418,8 +421,8 @@ impl Group {
             }
             Anchor::Lying { item, turn } => {
                 if let Some(conveyed) = self.conveyed.get(&item) {
-                    let turn = conveyed.yaw(time).map_or(turn, f64::to_radians);
-                    return Pose::turned(conveyed.point(time), turn);
+                    let yaw = conveyed.yaw(time, turn.to_degrees());
+                    return Pose::turned(conveyed.point(time), yaw.to_radians());
                 }
                 let place = plant.place(item).unwrap_or_default();
                 Pose::turned(place + self.movement.shift(time), turn)
@@ -463,7 +466,7 @@ fn path(
 fn at_stops(machine: &Machine, ball: &Ball) -> BoundingBox {
     if let Some(track) = machine.track() {
         let radius = ball.middle.length() + ball.radius;
-        let corners = track.course.corners().into_iter();
+        let corners = track.corners().into_iter();
         let boxes = corners.map(|middle| BoundingBox::around(&Ball { middle, radius }));
         return boxes.fold(BoundingBox::NOTHING, |all, next| all.with(&next));
     }
@@ -474,7 +477,11 @@ fn at_stops(machine: &Machine, ball: &Ball) -> BoundingBox {
 /// What a body can take on a cylinder or a positioner.
 fn on_carriage(machine: &Machine, part: usize, ball: &Ball) -> BoundingBox {
     let strokes = machine.parts[part].strokes();
-    let Some(stroke) = strokes.and_then(|strokes| strokes.stroke) else { return BoundingBox::around(ball) };
+    let stroke = strokes.and_then(|strokes| strokes.stroke);
+    stroke.map_or(BoundingBox::around(ball), |stroke| along_stroke(&stroke, ball))
+}
+
+fn along_stroke(stroke: &Stroke, ball: &Ball) -> BoundingBox {
     let piece = 1.0 / ARC_PIECES as f64;
     let beside = stroke.path(ball.middle, ball.radius, piece);
     let boxes = (0..=ARC_PIECES).map(|number| {
@@ -500,9 +507,9 @@ fn lying(
     }
 }
 
-/// What an item can take on the rest of its conveyor.
+/// What an item can take on the rest of its conveyor, wherever that is carried.
 fn on_course(conveyed: &Conveyed, ball: &Ball) -> BoundingBox {
-    let Conveyed { centre_line, place, across, .. } = conveyed;
+    let Conveyed { centre_line, place, across, carried, .. } = conveyed;
     let pieces = if matches!(centre_line, CentreLine::Arc { .. }) { ARC_PIECES } else { 1 };
     let piece = (place - centre_line.end()).max(0.0) / pieces as f64;
     // No point of an arc is farther from the nearest of these places than half of a piece, and what lies outside the
@@ -510,7 +517,8 @@ fn on_course(conveyed: &Conveyed, ball: &Ball) -> BoundingBox {
     let beside = if pieces > 1 { piece * conveyed.widening() } else { 0.0 };
     let boxes = (0..=pieces).map(|number| {
         let Ball { middle, radius } = ball.shifted(centre_line.point(place - piece * number as f64, *across));
-        BoundingBox::around(&Ball { middle, radius: radius + beside })
+        let ball = Ball { middle, radius: radius + beside };
+        carried.map_or(BoundingBox::around(&ball), |carried| along_stroke(&carried.stroke, &ball))
     });
     boxes.fold(BoundingBox::NOTHING, |all, next| all.with(&next))
 }

@@ -9,6 +9,7 @@ pub use moving::{AT_ONCE, Motion, Moving, Rider};
 use super::settings::{Form, Setting, Settings};
 use super::{Action, Described, Level, Running, Schema, Signal, Start};
 use crate::device::{Extent, PortType};
+use crate::point::Axis;
 use crate::wiring::Drives;
 
 pub const SCHEMA: Schema = Schema {
@@ -78,6 +79,14 @@ impl Described for Lane {
 }
 
 impl Lane {
+    /// Of an item with these lengths along its x and y, along the lane.
+    pub fn length_of(&self, [x, y]: [f64; 2]) -> f64 {
+        match self.centre_line {
+            CentreLine::Axis { along: Axis::Y, .. } => y,
+            CentreLine::Axis { along: Axis::X, .. } | CentreLine::Line { .. } | CentreLine::Arc { .. } => x,
+        }
+    }
+
     /// Metres in so many milliseconds at full speed.
     pub fn distance(&self, ms: f64) -> f64 {
         self.speed * ms / 1000.0

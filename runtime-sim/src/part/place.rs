@@ -3,6 +3,8 @@
 use super::settings::{Form, Setting, Settings};
 use super::{Described, Running, Schema, See, Start, Primitive};
 use crate::carrier::Carrier;
+use crate::frame::Frame;
+use crate::plant::conveyed::Conveyed;
 use crate::plant::fall::SINK;
 use crate::point::Point;
 
@@ -10,12 +12,12 @@ pub const SCHEMA: Schema = Schema::new(
     "place",
     "A floor with slots. Items that fall on it stay on it.",
     &[
-        Setting::new("on", Form::Part(&["route"]), "", "what carries it; without it, it is at rest").optional(),
+        Setting::new("on", Form::Part(&["route", "cylinder", "positioner"]), "", "what carries it; without it, it is at rest").optional(),
         Setting::new(
             "at",
             Form::Point,
             "m",
-            "origin of the offsets; at the first stop if it is carried",
+            "origin of the offsets: at the first stop of a route, at the inner end of a cylinder, at 0 of a positioner",
         ),
         Setting::new("slots", Form::Points, "m", "places of the undersides of items, from the origin"),
         Setting::new("by_kind", Form::Truth, "", "each slot is for one kind, in the order of the kinds"),
@@ -42,7 +44,8 @@ pub const SCHEMA: Schema = Schema::new(
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Place {
-    pub route: Option<usize>,
+    /// What carries it.
+    pub on: Option<usize>,
     pub at: Point,
     pub slots: Vec<Point>,
     pub by_kind: bool,
@@ -57,7 +60,7 @@ pub struct Place {
 impl Described for Place {
     fn new(settings: &Settings) -> Result<Self, String> {
         Ok(Self {
-            route: settings.optional("on", Settings::part)?,
+            on: settings.optional("on", Settings::part)?,
             at: settings.point("at")?,
             slots: settings.points("slots")?,
             by_kind: settings.truth("by_kind")?,
@@ -95,25 +98,31 @@ pub struct Bearing {
 }
 
 impl Bearing {
-    /// The highest upper side of an item under a point, over the origin; none if no item is there.
+    /// The highest upper side of an item under a point, both from the origin; none if no item is there.
     fn top_under(&self, point: Point, see: &See) -> Option<f64> {
         if !self.place.stacks {
             return None;
         }
-        let origin = self.origin(see);
         let tops = see.borne_by(self.part).filter_map(|item| {
             let item = &see.items.all()[item];
             let Carrier::Place { offset, .. } = item.carrier else { return None };
-            let (size, from_middle) = (self.sizes[item.kind], point - (origin + offset));
+            let (size, from_middle) = (self.sizes[item.kind], point - offset);
             let is_over = from_middle.x.abs() < size.x / 2.0 && from_middle.y.abs() < size.y / 2.0;
             let top = offset.z + size.z;
-            (is_over && origin.z + top <= point.z + SINK).then_some(top)
+            (is_over && top <= point.z + SINK).then_some(top)
         });
         tops.reduce(f64::max)
     }
 
-    fn origin(&self, see: &See) -> Point {
-        self.place.route.and_then(|route| see.position(route)).unwrap_or(self.place.at)
+    /// Its frame, parallel to the world at the inner end of what carries it; at this time from the start of the span on, ms,
+    /// or now.
+    fn frame(&self, see: &See, ms: Option<f64>) -> Frame {
+        let at = Frame::new(self.place.at, 0.0);
+        let Some(on) = self.place.on else { return at };
+        match see.carriage(on) {
+            Some(carriage) => carriage.frame(ms.unwrap_or(carriage.now_ms() as f64)).then(at),
+            None => Frame::new(see.position(on).unwrap_or(self.place.at), 0.0),
+        }
     }
 }
 
@@ -122,19 +131,20 @@ impl Running for Bearing {
         Box::new(self.clone())
     }
 
-    fn below(&self, point: Point, _ms: f64, see: &See) -> Option<(f64, Carrier)> {
+    fn below(&self, point: Point, ms: f64, see: &See) -> Option<(f64, Carrier)> {
         if self.orders.is_some_and(|orders| !see.is_open(orders)) {
             return None;
         }
         let Place { floor, floor_x, floor_y, .. } = self.place;
-        let origin = self.origin(see);
-        let from_middle = point - (origin + floor);
+        let frame = self.frame(see, Some(ms));
+        let seen = frame.seen(point);
+        let from_middle = seen - floor;
         let is_within = |at: f64, [low, high]: [f64; 2]| (low..=high).contains(&at);
         let meets = is_within(from_middle.x, floor_x) && is_within(from_middle.y, floor_y);
-        let height = self.top_under(point, see).unwrap_or(floor.z);
-        let offset = Point { z: height, ..point - origin };
+        let height = self.top_under(seen, see).unwrap_or(floor.z);
+        let offset = Point { z: height, ..seen };
         let carrier = Carrier::Place { machine: see.machine, part: self.part, offset };
-        meets.then_some((origin.z + height, carrier))
+        meets.then_some((frame.position.z + height, carrier))
     }
 
     /// Its underside is at the upper side of the other one, and over it.
@@ -156,8 +166,18 @@ impl Running for Bearing {
 
     fn place(&self, _item: usize, carrier: &Carrier, see: &See) -> Option<Point> {
         match *carrier {
-            Carrier::Place { offset, .. } => Some(self.origin(see) + offset),
+            Carrier::Place { offset, .. } => Some(self.frame(see, None).point(offset)),
             _ => None,
         }
+    }
+
+    /// An item on a cylinder or a positioner is carried along.
+    fn conveyed(&self, _item: usize, carrier: &Carrier, see: &See) -> Option<Conveyed> {
+        let (Carrier::Place { offset, .. }, Some(on)) = (carrier, self.place.on) else { return None };
+        see.carriage(on).map(|_| Conveyed::standing(self.place.at + *offset))
+    }
+
+    fn on(&self) -> Option<usize> {
+        self.place.on
     }
 }

@@ -2,10 +2,14 @@
 
 use super::cylinder::End;
 use super::settings::{Form, Setting, Settings};
-use super::{Described, Level, Progress, Running, Schema, See, Signal, Start, World, milliseconds};
+use super::{Described, Level, Primitive, Progress, Running, Schema, See, Signal, Start, World, milliseconds};
 use crate::device::{Extent, PortType};
 use crate::line::{Kind, SlowCycle};
+use crate::point::Point;
 use crate::random::Random;
+
+/// An item this near to a slot lies on it, m.
+const NEAR: f64 = 0.01;
 
 pub const SCHEMA: Schema = Schema {
     signals: &[
@@ -31,6 +35,13 @@ pub const SCHEMA: Schema = Schema {
                 "kinds of other items that have to be at the place at the start and at the end; at the end they become parts of the item that came first, and leave the line",
             )
             .optional(),
+            Setting::new(
+                "frees",
+                Form::Truth,
+                "",
+                "at the end all parts of the item come to lie on free slots of the place again, in the order in which they became its parts; too few free slots end the run",
+            )
+            .optional(),
         ],
     )
 };
@@ -46,6 +57,7 @@ pub struct Process {
     pub makes: Vec<[String; 2]>,
     /// Names of kinds.
     pub joins: Vec<String>,
+    pub frees: bool,
 }
 
 impl Described for Process {
@@ -68,6 +80,7 @@ impl Described for Process {
             needs_out: settings.optional("needs_out", Settings::part)?,
             makes: makes.collect(),
             joins: settings.optional("joins", Settings::words)?.unwrap_or_default(),
+            frees: settings.optional("frees", Settings::truth)?.unwrap_or(false),
         })
     }
 
@@ -81,6 +94,9 @@ impl Described for Process {
         let need = |part: Option<usize>, end: End| part.map(|part| (part, end, parts[part].name.clone()));
         let needs = [need(self.needs_in, End::In), need(self.needs_out, End::Out)];
         cycle.needs = needs.into_iter().flatten().collect();
+        if let Primitive::Place(place) = &parts[self.place].primitive {
+            cycle.slots = place.slots.clone();
+        }
         Ok(Some(Box::new(cycle)))
     }
 }
@@ -95,6 +111,10 @@ pub struct Cycle {
     becomes: Vec<usize>,
     /// Kinds of the items that are joined to the first one; none for a name that no kind has.
     joins: Vec<Option<usize>>,
+    /// Their names.
+    kinds: Vec<String>,
+    /// Of the place.
+    slots: Vec<Point>,
     random: Random,
     is_on: bool,
     /// An edge of `start` that has not been checked yet.
@@ -121,6 +141,8 @@ impl Cycle {
             needs: Vec::new(),
             becomes: (0..kinds.len()).map(becomes).collect(),
             joins: process.joins.iter().map(number).collect(),
+            kinds: kinds.iter().map(|kind| kind.name.clone()).collect(),
+            slots: Vec::new(),
             random: Random::at(seed, place),
             is_on: false,
             is_asked: false,
@@ -164,6 +186,22 @@ impl Cycle {
             joined.push(see.borne_by(self.process.place).find(is_wanted).ok_or(name.as_str())?);
         }
         Ok(joined)
+    }
+
+    /// The parts of an item come to lie on free slots; the kind of one for which there is none.
+    fn free(&self, item: usize, world: &mut World) -> Result<(), usize> {
+        let place = self.process.place;
+        for other in world.items.parts_of(item) {
+            let see = world.see();
+            let is_taken = |slot: &Point| {
+                let mut offsets = see.borne_by(place).filter_map(|item| see.items.all()[item].carrier.offset());
+                offsets.any(|offset| (offset - *slot).length() < NEAR)
+            };
+            let slot = self.slots.iter().find(|slot| !is_taken(slot)).copied();
+            let offset = slot.ok_or(see.items.all()[other].kind)?;
+            world.lay(other, place, offset);
+        }
+        Ok(())
     }
 
     /// What is missing for a start; empty if nothing is.
@@ -220,6 +258,11 @@ impl Running for Cycle {
                 Ok(joined) => joined.into_iter().for_each(|other| world.join(other, item)),
                 Err(reason) => world.crash(reason),
             }
+            if self.process.frees
+                && let Err(kind) = self.free(item, world)
+            {
+                world.crash(format!("a process has no free slot for a {}", self.kinds[kind]));
+            }
             let kind = world.items.all()[item].kind;
             world.items.remake(item, self.becomes[kind]);
         }
@@ -249,7 +292,7 @@ mod tests {
     #[test]
     fn times_of_a_triangle_have_its_mean_and_its_spread() {
         let times_ms = [85_000, 90_000, 100_000];
-        let process = Process { place: 0, times_ms, needs_in: None, needs_out: None, makes: Vec::new(), joins: Vec::new() };
+        let process = Process { place: 0, times_ms, needs_in: None, needs_out: None, makes: Vec::new(), joins: Vec::new(), frees: false };
         let mut cycle = Cycle::new(&process, &[], 7, [1, 2]);
         let count = 200_000;
         let times: Vec<f64> = (0..count).map(|_| cycle.time_ms() as f64 / 1000.0).collect();

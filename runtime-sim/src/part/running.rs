@@ -12,6 +12,7 @@ use crate::part::Primitive;
 use crate::part::orders::Desk;
 use crate::part::stroke::Carriage;
 use crate::part::{lane, scanner, track};
+use crate::plant::conveyed::Conveyed;
 use crate::plant::trajectory::Trajectory;
 use crate::point::Point;
 
@@ -103,6 +104,14 @@ impl<'a> World<'a> {
         let carrier = self.items.all()[item].carrier;
         let place = carrier.part().and_then(|part| self.see().place(part, item)).unwrap_or_default();
         self.items.pass(item, Carrier::Part { of }, place);
+    }
+
+    /// A part of another item comes to lie at a place of the machine again.
+    pub fn lay(&mut self, item: usize, part: usize, offset: Point) {
+        let carrier = Carrier::Place { machine: self.machine, part, offset };
+        let see = self.see();
+        let place = see.part(part).and_then(|place| place.place(item, &carrier, &see)).unwrap_or_default();
+        self.items.pass(item, carrier, place);
     }
 
     /// The machine did what would break it: the run ends.
@@ -259,6 +268,16 @@ pub trait Running: std::fmt::Debug + Send + Sync {
 
     /// Where the underside of an item is that it bears.
     fn place(&self, _item: usize, _carrier: &Carrier, _see: &See) -> Option<Point> {
+        None
+    }
+
+    /// How an item that it bears continues, as seen from what carries this part.
+    fn conveyed(&self, _item: usize, _carrier: &Carrier, _see: &See) -> Option<Conveyed> {
+        None
+    }
+
+    /// The part that carries it.
+    fn on(&self) -> Option<usize> {
         None
     }
 

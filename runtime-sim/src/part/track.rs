@@ -1,9 +1,11 @@
 //! A vehicle on a track.
 
 mod course;
+mod network;
 mod ride;
 
 pub use course::Course;
+pub use network::{Edge, Network};
 pub use ride::{Begin, Piece, Ride};
 
 use super::settings::{Form, Setting, Settings};
@@ -15,7 +17,7 @@ use crate::point::Point;
 use std::sync::Arc;
 
 /// Places at most.
-const MOST_PLACES: i32 = 32;
+const MOST_PLACES: i32 = network::MOST_NODES as i32;
 
 pub const SCHEMA: Schema = Schema {
     signals: &[
@@ -30,12 +32,15 @@ pub const SCHEMA: Schema = Schema {
     can_jam: true,
     ..Schema::new(
         "track",
-        "A vehicle that follows a track on the floor, straight from corner to corner. It does not slow down at corners, and turns there at once. It goes round a closed track in one direction; on an open track it also drives back.",
+        "A vehicle that follows a track on the floor, straight from corner to corner. It does not slow down at corners, and turns there at once. With `corners` and `places` it goes round a closed track in one direction, and drives also back on an open one. With `nodes` and `edges` it takes the quickest way over the edges from node to node.",
         &[
-            Setting::new("corners", Form::Points, "m", "of the path of its middle, all with the same z"),
+            Setting::new("corners", Form::Points, "m", "of the path of its middle, all with the same z").optional(),
             Setting::new("closed", Form::Truth, "", "the track continues from the last corner to the first").optional(),
-            Setting::new("places", Form::Numbers, "m", "along the track from the first corner: its possible goals, which `place` reports; at most 32"),
-            Setting::new("begins", Form::Number, "m", "its place along the track at the start; without it, the first corner").optional(),
+            Setting::new("places", Form::Numbers, "m", "along the track from the first corner: its possible goals, which `place` reports; at most 256").optional(),
+            Setting::new("nodes", Form::Points, "m", "branches, junctions and stops, all with the same z: its possible goals, which `place` reports; at most 256").optional(),
+            Setting::new("edges", Form::Numbers, "", "numbers of nodes in pairs: each edge leads straight from one node to another one, in this direction; at most 1024").optional(),
+            Setting::new("speeds", Form::Numbers, "m/s", "greatest velocity on each edge; without it only that of the vehicle counts").optional(),
+            Setting::new("begins", Form::Number, "m or -", "its place along the track at the start, or the number of its node; without it, the first corner or node").optional(),
             Setting::new("speed", Form::Positive, "m/s", "greatest velocity"),
             Setting::new("acceleration", Form::Positive, "m/s2", "greatest acceleration, also for braking"),
             Setting::new("mass", Form::Positive, "kg", "of all moving bodies, for the world"),
@@ -45,19 +50,51 @@ pub const SCHEMA: Schema = Schema {
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Track {
-    pub course: Arc<Course>,
-    pub places: Vec<f64>,
-    pub begins: f64,
+    pub guide: Guide,
     pub speed: f64,
     pub acceleration: f64,
     pub mass: f64,
 }
 
+/// What it follows.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Guide {
+    /// Goals and the start are places along it.
+    Line { course: Arc<Course>, places: Vec<f64>, begins: f64 },
+    /// Goals and the start are nodes.
+    Network { network: Arc<Network>, begins: usize },
+}
+
 /// Two places are the same that are no farther from one another, m.
 const SAME: f64 = 1e-6;
+/// Before it sets out on a network it stands at the end of a line of this length, m.
+const LEAD: f64 = 1.0;
 
 impl Described for Track {
     fn new(settings: &Settings) -> Result<Self, String> {
+        let [line, network] = [["corners", "places"].as_slice(), &["nodes", "edges"]]
+            .map(|names| names.iter().filter(|name| settings.has(name)).count());
+        let others = |names: &[&str]| names.iter().any(|name| settings.has(name));
+        let guide = match (line, network) {
+            (2, 0) if !others(&["speeds"]) => Guide::line(settings)?,
+            (0, 2) if !others(&["closed"]) => Guide::network(settings)?,
+            _ => return Err("a track is given by corners and places, or by nodes and edges".into()),
+        };
+        Ok(Self {
+            guide,
+            speed: settings.positive("speed")?,
+            acceleration: settings.positive("acceleration")?,
+            mass: settings.positive("mass")?,
+        })
+    }
+
+    fn start(&self, _start: &mut Start) -> Result<Option<Box<dyn Running>>, String> {
+        Ok(Some(Box::new(Driving::new(self)?)))
+    }
+}
+
+impl Guide {
+    fn line(settings: &Settings) -> Result<Self, String> {
         let is_closed = settings.has("closed") && settings.truth("closed")?;
         let course = Course::new(&settings.points("corners")?, is_closed)?;
         let places = settings.numbers("places")?;
@@ -74,36 +111,91 @@ impl Described for Track {
             return Err(format!("{} places, {MOST_PLACES} are the most", places.len()));
         }
         let on_track = |place: f64| course.on_track(place);
-        Ok(Self {
-            places: places.into_iter().map(on_track).collect(),
-            begins: on_track(begins),
-            course: Arc::new(course),
-            speed: settings.positive("speed")?,
-            acceleration: settings.positive("acceleration")?,
-            mass: settings.positive("mass")?,
-        })
+        let places = places.into_iter().map(on_track).collect();
+        Ok(Self::Line { places, begins: on_track(begins), course: Arc::new(course) })
     }
 
-    fn start(&self, _start: &mut Start) -> Result<Option<Box<dyn Running>>, String> {
-        Ok(Some(Box::new(Driving::new(self))))
+    fn network(settings: &Settings) -> Result<Self, String> {
+        let speeds = settings.optional("speeds", Settings::numbers)?;
+        let network = Network::new(settings.points("nodes")?, &settings.numbers("edges")?, speeds.as_deref())?;
+        let begins = settings.optional("begins", Settings::number)?.unwrap_or(0.0);
+        let nodes = network.nodes.len();
+        if begins.fract() != 0.0 || !(0.0..nodes as f64).contains(&begins) {
+            return Err(format!("it begins at node {begins}, nodes are 0 to {}", nodes - 1));
+        }
+        let begins = begins as usize;
+        network.cut_off(begins).map_or(Ok(()), Err)?;
+        Ok(Self::Network { network: Arc::new(network), begins })
     }
 }
 
 impl Track {
     /// Where the vehicle is at the start.
     pub fn begin(&self) -> Frame {
-        self.course.frame(self.begins)
+        match &self.guide {
+            Guide::Line { course, begins, .. } => course.frame(*begins),
+            Guide::Network { network, begins } => {
+                let ahead = network.ahead(*begins);
+                let yaw = libm::atan2(ahead.y, ahead.x).to_degrees();
+                Frame::new(network.nodes[*begins], yaw)
+            }
+        }
     }
 
-    /// The place that lies last behind this one; none on an open track before the first.
-    fn behind(&self, place: f64) -> Option<usize> {
-        let gone = |other: f64| {
-            let gone = place - other + SAME;
-            if self.course.is_closed() { self.course.on_track(gone) } else { gone }
-        };
-        let behind = self.places.iter().map(|other| gone(*other)).enumerate().filter(|(_, gone)| *gone >= 0.0);
-        behind.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(number, _)| number)
+    /// Between these it drives straight.
+    pub fn corners(&self) -> Vec<Point> {
+        match &self.guide {
+            Guide::Line { course, .. } => course.corners(),
+            Guide::Network { network, .. } => network.nodes.clone(),
+        }
     }
+
+    /// Both ends of all that it may drive on.
+    pub fn sides(&self) -> Vec<[Point; 2]> {
+        match &self.guide {
+            Guide::Line { course, .. } => course.sides().collect(),
+            Guide::Network { network, .. } => {
+                network.edges.iter().map(|edge| [edge.from, edge.to].map(|node| network.nodes[node])).collect()
+            }
+        }
+    }
+
+    /// Its goals.
+    pub fn goals(&self) -> Vec<Point> {
+        match &self.guide {
+            Guide::Line { course, places, .. } => {
+                places.iter().map(|place| course.frame(*place).position).collect()
+            }
+            Guide::Network { network, .. } => network.nodes.clone(),
+        }
+    }
+}
+
+/// The place that lies last behind this one; none on an open track before the first.
+fn behind(course: &Course, places: &[f64], place: f64) -> Option<usize> {
+    let gone = |other: f64| {
+        let gone = place - other + SAME;
+        if course.is_closed() { course.on_track(gone) } else { gone }
+    };
+    let behind = places.iter().map(|other| gone(*other)).enumerate().filter(|(_, gone)| *gone >= 0.0);
+    behind.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(number, _)| number)
+}
+
+/// From where it is to rest.
+struct Way {
+    leads: Leads,
+    /// Where it is.
+    from: f64,
+    /// Less than 0 back.
+    length: f64,
+}
+
+/// What it drives along.
+#[derive(Clone, Debug)]
+struct Leads {
+    course: Arc<Course>,
+    /// The goals along it, and their numbers.
+    goals: Vec<(f64, usize)>,
 }
 
 /// A vehicle at work.
@@ -111,11 +203,12 @@ impl Track {
 pub struct Driving {
     track: Track,
     now_ms: u64,
+    leads: Leads,
     /// Where it rests.
     place: f64,
     /// While it moves.
     ride: Option<Ride>,
-    /// The places that it comes by on this ride: when, ms, and their numbers.
+    /// The goals that it comes by on this ride: when, ms, and their numbers.
     ahead: Vec<(f64, usize)>,
     passed: Option<usize>,
     asked: Option<Asked>,
@@ -130,21 +223,35 @@ enum Asked {
 }
 
 impl Driving {
-    fn new(track: &Track) -> Self {
-        Self {
+    fn new(track: &Track) -> Result<Self, String> {
+        let (leads, place, passed) = match &track.guide {
+            Guide::Line { course, places, begins } => {
+                let goals = places.iter().copied().zip(0..).collect();
+                (Leads { course: course.clone(), goals }, *begins, behind(course, places, *begins))
+            }
+            Guide::Network { network, begins } => {
+                let node = network.nodes[*begins];
+                let lead = node - network.ahead(*begins).scaled(LEAD);
+                let course = Arc::new(Course::new(&[lead, node], false)?);
+                let place = course.length();
+                (Leads { course, goals: vec![(place, *begins)] }, place, Some(*begins))
+            }
+        };
+        Ok(Self {
             track: track.clone(),
             now_ms: 0,
-            place: track.begins,
+            leads,
+            place,
             ride: None,
             ahead: Vec::new(),
-            passed: track.behind(track.begins),
+            passed,
             asked: None,
             held: false,
-        }
+        })
     }
 
     fn course(&self) -> &Course {
-        &self.track.course
+        &self.leads.course
     }
 
     /// Where it is along the track at a time from now on, if no command changes anything.
@@ -187,47 +294,92 @@ impl Driving {
         }
     }
 
-    /// Metres to a place, less than 0 back; none if it comes to it too fast to stop there.
-    fn way_to(&self, place: f64) -> Option<f64> {
-        let now = self.now();
-        let mut way = place - now.place;
-        if self.course().is_closed() {
-            way = self.course().on_track(way);
-            if self.course().length() - way < SAME {
-                way = 0.0;
-            }
+    /// To a goal; none if there is no such goal, or it comes too fast to stop there.
+    fn way_to(&self, goal: usize) -> Option<Way> {
+        match &self.track.guide {
+            Guide::Line { places, .. } => self.way_along(*places.get(goal)?),
+            Guide::Network { network, .. } => self.way_over(network, goal),
         }
-        if way.abs() < SAME && now.speed == 0.0 {
-            return Some(0.0);
-        }
-        let sign = self.ride.as_ref().map_or(way.signum(), Ride::sign);
-        (now.speed == 0.0 || way * sign >= now.braking() - SAME).then_some(way)
     }
 
-    /// Sets out, or continues as it is, to rest so far ahead.
-    fn ride(&mut self, way: f64) {
+    /// To a place of the line that it follows.
+    fn way_along(&self, place: f64) -> Option<Way> {
         let now = self.now();
-        let way = way.signum() * way.abs().max(now.braking());
-        if way == 0.0 {
+        let mut length = place - now.place;
+        if self.course().is_closed() {
+            length = self.course().on_track(length);
+            if self.course().length() - length < SAME {
+                length = 0.0;
+            }
+        }
+        let way = |length: f64| Way { leads: self.leads.clone(), from: now.place, length };
+        if length.abs() < SAME && now.speed == 0.0 {
+            return Some(way(0.0));
+        }
+        let sign = self.ride.as_ref().map_or(length.signum(), Ride::sign);
+        (now.speed == 0.0 || length * sign >= now.braking() - SAME).then(|| way(length))
+    }
+
+    /// Over edges: behind a node to the end of the edge on which it is, and on from there.
+    fn way_over(&self, network: &Network, goal: usize) -> Option<Way> {
+        let now = self.now();
+        let at = self.leads.goals.partition_point(|(place, _)| *place <= now.place + SAME);
+        let &(behind, last) = self.leads.goals.get(at.checked_sub(1)?)?;
+        let is_at_node = now.place - behind < SAME;
+        let speed = self.track.speed;
+        let (lead, edges) = if is_at_node {
+            if last == goal {
+                let way = Way { leads: self.leads.clone(), from: now.place, length: 0.0 };
+                return (now.speed == 0.0).then_some(way);
+            }
+            let ahead = self.course().ahead(behind.next_down());
+            (Some(network.nodes[last] - ahead.scaled(LEAD)), network.way(last, goal, speed)?)
+        } else {
+            let next = self.leads.goals.get(at)?.1;
+            let mut edges = vec![network.edge(last, next)?];
+            edges.extend(network.way(next, goal, speed)?);
+            (None, edges)
+        };
+        let course = network.course(lead, &edges, now.speed).ok()?;
+        let mut place = lead.map_or(0.0, |_| LEAD);
+        let mut goals = vec![(place, last)];
+        for edge in &edges {
+            place += network.length(*edge);
+            goals.push((place, network.edges[*edge].to));
+        }
+        // It turns as it sets out.
+        let from = if is_at_node { LEAD.next_down() } else { now.place - behind };
+        let length = course.length() - from;
+        let begin = Begin { place: from, ..now };
+        let is_possible = now.speed == 0.0 || Ride::is_possible(&course, &begin, course.length(), SAME);
+        let leads = Leads { course: Arc::new(course), goals };
+        is_possible.then_some(Way { leads, from, length })
+    }
+
+    /// Sets out, or continues as it is.
+    fn ride(&mut self, way: Way) {
+        let now = Begin { place: way.from, ..self.now() };
+        self.leads = way.leads;
+        let length = way.length.signum() * way.length.abs().max(now.braking());
+        self.ahead.clear();
+        if length == 0.0 {
             self.place = now.place;
             self.ride = None;
-            self.ahead.clear();
             return;
         }
-        let ride = Ride::new(self.track.course.clone(), now, now.place + way);
-        let length = self.course().length();
-        self.ahead.clear();
-        for (number, place) in self.track.places.iter().enumerate() {
+        let ride = Ride::new(self.leads.course.clone(), now, now.place + length);
+        let round = self.course().length();
+        for (place, number) in &self.leads.goals {
             let mut gone = (place - now.place) * ride.sign();
-            if self.course().is_closed() {
-                gone = self.course().on_track(gone);
+            if self.leads.course.is_closed() {
+                gone = self.leads.course.on_track(gone);
                 // A place that is rounded to be behind it.
-                if length - gone < SAME {
+                if round - gone < SAME {
                     gone = 0.0;
                 }
             }
-            if (-SAME..=way.abs() + SAME).contains(&gone) {
-                self.ahead.push((ride.time_of(gone), number));
+            if (-SAME..=length.abs() + SAME).contains(&gone) {
+                self.ahead.push((ride.time_of(gone), *number));
             }
         }
         self.ahead.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -236,13 +388,14 @@ impl Driving {
 
     fn brake(&mut self) {
         let sign = self.ride.as_ref().map_or(1.0, Ride::sign);
-        self.ride(sign * self.now().braking());
+        let now = self.now();
+        self.ride(Way { leads: self.leads.clone(), from: now.place, length: sign * now.braking() });
     }
 
     /// Goes on after it was held.
     fn resume(&mut self) {
         if let Some(Asked::Place(number)) = self.asked
-            && let Some(way) = self.way_to(self.track.places[number])
+            && let Some(way) = self.way_to(number)
         {
             self.ride(way);
         }
@@ -259,8 +412,8 @@ impl Running for Driving {
         self.asked = None;
         match (action, arguments) {
             (0, &[number]) => {
-                let place = self.track.places.get(number as usize).filter(|_| number >= 0.0);
-                let way = place.and_then(|place| self.way_to(*place)).ok_or(error::UNREACHABLE)?;
+                let way = (number >= 0.0).then(|| self.way_to(number as usize)).flatten();
+                let way = way.ok_or(error::UNREACHABLE)?;
                 self.asked = Some(Asked::Place(number as usize));
                 if !self.held {
                     self.ride(way);

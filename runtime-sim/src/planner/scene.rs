@@ -419,7 +419,7 @@ fn places(line: &Line) -> Vec<Places> {
     let of = |machine: &Machine| -> Vec<Places> {
         let stops = machine.stops();
         let at_all = |place: &Place| -> Vec<Places> {
-            if place.route.is_some() {
+            if machine.is_driven(place) {
                 stops.iter().map(|stop| of_place(*stop, place)).collect()
             } else {
                 vec![of_place(place.at, place)]

@@ -5,7 +5,8 @@ use crate::part::lane::CentreLine;
 use crate::part::stroke::{Stroke, Stroking};
 use crate::point::{Axis, Point};
 
-/// The motion of an item on a conveyor from now on, until a drive, a cylinder or another item changes it.
+/// The motion of an item on a conveyor, or at a place that is carried, from now on, until a drive, a cylinder or another item
+/// changes it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Conveyed {
     pub centre_line: CentreLine,
@@ -35,6 +36,19 @@ pub enum Carry {
 }
 
 impl Conveyed {
+    /// It lies where a carriage is at its inner end at this point, and does not move on it.
+    pub fn standing(surface: Point) -> Self {
+        let centre_line = CentreLine::Axis { along: Axis::X, range: [surface.x; 2], surface };
+        Self {
+            centre_line,
+            place: surface.x,
+            across: 0.0,
+            speed: 0.0,
+            stops_at: f64::NEG_INFINITY,
+            carried: None,
+        }
+    }
+
     pub fn moves(&self) -> bool {
         self.speed > 0.0 || self.carried.is_some_and(|carried| carried.moves())
     }
@@ -49,11 +63,15 @@ impl Conveyed {
         self.carried.map_or(point, |carried| carried.frame(seconds).point(point))
     }
 
-    /// Degrees about the vertical; none if it keeps the heading with which it came.
-    pub fn yaw(&self, seconds: f64) -> Option<f64> {
-        let turns = self.centre_line.turns_items();
+    /// How it is turned about the vertical, degrees; `own` is its heading on what carries it, which it keeps unless it lies
+    /// along a conveyor.
+    pub fn yaw(&self, seconds: f64, own: f64) -> f64 {
         let carried = self.carried.map_or(0.0, |carried| carried.frame(seconds).yaw);
-        turns.then(|| self.centre_line.frame(self.place_after(seconds)).yaw + carried)
+        let lies = match self.centre_line.turns_items() {
+            true => self.centre_line.frame(self.place_after(seconds)).yaw,
+            false => own,
+        };
+        lies + carried
     }
 
     /// Seconds until something that stands stops it.

@@ -16,6 +16,7 @@ use crate::part::scanner::Scanning;
 use crate::part::stroke::Carriage;
 use crate::part::track::Driving;
 use crate::part::{Begun, Looks, Part, Progress, Running, See, Start, World, milliseconds};
+use crate::plant::conveyed::Conveyed;
 use crate::plant::trajectory::Trajectory;
 use crate::point::Point;
 use crate::wiring::{Drives, Source, Wiring};
@@ -411,6 +412,21 @@ impl Working {
     pub fn place(&self, item: usize, carrier: &Carrier, items: &Items, desk: &Desk) -> Option<Point> {
         let part = self.parts.get(carrier.part()?)?.as_ref()?;
         part.place(item, carrier, &self.see(items, desk))
+    }
+
+    /// How an item that it bears continues, if it is conveyed or carried.
+    pub fn conveyed(
+        &self,
+        item: usize,
+        carrier: &Carrier,
+        items: &Items,
+        desk: &Desk,
+        now_ms: u64,
+    ) -> Option<Conveyed> {
+        let part = self.parts.get(carrier.part()?)?.as_ref()?;
+        let conveyed = part.conveyed(item, carrier, &self.see(items, desk))?;
+        let carriage = part.on().and_then(|carriage| self.carriage(carriage));
+        Some(Conveyed { carried: carriage.and_then(|carriage| carriage.stroking(now_ms)), ..conveyed })
     }
 
     fn running(&self) -> impl Iterator<Item = &dyn Running> {

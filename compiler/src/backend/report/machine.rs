@@ -148,7 +148,8 @@ fn place(machine: &Machine, part: usize) -> Option<Value> {
     let [low_x, high_x] = place.floor_x.map(|x| place.floor.x + x);
     let [low_y, high_y] = place.floor_y.map(|y| place.floor.y + y);
     Some(json!({
-        "part": part, "carried": place.route.is_some(), "at": point(place.at), "x": [low_x, high_x],
+        "part": part, "carried": machine.is_driven(place),
+        "on": place.on.filter(|_| machine.strokes_under(place).is_some()), "at": point(place.at), "x": [low_x, high_x],
         "y": [low_y, high_y], "z": place.floor.z, "orders": machine.is_place_of_orders(part)
     }))
 }
@@ -156,12 +157,9 @@ fn place(machine: &Machine, part: usize) -> Option<Value> {
 /// The track of a vehicle, from above.
 fn track(track: &Track) -> Value {
     let flat = |point: Point| json!([point.x, point.y]);
-    let corners = track.course.corners();
-    let places = track.places.iter().map(|place| flat(track.course.frame(*place).position));
-    json!({
-        "points": corners.into_iter().map(flat).collect::<Vec<_>>(), "isClosed": track.course.is_closed(),
-        "places": places.collect::<Vec<_>>()
-    })
+    let sides = track.sides().into_iter().map(|ends| ends.map(flat));
+    let goals = track.goals().into_iter().map(flat);
+    json!({ "sides": sides.collect::<Vec<_>>(), "places": goals.collect::<Vec<_>>() })
 }
 
 fn cylinder(machine: &Machine, part: usize) -> Option<Value> {

@@ -4,6 +4,7 @@ use super::numbers::{List, list};
 use runtime_sim::carrier::Carrier;
 use runtime_sim::line::Line;
 use runtime_sim::path::{Law, Path, Segment};
+use runtime_sim::point::Point;
 use runtime_sim::report::carrier_text;
 use serde_json::json;
 
@@ -74,6 +75,12 @@ fn law(segment: &Segment, carrier: usize, goes_on: bool) -> String {
             .put_whole(1)
             .put_all([from.x, from.y, from.z])
             .put_all([velocity.x, velocity.y, velocity.z]),
+        Law::Conveyed(conveyed) if matches!(segment.carrier, Carrier::Place { .. }) => {
+            let Point { x, y, z } = conveyed.centre_line.point(conveyed.place, conveyed.across);
+            numbers.put_whole(2).put_all([x, y, z, f64::NEG_INFINITY]);
+            let carried = conveyed.carried.map(|carried| [carried.out, carried.rate, carried.until]);
+            numbers.put_all(carried.unwrap_or_default())
+        }
         Law::Conveyed(conveyed) => {
             numbers.put_whole(2).put_all([
                 conveyed.place,

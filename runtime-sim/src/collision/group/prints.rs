@@ -74,11 +74,16 @@ impl Group {
 
     /// Of an item, and of where it is on the machine; none for a body of the machine itself.
     fn item(&self, body: &Body, plant: &Plant) -> Option<Fingerprint> {
-        let place = match body.anchor {
-            Anchor::Lying { item, .. } => plant.place(item).unwrap_or_default() - self.position(plant),
-            Anchor::World | Anchor::Link(_) | Anchor::Route | Anchor::Carriage(_) => Point::default(),
+        let (place, turn) = match body.anchor {
+            Anchor::Lying { item, turn } => {
+                let conveyed = self.conveyed.get(&item);
+                let turn =
+                    conveyed.map_or(turn, |conveyed| conveyed.yaw(0.0, turn.to_degrees()).to_radians());
+                (plant.place(item).unwrap_or_default() - self.position(plant), turn)
+            }
+            Anchor::World | Anchor::Link(_) | Anchor::Route | Anchor::Carriage(_) => (Point::default(), 0.0),
         };
-        Some(near(body.item?, place))
+        Some(near(body.item?, place).near(turn))
     }
 
     /// The machine without items, and each item: what tells it apart, and the numbers of its bodies.

@@ -143,21 +143,6 @@ impl Moving {
         Some(known.map_or(Motion::Goes { at }, |rider| rider.motion))
     }
 
-    /// How an item that has this carrier continues.
-    pub fn conveyed(&self, item: usize, carrier: &Carrier) -> Option<Conveyed> {
-        let Carrier::Lane { across, .. } = *carrier else { return None };
-        let motion = self.motion(item, carrier)?;
-        let rider = self.riders.iter().find(|rider| rider.item == item);
-        Some(Conveyed {
-            centre_line: self.lane.centre_line,
-            place: self.place_at(motion, self.now_ms as f64),
-            across,
-            speed: self.speed_of(motion),
-            stops_at: rider.map_or(f64::NEG_INFINITY, |rider| rider.stops_at),
-            carried: None,
-        })
-    }
-
     pub fn place_now(&self, rider: &Rider) -> f64 {
         self.place_at(rider.motion, self.now_ms as f64)
     }
@@ -220,6 +205,24 @@ impl Running for Moving {
     fn place(&self, item: usize, carrier: &Carrier, see: &See) -> Option<Point> {
         let Carrier::Lane { across, .. } = *carrier else { return None };
         Some(self.centre_line(see, self.now_ms as f64).point(self.place_of(item, carrier)?, across))
+    }
+
+    fn conveyed(&self, item: usize, carrier: &Carrier, _see: &See) -> Option<Conveyed> {
+        let Carrier::Lane { across, .. } = *carrier else { return None };
+        let motion = self.motion(item, carrier)?;
+        let rider = self.riders.iter().find(|rider| rider.item == item);
+        Some(Conveyed {
+            centre_line: self.lane.centre_line,
+            place: self.place_at(motion, self.now_ms as f64),
+            across,
+            speed: self.speed_of(motion),
+            stops_at: rider.map_or(f64::NEG_INFINITY, |rider| rider.stops_at),
+            carried: None,
+        })
+    }
+
+    fn on(&self) -> Option<usize> {
+        self.lane.on
     }
 
     fn lane(&self) -> Option<&Moving> {

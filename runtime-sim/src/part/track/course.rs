@@ -21,6 +21,26 @@ struct Side {
     /// Where it begins.
     place: f64,
     length: f64,
+    limits: Limits,
+}
+
+/// What a vehicle may not exceed on a side, m/s; infinity: nothing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    pub speed: f64,
+    /// Where the side begins.
+    pub entry: f64,
+}
+
+impl Limits {
+    pub const NONE: Self = Self { speed: f64::INFINITY, entry: f64::INFINITY };
+}
+
+/// Sides on which the same limits hold.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stretch {
+    pub length: f64,
+    pub limits: Limits,
 }
 
 /// Corners nearer to one another are none, m.
@@ -29,7 +49,7 @@ const SHORTEST: f64 = 1e-3;
 impl Course {
     /// An error says which corner is wrong.
     pub fn new(corners: &[Point], is_closed: bool) -> Result<Self, String> {
-        let mut sides = Vec::new();
+        let mut sides: Vec<Side> = Vec::new();
         let mut place = 0.0;
         let last = if is_closed { corners.first() } else { None };
         let ends = corners.iter().skip(1).chain(last);
@@ -43,7 +63,7 @@ impl Course {
                 return Err(format!("the track has no length at corner {number}"));
             }
             let from = Frame::new(*from, libm::atan2(across.y, across.x).to_degrees());
-            sides.push(Side { from, ahead: across.scaled(1.0 / length), place, length });
+            sides.push(Side { from, ahead: across.scaled(1.0 / length), place, length, limits: Limits::NONE });
             place += length;
         }
         if sides.is_empty() {
@@ -52,8 +72,40 @@ impl Course {
         Ok(Self { sides, is_closed, length: place })
     }
 
+    /// The same with limits of each side, in their order.
+    pub fn limited(mut self, limits: impl IntoIterator<Item = Limits>) -> Self {
+        for (side, limits) in self.sides.iter_mut().zip(limits) {
+            side.limits = limits;
+        }
+        self
+    }
+
     pub fn length(&self) -> f64 {
         self.length
+    }
+
+    /// From one place to another: one stretch where nothing is limited, in any direction; else forward.
+    pub fn stretches(&self, from: f64, to: f64) -> Vec<Stretch> {
+        if self.sides.iter().all(|side| side.limits == Limits::NONE) {
+            return vec![Stretch { length: (to - from).abs(), limits: Limits::NONE }];
+        }
+        let mut stretches: Vec<Stretch> = Vec::new();
+        let mut place = from;
+        for side in &self.sides[self.side(from)..] {
+            let end = (side.place + side.length).min(to);
+            let length = end - place;
+            place = end;
+            match stretches.last_mut() {
+                Some(last) if last.limits.speed == side.limits.speed && side.limits.entry == f64::INFINITY => {
+                    last.length += length;
+                }
+                _ => stretches.push(Stretch { length, limits: side.limits }),
+            }
+            if end >= to {
+                break;
+            }
+        }
+        stretches
     }
 
     pub fn is_closed(&self) -> bool {
@@ -93,6 +145,11 @@ impl Course {
             corners.push(self.frame(self.length).position);
         }
         corners
+    }
+
+    /// Both ends of each side.
+    pub fn sides(&self) -> impl Iterator<Item = [Point; 2]> {
+        self.sides.iter().map(|side| [side.from.position, side.from.position + side.ahead.scaled(side.length)])
     }
 
     /// The next corner behind a place, and by how much the track turns there, degrees.

@@ -1,6 +1,6 @@
 //! How a vehicle goes along its track, in closed form.
 
-use super::course::Course;
+use super::course::{Course, Stretch};
 use crate::frame::Frame;
 use crate::point::Point;
 use std::sync::Arc;
@@ -14,7 +14,7 @@ pub struct Ride {
     /// From the start of the run.
     begin_ms: f64,
     /// One after another; the last one ends at rest.
-    phases: [Phase; 3],
+    phases: Vec<Phase>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -76,24 +76,63 @@ impl Begin {
     }
 }
 
+/// Part of a speed that is rounded.
+const ROUNDED: f64 = 1e-9;
+
+/// The highest speed at the end of each stretch with which it can keep to the limits of those behind, and stop.
+fn ends(stretches: &[Stretch], begin: &Begin) -> Vec<f64> {
+    let mut ends = vec![0.0; stretches.len()];
+    for number in (1..stretches.len()).rev() {
+        let [before, behind] = [stretches[number - 1], stretches[number]];
+        let limits = before.limits.speed.min(behind.limits.speed).min(behind.limits.entry).min(begin.top_speed);
+        let brakes = ends[number] * ends[number] + 2.0 * begin.acceleration * behind.length;
+        ends[number - 1] = limits.min(brakes.sqrt());
+    }
+    ends
+}
+
+/// Over a stretch from one speed to another: it gains speed, keeps it, and brakes.
+fn over(stretch: &Stretch, begin: Begin, speed: f64, end: f64) -> [Phase; 3] {
+    let Begin { top_speed, acceleration, .. } = begin;
+    let length = stretch.length;
+    let highest = (acceleration * length + (speed * speed + end * end) / 2.0).max(0.0).sqrt();
+    let peak = highest.min(top_speed.min(stretch.limits.speed)).max(speed).max(end);
+    let gains = (peak - speed) / acceleration;
+    let gained = (peak * peak - speed * speed) / (2.0 * acceleration);
+    let brakes = (peak - end) / acceleration;
+    let kept = (length - gained - (peak * peak - end * end) / (2.0 * acceleration)).max(0.0);
+    let keeps = if peak > 0.0 { kept / peak } else { 0.0 };
+    [
+        Phase { speed, acceleration, seconds: gains },
+        Phase { speed: peak, acceleration: 0.0, seconds: keeps },
+        Phase { speed: peak, acceleration: -acceleration, seconds: brakes },
+    ]
+}
+
 impl Ride {
     /// To rest at a place no nearer than where braking brings it.
     pub fn new(course: Arc<Course>, begin: Begin, to: f64) -> Self {
-        let Begin { speed, top_speed, acceleration, .. } = begin;
-        let length = (to - begin.place).abs();
-        let highest = (acceleration * length + speed * speed / 2.0).max(0.0).sqrt();
-        let peak = highest.min(top_speed).max(speed);
-        let gains = (peak - speed) / acceleration;
-        let gained = (peak * peak - speed * speed) / (2.0 * acceleration);
-        let brakes = peak / acceleration;
-        let kept = (length - gained - peak * peak / (2.0 * acceleration)).max(0.0);
-        let keeps = if peak > 0.0 { kept / peak } else { 0.0 };
-        let phases = [
-            Phase { speed, acceleration, seconds: gains },
-            Phase { speed: peak, acceleration: 0.0, seconds: keeps },
-            Phase { speed: peak, acceleration: -acceleration, seconds: brakes },
-        ];
+        let stretches = course.stretches(begin.place, to);
+        let ends = ends(&stretches, &begin);
+        let mut speed = begin.speed;
+        let mut phases = Vec::with_capacity(3 * stretches.len());
+        for (stretch, highest) in stretches.iter().zip(ends) {
+            // So fast it can be at the end of the stretch.
+            let end = highest.min((speed * speed + 2.0 * begin.acceleration * stretch.length).sqrt());
+            phases.extend(over(stretch, begin, speed, end));
+            speed = end;
+        }
         Self { course, from: begin.place, to, begin_ms: begin.ms, phases }
+    }
+
+    /// Whether it can keep to all limits, and come to rest there: `spare` metres more would do too.
+    pub fn is_possible(course: &Course, begin: &Begin, to: f64, spare: f64) -> bool {
+        let stretches = course.stretches(begin.place, to);
+        let Some((first, end)) = stretches.first().zip(ends(&stretches, begin).first().copied()) else {
+            return false;
+        };
+        let is_slow = begin.speed <= first.limits.speed * (1.0 + ROUNDED);
+        is_slow && begin.speed * begin.speed <= end * end + 2.0 * begin.acceleration * (first.length + spare)
     }
 
     pub fn to(&self) -> f64 {
@@ -111,7 +150,7 @@ impl Ride {
 
     /// The highest that it comes to, m/s.
     pub fn top_speed(&self) -> f64 {
-        self.phases[1].speed
+        self.phases.iter().map(|phase| phase.speed).fold(0.0, f64::max)
     }
 
     /// The phase at a time, and seconds since that began; none at rest.

@@ -1,6 +1,7 @@
 //! Ends of conveyors that nearly meet.
 
 use super::tracks::{centre_lines, joins};
+use crate::frame::Frame;
 use crate::line::Line;
 use crate::part::Primitive;
 use crate::part::lane::CentreLine;
@@ -16,10 +17,21 @@ pub struct Gap {
     /// Machine and part of the one that ends, and of the one that begins.
     pub from: (usize, usize),
     pub to: (usize, usize),
+    /// Where the first ends and the second begins.
+    pub end: Frame,
+    pub begin: Frame,
+}
+
+impl Gap {
     /// From the beginning of the second to the end of the first, m.
-    pub off: Point,
+    pub fn off(&self) -> Point {
+        self.end.position - self.begin.position
+    }
+
     /// From the direction of the second to that of the first, degrees to the left.
-    pub turn: f64,
+    pub fn turn(&self) -> f64 {
+        crate::frame::whole_turn(self.end.yaw - self.begin.yaw)
+    }
 }
 
 /// The gaps of a line. Conveyors that continue as another one, or end in a sink, have none.
@@ -46,13 +58,14 @@ pub fn gaps(line: &Line) -> Vec<Gap> {
             continue;
         }
         for (to, begins, _) in others() {
-            let near = pairs(begins).into_iter().map(|(end, begin)| {
-                let (end, begin) = (end.frame(end.end()), begin.frame(begin.begin()));
-                let turn = crate::frame::whole_turn(end.yaw - begin.yaw);
-                Gap { from: *from, to: *to, off: end.position - begin.position, turn }
+            let near = pairs(begins).into_iter().map(|(end, begin)| Gap {
+                from: *from,
+                to: *to,
+                end: end.frame(end.end()),
+                begin: begin.frame(begin.begin()),
             });
-            let near = near.filter(|gap| gap.off.length() <= NEAR && gap.turn.abs() <= NEARLY_ALIGNED);
-            gaps.extend(near.min_by(|a, b| a.off.length().total_cmp(&b.off.length())));
+            let near = near.filter(|gap| gap.off().length() <= NEAR && gap.turn().abs() <= NEARLY_ALIGNED);
+            gaps.extend(near.min_by(|a, b| a.off().length().total_cmp(&b.off().length())));
         }
     }
     gaps

@@ -10,7 +10,6 @@ use crate::part::Primitive;
 use crate::part::lane::{CentreLine, Lane, Rider};
 use crate::part::source::{self, Spawn};
 use crate::part::stroke::Strokes;
-use crate::point::Axis;
 
 /// A lane with all that stands at it. Places are those of its centre line.
 #[derive(Clone, Debug)]
@@ -83,8 +82,8 @@ impl Feed {
 }
 
 /// Lanes of which one begins where the other one ends: m and degrees.
-const JOINED: f64 = 0.005;
-const ALIGNED: f64 = 1.0;
+pub const JOINED: f64 = 0.005;
+pub const ALIGNED: f64 = 1.0;
 
 /// All lanes of all machines.
 pub fn tracks(line: &Line) -> Vec<Track> {
@@ -111,7 +110,7 @@ pub fn tracks(line: &Line) -> Vec<Track> {
         joints: joints(&centre_lines, index),
         onto: None,
         inputs: Vec::new(),
-        halves: line.kinds.iter().map(|kind| half(lane, kind.size)).collect(),
+        halves: line.kinds.iter().map(|kind| lane.length_of(kind.size) / 2.0).collect(),
     };
     lanes().enumerate().map(track).collect()
 }
@@ -159,16 +158,15 @@ pub fn join(tracks: &mut [Track], ms: f64) {
 
 /// Whether a lane continues as another one.
 pub fn joins(from: &CentreLine, to: &CentreLine) -> bool {
-    let (end, begin) = (from.frame(from.end()), to.frame(to.begin()));
-    let turn = crate::frame::whole_turn(end.yaw - begin.yaw);
-    (end.position - begin.position).length() <= JOINED && turn.abs() <= ALIGNED
+    let [off, turn] = apart(from, to);
+    off <= JOINED && turn <= ALIGNED
 }
 
-fn half(lane: &Lane, [x, y]: [f64; 2]) -> f64 {
-    match lane.centre_line {
-        CentreLine::Axis { along: Axis::Y, .. } => y / 2.0,
-        CentreLine::Axis { along: Axis::X, .. } | CentreLine::Line { .. } | CentreLine::Arc { .. } => x / 2.0,
-    }
+/// How far the end of one is from the beginning of the other, m, and how much they are turned, degrees.
+pub fn apart(from: &CentreLine, to: &CentreLine) -> [f64; 2] {
+    let (end, begin) = (from.frame(from.end()), to.frame(to.begin()));
+    let turn = crate::frame::whole_turn(end.yaw - begin.yaw);
+    [(end.position - begin.position).length(), turn.abs()]
 }
 
 fn sink(machine: &Machine, lane_part: usize, lane: &Lane) -> Option<Leaves> {

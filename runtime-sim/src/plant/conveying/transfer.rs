@@ -1,22 +1,23 @@
 //! Where items of each conveyor may get from there, whatever is commanded.
 
 use super::branch::Kind;
-use super::tracks::{Track, centre_lines, tracks};
+use super::tracks::{ALIGNED, JOINED, Track, apart, centre_lines, tracks};
 use crate::line::Line;
 use crate::part::Primitive;
 
 /// From one conveyor to another one; machine and part of each.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Transfer {
     pub from: (usize, usize),
     pub to: (usize, usize),
     pub by: By,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum By {
-    /// One begins where the other one ends, at some end of their cylinders.
-    Joint,
+    /// One begins where the other one ends, at some end of their cylinders: by so many m and degrees more they could be
+    /// apart and turned.
+    Joint { margin: [f64; 2] },
     /// A diverter or a pusher.
     Branch,
     /// One ends over the other one.
@@ -35,13 +36,14 @@ pub fn transfers(line: &Line) -> Vec<Transfer> {
         for (number, other) in tracks.iter().enumerate() {
             let to = (other.machine, other.part);
             let ends = track.sink.is_none() && to != from;
-            if ends && track.leads_onto(number) {
-                transfers.push(Transfer { from, to, by: By::Joint });
+            let joint = (ends && track.leads_onto(number)).then(|| margin(line, from, to)).flatten();
+            if let Some(margin) = joint {
+                transfers.push(Transfer { from, to, by: By::Joint { margin } });
             }
             if branches_onto(track, number) {
                 transfers.push(Transfer { from, to, by: By::Branch });
             }
-            if ends && is_over(line, from, to) {
+            if ends && joint.is_none() && is_over(line, from, to) {
                 transfers.push(Transfer { from, to, by: By::Fall });
             }
         }
@@ -54,6 +56,23 @@ fn branches_onto(track: &Track, number: usize) -> bool {
         Kind::Diverter { onto } | Kind::Pusher { onto, .. } => onto == number,
         Kind::Stopper => false,
     })
+}
+
+/// What is left at the best of the joints of two conveyors.
+fn margin(line: &Line, from: (usize, usize), to: (usize, usize)) -> Option<[f64; 2]> {
+    let lines = |(machine, part): (usize, usize)| match &line.machines[machine].parts[part].primitive {
+        Primitive::Lane(lane) => centre_lines(&line.machines[machine], lane),
+        _ => Vec::new(),
+    };
+    let begins = lines(to);
+    let pairs =
+        lines(from).into_iter().flat_map(|(_, end)| begins.iter().map(move |(_, begin)| (end, *begin)));
+    let margins = pairs.map(|(end, begin)| {
+        let [off, turn] = apart(&end, &begin);
+        [JOINED - off, ALIGNED - turn]
+    });
+    let joined = margins.filter(|margin| margin.iter().all(|left| *left >= 0.0));
+    joined.max_by(|a, b| a[0].total_cmp(&b[0]))
 }
 
 /// Whether a conveyor ends over another one.

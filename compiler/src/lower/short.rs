@@ -1,0 +1,34 @@
+//! Conveyors that are shorter than what comes onto them.
+
+use crate::diagnostic::Diagnostic;
+use crate::layout::{Layout, Object};
+use runtime_sim::line::Line;
+use runtime_sim::part::Primitive;
+use std::collections::HashMap;
+
+/// One for each such lane; `comes` says whether a kind gets to a lane, a part of a machine.
+pub fn lanes(layout: &Layout, line: &Line, comes: impl Fn((usize, usize), usize) -> bool) -> Vec<Diagnostic> {
+    let objects: HashMap<&str, &Object> =
+        layout.objects.iter().map(|object| (object.name.value.as_str(), object)).collect();
+    let mut found = Vec::new();
+    for (number, machine) in line.machines.iter().enumerate() {
+        let Some(object) = objects.get(machine.name.as_str()) else { continue };
+        for (part, made) in machine.parts.iter().enumerate() {
+            let Primitive::Lane(lane) = &made.primitive else { continue };
+            let length = lane.centre_line.length();
+            let kinds = line.kinds.iter().enumerate().filter(|(kind, _)| comes((number, part), *kind));
+            let longest = kinds.map(|(_, kind)| (lane.length_of(kind.size), kind));
+            let longest = longest.filter(|(long, _)| *long > length).max_by(|a, b| a.0.total_cmp(&b.0));
+            let Some((long, kind)) = longest else { continue };
+            let name = format!("{}.{}", machine.name, made.name);
+            let message = format!("the conveyor {name} is shorter than a `{}`", kind.name);
+            found.push(
+                Diagnostic::new("E0411", object.name.span, message)
+                    .note(format!("it is {length:.3} m long, a `{}` is {long:.3} m", kind.name))
+                    .note("an item is on the conveyor on which its middle is, and stops what comes behind it")
+                    .help("make it longer, or one conveyor of it and of that before or after it"),
+            );
+        }
+    }
+    found
+}
