@@ -302,8 +302,22 @@ impl Controllers for Script {
 /// The states that [`Script::state`] tells of: waiting for all others, and working.
 pub fn states(others: Vec<usize>) -> Vec<State> {
     vec![
-        State { name: "Waiting".into(), working: false, awaits: others, reads: vec![], timers: None },
-        State { name: "Working".into(), working: true, awaits: vec![], reads: vec![], timers: None },
+        State {
+            name: "Waiting".into(),
+            working: false,
+            awaits: others,
+            reads: vec![],
+            reads_while: vec![],
+            timers: None,
+        },
+        State {
+            name: "Working".into(),
+            working: true,
+            awaits: vec![],
+            reads: vec![],
+            reads_while: vec![],
+            timers: None,
+        },
     ]
 }
 
