@@ -25,9 +25,9 @@ fn check(sources: &Sources, file: FileId) -> Vec<Diagnostic> {
     let (layout, mut diagnostics) = layout::parse(sources, file);
     for object in layout.iter().flat_map(|l| &l.objects) {
         diagnostics.extend(match device(&object.kind.value) {
-            Some(device) => {
-                layout::machine(object, library::device(device).unwrap(), object.pose.value).err().unwrap_or_default()
-            }
+            Some(device) => layout::machine(object, library::device(device).unwrap(), object.pose.value)
+                .err()
+                .unwrap_or_default(),
             None => layout::obstacle(object).err().unwrap_or_default(),
         });
     }

@@ -59,7 +59,9 @@ impl Machine {
                 None => (Link::World, body.pose),
                 Some((other, frame)) => match (&self.parts[other].primitive, &arm) {
                     (Primitive::Route(_) | Primitive::Track(_), _) => (Link::Route, body.pose),
-                    (Primitive::Cylinder(_) | Primitive::Positioner(_), _) => (Link::Carriage(other), body.pose),
+                    (Primitive::Cylinder(_) | Primitive::Positioner(_), _) => {
+                        (Link::Carriage(other), body.pose)
+                    }
                     // The base is a part of what carries it.
                     (Primitive::Chain(_), Some(arm)) if frame == 0 && axes == 0 => {
                         (Link::World, arm.mount().then(&body.pose))

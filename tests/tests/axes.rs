@@ -72,12 +72,21 @@ fn reason(texts: &Texts) -> String {
 fn what_hangs_on_an_arm_touches_what_lies_on_its_own_machine() {
     // The second layer is put where the first one lies.
     let texts = changed("palletizer", &[("layers := layers + box_height;", "")]);
-    assert!(reason(&texts).starts_with("collision of robot (box_1) with robot (box_5)"), "{}", reason(&texts));
+    assert!(
+        reason(&texts).starts_with("collision of robot (box_1) with robot (box_5)"),
+        "{}",
+        reason(&texts)
+    );
     // Straight from the infeed to a place beside another box, without a detour over it.
     let low = ("move(put_at + up(over));\n        move(put_at);", "move(put_at);");
-    let straight = ("until attached at most 1 s;\n        move(pick_at + up(over));", "until attached at most 1 s;");
+    let straight =
+        ("until attached at most 1 s;\n        move(pick_at + up(over));", "until attached at most 1 s;");
     let texts = changed("palletizer", &[low, straight]);
-    assert!(reason(&texts).starts_with("collision of robot (box_1) with robot (box_2)"), "{}", reason(&texts));
+    assert!(
+        reason(&texts).starts_with("collision of robot (box_1) with robot (box_2)"),
+        "{}",
+        reason(&texts)
+    );
 }
 
 #[test]
@@ -96,7 +105,8 @@ fn what_moves_on_a_machine_without_its_arm_is_not_checked_against_itself() {
 #[test]
 fn an_item_is_not_taken_from_under_another_one() {
     // Without its rod nothing but the cup comes to the lower box.
-    let rod = "part rod = body { on: lift; low: point(-0.02, -0.02, -0.08); high: point(0.02, 0.02, 0.85); };";
+    let rod =
+        "part rod = body { on: lift; low: point(-0.02, -0.02, -0.08); high: point(0.02, 0.02, 0.85); };";
     let takes_back = "} -> Counting { placed := placed + 1; } else Stopped {}\n    state Taking = sequence {\n        move(spots[0]);\n        grip := true;\n        until attached at most 1 s;\n    } -> Counting {} else Stopped {}";
     let texts = changed(
         "palletizer",

@@ -70,7 +70,9 @@ const WRONG: &[(&str, &str, &str)] = &[
 #[test]
 fn arms_and_positioners_that_are_wrong_are_told() {
     for (parts, code, words) in WRONG {
-        let device = format!("device thing {{ {parts} part light = lamp {{ at: pose; colour: red; }}; out on: bool = light.on; }}");
+        let device = format!(
+            "device thing {{ {parts} part light = lamp {{ at: pose; colour: red; }}; out on: bool = light.on; }}"
+        );
         let told = told(&device, "");
         assert!(told.iter().any(|(found, text)| found == code && text.contains(words)), "{parts}: {told:?}");
     }

@@ -124,7 +124,10 @@ fn a_place_that_cannot_be_found_is_told() {
     ];
     for (second, code, words) in cases {
         let told = told(&second);
-        assert!(told.iter().any(|(found, text)| *found == code && text.contains(words)), "{second}: {told:?}");
+        assert!(
+            told.iter().any(|(found, text)| *found == code && text.contains(words)),
+            "{second}: {told:?}"
+        );
     }
 }
 
@@ -143,6 +146,9 @@ fn machines_in_any_order_begin_where_others_end() {
     let wanted = [[1.0 - 2.0 * radius, 2.0], [1.0 - radius, 2.0 + radius], [1.0, 2.0]];
     for (machine, [x, y]) in project.plant.machines.iter().zip(wanted) {
         let pose = machine.pose;
-        assert!((pose.x - x).abs() < 1e-9 && (pose.y - y).abs() < 1e-9 && (pose.z - 0.1).abs() < 1e-9, "{pose:?}");
+        assert!(
+            (pose.x - x).abs() < 1e-9 && (pose.y - y).abs() < 1e-9 && (pose.z - 0.1).abs() < 1e-9,
+            "{pose:?}"
+        );
     }
 }

@@ -6,7 +6,7 @@ use autogen_tests::machines::{belt, bin, gantry, machine, rail_arm, station, veh
 use autogen_tests::sdf::chain::{self, Frame};
 use autogen_tests::sdf::findings;
 use autogen_tests::xml::{self, Element};
-use autogen_tests::{LAYOUTS, Texts, ariac, own_line, text, side_by_side};
+use autogen_tests::{LAYOUTS, Texts, ariac, own_line, side_by_side, text};
 use runtime_sim::kinematics::arm::Joints;
 use runtime_sim::kinematics::pose::Pose;
 use runtime_sim::line::{IoDelay, Line, Scenario};

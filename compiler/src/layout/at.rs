@@ -27,7 +27,8 @@ impl Decoder {
     pub fn at(&mut self, json: &Json) -> Option<At> {
         let (own, of) = match &json.value {
             Value::List(_) => {
-                let items = self.exactly(json, "at", &["its own lane", "the lane at whose end this begins"])?;
+                let items =
+                    self.exactly(json, "at", &["its own lane", "the lane at whose end this begins"])?;
                 (Some(self.text(&items[0], "at[0]")?), self.text(&items[1], "at[1]")?)
             }
             _ => (None, self.text(json, "at")?),
@@ -138,7 +139,10 @@ impl Places<'_> {
         let wrong = |span: Span, message: String| Diagnostic::new("E0148", span, message);
         let Some(&before) = self.numbers.get(at.machine.as_str()) else {
             let names: Vec<&str> = self.objects.iter().map(|object| object.name.value.as_str()).collect();
-            let message = format!("\"{}\", at the end of which \"{}\" begins, is not in the layout", at.machine, object.name.value);
+            let message = format!(
+                "\"{}\", at the end of which \"{}\" begins, is not in the layout",
+                at.machine, object.name.value
+            );
             let known = format!("the layout has: {}", some(&names));
             return Err(vec![wrong(at.span, message).note(known).help(instead(&at.machine, &names))]);
         };
@@ -226,6 +230,10 @@ fn which(lanes: &[String]) -> String {
     match lanes {
         [] => "it has no lane: write a pose".into(),
         [one] => format!("its lane is \"{one}\""),
-        _ => format!("its lanes are {}; the own lane comes first, as in [\"{}\", \"c1.belt\"]", lanes.join(", "), lanes[0]),
+        _ => format!(
+            "its lanes are {}; the own lane comes first, as in [\"{}\", \"c1.belt\"]",
+            lanes.join(", "),
+            lanes[0]
+        ),
     }
 }

@@ -12,8 +12,8 @@ use crate::kinematics::pose::Pose;
 use crate::line::{Line, Obstacle};
 use crate::machine::Machine;
 use crate::motion::Travel;
-use crate::part::stroke::Stroking;
 use crate::part::lane::CentreLine;
+use crate::part::stroke::Stroking;
 use crate::plant::Plant;
 use crate::plant::conveyed::Conveyed;
 use crate::point::Point;
@@ -110,9 +110,7 @@ impl Group {
     pub fn of_machine(line: &Line, index: usize) -> Self {
         let machine = &line.machines[index];
         let kind = match machine.arm() {
-            Some(arm) => {
-                Kind::Arm { index, machine: machine.clone(), arm, chain: Chain::new(&arm, machine) }
-            }
+            Some(arm) => Kind::Arm { index, machine: machine.clone(), arm, chain: Chain::new(&arm, machine) },
             None => Kind::Machine { index, machine: machine.clone() },
         };
         Self::new(machine.name.clone(), kind, machine.solids())

@@ -113,7 +113,9 @@ impl Cartesian {
     /// Over which the tool can be: one point, the two ends of a line or the four corners of an area, in their order round
     /// it; seen from above, world frame.
     pub fn ground(&self) -> Vec<Point> {
-        let range = |along: Direction| self.slides().iter().find(|slide| slide.along == along).map(|slide| slide.range);
+        let range = |along: Direction| {
+            self.slides().iter().find(|slide| slide.along == along).map(|slide| slide.range)
+        };
         let at = |x: f64, y: f64| Point { z: 0.0, ..self.base.point(Point::new(x, y, 0.0)) };
         match (range(Direction::X), range(Direction::Y)) {
             (None, None) => vec![at(0.0, 0.0)],
@@ -138,7 +140,8 @@ mod tests {
     }
 
     fn portal(yaw: f64) -> Cartesian {
-        let slides = [slide(Direction::Y, 0.0, 0.6), slide(Direction::X, 0.0, 1.0), slide(Direction::Z, -0.3, 0.0)];
+        let slides =
+            [slide(Direction::Y, 0.0, 0.6), slide(Direction::X, 0.0, 1.0), slide(Direction::Z, -0.3, 0.0)];
         Cartesian::new(Frame::new(Point::new(2.0, 1.0, 1.2), yaw), &slides, 0.2).unwrap()
     }
 

@@ -68,7 +68,8 @@ impl FixedArm {
         if margin < 0.0 || self.ranges.is_none() {
             return margin;
         }
-        let least = self.candidates(seen, &self.start()).map(|found| found.beyond).fold(f64::INFINITY, f64::min);
+        let least =
+            self.candidates(seen, &self.start()).map(|found| found.beyond).fold(f64::INFINITY, f64::min);
         // Of a place at the very limit of reach rounding may leave no solution.
         if least > 0.0 { -least.min(self.longest()) } else { margin }
     }
@@ -284,7 +285,8 @@ mod tests {
         let mut random = Random::new(14);
         let base = Frame::new(Point::new(0.3, -0.2, 0.4), 20.0);
         let geometry = Geometry::OrthoParallel(OPW);
-        let (free, limited) = (FixedArm::new(base, geometry, None), FixedArm::new(base, geometry, degrees(KR6)));
+        let (free, limited) =
+            (FixedArm::new(base, geometry, None), FixedArm::new(base, geometry, degrees(KR6)));
         let (mut reached, mut forbidden, mut from) = (0, 0, limited.start());
         for _ in 0..50_000 {
             let mut drawn = || random.between(-0.9, 0.9);

@@ -395,7 +395,12 @@ fn links_keep_their_lengths_and_end_at_the_tool() {
 fn the_links_of_other_arms_end_at_the_tool_too() {
     let mut random = Random::new(12);
     let base = Frame::new(Point::new(0.4, -0.3, 0.7), 35.0);
-    let fixed = |geometry| Chain { on: None, base: Some(base), geometry: Geometry::Fixed(Box::new(geometry), None), ..chain() };
+    let fixed = |geometry| Chain {
+        on: None,
+        base: Some(base),
+        geometry: Geometry::Fixed(Box::new(geometry), None),
+        ..chain()
+    };
     let ur = Lengths { d1: 0.1807, a2: -0.6127, a3: -0.57155, d4: 0.17415, d5: 0.11985, tool: 0.26655 };
     let opw = Opw {
         a1: 0.15,
@@ -412,7 +417,10 @@ fn the_links_of_other_arms_end_at_the_tool_too() {
         assert_composed(&Arm::new(&[], &fixed(geometry)).unwrap(), 6, &mut random);
     }
     let place = Some(Place::From(base));
-    let slide = |along, place| crate::part::axis::Axis { place, ..axis(ABOVE, Motion::Slides { along, range: [-1.0, 1.0] }) };
+    let slide = |along, place| crate::part::axis::Axis {
+        place,
+        ..axis(ABOVE, Motion::Slides { along, range: [-1.0, 1.0] })
+    };
     let axes = [slide(Direction::Y, place), slide(Direction::Z, None), slide(Direction::X, None)];
     let axes: Vec<_> = axes.iter().collect();
     for count in 1..=3 {

@@ -14,9 +14,9 @@ pub use running::{Begun, Looks, Progress, Running, See, Start, World};
 pub use settings::{Form, Setting, Settings, VERTICAL};
 
 use crate::device::{Extent, PortType};
-use stroke::Strokes;
 use crate::value::Value;
 use crate::words::Words;
+use stroke::Strokes;
 
 /// What a primitive is made of, for whoever checks a device.
 #[derive(Debug, PartialEq)]

@@ -1,8 +1,8 @@
 //! How an item on a conveyor continues.
 
 use crate::frame::Frame;
-use crate::part::stroke::{Stroke, Stroking};
 use crate::part::lane::CentreLine;
+use crate::part::stroke::{Stroke, Stroking};
 use crate::point::{Axis, Point};
 
 /// The motion of an item on a conveyor from now on, until a drive, a cylinder or another item changes it.

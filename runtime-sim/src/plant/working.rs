@@ -1,7 +1,7 @@
 //! A machine at work: its parts, and the head that commands them.
 
-use super::fall::SINK;
 use super::command::{Answer, Asked, Head};
+use super::fall::SINK;
 use super::faults::Faults;
 use crate::carrier::Carrier;
 use crate::device::error;
@@ -293,7 +293,8 @@ impl Working {
 
     /// Whether something moves what is on it along a stroke.
     fn strokes(&self, now_ms: u64) -> bool {
-        let moves = |carriage: &dyn Carriage| carriage.stroking(now_ms).is_some_and(|stroking| stroking.moves());
+        let moves =
+            |carriage: &dyn Carriage| carriage.stroking(now_ms).is_some_and(|stroking| stroking.moves());
         self.running().filter_map(|part| part.carriage()).any(moves)
     }
 
@@ -396,7 +397,9 @@ impl Working {
         let see = self.see(items, desk);
         let surfaces = self.parts.iter().flatten().filter_map(|part| part.below(point, ms, &see));
         // What is over the item does not bear it.
-        surfaces.filter(|(height, _)| *height <= point.z + SINK).reduce(|best, other| if other.0 > best.0 { other } else { best })
+        surfaces
+            .filter(|(height, _)| *height <= point.z + SINK)
+            .reduce(|best, other| if other.0 > best.0 { other } else { best })
     }
 
     /// An item that lies on this one.

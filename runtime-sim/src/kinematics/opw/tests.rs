@@ -47,11 +47,8 @@ fn of_the_paper(arm: &Opw, counted: &Angles) -> Pose {
     let k = (arm.a2 * arm.a2 + arm.c3 * arm.c3).sqrt();
     let x1 = arm.c2 * q[1].sin() + k * (q[1] + q[2] + psi3).sin() + arm.a1;
     let z1 = arm.c2 * q[1].cos() + k * (q[1] + q[2] + psi3).cos();
-    let wrist = Point::new(
-        x1 * q[0].cos() - arm.b * q[0].sin(),
-        x1 * q[0].sin() + arm.b * q[0].cos(),
-        z1 + arm.c1,
-    );
+    let wrist =
+        Point::new(x1 * q[0].cos() - arm.b * q[0].sin(), x1 * q[0].sin() + arm.b * q[0].cos(), z1 + arm.c1);
     let base = times(rotation(2, q[0]), rotation(1, q[1] + q[2]));
     let wrist_turn = times(times(rotation(2, q[3]), rotation(1, q[4])), rotation(2, q[5]));
     let rotation = times(base, wrist_turn);
@@ -110,7 +107,8 @@ fn the_sign_of_the_margin_tells_whether_there_are_solutions() {
         for _ in 0..50_000 {
             let mut drawn = || random.between(-1.0, 1.0);
             let place = Point::new(drawn(), drawn(), 0.3 + drawn());
-            let tool = Pose { position: place, rotation: [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, -1.0]] };
+            let tool =
+                Pose { position: place, rotation: [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, -1.0]] };
             let margin = arm.margin(&tool);
             assert_eq!(margin >= 0.0, !arm.inverse(&tool).is_empty(), "{margin} {place:?}");
             sides[usize::from(margin >= 0.0)] += 1;

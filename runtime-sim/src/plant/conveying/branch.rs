@@ -101,7 +101,11 @@ impl Branch {
             // It has not gone over: there is no room.
             Kind::Diverter { .. } if self.meets(rider, place, ms) => Some(place),
             Kind::Pusher { half, .. } if !self.stops.is_at(IN, ms) => {
-                if (place - self.place).abs() <= half { Some(place) } else { front_at(self.place + half) }
+                if (place - self.place).abs() <= half {
+                    Some(place)
+                } else {
+                    front_at(self.place + half)
+                }
             }
             _ => None,
         }

@@ -121,7 +121,8 @@ pub fn centre_lines(machine: &Machine, lane: &Lane) -> Vec<(Option<usize>, Centr
     let Some(Strokes { stroke, stops, .. }) = lane.on.and_then(|part| machine.parts[part].strokes()) else {
         return vec![(None, lane.centre_line)];
     };
-    let moved = |out: f64| stroke.map_or(lane.centre_line, |stroke| lane.centre_line.moved(stroke.frame(out)));
+    let moved =
+        |out: f64| stroke.map_or(lane.centre_line, |stroke| lane.centre_line.moved(stroke.frame(out)));
     stops.iter().enumerate().map(|(stop, out)| (Some(stop), moved(*out))).collect()
 }
 
@@ -199,8 +200,11 @@ fn branches(
     number: &dyn Fn(usize) -> Option<usize>,
 ) -> Vec<Branch> {
     let begin = lane.centre_line.begin();
-    let branch =
-        |kind: Kind, at: f64, cylinder: usize| Branch { kind, place: begin - at, stops: Stops::of(machine, cylinder) };
+    let branch = |kind: Kind, at: f64, cylinder: usize| Branch {
+        kind,
+        place: begin - at,
+        stops: Stops::of(machine, cylinder),
+    };
     let parts = machine.parts.iter().filter_map(|other| match &other.primitive {
         Primitive::Stopper(stopper) if stopper.lane == part => {
             Some(branch(Kind::Stopper, stopper.at, stopper.cylinder))

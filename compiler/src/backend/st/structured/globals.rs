@@ -49,9 +49,8 @@ fn point() -> Structure {
 /// The cells of an interface that are used.
 fn interface(shared: Shared, line: &Line, id: InterfaceId, typed: &Typed) -> Option<(Structure, Variable)> {
     let (interface, names) = (shared.system.model.interface(id), &shared.names.interfaces[id.0]);
-    let is_used = |held: &[String]| {
-        line.globals.cells.iter().any(|table| held.contains(&table.variable.name))
-    };
+    let is_used =
+        |held: &[String]| line.globals.cells.iter().any(|table| held.contains(&table.variable.name));
     let cells = interface.cells.iter().zip(&names.cells).zip(&names.fields);
     let fields: Vec<Variable> = cells
         .filter(|((_, held), _)| is_used(held))
