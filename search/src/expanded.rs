@@ -34,18 +34,20 @@ pub(crate) struct After {
 
 #[derive(Clone, Debug)]
 pub(crate) enum Step {
-    /// To a state of the store; `by_one`: at most one device did something.
+    /// To a state of the store; `is_plain`: at most one device did something, and it was no fault.
     Known {
         state: u32,
-        by_one: bool,
+        is_plain: bool,
     },
     /// The same, to one of those that it does not have.
     Unknown {
         number: u32,
-        by_one: bool,
+        is_plain: bool,
     },
-    /// To a violation, or to a stop.
+    /// To a violation.
     Out,
+    /// To a stop, without a fault.
+    Stop,
     Found(Box<(Violation, Vec<Event>)>),
 }
 
@@ -78,10 +80,10 @@ impl Expanded {
             successor.noted.iter().for_each(&mut find);
             match successor.result {
                 Ok(()) => {
-                    let by_one = successor.events.len() <= 1;
+                    let is_plain = successor.is_plain;
                     if let Some(known) = store.find(successor.state) {
-                        if by_one && known != state {
-                            steps.push(Step::Known { state: known as u32, by_one });
+                        if is_plain && known != state {
+                            steps.push(Step::Known { state: known as u32, is_plain });
                         }
                         return;
                     }
@@ -89,13 +91,15 @@ impl Expanded {
                     if is_new {
                         of_unknown.push(successor.restless);
                     }
-                    if is_new || by_one {
-                        steps.push(Step::Unknown { number: number as u32, by_one });
+                    if is_new || is_plain {
+                        steps.push(Step::Unknown { number: number as u32, is_plain });
                     }
                 }
                 Err(Violation::Stop) => {
                     after.stops += 1;
-                    steps.push(Step::Out);
+                    if successor.is_plain {
+                        steps.push(Step::Stop);
+                    }
                 }
                 Err(violation) => {
                     find(&violation);

@@ -3,7 +3,8 @@
 use crate::event::Event;
 use crate::expanded::{self, Expanded, Step};
 use crate::model::Model;
-use crate::possible::{Edges, never_followed, never_made};
+use crate::plant::Faults;
+use crate::possible::{Edges, Possible};
 use crate::store::Store;
 use crate::story::{self, Execution};
 use crate::successor::{Expander, Orders};
@@ -103,8 +104,8 @@ impl Search<'_> {
         self.covered.stops += after.stops;
         for step in expanded.steps(state) {
             match step {
-                Step::Known { state, by_one } => self.lead(from, *state as usize, *by_one),
-                Step::Unknown { number, by_one } => {
+                Step::Known { state, is_plain } => self.lead(from, *state as usize, *is_plain),
+                Step::Unknown { number, is_plain } => {
                     let number = *number as usize;
                     if numbers.len() <= number {
                         numbers.resize(number + 1, u32::MAX);
@@ -116,16 +117,17 @@ impl Search<'_> {
                             self.restless.push(expanded.restless[number]);
                         }
                     }
-                    self.lead(from, numbers[number] as usize, *by_one);
+                    self.lead(from, numbers[number] as usize, *is_plain);
                 }
                 Step::Out => self.edges.lead_out(from),
+                Step::Stop => self.edges.lead_to_stop(from),
                 Step::Found(found) => self.find(from, found),
             }
         }
     }
 
-    fn lead(&mut self, from: usize, to: usize, by_one: bool) {
-        if by_one && from != to {
+    fn lead(&mut self, from: usize, to: usize, is_plain: bool) {
+        if is_plain && from != to {
             self.edges.add(from, to);
         }
     }
@@ -230,10 +232,12 @@ pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -
         })
         .collect();
     if end == End::Complete {
-        let never = never_made(&store, &edges, &mut first).map(|state| (Violation::NeverMade, state));
+        let calm = Model { faults: Faults::None, ..model.clone() };
+        let mut possible = Possible::new(&calm, &store, &edges, &first.values, bounds);
+        let never = possible.never_made().map(|state| (Violation::NeverMade, state));
         let mut never: Vec<(Violation, usize)> = never.into_iter().collect();
         if violations.len() + never.len() < bounds.violations {
-            never.extend(never_followed(&store, &edges, &mut first));
+            never.extend(possible.never_followed());
         }
         for (violation, state) in never {
             violations.push((violation, story::to_state(&store, &mut first, state)));
