@@ -1,12 +1,15 @@
 //! What outputs do to the plant.
 
-use crate::event;
+use crate::event::{self, From};
 use crate::plant::{Action, Desk, Machine, Watch, motion, phase, status};
 use crate::program::bit;
 use crate::scan::Scan;
 use crate::surface::{self, Landing};
 use crate::value::Point;
 use crate::violation::Violation;
+
+/// An item that is let go higher over a place falls, m.
+const DEEP: f64 = 0.05;
 
 impl Scan<'_> {
     /// A command is given to a machine.
@@ -148,12 +151,24 @@ impl Scan<'_> {
         }
         let kind = held as usize - 1;
         let places = event::losses(self.model, self.values, self.bytes, arm, kind);
-        let (_, landing) = places[self.choices.take(places.len() as u32) as usize];
-        if let Landing::Slot { machine: at, place, slot } = landing {
-            let place = &self.model.machines[at].places[place];
-            let is_watched = self.model.watch == Watch::Everything;
-            if is_watched && !place.by_kind && place.items[slot].load(self.bytes) != 0 {
-                return Err(Violation::ItemOnItem { arm: machine, machine: at, slot });
+        let (from, landing) = places[self.choices.take(places.len() as u32) as usize];
+        if self.model.watch == Watch::Everything {
+            let tool = self.values.point(arm.tool.load(self.bytes));
+            let (depth, below) = surface::fall(self.model, self.values, self.bytes, tool, kind);
+            if from == From::Tool
+                && depth > DEEP
+                && let Landing::Slot { machine: at, .. } | Landing::Beside { machine: at, .. } = below
+            {
+                return Err(Violation::Dropped { arm: machine, machine: at });
+            }
+            if let Landing::Slot { machine: at, place, slot } = landing {
+                let place = &self.model.machines[at].places[place];
+                if !place.by_kind && place.items[slot].load(self.bytes) != 0 {
+                    return Err(Violation::ItemOnItem { arm: machine, machine: at, slot });
+                }
+                if place.stray.is_some_and(|stray| stray.load(self.bytes) != 0) {
+                    return Err(Violation::ItemAmongItems { arm: machine, machine: at });
+                }
             }
         }
         event::land(self.model, self.bytes, landing, kind);

@@ -138,12 +138,7 @@ fn endings(
     add: &mut dyn FnMut(Ending),
 ) {
     let asked = &head.commands[head.command.load(state) as usize];
-    let is_reached = match (asked.action, &plant.route, &plant.arm) {
-        (Action::Trip, Some(route), _) => route.stops.contains(&values.point(route.goal.load(state))),
-        (Action::Motion, _, Some(arm)) => arm.goal.load(state) != 0,
-        _ => true,
-    };
-    if !is_reached {
+    if !is_reached(values, state, plant, asked) {
         return asked.refusals.iter().for_each(|error| add(Ending::Refused(*error)));
     }
     if asked.action == Action::Trip {
@@ -167,6 +162,28 @@ fn endings(
     }
     if model.faults == Faults::All {
         asked.refusals.iter().for_each(|error| add(Ending::Refused(*error)));
+    }
+}
+
+/// Whether the command under way has a goal that can be reached.
+fn is_reached(values: &Values, state: &[u8], plant: &Machine, asked: &Asked) -> bool {
+    match (asked.action, &plant.route, &plant.arm) {
+        (Action::Trip, Some(route), _) => route.stops.contains(&values.point(route.goal.load(state))),
+        (Action::Motion, _, Some(arm)) => arm.goal.load(state) != 0,
+        _ => true,
+    }
+}
+
+/// Whether an event is a fault of a device: one that does not happen with [`Faults::None`].
+pub(crate) fn is_fault(model: &Model, values: &Values, state: &[u8], event: &Event) -> bool {
+    let plant = &model.machines[event.machine];
+    match (event.what, &plant.head, &plant.arm) {
+        (What::Loses(_), ..) => true,
+        (What::Ends(Ending::Refused(_)), Some(head), _) => {
+            is_reached(values, state, plant, &head.commands[head.command.load(state) as usize])
+        }
+        (What::Ends(Ending::InVain), _, Some(arm)) => found_at_goal(model, values, state, arm).is_some(),
+        _ => false,
     }
 }
 
@@ -211,17 +228,28 @@ pub(crate) fn losses(
     }
     if goal != 0 {
         all.push(at(From::Goal, goal));
-        all.extend(
-            [From::OnTheWay, From::BesideTool, From::BesideGoal].map(|from| (from, Landing::Elsewhere)),
-        );
+        all.push((From::OnTheWay, Landing::Elsewhere));
+        for (from, end) in [(From::BesideTool, arm.tool.load(state)), (From::BesideGoal, goal)] {
+            let landing = surface::landing(model, values, state, beside(values.point(end)), kind);
+            let landing = match landing {
+                Landing::Slot { machine, place, .. } | Landing::Beside { machine, place } => {
+                    Landing::Beside { machine, place }
+                }
+                Landing::Zone { .. } | Landing::Elsewhere => Landing::Elsewhere,
+            };
+            all.push((from, landing));
+        }
     }
     all
+}
+
+fn beside([x, y, z]: Point) -> Point {
+    [x + BESIDE, y + BESIDE, z]
 }
 
 /// Where the tool is when it loses an item; none: where it was.
 fn tool_at(values: &mut Values, state: &[u8], arm: &Arm, from: From) -> Option<i32> {
     let [tool, goal] = [arm.tool, arm.goal].map(|place| values.point(place.load(state)));
-    let beside = |[x, y, z]: Point| [x + BESIDE, y + BESIDE, z];
     let place = match from {
         From::Tool => return None,
         From::Via => return Some(arm.via.load(state)),
@@ -343,7 +371,7 @@ fn take(model: &Model, state: &mut [u8], arm: &Arm, found: surface::Found) {
             item.store(state, left);
         }
         Landing::Zone { machine, zone } => forget(model, state, machine, zone, found.kind),
-        Landing::Elsewhere => {}
+        Landing::Beside { .. } | Landing::Elsewhere => {}
     }
 }
 
@@ -366,6 +394,13 @@ pub(crate) fn land(model: &Model, state: &mut [u8], landing: Landing, kind: usiz
                 item.store(state, (held + 1).min(place.most));
             } else if held == 0 {
                 item.store(state, kind as i32 + 1);
+            } else if let Some(stray) = place.stray {
+                stray.store(state, 1);
+            }
+        }
+        Landing::Beside { machine, place } => {
+            if let Some(stray) = model.machines[machine].places[place].stray {
+                stray.store(state, 1);
             }
         }
         Landing::Zone { machine, zone } => forget(model, state, machine, zone, kind),

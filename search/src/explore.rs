@@ -1,8 +1,10 @@
 //! Breadth first through all states.
 
 use crate::event::Event;
+use crate::expanded::{self, Expanded, Step};
 use crate::model::Model;
-use crate::possible::{Edges, never_followed, never_made};
+use crate::plant::Faults;
+use crate::possible::{Edges, Possible};
 use crate::store::Store;
 use crate::story::{self, Execution};
 use crate::successor::{Expander, Orders};
@@ -22,6 +24,8 @@ pub struct Bounds {
     pub memory: usize,
     /// It ends with so many different violations.
     pub violations: usize,
+    /// Processors that work at the same time.
+    pub jobs: usize,
 }
 
 /// How far it has come.
@@ -66,6 +70,12 @@ pub struct Outcome {
     pub values: Values,
 }
 
+/// States are expanded for so long before what was found is put together.
+const BATCH: Duration = Duration::from_millis(50);
+/// Bounds of the number of states that are expanded in that time.
+const LEAST: usize = 32;
+const MOST: usize = 1 << 16;
+
 struct Found {
     violation: Violation,
     /// The state before, and what devices did then.
@@ -73,100 +83,168 @@ struct Found {
     events: Vec<Event>,
 }
 
-/// `watch` is told how far it is, some times a second, and says whether to continue.
+/// A search under way.
+struct Search<'a> {
+    bounds: &'a Bounds,
+    store: Store,
+    /// Of each state: instances that may do something even if no device does.
+    restless: Vec<u64>,
+    edges: Edges,
+    found: Vec<Found>,
+    known: HashSet<Violation>,
+    covered: Covered,
+}
+
+impl Search<'_> {
+    /// Takes over what follows a state, the next one of the store.
+    fn add(&mut self, expanded: &Expanded, state: usize, numbers: &mut Vec<u32>) {
+        let from = expanded.first + state;
+        let after = expanded.states[state];
+        self.covered.transitions += after.transitions;
+        self.covered.stops += after.stops;
+        for step in expanded.steps(state) {
+            match step {
+                Step::Known { state, is_plain } => self.lead(from, *state as usize, *is_plain),
+                Step::Unknown { number, is_plain } => {
+                    let number = *number as usize;
+                    if numbers.len() <= number {
+                        numbers.resize(number + 1, u32::MAX);
+                    }
+                    if numbers[number] == u32::MAX {
+                        let (to, is_new) = self.store.add(expanded.unknown.state(number), from);
+                        numbers[number] = to as u32;
+                        if is_new {
+                            self.restless.push(expanded.restless[number]);
+                        }
+                    }
+                    self.lead(from, numbers[number] as usize, *is_plain);
+                }
+                Step::Out => self.edges.lead_out(from),
+                Step::Stop => self.edges.lead_to_stop(from),
+                Step::Found(found) => self.find(from, found),
+            }
+        }
+    }
+
+    fn lead(&mut self, from: usize, to: usize, is_plain: bool) {
+        if is_plain && from != to {
+            self.edges.add(from, to);
+        }
+    }
+
+    fn find(&mut self, from: usize, (violation, events): &(Violation, Vec<Event>)) {
+        if self.found.len() < self.bounds.violations && self.known.insert(violation.clone()) {
+            self.found.push(Found { violation: violation.clone(), from, events: events.clone() });
+        }
+    }
+
+    fn measure(&mut self, begin: Instant) {
+        self.covered.time = begin.elapsed();
+        self.covered.memory = self.store.size() + 8 * self.restless.capacity() + self.edges.size();
+        self.covered.states = self.store.len();
+    }
+
+    /// Why it has to end here, if it has to.
+    fn end(&self, watch: &mut dyn FnMut(&Covered) -> bool) -> Option<End> {
+        if self.bounds.time.is_some_and(|time| self.covered.time > time) {
+            Some(End::TimeIsUp)
+        } else if self.covered.memory > self.bounds.memory || self.store.is_full() {
+            Some(End::MemoryIsFull)
+        } else if !watch(&self.covered) {
+            Some(End::Stopped)
+        } else {
+            None
+        }
+    }
+}
+
+/// `watch` is told how far it is, some times a second, and says whether to continue. The outcome does not depend on the
+/// number of processors, but for where a limit of time or memory cuts it.
 pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -> bool) -> Outcome {
     let begin = Instant::now();
-    let mut expander = Expander::new(model, bounds.answers.unwrap_or(usize::MAX), bounds.orders);
-    let mut store = Store::new(model.initial.len());
-    let mut edges = Edges::default();
-    let mut found: Vec<Found> = Vec::new();
-    let mut known: HashSet<Violation> = HashSet::new();
-    let mut covered = Covered::default();
-    store.add(&model.initial, 0);
-    let mut restless = vec![u64::MAX];
-    let (mut next, mut end_of_depth) = (0, 1);
-    let end = loop {
-        if next == store.len() {
+    let expander = || Expander::new(model, bounds.answers.unwrap_or(usize::MAX), bounds.orders);
+    // It gives the numbers to places and reals, in the order of the states.
+    let mut first = expander();
+    let mut expanders: Vec<Expander> = (0..bounds.jobs.max(1)).map(|_| expander()).collect();
+    let mut search = Search {
+        bounds,
+        store: Store::new(model.initial.len()),
+        restless: vec![u64::MAX],
+        edges: Edges::default(),
+        found: Vec::new(),
+        known: HashSet::new(),
+        covered: Covered::default(),
+    };
+    search.store.add(&model.initial, 0);
+    let (mut next, mut end_of_depth, mut batch) = (0, 1, LEAST);
+    let end = 'search: loop {
+        if next == search.store.len() {
             break End::Complete;
         }
-        if next == end_of_depth {
-            covered.depth += 1;
-            end_of_depth = store.len();
-        }
-        let state = store.state(next).to_vec();
-        expander.expand(&state, restless[next], &mut |successor| {
-            covered.transitions += 1;
-            let mut find = |violation: &Violation| {
-                if found.len() < bounds.violations && known.insert(violation.clone()) {
-                    let events = successor.events.to_vec();
-                    found.push(Found { violation: violation.clone(), from: next, events });
+        let batch_begins = Instant::now();
+        let to = search.store.len().min(next + batch);
+        let runs = expanded::expand(&mut expanders, &search.store, &search.restless, next, to);
+        for run in &runs {
+            let mut numbers = Vec::new();
+            for (state, after) in run.states.iter().enumerate() {
+                if next == end_of_depth {
+                    search.covered.depth += 1;
+                    end_of_depth = search.store.len();
                 }
-            };
-            successor.noted.iter().for_each(&mut find);
-            match successor.result {
-                Ok(()) => {
-                    let (number, is_new) = store.add(successor.state, next);
-                    if is_new {
-                        restless.push(successor.restless);
-                    }
-                    if successor.events.len() <= 1 && number != next {
-                        edges.add(next, number);
-                    }
+                if after.has_new_values {
+                    // The numbers that it was given are of no use to others.
+                    let mut again = Expanded::new(next, search.store.length());
+                    again.expand(&mut first, &search.store, next, search.restless[next]);
+                    search.add(&again, 0, &mut Vec::new());
+                } else {
+                    search.add(run, state, &mut numbers);
                 }
-                Err(Violation::Stop) => {
-                    edges.lead_out(next);
-                    covered.stops += 1;
+                next += 1;
+                if search.found.len() >= bounds.violations {
+                    break 'search End::Violated;
                 }
-                Err(violation) => {
-                    edges.lead_out(next);
-                    find(&violation);
+                if first.values.is_full() {
+                    break 'search End::TooManyValues;
                 }
-            }
-        });
-        next += 1;
-        if found.len() >= bounds.violations {
-            break End::Violated;
-        }
-        if next % 256 == 0 {
-            covered.time = begin.elapsed();
-            covered.memory = store.size() + 8 * restless.capacity() + edges.size();
-            covered.states = store.len();
-            if bounds.time.is_some_and(|time| covered.time > time) {
-                break End::TimeIsUp;
-            }
-            if covered.memory > bounds.memory || store.is_full() {
-                break End::MemoryIsFull;
-            }
-            if !watch(&covered) {
-                break End::Stopped;
             }
         }
-        if expander.values.is_full() {
-            break End::TooManyValues;
+        if first.values.count() != expanders[0].values.count() {
+            expanders.iter_mut().for_each(|expander| expander.values.clone_from(&first.values));
+        }
+        search.measure(begin);
+        if let Some(end) = search.end(watch) {
+            break end;
+        }
+        match batch_begins.elapsed() {
+            time if time < BATCH / 2 => batch = (batch * 2).min(MOST),
+            time if time > BATCH * 2 => batch = (batch / 2).max(LEAST),
+            _ => {}
         }
     };
-    covered.states = store.len();
-    covered.memory = store.size() + 8 * restless.capacity() + edges.size();
+    search.measure(begin);
+    let Search { store, edges, found, mut covered, .. } = search;
     let mut violations: Vec<(Violation, Execution)> = found
         .into_iter()
         .map(|found| {
             let execution =
-                story::to_violation(&store, &mut expander, found.from, &found.violation, &found.events);
+                story::to_violation(&store, &mut first, found.from, &found.violation, &found.events);
             (found.violation, execution)
         })
         .collect();
     if end == End::Complete {
-        let never = never_made(&store, &edges, &mut expander).map(|state| (Violation::NeverMade, state));
+        let calm = Model { faults: Faults::None, ..model.clone() };
+        let mut possible = Possible::new(&calm, &store, &edges, &first.values, bounds);
+        let never = possible.never_made().map(|state| (Violation::NeverMade, state));
         let mut never: Vec<(Violation, usize)> = never.into_iter().collect();
         if violations.len() + never.len() < bounds.violations {
-            never.extend(never_followed(&store, &edges, &mut expander));
+            never.extend(possible.never_followed());
         }
         for (violation, state) in never {
-            violations.push((violation, story::to_state(&store, &mut expander, state)));
+            violations.push((violation, story::to_state(&store, &mut first, state)));
         }
         violations.truncate(bounds.violations);
         covered.stopped = (0..store.len()).filter(|state| model.any_stands(store.state(*state))).count();
     }
     covered.time = begin.elapsed();
-    Outcome { covered, end, violations, reached: store, values: expander.values }
+    Outcome { covered, end, violations, reached: store, values: first.values }
 }

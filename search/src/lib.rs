@@ -6,6 +6,7 @@ mod act;
 mod choice;
 mod evaluate;
 pub mod event;
+mod expanded;
 pub mod explore;
 mod hazard;
 pub mod model;

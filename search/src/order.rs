@@ -50,6 +50,7 @@ impl Expander<'_> {
                         Err(violation) => emit(Successor {
                             state: &next.bytes,
                             events: &self.chosen,
+                            is_plain: self.is_plain(),
                             result: Err(violation),
                             noted: &[],
                             restless: 0,
@@ -101,6 +102,7 @@ impl Expander<'_> {
             emit(Successor {
                 state: &end.bytes,
                 events: &self.chosen,
+                is_plain: self.is_plain(),
                 result,
                 noted: &self.noted,
                 restless: end.restless | midway.restless,

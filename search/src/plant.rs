@@ -178,6 +178,8 @@ pub struct Place {
     pub items: Vec<Var>,
     /// So many of one kind are told from more: one more than any order asks for.
     pub most: i32,
+    /// Whether an item lies among its slots, where nobody looks for it; not where items are counted by kinds.
+    pub stray: Option<Var>,
 }
 
 /// A signal that changes by itself: a truth, or a whole number of few values.

@@ -1,18 +1,23 @@
 //! Whether the orders can always still be made, and what is waited for can always still come: from every state that was
-//! reached there is a way to one in which it is so.
+//! reached there is a way to one in which it is so, on which no device fails any more.
 
+use crate::explore::Bounds;
+use crate::model::Model;
 use crate::property::Check;
 use crate::store::Store;
 use crate::successor::Expander;
+use crate::value::Values;
 use crate::violation::Violation;
 
-/// Ways on by which at most one device did something. If they lead to the orders, these can be made; if they do not, all
-/// ways are checked.
+/// Ways on by which at most one device did something, and nothing failed. If they lead to the orders, these can be made; if
+/// they do not, all ways on which nothing fails are checked.
 #[derive(Default)]
 pub(crate) struct Edges {
     list: Vec<(u32, u32)>,
     /// States from which something leads to a violation: what could come after it is not known.
     out: Vec<u32>,
+    /// States from which the line comes to a stop for an operator although nothing fails any more.
+    stops: Vec<u32>,
 }
 
 impl Edges {
@@ -29,70 +34,123 @@ impl Edges {
         }
     }
 
+    pub fn lead_to_stop(&mut self, from: usize) {
+        if self.stops.last() != Some(&(from as u32)) {
+            self.stops.push(from as u32);
+        }
+    }
+
     /// Bytes of memory that they take, and that sorting them will take.
     pub fn size(&self) -> usize {
         12 * self.list.capacity()
     }
 }
 
-/// The first state from which the orders cannot be made, if there is one.
-pub(crate) fn never_made(store: &Store, edges: &Edges, expander: &mut Expander) -> Option<usize> {
-    let model = expander.model;
-    if model.orders.is_empty() {
-        return None;
-    }
-    let is_there = |state: &[u8]| model.is_made(state) || model.any_stands(state);
-    let can: Vec<bool> = (0..store.len()).map(|state| is_there(store.state(state))).collect();
-    reach(can, store, edges, expander)
+/// What is to be possible, from every state that was reached, if nothing fails any more.
+pub(crate) struct Possible<'a> {
+    store: &'a Store,
+    edges: &'a Edges,
+    expander: Expander<'a>,
 }
 
-/// Of each property the first state in which its goal is waited for and cannot come any more, if there is one.
-pub(crate) fn never_followed(
-    store: &Store,
-    edges: &Edges,
-    expander: &mut Expander,
-) -> Vec<(Violation, usize)> {
-    let model = expander.model;
-    let ends = |state: &[u8]| !model.orders.is_empty() && model.is_made(state) || model.any_stands(state);
-    let mut found = Vec::new();
-    for (instance, program) in model.instances.iter().enumerate() {
-        for property in &program.properties {
-            let Check::Whenever(whenever) = &property.check else { continue };
-            let mut can = Vec::with_capacity(store.len());
-            for number in 0..store.len() {
-                let state = store.state(number);
-                can.push(!expander.is_waiting(state, program, whenever) || ends(state));
-            }
-            if let Some(state) = reach(can, store, edges, expander) {
-                found.push((Violation::NeverFollowed { instance, fault: property.fault }, state));
+impl<'a> Possible<'a> {
+    /// `calm`: the model without faults.
+    pub fn new(
+        calm: &'a Model,
+        store: &'a Store,
+        edges: &'a Edges,
+        values: &Values,
+        bounds: &Bounds,
+    ) -> Self {
+        let mut expander = Expander::new(calm, bounds.answers.unwrap_or(usize::MAX), bounds.orders);
+        expander.values.clone_from(values);
+        Self { store, edges, expander }
+    }
+
+    /// The first state from which the orders cannot be made, nor does an operator come who was called because something
+    /// has failed. If nothing has failed, none is called for.
+    pub fn never_made(&mut self) -> Option<usize> {
+        let model = self.expander.model;
+        if model.orders.is_empty() {
+            return None;
+        }
+        let is_there = |state: &[u8]| model.is_made(state) || model.any_stands(state);
+        let can: Vec<bool> = (0..self.store.len()).map(|state| is_there(self.store.state(state))).collect();
+        let calm = self.calm();
+        self.reach(can.clone(), &calm, Stops::AreNoWay).or_else(|| {
+            let all = vec![true; self.store.len()];
+            self.reach(can, &all, Stops::AreWays)
+        })
+    }
+
+    /// Of each property the first state in which its goal is waited for and cannot come any more, if there is one.
+    pub fn never_followed(&mut self) -> Vec<(Violation, usize)> {
+        let model = self.expander.model;
+        let ends = |state: &[u8]| !model.orders.is_empty() && model.is_made(state) || model.any_stands(state);
+        let all = vec![true; self.store.len()];
+        let mut found = Vec::new();
+        for (instance, program) in model.instances.iter().enumerate() {
+            for property in &program.properties {
+                let Check::Whenever(whenever) = &property.check else { continue };
+                let mut can = Vec::with_capacity(self.store.len());
+                for number in 0..self.store.len() {
+                    let state = self.store.state(number);
+                    can.push(!self.expander.is_waiting(state, program, whenever) || ends(state));
+                }
+                if let Some(state) = self.reach(can, &all, Stops::AreWays) {
+                    found.push((Violation::NeverFollowed { instance, fault: property.fault }, state));
+                }
             }
         }
+        found
     }
-    found
+
+    /// States to which the ways lead from the first one.
+    fn calm(&self) -> Vec<bool> {
+        let backwards: Vec<(u32, u32)> = self.edges.list.iter().map(|(from, to)| (*to, *from)).collect();
+        let mut calm = vec![false; self.store.len()];
+        calm[0] = true;
+        spread(&mut calm, &backwards);
+        calm
+    }
+
+    /// The first of the states `asked` that does not lead to one that can.
+    fn reach(&mut self, mut can: Vec<bool>, asked: &[bool], stops: Stops) -> Option<usize> {
+        let Self { store, edges, expander } = self;
+        let fails = |can: &[bool]| can.iter().zip(asked).position(|(can, asked)| *asked && !can);
+        fails(&can)?;
+        edges.out.iter().for_each(|state| can[*state as usize] = true);
+        if stops == Stops::AreWays {
+            edges.stops.iter().for_each(|state| can[*state as usize] = true);
+        }
+        spread(&mut can, &edges.list);
+        fails(&can)?;
+        let mut all = Vec::new();
+        for state in 0..store.len() {
+            if can[state] || !asked[state] {
+                continue;
+            }
+            let mut leads_to_stop = false;
+            expander.expand(store.state(state), u64::MAX, &mut |successor| {
+                leads_to_stop |= successor.result == Err(Violation::Stop);
+                let to = successor.result.is_ok().then(|| store.find(successor.state)).flatten();
+                if let Some(to) = to.filter(|to| *to != state) {
+                    all.push((state as u32, to as u32));
+                }
+            });
+            can[state] = leads_to_stop && stops == Stops::AreWays;
+            all.dedup();
+        }
+        spread(&mut can, &all);
+        fails(&can)
+    }
 }
 
-/// The first state that does not lead to one of these.
-fn reach(mut can: Vec<bool>, store: &Store, edges: &Edges, expander: &mut Expander) -> Option<usize> {
-    if can.iter().all(|can| *can) {
-        return None;
-    }
-    edges.out.iter().for_each(|state| can[*state as usize] = true);
-    spread(&mut can, &edges.list);
-    if can.iter().all(|can| *can) {
-        return None;
-    }
-    let mut all = Vec::new();
-    for state in (0..store.len()).filter(|state| !can[*state]) {
-        expander.expand(store.state(state), u64::MAX, &mut |successor| {
-            let to = successor.result.is_ok().then(|| store.find(successor.state)).flatten();
-            if let Some(to) = to.filter(|to| *to != state) {
-                all.push((state as u32, to as u32));
-            }
-        });
-        all.dedup();
-    }
-    spread(&mut can, &all);
-    can.iter().position(|can| !can)
+/// Whether a stop for an operator counts as what was wanted.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Stops {
+    AreWays,
+    AreNoWay,
 }
 
 /// Whatever leads to a state that can, can too.

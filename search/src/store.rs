@@ -22,6 +22,11 @@ impl Store {
         self.parents.len()
     }
 
+    /// Bytes of a state.
+    pub(crate) fn length(&self) -> usize {
+        self.length
+    }
+
     pub fn state(&self, number: usize) -> &[u8] {
         &self.bytes[number * self.length..][..self.length]
     }

@@ -37,6 +37,8 @@ pub(crate) struct Expander<'a> {
     pub(crate) noted: Vec<Violation>,
     pub(crate) chosen: Vec<Event>,
     restless: u64,
+    /// Whether the first of the chosen events is a fault.
+    pub(crate) is_fault: bool,
     /// Whether successors are to say what has fired.
     pub tell: bool,
     pub(crate) told: Told,
@@ -47,6 +49,8 @@ pub(crate) struct Successor<'a> {
     pub state: &'a [u8],
     pub events: &'a [Event],
     pub result: Result<(), Violation>,
+    /// At most one device did something, and it was no fault.
+    pub is_plain: bool,
     /// Violations after which the line continues.
     pub noted: &'a [Violation],
     /// Instances that may do something in the next scan even if no device does.
@@ -72,6 +76,7 @@ impl<'a> Expander<'a> {
             noted: Vec::new(),
             chosen: Vec::new(),
             restless: 0,
+            is_fault: false,
             tell: false,
             told: Told::default(),
         }
@@ -141,6 +146,11 @@ impl<'a> Expander<'a> {
         }
     }
 
+    /// Whether at most one device did something, and it was no fault.
+    pub(crate) fn is_plain(&self) -> bool {
+        self.chosen.is_empty() || self.chosen.len() == 1 && !self.is_fault
+    }
+
     fn answer(
         &mut self,
         options: &[Vec<Event>],
@@ -153,6 +163,9 @@ impl<'a> Expander<'a> {
         };
         self.answer(rest, level, touched, emit);
         for event in events {
+            if self.chosen.is_empty() {
+                self.is_fault = event::is_fault(self.model, &self.values, &self.before, event);
+            }
             let (before, after) = self.levels.split_at_mut(level + 1);
             after[0].copy_from_slice(&before[level]);
             event::apply(self.model, &mut self.values, &mut after[0], *event);
@@ -181,6 +194,7 @@ impl<'a> Expander<'a> {
             emit(Successor {
                 state: &self.work,
                 events: &self.chosen,
+                is_plain: self.is_plain(),
                 result,
                 noted: &self.noted,
                 restless,

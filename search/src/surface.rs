@@ -14,6 +14,8 @@ const AT_SLOT: f64 = 0.01;
 pub enum Landing {
     /// Machine, its place, and the slot or the kind.
     Slot { machine: usize, place: usize, slot: usize },
+    /// At a place, and at none of its slots.
+    Beside { machine: usize, place: usize },
     /// In a field over a lane.
     Zone { machine: usize, zone: usize },
     /// Where nothing looks for it.
@@ -69,6 +71,12 @@ fn is_there(model: &Model, state: &[u8], machine: usize, place: usize) -> bool {
 
 /// Where an item of a kind lands that a tool loses here.
 pub fn landing(model: &Model, values: &Values, state: &[u8], tool: Point, kind: usize) -> Landing {
+    fall(model, values, state, tool, kind).1
+}
+
+/// How deep an item of a kind falls that a tool lets go here, m, and where it lands; without end where nothing is known to
+/// be below.
+pub fn fall(model: &Model, values: &Values, state: &[u8], tool: Point, kind: usize) -> (f64, Landing) {
     let under = [tool[0], tool[1], tool[2] - model.heights[kind]];
     let mut highest = (f64::NEG_INFINITY, Landing::Elsewhere);
     for (machine, plant) in model.machines.iter().enumerate() {
@@ -82,9 +90,11 @@ pub fn landing(model: &Model, values: &Values, state: &[u8], tool: Point, kind: 
                 continue;
             }
             let slot = if place.by_kind { Some(kind) } else { slot_at(place, origin, under) };
-            let landing = slot.filter(|slot| *slot < place.items.len());
-            let landing = landing.map(|slot| Landing::Slot { machine, place: number, slot });
-            highest = (height, landing.unwrap_or(Landing::Elsewhere));
+            let landing = match slot.filter(|slot| *slot < place.items.len()) {
+                Some(slot) => Landing::Slot { machine, place: number, slot },
+                None => Landing::Beside { machine, place: number },
+            };
+            highest = (height, landing);
         }
         for (number, zone) in plant.lane.iter().flat_map(|lane| &lane.zones).enumerate() {
             if zone.surface > highest.0 && is_in(zone, under) {
@@ -92,7 +102,7 @@ pub fn landing(model: &Model, values: &Values, state: &[u8], tool: Point, kind: 
             }
         }
     }
-    highest.1
+    (under[2] - highest.0, highest.1)
 }
 
 fn slot_at(place: &Place, origin: Point, point: Point) -> Option<usize> {

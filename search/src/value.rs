@@ -47,6 +47,13 @@ pub struct Values {
     pub(crate) sites: Vec<Option<Box<[usize]>>>,
 }
 
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Count {
+    points: usize,
+    reals: usize,
+    is_full: bool,
+}
+
 impl Default for Values {
     fn default() -> Self {
         let mut values = Self {
@@ -106,6 +113,27 @@ impl Values {
     /// More than 65,536 places or numbers have come up: states can no longer be told apart.
     pub fn is_full(&self) -> bool {
         self.is_full
+    }
+
+    /// How many have a number, and whether there are more.
+    pub(crate) fn count(&self) -> Count {
+        Count { points: self.points.len(), reals: self.reals.len(), is_full: self.is_full }
+    }
+
+    /// As if only so many had come up.
+    pub(crate) fn forget_after(&mut self, count: Count) {
+        if self.count() == count {
+            return;
+        }
+        for point in self.points.drain(count.points..) {
+            self.point_numbers.remove(&point.map(f64::to_bits));
+        }
+        for real in self.reals.drain(count.reals..) {
+            self.real_numbers.remove(&real.to_bits());
+        }
+        self.is_full = count.is_full;
+        self.sites.truncate(count.points);
+        self.reached.retain(|(_, number), _| (*number as usize) < count.points);
     }
 
     /// Asks once for each machine and point.

@@ -21,6 +21,10 @@ pub enum Violation {
     MovesUnder { machine: usize, arm: usize },
     /// An arm puts an item where one lies.
     ItemOnItem { arm: usize, machine: usize, slot: usize },
+    /// An arm lets an item fall onto a place.
+    Dropped { arm: usize, machine: usize },
+    /// An arm puts an item at a place where one lies among the slots.
+    ItemAmongItems { arm: usize, machine: usize },
     /// A station asks for its place to be taken away, and what lies there is not what was ordered.
     WrongItems { machine: usize, order: usize },
 }

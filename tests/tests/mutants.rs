@@ -8,7 +8,7 @@ use autogen_search::successor::Orders;
 use autogen_tests::mutants::mutants;
 use autogen_tests::{Texts, is_full_campaign, on_all_processors, own_line};
 use std::collections::BTreeSet;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 const ONE_PART: &str = r#"{
     "kinds": [{"name": "battery", "height": 0.053}],
@@ -29,6 +29,7 @@ fn found(texts: &Texts, faults: Faults) -> Option<BTreeSet<String>> {
         time: Some(Duration::from_secs(30)),
         memory: 500_000_000,
         violations: if faults == Faults::None { 1 } else { 100 },
+        jobs: 1,
     };
     let outcome = explore(&model, &bounds, &mut |_| true);
     Some(outcome.violations.iter().map(|(violation, _)| format!("{violation:?}")).collect())
@@ -69,6 +70,7 @@ fn mistakes_are_found() {
     let before = |texts: &Texts| found(&one_part(texts), Faults::All).expect("a right line");
     let before = is_long.then(|| [before(&line), before(&direct)]);
     let results = on_all_processors(&all, |(name, mutant)| {
+        let begin = Instant::now();
         let mut texts = of_type(name).clone();
         match *name {
             "buffer" => texts.specs[0].clone_from(&mutant.text),
@@ -76,18 +78,26 @@ fn mistakes_are_found() {
         }
         let without = found(&texts, Faults::None)?;
         if !without.is_empty() || !is_long {
-            return Some(!without.is_empty());
+            return Some((!without.is_empty(), begin.elapsed()));
         }
         let with = found(&one_part(&texts), Faults::All)?;
         let before = before.as_ref().map(|before| &before[usize::from(*name == "agv")]);
-        Some(before.is_some_and(|before| with.iter().any(|violation| !before.contains(violation))))
+        let is_found = before.is_some_and(|before| with.iter().any(|violation| !before.contains(violation)));
+        Some((is_found, begin.elapsed()))
     });
     let refused = results.iter().filter(|result| result.is_none()).count();
-    let caught = results.iter().filter(|result| **result == Some(true)).count();
-    for ((name, mutant), _) in all.iter().zip(&results).filter(|(_, result)| **result == Some(false)) {
+    let found = results.iter().flatten().filter(|(is_found, _)| *is_found);
+    let (caught, longest) = (found.clone().count(), found.map(|(_, time)| *time).max().unwrap_or_default());
+    for ((name, mutant), _) in
+        all.iter().zip(&results).filter(|(_, result)| result.is_some_and(|(found, _)| !found))
+    {
         println!("{name}.aut, {}", mutant.what);
     }
-    println!("{} mutants, {refused} refused by the compiler, {caught} found", all.len());
+    println!(
+        "{} mutants, {refused} refused by the compiler, {caught} found, each within {longest:.1?}",
+        all.len()
+    );
     assert!(all.len() >= 100, "{} mutants", all.len());
-    assert!(caught >= 55, "{caught} of {} mutants are found", all.len() - refused);
+    let least = if is_long { 165 } else { 55 };
+    assert!(caught >= least, "{caught} of {} mutants are found", all.len() - refused);
 }

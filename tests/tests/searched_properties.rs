@@ -8,8 +8,14 @@ use autogen_search::successor::Orders;
 use autogen_tests::{Texts, root};
 use std::fmt::Write;
 
-const BOUNDS: Bounds =
-    Bounds { answers: None, orders: Orders::One, time: None, memory: 1_000_000_000, violations: 100 };
+const BOUNDS: Bounds = Bounds {
+    answers: None,
+    orders: Orders::One,
+    time: None,
+    memory: 1_000_000_000,
+    violations: 100,
+    jobs: 1,
+};
 
 /// A line by its type: the first line of the text has its layout.
 fn line(name: &str) -> Texts {

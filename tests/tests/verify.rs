@@ -26,7 +26,7 @@ const TWO_PARTS: &str = r#"{
 }"#;
 
 const BOUNDS: Bounds =
-    Bounds { answers: None, orders: Orders::One, time: None, memory: 1_000_000_000, violations: 1 };
+    Bounds { answers: None, orders: Orders::One, time: None, memory: 1_000_000_000, violations: 1, jobs: 1 };
 
 fn buffer(scenario: &str) -> Texts {
     Texts { scenario: Some(scenario.into()), ..own_line("buffer") }
@@ -55,6 +55,16 @@ fn a_right_line_is_proved_without_faults() {
         let outcome = search(&model_of(&project, Faults::None), &Bounds { orders, ..BOUNDS });
         assert_eq!((outcome.end, outcome.violations.len()), (End::Complete, 0));
     }
+}
+
+/// Whatever devices do, all orders are made, or the line stops and says what somebody has to do.
+#[test]
+fn a_right_line_is_proved_with_faults() {
+    let project = buffer(ONE_PART).project();
+    let outcome = search(&model_of(&project, Faults::All), &BOUNDS);
+    assert_eq!(outcome.end, End::Complete);
+    assert!(outcome.violations.is_empty(), "{:?}", outcome.violations[0].0);
+    assert!(outcome.covered.stops > 0);
 }
 
 #[test]
@@ -138,6 +148,33 @@ fn forgetting_what_is_of_no_use_changes_no_verdict() {
         saved += more.covered.states - less.covered.states;
     }
     println!("{saved} states fewer");
+}
+
+/// Several processors reach the same states in the same order, and find the same executions.
+#[test]
+fn processors_change_nothing() {
+    let lines = [
+        (buffer(ONE_PART), Faults::All, Orders::One),
+        (changed("held := true;", ""), Faults::None, Orders::One),
+        (changed("slot[next] := Free;", ""), Faults::None, Orders::All),
+    ];
+    for (texts, faults, orders) in lines {
+        let model = model_of(&texts.project(), faults);
+        let bounds = Bounds { answers: Some(1), violations: 3, orders, ..BOUNDS };
+        let one = search(&model, &bounds);
+        for jobs in [2, 5] {
+            let several = search(&model, &Bounds { jobs, ..bounds });
+            assert_eq!(several.covered.transitions, one.covered.transitions);
+            assert_eq!(
+                (several.reached.len(), several.covered.depth),
+                (one.reached.len(), one.covered.depth)
+            );
+            let states = 0..one.reached.len();
+            assert!(states.into_iter().all(|s| several.reached.state(s) == one.reached.state(s)));
+            assert_eq!(several.values.points(), one.values.points());
+            assert_eq!(format!("{:?}", several.violations), format!("{:?}", one.violations));
+        }
+    }
 }
 
 /// With few answers in a scan there are fewer states, never others.

@@ -323,6 +323,9 @@ pub struct VerifyOptions {
     /// Limit of time or memory, such as 90s, 10min, 500MB or 2GB; may be given twice. Default: 10min and 2GB
     #[arg(long, value_name = "LIMIT")]
     pub limit: Vec<String>,
+    /// Number of processors that search; default: all
+    #[arg(short, long, value_name = "N")]
+    pub jobs: Option<NonZeroUsize>,
     /// Continue after a violation, and report each different one
     #[arg(long)]
     pub all: bool,

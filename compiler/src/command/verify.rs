@@ -14,6 +14,8 @@ use autogen_search::model::Model;
 use autogen_search::plant::Faults;
 use report::{Report, Shown};
 use std::io::{self, IsTerminal};
+use std::num::NonZeroUsize;
+use std::thread::available_parallelism;
 use std::time::{Duration, Instant};
 
 /// Without `--limit`.
@@ -134,6 +136,7 @@ fn search(
         time: Some(time),
         memory,
         violations: if options.all { MOST } else { 1 },
+        jobs: options.jobs.or_else(|| available_parallelism().ok()).map_or(1, NonZeroUsize::get),
     };
     let mut outcome = explore(model, &bounds, &mut watch);
     if options.answers.is_none() && outcome.end == End::Complete && outcome.violations.is_empty() {

@@ -216,6 +216,7 @@ pub fn plant(
                     by_kind: place.by_kind,
                     items: items.collect(),
                     most: more as i32,
+                    stray: (!place.by_kind).then(|| memory.number(number, name("(stray)"), 1, 0)),
                 });
             }
             Primitive::Orders(orders) => {

@@ -53,6 +53,12 @@ impl Teller<'_> {
             Violation::ItemOnItem { arm, machine, slot } => {
                 format!("{} puts an item onto another one, at place {slot} of {}", name(arm), name(machine))
             }
+            Violation::Dropped { arm, machine } => {
+                format!("{} lets an item fall onto {}", name(arm), name(machine))
+            }
+            Violation::ItemAmongItems { arm, machine } => {
+                format!("{} puts an item on {}, where one lies among the slots", name(arm), name(machine))
+            }
             Violation::WrongItems { machine, order } => {
                 format!("{} completes order {} with other items than it asks for", name(machine), order + 1)
             }

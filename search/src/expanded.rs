@@ -1,0 +1,157 @@
+//! What follows a run of states, found beside a store that does not change meanwhile: so several runs can be expanded at
+//! the same time, and be added to the store in their order, as if one had been expanded after the other.
+
+use crate::event::Event;
+use crate::store::Store;
+use crate::successor::Expander;
+use crate::violation::Violation;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// States that one processor takes at a time.
+const RUN: usize = 32;
+
+/// What follows some states, the first of which is `first`.
+pub(crate) struct Expanded {
+    pub first: usize,
+    pub states: Vec<After>,
+    steps: Vec<Step>,
+    /// Successors that the store does not have, in the order in which they were found.
+    pub unknown: Store,
+    /// Of each of these: instances that may do something in the next scan even if no device does.
+    pub restless: Vec<u64>,
+}
+
+/// What follows one state.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct After {
+    /// Where its steps end among all.
+    end: usize,
+    pub transitions: u64,
+    pub stops: u64,
+    /// Places or reals came up that had no number before.
+    pub has_new_values: bool,
+}
+
+#[derive(Clone, Debug)]
+pub(crate) enum Step {
+    /// To a state of the store; `is_plain`: at most one device did something, and it was no fault.
+    Known {
+        state: u32,
+        is_plain: bool,
+    },
+    /// The same, to one of those that it does not have.
+    Unknown {
+        number: u32,
+        is_plain: bool,
+    },
+    /// To a violation.
+    Out,
+    /// To a stop, without a fault.
+    Stop,
+    Found(Box<(Violation, Vec<Event>)>),
+}
+
+impl Expanded {
+    pub fn new(first: usize, length: usize) -> Self {
+        Self {
+            first,
+            states: Vec::new(),
+            steps: Vec::new(),
+            unknown: Store::new(length),
+            restless: Vec::new(),
+        }
+    }
+
+    pub fn steps(&self, state: usize) -> &[Step] {
+        let begin = state.checked_sub(1).map_or(0, |before| self.states[before].end);
+        &self.steps[begin..self.states[state].end]
+    }
+
+    /// Adds what follows the state of this number.
+    pub fn expand(&mut self, expander: &mut Expander, store: &Store, state: usize, restless: u64) {
+        let Self { states, steps, unknown, restless: of_unknown, .. } = self;
+        let count = expander.values.count();
+        let mut after = After { end: 0, transitions: 0, stops: 0, has_new_values: false };
+        expander.expand(store.state(state), restless, &mut |successor| {
+            after.transitions += 1;
+            let mut find = |violation: &Violation| {
+                steps.push(Step::Found(Box::new((violation.clone(), successor.events.to_vec()))));
+            };
+            successor.noted.iter().for_each(&mut find);
+            match successor.result {
+                Ok(()) => {
+                    let is_plain = successor.is_plain;
+                    if let Some(known) = store.find(successor.state) {
+                        if is_plain && known != state {
+                            steps.push(Step::Known { state: known as u32, is_plain });
+                        }
+                        return;
+                    }
+                    let (number, is_new) = unknown.add(successor.state, 0);
+                    if is_new {
+                        of_unknown.push(successor.restless);
+                    }
+                    if is_new || is_plain {
+                        steps.push(Step::Unknown { number: number as u32, is_plain });
+                    }
+                }
+                Err(Violation::Stop) => {
+                    after.stops += 1;
+                    if successor.is_plain {
+                        steps.push(Step::Stop);
+                    }
+                }
+                Err(violation) => {
+                    find(&violation);
+                    steps.push(Step::Out);
+                }
+            }
+        });
+        after.has_new_values = expander.values.count() != count;
+        after.end = steps.len();
+        states.push(after);
+    }
+}
+
+/// What follows the states from `begin` to before `end`, in runs in their order; each expander works by itself.
+pub(crate) fn expand(
+    expanders: &mut [Expander],
+    store: &Store,
+    restless: &[u64],
+    begin: usize,
+    end: usize,
+) -> Vec<Expanded> {
+    let next = AtomicUsize::new(begin);
+    let work = |expander: &mut Expander| {
+        let count = expander.values.count();
+        let mut runs = Vec::new();
+        loop {
+            let first = next.fetch_add(RUN, Ordering::Relaxed);
+            if first >= end {
+                return runs;
+            }
+            let mut run = Expanded::new(first, store.length());
+            for state in first..end.min(first + RUN) {
+                run.expand(expander, store, state, restless[state]);
+                // Their numbers are given in the order of the states.
+                expander.values.forget_after(count);
+            }
+            runs.push(run);
+        }
+    };
+    let Some((own, others)) =
+        expanders.split_first_mut().filter(|(_, others)| !others.is_empty() && end - begin > RUN)
+    else {
+        return expanders.first_mut().map(work).unwrap_or_default();
+    };
+    let mut runs = std::thread::scope(|scope| {
+        let others: Vec<_> = others.iter_mut().map(|other| scope.spawn(|| work(other))).collect();
+        let mut runs = work(own);
+        for other in others {
+            runs.extend(other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
+        }
+        runs
+    });
+    runs.sort_by_key(|run| run.first);
+    runs
+}
