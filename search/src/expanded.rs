@@ -131,8 +131,9 @@ pub(crate) fn expand(
                 return runs;
             }
             let mut run = Expanded::new(first, store.length());
-            for state in first..end.min(first + RUN) {
-                run.expand(expander, store, state, restless[state]);
+            let last = end.min(first + RUN);
+            for (state, restless) in (first..last).zip(&restless[first..last]) {
+                run.expand(expander, store, state, *restless);
                 // Their numbers are given in the order of the states.
                 expander.values.forget_after(count);
             }
