@@ -18,7 +18,7 @@ use autogen::translation::{self, Translations};
 use autogen::version;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 /// A line that was compiled.
 pub struct Built {
@@ -190,8 +190,11 @@ pub fn title(layout: &Path, name: &str) -> String {
         return name.to_string();
     }
     let path = Path::new(name);
-    let within =
-        layout.parent().and_then(|folder| path.strip_prefix(folder).ok()).filter(|rest| rest.is_relative());
+    let leads_up = |rest: &Path| rest.components().any(|part| part == Component::ParentDir);
+    let within = layout
+        .parent()
+        .and_then(|folder| path.strip_prefix(folder).ok())
+        .filter(|rest| rest.is_relative() && !leads_up(rest));
     match within {
         Some(rest) => rest.display().to_string().replace('\\', "/"),
         None => path.file_name().map_or(name.to_string(), |own| own.to_string_lossy().into_owned()),

@@ -12,6 +12,7 @@ mod xml;
 use crate::diagnostic::Diagnostic;
 use crate::layout::decode::make_identifier;
 use crate::spec::parser::RESERVED;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A device text, and what the file lacks or what the language cannot say.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,16 +38,21 @@ fn identifier(name: &str, otherwise: &str) -> String {
 
 /// The same names, where they are alike with numbers behind them.
 fn distinct(names: Vec<String>) -> Vec<String> {
-    let mut taken: Vec<String> = Vec::new();
-    for name in names {
-        let numbered = (2..).map(|number| {
-            let end = format!("_{number}");
+    let mut taken: BTreeSet<String> = BTreeSet::new();
+    // The number from which one is sought, by name.
+    let mut next: BTreeMap<String, u32> = BTreeMap::new();
+    let one = |name: String| {
+        let from = next.entry(name.to_ascii_lowercase()).or_insert(1);
+        let numbered = (*from..).map(|number| {
+            let end = if number == 1 { String::new() } else { format!("_{number}") };
             let begin: String = name.chars().take(32 - end.len()).collect();
-            format!("{}{end}", begin.trim_end_matches('_'))
+            let begin = if number == 1 { name.as_str() } else { begin.trim_end_matches('_') };
+            (number, format!("{begin}{end}"))
         });
-        let is_free = |name: &String| !taken.iter().any(|other| other.eq_ignore_ascii_case(name));
-        let free = std::iter::once(name.clone()).chain(numbered).find(is_free);
-        taken.extend(free);
-    }
-    taken
+        let is_free = |(_, name): &(u32, String)| taken.insert(name.to_ascii_lowercase());
+        let (number, free) = numbered.into_iter().find(is_free).unwrap_or((1, name.clone()));
+        *from = number + 1;
+        free
+    };
+    names.into_iter().map(one).collect()
 }

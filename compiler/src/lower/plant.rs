@@ -292,8 +292,15 @@ fn monitor(system: &System, traces: &[usize], executor: &mut Executor, instance:
                 word: first + number * ALARM_WORDS,
             })
             .collect(),
-        panel: Reads::of_modes(automaton).words(system.kinds()),
+        panel: words(&Reads::of_modes(automaton), system.kinds()),
     }
+}
+
+/// Words of the inputs that are read under any condition.
+fn words(reads: &Reads, kinds: usize) -> Vec<usize> {
+    let behind = reads.words_while(kinds).into_iter().map(|read| read.word);
+    let all: BTreeSet<usize> = reads.words(kinds).into_iter().chain(behind).collect();
+    all.into_iter().collect()
 }
 
 /// Who writes the cells that guards read, but for the instance itself.

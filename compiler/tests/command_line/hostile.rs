@@ -227,6 +227,10 @@ fn what_is_generated_reads_as_it_runs() {
     let output = autogen(&folder, &["build", "line.json", "--specs", &name, "-o", "out"]);
     assert_eq!(status(&output), 0, "{}", errors(&output));
     for (path, bytes) in super::contents(&folder.join("out")) {
+        // What was given is copied byte for byte.
+        if path.starts_with(folder.join("out").join("sources")) {
+            continue;
+        }
         let text = String::from_utf8(bytes).expect("UTF-8");
         let path = path.display();
         if let Some(at) = text.find(is_odd) {

@@ -70,7 +70,7 @@ impl Open {
 fn keys_of_a_layout_are_those_that_are_not_there_yet() {
     let mut open = open("layout-keys", "line.json");
     let found = open.labels(&LAYOUT.replacen('|', "", 1).replacen('{', "{\n  ^", 1));
-    assert_eq!(found, ["$schema", "may_touch", "name", "panel", "scan_ms", "scenario"]);
+    assert_eq!(found, ["$schema", "may_touch", "name", "panel", "routes", "scan_ms", "scenario"]);
     assert_eq!(
         open.with_robot("{\"^"),
         ["at", "hands_to", "name", "parameters", "pose", "takes_from", "type"]

@@ -358,7 +358,9 @@ impl Group {
         });
         self.strokes = cylinders.filter_map(|part| Some((part, plant.stroking(index, part)?))).collect();
         if moved {
+            self.moving = None;
             self.resting = None;
+            self.borne = None;
         }
         let rests = !moved && !self.moves_parts();
         if rests && matches!((&self.movement, &last), (Movement::Still, Movement::Still)) {

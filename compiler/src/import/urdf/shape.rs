@@ -11,7 +11,7 @@ use runtime_sim::kinematics::pose::Pose;
 use runtime_sim::point::Point;
 use std::f64::consts::PI;
 
-/// Bodies of a device, fewer than its parts may be.
+/// Bodies of a device, fewer than its parts may be, and collision shapes that are looked at.
 const MOST: usize = 200;
 /// What the axis of a cylinder may lack to lie along an axis of the frame.
 const ALONG: f64 = 1e-3;
@@ -47,6 +47,7 @@ pub fn bodies(
         }
     }
     let mut bodies = Vec::new();
+    let mut looked_at = 0;
     let mut told: Vec<(String, Vec<&str>)> = Vec::new();
     let mut tell = |text: String, name| match told.iter_mut().find(|(other, _)| *other == text) {
         Some((_, names)) => names.push(name),
@@ -56,7 +57,8 @@ pub fn bodies(
         let frame = on.map_or(Pose::IDENTITY, |number| base.then(&ours[number]));
         for shape in &robot.links[link].shapes {
             let name = robot.links[link].name.value.as_str();
-            if bodies.len() == MOST {
+            looked_at += 1;
+            if looked_at > MOST {
                 tell(
                     format!("after {MOST} collision shapes the others are left out, from this link on"),
                     name,

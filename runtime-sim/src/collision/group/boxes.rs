@@ -107,13 +107,16 @@ impl Group {
                 let [from, to] = self.movement.span(0.0, seconds);
                 let boxes = self.boxes(plant, memory);
                 let at = |place: f64| ((place * PIECES as f64) as usize).min(boxes.len() - 1);
-                let mut pieces = boxes[at(from)..=at(to)].iter();
+                let mut pieces = boxes[at(from.min(to))..=at(from.max(to))].iter();
                 let first = pieces.next().cloned().unwrap_or_else(|| self.each(|_| BoundingBox::NOTHING));
                 pieces.fold(first, |all, next| all.with(next))
             }
             Movement::Rides { ride, now_ms } => {
                 let corners = ride.corners(*now_ms, now_ms + 1000.0 * seconds);
                 self.each(|body| {
+                    if body.anchor != Anchor::Route {
+                        return body.bounds.wider(NEAR);
+                    }
                     let radius = body.ball.middle.length() + body.ball.radius + NEAR;
                     let boxes =
                         corners.iter().map(|corner| BoundingBox::around(&Ball { middle: *corner, radius }));

@@ -23,7 +23,7 @@ impl Group {
                 }
                 Movement::Swings { motion, .. } => motion.fingerprint(),
             };
-            self.moving = Some(motion);
+            self.moving = Some(self.with_strokes(motion));
         }
         self.moving
     }
@@ -48,10 +48,14 @@ impl Group {
                         .fold(Fingerprint::default(), |print, joint| print.near(*joint))
                 }
             };
-            let strokes = self.strokes.values().fold(place, |print, stroking| print.near(stroking.out));
-            self.resting = Some(strokes);
+            self.resting = Some(self.with_strokes(place));
         }
         self.resting
+    }
+
+    /// And of where its cylinders and positioners are.
+    fn with_strokes(&self, print: Fingerprint) -> Fingerprint {
+        self.strokes.values().fold(print, |print, stroking| print.near(stroking.out))
     }
 
     /// Of all items, and of where they are on the machine.
