@@ -107,15 +107,24 @@ fn what_moves_on_a_machine_without_its_arm_is_not_checked_against_itself() {
 fn an_arm_touches_what_a_cylinder_of_its_own_machine_has_moved_into_its_way() {
     let eye = "part eye = beam { across: infeed; at: 1.40; };";
     let gate = "part gate = cylinder { extend: 1 s; retract: 1 s; slides: point(0, 0.4, 0); };
-    part bar = body { on: gate; low: pose + point(1.25, -0.45, 0.70); high: pose + point(1.35, -0.35, 0.75); };
+    part bar = body { on: gate; low: pose + point(1.25, -0.45, 0.84); high: pose + point(1.35, -0.35, 0.88); };
     ";
     let run = "/// motor of the infeed";
     let extend = "/// moves the bar\n    out block: bool = gate.extend stop false;\n    ";
     let blocks = ("} -> Placing {} else", "} -> Placing { block := true; } else");
-    let changes = [(eye, &*format!("{gate}{eye}")), (run, &*format!("{extend}{run}")), blocks];
+    // Straight down from a little higher, every time.
+    let down = (
+        "move(pick_at + up(over));\n        move(pick_at);",
+        "move(pick_at + up(over + 0.1));\n        move(pick_at + up(over));\n        move(pick_at);",
+    );
+    let back = (
+        "move(put_at + up(over));\n        move(pick_at + up(over));",
+        "move(put_at + up(over));\n        move(pick_at + up(over + 0.1));",
+    );
+    let changes = [(eye, &*format!("{gate}{eye}")), (run, &*format!("{extend}{run}")), down, back, blocks];
     let reason = reason(&changed("palletizer", &changes));
     assert!(reason.contains("(bar)") && reason.contains("(rod)"), "{reason}");
-    assert_eq!(self::reason(&changed("palletizer", &changes[..2])), "all orders made");
+    assert_eq!(self::reason(&changed("palletizer", &changes[..4])), "all orders made");
 }
 
 #[test]
