@@ -1,8 +1,8 @@
 """Compares the kinematics of six-axis arms with libraries that have nothing in common with this project.
 
-    python3 -m venv /tmp/ik && /tmp/ik/bin/pip install numpy scipy py-opw-kinematics==1.3.0 ur-analytic-ik==0.1.0.post3
+    python3 -m venv target/ik && target/ik/bin/pip install numpy scipy py-opw-kinematics==1.3.0 ur-analytic-ik==0.1.0.post3
     cargo build --release -p autogen-tests --example poses
-    /tmp/ik/bin/python tests/independent/inverse_kinematics.py target/release/examples/poses 1000000
+    target/ik/bin/python tests/independent/inverse_kinematics.py target/release/examples/poses 1000000
 
 The poses come from joints that are drawn. Of each arm are compared: the flange at these joints; the flange at each
 solution with the pose; the solutions with those of the library, in both directions, up to whole turns. Near a pose

@@ -42,17 +42,24 @@ fn distinct(names: Vec<String>) -> Vec<String> {
     // The number from which one is sought, by name.
     let mut next: BTreeMap<String, u32> = BTreeMap::new();
     let one = |name: String| {
-        let from = next.entry(name.to_ascii_lowercase()).or_insert(1);
-        let numbered = (*from..).map(|number| {
-            let end = if number == 1 { String::new() } else { format!("_{number}") };
-            let begin: String = name.chars().take(32 - end.len()).collect();
-            let begin = if number == 1 { name.as_str() } else { begin.trim_end_matches('_') };
-            (number, format!("{begin}{end}"))
-        });
-        let is_free = |(_, name): &(u32, String)| taken.insert(name.to_ascii_lowercase());
-        let (number, free) = numbered.into_iter().find(is_free).unwrap_or((1, name.clone()));
-        *from = number + 1;
-        free
+        let number = next.entry(name.to_ascii_lowercase()).or_insert(1);
+        loop {
+            let free = numbered(&name, *number);
+            *number += 1;
+            if taken.insert(free.to_ascii_lowercase()) {
+                return free;
+            }
+        }
     };
     names.into_iter().map(one).collect()
+}
+
+/// The first one has no number.
+fn numbered(name: &str, number: u32) -> String {
+    if number == 1 {
+        return name.into();
+    }
+    let end = format!("_{number}");
+    let begin: String = name.chars().take(32 - end.len()).collect();
+    format!("{}{end}", begin.trim_end_matches('_'))
 }

@@ -62,7 +62,7 @@ pub fn is_free(
         return known;
     }
     let near = if a == b {
-        vec![Piece { path: [0.0, 1.0], boxes: None }]
+        vec![PathPiece { path: [0.0, 1.0], boxes: None }]
     } else {
         near_pieces([a, b].map(|group| groups[group].boxes(plant, memory)))
     };
@@ -107,14 +107,14 @@ pub fn is_free(
 }
 
 /// A piece of a path.
-struct Piece {
+struct PathPiece {
     /// From place to place.
     path: [f64; 2],
     /// Of both groups on it, if they are known.
     boxes: Option<[Swept; 2]>,
 }
 
-impl Piece {
+impl PathPiece {
     /// Whether the boxes of two bodies meet.
     fn may_meet(&self, [i, j]: [usize; 2]) -> bool {
         self.boxes.as_ref().is_none_or(|[a, b]| !a.bodies[i].is_apart(&b.bodies[j]))
@@ -122,15 +122,15 @@ impl Piece {
 }
 
 /// The equal pieces of the path of one of two groups on which its box meets the other's.
-fn near_pieces(boxes: [Arc<[Swept]>; 2]) -> Vec<Piece> {
+fn near_pieces(boxes: [Arc<[Swept]>; 2]) -> Vec<PathPiece> {
     if boxes.iter().any(|boxes| boxes.is_empty()) {
-        return vec![Piece { path: [0.0, 1.0], boxes: None }];
+        return vec![PathPiece { path: [0.0, 1.0], boxes: None }];
     }
     let count = boxes[0].len().max(boxes[1].len());
     // One of them rests: its only box holds all the while.
     let of = |group: usize, number: usize| &boxes[group][number.min(boxes[group].len() - 1)];
     let near = (0..count).filter(|number| !of(0, *number).all.is_apart(&of(1, *number).all));
-    let piece = |number: usize| Piece {
+    let piece = |number: usize| PathPiece {
         path: [number, number + 1].map(|end| end as f64 / count as f64),
         boxes: Some([0, 1].map(|group| of(group, number).clone())),
     };

@@ -1,6 +1,7 @@
 //! All bodies of one machine or obstacle, and how they move from now on.
 
 mod boxes;
+mod extent;
 mod prints;
 
 use super::body::{Ball, Piece};
@@ -12,8 +13,7 @@ use crate::kinematics::pose::Pose;
 use crate::line::{Line, Obstacle};
 use crate::machine::Machine;
 use crate::motion::Travel;
-use crate::part::lane::CentreLine;
-use crate::part::stroke::{Stroke, Stroking};
+use crate::part::stroke::Stroking;
 use crate::plant::Plant;
 use crate::plant::conveyed::Conveyed;
 use crate::point::Point;
@@ -21,9 +21,6 @@ use crate::solid::{Link, Solid};
 pub use boxes::Swept;
 use std::collections::BTreeMap;
 use std::sync::Arc;
-
-/// Places on an arc between which an item is taken for somewhere on a straight line, and beside it.
-const ARC_PIECES: usize = 16;
 
 /// Solids that keep their places to one another.
 #[derive(Clone, Debug)]
@@ -161,10 +158,10 @@ impl Group {
                 (Some(chain.radii(link, &ball)), chain.bounds(link, &ball))
             }
             (Anchor::Route, Kind::Machine { machine, .. } | Kind::Arm { machine, .. }) => {
-                (None, at_stops(machine, &ball))
+                (None, extent::at_stops(machine, &ball))
             }
             (Anchor::Carriage(part), Kind::Machine { machine, .. } | Kind::Arm { machine, .. }) => {
-                (None, on_carriage(machine, part, &ball))
+                (None, extent::on_carriage(machine, part, &ball))
             }
             _ => (None, still(&ball)),
         };
@@ -183,7 +180,7 @@ impl Group {
                 let place = plant.place(item).unwrap_or_default();
                 let offset = place - plant.position(*index).unwrap_or_default();
                 let conveyed = plant.conveyed(item);
-                self.body(anchor, vec![piece], |ball| lying(machine, ball, place, offset, conveyed))
+                self.body(anchor, vec![piece], |ball| extent::lying(machine, ball, place, offset, conveyed))
             }
             _ => self.body(anchor, vec![piece], BoundingBox::around),
         };
@@ -462,65 +459,4 @@ fn path(
         Some(conveyed) => conveyed.speed_within(body.ball.middle.length() + body.ball.radius) * (to - from),
         None => movement.path(body, movement.span(from, to)),
     }
-}
-
-/// What a vehicle's body takes at all of its stops and between them, or on all of its track.
-fn at_stops(machine: &Machine, ball: &Ball) -> BoundingBox {
-    if let Some(track) = machine.track() {
-        let radius = ball.middle.length() + ball.radius;
-        let corners = track.corners().into_iter();
-        let boxes = corners.map(|middle| BoundingBox::around(&Ball { middle, radius }));
-        return boxes.fold(BoundingBox::NOTHING, |all, next| all.with(&next));
-    }
-    let boxes = machine.stops().iter().map(|stop| BoundingBox::around(&ball.shifted(*stop)));
-    boxes.reduce(|a, b| a.with(&b)).unwrap_or(BoundingBox::around(ball))
-}
-
-/// What a body can take on a cylinder or a positioner.
-fn on_carriage(machine: &Machine, part: usize, ball: &Ball) -> BoundingBox {
-    let strokes = machine.parts[part].strokes();
-    let stroke = strokes.and_then(|strokes| strokes.stroke);
-    stroke.map_or(BoundingBox::around(ball), |stroke| along_stroke(&stroke, ball))
-}
-
-fn along_stroke(stroke: &Stroke, ball: &Ball) -> BoundingBox {
-    let piece = 1.0 / ARC_PIECES as f64;
-    let beside = stroke.path(ball.middle, ball.radius, piece);
-    let boxes = (0..=ARC_PIECES).map(|number| {
-        let middle = stroke.frame(number as f64 * piece).point(ball.middle);
-        BoundingBox::around(&Ball { middle, radius: ball.radius + beside })
-    });
-    boxes.fold(BoundingBox::NOTHING, |all, next| all.with(&next))
-}
-
-/// What an item can take that lies at `place`, at `offset` from the machine's position.
-fn lying(
-    machine: &Machine,
-    ball: &Ball,
-    place: Point,
-    offset: Point,
-    conveyed: Option<Conveyed>,
-) -> BoundingBox {
-    let here = BoundingBox::around(&ball.shifted(place));
-    match (machine.route(), conveyed) {
-        (Some(_), _) => at_stops(machine, &ball.shifted(offset)),
-        (None, Some(conveyed)) => here.with(&on_course(&conveyed, ball)),
-        (None, None) => here,
-    }
-}
-
-/// What an item can take on the rest of its conveyor, wherever that is carried.
-fn on_course(conveyed: &Conveyed, ball: &Ball) -> BoundingBox {
-    let Conveyed { centre_line, place, across, carried, .. } = conveyed;
-    let pieces = if matches!(centre_line, CentreLine::Arc { .. }) { ARC_PIECES } else { 1 };
-    let piece = (place - centre_line.end()).max(0.0) / pieces as f64;
-    // No point of an arc is farther from the nearest of these places than half of a piece, and what lies outside the
-    // middle line by so much more.
-    let beside = if pieces > 1 { piece * conveyed.widening() } else { 0.0 };
-    let boxes = (0..=pieces).map(|number| {
-        let Ball { middle, radius } = ball.shifted(centre_line.point(place - piece * number as f64, *across));
-        let ball = Ball { middle, radius: radius + beside };
-        carried.map_or(BoundingBox::around(&ball), |carried| along_stroke(&carried.stroke, &ball))
-    });
-    boxes.fold(BoundingBox::NOTHING, |all, next| all.with(&next))
 }

@@ -1,8 +1,8 @@
 """The default line as a model in SimPy: queues and times, no geometry and no scans. Prints simulated s per s.
 
 A belt brings a part every 2 s and waits for the arm; an arm puts parts onto four vehicles; vehicles drive to the
-stations; a gantry puts each part into a briefcase; eight orders of four parts. The times are means of a run of
-`commission` on this line.
+stations; a gantry puts each part into a briefcase; eight orders of four parts. `autogen commission` on this line gives
+the times: seconds in which the arm and the gantry move, for each of the 32 parts. A trip is 3.33 m at 1.11 m/s.
 """
 
 import time
@@ -10,7 +10,7 @@ import time
 import simpy
 
 PARTS, ORDERS, VEHICLES, CAPACITY = 4, 8, 4, 8
-EVERY, PICK, TRIP, CARRY = 2.0, 9.0, 3.0, 20.5
+EVERY, PICK, TRIP, CARRY = 2.0, 438.03 / 32, 3.33 / 1.11, 551.65 / 32
 RUNS = 300
 
 

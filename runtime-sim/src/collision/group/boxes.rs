@@ -123,6 +123,7 @@ impl Group {
                     boxes.fold(BoundingBox::NOTHING, |all, next| all.with(&next))
                 })
             }
+            Movement::Still if !self.moves_parts() => self.boxes(plant, memory)[0].clone(),
             Movement::Slides { .. } | Movement::Still => {
                 let mut bodies = vec![BoundingBox::NOTHING; self.bodies.len()];
                 for (number, all) in bodies.iter_mut().enumerate() {
