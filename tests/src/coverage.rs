@@ -2,7 +2,7 @@
 
 use crate::st::{Beside, Emitted};
 use autogen::backend::{Files, st};
-use autogen::ir::{Automaton, StateId, System};
+use autogen::ir::{Automaton, StateId, System, Update, UpdateKind};
 use autogen::naming::camel;
 use autogen::source::Sources;
 use autogen_st_judge::check::Checked;
@@ -236,10 +236,14 @@ impl Coverage {
     }
 }
 
+/// What gives a command in its beginning alone goes on giving it: the texts of a type that waits for a command rely on one.
 fn begin_in(automaton: &mut Automaton, state: usize) {
+    let is_command = |update: &Update| matches!(update.kind, UpdateKind::Command { .. });
+    let later = automaton.states[1..].iter().flat_map(|state| &state.transitions);
+    let commands_later = later.flat_map(|transition| &transition.updates).any(is_command);
     for begin in &mut automaton.states[0].transitions {
         begin.target = Some(StateId(state));
-        begin.updates.clear();
+        begin.updates.retain(|update| !commands_later && is_command(update));
     }
 }
 

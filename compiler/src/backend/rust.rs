@@ -72,9 +72,15 @@ pub fn files(system: &System, sources: &Sources) -> Files {
 /// The files of a workspace of the controllers and their adapters alone. Its shared library is all that a
 /// simulator needs which was compiled apart.
 pub fn library_files(system: &System, sources: &Sources) -> Files {
-    let mut files = crates(system, sources);
-    files.insert("Cargo.toml".into(), LIBRARY_MANIFEST.into());
-    files
+    library_of(crates(system, sources))
+}
+
+/// The same from the [`files`] of the line.
+pub fn library_of(files: Files) -> Files {
+    let is_crate = |path: &str| path.starts_with("controllers/") || path.starts_with("adapters/");
+    let mut library: Files = files.into_iter().filter(|(path, _)| is_crate(path)).collect();
+    library.insert("Cargo.toml".into(), LIBRARY_MANIFEST.into());
+    library
 }
 
 /// The crates of the controllers and of their adapters.
@@ -94,7 +100,7 @@ fn crates(system: &System, sources: &Sources) -> Files {
     put("controllers/src/cells.rs".into(), shared::cells(shared));
     put("controllers/src/system.rs".into(), shared::system(shared));
     put("controllers/src/robot.rs".into(), shared::robot(shared));
-    if retained::retains(shared) {
+    if shared.system.model.retains() {
         put("controllers/src/retained.rs".into(), retained::module(shared));
     }
     for id in 0..system.model.automata.len() {

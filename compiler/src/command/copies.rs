@@ -30,7 +30,8 @@ pub fn copies(options: &BuildOptions, sources: &Sources) -> Copies {
     let mut taken = BTreeSet::new();
     for file in sources.files().iter().filter(|file| is_given(file)) {
         let copy = names.entry(&file.name).or_insert_with(|| {
-            apart(title(&options.input.layout, &file.name), |name| taken.insert(name.to_string()))
+            // Some file systems take names that differ in case alone for one.
+            apart(title(&options.input.layout, &file.name), |name| taken.insert(name.to_lowercase()))
         });
         // A name that no manifest takes: on other systems it leads elsewhere.
         if is_within(copy) {

@@ -8,8 +8,7 @@ impl Executor<'_> {
     /// Power was lost between two scans and is back: what is retained stays, all else is as at power-up.
     pub(super) fn begin_with_what_is_retained(&mut self) {
         let system = self.system;
-        let retains = system.model.automata.iter().any(|automaton| !automaton.retained.is_empty());
-        let fault = self.status.fault.filter(|_| retains);
+        let fault = self.status.fault.filter(|_| system.model.retains());
         self.status = Status { fault, ..Status::NEW };
         self.scan = 0;
         self.permit = false;

@@ -50,6 +50,11 @@ impl System {
 }
 
 impl Model {
+    /// Whether any type retains something, also one without an instance: the fault then outlasts a loss of power.
+    pub fn retains(&self) -> bool {
+        self.automata.iter().any(|automaton| !automaton.retained.is_empty())
+    }
+
     /// A number that changes when what is retained does: names of states, names and types of values. The FNV-1a hash,
     /// 31 bits of it, never 0.
     pub fn shape_of_retained(&self) -> u32 {

@@ -15,7 +15,7 @@ fn own_type(name: &str) -> String {
     )
 }
 
-/// Everything that can be given, from folders that are gone then; two files have the same name.
+/// Everything that can be given, from folders that are gone then; the names of two files differ in case alone.
 #[test]
 fn the_copies_in_the_output_build_the_same_again() {
     let folder = folder("copies");
@@ -29,7 +29,7 @@ fn the_copies_in_the_output_build_the_same_again() {
     write("line/own/own.aut", &own_type("First"));
     write("line/scenario.json", "{}");
     write("own.aut", &own_type("Second"));
-    write("more/own.aut", &own_type("Third"));
+    write("more/OWN.aut", &own_type("Third"));
     write("other.json", "{ \"time_limit_s\": 60 }");
     let build = |more: &[&str]| {
         let line = ["build", "in/line/a line.json", "-o", "made", "-q", "--set", "agv.capacity=4"];
@@ -58,7 +58,7 @@ fn the_copies_in_the_output_build_the_same_again() {
     let command = manifest["command"].as_str().expect("a command");
     assert_eq!(
         command,
-        "autogen build 'a line.json' --specs own.aut --specs 'own (2).aut' --scenario other.json \
+        "autogen build 'a line.json' --specs own.aut --specs 'OWN (2).aut' --scenario other.json \
          --set agv.capacity=4 --order 3 --io io.csv --addresses bytes --texts texts.csv --no-plcopen --drives"
     );
     let tool = Path::new(env!("CARGO_BIN_EXE_autogen")).parent().expect("a folder");
@@ -73,7 +73,7 @@ fn the_copies_in_the_output_build_the_same_again() {
     assert_eq!(names(&made), names(&again));
     let differ: Vec<_> = made.iter().zip(&again).filter(|(a, b)| a != b).map(|(a, _)| &a.0).collect();
     assert!(differ.is_empty(), "{differ:?}");
-    for name in ["sources/own/own.aut", "sources/own.aut", "sources/own (2).aut", "library/agv.aut"] {
+    for name in ["sources/own/own.aut", "sources/own.aut", "sources/OWN (2).aut", "library/agv.aut"] {
         assert!(made.iter().any(|(made, _)| *made == Path::new(name)), "{name}");
     }
     assert!(!made.iter().any(|(made, _)| *made == Path::new("sources/scenario.json")), "it was not read");

@@ -1,7 +1,6 @@
 //! Between process images or texts and the controllers.
 
 use super::context::Shared;
-use super::retained;
 use super::shared::{has_alarms, uses_cells};
 use super::{format, render};
 use askama::Template;
@@ -78,7 +77,7 @@ pub fn adapters(shared: Shared) -> String {
         uses_cells: uses_cells(shared),
         has_wiring,
         alarms: has_alarms(shared),
-        retains: retained::retains(shared),
+        retains: shared.system.model.retains(),
     };
     let mut importable = shared.importable("controllers");
     importable.push(("crate::image".into(), ["Image", "Latch", "Put"].map(String::from).into()));

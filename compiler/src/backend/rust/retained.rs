@@ -22,11 +22,6 @@ pub struct Methods {
     pub cells_write: &'static str,
 }
 
-/// Whether anything of the line outlasts a loss of power.
-pub fn retains(shared: Shared) -> bool {
-    shared.system.model.automata.iter().any(|automaton| !automaton.retained.is_empty())
-}
-
 pub fn module(shared: Shared) -> String {
     let interfaces = shared.names.interfaces.iter();
     let view = Module {

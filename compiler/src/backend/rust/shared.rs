@@ -29,7 +29,7 @@ pub fn library(shared: Shared) -> String {
     files.sort_unstable();
     files.dedup();
     let alarm = has_alarm_module(shared).then(|| "alarm".to_string());
-    let retained = retained::retains(shared).then(|| "retained".to_string());
+    let retained = shared.system.model.retains().then(|| "retained".to_string());
     let own = ["cells", "kinds", "line", "robot", "robots", "system", "types"].map(String::from);
     let mut modules: Vec<String> = alarm
         .into_iter()
@@ -275,7 +275,7 @@ pub fn system(shared: Shared) -> String {
         start: properties.start,
         modes: has_modes(shared),
         operate_writes_cells: operate_writes_cells(shared),
-        retains: retained::retains(shared),
+        retains: shared.system.model.retains(),
         has_cells: retained::has_cells(shared),
         shape: shared.system.model.shape_of_retained(),
     };
@@ -313,7 +313,7 @@ pub fn robot(shared: Shared) -> String {
         properties_change: remembers(shared),
         alarms: has_alarms(shared),
         modes: has_modes(shared),
-        retains: retained::retains(shared),
+        retains: shared.system.model.retains(),
         forget_parameters: if retained::has_cells(shared) { ", cells: &mut Cells" } else { "" },
         retain_parameters: if retained::has_cells(shared) { ", cells: &Cells" } else { "" },
         restore_parameters: if retained::has_cells(shared) { ", cells: &mut Cells" } else { "" },

@@ -1,7 +1,6 @@
 //! What the code of a fault or an alarm means to who stands before the line.
 
 use super::context::Shared;
-use super::restart;
 use super::screen::{Translate, Use};
 use super::table::row;
 use super::value::{LATE_SCAN, NO_SUCH_STATE, NOT_RETAINED, WRONG_INTERVAL};
@@ -82,7 +81,7 @@ fn of_the_line(shared: Shared) -> Vec<(i32, &'static str, &'static str)> {
             "The PLC was stopped while the line was running, or its task has not enough time: check the load of the processor and tasks of higher priority. Then reset and start.",
         ),
     ];
-    if restart::retains(shared) {
+    if shared.system.model.retains() {
         faults.push((
             NOT_RETAINED,
             "the retained values are not of this program or not of one scan, or some were not kept",

@@ -431,10 +431,7 @@ impl Lowering<'_> {
                 self.count_to(&counter, binary("<", name(&counter), Ex::Int(n as i32)), n as u64, out, body);
             }
             Domain::Range(low, high) => {
-                let most = match (low.ty, high.ty) {
-                    (Scalar::Int { lo, .. }, Scalar::Int { hi, .. }) => i64::from(hi) - i64::from(lo) + 1,
-                    _ => 0,
-                };
+                let most = walk::narrowed_count(low, high).unwrap_or(0);
                 let first = self.value(low, out);
                 let condition = self.in_range(&counter, high, out);
                 out.push(assign(&counter, first));

@@ -139,7 +139,7 @@ fn system(shared: Shared) -> Vec<Variable> {
     ];
     variables.extend(watchdog::globals(shared));
     variables.extend(version::globals(shared));
-    let retains = restart::retains(shared);
+    let retains = shared.system.model.retains();
     for variable in variables.iter_mut().filter(|v| matches!(v.name.as_str(), "fault_code" | "fault_robot")) {
         variable.is_retained = retains;
     }

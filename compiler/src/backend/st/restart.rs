@@ -28,11 +28,6 @@ pub fn mark() -> Variable {
     Variable::new(KEPT, Basic::Bool).with_comment(about).retained(true)
 }
 
-/// Whether anything of the line outlasts a loss of power.
-pub fn retains(shared: Shared) -> bool {
-    shared.system.instances.iter().any(|i| !shared.system.model.automaton(i.automaton).retained.is_empty())
-}
-
 /// Whether a cell of any member of its interface is retained.
 pub fn retains_cell(shared: Shared, interface: InterfaceId, cell: usize) -> bool {
     let instances = shared.system.members[interface.0].iter();
@@ -41,7 +36,7 @@ pub fn retains_cell(shared: Shared, interface: InterfaceId, cell: usize) -> bool
 }
 
 pub fn variables(shared: Shared) -> Vec<Variable> {
-    if !retains(shared) {
+    if !shared.system.model.retains() {
         return Vec::new();
     }
     let variable = |name: &str, basic: Basic, initial: Ex, about: &str| {
@@ -57,7 +52,7 @@ pub fn variables(shared: Shared) -> Vec<Variable> {
 
 /// The begin of MAIN. `retained` are the instances of blocks that have a [`mark`].
 pub fn begin<'n>(shared: Shared, retained: impl Iterator<Item = &'n str>) -> Vec<Stmt> {
-    if !retains(shared) {
+    if !shared.system.model.retains() {
         return Vec::new();
     }
     let shape = || Ex::Int(shared.system.shape_of_retained() as i32);
@@ -90,7 +85,7 @@ pub fn begin<'n>(shared: Shared, retained: impl Iterator<Item = &'n str>) -> Vec
 
 /// The end of MAIN.
 pub fn end(shared: Shared) -> Option<Stmt> {
-    retains(shared).then(|| assign(WHOLE, Ex::Bool(true)))
+    shared.system.model.retains().then(|| assign(WHOLE, Ex::Bool(true)))
 }
 
 /// Cells at power-up, in the block of the layout.

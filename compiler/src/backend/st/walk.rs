@@ -40,9 +40,9 @@ pub fn update_parts(update: &UpdateKind) -> Vec<&Expr> {
     }
 }
 
-/// Whether an expression could index beyond an array, divide by zero or leave 32 bits if what stands before it
-/// did not hold: then it must not be computed where that is not tested first. The types of expressions are no
-/// help, since guards have narrowed them: only what is declared counts.
+/// Whether an expression could index beyond an array, divide by zero, leave 32 bits or repeat more often than its bound
+/// says if what stands before it did not hold: then it must not be computed where that is not tested first. The types of
+/// expressions are no help, since guards have narrowed them: only what is declared counts.
 pub fn may_fault(model: &Model, automaton: &Automaton, expr: &Expr) -> bool {
     let ranges = Ranges { model, automaton };
     ranges.may_fault(expr, &BTreeMap::new())
@@ -52,6 +52,14 @@ pub fn may_fault(model: &Model, automaton: &Automaton, expr: &Expr) -> bool {
 pub fn may_be_greatest(model: &Model, automaton: &Automaton, expr: &Expr) -> bool {
     let range = Ranges { model, automaton }.range(expr, &BTreeMap::new());
     range.is_none_or(|(_, hi)| hi >= i64::from(i32::MAX))
+}
+
+/// How many numbers a range has at most where the guards before it hold.
+pub fn narrowed_count(low: &Expr, high: &Expr) -> Option<i64> {
+    match (low.ty, high.ty) {
+        (Scalar::Int { lo, .. }, Scalar::Int { hi, .. }) => Some(i64::from(hi) - i64::from(lo) + 1),
+        _ => None,
+    }
 }
 
 /// Bounds of the variables of quantifiers around an expression.
@@ -81,12 +89,14 @@ impl Ranges<'_> {
             | ExprKind::Count { variable, domain, body }
             | ExprKind::Sum { variable, domain, body } => {
                 let mut inner = bound.clone();
+                let mut is_longer = false;
                 if let Domain::Range(low, high) = &**domain
-                    && let (Some(low), Some(high)) = (self.range(low, bound), self.range(high, bound))
+                    && let (Some(from), Some(to)) = (self.range(low, bound), self.range(high, bound))
                 {
-                    inner.insert(*variable, (low.0, high.1));
+                    inner.insert(*variable, (from.0, to.1));
+                    is_longer = narrowed_count(low, high).is_some_and(|count| to.1 - from.0 + 1 > count);
                 }
-                return expr.parts().into_iter().any(|part| {
+                return is_longer || expr.parts().into_iter().any(|part| {
                     let is_body = std::ptr::eq(part, &raw const **body);
                     self.may_fault(part, if is_body { &inner } else { bound })
                 });
@@ -129,6 +139,7 @@ impl Ranges<'_> {
             Scalar::Time => Some((0, i64::from(i32::MAX))),
             _ => None,
         };
+        let size = |(lo, hi): (i64, i64)| lo.saturating_abs().max(hi.saturating_abs());
         of(expr.ty)?;
         match &expr.kind {
             ExprKind::Constant(Value::Int(i)) => Some((i64::from(*i), i64::from(*i))),
@@ -152,11 +163,12 @@ impl Ranges<'_> {
                             .map(|(x, y)| x.saturating_mul(y));
                         Some((ends.into_iter().min()?, ends.into_iter().max()?))
                     }
-                    // Not greater than the left side, whatever its sign.
-                    _ => {
-                        let most = a.0.saturating_abs().max(a.1.saturating_abs());
-                        Some((-most, most))
+                    // Not greater than the left side, and with its sign; a remainder is less than what it is divided by.
+                    Operator::Modulo => {
+                        let most = size(a).min(size(b).saturating_sub(1).max(0));
+                        Some((if a.0 < 0 { -most } else { 0 }, if a.1 > 0 { most } else { 0 }))
                     }
+                    _ => Some((-size(a), size(a))),
                 }
             }
             ExprKind::Absolute(inner) => {

@@ -35,7 +35,15 @@ impl Notice {
 /// The controllers of this system's types. The types and the kinds of part are all that they depend on, so they
 /// are compiled once for all layouts and values, and kept in the user's cache.
 pub fn compiled(system: &System, sources: &Sources, notice: Notice) -> Result<SharedLibrary, String> {
-    let files = rust::library_files(system, sources);
+    loaded(rust::library_files(system, sources), notice)
+}
+
+/// The same from the files of the workspace `rust/` of a line.
+pub fn compiled_from(workspace: Files, notice: Notice) -> Result<SharedLibrary, String> {
+    loaded(rust::library_of(workspace), notice)
+}
+
+fn loaded(files: Files, notice: Notice) -> Result<SharedLibrary, String> {
     let entry = Entry::open(&key(&files), notice)?;
     if let Some(path) = entry.library(notice) {
         // What was made here loads here, unless the system itself has changed since.
