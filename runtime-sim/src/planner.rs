@@ -19,9 +19,10 @@ use line::Line;
 use options::Options;
 use plane::{Rectangle, keeps_off, shortest};
 pub use scene::Load;
-use scene::Scene;
+use scene::{Nearby, Scene};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
+use std::rc::Rc;
 use timing::{Lift, Timing};
 
 /// What a gantry knows of its surroundings.
@@ -141,6 +142,8 @@ const CLEARS: [f64; 2] = [STRAIGHT, f64::INFINITY];
 const RADII: [f64; 9] = [1.0, 1.0, 2.2, 1.6, 1.6, 1.0, 0.5, 0.4, 0.3];
 /// A path is checked again at the latest when some point may have gone this part of what is kept.
 const SHORTEST_STEP: f64 = 0.6;
+/// A path rounds the corners of its plan: it keeps off obstacles where the plan does not keep off quite as far.
+const ROUNDED: f64 = 0.5;
 /// A path is checked between so many equal parts, before it is from end to end.
 const FIRST_LOOKS: u32 = 32;
 /// Pieces of a line by which it is timed, m.
@@ -154,6 +157,36 @@ const SAME: f64 = 1e-9;
 const STRAIGHT: f64 = 0.25;
 const WIDER_STEP: f64 = 1.3;
 const WRISTS: [Wrist; 2] = [Wrist::Inside, Wrist::Outside];
+
+/// When the robot is where between the ends of a path.
+struct Plan {
+    timing: Timing,
+    line: Rc<Line>,
+    stances: [Stance; 2],
+    ends: [Joints; 2],
+}
+
+impl Plan {
+    /// It becomes joints at so many times behind the begin.
+    fn samples(&self) -> u32 {
+        (self.timing.end / SAMPLE).ceil().max(1.0) as u32
+    }
+
+    /// Of a sample, s.
+    fn time(&self, sample: u32) -> f64 {
+        self.timing.end * f64::from(sample) / f64::from(self.samples())
+    }
+}
+
+/// What is near the robot between the ends of a path.
+struct Around<'a> {
+    near: Nearby<'a>,
+    ends: [&'a Joints; 2],
+    /// On the verticals at the ends the tool carries its load from these heights on, m.
+    lifted: [f64; 2],
+    load: Load,
+    margin: f64,
+}
 
 /// When the torso turns as it goes.
 #[derive(Clone, Copy)]
@@ -207,7 +240,7 @@ impl Planner {
         let mut falls: BTreeMap<(usize, usize), Option<Vertical>> = BTreeMap::new();
         let mut options = Options::new(self, task, &first, candidates, effort);
         let mut tries = 0;
-        let mut suspect = 0.5;
+        let (mut suspect_time, mut suspect) = (0.5, 0.5);
         while let Some((choice, timing, line)) = options.next() {
             let candidate = &candidates[choice.candidate];
             let is_free = stands[choice.candidate].get_or_insert_with(|| self.is_free_at_place(candidate));
@@ -229,9 +262,11 @@ impl Planner {
                 return None;
             }
             let margin = MARGIN.min(rise.gap).min(fall.gap);
-            let Some(knots) = self.sampled(&timing, &line, [&first, &candidate.stance], from, &end) else {
+            let plan = Plan { timing, line, stances: [first, candidate.stance], ends: [**from, end] };
+            if !self.may_be_free(&plan, *load, margin, &mut suspect_time) {
                 continue;
-            };
+            }
+            let Some(knots) = self.sampled(&plan) else { continue };
             let path = Path::new(**from, &knots, limits);
             if self.is_free([from, &end], &path, *load, margin, &mut suspect) {
                 return Some(path);
@@ -293,34 +328,33 @@ impl Planner {
             && self.scene.gap_at_place(at, MARGIN_AT_PLACE) >= MARGIN_AT_PLACE
     }
 
+    /// The joints at a time of a plan, with whole turns as they are at `near`; none where the reach forbids it.
+    fn at_time(&self, plan: &Plan, time: f64, near: &Joints) -> Option<Joints> {
+        let (part, turned, height) = plan.timing.at(time);
+        let ([first, last], [from, to]) = (&plan.stances, &plan.ends);
+        let stance = Stance {
+            turn: first.turn + turned * (last.turn - first.turn),
+            beyond: first.beyond + part * (last.beyond - first.beyond),
+            wrist: last.wrist,
+        };
+        let place = if part <= 0.0 {
+            axis(from)
+        } else if part >= 1.0 {
+            axis(to)
+        } else {
+            plan.line.at(part * plan.line.length())
+        };
+        self.arm.standing_at(place, height, &stance, near)
+    }
+
     /// The joints at regular times of a plan, and those at its end.
-    fn sampled(
-        &self,
-        plan: &Timing,
-        line: &Line,
-        [first, last]: [&Stance; 2],
-        from: &Joints,
-        to: &Joints,
-    ) -> Option<Vec<Knot>> {
-        let count = (plan.end / SAMPLE).ceil().max(1.0) as u32;
-        let time = |i: u32| plan.end * f64::from(i) / f64::from(count);
+    fn sampled(&self, plan: &Plan) -> Option<Vec<Knot>> {
+        let [from, to] = &plan.ends;
+        let count = plan.samples();
         let mut knots: Vec<Knot> = Vec::with_capacity(count as usize);
         for i in 1..count {
-            let (part, turned, height) = plan.at(time(i));
-            let stance = Stance {
-                turn: first.turn + turned * (last.turn - first.turn),
-                beyond: first.beyond + part * (last.beyond - first.beyond),
-                wrist: last.wrist,
-            };
             let near = knots.last().map_or(from, |knot| &knot.joints);
-            let place = if part <= 0.0 {
-                axis(from)
-            } else if part >= 1.0 {
-                axis(to)
-            } else {
-                line.at(part * line.length())
-            };
-            knots.push(Knot::new(self.arm.standing_at(place, height, &stance, near)?));
+            knots.push(Knot::new(self.at_time(plan, plan.time(i), near)?));
         }
         // Where the limits of the last joint do not let it keep the direction of a part, it turns back while the torso
         // moves.
@@ -331,11 +365,53 @@ impl Planner {
         // After a motion that was broken off it turns to the direction that the part should have.
         let turns = end[tool] - if (back - reached).abs() < 4.0 * FINEST_TURN { back } else { reached };
         for (i, knot) in (1..count).zip(&mut knots) {
-            let part = plan.passed(time(i));
+            let part = plan.timing.passed(plan.time(i));
             knot.joints = knot.joints.map(|i, value| if i == tool { value + part * turns } else { value });
         }
         knots.push(Knot::new(end));
         Some(knots)
+    }
+
+    /// False if the robot comes too near to something at one of a few times of a plan. That is found out without a path,
+    /// and nearly all plans that lead to no free path are of this kind. `suspect` as for [`Self::is_free`].
+    fn may_be_free(&self, plan: &Plan, load: Load, margin: f64, suspect: &mut f64) -> bool {
+        let [from, to] = &plan.ends;
+        let around = self.around([from, to], plan.line.places().iter().copied(), load, margin);
+        let count = f64::from(plan.samples());
+        let is_apart = |part: f64| {
+            let time = plan.time(libm::round(part * count) as u32);
+            let Some(joints) = self.at_time(plan, time, from) else { return false };
+            let (gap, margin) = self.gap(&around, &joints, 0.0);
+            gap >= margin * ROUNDED
+        };
+        let found = [*suspect].into_iter().chain(first_looks()).find(|part| !is_apart(*part));
+        *suspect = found.unwrap_or(*suspect);
+        found.is_none()
+    }
+
+    /// What the gap is asked of on a path between two ends, with the torso at these places.
+    fn around<'a>(
+        &'a self,
+        ends: [&'a Joints; 2],
+        places: impl IntoIterator<Item = Point>,
+        load: Load,
+        margin: f64,
+    ) -> Around<'a> {
+        let lifted = ends.map(|end| self.arm.tool(end).z + self.scene.load_height + LIFTED);
+        Around { near: self.scene.near(places), ends, lifted, load, margin }
+    }
+
+    /// What the gap is at these joints, and what it has to be. It is not looked at beyond what it has to be and `enough`.
+    fn gap(&self, around: &Around, joints: &Joints, enough: f64) -> (f64, f64) {
+        let Around { near, ends, lifted, load, margin } = around;
+        let frames = self.arm.frames(joints);
+        let height = frames.last().map_or(0.0, |tool| tool.position.z);
+        let stands = |end: usize| (0..3).all(|i| (joints[i] - ends[end][i]).abs() < SAME);
+        let end = [0, 1].into_iter().find(|end| stands(*end));
+        let lies = end.is_some_and(|end| height < lifted[end]);
+        let load = if lies { Load::None } else { *load };
+        let margin = if end.is_some() { MARGIN_AT_PLACE } else { *margin };
+        (self.scene.gap(near, &frames, load, [margin, margin.max(enough)]), margin)
     }
 
     /// The straight line of the tool up to a height, from these joints; none if something is in the way.
@@ -376,27 +452,14 @@ impl Planner {
     /// nearer, and the load touches what it lies on. `suspect` is the place, 0 to 1, at which it is checked first: the
     /// last one that was not free, of paths that are much alike.
     fn is_free(&self, ends: [&Joints; 2], path: &Path, load: Load, margin: f64, suspect: &mut f64) -> bool {
-        let lifted = ends.map(|end| self.arm.tool(end).z + self.scene.load_height + LIFTED);
-        let near = self.scene.near(path.knots().iter().map(axis));
-        // What the gap is at a place on the path, and what it has to be.
-        let gap = |place: f64, enough: f64| {
-            let joints = path.at(place);
-            let frames = self.arm.frames(&joints);
-            let height = frames.last().map_or(0.0, |tool| tool.position.z);
-            let stands = |end: usize| (0..3).all(|i| (joints[i] - ends[end][i]).abs() < SAME);
-            let end = [0, 1].into_iter().find(|end| stands(*end));
-            let lies = end.is_some_and(|end| height < lifted[end]);
-            let load = if lies { Load::None } else { load };
-            let margin = if end.is_some() { MARGIN_AT_PLACE } else { margin };
-            (self.scene.gap(&near, &frames, load, [margin, margin.max(enough)]), margin)
-        };
+        let around = self.around(ends, path.knots().iter().map(axis), load, margin);
+        let gap = |place: f64, enough: f64| self.gap(&around, &path.at(place), enough);
         let is_apart = |place: f64| {
             let (gap, margin) = gap(place, 0.0);
             gap >= margin
         };
         // Most that are not free are not by far.
-        let first = (1..FIRST_LOOKS).map(|i| f64::from(i) / f64::from(FIRST_LOOKS));
-        if let Some(place) = [*suspect].into_iter().chain(first).find(|place| !is_apart(*place)) {
+        if let Some(place) = [*suspect].into_iter().chain(first_looks()).find(|place| !is_apart(*place)) {
             *suspect = place;
             return false;
         }
@@ -412,6 +475,11 @@ impl Planner {
         }
         true
     }
+}
+
+/// A plan is checked at these parts of its time first, a path at these places.
+fn first_looks() -> impl Iterator<Item = f64> {
+    (1..FIRST_LOOKS).map(|i| f64::from(i) / f64::from(FIRST_LOOKS))
 }
 
 /// Where the torso's axis is.

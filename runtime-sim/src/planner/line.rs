@@ -43,6 +43,11 @@ impl Line {
         Self { places, lengths }
     }
 
+    /// Where it bends; no place on it is outside of these.
+    pub fn places(&self) -> &[Point] {
+        &self.places
+    }
+
     /// Whole length, m.
     pub fn length(&self) -> f64 {
         self.lengths.last().copied().unwrap_or(0.0)

@@ -96,10 +96,11 @@ impl Ranges<'_> {
                     inner.insert(*variable, (from.0, to.1));
                     is_longer = narrowed_count(low, high).is_some_and(|count| to.1 - from.0 + 1 > count);
                 }
-                return is_longer || expr.parts().into_iter().any(|part| {
-                    let is_body = std::ptr::eq(part, &raw const **body);
-                    self.may_fault(part, if is_body { &inner } else { bound })
-                });
+                return is_longer
+                    || expr.parts().into_iter().any(|part| {
+                        let is_body = std::ptr::eq(part, &raw const **body);
+                        self.may_fault(part, if is_body { &inner } else { bound })
+                    });
             }
             _ => false,
         };
