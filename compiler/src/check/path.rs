@@ -7,6 +7,7 @@ use crate::diagnostic::{Diagnostic, suggestion};
 use crate::ir::{self, Expr, ExprKind, Extent, Place, Scalar, Type, Value};
 use crate::source::Span;
 use crate::spec::ast;
+use runtime_sim::device;
 
 /// What an access leads to.
 pub enum Path {
@@ -133,6 +134,11 @@ impl Context<'_, '_> {
         }
     }
 
+    fn is_output(&self, name: &str) -> bool {
+        let mut ports = self.automaton.device.ports.iter();
+        ports.any(|port| port.name == name && port.direction == device::Direction::Output)
+    }
+
     fn unknown_name(&mut self, name: &str, span: Span) {
         if self.lacks_names || self.broken.contains(name) {
             return;
@@ -148,6 +154,10 @@ impl Context<'_, '_> {
                     "`{name}` is a state: write the next state after the guard, `when done -> {name} {{}}`"
                 )
             }
+            Some(near) if self.is_output(near) => format!(
+                "is `{near}` meant? It is an output of the device `{}`; an input is declared there, `in {name}: TYPE = PART.SIGNAL;`",
+                self.automaton.device.name
+            ),
             Some(near) => format!("is `{near}` meant?"),
             None => format!(
                 "names are those of `{}`, of its interfaces, of the ports and constants of its device `{}`",

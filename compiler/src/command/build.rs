@@ -284,8 +284,13 @@ pub fn refused(options: &BuildOptions, refusal: &Refusal) -> Status {
     };
     let text = match refusal {
         Refusal::NotOurs(paths) => format!(
-            "not written: autogen did not write these files, or they were changed since:\n  {}\nMove them to another place, choose another folder with -o, or overwrite them with --force.",
-            list(paths)
+            "not written: autogen did not write these files, or they were changed since:\n  {}\nMove them to another place, choose another folder with -o, or overwrite them with --force.{}",
+            list(paths),
+            match paths.iter().any(|path| path.ends_with("io.csv")) {
+                true =>
+                    "\nA filled table of addresses is an input: copy it to another folder, and give it with --io.",
+                false => "",
+            }
         ),
         Refusal::InTheWay(paths) => format!(
             "not written: these are a file instead of a folder, a folder instead of a file, or a symbolic link, which is never followed:\n  {}\nMove them to another place, or choose another folder with -o.",

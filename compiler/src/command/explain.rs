@@ -20,8 +20,12 @@ pub fn run(options: &ExplainOptions) -> Status {
     }
 }
 
-/// A code with its four digits, however it is typed: `e401` and `401` are E0401.
+/// A code with its four digits, however it is typed: `e401` and `401` are E0401, `w201` is W0201.
 fn code(typed: &str) -> Option<String> {
-    let digits = typed.trim().trim_start_matches(['E', 'e']);
-    Some(format!("E{:04}", digits.parse::<u16>().ok()?))
+    let typed = typed.trim().to_uppercase();
+    let (letter, digits) = match typed.strip_prefix('W') {
+        Some(digits) => ('W', digits),
+        None => ('E', typed.trim_start_matches('E')),
+    };
+    Some(format!("{letter}{:04}", digits.parse::<u16>().ok()?))
 }

@@ -1,6 +1,7 @@
 //! The ports that every device with commands has.
 
 use super::Port;
+use crate::spec::ast::Command;
 use runtime_sim::device::{Direction, Extent, LAST_COMMAND, PortType, Stop};
 use runtime_sim::wiring::{Drives, Source};
 
@@ -17,13 +18,14 @@ pub fn inputs() -> Vec<(Port, Source)> {
         input(
             "error",
             PortType::Int { lo: 0, hi: 255 },
-            "0, or the error of the command `ack`: 1 unreachable, 2 no part, 3 refused; changes only with `ack`",
+            "0, or the error of the command `ack`: 1 unreachable, 2 no part, 3 refused, others as the drive says; changes only with `ack`",
             Source::Error,
         ),
     ]
 }
 
-pub fn outputs() -> Vec<(Port, Drives)> {
+pub fn outputs(commands: &[Command]) -> Vec<(Port, Drives)> {
+    let verb = format!("kind of the command `cmd`: {}", numbered(commands));
     let output = |name: &str, ty, meaning: &str, stop, drives| {
         (port(name, Direction::Output, ty, meaning, stop), drives)
     };
@@ -35,7 +37,7 @@ pub fn outputs() -> Vec<(Port, Drives)> {
             Stop::Hold,
             Drives::Command,
         ),
-        output("verb", PortType::Int { lo: 0, hi: 9 }, "kind of the command `cmd`", Stop::Hold, Drives::Verb),
+        output("verb", PortType::Int { lo: 0, hi: 9 }, &verb, Stop::Hold, Drives::Verb),
         output(
             "hold",
             PortType::Bool,
@@ -46,10 +48,16 @@ pub fn outputs() -> Vec<(Port, Drives)> {
     ]
 }
 
+/// Commands with their numbers, as `1 move, 2 pick`.
+pub fn numbered(commands: &[Command]) -> String {
+    let each = commands.iter().map(|command| format!("{} {}", command.number.value, command.name.value));
+    each.collect::<Vec<_>>().join(", ")
+}
+
 /// Of all of them.
 pub fn names() -> Vec<String> {
     let inputs = inputs().into_iter().map(|(port, _)| port.name);
-    inputs.chain(outputs().into_iter().map(|(port, _)| port.name)).collect()
+    inputs.chain(outputs(&[]).into_iter().map(|(port, _)| port.name)).collect()
 }
 
 fn port(name: &str, direction: Direction, ty: PortType, meaning: &str, stop: Stop) -> Port {

@@ -3,6 +3,7 @@
 //! In the simulator a person operates parts that are added to the device; on a controller these inputs are variables
 //! that a screen writes, or switches.
 
+use super::head;
 use crate::source::{FileId, Span};
 use crate::spec::ast::{self, Device, DeviceMember, Expr, ExprKind, Name, Scalar, Type};
 use runtime_sim::device::Direction;
@@ -46,14 +47,14 @@ pub fn add(files: &mut [(FileId, ast::File)]) {
 
 fn equip(device: &mut Device) {
     let place = device.name.span;
-    let has_commands = !device.commands.is_empty();
+    let commands = head::numbered(&device.commands);
     let is_output = |port: &&ast::Port| port.direction == Direction::Output;
     let outputs: Vec<ast::Port> = device.ports.iter().filter(is_output).cloned().collect();
     let mut panel = Panel { device, place };
     panel.switch(
         ENABLE,
         true,
-        "panel: the machine may step; without it, and until start after it, the machine is stopped",
+        "panel: the machine may step, and be moved by hand; without it, and until start after it, it is stopped",
     );
     panel.whole(MODE, int(place, 0, i64::from(MANUAL)), "panel: 0 automatic, 1 single step, 2 manual");
     panel.switch(STEP, false, "panel: in single step its rising edge lets one transition fire");
@@ -62,8 +63,8 @@ fn equip(device: &mut Device) {
         false,
         "panel: in manual its rising edge gives the command, and outputs are given while it is true",
     );
-    if has_commands {
-        panel.whole(VERB, int(place, 0, 32767), "panel: number of the command by hand; 0 none");
+    if !commands.is_empty() {
+        panel.whole(VERB, int(place, 0, 32767), &format!("panel: the command by hand: {commands}; 0 none"));
     }
     for output in &outputs {
         panel.output(output);
@@ -80,7 +81,7 @@ impl Panel<'_> {
     fn output(&mut self, output: &ast::Port) {
         let name = &output.name.value;
         let is_point = matches!(output.ty.scalar, Scalar::Point);
-        let about = format!("panel: {} by hand", plain(&output.doc));
+        let about = format!("panel, by hand: {}", plain(&output.doc));
         for input in inputs_for(name, is_point) {
             match &output.ty.scalar {
                 Scalar::Bool => self.switch(&input, false, &about),

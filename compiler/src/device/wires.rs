@@ -94,7 +94,7 @@ impl Checker<'_> {
             }
         }
         if !tree.commands.is_empty() {
-            for (port, drives) in head::outputs() {
+            for (port, drives) in head::outputs(&tree.commands) {
                 wiring.outputs.push(Output { size: size(&port), drives });
                 ports.push(port);
             }

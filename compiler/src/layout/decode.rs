@@ -218,10 +218,14 @@ impl Decoder {
         let found = find(members, key);
         if found.is_none() {
             let opening = Span { end: place.start + 1, ..place };
+            let help = match suggestion(key, members.iter().map(|member| member.key.value.as_str())) {
+                Some(written) => format!("write \"{key}\" instead of \"{written}\""),
+                None => format!("add \"{key}\": ..."),
+            };
             self.report(
                 Diagnostic::new("E0112", opening, format!("{what} has no key \"{key}\""))
                     .note(format!("\"{key}\" is required"))
-                    .help(format!("add \"{key}\": ...")),
+                    .help(help),
             );
         }
         found

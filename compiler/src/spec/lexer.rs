@@ -22,8 +22,8 @@ pub enum Token {
 
 /// Longest first.
 const SIGNS: &[&str] = &[
-    ":=", "+=", "-=", "->", "..", "<>", "<=", ">=", "==", "!=", "&&", "||", "{", "}", "(", ")", "[", "]",
-    ",", ";", ":", ".", "+", "-", "*", "/", "=", "<", ">",
+    ":=", "+=", "-=", "->", "..", "<>", "<=", ">=", "==", "!=", "=>", "&&", "||", "{", "}", "(", ")", "[",
+    "]", ",", ";", ":", ".", "+", "-", "*", "/", "=", "<", ">",
 ];
 
 /// All tokens of a text, the last one `End`; what is not a token is reported and left out. After `most` tokens,
@@ -96,6 +96,7 @@ pub fn tokens(file: FileId, text: &str, most: usize) -> (Vec<(Token, Span)>, Vec
             let meant = match *sign {
                 "==" => Some("="),
                 "!=" => Some("<>"),
+                "=>" => Some("->"),
                 "&&" => Some("and"),
                 "||" => Some("or"),
                 _ => None,
@@ -109,8 +110,7 @@ pub fn tokens(file: FileId, text: &str, most: usize) -> (Vec<(Token, Span)>, Vec
             found.push(match meant {
                 Some("and") => (Token::Word("and".into()), span),
                 Some("or") => (Token::Word("or".into()), span),
-                Some("=") => (Token::Sign("="), span),
-                Some(_) => (Token::Sign("<>"), span),
+                Some(sign) => (Token::Sign(sign), span),
                 None => (Token::Sign(sign), span),
             });
         } else {

@@ -75,6 +75,9 @@ pub(super) struct Parser {
     errors: usize,
 }
 
+/// One of these is often written for another one.
+const CONFUSED: [&str; 4] = [":", "=", ":=", "->"];
+
 impl Parser {
     fn new(tokens: Vec<(Token, Span)>, diagnostics: Vec<Diagnostic>) -> Self {
         Self { tokens, position: 0, diagnostics, depth: 0, length: 0, error_at: None, errors: 0 }
@@ -262,8 +265,10 @@ impl Parser {
             return Some(());
         }
         let found = self.found();
+        let is_confused = CONFUSED.contains(&sign) && CONFUSED.iter().any(|other| self.at_sign(other));
         let (place, help) = match sign {
             ";" => (self.last_span(), "write `;` after this".to_string()),
+            _ if is_confused => (self.span(), format!("write `{sign}` instead of {found}")),
             _ => (self.span(), format!("write `{sign}` before {found}")),
         };
         self.report(
@@ -271,7 +276,7 @@ impl Parser {
                 .label(if sign == ";" { format!("then comes {found}") } else { String::new() })
                 .help(help),
         );
-        None
+        is_confused.then(|| self.next())
     }
 
     fn expect_word(&mut self, word: &str, after: &str) -> Option<()> {
@@ -282,7 +287,10 @@ impl Parser {
         self.error(
             "E0205",
             format!("`{word}` is missing {after}"),
-            format!("write `{word}` instead of {found}"),
+            match self.peek() {
+                Token::Sign(_) | Token::End => format!("write `{word}` before {found}"),
+                _ => format!("write `{word}` instead of {found}"),
+            },
         );
         None
     }

@@ -62,7 +62,8 @@ pub fn table(shared: Shared, translate: &mut Translate) -> String {
     }
     for (code, about, remedy) in of_the_line(shared) {
         let [about, remedy] = [translate(Use::Alarm, about), translate(Use::Remedy, remedy)];
-        text += &row(&[&code.to_string(), "", "", "", "", &about, &remedy, "line"]);
+        let robots = if code == NO_SUCH_STATE { "any" } else { "" };
+        text += &row(&[&code.to_string(), "", robots, "", "", &about, &remedy, "line"]);
     }
     text
 }
@@ -85,13 +86,13 @@ fn of_the_line(shared: Shared) -> Vec<(i32, &'static str, &'static str)> {
         faults.push((
             NOT_RETAINED,
             "the retained values are not of this program or not of one scan, or some were not kept",
-            "The program was changed while power was off, power was lost within a scan, or the PLC does not retain all that is declared so. The line begins with its initial values: secure the parts on the grippers, empty trays and briefcases, then reset and start.",
+            "The program was changed while power was off, power was lost within a scan, or the PLC does not retain all that is declared so. The line begins with its initial values: secure the parts on the grippers, remove the items from all places, then reset and start.",
         ));
     }
     faults.push((
         NO_SUCH_STATE,
         "the state has a number that does not exist",
-        "The memory of the controller is damaged: only a cold start helps. Secure the parts on the grippers first: without power they fall. Empty trays and briefcases: the controller loses the data of their parts.",
+        "The memory of the controller is damaged: only a cold start helps. Secure the parts on the grippers first: without power they fall. Remove the items from all places: the controller loses the data of them.",
     ));
     faults
 }

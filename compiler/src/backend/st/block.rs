@@ -5,7 +5,7 @@ use super::context::{Lowering, Shared};
 use super::dead;
 use super::declaration::{Basic, Unit, Variable, constants};
 use super::expression::limited;
-use super::globals::{Globals, about, array_names, meaning};
+use super::globals::{Globals, about, array_names, elements, meaning};
 use super::modes;
 use super::names::ELEMENT;
 use super::property;
@@ -203,11 +203,12 @@ pub fn candidates(shared: Shared, id: AutomatonId) -> Vec<Candidate> {
         all.push(given(Variable::new(&own.rows[i], Basic::Dint).with_comment(about), Origin::Row(i)));
     }
     for (i, parameter) in automaton.parameters.iter().enumerate() {
-        let elements = array(shared, parameter.ty.extent);
+        let count = array(shared, parameter.ty.extent);
         for (part, held) in own.parameters[i].iter().enumerate() {
-            let mut variable = Variable::new(held, Basic::of(parameter.ty.scalar)).with_elements(elements);
+            let mut variable = Variable::new(held, Basic::of(parameter.ty.scalar)).with_elements(count);
             if part == 0 {
                 variable.comments = about(&parameter.doc, meaning(shared, parameter.ty.scalar));
+                variable.comments.extend(about(&[], elements(shared, parameter.ty.extent)));
             }
             all.push(given(variable, Origin::Parameter { parameter: i, part }));
         }
@@ -233,6 +234,7 @@ pub fn candidates(shared: Shared, id: AutomatonId) -> Vec<Candidate> {
             variable.is_retained = automaton.retained.locals.contains(&i);
             if part == 0 {
                 variable.comments = about(&local.doc, meaning(shared, local.ty.scalar));
+                variable.comments.extend(about(&[], elements(shared, local.ty.extent)));
             }
             all.push(Candidate {
                 variable,
@@ -253,13 +255,14 @@ fn array(shared: Shared, extent: Extent) -> Option<usize> {
 fn ports(shared: Shared, automaton: &Automaton, id: AutomatonId) -> Vec<Candidate> {
     let mut all = Vec::new();
     for (i, port) in automaton.device.ports.iter().enumerate() {
-        let elements = array(shared, port.extent.into());
+        let count = array(shared, port.extent.into());
         let held = &shared.names.automata[id.0].ports[i];
         for (part, (held, first)) in held.iter().zip(constants(first_value(port.ty))).enumerate() {
             let unit = if port.unit.is_empty() { String::new() } else { format!(", {}", port.unit) };
-            let variable = Variable::new(held, Basic::of(Scalar::from(port.ty)))
-                .with_elements(elements)
+            let mut variable = Variable::new(held, Basic::of(Scalar::from(port.ty)))
+                .with_elements(count)
                 .with_comment(if part == 0 { format!("{}{unit}", port.meaning) } else { String::new() });
+            variable.comments.extend(about(&[], elements(shared, port.extent.into())));
             all.push(match port.direction {
                 Direction::Input => Candidate::given(variable, Origin::Input { port: i, part }),
                 Direction::Output => Candidate {

@@ -117,17 +117,17 @@ fn system(shared: Shared) -> Vec<Variable> {
         variable(
             "run_permit",
             Ex::Bool(false),
-            "input: false when the emergency stop has acted or the fieldbus is lost",
+            "line input: false when the emergency stop has acted or the fieldbus is lost",
         ),
-        variable("start", Ex::Bool(false), "input: its rising edge starts the line"),
-        variable("reset", Ex::Bool(false), "input: its rising edge clears a fault"),
-        variable("running", Ex::Bool(false), "output: the line runs"),
-        variable("fault", Ex::Bool(false), "output: a fault is latched"),
-        variable("fault_code", Ex::Int(0), "output: see alarms.csv; 0 without a fault"),
+        variable("start", Ex::Bool(false), "line input: its rising edge starts the line"),
+        variable("reset", Ex::Bool(false), "line input: its rising edge clears a fault"),
+        variable("running", Ex::Bool(false), "line output: the line runs"),
+        variable("fault", Ex::Bool(false), "line output: a fault is latched"),
+        variable("fault_code", Ex::Int(0), "line output: see alarms.csv; 0 without a fault"),
         variable(
             "fault_robot",
             Ex::Int(-1),
-            "output: number of the robot in the order of the calls, the first is 0; -1 without a fault",
+            "line output: number of the robot in the order of the calls, the first is 0; -1 without a fault, or for one of no robot",
         ),
         variable(
             "fault_cleared",
@@ -146,13 +146,13 @@ fn system(shared: Shared) -> Vec<Variable> {
     variables.extend(restart::variables(shared));
     if alarm::any(shared) {
         variables.extend([
-            variable("alarm", Ex::Bool(false), "output: an alarm is active, or not acknowledged"),
+            variable("alarm", Ex::Bool(false), "line output: an alarm is active, or not acknowledged"),
             variable(
                 "alarm_code",
                 Ex::Int(0),
-                "output: first raised alarm that is not acknowledged, see alarms.csv; 0: none",
+                "line output: first raised alarm that is not acknowledged, see alarms.csv; 0: none",
             ),
-            variable("alarm_robot", Ex::Int(-1), "output: number of its robot; -1: none"),
+            variable("alarm_robot", Ex::Int(-1), "line output: number of its robot; -1: none"),
             variable("scan_no", Ex::Int(0), "scans since power-up"),
         ]);
     }
@@ -167,18 +167,20 @@ fn ports(shared: Shared, robot: usize) -> Vec<Variable> {
     let names = &shared.names.robots[robot].ports;
     let mut variables = Vec::new();
     for (port, held) in automaton.device.ports.iter().zip(names) {
-        let elements = (port.extent != runtime_sim::device::Extent::One)
+        let count = (port.extent != runtime_sim::device::Extent::One)
             .then(|| port.extent.elements(shared.system.kinds()));
         let word = if port.direction == Direction::Input { "input" } else { "output" };
         let unit = if port.unit.is_empty() { String::new() } else { format!(", {}", port.unit) };
         let first = stop_value(port).unwrap_or(first_value(port.ty));
         for (name, first) in held.iter().zip(constants(first)) {
             let variable = Variable::new(name, Basic::of(Scalar::from(port.ty)))
-                .with_elements(elements)
+                .with_elements(count)
                 .with_comment(format!("{word}: {}{unit}", port.meaning));
-            let variable =
-                if *name == held[0] { variable } else { Variable { comments: Vec::new(), ..variable } };
-            let has_initial = port.direction == Direction::Output && elements.is_none();
+            let comments = if *name == held[0] { variable.comments.clone() } else { Vec::new() };
+            let comments =
+                comments.into_iter().chain(about(&[], elements(shared, port.extent.into()))).collect();
+            let variable = Variable { comments, ..variable };
+            let has_initial = port.direction == Direction::Output && count.is_none();
             variables.push(if has_initial { variable.with_initial(first) } else { variable });
         }
     }
@@ -220,6 +222,14 @@ pub fn meaning(shared: Shared, scalar: Scalar) -> String {
         Scalar::Ref(id) => rows(shared, id, None),
         Scalar::Time => "ms".into(),
         _ => String::new(),
+    }
+}
+
+/// To what the elements of an array belong that has one for each member of an enumeration.
+pub fn elements(shared: Shared, extent: Extent) -> String {
+    match extent {
+        Extent::By(id) => format!("elements: {}", meaning(shared, Scalar::Enum(id))),
+        Extent::One | Extent::Count(_) => String::new(),
     }
 }
 
@@ -325,7 +335,8 @@ fn own(shared: Shared, id: AutomatonId) -> Vec<Table> {
     for (number, parameter) in
         automaton.parameters.iter().enumerate().filter(|(_, p)| p.ty.extent != Extent::One)
     {
-        let comments = about(&parameter.doc, meaning(shared, parameter.ty.scalar));
+        let mut comments = about(&parameter.doc, meaning(shared, parameter.ty.scalar));
+        comments.extend(about(&[], elements(shared, parameter.ty.extent)));
         let is_common = !shared.names.automata[id.0].tables[number].is_empty();
         for robot in robots.iter().take(if is_common { 1 } else { usize::MAX }) {
             let held = array_names(shared, *robot, number);

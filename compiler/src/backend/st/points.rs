@@ -7,7 +7,7 @@ use super::print::Dialect;
 use super::value::{NO_SUCH_STATE, first_value, stop_value};
 use crate::device::Port;
 use crate::io_map::{Kind, Point};
-use crate::ir::{Scalar, System};
+use crate::ir::{KIND, Scalar, System};
 use runtime_sim::device::{Direction, Extent, PortType, Stop};
 
 /// A point and its variable.
@@ -47,7 +47,12 @@ pub fn terminals(system: &System, names: &Names) -> Vec<Terminal> {
             for element in 0..port.extent.elements(system.kinds()) {
                 for (part, variable) in held.iter().enumerate() {
                     let element = (port.extent != Extent::One).then_some(element);
-                    terminals.push(terminal(&instance.name, port, part, variable, element));
+                    let mut terminal = terminal(&instance.name, port, part, variable, element);
+                    if port.extent == Extent::PerKind {
+                        let kind = &system.model.enums[KIND.0].members[element.unwrap_or(0)];
+                        terminal.point.meaning = format!("{kind}: {}", terminal.point.meaning);
+                    }
+                    terminals.push(terminal);
                 }
             }
         }
@@ -79,7 +84,7 @@ fn line(system: &System) -> Vec<Terminal> {
             output,
             robots,
             Some(Ex::Int(-1)),
-            "number of the robot in the order of the steps, the first is 0; -1 without a fault",
+            "number of the robot in the order of the steps, the first is 0; -1 without a fault, or for one of no robot",
         ),
     ];
     let alarms = [

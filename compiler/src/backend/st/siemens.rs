@@ -103,6 +103,8 @@ struct Block {
 /// `main.scl`, and how it is called.
 pub fn files(shared: Shared, line: &Line) -> Files {
     let mut parts = vec![render(&Header { made_from: made_from(shared) })];
+    let at_addresses: Vec<&str> =
+        line.globals.all().filter(|v| v.address.is_some()).map(|v| v.name.as_str()).collect();
     let all: Vec<Variable> = line.globals.all().cloned().map(|v| Variable { address: None, ..v }).collect();
     let is_retained = all.iter().any(|variable| variable.is_retained);
     parts.extend(line.structures.iter().map(structure));
@@ -123,8 +125,23 @@ pub fn files(shared: Shared, line: &Line) -> Files {
     let scan_ms = shared.system.scan_ms;
     let task = task
         .replace("SCAN_US", &(i64::from(scan_ms) * 1000).to_string())
-        .replace("SCAN_MS", &scan_ms.to_string());
+        .replace("SCAN_MS", &scan_ms.to_string())
+        .replace("AT_ADDRESSES", &connected(&at_addresses));
     Files::from([("main.scl".into(), parts.join("\n")), ("TASK.txt".into(), task)])
+}
+
+/// Which variables the points of the table of addresses have.
+fn connected(names: &[&str]) -> String {
+    let raw: Vec<String> =
+        names.iter().filter(|name| name.ends_with("_raw")).map(|n| format!("       {n}\n")).collect();
+    if raw.is_empty() {
+        return String::new();
+    }
+    format!(
+        "\n   By the table of addresses these variables have the raw values. Copy to and from them; the program writes the\n   \
+         others of the same name without `_raw`:\n\n{}",
+        raw.concat()
+    )
 }
 
 fn sections(keyword: &str, variables: &[Variable]) -> String {

@@ -7,6 +7,10 @@ use super::walk::defines;
 use crate::ir::{Automaton, AutomatonId, Clause, Domain, Expr, State};
 use std::collections::BTreeSet;
 
+/// What a state without transitions waits for.
+const FINAL: &str =
+    "nothing: the machine has ended; it begins anew by a cold start, or when it was moved by hand";
+
 /// `states.csv`: a row for each state of each type that has robots, with its number in the output `state`, and with
 /// what it waits for.
 pub fn table(shared: Shared, translate: &mut Translate) -> String {
@@ -23,7 +27,8 @@ pub fn table(shared: Shared, translate: &mut Translate) -> String {
             let [name, meaning] =
                 [translate(Use::State, &state.name), translate(Use::Meaning, meaning.trim())];
             let robots = robots.join(" ");
-            let [waits, meant] = [waits(automaton, state), meant(shared, automaton, state)];
+            let waits = if state.is_final { FINAL.into() } else { waits(automaton, state) };
+            let meant = meant(shared, automaton, state);
             text += &row(&[&automaton.name, &robots, &number.to_string(), &name, &meaning, &waits, &meant]);
         }
     }

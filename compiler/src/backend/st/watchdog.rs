@@ -43,7 +43,7 @@ pub fn globals(shared: Shared) -> [Variable; 2] {
         variable(
             CLOCK,
             -1,
-            "input: ms of the clock of the PLC, from 0 to 2147483647 and again from 0; -1: no clock",
+            "ms of the clock of the PLC, from 0 to 2147483647 and again from 0; -1: no clock",
         ),
         variable(
             LATE,

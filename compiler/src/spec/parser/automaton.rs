@@ -151,7 +151,14 @@ impl Parser {
             Some("initial") => {
                 let span = self.span();
                 self.next();
-                if let Some(state) = self.parse_state(doc) {
+                if !matches!(self.word(), Some("state" | "resume" | "final")) {
+                    let found = self.found();
+                    let help = format!(
+                        "write `->` before {found} and the updates after it, or `state` before {found}"
+                    );
+                    self.error("E0205", "`->` or `state` is missing after `initial`".into(), help);
+                    self.recover();
+                } else if let Some(state) = self.parse_state(doc) {
                     let target = state.name.clone();
                     self.set_initial(automaton, ast::Initial { span, target, updates: Vec::new() });
                     automaton.states.push(state);

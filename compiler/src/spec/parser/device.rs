@@ -146,12 +146,26 @@ impl Parser {
             let setting = self.expect_name("the setting")?;
             self.expect_sign(":", "before the value of the setting")?;
             settings.push((setting, self.parse_expr()));
+            self.no_unit();
             if !self.maybe_sign(";") {
                 break;
             }
         }
         self.expect_sign("}", "after the settings of the part")?;
         Some(ast::Part { name, kind, settings })
+    }
+
+    /// After a value: lengths and speeds are numbers alone.
+    fn no_unit(&mut self) {
+        if let Token::Word(unit) = self.peek() {
+            let message = format!("`{unit}` is not allowed after a value");
+            self.error(
+                "E0205",
+                message,
+                "lengths are in m, speeds in m/s, angles in degrees: remove the unit",
+            );
+            self.skip_to(&[";", "}"]);
+        }
     }
 
     fn unit(&mut self) -> Option<String> {

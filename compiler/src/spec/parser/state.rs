@@ -130,8 +130,33 @@ impl Parser {
             );
             self.next();
         }
-        let target =
-            if goes_to || self.maybe_sign("->") { Some(self.expect_name("the next state")?) } else { None };
+        let names_a_state =
+            matches!(self.peek(), Token::Word(_)) && matches!(self.peek_second(), Token::Sign("{" | ";"));
+        if names_a_state && !goes_to && self.errors == errors {
+            let found = self.found();
+            let help = format!("write `->` before {found}");
+            self.error("E0205", "`->` is missing before the next state".into(), help);
+        }
+        let target = if goes_to || names_a_state || self.maybe_sign("->") {
+            Some(self.expect_name("the next state")?)
+        } else {
+            None
+        };
+        if let Some(target) = &target
+            && !self.at_sign("{")
+            && !self.at_sign(";")
+        {
+            let help = format!("write `{{}}` after `{}`", target.value);
+            self.error("E0205", "`{` is missing before the updates".into(), help);
+            let span = start.to(self.last_span());
+            return Some(ast::Transition {
+                span,
+                clauses,
+                guard,
+                target: Some(target.clone()),
+                updates: Vec::new(),
+            });
+        }
         let updates =
             if target.is_some() && self.maybe_sign(";") { Vec::new() } else { self.parse_updates() };
         Some(ast::Transition { span: start.to(self.last_span()), clauses, guard, target, updates })
