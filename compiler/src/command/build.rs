@@ -170,18 +170,22 @@ pub fn shown(sources: &Sources, layout: &Path) -> Sources {
         if name == "--set" {
             return title;
         }
-        apart(title, |name| taken.insert(name.to_string()))
+        apart(title, &mut taken)
     })
 }
 
-/// A name that is free: the wanted one, or one with a number before its extension.
-pub fn apart(wanted: String, mut is_free: impl FnMut(&str) -> bool) -> String {
+/// A name that is free: the wanted one, or one with a number before its extension. Some file systems take names that
+/// differ in case alone for one, and so does this.
+pub fn apart(wanted: String, taken: &mut BTreeSet<String>) -> String {
     let (stem, extension) = match wanted.rsplit_once('.') {
         Some((stem, extension)) if !extension.contains('/') => (stem, format!(".{extension}")),
         _ => (wanted.as_str(), String::new()),
     };
     let numbered = (2..).map(|number| format!("{stem} ({number}){extension}"));
-    std::iter::once(wanted.clone()).chain(numbered).find(|name| is_free(name)).unwrap_or(wanted)
+    std::iter::once(wanted.clone())
+        .chain(numbered)
+        .find(|name| taken.insert(name.to_lowercase()))
+        .unwrap_or(wanted)
 }
 
 /// The name of an input as outputs show it: its path from the layout's folder, or its own name.

@@ -29,10 +29,9 @@ pub fn copies(options: &BuildOptions, sources: &Sources) -> Copies {
     let mut names: BTreeMap<&str, String> = BTreeMap::new();
     let mut taken = BTreeSet::new();
     for file in sources.files().iter().filter(|file| is_given(file)) {
-        let copy = names.entry(&file.name).or_insert_with(|| {
-            // Some file systems take names that differ in case alone for one.
-            apart(title(&options.input.layout, &file.name), |name| taken.insert(name.to_lowercase()))
-        });
+        let copy = names
+            .entry(&file.name)
+            .or_insert_with(|| apart(title(&options.input.layout, &file.name), &mut taken));
         // A name that no manifest takes: on other systems it leads elsewhere.
         if is_within(copy) {
             files.insert(format!("{FOLDER}/{copy}"), file.text.clone());
