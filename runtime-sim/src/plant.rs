@@ -49,6 +49,8 @@ pub struct Plant {
     obstacles: Vec<Obstacle>,
     desk: Desk,
     images: Vec<Vec<f64>>,
+    /// An item has changed hands on the way to the present scan: what a lane shows of it may follow in the next one.
+    has_handed: bool,
 }
 
 impl Plant {
@@ -78,6 +80,7 @@ impl Plant {
             obstacles: line.obstacles.clone(),
             desk,
             images,
+            has_handed: false,
         };
         plant.sight();
         plant.write_images();
@@ -115,7 +118,7 @@ impl Plant {
         let scan = ((next_ms - EARLY_MS) / self.scan_ms as f64).ceil() as u64;
         let next = next_ms.is_finite().then(|| scan.max(self.scan + 1));
         let faults = self.machines.iter().map(|machine| machine.faults().next_change(self.scan));
-        faults.chain([next]).flatten().min()
+        faults.chain([next, self.has_handed.then_some(self.scan + 1)]).flatten().min()
     }
 
     /// When a gripper of a machine next looks and could find an item, ms; infinity: never, as everything moves now.
@@ -160,6 +163,7 @@ impl Plant {
     /// happens ([`Self::next_change`]).
     pub(crate) fn proceed_to(&mut self, scan: u64) {
         self.items.scan = scan;
+        let logged = self.items.log().len();
         while let Some(falls) =
             self.convey(|conveying, among, scan_ms| conveying.proceed(among, scan * scan_ms))
         {
@@ -176,6 +180,7 @@ impl Plant {
         }
         machines.iter_mut().for_each(|machine| machine.withdraw(&mut shared));
         self.scan = scan;
+        self.has_handed = self.items.log().len() > logged;
         self.sight();
         self.write_images();
     }
