@@ -26,7 +26,12 @@ fn cell(settings: &str, faults: &str) -> Texts {
 fn cycles(texts: &Texts) -> (Vec<u64>, Vec<String>) {
     let project = texts.project();
     let machine = |name: &str| {
-        project.plant.machines.iter().position(|machine| machine.name == name).expect("a machine of the layout")
+        project
+            .plant
+            .machines
+            .iter()
+            .position(|machine| machine.name == name)
+            .expect("a machine of the layout")
     };
     let mill = machine("mill");
     const CUTTING: usize = 4;
@@ -35,7 +40,8 @@ fn cycles(texts: &Texts) -> (Vec<u64>, Vec<String>) {
     let mut kinds = Vec::new();
     let execute = |stepping, see: &mut dyn FnMut(&Seen)| {
         let mut executor = Executor::new(&project.system);
-        run_again(&project.plant, &mut executor, stepping, &mut Memory::default(), see).expect("a line that can be run")
+        run_again(&project.plant, &mut executor, stepping, &mut Memory::default(), see)
+            .expect("a line that can be run")
     };
     let every = execute(Stepping::EveryScan, &mut |seen: &Seen| {
         match (began, seen.inputs[mill][CUTTING] != 0.0) {
@@ -46,7 +52,8 @@ fn cycles(texts: &Texts) -> (Vec<u64>, Vec<String>) {
             }
             _ => {}
         }
-        kinds = seen.plant.items().all().iter().map(|item| project.plant.kinds[item.kind].name.clone()).collect();
+        kinds =
+            seen.plant.items().all().iter().map(|item| project.plant.kinds[item.kind].name.clone()).collect();
     });
     for stepping in [Stepping::Events, Stepping::Checked] {
         assert_eq!(execute(stepping, &mut |_| {}), every, "{stepping:?}");
@@ -104,7 +111,8 @@ fn a_kind_without_a_time_is_a_crash() {
     let reason = |kinds: &str| {
         let project = cell(&format!("kinds: [{kinds}]; time: [20 s];"), "").project();
         let mut executor = Executor::new(&project.system);
-        let report = run_again(&project.plant, &mut executor, Stepping::Events, &mut Memory::default(), &mut |_| {});
+        let report =
+            run_again(&project.plant, &mut executor, Stepping::Events, &mut Memory::default(), &mut |_| {});
         report.expect("a line that can be run").reason
     };
     assert_eq!(reason("bracket"), "interlock of mill: a process was started without a time for a blank");

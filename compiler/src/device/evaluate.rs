@@ -131,7 +131,9 @@ impl Environment<'_> {
             | (Form::Frame, Value::Frame(_))
             | (Form::Axis | Form::Direction, Value::Axis(_))
             | (Form::Word, Value::Word(_)) => true,
-            (Form::Positive | Form::Times, Value::Number(number)) => *number > 0.0 || self.values == Values::Sample,
+            (Form::Positive | Form::Times, Value::Number(number)) => {
+                *number > 0.0 || self.values == Values::Sample
+            }
             (Form::Part(primitives), Value::Part { part, .. }) => {
                 primitives.contains(&self.program.parts[*part].schema.name)
             }
