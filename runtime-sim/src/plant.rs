@@ -16,10 +16,12 @@ use crate::carrier::Carrier;
 use crate::frame::Frame;
 use crate::item::Items;
 use crate::kinematics::arm::Joints;
+use crate::kinematics::pose::Pose;
 use crate::line::{Line, Obstacle};
 use crate::memory::Memory;
 use crate::part::Looks;
 use crate::part::orders::Desk;
+use crate::part::place::OPPOSITE;
 use crate::part::stroke::Stroking;
 use crate::part::track::Driving;
 use crate::point::Point;
@@ -29,6 +31,8 @@ pub use conveying::{By, Gap, Transfer, gaps, transfers};
 use trajectory::Trajectory;
 use working::{Shared, Working};
 
+/// The direction of the vertical.
+const UP: Point = Point::new(0.0, 0.0, 1.0);
 /// A time is not distinguished from one that is so much later.
 const EARLY_MS: f64 = 1e-6;
 /// A gripper that finds nothing is asked again after so many looks at the latest.
@@ -155,7 +159,7 @@ impl Plant {
     fn nearest(&self, tool: Point) -> Option<f64> {
         let all = self.items.all().iter().enumerate();
         let free = all.filter(|(_, item)| !matches!(item.carrier, Carrier::Grip { .. }));
-        let tops = free.filter_map(|(index, item)| Some(self.place(index)?.up(self.heights[item.kind])));
+        let tops = free.filter_map(|(index, _)| self.top(index));
         tops.map(|top| (top - tool).length()).reduce(f64::min)
     }
 
@@ -208,7 +212,7 @@ impl Plant {
     }
 
     fn fall(&mut self, Falls { item, from, ms }: Falls) {
-        let (carrier, point) = fall::fall(self, from, ms);
+        let (carrier, point) = fall::fall(self, (from, self.upper(item)), ms);
         self.items.pass(item, carrier, point);
     }
 
@@ -230,7 +234,7 @@ impl Plant {
                 let working = &self.machines[machine];
                 let see = working.see(&self.items, &self.desk);
                 let Some((tool, near)) = working.seeks(part, &see, now_ms, next_ms) else { continue };
-                let contact = self.contact(tool.position, near);
+                let contact = self.contact(&tool, near);
                 if let Some(item) = self.machines[machine].meets(part, contact, now_ms, next_ms)
                     && let Some(place) = self.place(item)
                 {
@@ -252,17 +256,36 @@ impl Plant {
         }
     }
 
-    /// The item nearest to the tool among those that are gripped no farther from it; the first of equals.
-    fn contact(&self, tool: Point, near: f64) -> Option<usize> {
+    /// Where an item is gripped: the middle of its upper side.
+    fn top(&self, item: usize) -> Option<Point> {
+        let (place, height) = (self.place(item)?, self.heights[self.items.all()[item].kind]);
+        Some(match self.upper(item) {
+            Some(upper) => place + upper.scaled(height),
+            None => place.up(height),
+        })
+    }
+
+    /// Where the upper side of an item faces, a unit vector; none for up.
+    pub fn upper(&self, item: usize) -> Option<Point> {
+        let carrier = &self.items.all().get(item)?.carrier;
+        self.machines.get(carrier.machine()?)?.upper(carrier, &self.items, &self.desk)
+    }
+
+    /// The item nearest to the tool among those that are gripped no farther from it and face it; the first of equals.
+    fn contact(&self, tool: &Pose, near: f64) -> Option<usize> {
         let mut nearest: Option<(f64, usize)> = None;
         for (index, item) in self.items.all().iter().enumerate() {
             if matches!(item.carrier, Carrier::Grip { .. }) {
                 continue;
             }
-            let Some(place) = self.place(index) else { continue };
-            let gap = place.up(self.heights[item.kind]) - tool;
+            let Some(top) = self.top(index) else { continue };
+            let gap = top - tool.position;
             let square = gap.x * gap.x + gap.y * gap.y + gap.z * gap.z;
-            if square <= near * near && nearest.is_none_or(|(least, _)| square < least) {
+            let faces = |upper: Option<Point>| tool.axis(2).dot(upper.unwrap_or(UP)) < OPPOSITE;
+            if square <= near * near
+                && faces(self.upper(index))
+                && nearest.is_none_or(|(least, _)| square < least)
+            {
                 nearest = Some((square, index));
             }
         }
