@@ -3,6 +3,7 @@
 use crate::device::PortType;
 use crate::frame::Frame;
 use crate::kinematics::arm::Arm;
+use crate::kinematics::facing::Facing;
 use crate::line::State;
 use crate::monitor::Monitor;
 use crate::part::axis::Axis;
@@ -10,7 +11,7 @@ use crate::part::chain::Chain;
 use crate::part::lane::Lane;
 use crate::part::place::Place;
 use crate::part::route::Route;
-use crate::part::stroke::Strokes;
+use crate::part::stroke::{Stroke, Strokes};
 use crate::part::track::Track;
 use crate::part::{Form, Part, Primitive};
 use crate::point::Point;
@@ -51,6 +52,11 @@ impl Machine {
             }
             self.check_references(index, part)?;
             self.check_on_lane(part)?;
+        }
+        for place in self.places().filter(|place| place.facing != Facing::Down) {
+            if let Some(Stroke::Turns { .. }) = self.strokes_under(place).and_then(|strokes| strokes.stroke) {
+                return Err("a place that is filled from the side is on what turns".into());
+            }
         }
         for primitive in ["chain", "route", "track", "source"] {
             if self.parts.iter().filter(|part| part.schema().name == primitive).count() > 1 {

@@ -16,10 +16,12 @@ use crate::carrier::Carrier;
 use crate::frame::Frame;
 use crate::item::Items;
 use crate::kinematics::arm::Joints;
+use crate::kinematics::pose::Pose;
 use crate::line::{Line, Obstacle};
 use crate::memory::Memory;
 use crate::part::Looks;
 use crate::part::orders::Desk;
+use crate::part::place::OPPOSITE;
 use crate::part::stroke::Stroking;
 use crate::part::track::Driving;
 use crate::point::Point;
@@ -29,6 +31,8 @@ pub use conveying::{By, Gap, Transfer, gaps, transfers};
 use trajectory::Trajectory;
 use working::{Shared, Working};
 
+/// The direction of the vertical.
+const UP: Point = Point::new(0.0, 0.0, 1.0);
 /// A time is not distinguished from one that is so much later.
 const EARLY_MS: f64 = 1e-6;
 /// A gripper that finds nothing is asked again after so many looks at the latest.
@@ -49,6 +53,8 @@ pub struct Plant {
     obstacles: Vec<Obstacle>,
     desk: Desk,
     images: Vec<Vec<f64>>,
+    /// An item has changed hands on the way to the present scan: what a lane shows of it may follow in the next one.
+    has_handed: bool,
 }
 
 impl Plant {
@@ -78,6 +84,7 @@ impl Plant {
             obstacles: line.obstacles.clone(),
             desk,
             images,
+            has_handed: false,
         };
         plant.sight();
         plant.write_images();
@@ -115,7 +122,7 @@ impl Plant {
         let scan = ((next_ms - EARLY_MS) / self.scan_ms as f64).ceil() as u64;
         let next = next_ms.is_finite().then(|| scan.max(self.scan + 1));
         let faults = self.machines.iter().map(|machine| machine.faults().next_change(self.scan));
-        faults.chain([next]).flatten().min()
+        faults.chain([next, self.has_handed.then_some(self.scan + 1)]).flatten().min()
     }
 
     /// When a gripper of a machine next looks and could find an item, ms; infinity: never, as everything moves now.
@@ -152,7 +159,7 @@ impl Plant {
     fn nearest(&self, tool: Point) -> Option<f64> {
         let all = self.items.all().iter().enumerate();
         let free = all.filter(|(_, item)| !matches!(item.carrier, Carrier::Grip { .. }));
-        let tops = free.filter_map(|(index, item)| Some(self.place(index)?.up(self.heights[item.kind])));
+        let tops = free.filter_map(|(index, _)| self.top(index));
         tops.map(|top| (top - tool).length()).reduce(f64::min)
     }
 
@@ -160,6 +167,7 @@ impl Plant {
     /// happens ([`Self::next_change`]).
     pub(crate) fn proceed_to(&mut self, scan: u64) {
         self.items.scan = scan;
+        let logged = self.items.log().len();
         while let Some(falls) =
             self.convey(|conveying, among, scan_ms| conveying.proceed(among, scan * scan_ms))
         {
@@ -176,6 +184,7 @@ impl Plant {
         }
         machines.iter_mut().for_each(|machine| machine.withdraw(&mut shared));
         self.scan = scan;
+        self.has_handed = self.items.log().len() > logged;
         self.sight();
         self.write_images();
     }
@@ -203,7 +212,7 @@ impl Plant {
     }
 
     fn fall(&mut self, Falls { item, from, ms }: Falls) {
-        let (carrier, point) = fall::fall(self, from, ms);
+        let (carrier, point) = fall::fall(self, (from, self.upper(item)), ms);
         self.items.pass(item, carrier, point);
     }
 
@@ -225,7 +234,7 @@ impl Plant {
                 let working = &self.machines[machine];
                 let see = working.see(&self.items, &self.desk);
                 let Some((tool, near)) = working.seeks(part, &see, now_ms, next_ms) else { continue };
-                let contact = self.contact(tool.position, near);
+                let contact = self.contact(&tool, near);
                 if let Some(item) = self.machines[machine].meets(part, contact, now_ms, next_ms)
                     && let Some(place) = self.place(item)
                 {
@@ -247,17 +256,36 @@ impl Plant {
         }
     }
 
-    /// The item nearest to the tool among those that are gripped no farther from it; the first of equals.
-    fn contact(&self, tool: Point, near: f64) -> Option<usize> {
+    /// Where an item is gripped: the middle of its upper side.
+    fn top(&self, item: usize) -> Option<Point> {
+        let (place, height) = (self.place(item)?, self.heights[self.items.all()[item].kind]);
+        Some(match self.upper(item) {
+            Some(upper) => place + upper.scaled(height),
+            None => place.up(height),
+        })
+    }
+
+    /// Where the upper side of an item faces, a unit vector; none for up.
+    pub fn upper(&self, item: usize) -> Option<Point> {
+        let carrier = &self.items.all().get(item)?.carrier;
+        self.machines.get(carrier.machine()?)?.upper(carrier, &self.items, &self.desk)
+    }
+
+    /// The item nearest to the tool among those that are gripped no farther from it and face it; the first of equals.
+    fn contact(&self, tool: &Pose, near: f64) -> Option<usize> {
         let mut nearest: Option<(f64, usize)> = None;
         for (index, item) in self.items.all().iter().enumerate() {
             if matches!(item.carrier, Carrier::Grip { .. }) {
                 continue;
             }
-            let Some(place) = self.place(index) else { continue };
-            let gap = place.up(self.heights[item.kind]) - tool;
+            let Some(top) = self.top(index) else { continue };
+            let gap = top - tool.position;
             let square = gap.x * gap.x + gap.y * gap.y + gap.z * gap.z;
-            if square <= near * near && nearest.is_none_or(|(least, _)| square < least) {
+            let faces = |upper: Option<Point>| tool.axis(2).dot(upper.unwrap_or(UP)) < OPPOSITE;
+            if square <= near * near
+                && faces(self.upper(index))
+                && nearest.is_none_or(|(least, _)| square < least)
+            {
                 nearest = Some((square, index));
             }
         }

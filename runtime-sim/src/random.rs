@@ -11,8 +11,8 @@ impl Random {
         Self { state: seed }
     }
 
-    /// One for each pair of numbers: what is drawn at one place does not depend on what is drawn at others.
-    pub fn at(seed: u64, place: [u64; 2]) -> Self {
+    /// One for each list of numbers: what is drawn at one place does not depend on what is drawn at others.
+    pub fn at<const N: usize>(seed: u64, place: [u64; N]) -> Self {
         place.into_iter().fold(Self::new(seed), |random, number| {
             let mut random = Self { state: random.state ^ number.wrapping_mul(0xD6E8_FEB8_6659_FD93) };
             Self::new(random.next_u64())
@@ -25,6 +25,11 @@ impl Random {
         z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
         z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
         z ^ (z >> 31)
+    }
+
+    /// A multiple of 2^-53, from 0 to less than 1.
+    pub fn fraction(&mut self) -> f64 {
+        (self.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
     /// A whole number from 0 to `highest`, both possible.

@@ -4,6 +4,7 @@
 
 mod act;
 mod choice;
+pub mod equal;
 mod evaluate;
 pub mod event;
 mod expanded;

@@ -18,6 +18,10 @@ use std::collections::BTreeMap;
 const MOST_ORDERS: usize = 1;
 const LONGEST_S: f64 = 400.0;
 
+/// A draw that has found an input which changed in a scan that was left out: a gripper with a sensor that sticks takes
+/// an item off a lane.
+const ONCE_WRONG: [(&str, u64); 1] = [("palletizer", 22)];
+
 /// Faults of one run.
 fn draw(line: &mut Line, random: &mut Random, scans: u64) {
     for _ in 0..=random.up_to(2) {
@@ -113,8 +117,11 @@ fn ending(report: &Report) -> &'static str {
 fn whatever_fails_a_run_ends_for_a_reason_and_steppings_agree() {
     let draws = if is_full_campaign() { 60 } else { 3 };
     let lines = examples();
-    let cases: Vec<(&(String, Texts), u64)> =
-        lines.iter().flat_map(|line| (0..draws).map(move |seed| (line, seed))).collect();
+    let is_drawn = |name: &str, seed: u64| seed < draws || ONCE_WRONG.contains(&(name, seed));
+    let cases: Vec<(&(String, Texts), u64)> = lines
+        .iter()
+        .flat_map(|line| (0..60).filter(move |seed| is_drawn(&line.0, *seed)).map(move |seed| (line, seed)))
+        .collect();
     let endings = on_all_processors(&cases, |((name, texts), seed)| {
         let project = texts.project();
         let mut line = project.plant.clone();

@@ -191,6 +191,7 @@ fn form_of(form: Form) -> String {
         Form::Points => "points".into(),
         Form::Numbers => "numbers".into(),
         Form::Words => "words".into(),
+        Form::Times => "time over 0, or a list of such".into(),
     }
 }
 

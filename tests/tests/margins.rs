@@ -5,6 +5,7 @@ use autogen_tests::{is_full_campaign, machines};
 use runtime_sim::frame::Frame;
 use runtime_sim::kinematics::arm::Arm;
 use runtime_sim::kinematics::cartesian::{Cartesian, Slide};
+use runtime_sim::kinematics::facing::Facing;
 use runtime_sim::kinematics::fixed::{FixedArm, Geometry, Mounting};
 use runtime_sim::kinematics::opw::Opw;
 use runtime_sim::kinematics::ur::Lengths;
@@ -84,29 +85,89 @@ fn around(middle: Point, half: Point) -> [Point; 2] {
     [middle - half, middle + half]
 }
 
-/// Upright, then hung.
+/// Upright, then hung; the tool down, then level. With a level tool, limits of the wrist do not count for the margin, only
+/// for its sign.
 fn fixed(name: &str, geometry: Geometry, ranges: Option<[[f64; 2]; 6]>, reach: f64) {
-    let base = Point::new(0.3, -0.2, 0.4);
     let ranges = ranges.map(|ranges| ranges.map(|range| range.map(f64::to_radians)));
+    let [x, y] = [0.6, -0.8];
     for mounting in [Mounting::Upright, Mounting::Hung] {
-        let arm = FixedArm::new(Frame::new(base, 20.0), geometry, ranges).mounted(mounting);
-        let start = arm.start();
-        // Where most of what it reaches is.
-        let middle = base.up(if mounting == Mounting::Hung { -0.6 * reach } else { 0.0 });
-        let half = Point::new(reach, reach, reach);
-        let reaches = |place: Point| {
-            let Some(joints) = arm.solve(place, &start) else { return false };
-            let tool = arm.tool_pose(&joints);
-            assert!(
-                (tool.position - place).length() < 1e-6 && tool.axis(2).z < 1e-9 - 1.0,
-                "{place:?} {joints:?}"
-            );
-            true
-        };
-        promised(&format!("{name}, {mounting:?}"), around(middle, half), |place| arm.margin(place), reaches);
-        // It starts with its tool down too.
-        assert!(arm.tool_pose(&start).axis(2).z < 1e-9 - 1.0, "{name}: {:?}", arm.tool_pose(&start));
+        facing(name, geometry, mounting, ranges, Facing::Down, reach);
+        let turn = TURNS.map(f64::to_radians);
+        let free = ranges.map(|[first, second, third, ..]| [first, second, third, turn, turn, turn]);
+        facing(name, geometry, mounting, free, Facing::Level { x, y }, reach);
+        if let Some(ranges) = ranges {
+            signs(name, geometry, mounting, ranges, Facing::Level { x, y }, reach);
+        }
     }
+}
+
+const BASE: Point = Point::new(0.3, -0.2, 0.4);
+
+/// Whether an arm comes to a place; then its tool points there.
+fn comes(arm: &FixedArm, place: Point, facing: Facing) -> bool {
+    let Some(joints) = arm.solve(place, facing, &arm.start()) else { return false };
+    let tool = arm.tool_pose(&joints);
+    let is_there =
+        (tool.position - place).length() < 1e-6 && tool.axis(2).dot(facing.direction()) > 1.0 - 1e-9;
+    assert!(is_there, "{place:?} {joints:?}");
+    true
+}
+
+/// Where most of what it reaches is.
+fn of_reach(mounting: Mounting, facing: Facing, reach: f64) -> [Point; 2] {
+    let middle = match (mounting, facing) {
+        (Mounting::Hung, Facing::Down) => BASE.up(-0.6 * reach),
+        _ => BASE,
+    };
+    around(middle, Point::new(reach, reach, reach))
+}
+
+type Ranges = [[f64; 2]; 6];
+
+fn facing(
+    name: &str,
+    geometry: Geometry,
+    mounting: Mounting,
+    ranges: Option<Ranges>,
+    facing: Facing,
+    reach: f64,
+) {
+    let arm = FixedArm::new(Frame::new(BASE, 20.0), geometry, ranges).mounted(mounting);
+    let title = format!("{name}, {mounting:?}, {facing:?}");
+    let around = of_reach(mounting, facing, reach);
+    promised(&title, around, |place| arm.margin(place, facing), |place| comes(&arm, place, facing));
+    // It starts with its tool down too.
+    assert!(arm.tool_pose(&arm.start()).axis(2).z < 1e-9 - 1.0, "{title}: {:?}", arm.tool_pose(&arm.start()));
+}
+
+/// The sign of the margin is that of the solver; the wrist is within its limits where the arm comes, by the room that is
+/// told and by no more than the least room of its joints.
+fn signs(name: &str, geometry: Geometry, mounting: Mounting, ranges: Ranges, facing: Facing, reach: f64) {
+    let arm = FixedArm::new(Frame::new(BASE, 20.0), geometry, Some(ranges)).mounted(mounting);
+    let mut drawn = Drawn(Random::new(19));
+    let [mut inside, mut forbidden] = [0; 2];
+    let free = FixedArm::new(Frame::new(BASE, 20.0), geometry, None).mounted(mounting);
+    for _ in 0..if is_full_campaign() { 1_000_000 } else { 3_000 } {
+        let place = drawn.within(of_reach(mounting, facing, reach));
+        let is_reached = comes(&arm, place, facing);
+        assert_eq!(arm.margin(place, facing) >= 0.0, is_reached, "{name} {place:?}");
+        inside += usize::from(is_reached);
+        forbidden += usize::from(!is_reached && free.margin(place, facing) >= 0.0);
+        let room = arm.wrist_room(place, facing);
+        let is_limited = (3..6).any(|joint| ranges[joint][1] - ranges[joint][0] < std::f64::consts::TAU);
+        assert_eq!(room.is_some(), is_reached && is_limited, "{name} {place:?}");
+        let (Some(room), Some(joints)) = (room, arm.solve(place, facing, &arm.start())) else { continue };
+        // The way that is taken is not always the one with most room.
+        let taken = (3..6).filter(|joint| ranges[*joint][1] - ranges[*joint][0] < std::f64::consts::TAU);
+        let taken =
+            taken.map(|joint| (joints[joint] - ranges[joint][0]).min(ranges[joint][1] - joints[joint]));
+        let taken = taken.fold(f64::INFINITY, f64::min);
+        assert!((0.0..=room + 1e-9).contains(&taken), "{name} {place:?}: {taken} {room}");
+    }
+    assert!(
+        inside > 100 && forbidden > 10,
+        "{name}: {inside} reached, {forbidden} forbidden by limits alone"
+    );
 }
 
 const TURNS: [f64; 2] = [-360.0, 360.0];

@@ -1,7 +1,7 @@
 //! What the check of connectivity says of whole layouts.
 
 use autogen::executor::Executor;
-use autogen::lower::{Outcome, Verdict};
+use autogen::lower::{Handover, Outcome, Verdict};
 use autogen_tests::{LAYOUTS, Texts, ariac, on_all_processors, text};
 use runtime_sim::device::{Direction, error};
 use runtime_sim::random::Random;
@@ -26,7 +26,7 @@ fn codes(outcome: &Outcome) -> Vec<&'static str> {
 fn the_default_layout_has_exactly_the_edges_of_the_paper() {
     let outcome = ariac("default").compile();
     let edges: Vec<(&str, &str)> =
-        verdict(&outcome).edges.iter().map(|(a, b, _)| (a.as_str(), b.as_str())).collect();
+        verdict(&outcome).edges.iter().map(|edge| (edge.from.as_str(), edge.to.as_str())).collect();
     let mut expected = vec![("conveyor_belt", "kitting")];
     let agvs = ["agv1", "agv2", "agv3", "agv4"];
     expected.extend(agvs.map(|agv| ("kitting", agv)));
@@ -39,7 +39,7 @@ fn the_default_layout_has_exactly_the_edges_of_the_paper() {
 #[test]
 fn margins_are_those_of_an_independent_calculation() {
     let within = |layout: &str, from: &str, low: f64, high: f64| {
-        for (a, b, margin) in &verdict(&ariac(layout).compile()).edges {
+        for Handover { from: a, to: b, margin, .. } in &verdict(&ariac(layout).compile()).edges {
             if a.starts_with(from) {
                 assert!((low..=high).contains(margin), "{layout}: {a} -> {b} has {margin}");
             }

@@ -35,7 +35,7 @@ impl Checker<'_> {
             }
             command.then.iter().for_each(|then| self.in_device(tree, &then.signal));
         }
-        for (expr, _) in tree.handovers.iter().flat_map(|place| &place.points) {
+        for expr in tree.handovers.iter().flat_map(ast::Place::expressions) {
             self.in_device(tree, expr);
         }
         for require in &tree.requires {

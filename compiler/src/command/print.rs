@@ -5,7 +5,7 @@ use super::load::Failure;
 use super::options::{Format, InputOptions};
 use crate::Status;
 use autogen::diagnostic::{self, Diagnostic};
-use autogen::lower::{Apart, Loss, Lost, Passage, Verdict};
+use autogen::lower::{Apart, Handover, Loss, Lost, Passage, Verdict};
 use autogen::plain;
 use autogen::source::Sources;
 use runtime_sim::plant::By;
@@ -133,7 +133,7 @@ pub fn verdict_json(verdict: Option<&Verdict>, sources: &Sources, found: &[Diagn
     json!({
         "feasible": v.feasible && found.iter().all(Diagnostic::is_warning),
         "robots": v.robots,
-        "edges": v.edges.iter().map(|(a, b, m)| json!([a, b, m])).collect::<Vec<_>>(),
+        "edges": v.edges.iter().map(handover_json).collect::<Vec<_>>(),
         "sources": v.sources,
         "destinations": v.destinations,
         "conveyors": v.passages.iter().map(passage_json).collect::<Vec<_>>(),
@@ -145,6 +145,14 @@ pub fn verdict_json(verdict: Option<&Verdict>, sources: &Sources, found: &[Diagn
         "apart": v.apart.iter().filter(|a| is_missed(a, v)).map(apart_json).collect::<Vec<_>>(),
         "diagnostics": diagnostics_json(sources, found),
     })
+}
+
+/// Degrees only where there are limits.
+fn handover_json(Handover { from, to, margin, wrist_room }: &Handover) -> Value {
+    match wrist_room {
+        Some(degrees) => json!([from, to, margin, degrees]),
+        None => json!([from, to, margin]),
+    }
 }
 
 fn passage_json(Passage { from, to, by }: &Passage) -> Value {
@@ -187,14 +195,19 @@ pub fn verdict(v: &Verdict) -> String {
     }
     if !v.edges.is_empty() || !v.destinations.is_empty() {
         text += &format!(
-            "{} edges (margin: how far the arm stays within its reach at the worst pose)\n",
-            v.edges.len()
+            "{} edges (margin: how far the arm stays within its reach at the worst pose{})\n",
+            v.edges.len(),
+            match v.edges.iter().any(|edge| edge.wrist_room.is_some()) {
+                true => ", and joints 4 to 6 from their limits",
+                false => "",
+            }
         );
     }
-    let width = v.edges.iter().map(|(a, _, _)| a.len()).max().unwrap_or(0);
-    let to_width = v.edges.iter().map(|(_, b, _)| b.len()).max().unwrap_or(0);
-    for (from, to, margin) in &v.edges {
-        text += &format!("  {from:width$} -> {to:to_width$}  {margin:6.3} m\n");
+    let width = v.edges.iter().map(|edge| edge.from.len()).max().unwrap_or(0);
+    let to_width = v.edges.iter().map(|edge| edge.to.len()).max().unwrap_or(0);
+    for Handover { from, to, margin, wrist_room } in &v.edges {
+        let degrees = wrist_room.map_or(String::new(), |degrees| format!(", {degrees:.1} degrees"));
+        text += &format!("  {from:width$} -> {to:to_width$}  {margin:6.3} m{degrees}\n");
     }
     if !v.passages.is_empty() {
         text += "conveyors (margin of a joint: by how much more the ends could be apart and turned)\n";

@@ -79,6 +79,8 @@ pub struct Edge {
     pub to: usize,
     /// How far the arm stays within its reach at the worst pose, m.
     pub margin: f64,
+    /// How far the last three joints stay from their limits there, deg; none without limits.
+    pub wrist_room: Option<f64>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -98,7 +100,7 @@ pub struct Miss {
     pub stage: Stage,
     /// Where the tool would be.
     pub tool: runtime_sim::point::Point,
-    /// By how much it is out of reach, mm.
+    /// By how much it is out of reach, mm; infinite for an arm whose tool does not point there at all.
     pub missing_mm: f64,
 }
 
@@ -197,7 +199,7 @@ pub fn check(line: &Line) -> Report {
     let reachable = poses::Reachable::new(line);
     let margins: Vec<Option<f64>> = line.proposals.iter().map(|p| reachable.margin(p)).collect();
     let stands: Vec<bool> = margins.iter().map(Option::is_some).collect();
-    let edges = edges(line, &margins);
+    let edges = edges(line, &reachable, &margins);
     let flow = flow::Flow::new(line);
     let served = flow.served(&stands);
     // A pair that does not meet matters only where machines are cut off.
@@ -235,15 +237,24 @@ fn most_suggestions(line: &Line) -> usize {
     (WORK / (line.nodes.len() + line.proposals.len()).max(1)).isqrt().max(8)
 }
 
-fn edges(line: &Line, margins: &[Option<f64>]) -> Vec<Edge> {
-    let mut best: BTreeMap<(usize, usize), f64> = BTreeMap::new();
+/// Of several ways to hand over the one with the greatest margin counts.
+fn edges(line: &Line, reachable: &poses::Reachable, margins: &[Option<f64>]) -> Vec<Edge> {
+    let mut best: BTreeMap<(usize, usize), (f64, &Proposal)> = BTreeMap::new();
     for (proposal, margin) in line.proposals.iter().zip(margins) {
         if let Some(margin) = *margin {
-            let best = best.entry((proposal.from, proposal.to)).or_insert(margin);
-            *best = best.max(margin);
+            let best = best.entry((proposal.from, proposal.to)).or_insert((margin, proposal));
+            if margin > best.0 {
+                *best = (margin, proposal);
+            }
         }
     }
-    best.into_iter().map(|((from, to), margin)| Edge { from, to, margin }).collect()
+    let edge = |((from, to), (margin, proposal))| Edge {
+        from,
+        to,
+        margin,
+        wrist_room: reachable.wrist_room(proposal),
+    };
+    best.into_iter().map(edge).collect()
 }
 
 impl Proposal {

@@ -17,9 +17,9 @@ fn each(
 ) -> ControlFlow<()> {
     for place in &places(line, proposal, passive) {
         for (kind, height) in &line.kinds {
-            let contact = place.point.up(*height);
+            let contact = place.facing.back(place.point, *height);
             see(place, kind, Stage::Contact, contact)?;
-            see(place, kind, Stage::Approach, contact.up(proposal.site.approach))?;
+            see(place, kind, Stage::Approach, place.facing.back(contact, proposal.site.approach))?;
         }
     }
     ControlFlow::Continue(())
@@ -56,11 +56,25 @@ impl<'a> Reachable<'a> {
         let arm = self.arm(proposal.arm);
         let mut worst = f64::INFINITY;
         let passive = &self.line.nodes[proposal.passive()].placed;
-        let seen = each(self.line, proposal, passive, |_, _, _, tool| {
-            worst = worst.min(arm.margin(tool));
+        let seen = each(self.line, proposal, passive, |place, _, _, tool| {
+            worst = worst.min(arm.margin_facing(tool, place.facing));
             if worst < 0.0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
         seen.is_continue().then_some(worst)
+    }
+
+    /// How far the last three joints of the arm stay from their limits at the worst pose, deg; none if they have no limits,
+    /// or a pose is out of reach.
+    pub fn wrist_room(&self, proposal: &Proposal) -> Option<f64> {
+        let arm = self.arm(proposal.arm);
+        let mut worst = f64::INFINITY;
+        let passive = &self.line.nodes[proposal.passive()].placed;
+        let seen = each(self.line, proposal, passive, |place, _, _, tool| {
+            let Some(room) = arm.wrist_room(tool, place.facing) else { return ControlFlow::Break(()) };
+            worst = worst.min(room);
+            ControlFlow::Continue(())
+        });
+        seen.is_continue().then(|| worst.to_degrees())
     }
 
     /// The poses that miss, the worst first, and the number of all poses.
@@ -69,7 +83,7 @@ impl<'a> Reachable<'a> {
         let (mut misses, mut tested) = (Vec::new(), 0);
         let passive = &self.line.nodes[proposal.passive()].placed;
         let _ = each(self.line, proposal, passive, |place, kind, stage, tool| {
-            let margin = arm.margin(tool);
+            let margin = arm.margin_facing(tool, place.facing);
             tested += 1;
             if margin < 0.0 {
                 misses.push(Miss {
@@ -94,8 +108,8 @@ impl<'a> Reachable<'a> {
         let passive = proposal.passive();
         let passive = if passive == node { placed } else { &self.line.nodes[passive].placed };
         let mut miss = None;
-        let _ = each(self.line, proposal, passive, |_, _, _, tool| {
-            let margin = arm.margin(tool);
+        let _ = each(self.line, proposal, passive, |place, _, _, tool| {
+            let margin = arm.margin_facing(tool, place.facing);
             if margin < 0.0 {
                 miss = Some(-margin);
                 return ControlFlow::Break(());

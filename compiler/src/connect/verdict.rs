@@ -96,6 +96,16 @@ fn apart(
     let pair = &line.proposals[failure.proposal];
     let [arm, passive] = [pair.arm, pair.passive()].map(|n| &line.nodes[n]);
     let verb = if pair.arm == pair.from { "hand over to" } else { "take from" };
+    if worst_mm(failure).is_infinite() {
+        let message = format!(
+            "{} cannot {verb} {}: its tool only points down, and the place is approached from the side",
+            arm.name, passive.name
+        );
+        return Diagnostic::new("E0412", passive.span, message)
+            .other(arm.span, "the arm that should come here")
+            .other(pair.rule, "the place of the handover")
+            .help("use an arm with six joints and a base of its own, or give the place of the device no `toward`");
+    }
     let mut diagnostic = Diagnostic::new(
         "E0401",
         passive.span,

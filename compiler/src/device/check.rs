@@ -5,6 +5,7 @@ use super::panel;
 use super::program::{Part, Program, Scope, Setting, Symbol};
 use super::{Constant, Device, Form, Handover, Parameter, settle};
 use crate::diagnostic::{Diagnostic, suggestion};
+use crate::layout::object::is_common;
 use crate::source::Span;
 use crate::spec::ast::{self, ExprKind, Name, Scalar};
 use runtime_sim::machine::MOST_ELEMENTS;
@@ -18,6 +19,8 @@ pub type Declared<'a> = HashMap<&'a str, &'a ast::Device>;
 
 /// Assemblies one in another.
 const DEEPEST: usize = 8;
+/// Names that every expression has.
+const BUILT_IN: [&str; 5] = ["pose", "origin", "kind_heights", "index", "pi"];
 /// Parts of a device with all its assemblies.
 const MOST_PARTS: usize = 1000;
 
@@ -88,6 +91,11 @@ impl Checker<'_> {
             return;
         }
         for parameter in &tree.parameters {
+            let key = &parameter.name;
+            if is_common(&key.value) && !BUILT_IN.contains(&key.value.as_str()) {
+                let message = format!("`{}` is a key of every machine of a layout", key.value);
+                self.report("E0701", key.span, message, panel::another_name(&key.value));
+            }
             if let Some(form) = self.form(parameter) {
                 let default = self.default(parameter, &form);
                 let (name, meaning) = (parameter.name.value.clone(), parameter.doc.join(" "));
@@ -206,7 +214,6 @@ impl Checker<'_> {
     }
 
     fn declare(&mut self, scope: usize, name: &Name, symbol: Symbol) {
-        const BUILT_IN: [&str; 5] = ["pose", "origin", "kind_heights", "index", "pi"];
         let names = &mut self.program.scopes[scope].names;
         if names.contains_key(&name.value) || BUILT_IN.contains(&name.value.as_str()) {
             let message = format!("`{}` is already a name in this device", name.value);

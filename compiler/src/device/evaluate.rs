@@ -78,6 +78,14 @@ impl Environment<'_> {
         if let Some(word) = words(setting.form, expr) {
             return word;
         }
+        if let (Form::Times, ExprKind::List(elements)) = (setting.form, &expr.kind) {
+            let one = Setting { form: Form::Positive, ..*setting };
+            let element = |element: &ast::Expr| {
+                let given = Given { name: given.name.clone(), value: element.clone(), known: None };
+                self.setting(part, &one, &given)
+            };
+            return elements.iter().map(element).collect::<Result<_, _>>().map(Value::List);
+        }
         let found = match self.at(part.scope, expr, 0)? {
             Found::Duration(ms) if setting.unit == "ms" => Value::Number(ms as f64),
             Found::Duration(_) => {
@@ -123,7 +131,9 @@ impl Environment<'_> {
             | (Form::Frame, Value::Frame(_))
             | (Form::Axis | Form::Direction, Value::Axis(_))
             | (Form::Word, Value::Word(_)) => true,
-            (Form::Positive, Value::Number(number)) => *number > 0.0 || self.values == Values::Sample,
+            (Form::Positive | Form::Times, Value::Number(number)) => {
+                *number > 0.0 || self.values == Values::Sample
+            }
             (Form::Part(primitives), Value::Part { part, .. }) => {
                 primitives.contains(&self.program.parts[*part].schema.name)
             }
@@ -314,6 +324,7 @@ fn described(form: Form) -> String {
         Form::Points => "a list of points".into(),
         Form::Numbers => "a list of numbers".into(),
         Form::Words => "a list of words".into(),
+        Form::Times => "a time over 0, or a list of such".into(),
     }
 }
 

@@ -8,6 +8,7 @@ use crate::source::Span;
 use crate::spec::ast;
 use runtime_sim::frame::Frame;
 use runtime_sim::kinematics::arm::Arm;
+use runtime_sim::kinematics::facing::Facing;
 use runtime_sim::machine::Machine;
 use runtime_sim::part::axis::Motion;
 use runtime_sim::part::lane::CentreLine;
@@ -29,6 +30,8 @@ pub struct Placed {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Place<'a> {
     pub point: Point,
+    /// Where the tool points there.
+    pub facing: Facing,
     title: &'a str,
     number: usize,
     index: Option<usize>,
@@ -71,6 +74,7 @@ impl Placed {
         let parts = self.some(&all, heights, place, &mut diagnostics);
         let parts = parts.into_iter().map(|(_, part)| part).collect();
         diagnostics.extend(self.wrong_constants(heights, place));
+        diagnostics.extend(self.wrong_directions(place));
         sort(&mut diagnostics);
         if diagnostics.is_empty() { Ok(parts) } else { Err(diagnostics) }
     }
@@ -272,10 +276,12 @@ impl Placed {
     ) -> Option<Vec<Place<'_>>> {
         let place = self.device.program.places.iter().find(|place| place.name.value == name)?;
         let environment = self.environment(&[], index);
+        // A direction that is none has been reported.
+        let facing = self.facing(place, &environment).ok().unwrap_or_default();
         let mut places = Vec::new();
         for (expr, title) in &place.points {
             let title = title.value.as_str();
-            let named = |number: usize, point: Point| Place { point, title, number, index };
+            let named = |number: usize, point: Point| Place { point, facing, title, number, index };
             match environment.value(0, expr).ok()? {
                 Value::Point(point) => places.push(named(0, point)),
                 Value::List(points) => {
@@ -295,6 +301,38 @@ impl Placed {
             }
         }
         Some(places)
+    }
+
+    fn facing(&self, place: &ast::Place, environment: &Environment) -> Result<Facing, Wrong> {
+        let Some(toward) = &place.toward else { return Ok(Facing::Down) };
+        let found = match environment.value(0, toward)? {
+            Value::Point(direction) => Facing::new(direction),
+            _ => None,
+        };
+        let message = "this direction is neither down nor level";
+        found.ok_or_else(|| {
+            Diagnostic::new("E0709", toward.span, message)
+                .help("write `point(0, 0, -1)`, or a direction with z = 0, such as `point(1, 0, 0)`")
+                .into()
+        })
+    }
+
+    /// Directions of places that a tool cannot have.
+    fn wrong_directions(&self, place: Span) -> Vec<Diagnostic> {
+        let mut found = Vec::new();
+        for handover in &self.device.program.places {
+            let count = match handover.extent {
+                Some(ast::Expr { kind: ast::ExprKind::Int(count), .. }) => {
+                    usize::try_from(count).unwrap_or(0)
+                }
+                _ => 1,
+            };
+            let index = |number: usize| handover.extent.as_ref().map(|_| number);
+            let wrong = (0..count)
+                .find_map(|number| self.facing(handover, &self.environment(&[], index(number))).err());
+            found.extend(wrong.map(|wrong| wrong.other(place, "for this machine")));
+        }
+        found
     }
 
     /// Every number by its path among the keys of the JSON object, such as `pose[0]` or `destinations[0][1]`.

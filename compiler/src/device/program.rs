@@ -69,7 +69,7 @@ impl Program {
             Symbol::Parameter(_) | Symbol::Part(_) | Symbol::Assembly(_) => None,
         });
         let settings = self.parts.iter().flat_map(|part| part.settings.iter().map(|given| &given.value));
-        let places = self.places.iter().flat_map(|place| place.points.iter().map(|(expr, _)| expr));
+        let places = self.places.iter().flat_map(ast::Place::expressions);
         defined.chain(settings).chain(places).any(|expr| mentions(expr, name))
     }
 }

@@ -106,6 +106,20 @@ pub fn wrong(
     }
     for place in &program.places {
         let environment = Environment { index: place.extent.as_ref().map(|_| 0), ..environment };
+        if let Some(toward) = &place.toward {
+            match environment.value(0, toward) {
+                Ok(Value::Point(_)) => {}
+                Ok(_) => found.push(
+                    Diagnostic::new(
+                        "E0709",
+                        toward.span,
+                        "a tool points in a direction: a point from the origin",
+                    )
+                    .help("write for example `toward point(1, 0, 0)`"),
+                ),
+                Err(diagnostic) => found.push(*diagnostic),
+            }
+        }
         for (expr, _) in &place.points {
             match environment.value(0, expr) {
                 Ok(Value::Point(_)) => {}

@@ -4,6 +4,7 @@ pub mod fit;
 
 use fit::Fit;
 use runtime_sim::frame::Frame;
+use runtime_sim::kinematics::facing::Facing;
 use runtime_sim::kinematics::fixed::{FixedArm, Geometry};
 use runtime_sim::kinematics::opw::Opw;
 use runtime_sim::kinematics::ur::Lengths;
@@ -98,7 +99,10 @@ pub fn rest(arm: &Arm) -> Option<Point> {
     const STEPS: usize = 12;
     let fixed = arm.fit.fixed(&arm.joints);
     let longest = arm.fit.longest();
-    let reaches = |place: &Point| fixed.margin(*place) > 0.0 && fixed.solve(*place, &fixed.start()).is_some();
+    let reaches = |place: &Point| {
+        fixed.margin(*place, Facing::Down) > 0.0
+            && fixed.solve(*place, Facing::Down, &fixed.start()).is_some()
+    };
     let usual = rounded(fixed.tool_pose(&fixed.start()).position);
     if reaches(&usual) {
         return Some(usual);
@@ -112,7 +116,7 @@ pub fn rest(arm: &Arm) -> Option<Point> {
             let (sin, cos) = bearing.sin_cos();
             let place = Point::new(out * longest * cos, out * longest * sin, (2.0 * up - 1.0) * longest);
             let place = rounded(arm.fit.base + place);
-            (place, fixed.margin(place))
+            (place, fixed.margin(place, Facing::Down))
         });
         let best = tried.reduce(|best, next| if next.1 > best.1 { next } else { best });
         if let Some((place, _)) = best.filter(|(place, _)| reaches(place)) {

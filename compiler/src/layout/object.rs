@@ -39,6 +39,11 @@ pub struct Object {
 /// Keys that every object may have.
 pub const COMMON_KEYS: [&str; 7] = ["name", "type", "pose", "at", "parameters", "takes_from", "hands_to"];
 
+/// Whether a key means the same for every device, so that none can have a parameter of this name.
+pub fn is_common(key: &str) -> bool {
+    COMMON_KEYS.contains(&key) || key == "box"
+}
+
 /// No coordinate of a factory is farther from the origin, in metres.
 pub const FARTHEST: f64 = 1000.0;
 
@@ -126,10 +131,7 @@ impl Decoder {
                 None
             }
         });
-        let specific = members.iter().filter(|m| {
-            let key = m.key.value.as_str();
-            !COMMON_KEYS.contains(&key) && key != "box"
-        });
+        let specific = members.iter().filter(|m| !is_common(&m.key.value));
         let (pose_span, (pose, pose_numbers)) = pose?;
         Some(Object {
             name: name?,

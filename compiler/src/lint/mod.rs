@@ -1,5 +1,6 @@
 //! What is no error and hardly meant: warnings, from the texts of the types and from the layout.
 
+mod answer;
 mod failure;
 mod flow;
 mod implies;
@@ -19,6 +20,7 @@ pub fn warnings(model: &Model, files: &[(FileId, ast::File)]) -> Vec<Diagnostic>
     for automaton in &model.automata {
         flow::check(automaton, &mut found);
         failure::check(automaton, &mut found);
+        answer::check(automaton, &mut found);
     }
     unused::check(model, files, &mut found);
     diagnostic::sort(&mut found);

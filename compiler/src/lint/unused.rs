@@ -1,9 +1,9 @@
-//! Cells and locals that are written and never read, or read and never written.
+//! Cells and locals that are written and never read, or read and never written; parameters that are never read.
 
 use crate::diagnostic::Diagnostic;
 use crate::ir::{
-    Automaton, Binder, Clause, Domain, Expr, ExprKind, InterfaceId, Model, Place, Property, TextPart,
-    UpdateKind,
+    Automaton, Binder, Clause, Domain, Expr, ExprKind, InterfaceId, Model, Parameter, Place, Property,
+    TextPart, UpdateKind,
 };
 use crate::source::{FileId, Span};
 use crate::spec::ast;
@@ -20,6 +20,8 @@ enum Variable {
 struct Uses {
     read: BTreeSet<Variable>,
     written: BTreeSet<Variable>,
+    /// Parameters of the automaton at hand, by their numbers.
+    parameters: BTreeSet<usize>,
 }
 
 pub fn check(model: &Model, files: &[(FileId, ast::File)], found: &mut Vec<Diagnostic>) {
@@ -27,6 +29,9 @@ pub fn check(model: &Model, files: &[(FileId, ast::File)], found: &mut Vec<Diagn
     for automaton in &model.automata {
         let mut uses = Uses::default();
         uses.automaton(automaton);
+        let own = automaton.parameters.iter().enumerate().filter(|(_, parameter)| parameter.is_settable());
+        found.extend(own.filter(|(number, _)| !uses.has_parameter(automaton, *number)).map(|(_, p)| unread(p)));
+        uses.requires(automaton);
         for (number, local) in automaton.locals.iter().enumerate() {
             let place = place(files, &automaton.name, |a| &a.locals, |local| &local.name, &local.name);
             found.extend(uses.warning("W0105", "local", &local.name, Variable::Local(number), place));
@@ -61,7 +66,20 @@ fn place<T>(
     declared.filter(|name| name.value == wanted).map(|name| name.span).last()
 }
 
+fn unread(parameter: &Parameter) -> Diagnostic {
+    let message = format!("the parameter `{}` is never read", parameter.name);
+    Diagnostic::new("W0108", parameter.place, message)
+        .note("whatever the layout sets, the machine does the same; `require` does not count")
+        .help("use it, or remove it")
+}
+
 impl Uses {
+    /// Others may read a parameter that an interface shows.
+    fn has_parameter(&self, automaton: &Automaton, number: usize) -> bool {
+        let mut shown = automaton.implements.iter().flat_map(|implements| &implements.parameters);
+        self.parameters.contains(&number) || shown.any(|shown| *shown == number)
+    }
+
     fn warning(
         &self,
         code: &'static str,
@@ -83,19 +101,22 @@ impl Uses {
     fn automaton(&mut self, automaton: &Automaton) {
         automaton.defines.iter().for_each(|define| self.expr(&define.value));
         automaton.properties.iter().flat_map(Property::exprs).for_each(|expr| self.expr(expr));
+        for state in &automaton.states {
+            state.within.iter().for_each(|(longest, _)| self.expr(longest));
+            for transition in &state.transitions {
+                transition.clauses.iter().for_each(|clause| self.clause(clause));
+                transition.updates.iter().for_each(|update| self.update(&update.kind));
+            }
+        }
+    }
+
+    fn requires(&mut self, automaton: &Automaton) {
         for require in &automaton.requires {
             self.expr(&require.condition);
             for part in &require.text {
                 if let TextPart::Value(value) = part {
                     self.expr(value);
                 }
-            }
-        }
-        for state in &automaton.states {
-            state.within.iter().for_each(|(longest, _)| self.expr(longest));
-            for transition in &state.transitions {
-                transition.clauses.iter().for_each(|clause| self.clause(clause));
-                transition.updates.iter().for_each(|update| self.update(&update.kind));
             }
         }
     }
@@ -138,6 +159,9 @@ impl Uses {
     fn expr(&mut self, expr: &Expr) {
         if let ExprKind::Read(place) = &expr.kind {
             self.read.extend(variable(place));
+            if let Place::Parameter { parameter, .. } = place {
+                self.parameters.insert(*parameter);
+            }
         }
         expr.parts().into_iter().for_each(|part| self.expr(part));
     }

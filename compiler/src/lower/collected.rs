@@ -164,13 +164,12 @@ fn reached(
 
 /// The kinds into which a machine makes one.
 fn made_of(line: &Line, machine: usize, kind: usize) -> impl Iterator<Item = usize> {
-    let name = &line.kinds[kind].name;
     let processes = line.machines[machine].parts.iter().filter_map(|part| match &part.primitive {
-        Primitive::Process(process) => Some(&process.makes),
+        Primitive::Process(process) => Some(process),
         _ => None,
     });
-    let made = processes.flatten().filter(move |[from, _]| from == name);
-    made.filter_map(|[_, to]| line.kinds.iter().position(|kind| kind.name == *to))
+    let made = processes.flat_map(move |process| process.made_of(&line.kinds[kind].name));
+    made.filter_map(|to| line.kinds.iter().position(|kind| kind.name == to))
 }
 
 fn diagnostic(

@@ -51,13 +51,24 @@ pub struct Project {
     pub may_touch: Vec<MayTouch>,
 }
 
+/// Two machines that meet.
+#[derive(Clone, Debug)]
+pub struct Handover {
+    pub from: String,
+    pub to: String,
+    /// How far the arm stays within its reach at the worst pose, m.
+    pub margin: f64,
+    /// How far its last three joints stay from their limits there, deg; none without limits.
+    pub wrist_room: Option<f64>,
+}
+
 /// What the connectivity check found, by names.
 #[derive(Clone, Debug, Default)]
 pub struct Verdict {
     pub feasible: bool,
     /// All instances, in the order in which they step.
     pub robots: Vec<String>,
-    pub edges: Vec<(String, String, f64)>,
+    pub edges: Vec<Handover>,
     pub sources: Vec<String>,
     pub destinations: Vec<String>,
     /// Ways of items from conveyor to conveyor; known of a line that has no other errors.

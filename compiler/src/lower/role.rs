@@ -273,7 +273,14 @@ impl<'a> Line<'a> {
         Verdict {
             feasible: report.is_feasible(),
             robots: self.robots.iter().map(|r| r.object.name.value.clone()).collect(),
-            edges: report.edges.iter().map(|e| (name(e.from), name(e.to), e.margin)).collect(),
+            edges: (report.edges.iter())
+                .map(|edge| super::Handover {
+                    from: name(edge.from),
+                    to: name(edge.to),
+                    margin: edge.margin,
+                    wrist_room: edge.wrist_room,
+                })
+                .collect(),
             sources: those(|n| n.is_source),
             destinations: those(|n| n.is_destination),
             passages: Vec::new(),

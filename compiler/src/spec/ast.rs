@@ -174,8 +174,16 @@ pub struct Place {
     pub name: Name,
     /// Number of places, if one of several is meant by an index.
     pub extent: Option<Expr>,
+    /// Where the tool points; without it down.
+    pub toward: Option<Expr>,
     /// A point or a list of points, and what each is called.
     pub points: Vec<(Expr, Spanned<String>)>,
+}
+
+impl Place {
+    pub fn expressions(&self) -> impl Iterator<Item = &Expr> {
+        self.points.iter().map(|(expr, _)| expr).chain(&self.toward)
+    }
 }
 
 #[derive(Clone, Debug)]

@@ -12,7 +12,10 @@ use crate::lower::Project;
 use autogen_search::model::{Model, Reach};
 use autogen_search::plant::{Order, Watch};
 use runtime_sim::device::{Direction, PortType};
+use runtime_sim::kinematics::facing::Facing;
+use runtime_sim::machine::Machine;
 use runtime_sim::point::Point;
+use runtime_sim::wiring::Command;
 use std::sync::Arc;
 
 /// A line as it is searched.
@@ -25,6 +28,18 @@ pub struct Searched {
 /// A line as it is searched; or why it cannot be.
 pub fn model(project: &Project, asked: &Asked) -> Result<Searched, Vec<Diagnostic>> {
     let Project { system, plant: line, .. } = project;
+    let sideways =
+        system.instances.iter().enumerate().filter(|(number, _)| works_sideways(&line.machines[*number]));
+    let sideways: Vec<Diagnostic> = sideways
+        .map(|(number, instance)| {
+            let message = format!("`{}` cannot be searched: a tool comes from the side", instance.name);
+            Diagnostic::new("E1001", system.automaton_of(number).place, message)
+                .help("verify lines whose tools point down")
+        })
+        .collect();
+    if !sideways.is_empty() {
+        return Err(sideways);
+    }
     let mut memory = Memory::default();
     let mut changing = Changing::default();
     let mut whole = Line {
@@ -158,6 +173,16 @@ pub fn model(project: &Project, asked: &Asked) -> Result<Searched, Vec<Diagnosti
         variables,
     };
     Ok(Searched { model, skipped })
+}
+
+/// What the search would take for a tool that points down.
+fn works_sideways(machine: &Machine) -> bool {
+    let is_facing = |command: &Command| {
+        let schema = machine.parts[command.part].schema();
+        (schema.name, schema.actions[command.action].name) == ("chain", "facing")
+    };
+    machine.wiring.commands.iter().any(is_facing)
+        || machine.places().any(|place| place.facing != Facing::Down)
 }
 
 fn unbounded(system: &System, number: usize, port: &str) -> Diagnostic {

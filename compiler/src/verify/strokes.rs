@@ -85,7 +85,7 @@ impl Changing {
             runs: truth("runs"),
             ended: truth("ended"),
             start: start.map(|(level, _)| level),
-            leaps: process.times_ms[0] <= of.scan_ms,
+            leaps: process.shortest_ms() <= of.scan_ms,
         });
     }
 

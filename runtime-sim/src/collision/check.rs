@@ -14,9 +14,11 @@ use crate::carrier::Carrier;
 use crate::event::Event;
 use crate::fingerprint::Fingerprint;
 use crate::item;
+use crate::kinematics::facing::Facing;
 use crate::kinematics::pose::Pose;
 use crate::line::Line;
 use crate::memory::Memory;
+use crate::part::place::OPPOSITE;
 use crate::plant::Plant;
 use crate::point::Point;
 use crate::solid::Shape;
@@ -58,6 +60,8 @@ struct Tracked {
     size: Point,
     /// About the vertical, since it appeared; while it hangs, that of the moment it was gripped.
     turn: f64,
+    /// In the world, as it hung or lies, if its upper side does not face up.
+    tipped: Pose,
     place: Option<(usize, usize)>,
     /// From the frame of the last link to the item's underside, while it hangs.
     hang: Pose,
@@ -79,7 +83,7 @@ impl CollisionCheck {
         let items = item::names(line).into_iter().zip(kinds).map(|(name, &kind)| {
             let kind = &line.kinds[kind];
             let size = Point::new(kind.size[0], kind.size[1], kind.height);
-            Tracked { name, size, turn: 0.0, place: None, hang: Pose::IDENTITY }
+            Tracked { name, size, turn: 0.0, tipped: Pose::IDENTITY, place: None, hang: Pose::IDENTITY }
         });
         Self {
             items: items.collect(),
@@ -223,8 +227,12 @@ impl CollisionCheck {
             tracked.turn = turn;
         }
         if let Some(Anchor::Link(link)) = group.remove(body).map(|body| body.anchor) {
-            let along = group.link_now(link, plant).then(&tracked.hang).axis(0);
-            tracked.turn = libm::atan2(along.y, along.x);
+            tracked.tipped = group.link_now(link, plant).then(&tracked.hang);
+            let [along, left] = [0, 1].map(|axis| tracked.tipped.axis(axis));
+            // Of an item that is put upright again after it lay on its side.
+            let is_level = libm::hypot(along.x, along.y) > 0.5;
+            tracked.turn =
+                if is_level { libm::atan2(along.y, along.x) } else { libm::atan2(-left.x, left.y) };
         }
     }
 
@@ -233,15 +241,23 @@ impl CollisionCheck {
         let (Some(index), Some(place)) = (to.machine(), plant.place(item)) else { return };
         let group = &mut self.groups[index];
         let tracked = &mut self.items[item];
+        let upper = plant.upper(item);
         // Gripped from a little above or below, a part is drawn up to the gripper's face.
-        let place = match to {
-            Carrier::Grip { machine, .. } => {
+        let place = match (to, upper) {
+            (Carrier::Grip { machine, .. }, Some(upper)) => {
+                let tool = plant.position(machine).unwrap_or(place);
+                place + upper.scaled((tool - place).dot(upper) - tracked.size.z)
+            }
+            (Carrier::Grip { machine, .. }, None) => {
                 let tool = plant.position(machine).unwrap_or(place);
                 Point { z: tool.z - tracked.size.z, ..place }
             }
             _ => place,
         };
-        let lies = Pose::turned(place, tracked.turn);
+        let lies = match upper {
+            Some(upper) => Pose { position: place, ..lying_on_its_side(&tracked.tipped, upper) },
+            None => Pose::turned(place, tracked.turn),
+        };
         let (anchor, frame) = match (to, &group.kind) {
             (Carrier::Grip { .. }, Kind::Arm { chain, .. }) => {
                 tracked.hang = group.link_now(chain.last(), plant).inverse().then(&lies);
@@ -250,7 +266,11 @@ impl CollisionCheck {
             _ => {
                 let carried = plant.conveyed(item).and_then(|conveyed| conveyed.carried);
                 let on = carried.map_or(0.0, |carried| carried.frame(0.0).yaw);
-                (Anchor::Lying { item, turn: tracked.turn - on.to_radians() }, Pose::IDENTITY)
+                let tipped = Pose { position: Point::default(), ..lies };
+                match upper {
+                    Some(_) => (Anchor::Lying { item, turn: -on.to_radians() }, tipped),
+                    None => (Anchor::Lying { item, turn: tracked.turn - on.to_radians() }, Pose::IDENTITY),
+                }
             }
         };
         let middle = Pose { position: Point::new(0.0, 0.0, tracked.size.z / 2.0), ..Pose::IDENTITY };
@@ -266,4 +286,13 @@ impl CollisionCheck {
             pair.expect(index, body);
         }
     }
+}
+
+/// As it hung, or, if it came otherwise, with its y level.
+fn lying_on_its_side(hung: &Pose, upper: Point) -> Pose {
+    if hung.axis(2).dot(upper) > -OPPOSITE {
+        return *hung;
+    }
+    let facing = Facing::new(upper.scaled(-1.0)).unwrap_or_default();
+    facing.pose(Point::default(), 1.0).then(&Facing::Down.pose(Point::default(), 1.0))
 }

@@ -1,6 +1,7 @@
 //! Both robots alike: joints, reach, limits.
 
 use super::cartesian::{Cartesian, Slide};
+use super::facing::Facing;
 use super::fixed::FixedArm;
 use super::gantry::{self, Gantry, Stance};
 use super::links::Link;
@@ -209,9 +210,40 @@ impl Arm {
     pub fn margin(&self, tool: Point) -> f64 {
         match &self.solver {
             Solver::Cartesian(robot) => robot.margin(tool),
-            Solver::Fixed(arm) => arm.margin(tool),
+            Solver::Fixed(arm) => arm.margin(tool, Facing::Down),
             Solver::Rail(arm) => arm.margin(tool),
             Solver::Gantry(arm) => arm.margin(tool),
+        }
+    }
+
+    /// [`Self::margin`] with the tool pointing there; minus infinity for an arm whose tool only points down.
+    pub fn margin_facing(&self, tool: Point, facing: Facing) -> f64 {
+        match (&self.solver, facing) {
+            (_, Facing::Down) => self.margin(tool),
+            (Solver::Fixed(arm), Facing::Level { .. }) => arm.margin(tool, facing),
+            (Solver::Cartesian(_) | Solver::Rail(_) | Solver::Gantry(_), Facing::Level { .. }) => {
+                f64::NEG_INFINITY
+            }
+        }
+    }
+
+    /// How far the last three joints are from their limits at a place, the nearest of them, rad; none out of reach, and if
+    /// they have no limits.
+    pub fn wrist_room(&self, tool: Point, facing: Facing) -> Option<f64> {
+        match &self.solver {
+            Solver::Fixed(arm) => arm.wrist_room(tool, facing),
+            Solver::Cartesian(_) | Solver::Rail(_) | Solver::Gantry(_) => None,
+        }
+    }
+
+    /// [`Self::solve`] with the tool pointing there; some exactly when [`Self::margin_facing`] is not negative.
+    pub fn solve_facing(&self, tool: Point, facing: Facing, from: &Joints) -> Option<Joints> {
+        match (&self.solver, facing) {
+            (_, Facing::Down) => self.solve(tool, from),
+            (Solver::Fixed(arm), Facing::Level { .. }) => {
+                arm.solve(tool, facing, &from.array()).map(|joints| Joints::new(&joints))
+            }
+            (Solver::Cartesian(_) | Solver::Rail(_) | Solver::Gantry(_), Facing::Level { .. }) => None,
         }
     }
 
@@ -220,7 +252,9 @@ impl Arm {
     pub fn solve(&self, tool: Point, from: &Joints) -> Option<Joints> {
         let joints = match &self.solver {
             Solver::Cartesian(robot) => return robot.solve(tool).map(|values| Joints::new(&values)),
-            Solver::Fixed(arm) => return arm.solve(tool, &from.array()).map(|joints| Joints::new(&joints)),
+            Solver::Fixed(arm) => {
+                return arm.solve(tool, Facing::Down, &from.array()).map(|joints| Joints::new(&joints));
+            }
             Solver::Rail(arm) => arm.solve(tool, &from.array()).map(|joints| Joints::new(&joints)),
             Solver::Gantry(arm) => arm.solve(tool, &from.array()).map(|joints| Joints::new(&joints)),
         }?;
@@ -233,6 +267,33 @@ impl Arm {
     pub fn line_to(&self, tool: Point, from: &Joints) -> Option<Vec<Joints>> {
         let goal = self.solve(tool, from)?;
         Some(self.vertical(tool, from).unwrap_or_else(|| vec![goal]))
+    }
+
+    /// Joints to pass on the way of the tool to a place where it points there, the last ones there: in a straight line in
+    /// small steps if it points there already and goes along this direction, to or fro, else at once. Some exactly when
+    /// [`Self::margin_facing`] is not negative.
+    pub fn line_facing(&self, tool: Point, facing: Facing, from: &Joints) -> Option<Vec<Joints>> {
+        let goal = self.solve_facing(tool, facing, from)?;
+        Some(self.along(tool, facing, from).unwrap_or_else(|| vec![goal]))
+    }
+
+    fn along(&self, tool: Point, facing: Facing, from: &Joints) -> Option<Vec<Joints>> {
+        let (start, ahead) = (self.tool_pose(from), facing.direction());
+        let way = tool - start.position;
+        let aside = way - ahead.scaled(way.dot(ahead));
+        let is_along = aside.length() < ALIGNED && (start.axis(2) - ahead).length() < ALIGNED;
+        let steps = (way.length() / LINE_STEP).ceil();
+        (is_along && steps > 1.0 && steps <= MOST_STEPS).then_some(())?;
+        let mut all: Vec<Joints> = Vec::new();
+        for i in 1..=steps as u32 {
+            let last = *all.last().unwrap_or(from);
+            let place = tool - way.scaled(1.0 - f64::from(i) / steps);
+            let next = self.solve_facing(place, facing, &last)?;
+            let is_near = next.iter().zip(last.iter()).all(|(a, b)| (a - b).abs() < NEAR_JOINTS);
+            is_near.then_some(())?;
+            all.push(next);
+        }
+        Some(all)
     }
 
     fn vertical(&self, tool: Point, from: &Joints) -> Option<Vec<Joints>> {

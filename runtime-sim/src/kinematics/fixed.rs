@@ -1,5 +1,6 @@
-//! An arm of six joints that stands where it is, its tool pointing down.
+//! An arm of six joints that stands where it is, its tool pointing down or to a side.
 
+use super::facing::Facing;
 use super::links::Link;
 use super::opw::Opw;
 use super::pose::Pose;
@@ -11,6 +12,8 @@ use crate::point::Point;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 pub const JOINTS: usize = 6;
+/// The first joint of the wrist.
+const WRIST: usize = 3;
 
 /// How Universal Robots draws it: upper arm up, forearm level, tool down.
 const USUAL: Angles = [0.0, -FRAC_PI_2, FRAC_PI_2, -FRAC_PI_2, -FRAC_PI_2, 0.0];
@@ -41,7 +44,7 @@ impl Mounting {
     fn pose(self) -> Pose {
         match self {
             Self::Upright => Pose::IDENTITY,
-            Self::Hung => down(Point::default(), 1.0),
+            Self::Hung => Facing::Down.pose(Point::default(), 1.0),
         }
     }
 }
@@ -79,9 +82,22 @@ impl FixedArm {
         self.mounting.pose().inverse().point(self.base.seen(tool))
     }
 
-    /// The tool pointing down, in the frame of the base; its x lies along that of the base, or against it.
-    fn pointing_down(&self, seen: Point, x: f64) -> Pose {
-        self.mounting.pose().inverse().then(&down(self.mounting.pose().point(seen), x))
+    /// The same direction in the frame in which the base stands.
+    fn seen_facing(&self, facing: Facing) -> Facing {
+        match facing {
+            Facing::Down => Facing::Down,
+            Facing::Level { .. } => {
+                let Point { x, y, .. } =
+                    Frame::new(Point::default(), -self.base.yaw).direction(facing.direction());
+                Facing::Level { x, y }
+            }
+        }
+    }
+
+    /// The tool at a place, which is given in the frame of the base, as the direction is; `x` as in [`Facing::pose`].
+    fn pointing(&self, seen: Point, facing: Facing, x: f64) -> Pose {
+        let mounting = self.mounting.pose();
+        mounting.inverse().then(&facing.pose(mounting.point(seen), x))
     }
 
     /// Limits of the joints, rad; none if each turns once to either side.
@@ -93,33 +109,61 @@ impl FixedArm {
         self.base.pose().then(&self.mounting.pose())
     }
 
-    /// How far the tool, pointing down, may go from a place in any direction until the arm loses it, at least; out of reach
-    /// the distance of the wrist to what it reaches, negative, m. Where only limits of joints forbid the place: less than 0
-    /// by the angle that is lacking times the distance of the tool from this joint.
-    pub fn margin(&self, tool: Point) -> f64 {
+    /// How far the tool may go from a place in any direction until the arm loses it, at least, while it points as it does;
+    /// out of reach the distance of the wrist to what it reaches, negative, m. Where only limits of joints forbid the
+    /// place: less than 0 by the angle that is lacking times the distance of the tool from this joint. If the tool points
+    /// down, limits of all joints count; if it is level, those of the first three, and [`Self::wrist_room`] has the others.
+    pub fn margin(&self, tool: Point, facing: Facing) -> f64 {
         if !is_finite(tool) {
             return f64::NEG_INFINITY;
         }
-        let seen = self.seen(tool);
-        let pose = self.pointing_down(seen, 1.0);
+        let (seen, facing) = (self.seen(tool), self.seen_facing(facing));
+        let pose = self.pointing(seen, facing, 1.0);
         let margin = match &self.geometry {
-            Geometry::UniversalRobots(lengths) => margin(lengths, &pose),
+            Geometry::UniversalRobots(lengths) => margin(lengths, &pose, facing),
             Geometry::OrthoParallel(opw) => opw.margin(&pose),
         };
         let Some(ranges) = self.ranges.as_ref().filter(|_| margin >= 0.0) else { return margin };
-        let found: Vec<Candidate> = self.candidates(seen, &self.start()).collect();
+        let found: Vec<Candidate> = self.candidates(seen, facing, &self.start()).collect();
         let least = found.iter().map(|found| found.beyond).fold(f64::INFINITY, f64::min);
         if least > 0.0 {
             return -least.min(self.longest());
         }
+        let counted = match facing {
+            Facing::Down => *ranges,
+            Facing::Level { .. } => {
+                std::array::from_fn(|joint| if joint < WRIST { ranges[joint] } else { [-TAU, TAU] })
+            }
+        };
         let rooms = found.iter().filter(|found| found.beyond == 0.0).map(|found| {
             let bent = match &self.geometry {
                 Geometry::UniversalRobots(lengths) => lengths.bent(&pose, &found.angles),
                 Geometry::OrthoParallel(opw) => opw.bent(&pose, &found.angles),
             };
-            bent.room(&found.angles, ranges)
+            bent.room(&found.angles, &counted)
         });
         rooms.fold(0.0, f64::max)
+    }
+
+    /// How far the fourth to the sixth joint are from their limits at a place, the nearest of them, rad; of several ways
+    /// to reach the place the best one counts. None out of reach, and for an arm in which each of them turns once or more.
+    pub fn wrist_room(&self, tool: Point, facing: Facing) -> Option<f64> {
+        let ranges = self.ranges.as_ref()?;
+        let limited: Vec<usize> =
+            (WRIST..JOINTS).filter(|joint| ranges[*joint][1] - ranges[*joint][0] < TAU).collect();
+        if limited.is_empty() || !is_finite(tool) {
+            return None;
+        }
+        let start = self.start();
+        let found = self.candidates(self.seen(tool), self.seen_facing(facing), &start);
+        let rooms = found.filter(|found| found.beyond == 0.0).map(|found| {
+            let room = |joint: &usize| {
+                let ([low, high], angle) = (ranges[*joint], found.angles[*joint]);
+                (angle - low).min(high - angle)
+            };
+            limited.iter().map(room).fold(f64::INFINITY, f64::min)
+        });
+        rooms.reduce(f64::max)
     }
 
     /// From the first joint to the tool at most, m.
@@ -134,10 +178,10 @@ impl FixedArm {
         }
     }
 
-    /// All joints that bring the tool, pointing down, to a place in the frame of the base, near `from`.
-    fn candidates(&self, seen: Point, from: &Angles) -> impl Iterator<Item = Candidate> {
+    /// All joints that bring the tool, pointing there, to a place in the frame of the base, near `from`.
+    fn candidates(&self, seen: Point, facing: Facing, from: &Angles) -> impl Iterator<Item = Candidate> {
         let solutions = [1.0, -1.0].into_iter().flat_map(move |x| {
-            let tool = self.pointing_down(seen, x);
+            let tool = self.pointing(seen, facing, x);
             match &self.geometry {
                 Geometry::UniversalRobots(lengths) => {
                     let all = lengths.inverse(&tool).into_iter();
@@ -174,18 +218,20 @@ impl FixedArm {
         Candidate { angles, is_usual, beyond }
     }
 
-    /// Joints that bring the tool, pointing down, to a place; some exactly when [`Self::margin`] is not negative. Its x lies
-    /// along the base's x, one way or the other. Of all ways with the elbow up, else of all, the one on which the joint
+    /// Joints that bring the tool, pointing there, to a place; some exactly when [`Self::margin`] is not negative. Pointing
+    /// down its x lies along the base's x, one way or the other; level its x is vertical. Of all ways with the elbow up, else of all, the one on which the joint
     /// that goes farthest goes least.
-    pub fn solve(&self, tool: Point, from: &Angles) -> Option<Angles> {
-        if self.margin(tool) < 0.0 {
+    pub fn solve(&self, tool: Point, facing: Facing, from: &Angles) -> Option<Angles> {
+        if self.margin(tool, facing) < 0.0 {
             return None;
         }
         let cost = |found: &Candidate| {
             let farthest = found.angles.iter().zip(from).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             if found.is_usual { farthest } else { farthest + 4.0 * PI }
         };
-        let found = self.candidates(self.seen(tool), from).filter(|found| found.beyond == 0.0);
+        let found = self
+            .candidates(self.seen(tool), self.seen_facing(facing), from)
+            .filter(|found| found.beyond == 0.0);
         // Of equals the first.
         let best = found.reduce(|best, next| if cost(&next) < cost(&best) - 1e-9 { next } else { best });
         best.map(|found| found.angles)
@@ -241,27 +287,27 @@ fn turn_within(angle: f64, [low, high]: [f64; 2], present: f64) -> f64 {
     turns.into_iter().reduce(|best, next| if cost(next) < cost(best) { next } else { best }).unwrap_or(angle)
 }
 
-/// The tool pointing down, its x along the base's x or against it.
-fn down(position: Point, x: f64) -> Pose {
-    Pose { rotation: [[x, 0.0, 0.0], [0.0, -x, 0.0], [0.0, 0.0, -1.0]], position }
-}
-
-/// That of an arm of Universal Robots, the tool vertical in the frame of the base.
-fn margin(lengths: &Lengths, tool: &Pose) -> f64 {
-    let Lengths { d1, a2, a3, d4, d5, tool: length } = *lengths;
-    let seen = tool.position;
-    let from_axis = libm::hypot(seen.x, seen.y);
+/// That of an arm of Universal Robots, the tool vertical or level in the frame of the base.
+fn margin(lengths: &Lengths, tool: &Pose, facing: Facing) -> f64 {
+    let Lengths { d1, a2, a3, d4, d5, .. } = *lengths;
+    let wrist = lengths.wrist(tool);
+    let from_axis = libm::hypot(wrist.x, wrist.y);
     if from_axis < d4.abs() {
         return from_axis - d4.abs();
     }
     let ahead = root((from_axis - d4) * (from_axis + d4));
-    let height = seen.z - length * tool.axis(2).z - d1;
+    let height = wrist.z - d1;
     let (longest, shortest) = (a2.abs() + a3.abs(), (a2.abs() - a3.abs()).abs());
-    let slack = |out: f64| {
-        let wrist = libm::hypot(out, height);
+    let slack = |ahead: f64, height: f64| {
+        let wrist = libm::hypot(ahead, height);
         (longest - wrist).min(wrist - shortest)
     };
-    room(ahead, d4, slack(ahead - d5).max(slack(ahead + d5)))
+    // The second link of the wrist is at right angles to the tool, in the plane of the arm.
+    let [one, other] = match facing {
+        Facing::Down => [slack(ahead - d5, height), slack(ahead + d5, height)],
+        Facing::Level { .. } => [slack(ahead, height - d5), slack(ahead, height + d5)],
+    };
+    room(ahead, d4, one.max(other))
 }
 
 #[cfg(test)]
@@ -282,8 +328,8 @@ mod tests {
         for _ in 0..100_000 {
             let mut drawn = || random.between(-1.8, 1.8);
             let tool = Point::new(drawn(), drawn(), 0.5 + drawn());
-            let found = arm.solve(tool, &from);
-            assert_eq!(found.is_some(), arm.margin(tool) >= 0.0, "{tool:?}");
+            let found = arm.solve(tool, Facing::Down, &from);
+            assert_eq!(found.is_some(), arm.margin(tool, Facing::Down) >= 0.0, "{tool:?}");
             let Some(joints) = found else { continue };
             let pose = arm.tool_pose(&joints);
             assert!((pose.position - tool).length() < 1e-6, "{tool:?} {joints:?}");
@@ -306,7 +352,11 @@ mod tests {
             if libm::hypot(a.x, a.y) > 0.3 && libm::hypot(b.x, b.y) > 0.3 {
                 let goes = (a - b).length();
                 let stretched = 1.0 / (1.0 - (0.17415_f64 / 0.3).powi(2)).sqrt();
-                assert!((arm.margin(a) - arm.margin(b)).abs() <= stretched * goes + 1e-9, "{a:?} {b:?}");
+                assert!(
+                    (arm.margin(a, Facing::Down) - arm.margin(b, Facing::Down)).abs()
+                        <= stretched * goes + 1e-9,
+                    "{a:?} {b:?}"
+                );
             }
         }
     }
@@ -342,11 +392,11 @@ mod tests {
         for _ in 0..50_000 {
             let mut drawn = || random.between(-0.9, 0.9);
             let tool = Point::new(0.3 + drawn(), drawn() - 0.2, 0.5 + drawn());
-            let found = limited.solve(tool, &from);
-            assert_eq!(found.is_some(), limited.margin(tool) >= 0.0, "{tool:?}");
-            assert!(free.margin(tool) >= limited.margin(tool) - 1e-9);
+            let found = limited.solve(tool, Facing::Down, &from);
+            assert_eq!(found.is_some(), limited.margin(tool, Facing::Down) >= 0.0, "{tool:?}");
+            assert!(free.margin(tool, Facing::Down) >= limited.margin(tool, Facing::Down) - 1e-9);
             let Some(joints) = found else {
-                forbidden += usize::from(free.margin(tool) >= 0.0);
+                forbidden += usize::from(free.margin(tool, Facing::Down) >= 0.0);
                 continue;
             };
             let pose = limited.tool_pose(&joints);

@@ -5,6 +5,7 @@
 
 pub mod arm;
 pub mod cartesian;
+pub mod facing;
 pub mod fixed;
 pub mod gantry;
 pub mod links;

@@ -101,12 +101,12 @@ impl Opw {
         room(out, self.b, sides.map(slack).into_iter().fold(f64::NEG_INFINITY, f64::max))
     }
 
-    /// How the arm bends at these angles of the maker, its tool vertical at a place.
+    /// How the arm bends at these angles of the maker, its tool vertical or level at a place.
     pub(super) fn bent(&self, tool: &Pose, angles: &Angles) -> Bent {
         let counted: Angles = std::array::from_fn(|i| self.signs[i] * angles[i] - self.offsets[i]);
         let [first, second, third, fourth, ..] = counted;
         let (sin, cos) = libm::sincos(first);
-        let Point { x, y, .. } = tool.position;
+        let Point { x, y, .. } = self.wrist(tool);
         let signs = self.signs;
         // With the fourth joint half a turn away, the fifth one turns the tool the other way.
         let wrist = if libm::cos(fourth) < 0.0 { -signs[4] } else { signs[4] };

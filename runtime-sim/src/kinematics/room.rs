@@ -22,7 +22,7 @@ pub fn room(ahead: f64, beside: f64, slack: f64) -> f64 {
 
 /// Upper arm and forearm in the plane, for one way in which the arm bends. Angles are from straight ahead, upwards, rad.
 pub struct Bent {
-    /// Of the tool from the first axis, seen from above, in the frame of the base.
+    /// Of the wrist from the first axis, seen from above, in the frame of the base: that of a vertical tool is the tool's.
     pub place: [f64; 2],
     /// Where the plane points, and how far it is beside the axis, to the left.
     pub first: f64,
@@ -81,7 +81,7 @@ impl Bent {
         (high - low < TAU).then_some([rate * (low - angle), rate * (high - angle)]).into_iter().flatten()
     }
 
-    /// Distance of the tool to the half of a plane in which the tool can be while it points there.
+    /// Distance of the wrist to the half of a plane in which it can be while that points there.
     fn distance_of_plane(&self, first: f64) -> f64 {
         let (sin, cos) = libm::sincos(first);
         let seen = [self.place[0] + self.beside * sin, self.place[1] - self.beside * cos];

@@ -32,11 +32,16 @@ const LAST_DIGITS: f64 = 1e-15;
 pub type Angles = [f64; 6];
 
 impl Lengths {
-    /// How the arm bends at these angles, its tool vertical at a place.
+    /// The origin of the last joint.
+    pub(super) fn wrist(&self, tool: &Pose) -> Point {
+        tool.position - tool.axis(2).scaled(self.tool)
+    }
+
+    /// How the arm bends at these angles, its tool vertical or level at a place.
     pub(super) fn bent(&self, tool: &Pose, angles: &Angles) -> Bent {
         let [first, second, third, ..] = *angles;
         let (sin, cos) = libm::sincos(first);
-        let Point { x, y, .. } = tool.position;
+        let Point { x, y, .. } = self.wrist(tool);
         // A link with a length below 0 points the other way.
         let half = |length: f64| if length < 0.0 { PI } else { 0.0 };
         Bent {

@@ -5,6 +5,7 @@ use super::{Action, Begun, Progress, Running, Schema, See, Signal, World};
 use crate::device::{Extent, PortType, error};
 use crate::frame::Frame;
 use crate::kinematics::arm::Joints;
+use crate::kinematics::facing::Facing;
 use crate::kinematics::fixed::{self, Mounting};
 use crate::kinematics::pose::Pose;
 use crate::part::axis::Axis;
@@ -28,11 +29,12 @@ pub const SCHEMA: Schema = Schema {
         Action { name: "around", arguments: &[PortType::Point, PortType::Point] },
         Action { name: "onto", arguments: &[PortType::Point, PortType::Point] },
         Action { name: "direct", arguments: &[PortType::Point] },
+        Action { name: "facing", arguments: &[PortType::Point, PortType::Point] },
     ],
     can_jam: true,
     ..Schema::new(
         "chain",
-        "The joints of an arm that move together, with the tool pointing down. On one axis, or on two that slide and one that turns: the six joints of a UR10. Fixed at `from`: the six joints of an arm of Universal Robots with `lengths`, or of an arm with a spherical wrist by the parameters `opw`. On one to three axes at right angles, without `speeds`: a Cartesian robot, which has no joints but its axes.",
+        "The joints of an arm that move together, with the tool pointing down, or to a side with `facing`. On one axis, or on two that slide and one that turns: the six joints of a UR10. Fixed at `from`: the six joints of an arm of Universal Robots with `lengths`, or of an arm with a spherical wrist by the parameters `opw`. On one to three axes at right angles, without `speeds`: a Cartesian robot, which has no joints but its axes.",
         &[
             Setting::new("on", Form::Part(&["axis"]), "", "the last of the axes that carry it").optional(),
             Setting::new("from", Form::Frame, "m", "frame of its base, if no axis carries it").optional(),
@@ -177,6 +179,10 @@ impl Running for Swinging {
         match (action, arguments) {
             (0, &[x, y, z]) => self.start(Target::Place(Point::new(x, y, z)), now),
             (6, &[x, y, z]) => self.start(Target::Direct(Point::new(x, y, z)), now),
+            (7, &[x, y, z, u, v, w]) => {
+                let facing = Facing::new(Point::new(u, v, w)).ok_or(error::UNREACHABLE)?;
+                self.start(Target::Facing(Point::new(x, y, z), facing), now)
+            }
             (1, &[speed, acceleration]) => self.limit(speed, acceleration),
             (2, &[x, y, z, turn]) if self.drive.has_torso() => {
                 self.start(Target::Turned(Point::new(x, y, z), turn), now)

@@ -1,5 +1,6 @@
 //! A gripper: vacuum or fingers.
 
+use super::place::OPPOSITE;
 use super::running::milliseconds;
 use super::settings::{Form, Setting, Settings};
 use super::{Described, Level, Looks, Progress, Running, Schema, See, Signal, Start, World};
@@ -240,6 +241,12 @@ impl Running for Gripping {
     /// What it holds is going to slip, or its fingers move.
     fn is_busy(&self, see: &See) -> bool {
         self.next_change(see, self.now_ms).is_finite()
+    }
+
+    /// It faces the tool.
+    fn upper(&self, _carrier: &Carrier, see: &See) -> Option<Point> {
+        let back = see.tool(self.grip.chain)?.axis(2).scaled(-1.0);
+        (back.z < -OPPOSITE).then_some(back)
     }
 
     fn place(&self, _item: usize, carrier: &Carrier, see: &See) -> Option<Point> {

@@ -4,6 +4,7 @@ use super::settings::{Form, Setting, Settings};
 use super::{Described, Running, Schema, See, Start, Primitive};
 use crate::carrier::Carrier;
 use crate::frame::Frame;
+use crate::kinematics::facing::Facing;
 use crate::plant::conveyed::Conveyed;
 use crate::plant::fall::SINK;
 use crate::point::Point;
@@ -38,6 +39,13 @@ pub const SCHEMA: Schema = Schema::new(
             "items lie on one another; without it each lies on the floor. Taking an item on which another one lies ends the run",
         )
         .optional(),
+        Setting::new(
+            "toward",
+            Form::Point,
+            "m",
+            "direction in which items are put there, down or level; in a level one they are held at the slots, with their undersides ahead, as in the chuck of a lathe. Without it down",
+        )
+        .optional(),
         Setting::new("title", Form::Word, "", "its name in reports, after the machine's name").optional(),
     ],
 );
@@ -54,11 +62,21 @@ pub struct Place {
     pub floor_y: [f64; 2],
     pub drawn: Option<Point>,
     pub stacks: bool,
+    /// Where a tool points that puts an item there.
+    pub facing: Facing,
     pub title: Option<String>,
 }
 
 impl Described for Place {
     fn new(settings: &Settings) -> Result<Self, String> {
+        let facing = match settings.optional("toward", Settings::point)? {
+            Some(toward) => Facing::new(toward).ok_or("the setting toward is neither down nor level")?,
+            None => Facing::Down,
+        };
+        let stacks = settings.optional("stacks", Settings::truth)?.unwrap_or(false);
+        if stacks && facing != Facing::Down {
+            return Err("items are not stacked at a place that is filled from the side".into());
+        }
         Ok(Self {
             on: settings.optional("on", Settings::part)?,
             at: settings.point("at")?,
@@ -68,7 +86,8 @@ impl Described for Place {
             floor_x: settings.range("floor_x")?,
             floor_y: settings.range("floor_y")?,
             drawn: settings.optional("drawn", Settings::point)?,
-            stacks: settings.optional("stacks", Settings::truth)?.unwrap_or(false),
+            stacks,
+            facing,
             title: settings.optional("title", Settings::word)?.map(Into::into),
         })
     }
@@ -82,6 +101,9 @@ impl Described for Place {
         Ok(Some(Box::new(Bearing { place: self.clone(), part, orders, sizes })))
     }
 }
+
+/// Cosine of the angle between two directions that are less than 45 degrees from opposite ones.
+pub const OPPOSITE: f64 = -std::f64::consts::FRAC_1_SQRT_2;
 
 /// Upper side and underside of two items of which one lies on the other one, m.
 const SAME_HEIGHT: f64 = 1e-6;
@@ -98,6 +120,15 @@ pub struct Bearing {
 }
 
 impl Bearing {
+    /// An item with its upper side there, held where it is; at the places of the slots alone.
+    fn held(&self, point: Point, upper: Option<Point>, frame: Frame, see: &See) -> Option<(f64, Carrier)> {
+        let seen = frame.seen(point);
+        let is_near = self.place.slots.iter().any(|slot| (*slot - seen).length() <= SINK);
+        let fits = upper.is_some_and(|upper| upper.dot(frame.direction(self.place.facing.direction())) < OPPOSITE);
+        let carrier = Carrier::Place { machine: see.machine, part: self.part, offset: seen };
+        (is_near && fits).then_some((point.z, carrier))
+    }
+
     /// The highest upper side of an item under a point, both from the origin; none if no item is there.
     fn top_under(&self, point: Point, see: &See) -> Option<f64> {
         if !self.place.stacks {
@@ -131,12 +162,15 @@ impl Running for Bearing {
         Box::new(self.clone())
     }
 
-    fn below(&self, point: Point, ms: f64, see: &See) -> Option<(f64, Carrier)> {
+    fn below(&self, point: Point, upper: Option<Point>, ms: f64, see: &See) -> Option<(f64, Carrier)> {
         if self.orders.is_some_and(|orders| !see.is_open(orders)) {
             return None;
         }
         let Place { floor, floor_x, floor_y, .. } = self.place;
         let frame = self.frame(see, Some(ms));
+        if self.place.facing != Facing::Down {
+            return self.held(point, upper, frame, see);
+        }
         let seen = frame.seen(point);
         let from_middle = seen - floor;
         let is_within = |at: f64, [low, high]: [f64; 2]| (low..=high).contains(&at);
@@ -169,6 +203,11 @@ impl Running for Bearing {
             Carrier::Place { offset, .. } => Some(self.frame(see, None).point(offset)),
             _ => None,
         }
+    }
+
+    fn upper(&self, carrier: &Carrier, see: &See) -> Option<Point> {
+        let is_level = matches!(carrier, Carrier::Place { .. }) && self.place.facing != Facing::Down;
+        is_level.then(|| self.frame(see, None).direction(self.place.facing.direction()).scaled(-1.0))
     }
 
     /// An item on a cylinder or a positioner is carried along.

@@ -1,9 +1,14 @@
 //! What takes its time with an item at a place: milling, welding, testing.
 
+mod distribution;
+
+use distribution::{Distribution, TIMES, Times};
+
 use super::cylinder::End;
 use super::settings::{Form, Setting, Settings};
 use super::{Described, Level, Primitive, Progress, Running, Schema, See, Signal, Start, World, milliseconds};
 use crate::device::{Extent, PortType};
+use crate::hash::of_name;
 use crate::line::{Kind, SlowCycle};
 use crate::point::Point;
 use crate::random::Random;
@@ -19,15 +24,20 @@ pub const SCHEMA: Schema = Schema {
     levels: &[Level { name: "start", ty: PortType::Bool }],
     ..Schema::new(
         "process",
-        "Works on the item at a place after a rising edge of `start`: for `time`, or for a time drawn from the triangular distribution of `shortest`, `time` and `longest`. `ended` stays true until the next start. A start without an item, or without what it needs, ends the run: on the machine it would be a crash.",
+        "Works on the item at a place after a rising edge of `start`, for a time that is fixed or drawn. `ended` stays true until the next start. A start without an item, or without what it needs, ends the run: on the machine it would be a crash.",
         &[
             Setting::new("on", Form::Part(&["place"]), "", "the place of the item"),
-            Setting::new("time", Form::Positive, "ms", "duration; with a triangular distribution the most likely one"),
-            Setting::new("shortest", Form::Positive, "ms", "of a triangular distribution").optional(),
-            Setting::new("longest", Form::Positive, "ms", "of a triangular distribution").optional(),
+            Setting::new("time", Form::Times, "ms", "duration; the likeliest of a triangular distribution, the mean of a normal one").optional(),
+            Setting::new("shortest", Form::Times, "ms", "no time is shorter").optional(),
+            Setting::new("longest", Form::Times, "ms", "no time is longer").optional(),
+            Setting::new("deviation", Form::Times, "ms", "standard deviation of a normal distribution").optional(),
+            Setting::new("distribution", Form::Word, "", "fixed, triangular, uniform, normal or exponential; without it fixed, or triangular with `shortest` or `longest`").optional(),
+            Setting::new("kinds", Form::Words, "", "kinds that it works on; a list of times has one for each of them").optional(),
             Setting::new("needs_in", Form::Part(&["cylinder"]), "", "has to be at its inner end at the start").optional(),
             Setting::new("needs_out", Form::Part(&["cylinder"]), "", "has to be at its outer end at the start").optional(),
             Setting::new("makes", Form::Words, "", "pairs of a kind and the kind that it becomes; all others do not change").optional(),
+            Setting::new("rejects", Form::Words, "", "pairs of a kind and the kind that some of its items become instead").optional(),
+            Setting::new("shares", Form::Numbers, "", "share of the items, 0 to 1, for each pair of `rejects`").optional(),
             Setting::new(
                 "joins",
                 Form::Words,
@@ -49,45 +59,121 @@ pub const SCHEMA: Schema = Schema {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Process {
     pub place: usize,
-    /// Shortest, likeliest and longest.
-    pub times_ms: [u64; 3],
+    /// Names of kinds; empty for all kinds, with one time.
+    pub kinds: Vec<String>,
+    /// One, or one for each of `kinds`.
+    pub times: Vec<Distribution>,
     pub needs_in: Option<usize>,
     pub needs_out: Option<usize>,
     /// Names of kinds: what it was, and what it becomes.
     pub makes: Vec<[String; 2]>,
+    pub rejects: Vec<Reject>,
     /// Names of kinds.
     pub joins: Vec<String>,
     pub frees: bool,
 }
 
+/// Items of a kind of which some become another kind.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reject {
+    /// Names of kinds: what it was, and what it becomes.
+    pub kinds: [String; 2],
+    /// 0 to 1.
+    pub share: f64,
+}
+
+/// What is drawn for a cycle.
+enum Drawn {
+    Time,
+    Reject,
+}
+
+impl Process {
+    /// No cycle takes less, ms.
+    pub fn shortest_ms(&self) -> u64 {
+        self.times.iter().map(Distribution::shortest_ms).min().unwrap_or(0)
+    }
+
+    /// What may become of a kind, by name, after the rules for all its items and for some.
+    pub fn made_of(&self, kind: &str) -> impl Iterator<Item = &str> {
+        let all = self.makes.iter().chain(self.rejects.iter().map(|reject| &reject.kinds));
+        all.filter(move |[from, _]| from == kind).map(|[_, to]| to.as_str())
+    }
+}
+
+/// Each of the kinds has a time of its own, or all of them have one.
+fn times(settings: &Settings, kinds: &[String]) -> Result<Vec<Distribution>, String> {
+    let word = Distribution::word(settings)?;
+    let mut given = Vec::new();
+    for name in TIMES {
+        let times = settings.optional(name, Settings::times)?;
+        if let Some(times) = times.as_ref().filter(|times| ![1, kinds.len()].contains(&times.len())) {
+            let count = times.len();
+            return Err(match kinds.is_empty() {
+                true => format!("{name} has {count} times: name their kinds in `kinds`"),
+                false => format!("{name} has {count} times for {} kinds", kinds.len()),
+            });
+        }
+        given.push(times);
+    }
+    let of = |name: usize, kind: usize| given[name].as_ref().map(|times| times[kind.min(times.len() - 1)]);
+    let distribution = |kind: usize| {
+        let [time, shortest, longest, deviation] = [0, 1, 2, 3].map(|name| of(name, kind));
+        Distribution::new(word, &Times { time, shortest, longest, deviation })
+    };
+    (0..kinds.len().max(1)).map(distribution).collect()
+}
+
+fn pairs(settings: &Settings, name: &str) -> Result<Vec<[String; 2]>, String> {
+    let words = settings.optional(name, Settings::words)?.unwrap_or_default();
+    if words.len() % 2 != 0 {
+        return Err(format!("the setting {name} names a kind without what becomes of it"));
+    }
+    Ok(words.chunks_exact(2).map(|pair| [pair[0].clone(), pair[1].clone()]).collect())
+}
+
+fn rejects(settings: &Settings) -> Result<Vec<Reject>, String> {
+    let pairs = pairs(settings, "rejects")?;
+    let shares = settings.optional("shares", Settings::numbers)?.unwrap_or_default();
+    if pairs.len() != shares.len() {
+        return Err(format!("the setting rejects has {} pairs, and shares {} numbers", pairs.len(), shares.len()));
+    }
+    if shares.iter().any(|share| !(0.0..=1.0).contains(share)) {
+        return Err("a share is a number from 0 to 1".into());
+    }
+    let rejects: Vec<Reject> = pairs.into_iter().zip(shares).map(|(kinds, share)| Reject { kinds, share }).collect();
+    for Reject { kinds: [kind, _], .. } in &rejects {
+        let all: f64 = rejects.iter().filter(|other| other.kinds[0] == *kind).map(|other| other.share).sum();
+        if all > 1.0 {
+            return Err(format!("the shares of the kind {kind} are more than 1 together"));
+        }
+    }
+    Ok(rejects)
+}
+
 impl Described for Process {
     fn new(settings: &Settings) -> Result<Self, String> {
-        let time = settings.milliseconds("time")?;
-        let shortest = settings.optional("shortest", Settings::milliseconds)?.unwrap_or(time);
-        let longest = settings.optional("longest", Settings::milliseconds)?.unwrap_or(time);
-        if shortest == 0 || shortest > time || time > longest {
-            return Err("its times are not in order: shortest, time, longest".into());
+        let kinds = settings.optional("kinds", Settings::words)?.unwrap_or_default();
+        if let Some(twice) = kinds.iter().enumerate().find(|(number, kind)| kinds[..*number].contains(kind)) {
+            return Err(format!("the setting kinds names {} twice", twice.1));
         }
-        let words = settings.optional("makes", Settings::words)?.unwrap_or_default();
-        if words.len() % 2 != 0 {
-            return Err("the setting makes names a kind without what becomes of it".into());
-        }
-        let makes = words.chunks_exact(2).map(|pair| [pair[0].clone(), pair[1].clone()]);
         Ok(Self {
             place: settings.part("on")?,
-            times_ms: [shortest, time, longest],
+            times: times(settings, &kinds)?,
+            kinds,
             needs_in: settings.optional("needs_in", Settings::part)?,
             needs_out: settings.optional("needs_out", Settings::part)?,
-            makes: makes.collect(),
+            makes: pairs(settings, "makes")?,
+            rejects: rejects(settings)?,
             joins: settings.optional("joins", Settings::words)?.unwrap_or_default(),
             frees: settings.optional("frees", Settings::truth)?.unwrap_or(false),
         })
     }
 
     fn start(&self, start: &mut Start) -> Result<Option<Box<dyn Running>>, String> {
-        let place = [start.machine as u64, start.part as u64];
-        let mut cycle = Cycle::new(self, &start.line.kinds, start.line.scenario.seed, place);
         let parts = &start.machine().parts;
+        let place = [&start.machine().name, &parts[start.part].name].map(|name| of_name(name));
+        let mut cycle = Cycle::new(self, &start.line.kinds, start.line.scenario.seed, place);
         let mine = |slow: &&SlowCycle| (slow.machine, slow.part) == (start.machine, start.part);
         let slow = start.line.scenario.slow.iter().filter(mine);
         cycle.longer_ms = slow.map(|slow| (slow.cycle, milliseconds(slow.longer_s))).collect();
@@ -107,15 +193,21 @@ pub struct Cycle {
     process: Process,
     /// Cylinders, the ends at which they have to be, and their names.
     needs: Vec<(usize, End, String)>,
+    /// For each kind the number of its time; none for a kind that it does not work on.
+    times: Vec<Option<usize>>,
     /// What becomes of each kind.
     becomes: Vec<usize>,
+    /// For each kind, what some of it become, and their share.
+    rejects: Vec<Vec<(usize, f64)>>,
     /// Kinds of the items that are joined to the first one; none for a name that no kind has.
     joins: Vec<Option<usize>>,
     /// Their names.
     kinds: Vec<String>,
     /// Of the place.
     slots: Vec<Point>,
-    random: Random,
+    seed: u64,
+    /// Of the names of its machine and of itself.
+    place: [u64; 2],
     is_on: bool,
     /// An edge of `start` that has not been checked yet.
     is_asked: bool,
@@ -129,21 +221,32 @@ pub struct Cycle {
 }
 
 impl Cycle {
-    /// `place` is the number of the machine and of the part: each draws times of its own.
+    /// `place` is made of the names of the machine and of the part: each draws times of its own.
     pub fn new(process: &Process, kinds: &[Kind], seed: u64, place: [u64; 2]) -> Self {
         let number = |name: &String| kinds.iter().position(|kind| kind.name == *name);
         let becomes = |kind: usize| {
             let rule = process.makes.iter().find(|[from, _]| *from == kinds[kind].name);
             rule.and_then(|[_, to]| number(to)).unwrap_or(kind)
         };
+        let time = |kind: &Kind| match process.kinds.is_empty() {
+            true => Some(0),
+            false => process.kinds.iter().position(|name| *name == kind.name),
+        };
+        let rejects = |kind: &Kind| {
+            let of_it = process.rejects.iter().filter(|reject| reject.kinds[0] == kind.name);
+            of_it.filter_map(|reject| Some((number(&reject.kinds[1])?, reject.share))).collect()
+        };
         Self {
             process: process.clone(),
             needs: Vec::new(),
+            times: kinds.iter().map(time).collect(),
             becomes: (0..kinds.len()).map(becomes).collect(),
+            rejects: kinds.iter().map(rejects).collect(),
             joins: process.joins.iter().map(number).collect(),
             kinds: kinds.iter().map(|kind| kind.name.clone()).collect(),
             slots: Vec::new(),
-            random: Random::at(seed, place),
+            seed,
+            place,
             is_on: false,
             is_asked: false,
             works: None,
@@ -159,21 +262,28 @@ impl Cycle {
         longer.map(|(_, ms)| ms).sum()
     }
 
-    /// The next time, whole milliseconds.
-    fn time_ms(&mut self) -> u64 {
-        let [low, mode, high] = self.process.times_ms.map(|ms| ms as f64);
-        if low == high {
-            return self.process.times_ms[1];
+    /// From 0 to less than 1. What is drawn for a cycle depends on no other cycle and no other process.
+    fn drawn(&self, what: Drawn) -> f64 {
+        let [machine, part] = self.place;
+        Random::at(self.seed, [machine, part, u64::from(self.started), what as u64]).fraction()
+    }
+
+    /// Of the cycle that was started last, for an item of a kind on which it works; ms.
+    fn time_ms(&self, kind: usize) -> u64 {
+        let number = self.times[kind].unwrap_or(0).min(self.process.times.len() - 1);
+        self.process.times[number].time_ms(self.drawn(Drawn::Time))
+    }
+
+    /// What an item of a kind becomes at the end of this cycle.
+    fn made_of(&self, kind: usize) -> usize {
+        let mut drawn = self.drawn(Drawn::Reject);
+        for (becomes, share) in &self.rejects[kind] {
+            if drawn < *share {
+                return *becomes;
+            }
+            drawn -= share;
         }
-        // By the inverse of the distribution function.
-        let drawn = self.random.next_u64() as f64 / u64::MAX as f64;
-        let (rise, fall) = ((mode - low) * (high - low), (high - mode) * (high - low));
-        let time = if drawn * (high - low) < mode - low {
-            low + (drawn * rise).sqrt()
-        } else {
-            high - ((1.0 - drawn) * fall).sqrt()
-        };
-        libm::round(time) as u64
+        self.becomes[kind]
     }
 
     /// The items that are joined to one, in the order of their kinds; the name of a kind of which none is there.
@@ -208,8 +318,10 @@ impl Cycle {
     fn lacks(&self, item: Option<usize>, world: &World) -> String {
         let see = world.see();
         let mut lacks = Vec::new();
-        if item.is_none() {
-            lacks.push("an item".to_string());
+        match item.map(|item| see.items.all()[item].kind) {
+            None => lacks.push("an item".to_string()),
+            Some(kind) if self.times[kind].is_none() => lacks.push(format!("a time for a {}", self.kinds[kind])),
+            Some(_) => {}
         }
         if let Some(Err(kind)) = item.map(|item| self.joined(item, &see)) {
             lacks.push(format!("a {kind} beside it"));
@@ -244,7 +356,8 @@ impl Running for Cycle {
                 Some(item) => {
                     self.has_ended = false;
                     self.started = self.started.saturating_add(1);
-                    self.works = Some((item, world.now_ms + self.time_ms() + self.longer_ms()));
+                    let kind = world.items.all()[item].kind;
+                    self.works = Some((item, world.now_ms + self.time_ms(kind) + self.longer_ms()));
                 }
                 None => world.crash(format!("a process was started without {lacks}")),
             }
@@ -264,7 +377,7 @@ impl Running for Cycle {
                 world.crash(format!("a process has no free slot for a {}", self.kinds[kind]));
             }
             let kind = world.items.all()[item].kind;
-            world.items.remake(item, self.becomes[kind]);
+            world.items.remake(item, self.made_of(kind));
         }
         Progress::Going
     }
@@ -285,23 +398,4 @@ impl Running for Cycle {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Mean of a triangle: a third of the sum. Its variance: (a2 + b2 + c2 - ab - ac - bc) / 18.
-    #[test]
-    fn times_of_a_triangle_have_its_mean_and_its_spread() {
-        let times_ms = [85_000, 90_000, 100_000];
-        let process = Process { place: 0, times_ms, needs_in: None, needs_out: None, makes: Vec::new(), joins: Vec::new(), frees: false };
-        let mut cycle = Cycle::new(&process, &[], 7, [1, 2]);
-        let count = 200_000;
-        let times: Vec<f64> = (0..count).map(|_| cycle.time_ms() as f64 / 1000.0).collect();
-        assert!(times.iter().all(|time| (85.0..=100.0).contains(time)));
-        let mean = times.iter().sum::<f64>() / f64::from(count);
-        let spread = times.iter().map(|time| (time - mean) * (time - mean)).sum::<f64>() / f64::from(count);
-        let (a, b, c) = (85.0_f64, 90.0, 100.0);
-        let expected = (a * a + b * b + c * c - a * b - a * c - b * c) / 18.0;
-        assert!((mean - (a + b + c) / 3.0).abs() < 0.03, "{mean}");
-        assert!((spread - expected).abs() < 0.1, "{spread} {expected}");
-    }
-}
+mod tests;

@@ -256,8 +256,13 @@ pub trait Running: std::fmt::Debug + Send + Sync {
         false
     }
 
+    /// Where the upper side of an item that it bears faces, a unit vector; none for up.
+    fn upper(&self, _carrier: &Carrier, _see: &See) -> Option<Point> {
+        None
+    }
+
     /// The height of its surface and what becomes of an item that comes down at this place and time, ms, if it meets that.
-    fn below(&self, _point: Point, _ms: f64, _see: &See) -> Option<(f64, Carrier)> {
+    fn below(&self, _point: Point, _upper: Option<Point>, _ms: f64, _see: &See) -> Option<(f64, Carrier)> {
         None
     }
 

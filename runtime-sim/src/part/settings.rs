@@ -36,6 +36,8 @@ pub enum Form {
     Points,
     Numbers,
     Words,
+    /// One time over 0, or a list of such.
+    Times,
 }
 
 impl Setting {
@@ -108,6 +110,16 @@ impl Settings {
     pub fn milliseconds(&self, name: &str) -> Result<u64, String> {
         let is_time = |n: &f64| (0.0..=1e9).contains(n) && n.fract() == 0.0;
         self.read(name, "time in whole milliseconds", |v| number(v).filter(is_time).map(|n| n as u64))
+    }
+
+    /// Whole milliseconds: of one time, or of each of a list.
+    pub fn times(&self, name: &str) -> Result<Vec<u64>, String> {
+        let is_time = |n: &f64| (1.0..=1e9).contains(n) && n.fract() == 0.0;
+        let time = |value: &Value| number(value).filter(is_time).map(|n| n as u64);
+        self.read(name, "time over 0, in whole milliseconds", |value| match value {
+            Value::List(values) => values.iter().map(time).collect(),
+            _ => Some(vec![time(value)?]),
+        })
     }
 
     pub fn point(&self, name: &str) -> Result<Point, String> {

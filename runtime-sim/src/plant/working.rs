@@ -394,9 +394,15 @@ impl Working {
         }
     }
 
-    pub fn below(&self, point: Point, ms: f64, items: &Items, desk: &Desk) -> Option<(f64, Carrier)> {
+    pub fn below(
+        &self,
+        (point, upper): (Point, Option<Point>),
+        ms: f64,
+        items: &Items,
+        desk: &Desk,
+    ) -> Option<(f64, Carrier)> {
         let see = self.see(items, desk);
-        let surfaces = self.parts.iter().flatten().filter_map(|part| part.below(point, ms, &see));
+        let surfaces = self.parts.iter().flatten().filter_map(|part| part.below(point, upper, ms, &see));
         // What is over the item does not bear it.
         surfaces
             .filter(|(height, _)| *height <= point.z + SINK)
@@ -412,6 +418,12 @@ impl Working {
     pub fn place(&self, item: usize, carrier: &Carrier, items: &Items, desk: &Desk) -> Option<Point> {
         let part = self.parts.get(carrier.part()?)?.as_ref()?;
         part.place(item, carrier, &self.see(items, desk))
+    }
+
+    /// Where the upper side of an item that it bears faces; none for up.
+    pub fn upper(&self, carrier: &Carrier, items: &Items, desk: &Desk) -> Option<Point> {
+        let part = self.parts.get(carrier.part()?)?.as_ref()?;
+        part.upper(carrier, &self.see(items, desk))
     }
 
     /// How an item that it bears continues, if it is conveyed or carried.

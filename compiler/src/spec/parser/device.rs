@@ -261,8 +261,10 @@ impl Parser {
             let point = self.parse_expr();
             points.push((point, self.text("what the place is called")?));
             if !self.maybe_sign(",") {
-                return Some(ast::Place { name, extent, points });
+                break;
             }
         }
+        let toward = if self.maybe_word("toward") { Some(self.parse_expr()) } else { None };
+        Some(ast::Place { name, extent, toward, points })
     }
 }

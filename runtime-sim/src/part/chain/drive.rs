@@ -2,6 +2,7 @@
 
 use super::motions::{Planned, Motions};
 use crate::kinematics::arm::{Joints, Limits};
+use crate::kinematics::facing::Facing;
 use crate::kinematics::pose::Pose;
 use crate::motion::{Motion, Travel};
 use crate::point::Point;
@@ -27,6 +28,8 @@ pub enum Target {
     Place(Point),
     /// The same, each joint by the same part of its way at a time.
     Direct(Point),
+    /// The same with the tool pointing there, in a straight line if it goes along where it points.
+    Facing(Point, Facing),
     /// A place, with the torso at exactly this turn, rad.
     Turned(Point, f64),
     /// The second place, past the first one without a stop.

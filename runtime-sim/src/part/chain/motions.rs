@@ -50,6 +50,11 @@ impl Question {
                 point(goal);
                 7
             }
+            Target::Facing(goal, facing) => {
+                point(goal);
+                point(&facing.direction());
+                8
+            }
             Target::Turned(goal, turn) => {
                 point(goal);
                 words.push(turn.to_bits());
@@ -114,6 +119,9 @@ impl Motions {
         let knots = match target {
             Target::Place(goal) => self.arm.line_to(*goal, directed)?.into_iter().map(Knot::new).collect(),
             Target::Direct(goal) => vec![Knot::new(self.arm.solve(*goal, directed)?)],
+            Target::Facing(goal, facing) => {
+                self.arm.line_facing(*goal, *facing, directed)?.into_iter().map(Knot::new).collect()
+            }
             Target::Turned(goal, turn) => vec![Knot::new(self.arm.solve_turned(*goal, *turn, directed)?)],
             Target::Past(via, goal) => {
                 let via = self.arm.solve(*via, directed)?;

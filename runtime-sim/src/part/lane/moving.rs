@@ -193,7 +193,7 @@ impl Running for Moving {
             || self.riders.iter().any(goes)
     }
 
-    fn below(&self, point: Point, ms: f64, see: &See) -> Option<(f64, Carrier)> {
+    fn below(&self, point: Point, _upper: Option<Point>, ms: f64, see: &See) -> Option<(f64, Carrier)> {
         let centre_line = self.centre_line(see, ms);
         let (place, across) = centre_line.find(point)?;
         let height = centre_line.point(place, across).z;

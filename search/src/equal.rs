@@ -1,0 +1,126 @@
+//! Whether two lines do the same to their plant, whatever its devices do: a bisimulation over all that can be reached.
+
+use crate::event::Event;
+use crate::explore::Bounds;
+use crate::model::Model;
+use crate::plant::status;
+use crate::store::Store;
+use crate::successor::Expander;
+use crate::value::{Values, Var};
+use crate::violation::Violation;
+use std::collections::{BTreeMap, BTreeSet};
+use std::time::Instant;
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Comparison {
+    /// In all of so many pairs of states.
+    Equal {
+        pairs: usize,
+    },
+    Unequal,
+    /// No difference within the bounds.
+    Undecided,
+}
+
+/// What devices did, what came of it, and what the plant is then. Violations without the numbers of faults, which are those
+/// of one text.
+type Seen = (Vec<String>, Result<(), String>, Vec<String>, Vec<u64>);
+
+/// Both lines have the same machines, in the same order. What is compared: which events are possible, which commands are
+/// under way with which goals, where items, vehicles, tools, cylinders and processes are, which orders are made, which
+/// machines are stopped, and which violations there are. States of automata, cells and levels are compared only by what
+/// they do to these.
+pub fn compare(a: &Model, b: &Model, bounds: &Bounds) -> Comparison {
+    let begin = Instant::now();
+    let answers = bounds.answers.unwrap_or(usize::MAX);
+    let [mut of_a, mut of_b] = [a, b].map(|model| Expander::new(model, answers, bounds.orders));
+    let both = |a: &[u8], b: &[u8]| [a, b].concat();
+    let length = a.initial.len();
+    let mut pairs = Store::new(length + b.initial.len());
+    pairs.add(&both(&a.initial, &b.initial), 0);
+    let mut next = 0;
+    while next < pairs.len() {
+        let pair = pairs.state(next).to_vec();
+        let (left, right) = pair.split_at(length);
+        let (after_a, after_b) = (successors(&mut of_a, left), successors(&mut of_b, right));
+        if after_a.len() != after_b.len() {
+            return Comparison::Unequal;
+        }
+        for ((seen, of_a), (also, of_b)) in after_a.into_iter().zip(after_b) {
+            // Several states that look alike are paired in their order: any pairing that holds is a proof.
+            if seen != also || of_a.len() != of_b.len() {
+                return Comparison::Unequal;
+            }
+            if seen.1.is_ok() {
+                of_a.iter().zip(&of_b).for_each(|(a, b)| {
+                    pairs.add(&both(a, b), next);
+                });
+            }
+        }
+        let is_late = next % 64 == 0 && bounds.time.is_some_and(|time| begin.elapsed() > time);
+        if is_late || pairs.size() > bounds.memory {
+            return Comparison::Undecided;
+        }
+        next += 1;
+    }
+    Comparison::Equal { pairs: pairs.len() }
+}
+
+fn successors(expander: &mut Expander, state: &[u8]) -> BTreeMap<Seen, Vec<Vec<u8>>> {
+    let mut all = Vec::new();
+    let model = expander.model;
+    expander.expand(state, u64::MAX, &mut |successor| {
+        let result = successor.result.as_ref().map(|()| ()).map_err(|violation| kind(violation));
+        let noted = successor.noted.iter().map(|violation| kind(violation)).collect::<Vec<_>>();
+        all.push((successor.events.to_vec(), result, noted, successor.state.to_vec()));
+    });
+    let mut found: BTreeMap<Seen, BTreeSet<Vec<u8>>> = BTreeMap::new();
+    for (events, result, noted, state) in all {
+        // Behind a violation there is nothing.
+        let plant = if result.is_ok() { plant(model, &expander.values, &state) } else { Vec::new() };
+        let events = events.iter().map(|Event { machine, what }| format!("{machine} {what:?}")).collect();
+        found.entry((events, result, noted, plant)).or_default().insert(state);
+    }
+    found.into_iter().map(|(seen, states)| (seen, states.into_iter().collect())).collect()
+}
+
+fn kind(violation: &Violation) -> String {
+    match violation {
+        Violation::Fault { instance, .. } => format!("fault of {instance}"),
+        Violation::Warning { instance, .. } => format!("warning of {instance}"),
+        Violation::MachineStops { instance, .. } => format!("stop of {instance}"),
+        other => format!("{other:?}"),
+    }
+}
+
+/// The plant in a state: numbers of both lines are equal where it is.
+fn plant(model: &Model, values: &Values, state: &[u8]) -> Vec<u64> {
+    let mut all = Vec::new();
+    let number = |var: Var| var.load(state) as u64;
+    for (machine, plant) in model.machines.iter().enumerate() {
+        let is_under_way =
+            plant.head.as_ref().is_some_and(|head| head.status.load(state) == status::UNDER_WAY);
+        all.extend([u64::from(is_under_way), u64::from(model.stands(state, machine))]);
+        if let Some(head) = plant.head.as_ref().filter(|_| is_under_way) {
+            all.push(number(head.command));
+        }
+        let arms = plant.arm.iter().flat_map(|arm| [arm.tool, arm.via, arm.goal]);
+        let routes = plant.route.iter().flat_map(|route| [route.at, route.goal]);
+        for place in arms.chain(routes) {
+            all.extend(values.point(place.load(state)).map(f64::to_bits));
+        }
+        all.extend(plant.arm.iter().flat_map(|arm| [arm.holds, arm.shown]).map(number));
+        all.extend(plant.lane.iter().map(|lane| number(lane.motion)));
+        all.extend(plant.desk.iter().flat_map(|desk| [desk.phase, desk.order, desk.next]).map(number));
+        for place in &plant.places {
+            all.extend(place.items.iter().chain(&place.stray).copied().map(number));
+        }
+    }
+    all.extend(model.inputs.iter().map(|input| number(input.var)));
+    all.extend(model.cylinders.iter().map(|cylinder| number(cylinder.position)));
+    all.extend(
+        model.processes.iter().flat_map(|process| [process.asked, process.runs, process.ended]).map(number),
+    );
+    all.extend(model.orders.iter().map(|order| number(order.made)));
+    all
+}
