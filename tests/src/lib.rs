@@ -154,6 +154,35 @@ pub fn side_by_side(path: &str) -> Texts {
     Texts { layout: part(".json"), specs, scenario, ..Texts::default() }
 }
 
+/// The turning cell with its arm on a rail along the wall, and the conveyors a metre farther away on both sides. `arm` is the
+/// text of the arm's lengths; none for those of the example.
+pub fn lathe_on_a_rail(arm: Option<&str>) -> Texts {
+    let mut texts = side_by_side("lathe/lathe");
+    let mut change = |from: &str, to: &str| {
+        assert!(texts.specs[0].contains(from), "{from}");
+        texts.specs[0] = texts.specs[0].replace(from, to);
+    };
+    let rail = "part rail = axis { from: origin * frame(0, 0, -0.3, 0); along: y; range: [-1.5, 1.2]; speed: 1.0; acceleration: 2.0; };
+        part arm = chain {
+        on: rail; mount: frame(0, 0, 0.3, 0);";
+    change("part arm = chain {\n        from: origin;", rail);
+    change(
+        "part foot = body { at: origin; low: point(-0.1, -0.1, -0.75)",
+        "part foot = body { on: rail; at: frame(0, 0, 0.3, 0); low: point(-0.1, -0.1, -0.3)",
+    );
+    if let Some(arm) = arm {
+        change("lengths: [0.1807, -0.6127, -0.57155, 0.17415, 0.11985, 0.11655];", arm);
+    }
+    for (from, to) in [
+        ("[0.55, -2.55, 0.05, 90]", "[0.55, -3.55, 0.05, 90]"),
+        ("[0.55, 0.55, 0.05, 90]", "[0.55, 1.55, 0.05, 90]"),
+    ] {
+        assert!(texts.layout.contains(from), "{from}");
+        texts.layout = texts.layout.replace(from, to);
+    }
+    texts
+}
+
 /// Every line of the examples by name; the prototype at full speed, the tending cell for three parts.
 pub fn examples() -> Vec<(String, Texts)> {
     let layouts = LAYOUTS.map(|layout| (layout.to_string(), ariac(layout)));

@@ -50,7 +50,7 @@ const WRONG: &[(&str, &str, &str)] = &[
       part hand = body { on: arm.wrist_1; low: pose; high: pose + point(1, 1, 1); };", "E0711", "cannot refer to arm"),
     ("part arm = chain { from: origin; tool_length: 0.1; rest: pose; };", "E0704", "speeds is missing"),
     ("part x = axis { from: origin; along: x; range: [0, 1]; speed: 1; acceleration: 1; };
-      part arm = chain { on: x; hung: true; tool_length: 0.1; rest: pose; };", "E0704", "hung is for a chain that no axis carries"),
+      part arm = chain { on: x; hung: true; tool_length: 0.1; rest: pose; };", "E0704", "hung is for a chain with lengths or opw"),
     ("part arm = chain { from: origin; opw: [0.1, 0, 0, 0.6, 0.7]; tool_length: 0; speeds: [1, 1, 1, 1, 1, 1]; acceleration: 1; rest: pose; };",
      "E0704", "a1, a2, b, c1, c2, c3, c4"),
     ("part arm = chain { from: origin; opw: [0.1, 0, 0, 0.6, 0.7, 0.7, 0]; lengths: [1, 1, 1, 1, 1, 1]; tool_length: 0;
@@ -61,6 +61,11 @@ const WRONG: &[(&str, &str, &str)] = &[
       speeds: [1, 1, 1, 1, 1, 1]; acceleration: 1; rest: pose; };", "E0704", "the range of joint 6, 400 to 360 degrees"),
     ("part arm = chain { from: origin; opw: [0.1, 0, 0, 0.6, 0.7, 0.7, 0]; tool_length: 0.1;
       speeds: [1, 1, 1, 1, 1, 1]; acceleration: 1; rest: pose + point(9, 0, 0); };", "E0711", "cannot reach its own rest position"),
+    ("part arm = chain { from: origin; mount: origin; opw: [0.1, 0, 0, 0.6, 0.7, 0.7, 0]; tool_length: 0.1;
+      speeds: [1, 1, 1, 1, 1, 1]; acceleration: 1; rest: pose; };", "E0704", "mount is for a chain on an axis"),
+    ("part x = axis { from: origin; along: z; range: [0, 1]; speed: 1; acceleration: 1; };
+      part arm = chain { on: x; opw: [0.1, 0, 0, 0.6, 0.7, 0.7, 0]; tool_length: 0.1;
+      speeds: [1, 1, 1, 1, 1, 1]; acceleration: 1; rest: pose; };", "E0711", "no inverse kinematics"),
     ("part lift = positioner { slides: point(0, 0, 1); positions: [0, 1.5]; speed: 1; };", "E0704", "1.5 is not within the stroke, 0 to 1"),
     ("part lift = positioner { slides: point(0, 0, 1); positions: [0, 1, 0]; speed: 1; };", "E0704", "two positions are the same"),
     ("part lift = positioner { slides: point(0, 0, 1); positions: []; speed: 1; };", "E0704", "1 to 32 positions"),

@@ -8,6 +8,7 @@ use runtime_sim::kinematics::cartesian::{Cartesian, Slide};
 use runtime_sim::kinematics::facing::Facing;
 use runtime_sim::kinematics::fixed::{FixedArm, Geometry, Mounting};
 use runtime_sim::kinematics::opw::Opw;
+use runtime_sim::kinematics::riding::RidingArm;
 use runtime_sim::kinematics::ur::Lengths;
 use runtime_sim::point::{Axis, Direction, Point};
 use runtime_sim::random::Random;
@@ -170,6 +171,9 @@ fn signs(name: &str, geometry: Geometry, mounting: Mounting, ranges: Ranges, fac
     );
 }
 
+const UR10E: Lengths =
+    Lengths { d1: 0.1807, a2: -0.6127, a3: -0.57155, d4: 0.17415, d5: 0.11985, tool: 0.26655 };
+
 const TURNS: [f64; 2] = [-360.0, 360.0];
 
 /// KUKA KR 6 R700 sixx with its limits, and a Stäubli TX40 with its own.
@@ -230,17 +234,25 @@ fn of_arms_with_a_spherical_wrist() {
 
 #[test]
 fn of_arms_of_universal_robots() {
-    let ur = Geometry::UniversalRobots(Lengths {
-        d1: 0.1807,
-        a2: -0.6127,
-        a3: -0.57155,
-        d4: 0.17415,
-        d5: 0.11985,
-        tool: 0.26655,
-    });
+    let ur = Geometry::UniversalRobots(UR10E);
     fixed("UR10e", ur, None, 1.5);
     let limits = [[-150.0, 170.0], [-160.0, 20.0], [-150.0, 140.0], [-200.0, 60.0], [-120.0, 120.0], TURNS];
     fixed("UR10e with limits", ur, Some(limits), 1.5);
+}
+
+/// A UR10e on a rail that lies at an angle, its base turned on the carriage.
+#[test]
+fn of_an_arm_on_a_rail() {
+    let geometry = Geometry::UniversalRobots(UR10E);
+    let rail = Frame::new(Point::new(0.5, 0.2, 0.1), 35.0);
+    let mount = Frame::new(Point::new(0.1, -0.2, 0.3), 90.0);
+    let at = |base: Frame| FixedArm::new(base, geometry, None);
+    let arm = RidingArm::new(rail, Axis::Y, [-1.0, 1.5], mount, at);
+    for facing in [Facing::Down, Facing::Level { x: 0.6, y: -0.8 }] {
+        let reaches = |place: Point| arm.solve(place, facing, &arm.start()).is_some();
+        let around = around(rail.position.up(0.3), Point::new(2.2, 2.2, 1.4));
+        promised(&format!("on a rail, {facing:?}"), around, |place| arm.margin(place, facing), reaches);
+    }
 }
 
 #[test]

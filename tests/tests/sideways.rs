@@ -2,7 +2,7 @@
 //! chuck.
 
 use autogen::executor::Executor;
-use autogen_tests::{Texts, plain, side_by_side};
+use autogen_tests::{Texts, lathe_on_a_rail, plain, side_by_side};
 use runtime_sim::memory::Memory;
 use runtime_sim::report::Report;
 use runtime_sim::run::{Seen, Stepping, run_again};
@@ -76,6 +76,26 @@ fn a_chuck_is_filled_and_emptied_from_the_side() {
         assert!(in_chuck > 5 * 3000, "{in_chuck}");
         // In front of the chuck the tool goes straight.
         assert!(off < 0.001, "{off}");
+    }
+}
+
+/// The conveyors are out of reach of an arm that stands where it is.
+#[test]
+fn an_arm_on_a_rail_tends_the_lathe() {
+    for arm in [None, Some(ABB[0].1)] {
+        let texts = lathe_on_a_rail(arm);
+        let mut goes = [f64::INFINITY, f64::NEG_INFINITY];
+        let report = run(&texts, |seen: &Seen| {
+            let tool = seen.plant.position(ARM).expect("a tool");
+            goes = [goes[0].min(tool.y), goes[1].max(tool.y)];
+        });
+        assert_eq!(report.reason.to_string(), "all items collected");
+        assert!(goes[0] < -1.6 && goes[1] > 1.6, "{goes:?}");
+        let mut stands = texts;
+        let from = "range: [-1.5, 1.2]";
+        assert!(stands.specs[0].contains(from));
+        stands.specs[0] = stands.specs[0].replace(from, "range: [-0.1, 0.1]");
+        assert!(wrong(&stands).starts_with(r#"["E0401"#));
     }
 }
 
@@ -174,8 +194,8 @@ fn a_part_in_the_chuck_lies_on_its_side() {
     assert!(touches.starts_with("collision of arm (blank_1) with lathe (jaw)"), "{touches}");
 }
 
-fn wrong(changes: &[(&str, &str)]) -> String {
-    let outcome = cell(changes).compile();
+fn wrong(texts: &Texts) -> String {
+    let outcome = texts.compile();
     assert!(outcome.project.is_none());
     let codes: Vec<&str> = outcome.diagnostics.iter().map(|found| found.code).collect();
     format!("{codes:?}\n{}", plain(&outcome.sources, &outcome.diagnostics))
@@ -184,21 +204,21 @@ fn wrong(changes: &[(&str, &str)]) -> String {
 #[test]
 fn directions_that_a_tool_cannot_have_are_refused() {
     let tilted =
-        wrong(&[("define ahead = origin * point(1, 0, 0) - pose;", "define ahead = point(1, 0, 1);")]);
+        wrong(&cell(&[("define ahead = origin * point(1, 0, 0) - pose;", "define ahead = point(1, 0, 1);")]));
     assert!(
         tilted.starts_with(r#"["E0704", "E0709"]"#) || tilted.starts_with(r#"["E0709", "E0704"]"#),
         "{tilted}"
     );
     assert!(tilted.contains("the setting toward is neither down nor level"), "{tilted}");
     assert!(tilted.contains("this direction is neither down nor level"), "{tilted}");
-    let number = wrong(&[("toward ahead;\n}", "toward 1.0;\n}")]);
+    let number = wrong(&cell(&[("toward ahead;\n}", "toward 1.0;\n}")]));
     assert!(number.starts_with(r#"["E0709"]"#), "{number}");
-    let stacked = wrong(&[("toward: ahead;", "toward: ahead; stacks: true;")]);
+    let stacked = wrong(&cell(&[("toward: ahead;", "toward: ahead; stacks: true;")]));
     assert!(stacked.contains("items are not stacked at a place that is filled from the side"), "{stacked}");
-    let turns = wrong(&[(
+    let turns = wrong(&cell(&[(
         "part chuck = place {",
         "part table = cylinder { extend: 1 s; retract: 1 s; turns: 90; pivot: pose; };\n part chuck = place { on: table;",
-    )]);
+    )]));
     assert!(turns.starts_with(r#"["E0711"]"#) && turns.contains("is on what turns"), "{turns}");
 }
 

@@ -6,7 +6,7 @@ use autogen_tests::machines::{belt, bin, gantry, machine, rail_arm, station, veh
 use autogen_tests::sdf::chain::{self, Frame};
 use autogen_tests::sdf::findings;
 use autogen_tests::xml::{self, Element};
-use autogen_tests::{LAYOUTS, Texts, ariac, own_line, side_by_side, text};
+use autogen_tests::{LAYOUTS, Texts, ariac, lathe_on_a_rail, own_line, side_by_side, text};
 use runtime_sim::kinematics::arm::Joints;
 use runtime_sim::kinematics::pose::Pose;
 use runtime_sim::line::{IoDelay, Line, Scenario};
@@ -70,7 +70,7 @@ fn workshop() -> Line {
     }
 }
 
-/// A Cartesian robot and an arm with a spherical wrist, turned about the vertical.
+/// A Cartesian robot and an arm with a spherical wrist, turned about the vertical, and an arm on a rail.
 fn turned() -> Vec<Machine> {
     let mut robot = side_by_side("scenes/palletizer");
     robot.layout = robot.layout.replace("[0, 0, 0]", "[20, 1, 0.3, 30]");
@@ -81,8 +81,10 @@ fn turned() -> Vec<Machine> {
         lowest: [-180, -100, -160, -200, -220, -400]; highest: [180, 110, 165, 200, 220, 400]; ";
     cell.specs[0].replace_range(arm..end, opw);
     cell.layout = cell.layout.replace("\"pose\": [0, 0, 0.75]", "\"pose\": [0, 0, 0.75, 40]");
-    let [robot, cell] = [robot, cell].map(|texts| texts.project().plant.machines);
-    robot.into_iter().chain(cell).filter(|machine| machine.arm().is_some()).collect()
+    let mut rail = lathe_on_a_rail(None);
+    rail.layout = rail.layout.replace("\"arm\"", "\"rider\"");
+    let [robot, cell, rail] = [robot, cell, rail].map(|texts| texts.project().plant.machines);
+    robot.into_iter().chain(cell).chain(rail).filter(|machine| machine.arm().is_some()).collect()
 }
 
 fn models(text: &str) -> Vec<Element> {
@@ -268,7 +270,7 @@ fn joints_put_tool_and_shapes_where_the_simulator_has_them() {
             }
         }
     }
-    assert_eq!(robots, 5);
+    assert_eq!(robots, 6);
 }
 
 /// Between both ends of its stroke.

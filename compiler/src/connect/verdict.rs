@@ -104,7 +104,7 @@ fn apart(
         return Diagnostic::new("E0412", passive.span, message)
             .other(arm.span, "the arm that should come here")
             .other(pair.rule, "the place of the handover")
-            .help("use an arm with six joints and a base of its own, or give the place of the device no `toward`");
+            .help("use an arm with `lengths` or `opw`, or give the place of the device no `toward`");
     }
     let mut diagnostic = Diagnostic::new(
         "E0401",

@@ -229,6 +229,9 @@ impl Placed {
             }
             return ground;
         }
+        if let Some([from, to]) = arm.as_ref().and_then(|arm| arm.riding()) {
+            return [[from.x.min(to.x), from.x.max(to.x)], [from.y.min(to.y), from.y.max(to.y)]];
+        }
         for (_, part) in self.parts_of(&["axis", "route", "track"]) {
             match &part.primitive {
                 Primitive::Axis(axis) => {

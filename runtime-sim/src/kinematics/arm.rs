@@ -7,6 +7,7 @@ use super::gantry::{self, Gantry, Stance};
 use super::links::Link;
 use super::pose::Pose;
 use super::rail_arm::{self, RailArm};
+use super::riding::RidingArm;
 use super::{nearest_equivalent, nearest_turn};
 use crate::frame::Frame;
 use crate::part::axis::{Axis, Motion, Place};
@@ -66,7 +67,9 @@ enum Solver {
     Cartesian(Cartesian),
     /// Upright where it is.
     Fixed(FixedArm),
-    /// Upright on one rail.
+    /// The same on one rail.
+    Riding(RidingArm),
+    /// A UR10 upright on one rail.
     Rail(RailArm),
     /// Sideways at a torso that turns, on two rails that cross.
     Gantry(Gantry),
@@ -144,9 +147,15 @@ impl Arm {
     pub fn new(axes: &[&Axis], chain: &Chain) -> Option<Self> {
         let motions: Vec<Motion> = axes.iter().map(|axis| axis.motion).collect();
         let solver = match &chain.geometry {
-            Geometry::Fixed(geometry, ranges) => Solver::Fixed(
-                FixedArm::new(chain.base?, **geometry, ranges.as_deref().copied()).mounted(chain.mounting),
-            ),
+            Geometry::Fixed(geometry, ranges) => {
+                let at = |base: Frame| {
+                    FixedArm::new(base, **geometry, ranges.as_deref().copied()).mounted(chain.mounting)
+                };
+                match chain.base {
+                    Some(base) => Solver::Fixed(at(base)),
+                    None => Solver::Riding(riding(axes, chain.mount, at)?),
+                }
+            }
             Geometry::Tool(length) => Solver::Cartesian(cartesian(axes, *length)?),
             Geometry::Ur10 => {
                 let at = axes.first()?.at()?;
@@ -175,6 +184,7 @@ impl Arm {
     pub fn turns(&self) -> Option<&[[f64; 2]; WRIST_JOINTS]> {
         match &self.solver {
             Solver::Fixed(arm) => arm.ranges(),
+            Solver::Riding(arm) => arm.ranges(),
             Solver::Cartesian(_) | Solver::Rail(_) | Solver::Gantry(_) => None,
         }
     }
@@ -183,7 +193,15 @@ impl Arm {
     pub fn cartesian(&self) -> Option<&Cartesian> {
         match &self.solver {
             Solver::Cartesian(robot) => Some(robot),
-            Solver::Fixed(_) | Solver::Rail(_) | Solver::Gantry(_) => None,
+            Solver::Fixed(_) | Solver::Riding(_) | Solver::Rail(_) | Solver::Gantry(_) => None,
+        }
+    }
+
+    /// Both ends of its base, for an arm on a rail that may lie in any direction.
+    pub fn riding(&self) -> Option<[Point; 2]> {
+        match &self.solver {
+            Solver::Riding(arm) => Some(arm.ground()),
+            Solver::Cartesian(_) | Solver::Fixed(_) | Solver::Rail(_) | Solver::Gantry(_) => None,
         }
     }
 
@@ -191,7 +209,7 @@ impl Arm {
     pub fn gantry(&self) -> Option<&Gantry> {
         match &self.solver {
             Solver::Gantry(gantry) => Some(gantry),
-            Solver::Cartesian(_) | Solver::Fixed(_) | Solver::Rail(_) => None,
+            Solver::Cartesian(_) | Solver::Fixed(_) | Solver::Riding(_) | Solver::Rail(_) => None,
         }
     }
 
@@ -201,6 +219,7 @@ impl Arm {
         match self.solver {
             Solver::Cartesian(robot) => robot.mount(),
             Solver::Fixed(arm) => arm.base(),
+            Solver::Riding(arm) => arm.mount(),
             Solver::Rail(_) => Pose::IDENTITY,
             Solver::Gantry(_) => gantry::MOUNT,
         }
@@ -211,6 +230,7 @@ impl Arm {
         match &self.solver {
             Solver::Cartesian(robot) => robot.margin(tool),
             Solver::Fixed(arm) => arm.margin(tool, Facing::Down),
+            Solver::Riding(arm) => arm.margin(tool, Facing::Down),
             Solver::Rail(arm) => arm.margin(tool),
             Solver::Gantry(arm) => arm.margin(tool),
         }
@@ -221,6 +241,7 @@ impl Arm {
         match (&self.solver, facing) {
             (_, Facing::Down) => self.margin(tool),
             (Solver::Fixed(arm), Facing::Level { .. }) => arm.margin(tool, facing),
+            (Solver::Riding(arm), Facing::Level { .. }) => arm.margin(tool, facing),
             (Solver::Cartesian(_) | Solver::Rail(_) | Solver::Gantry(_), Facing::Level { .. }) => {
                 f64::NEG_INFINITY
             }
@@ -232,6 +253,7 @@ impl Arm {
     pub fn wrist_room(&self, tool: Point, facing: Facing) -> Option<f64> {
         match &self.solver {
             Solver::Fixed(arm) => arm.wrist_room(tool, facing),
+            Solver::Riding(arm) => arm.wrist_room(tool, facing),
             Solver::Cartesian(_) | Solver::Rail(_) | Solver::Gantry(_) => None,
         }
     }
@@ -241,6 +263,9 @@ impl Arm {
         match (&self.solver, facing) {
             (_, Facing::Down) => self.solve(tool, from),
             (Solver::Fixed(arm), Facing::Level { .. }) => {
+                arm.solve(tool, facing, &from.array()).map(|joints| Joints::new(&joints))
+            }
+            (Solver::Riding(arm), Facing::Level { .. }) => {
                 arm.solve(tool, facing, &from.array()).map(|joints| Joints::new(&joints))
             }
             (Solver::Cartesian(_) | Solver::Rail(_) | Solver::Gantry(_), Facing::Level { .. }) => None,
@@ -253,6 +278,9 @@ impl Arm {
         let joints = match &self.solver {
             Solver::Cartesian(robot) => return robot.solve(tool).map(|values| Joints::new(&values)),
             Solver::Fixed(arm) => {
+                return arm.solve(tool, Facing::Down, &from.array()).map(|joints| Joints::new(&joints));
+            }
+            Solver::Riding(arm) => {
                 return arm.solve(tool, Facing::Down, &from.array()).map(|joints| Joints::new(&joints));
             }
             Solver::Rail(arm) => arm.solve(tool, &from.array()).map(|joints| Joints::new(&joints)),
@@ -326,7 +354,7 @@ impl Arm {
     /// direction of a part.
     pub fn directed(&self, joints: &Joints, direction: f64) -> Joints {
         let off = self.direction(joints) - direction;
-        if off == 0.0 || matches!(self.solver, Solver::Cartesian(_) | Solver::Fixed(_)) {
+        if off == 0.0 || matches!(self.solver, Solver::Cartesian(_) | Solver::Fixed(_) | Solver::Riding(_)) {
             return *joints;
         }
         let last = joints.len() - 1;
@@ -357,7 +385,7 @@ impl Arm {
     /// forbid it, and for a robot without a torso.
     pub fn solve_stance(&self, tool: Point, stance: &Stance, from: &Joints) -> Option<Joints> {
         match &self.solver {
-            Solver::Cartesian(_) | Solver::Fixed(_) | Solver::Rail(_) => None,
+            Solver::Cartesian(_) | Solver::Fixed(_) | Solver::Riding(_) | Solver::Rail(_) => None,
             Solver::Gantry(arm) => {
                 let joints = Joints::new(&arm.solve_stance(tool, stance, &from.array())?);
                 Some(Self::within_limits(self.with_direction_of(from, joints)))
@@ -381,7 +409,7 @@ impl Arm {
     /// reach forbids it, and for a robot without a torso.
     pub fn solve_standing(&self, tool: Point, from: &Joints) -> Option<Joints> {
         match &self.solver {
-            Solver::Cartesian(_) | Solver::Fixed(_) | Solver::Rail(_) => None,
+            Solver::Cartesian(_) | Solver::Fixed(_) | Solver::Riding(_) | Solver::Rail(_) => None,
             Solver::Gantry(arm) => arm.solve_standing(tool, &from.array()).map(|joints| Joints::new(&joints)),
         }
     }
@@ -390,7 +418,7 @@ impl Arm {
     /// none where the limits forbid it, and for a robot without a torso.
     pub fn solve_turned(&self, tool: Point, turn: f64, from: &Joints) -> Option<Joints> {
         match &self.solver {
-            Solver::Cartesian(_) | Solver::Fixed(_) | Solver::Rail(_) => None,
+            Solver::Cartesian(_) | Solver::Fixed(_) | Solver::Riding(_) | Solver::Rail(_) => None,
             Solver::Gantry(arm) => arm.solve_turned(tool, turn, &from.array()).map(|j| Joints::new(&j)),
         }
     }
@@ -403,6 +431,7 @@ impl Arm {
         match &self.solver {
             Solver::Cartesian(robot) => robot.tool_pose(joints),
             Solver::Fixed(arm) => arm.tool_pose(&joints.array()),
+            Solver::Riding(arm) => arm.tool_pose(&joints.array()),
             Solver::Rail(arm) => arm.tool_pose(&joints.array::<{ rail_arm::JOINTS }>()),
             Solver::Gantry(arm) => arm.tool_pose(&joints.array::<{ gantry::JOINTS }>()),
         }
@@ -413,6 +442,7 @@ impl Arm {
         match &self.solver {
             Solver::Cartesian(robot) => Frames::new(&robot.frames(joints)),
             Solver::Fixed(arm) => Frames::new(&arm.frames(&joints.array())),
+            Solver::Riding(arm) => Frames::new(&arm.frames(&joints.array())),
             Solver::Rail(arm) => Frames::new(&arm.frames(&joints.array())),
             Solver::Gantry(arm) => Frames::new(&arm.frames(&joints.array())),
         }
@@ -423,6 +453,7 @@ impl Arm {
         match &self.solver {
             Solver::Cartesian(robot) => robot.links(),
             Solver::Fixed(arm) => arm.links(),
+            Solver::Riding(arm) => arm.links(),
             Solver::Rail(arm) => arm.links(),
             Solver::Gantry(arm) => arm.links(),
         }
@@ -437,6 +468,7 @@ impl Arm {
         match &self.solver {
             Solver::Cartesian(robot) => Joints::new(&robot.start()),
             Solver::Fixed(arm) => Joints::new(&arm.start()),
+            Solver::Riding(arm) => Joints::new(&arm.start()),
             Solver::Rail(arm) => Joints::new(&arm.start()),
             Solver::Gantry(arm) => Joints::new(&arm.start()),
         }
@@ -447,6 +479,25 @@ impl Arm {
     }
 }
 
+/// An arm of six joints on one level axis, its base on the carriage at `mount`; none on other axes.
+fn riding(axes: &[&Axis], mount: Frame, arm: impl Fn(Frame) -> FixedArm) -> Option<RidingArm> {
+    let [axis] = axes else { return None };
+    let Motion::Slides { along, range } = axis.motion else { return None };
+    Some(RidingArm::new(base_of(axis, &[along])?, along.level()?, range, mount, arm))
+}
+
+/// Where the carriages of axes in these directions are while all are at 0.
+fn base_of(first: &Axis, along: &[Direction]) -> Option<Frame> {
+    Some(match first.place? {
+        Place::From(frame) => frame,
+        // Ranges in the world begin at its origin.
+        Place::At(point) => {
+            let at = along.iter().fold(point, |at, along| at.with_coordinate(*along, 0.0));
+            Frame::new(at, 0.0)
+        }
+    })
+}
+
 /// The axes of a Cartesian robot, its tool so far below the last one; none if they are not at right angles.
 fn cartesian(axes: &[&Axis], tool_length: f64) -> Option<Cartesian> {
     let slide = |axis: &&Axis| match axis.motion {
@@ -454,13 +505,7 @@ fn cartesian(axes: &[&Axis], tool_length: f64) -> Option<Cartesian> {
         Motion::Turns => None,
     };
     let slides: Vec<Slide> = axes.iter().map(slide).collect::<Option<_>>()?;
-    let base = match axes.first()?.place? {
-        Place::From(frame) => frame,
-        // Ranges in the world begin at its origin.
-        Place::At(point) => {
-            let at = slides.iter().fold(point, |at, slide| at.with_coordinate(slide.along, 0.0));
-            Frame::new(at, 0.0)
-        }
-    };
+    let along: Vec<Direction> = slides.iter().map(|slide| slide.along).collect();
+    let base = base_of(axes.first()?, &along)?;
     Cartesian::new(base, &slides, tool_length)
 }

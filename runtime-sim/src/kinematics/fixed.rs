@@ -265,6 +265,15 @@ impl FixedArm {
         }
     }
 
+    /// The joints, from a carriage on which the base stands at this frame.
+    pub fn links_on(&self, mount: Frame) -> [Link; JOINTS] {
+        let base = mount.pose().then(&self.mounting.pose());
+        match &self.geometry {
+            Geometry::UniversalRobots(lengths) => lengths.links(base),
+            Geometry::OrthoParallel(opw) => opw.links(base),
+        }
+    }
+
     pub fn start(&self) -> Angles {
         match (&self.geometry, self.mounting) {
             (Geometry::UniversalRobots(_), Mounting::Upright) => USUAL,

@@ -13,6 +13,7 @@ pub mod opw;
 mod planar;
 pub mod pose;
 pub mod rail_arm;
+pub mod riding;
 mod room;
 pub mod ur;
 pub mod ur10;

@@ -28,7 +28,13 @@ pub struct RidingArm {
 
 impl RidingArm {
     /// `arm` gives an arm whose base is at a frame.
-    pub fn new(rail: Frame, along: Axis, range: [f64; 2], mount: Frame, arm: impl Fn(Frame) -> FixedArm) -> Self {
+    pub fn new(
+        rail: Frame,
+        along: Axis,
+        range: [f64; 2],
+        mount: Frame,
+        arm: impl Fn(Frame) -> FixedArm,
+    ) -> Self {
         Self { rail, along, range, mount, arm: arm(rail.then(mount)) }
     }
 

@@ -370,6 +370,7 @@ fn chain() -> Chain {
     Chain {
         on: Some(0),
         base: None,
+        mount: Frame::default(),
         mounting: Mounting::Upright,
         geometry: Geometry::Ur10,
         rest: Point::default(),

@@ -34,11 +34,12 @@ pub const SCHEMA: Schema = Schema {
     can_jam: true,
     ..Schema::new(
         "chain",
-        "The joints of an arm that move together, with the tool pointing down, or to a side with `facing`. On one axis, or on two that slide and one that turns: the six joints of a UR10. Fixed at `from`: the six joints of an arm of Universal Robots with `lengths`, or of an arm with a spherical wrist by the parameters `opw`. On one to three axes at right angles, without `speeds`: a Cartesian robot, which has no joints but its axes.",
+        "The joints of an arm that move together, with the tool pointing down, or to a side with `facing`. On one axis, or on two that slide and one that turns: the six joints of a UR10. Fixed at `from`, or on one axis that slides: the six joints of an arm of Universal Robots with `lengths`, or of an arm with a spherical wrist by the parameters `opw`. On one to three axes at right angles, without `speeds`: a Cartesian robot, which has no joints but its axes.",
         &[
             Setting::new("on", Form::Part(&["axis"]), "", "the last of the axes that carry it").optional(),
             Setting::new("from", Form::Frame, "m", "frame of its base, if no axis carries it").optional(),
-            Setting::new("hung", Form::Truth, "", "with `from`: its base is under a ceiling, turned about its x axis by half a turn").optional(),
+            Setting::new("hung", Form::Truth, "", "its base is under a ceiling or under a rail, turned about its x axis by half a turn").optional(),
+            Setting::new("mount", Form::Frame, "m", "with `on`, and `lengths` or `opw`: frame of its base on the carriage; without it that of the carriage").optional(),
             Setting::new("lengths", Form::Numbers, "m", "d1, a2, a3, d4, d5, d6 of the manufacturer, for an arm of Universal Robots")
                 .optional(),
             Setting::new("opw", Form::Numbers, "m", "a1, a2, b, c1, c2, c3, c4 of an arm with an ortho-parallel base and a spherical wrist")
@@ -46,8 +47,8 @@ pub const SCHEMA: Schema = Schema {
             Setting::new("offsets", Form::Numbers, "deg", "with `opw`: of each joint; without it 0").optional(),
             Setting::new("signs", Form::Numbers, "", "with `opw`: 1, or -1 for a joint that the manufacturer counts the other way; without it 1")
                 .optional(),
-            Setting::new("lowest", Form::Numbers, "deg", "lower limit of each joint of a fixed arm; without it -360").optional(),
-            Setting::new("highest", Form::Numbers, "deg", "upper limit of each joint of a fixed arm; without it 360").optional(),
+            Setting::new("lowest", Form::Numbers, "deg", "lower limit of each joint, with `lengths` or `opw`; without it -360").optional(),
+            Setting::new("highest", Form::Numbers, "deg", "upper limit of each joint, with `lengths` or `opw`; without it 360").optional(),
             Setting::new("tool_length", Form::Number, "m", "from the flange, or from the last axis of a Cartesian robot, to the tool centre point")
                 .optional(),
             Setting::new("rest", Form::Point, "m", "place of the tool at the start"),
@@ -83,6 +84,8 @@ pub struct Chain {
     pub on: Option<usize>,
     /// Where its base stands, if none does.
     pub base: Option<Frame>,
+    /// On the carriage, if an axis carries it.
+    pub mount: Frame,
     pub mounting: Mounting,
     pub geometry: Geometry,
     pub rest: Point,

@@ -167,13 +167,14 @@ fn fixed(name: &str, parent: &str, child: &str) -> Joint {
     }
 }
 
-/// Of all fixed beams, by their greatest lengths.
+/// Of all fixed beams, by their greatest lengths; of one metre if none is described.
 fn rail_mass(rails: &[Solid]) -> f64 {
     let length = |solid: &Solid| match solid.shape {
         solid::Shape::Box { size } => size.x.max(size.y).max(size.z),
         solid::Shape::Capsule { length, .. } => length,
     };
-    BEAM * rails.iter().map(length).sum::<f64>()
+    let all: f64 = rails.iter().map(length).sum();
+    BEAM * if all > 0.0 { all } else { 1.0 }
 }
 
 impl Drive {

@@ -24,21 +24,27 @@ impl Described for Chain {
             return Err("a chain is on an axis, or it has from".into());
         }
         let has_joints = settings.has("speeds");
+        let has_lengths = settings.has("lengths") || settings.has("opw");
         let mounting = match settings.optional("hung", Settings::truth)?.unwrap_or_default() {
-            true if on.is_some() => return Err("the setting hung is for a chain that no axis carries".into()),
+            true if !has_lengths => return Err("the setting hung is for a chain with lengths or opw".into()),
             true => Mounting::Hung,
             false => Mounting::Upright,
         };
+        let mount = settings.optional("mount", Settings::upright)?;
+        if mount.is_some() && (on.is_none() || !has_lengths) {
+            return Err("the setting mount is for a chain on an axis with lengths or opw".into());
+        }
         let geometry = match (on.is_some(), has_joints) {
-            (true, true) => of_ur10(settings)?,
+            (true, true) if !has_lengths => of_ur10(settings)?,
             (true, false) => Geometry::Tool(settings.number("tool_length")?),
-            (false, true) => Geometry::Fixed(Box::new(fixed(settings)?), ranges(settings)?.map(Box::new)),
+            (_, true) => Geometry::Fixed(Box::new(fixed(settings)?), ranges(settings)?.map(Box::new)),
             (false, false) => return Err("the setting speeds is missing".into()),
         };
         let clearances = settings.optional("clearances", Settings::points)?.unwrap_or_default();
         Ok(Self {
             on,
             base,
+            mount: mount.unwrap_or_default(),
             mounting,
             geometry,
             rest: settings.point("rest")?,
@@ -97,9 +103,9 @@ fn joints(settings: &Settings) -> Result<Vec<Joint>, String> {
 }
 
 fn of_ur10(settings: &Settings) -> Result<Geometry, String> {
-    let fixed = ["lengths", "opw", "tool_length", "offsets", "signs", "lowest", "highest"];
+    let fixed = ["tool_length", "offsets", "signs", "lowest", "highest"];
     match fixed.into_iter().find(|name| settings.has(name)) {
-        Some(name) => Err(format!("the setting {name} is for a chain that no axis carries")),
+        Some(name) => Err(format!("the setting {name} is for a chain with lengths or opw")),
         None => Ok(Geometry::Ur10),
     }
 }
