@@ -1,9 +1,9 @@
 //! Whether two lines do the same to their plant, whatever its devices do: a bisimulation over all that can be reached.
 
-use crate::event::Event;
+use crate::event::{Event, What};
 use crate::explore::Bounds;
 use crate::model::Model;
-use crate::plant::status;
+use crate::plant::{Action, Arm, Machine, motion, status};
 use crate::store::Store;
 use crate::successor::Expander;
 use crate::value::{Values, Var};
@@ -29,7 +29,7 @@ type Seen = (Vec<String>, Result<(), String>, Vec<String>, Vec<u64>);
 /// Both lines have the same machines, in the same order. What is compared: which events are possible, which commands are
 /// under way with which goals, where items, vehicles, tools, cylinders and processes are, which orders are made, which
 /// machines are stopped, and which violations there are. States of automata, cells and levels are compared only by what
-/// they do to these.
+/// they do to these. Left out are the times of automata, which no device knows, and commands that ask for what is so already.
 pub fn compare(a: &Model, b: &Model, bounds: &Bounds) -> Comparison {
     let begin = Instant::now();
     let answers = bounds.answers.unwrap_or(usize::MAX);
@@ -47,14 +47,13 @@ pub fn compare(a: &Model, b: &Model, bounds: &Bounds) -> Comparison {
             return Comparison::Unequal;
         }
         for ((seen, of_a), (also, of_b)) in after_a.into_iter().zip(after_b) {
-            // Several states that look alike are paired in their order: any pairing that holds is a proof.
-            if seen != also || of_a.len() != of_b.len() {
+            if seen != also {
                 return Comparison::Unequal;
             }
-            if seen.1.is_ok() {
-                of_a.iter().zip(&of_b).for_each(|(a, b)| {
-                    pairs.add(&both(a, b), next);
-                });
+            // Several states that look alike are paired in their order: any pairing that holds is a proof.
+            let last = |states: &[Vec<u8>], number: usize| number.min(states.len() - 1);
+            for number in (0..of_a.len().max(of_b.len())).filter(|_| seen.1.is_ok()) {
+                pairs.add(&both(&of_a[last(&of_a, number)], &of_b[last(&of_b, number)]), next);
             }
         }
         let is_late = next % 64 == 0 && bounds.time.is_some_and(|time| begin.elapsed() > time);
@@ -72,7 +71,8 @@ fn successors(expander: &mut Expander, state: &[u8]) -> BTreeMap<Seen, Vec<Vec<u
     expander.expand(state, u64::MAX, &mut |successor| {
         let result = successor.result.as_ref().map(|()| ()).map_err(|violation| kind(violation));
         let noted = successor.noted.iter().map(|violation| kind(violation)).collect::<Vec<_>>();
-        all.push((successor.events.to_vec(), result, noted, successor.state.to_vec()));
+        let events = successor.events.iter().copied().filter(|event| !is_hidden(model, state, event));
+        all.push((events.collect::<Vec<_>>(), result, noted, successor.state.to_vec()));
     });
     let mut found: BTreeMap<Seen, BTreeSet<Vec<u8>>> = BTreeMap::new();
     for (events, result, noted, state) in all {
@@ -82,6 +82,35 @@ fn successors(expander: &mut Expander, state: &[u8]) -> BTreeMap<Seen, Vec<Vec<u
         found.entry((events, result, noted, plant)).or_default().insert(state);
     }
     found.into_iter().map(|(seen, states)| (seen, states.into_iter().collect())).collect()
+}
+
+fn is_hidden(model: &Model, state: &[u8], event: &Event) -> bool {
+    match event.what {
+        What::TimeComes => true,
+        What::Ends(_) => !has_effect(&model.machines[event.machine], state),
+        _ => false,
+    }
+}
+
+/// Whether a command is under way that asks for something that is not so already.
+fn has_effect(plant: &Machine, state: &[u8]) -> bool {
+    let Some(head) = plant.head.as_ref().filter(|head| head.status.load(state) == status::UNDER_WAY) else {
+        return false;
+    };
+    let asked = &head.commands[head.command.load(state) as usize];
+    let moves_arm = |arm: &Arm| arm.via.load(state) != 0 || arm.goal.load(state) != arm.tool.load(state);
+    match asked.action {
+        _ if asked.awaits.is_some() => true,
+        Action::Motion => plant.arm.as_ref().is_none_or(moves_arm),
+        Action::Trip => {
+            plant.route.as_ref().is_none_or(|route| route.goal.load(state) != route.at.load(state))
+        }
+        Action::Run | Action::Rest => plant
+            .lane
+            .as_ref()
+            .is_none_or(|lane| matches!(lane.motion.load(state), motion::STARTS | motion::STOPS)),
+        Action::Other => false,
+    }
 }
 
 fn kind(violation: &Violation) -> String {
@@ -98,15 +127,15 @@ fn plant(model: &Model, values: &Values, state: &[u8]) -> Vec<u64> {
     let mut all = Vec::new();
     let number = |var: Var| var.load(state) as u64;
     for (machine, plant) in model.machines.iter().enumerate() {
-        let is_under_way =
-            plant.head.as_ref().is_some_and(|head| head.status.load(state) == status::UNDER_WAY);
+        let is_under_way = has_effect(plant, state);
         all.extend([u64::from(is_under_way), u64::from(model.stands(state, machine))]);
         if let Some(head) = plant.head.as_ref().filter(|_| is_under_way) {
             all.push(number(head.command));
         }
-        let arms = plant.arm.iter().flat_map(|arm| [arm.tool, arm.via, arm.goal]);
-        let routes = plant.route.iter().flat_map(|route| [route.at, route.goal]);
-        for place in arms.chain(routes) {
+        let goals = plant.arm.iter().flat_map(|arm| [arm.via, arm.goal]);
+        let goals = goals.chain(plant.route.iter().map(|route| route.goal)).filter(|_| is_under_way);
+        let here = plant.arm.iter().map(|arm| arm.tool).chain(plant.route.iter().map(|route| route.at));
+        for place in here.chain(goals) {
             all.extend(values.point(place.load(state)).map(f64::to_bits));
         }
         all.extend(plant.arm.iter().flat_map(|arm| [arm.holds, arm.shown]).map(number));

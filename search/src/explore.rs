@@ -64,6 +64,8 @@ pub struct Outcome {
     pub end: End,
     /// The shortest execution to each.
     pub violations: Vec<(Violation, Execution)>,
+    /// What is hardly meant, and the shortest execution to it. Only if the search is complete and found no violation.
+    pub remarks: Vec<(Violation, Execution)>,
     /// All states that were reached.
     pub reached: Store,
     /// Points and reals by their numbers in these states.
@@ -231,6 +233,7 @@ pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -
             (found.violation, execution)
         })
         .collect();
+    let mut remarks = Vec::new();
     if end == End::Complete {
         let calm = Model { faults: Faults::None, ..model.clone() };
         let mut possible = Possible::new(&calm, &store, &edges, &first.values, bounds);
@@ -243,8 +246,13 @@ pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -
             violations.push((violation, story::to_state(&store, &mut first, state)));
         }
         violations.truncate(bounds.violations);
+        if violations.is_empty() {
+            for (remark, state) in possible.remarks() {
+                remarks.push((remark, story::to_state(&store, &mut first, state)));
+            }
+        }
         covered.stopped = (0..store.len()).filter(|state| model.any_stands(store.state(*state))).count();
     }
     covered.time = begin.elapsed();
-    Outcome { covered, end, violations, reached: store, values: first.values }
+    Outcome { covered, end, violations, remarks, reached: store, values: first.values }
 }

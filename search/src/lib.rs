@@ -17,6 +17,7 @@ mod possible;
 pub mod program;
 pub mod promela;
 pub mod property;
+mod remark;
 mod scan;
 pub mod store;
 pub mod story;

@@ -25,11 +25,22 @@ pub struct Model {
     pub heights: Vec<f64>,
     pub faults: Faults,
     pub watch: Watch,
+    pub reductions: Reductions,
     pub reach: Reach,
     /// Those of the first state.
     pub values: Values,
     /// What each value is, for whoever looks at a state.
     pub variables: Vec<Variable>,
+}
+
+/// What the search leaves out because it changes no verdict.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reductions {
+    /// Steps of instances that would do nothing, and of orders of steps all that differ in these alone; ways to an end, if
+    /// there is one on which one device does something at a time.
+    On,
+    /// Nothing: to compare the search with itself.
+    Off,
 }
 
 /// Whether the arm of a machine can bring its tool to a point.

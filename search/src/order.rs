@@ -1,5 +1,6 @@
 //! One scan with the steps of its instances in any order.
 
+use crate::model::Reductions;
 use crate::program::bit;
 use crate::scan::{Scan, Told};
 use crate::successor::{Expander, Successor};
@@ -85,7 +86,9 @@ impl Expander<'_> {
         let mut due = 0;
         for (instance, program) in self.model.instances.iter().enumerate() {
             let state = program.state.load(&midway.bytes) as usize;
-            let is_due = touched & bit(instance) != 0 || midway.written & program.states[state].reads != 0;
+            let is_due = touched & bit(instance) != 0
+                || midway.written & program.states[state].reads != 0
+                || self.model.reductions == Reductions::Off;
             if is_due && midway.stepped & bit(instance) == 0 {
                 due |= bit(instance);
             }
@@ -98,7 +101,10 @@ impl Expander<'_> {
         loop {
             let mut end = midway.clone();
             self.noted.clear();
-            let result = self.on(&mut end, |scan| scan.finish(touched));
+            let mut result = self.on(&mut end, |scan| scan.finish(touched));
+            if result == Err(Violation::Stop) && self.stops_again(&end.bytes) {
+                result = Err(Violation::StopsAgain);
+            }
             emit(Successor {
                 state: &end.bytes,
                 events: &self.chosen,

@@ -2,7 +2,7 @@
 //! reached there is a way to one in which it is so, on which no device fails any more.
 
 use crate::explore::Bounds;
-use crate::model::Model;
+use crate::model::{Model, Reductions};
 use crate::property::Check;
 use crate::store::Store;
 use crate::successor::Expander;
@@ -48,9 +48,9 @@ impl Edges {
 
 /// What is to be possible, from every state that was reached, if nothing fails any more.
 pub(crate) struct Possible<'a> {
-    store: &'a Store,
+    pub(crate) store: &'a Store,
     edges: &'a Edges,
-    expander: Expander<'a>,
+    pub(crate) expander: Expander<'a>,
 }
 
 impl<'a> Possible<'a> {
@@ -106,7 +106,7 @@ impl<'a> Possible<'a> {
     }
 
     /// States to which the ways lead from the first one.
-    fn calm(&self) -> Vec<bool> {
+    pub(crate) fn calm(&self) -> Vec<bool> {
         let backwards: Vec<(u32, u32)> = self.edges.list.iter().map(|(from, to)| (*to, *from)).collect();
         let mut calm = vec![false; self.store.len()];
         calm[0] = true;
@@ -115,7 +115,7 @@ impl<'a> Possible<'a> {
     }
 
     /// The first of the states `asked` that does not lead to one that can.
-    fn reach(&mut self, mut can: Vec<bool>, asked: &[bool], stops: Stops) -> Option<usize> {
+    pub(crate) fn reach(&mut self, mut can: Vec<bool>, asked: &[bool], stops: Stops) -> Option<usize> {
         let Self { store, edges, expander } = self;
         let fails = |can: &[bool]| can.iter().zip(asked).position(|(can, asked)| *asked && !can);
         fails(&can)?;
@@ -123,8 +123,10 @@ impl<'a> Possible<'a> {
         if stops == Stops::AreWays {
             edges.stops.iter().for_each(|state| can[*state as usize] = true);
         }
-        spread(&mut can, &edges.list);
-        fails(&can)?;
+        if expander.model.reductions == Reductions::On {
+            spread(&mut can, &edges.list);
+            fails(&can)?;
+        }
         let mut all = Vec::new();
         for state in 0..store.len() {
             if can[state] || !asked[state] {
@@ -148,7 +150,7 @@ impl<'a> Possible<'a> {
 
 /// Whether a stop for an operator counts as what was wanted.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Stops {
+pub(crate) enum Stops {
     AreWays,
     AreNoWay,
 }

@@ -1,7 +1,7 @@
 //! One scan: every instance makes one step, then outputs act.
 
 use crate::choice::Choices;
-use crate::model::Model;
+use crate::model::{Model, Reductions};
 use crate::plant::status;
 use crate::program::{Bounds, Clause, Command, Domain, Int, Key, Target, Transition, Update, bit};
 use crate::value::Values;
@@ -79,7 +79,8 @@ impl Scan<'_> {
             return Ok(());
         }
         let state = program.state.load(self.bytes) as usize;
-        if touched & bit(instance) == 0 && self.written & program.states[state].reads == 0 {
+        let is_due = touched & bit(instance) != 0 || self.written & program.states[state].reads != 0;
+        if !is_due && self.model.reductions == Reductions::On {
             return Ok(());
         }
         let made = self.choices.count();

@@ -9,6 +9,9 @@ use crate::scan::{Scan, Told};
 use crate::value::Values;
 use crate::violation::Violation;
 
+/// A line that stops in so many scans one after another does so for ever.
+const MOST_STOPS: usize = 8;
+
 /// In which orders the instances step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Orders {
@@ -175,6 +178,29 @@ impl<'a> Expander<'a> {
         }
     }
 
+    /// Whether the line, which has stopped for an operator in this state, stops again in each scan once the operator has
+    /// come.
+    pub(crate) fn stops_again(&mut self, stopped: &[u8]) -> bool {
+        let work = std::mem::replace(&mut self.work, stopped.to_vec());
+        let (choices, told) = (std::mem::take(&mut self.choices), self.told.clone());
+        let noted = self.noted.len();
+        let order = std::mem::take(&mut self.order);
+        let mut stops = true;
+        for _ in 0..MOST_STOPS {
+            let before = self.work.clone();
+            self.choices.clear();
+            // A signal that changes by itself may end it.
+            stops = self.begin().run(&order, u64::MAX) == Err(Violation::Stop) && self.choices.is_empty();
+            if !stops || self.work == before {
+                break;
+            }
+        }
+        self.noted.truncate(noted);
+        self.order = order;
+        (self.work, self.choices, self.told) = (work, choices, told);
+        stops
+    }
+
     /// Every outcome of one scan.
     fn scan(&mut self, level: usize, touched: u64, emit: &mut impl FnMut(Successor)) {
         if self.orders == Orders::All {
@@ -188,9 +214,12 @@ impl<'a> Expander<'a> {
             self.told.read.clear();
             let order = std::mem::take(&mut self.order);
             let mut scan = self.begin();
-            let result = scan.run(&order, touched);
+            let mut result = scan.run(&order, touched);
             let restless = scan.restless;
             self.order = order;
+            if result == Err(Violation::Stop) && self.stops_again(&self.work.clone()) {
+                result = Err(Violation::StopsAgain);
+            }
             emit(Successor {
                 state: &self.work,
                 events: &self.chosen,

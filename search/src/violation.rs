@@ -13,8 +13,16 @@ pub enum Violation {
     NeverFollowed { instance: usize, fault: usize },
     /// None: the line stops as its types say, until an operator has come. What follows is not searched.
     Stop,
+    /// The same, and once an operator has come it stops again in the next scan, each time.
+    StopsAgain,
     /// From here the orders cannot be made any more, whatever happens.
     NeverMade,
+    /// All orders are made, and from here the line cannot come to rest any more, although nothing has failed.
+    NeverRests,
+    /// Nothing has failed, orders are to be made, and the line does nothing until a time of this instance has passed.
+    WaitsForTime { instance: usize },
+    /// Nothing has failed, and a machine is given the command again that is under way.
+    Repeats { machine: usize },
     /// Two arms are over one place.
     TwoArms { arms: [usize; 2], machine: usize },
     /// A machine moves while an arm is at it.

@@ -42,6 +42,7 @@ fn replaced(layout: &str, name: &str, by: &str) -> String {
 /// Lines of which each shows some mistakes; with the quickest first.
 fn lines() -> Vec<Line> {
     let table = own_line("buffer").layout;
+    let only = replaced(&table, "agv1", "");
     // Without the table items go by the vehicle.
     let vehicle = replaced(&table, "buffer", "");
     // A second arm on the other side of the table, with a belt of its own.
@@ -58,16 +59,20 @@ fn lines() -> Vec<Line> {
         line("table, two parts", &table, TWO_PARTS, Faults::None),
         line("vehicle, two parts", &vehicle, TWO_PARTS, Faults::None),
         line("vehicle, two orders", &vehicle, TWO_ORDERS, Faults::None),
-        line("two arms at the table", &twins, TWO_PARTS, Faults::None),
         line("table, one part, faults", &table, ONE_PART, Faults::All),
         line("vehicle, one part, faults", &vehicle, ONE_PART, Faults::All),
+        line("table alone, two parts", &only, TWO_PARTS, Faults::None),
+        line("two arms at the table", &twins, TWO_PARTS, Faults::None),
     ]
 }
+
+/// The lines of these that are small enough to be compared.
+const COMPARED: usize = 6;
 
 const BOUNDS: Bounds = Bounds {
     answers: Some(1),
     orders: Orders::One,
-    time: Some(Duration::from_secs(30)),
+    time: Some(Duration::from_secs(5)),
     memory: 500_000_000,
     violations: 1,
     jobs: 1,
@@ -82,7 +87,8 @@ fn searched(texts: &Texts, faults: Faults) -> Option<Model> {
 /// What a search finds.
 fn found(model: &Model) -> Option<String> {
     let outcome = explore(model, &BOUNDS, &mut |_| true);
-    outcome.violations.first().map(|(violation, _)| format!("{violation:?}"))
+    let found = outcome.violations.iter().chain(&outcome.remarks).next();
+    found.map(|(violation, _)| format!("{violation:?}"))
 }
 
 #[derive(Debug)]
@@ -97,7 +103,7 @@ enum Result {
 fn of_mutant(lines: &[Line], originals: &[Model], name: &str, text: &str) -> Result {
     let begin = Instant::now();
     let mut changed = Vec::new();
-    for line in lines {
+    for (number, line) in lines.iter().enumerate() {
         let mut texts = line.texts.clone();
         match name {
             "buffer" => texts.specs[0] = text.to_string(),
@@ -114,13 +120,17 @@ fn of_mutant(lines: &[Line], originals: &[Model], name: &str, text: &str) -> Res
         }
         let Some(model) = searched(&texts, line.faults) else { return Result::Refused };
         let begin = Instant::now();
+        // One arm more at the table is of interest to arms alone.
+        if number == COMPARED && name != "kitting" {
+            continue;
+        }
         if let Some(violation) = found(&model) {
             return Result::Found(format!("{}: {violation}", line.name), begin.elapsed());
         }
         changed.push(model);
     }
     let is_equal = |(a, b): (&Model, &Model)| matches!(compare(a, b, &BOUNDS), Comparison::Equal { .. });
-    match is_full_campaign() && originals.iter().zip(&changed).all(is_equal) {
+    match is_full_campaign() && originals.iter().zip(&changed).take(COMPARED).all(is_equal) {
         true => Result::Equal,
         false => Result::Missed,
     }
@@ -139,16 +149,24 @@ fn mistakes_are_found() {
     for (name, text) in library.into_iter().chain([own]) {
         all.extend(mutants(&text).into_iter().map(|mutant| (name, mutant)));
     }
+    assert!(all.len() >= 100, "{} mutants", all.len());
     let is_long = is_full_campaign();
     if !is_long {
         lines.truncate(1);
+        all = all.into_iter().step_by(4).collect();
     }
     let originals: Vec<Model> = lines.iter().map(|l| searched(&l.texts, l.faults).expect(l.name)).collect();
     for (line, model) in lines.iter().zip(&originals) {
         let begin = Instant::now();
         let outcome = explore(model, &BOUNDS, &mut |_| true);
-        let what = outcome.violations.first().map(|(violation, _)| violation);
-        println!("{}: {} states, {:.1?}, {:?}", line.name, outcome.covered.states, begin.elapsed(), outcome.end);
+        let what = outcome.violations.iter().chain(&outcome.remarks).next().map(|(violation, _)| violation);
+        println!(
+            "{}: {} states, {:.1?}, {:?}",
+            line.name,
+            outcome.covered.states,
+            begin.elapsed(),
+            outcome.end
+        );
         assert_eq!(what, None, "{}", line.name);
     }
     let results = on_all_processors(&all, |(name, mutant)| of_mutant(&lines, &originals, name, &mutant.text));
@@ -176,7 +194,6 @@ fn mistakes_are_found() {
         "{} mutants, {refused} refused, {equal} equal, {caught} of the others found, each within {longest:.1?}",
         all.len()
     );
-    assert!(all.len() >= 100, "{} mutants", all.len());
-    let least = if is_long { 165 } else { 55 };
+    let least = if is_long { 210 } else { 30 };
     assert!(caught >= least, "{caught} of {} mutants are found", all.len() - refused);
 }

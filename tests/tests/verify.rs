@@ -4,7 +4,7 @@ use autogen::executor::Executor;
 use autogen::lower::Project;
 use autogen::verify::{Asked, model, replay::replay};
 use autogen_search::explore::{Bounds, End, Outcome, explore};
-use autogen_search::model::Model;
+use autogen_search::model::{Model, Reductions};
 use autogen_search::plant::{Faults, Watch};
 use autogen_search::successor::Orders;
 use autogen_search::violation::Violation;
@@ -148,6 +148,31 @@ fn forgetting_what_is_of_no_use_changes_no_verdict() {
         saved += more.covered.states - less.covered.states;
     }
     println!("{saved} states fewer");
+}
+
+/// Every instance steps in every scan, and ways to an end may have any number of answers. All orders of steps are compared on
+/// smaller lines: `searched_properties.rs`.
+#[test]
+fn leaving_out_what_does_nothing_changes_no_verdict() {
+    let lines = [
+        (buffer(ONE_PART), Faults::All),
+        (buffer(TWO_PARTS), Faults::None),
+        (changed("held := true;", ""), Faults::None),
+        (changed("offer := false;", ""), Faults::None),
+        (changed("slot[next] := Free;", ""), Faults::None),
+        (changed("open := true;", ""), Faults::None),
+    ];
+    let mut found = 0;
+    for (texts, faults) in lines {
+        let model = model_of(&texts.project(), faults);
+        let plain = Model { reductions: Reductions::Off, ..model.clone() };
+        let bounds = Bounds { answers: Some(1), violations: 100, ..BOUNDS };
+        let (less, more) = (search(&model, &bounds), search(&plain, &bounds));
+        assert_eq!(verdict(&less), verdict(&more));
+        assert_eq!(less.covered.states, more.covered.states);
+        found += less.violations.len();
+    }
+    assert!(found > 0);
 }
 
 /// Several processors reach the same states in the same order, and find the same executions.

@@ -30,7 +30,9 @@ pub fn check(model: &Model, files: &[(FileId, ast::File)], found: &mut Vec<Diagn
         let mut uses = Uses::default();
         uses.automaton(automaton);
         let own = automaton.parameters.iter().enumerate().filter(|(_, parameter)| parameter.is_settable());
-        found.extend(own.filter(|(number, _)| !uses.has_parameter(automaton, *number)).map(|(_, p)| unread(p)));
+        found.extend(
+            own.filter(|(number, _)| !uses.has_parameter(automaton, *number)).map(|(_, p)| unread(p)),
+        );
         uses.requires(automaton);
         for (number, local) in automaton.locals.iter().enumerate() {
             let place = place(files, &automaton.name, |a| &a.locals, |local| &local.name, &local.name);

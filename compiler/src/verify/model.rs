@@ -9,7 +9,7 @@ use super::{Asked, Skipped};
 use crate::diagnostic::Diagnostic;
 use crate::ir::{Automaton, Expr, ExprKind, KeptBy, Place, Scalar, System, Type, UpdateKind, Value};
 use crate::lower::Project;
-use autogen_search::model::{Model, Reach};
+use autogen_search::model::{Model, Reach, Reductions};
 use autogen_search::plant::{Order, Watch};
 use runtime_sim::device::{Direction, PortType};
 use runtime_sim::kinematics::facing::Facing;
@@ -168,6 +168,7 @@ pub fn model(project: &Project, asked: &Asked) -> Result<Searched, Vec<Diagnosti
         heights: line.kinds.iter().map(|kind| kind.height).collect(),
         faults: asked.faults,
         watch: Watch::Everything,
+        reductions: Reductions::On,
         reach,
         values,
         variables,

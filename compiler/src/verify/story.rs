@@ -43,6 +43,19 @@ impl Teller<'_> {
                 format!("from here `{text}` of {} cannot be fulfilled any more ({place})", name(instance))
             }
             Violation::Stop => "the line stops until an operator comes".into(),
+            Violation::StopsAgain => {
+                "the line stops until an operator comes, and stops again in the next scan each time".into()
+            }
+            Violation::NeverRests => {
+                "all orders are made, and the line cannot come to rest although nothing has failed".into()
+            }
+            Violation::WaitsForTime { instance } => format!(
+                "nothing has failed, and the whole line does nothing until a time of {} has passed",
+                name(instance)
+            ),
+            Violation::Repeats { machine } => {
+                format!("nothing has failed, and {} gives the command again that is under way", name(machine))
+            }
             Violation::NeverMade => "from here the orders cannot be made any more".into(),
             Violation::TwoArms { arms: [a, b], machine } => {
                 format!("two arms over one place: {} and {} over {}", name(a), name(b), name(machine))

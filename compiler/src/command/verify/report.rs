@@ -121,6 +121,10 @@ impl Report<'_> {
             let _ = writeln!(out, "{}", self.teller.tell(shown.execution));
             let _ = writeln!(out, "in the simulator   {}\n", replayed(&shown.replay));
         }
+        for (remark, execution) in &self.outcome.remarks {
+            let _ = writeln!(out, "noticed: {}\n", self.teller.title(remark));
+            let _ = writeln!(out, "{}", self.teller.tell(execution));
+        }
         let _ = writeln!(out, "{}\n", self.verdict());
         for bound in self.bounds() {
             let _ = writeln!(out, "  {bound}");
@@ -154,11 +158,20 @@ impl Report<'_> {
                 })
             })
             .collect();
+        let remarks: Vec<Value> = (self.outcome.remarks.iter())
+            .map(|(remark, execution)| {
+                json!({
+                    "remark": self.teller.title(remark),
+                    "story": self.teller.tell(execution).lines().collect::<Vec<_>>(),
+                })
+            })
+            .collect();
         json!({
             "verdict": self.verdict(),
             "complete": self.cut().is_none(),
             "bounds": self.bounds(),
             "violations": violations,
+            "remarks": remarks,
             "states": covered.states,
             "transitions": covered.transitions,
             "stops": covered.stops,
