@@ -360,10 +360,8 @@ impl Planner {
         // moves.
         let tool = to.len() - 1;
         let reached = knots.last().map_or(from[tool], |knot| knot.joints[tool]);
-        let end = to.map(|i, value| if i == tool { nearest_turn(value, reached) } else { value });
-        let back = nearest_equivalent(end[tool], reached);
-        // After a motion that was broken off it turns to the direction that the part should have.
-        let turns = end[tool] - if (back - reached).abs() < 4.0 * FINEST_TURN { back } else { reached };
+        let (last, turns) = turned(to[tool], reached);
+        let end = to.map(|i, value| if i == tool { last } else { value });
         for (i, knot) in (1..count).zip(&mut knots) {
             let part = plan.timing.passed(plan.time(i));
             knot.joints = knot.joints.map(|i, value| if i == tool { value + part * turns } else { value });
@@ -376,10 +374,18 @@ impl Planner {
     /// and nearly all plans that lead to no free path are of this kind. `suspect` as for [`Self::is_free`].
     fn may_be_free(&self, plan: &Plan, load: Load, margin: f64, suspect: &mut f64) -> bool {
         let [from, to] = &plan.ends;
+        let last = plan.samples() - 1;
+        if last == 0 {
+            return true;
+        }
+        let Some(reached) = self.at_time(plan, plan.time(last), from) else { return false };
+        let tool = to.len() - 1;
+        // What turns on its path has another direction there than here.
+        let load = if turned(to[tool], reached[tool]).1 == 0.0 { load } else { Load::None };
         let around = self.around([from, to], plan.line.places().iter().copied(), load, margin);
-        let count = f64::from(plan.samples());
         let is_apart = |part: f64| {
-            let time = plan.time(libm::round(part * count) as u32);
+            let sample = libm::round(part * f64::from(plan.samples())) as u32;
+            let time = plan.time(sample.clamp(1, last));
             let Some(joints) = self.at_time(plan, time, from) else { return false };
             let (gap, margin) = self.gap(&around, &joints, 0.0);
             gap >= margin * ROUNDED
@@ -475,6 +481,15 @@ impl Planner {
         }
         true
     }
+}
+
+/// The angle at which the last joint ends, and how far it has to turn to it beside keeping a part's direction.
+fn turned(end: f64, reached: f64) -> (f64, f64) {
+    let end = nearest_turn(end, reached);
+    let back = nearest_equivalent(end, reached);
+    // After a motion that was broken off it turns to the direction that the part should have.
+    let begin = if (back - reached).abs() < 4.0 * FINEST_TURN { back } else { reached };
+    (end, end - begin)
 }
 
 /// A plan is checked at these parts of its time first, a path at these places.

@@ -185,20 +185,25 @@ impl<'a> Expander<'a> {
         let (choices, told) = (std::mem::take(&mut self.choices), self.told.clone());
         let noted = self.noted.len();
         let order = std::mem::take(&mut self.order);
-        let mut stops = true;
+        let first = self.before.clone();
+        let mut is_for_ever = false;
         for _ in 0..MOST_STOPS {
-            let before = self.work.clone();
+            self.before.clone_from(&self.work);
             self.choices.clear();
             // A signal that changes by itself may end it.
-            stops = self.begin().run(&order, u64::MAX) == Err(Violation::Stop) && self.choices.is_empty();
-            if !stops || self.work == before {
+            if self.begin().run(&order, u64::MAX) != Err(Violation::Stop) || !self.choices.is_empty() {
+                break;
+            }
+            if self.work == self.before {
+                is_for_ever = true;
                 break;
             }
         }
+        self.before = first;
         self.noted.truncate(noted);
         self.order = order;
         (self.work, self.choices, self.told) = (work, choices, told);
-        stops
+        is_for_ever
     }
 
     /// Every outcome of one scan.

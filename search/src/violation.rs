@@ -13,7 +13,7 @@ pub enum Violation {
     NeverFollowed { instance: usize, fault: usize },
     /// None: the line stops as its types say, until an operator has come. What follows is not searched.
     Stop,
-    /// The same, and once an operator has come it stops again in the next scan, each time.
+    /// The same, and once an operator has come it stops again in the next scan, each time, while no device does anything.
     StopsAgain,
     /// From here the orders cannot be made any more, whatever happens.
     NeverMade,

@@ -81,10 +81,10 @@ fn first(
         return None;
     }
     let miss = |placed: &Placed| reachable.first_miss(pair, (node, placed));
-    let mut passed = 0;
+    let mut passed = 0_i32;
     let mut step = stride(miss(placed)?);
     let coarse = loop {
-        let next = (passed + step).min(FURTHEST);
+        let next = passed.saturating_add(step).min(FURTHEST);
         match at(next).map(|changed| miss(&changed)) {
             Some(None) => break next,
             Some(Some(missing)) if next < FURTHEST => (passed, step) = (next, stride(missing)),

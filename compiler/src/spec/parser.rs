@@ -76,7 +76,7 @@ pub(super) struct Parser {
 }
 
 /// One of these is often written for another one.
-const CONFUSED: [&str; 4] = [":", "=", ":=", "->"];
+const CONFUSED: [&str; 3] = [":", "=", ":="];
 
 impl Parser {
     fn new(tokens: Vec<(Token, Span)>, diagnostics: Vec<Diagnostic>) -> Self {

@@ -24,7 +24,7 @@ pub const SCHEMA: Schema = Schema {
     levels: &[Level { name: "start", ty: PortType::Bool }],
     ..Schema::new(
         "process",
-        "Works on the item at a place after a rising edge of `start`, for a time that is fixed or drawn. `ended` stays true until the next start. A start without an item, or without what it needs, ends the run: on the machine it would be a crash.",
+        "Works on the item at a place (an item on a lane is at none: stop it there, and let the automaton wait with `when after T`) after a rising edge of `start`, for a time that is fixed or drawn. `ended` stays true until the next start. A start without an item, or without what it needs, ends the run: on the machine it would be a crash.",
         &[
             Setting::new("on", Form::Part(&["place"]), "", "the place of the item"),
             Setting::new("time", Form::Times, "ms", "duration; the likeliest of a triangular distribution, the mean of a normal one").optional(),
@@ -101,13 +101,16 @@ impl Process {
     }
 }
 
+/// What is rounded in a sum of shares.
+const ROUNDED: f64 = 1e-9;
+
 /// Each of the kinds has a time of its own, or all of them have one.
 fn times(settings: &Settings, kinds: &[String]) -> Result<Vec<Distribution>, String> {
     let word = Distribution::word(settings)?;
     let mut given = Vec::new();
     for name in TIMES {
         let times = settings.optional(name, Settings::times)?;
-        if let Some(times) = times.as_ref().filter(|times| ![1, kinds.len()].contains(&times.len())) {
+        if let Some(times) = times.as_ref().filter(|times| times.is_empty() || ![1, kinds.len()].contains(&times.len())) {
             let count = times.len();
             return Err(match kinds.is_empty() {
                 true => format!("{name} has {count} times: name their kinds in `kinds`"),
@@ -144,7 +147,7 @@ fn rejects(settings: &Settings) -> Result<Vec<Reject>, String> {
     let rejects: Vec<Reject> = pairs.into_iter().zip(shares).map(|(kinds, share)| Reject { kinds, share }).collect();
     for Reject { kinds: [kind, _], .. } in &rejects {
         let all: f64 = rejects.iter().filter(|other| other.kinds[0] == *kind).map(|other| other.share).sum();
-        if all > 1.0 {
+        if all > 1.0 + ROUNDED {
             return Err(format!("the shares of the kind {kind} are more than 1 together"));
         }
     }

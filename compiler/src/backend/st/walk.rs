@@ -3,6 +3,7 @@
 use crate::ir::{
     Automaton, Domain, Expr, ExprKind, Model, Operator, Place, Scalar, Type, UpdateKind, Value, VariableId,
 };
+use crate::layout::read::MOST_OBJECTS;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Whether a `define` is read in guards only: then it is computed before them.
@@ -79,7 +80,9 @@ impl Ranges<'_> {
                 ExprKind::Constant(Value::Real(r)) => r == 0.0,
                 _ => self.range(divisor, bound).is_none_or(|(lo, hi)| lo <= 0 && hi >= -1),
             },
-            ExprKind::Binary(Operator::Add | Operator::Subtract | Operator::Multiply, ..) => {
+            ExprKind::Negate(_)
+            | ExprKind::Absolute(_)
+            | ExprKind::Binary(Operator::Add | Operator::Subtract | Operator::Multiply, ..) => {
                 self.range(expr, bound).is_some_and(|range| !is_in_32_bits(range))
             }
             // It was checked by itself: what it needs to hold it tests.
@@ -88,13 +91,13 @@ impl Ranges<'_> {
             | ExprKind::Forall { variable, domain, body }
             | ExprKind::Count { variable, domain, body }
             | ExprKind::Sum { variable, domain, body } => {
-                let mut inner = bound.clone();
-                let mut is_longer = false;
+                let inner = self.inner(*variable, domain, bound);
+                let mut is_longer = matches!(expr.kind, ExprKind::Sum { .. })
+                    && self.range(expr, bound).is_some_and(|range| !is_in_32_bits(range));
                 if let Domain::Range(low, high) = &**domain
                     && let (Some(from), Some(to)) = (self.range(low, bound), self.range(high, bound))
                 {
-                    inner.insert(*variable, (from.0, to.1));
-                    is_longer = narrowed_count(low, high).is_some_and(|count| to.1 - from.0 + 1 > count);
+                    is_longer |= narrowed_count(low, high).is_some_and(|count| to.1 - from.0 + 1 > count);
                 }
                 return is_longer
                     || expr.parts().into_iter().any(|part| {
@@ -176,7 +179,36 @@ impl Ranges<'_> {
                 let (lo, hi) = self.range(inner, bound)?;
                 Some((0, lo.saturating_abs().max(hi.saturating_abs())))
             }
+            ExprKind::Count { domain, .. } => Some((0, self.most(domain, bound))),
+            ExprKind::Sum { variable, domain, body } => {
+                let (lo, hi) = self.range(body, &self.inner(*variable, domain, bound))?;
+                let most = self.most(domain, bound);
+                Some((lo.min(0).saturating_mul(most), hi.max(0).saturating_mul(most)))
+            }
             _ => of(expr.ty),
+        }
+    }
+
+    /// The bounds around the body of a quantifier.
+    fn inner(&self, variable: VariableId, domain: &Domain, bound: &Bound) -> Bound {
+        let mut inner = bound.clone();
+        if let Domain::Range(low, high) = domain
+            && let (Some(from), Some(to)) = (self.range(low, bound), self.range(high, bound))
+        {
+            inner.insert(variable, (from.0, to.1));
+        }
+        inner
+    }
+
+    /// How many members a domain has at most.
+    fn most(&self, domain: &Domain, bound: &Bound) -> i64 {
+        match domain {
+            Domain::Role(_) => MOST_OBJECTS as i64,
+            Domain::Enum(id) => self.model.enums[id.0].members.len() as i64,
+            Domain::Range(low, high) => match (self.range(low, bound), self.range(high, bound)) {
+                (Some(from), Some(to)) => to.1.saturating_sub(from.0).saturating_add(1).max(0),
+                _ => i64::from(i32::MAX),
+            },
         }
     }
 }

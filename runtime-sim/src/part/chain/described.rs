@@ -36,9 +36,9 @@ impl Described for Chain {
         }
         let geometry = match (on.is_some(), has_joints) {
             (true, true) if !has_lengths => of_ur10(settings)?,
-            (true, false) => Geometry::Tool(settings.number("tool_length")?),
+            (true, false) if !has_lengths => Geometry::Tool(settings.number("tool_length")?),
             (_, true) => Geometry::Fixed(Box::new(fixed(settings)?), ranges(settings)?.map(Box::new)),
-            (false, false) => return Err("the setting speeds is missing".into()),
+            (_, false) => return Err("the setting speeds is missing".into()),
         };
         let clearances = settings.optional("clearances", Settings::points)?.unwrap_or_default();
         Ok(Self {
