@@ -311,6 +311,11 @@ impl Machine {
         self.carriers().iter().position(|(axis, _)| *axis == part)
     }
 
+    /// Both ends of the base of its arm, for an arm on a rail that may lie in any direction.
+    pub fn riding(&self) -> Option<[Point; 2]> {
+        self.arm()?.riding()
+    }
+
     /// None for a machine without a chain, or with one that no closed form fits.
     pub fn arm(&self) -> Option<Arm> {
         Arm::new(&self.axes(), self.chain()?)

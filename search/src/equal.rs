@@ -1,4 +1,5 @@
-//! Whether two lines do the same to their plant, whatever its devices do: a bisimulation over all that can be reached.
+//! Whether two lines do the same to their plant: a bisimulation over all that can be reached, with as many answers in a
+//! scan as the bounds allow, and up to a violation or a stop for an operator.
 
 use crate::event::{Event, What};
 use crate::explore::Bounds;
@@ -69,8 +70,8 @@ fn successors(expander: &mut Expander, state: &[u8]) -> BTreeMap<Seen, Vec<Vec<u
     let mut all = Vec::new();
     let model = expander.model;
     expander.expand(state, u64::MAX, &mut |successor| {
-        let result = successor.result.as_ref().map(|()| ()).map_err(|violation| kind(violation));
-        let noted = successor.noted.iter().map(|violation| kind(violation)).collect::<Vec<_>>();
+        let result = successor.result.as_ref().copied().map_err(kind);
+        let noted = successor.noted.iter().map(kind).collect::<Vec<_>>();
         let events = successor.events.iter().copied().filter(|event| !is_hidden(model, state, event));
         all.push((events.collect::<Vec<_>>(), result, noted, successor.state.to_vec()));
     });

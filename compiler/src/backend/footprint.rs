@@ -98,7 +98,7 @@ fn of_axes(machine: &Machine) -> Vec<(Shape, &'static str)> {
             _ => vec![(Shape::Polygon(robot.ground()), "range")],
         };
     }
-    if let Some([from, to]) = machine.arm().as_ref().and_then(|arm| arm.riding()) {
+    if let Some([from, to]) = machine.riding() {
         let centre = (from + to).scaled(0.5);
         return vec![(Shape::Line { from, to }, "rail"), (Shape::Circle { centre, radius: 0.22 }, "arm")];
     }
@@ -180,7 +180,7 @@ pub fn label(machine: &Machine) -> Point {
         let least = |value: fn(&Point) -> f64| ground.iter().map(value).fold(f64::INFINITY, f64::min);
         return Point::new(least(|point| point.x), least(|point| point.y) - 0.1, 0.0);
     }
-    if let Some([from, to]) = machine.arm().as_ref().and_then(|arm| arm.riding()) {
+    if let Some([from, to]) = machine.riding() {
         return Point::new(from.x.min(to.x), from.y.min(to.y) - 0.35, 0.0);
     }
     match (machine.axes().first().map(|axis| axis.motion), machine.axes().len()) {

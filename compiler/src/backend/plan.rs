@@ -41,7 +41,7 @@ fn meeting(machine: &Machine, other: &Machine, leaves: bool) -> Point {
     if let [start, near, ..] = machine.stops() {
         return if leaves { *near } else { *start };
     }
-    if let Some([from, to]) = machine.arm().as_ref().and_then(|arm| arm.riding()) {
+    if let Some([from, to]) = machine.riding() {
         let rail = to - from;
         let part = (other.pose - from).dot(rail) / rail.dot(rail);
         return from + rail.scaled(part.clamp(0.0, 1.0));

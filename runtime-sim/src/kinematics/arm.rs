@@ -312,13 +312,27 @@ impl Arm {
         let is_along = aside.length() < ALIGNED && (start.axis(2) - ahead).length() < ALIGNED;
         let steps = (way.length() / LINE_STEP).ceil();
         (is_along && steps > 1.0 && steps <= MOST_STEPS).then_some(())?;
+        self.stepped(steps, 0, from, |i, last| {
+            self.solve_facing(tool - way.scaled(1.0 - f64::from(i) / steps), facing, last)
+        })
+    }
+
+    /// Joints after each of so many steps, each from those before; none if one cannot be solved, goes far, or moves one of
+    /// the first joints, which have to stand.
+    fn stepped(
+        &self,
+        steps: f64,
+        standing: usize,
+        from: &Joints,
+        solve: impl Fn(u32, &Joints) -> Option<Joints>,
+    ) -> Option<Vec<Joints>> {
         let mut all: Vec<Joints> = Vec::new();
         for i in 1..=steps as u32 {
             let last = *all.last().unwrap_or(from);
-            let place = tool - way.scaled(1.0 - f64::from(i) / steps);
-            let next = self.solve_facing(place, facing, &last)?;
+            let next = solve(i, &last)?;
+            let stands = (0..standing).all(|j| (next[j] - last[j]).abs() < ALIGNED);
             let is_near = next.iter().zip(last.iter()).all(|(a, b)| (a - b).abs() < NEAR_JOINTS);
-            is_near.then_some(())?;
+            (stands && is_near).then_some(())?;
             all.push(next);
         }
         Some(all)
@@ -331,17 +345,10 @@ impl Arm {
         let is_over = (tool.x - start.x).abs() < ALIGNED && (tool.y - start.y).abs() < ALIGNED;
         let steps = ((tool.z - start.z).abs() / LINE_STEP).ceil();
         (is_over && steps > 1.0 && steps <= MOST_STEPS).then_some(())?;
-        let mut all: Vec<Joints> = Vec::new();
-        for i in 1..=steps as u32 {
+        self.stepped(steps, carriers, from, |i, last| {
             let z = start.z + (tool.z - start.z) * f64::from(i) / steps;
-            let last = *all.last().unwrap_or(from);
-            let next = self.solve(Point { z, ..tool }, &last)?;
-            let stands = (0..carriers).all(|j| (next[j] - last[j]).abs() < ALIGNED);
-            let is_near = next.iter().zip(last.iter()).all(|(a, b)| (a - b).abs() < NEAR_JOINTS);
-            (stands && is_near).then_some(())?;
-            all.push(next);
-        }
-        Some(all)
+            self.solve(Point { z, ..tool }, last)
+        })
     }
 
     /// The direction of a part on the tool, seen from above, rad.

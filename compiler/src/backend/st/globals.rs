@@ -173,13 +173,11 @@ fn ports(shared: Shared, robot: usize) -> Vec<Variable> {
         let unit = if port.unit.is_empty() { String::new() } else { format!(", {}", port.unit) };
         let first = stop_value(port).unwrap_or(first_value(port.ty));
         for (name, first) in held.iter().zip(constants(first)) {
-            let variable = Variable::new(name, Basic::of(Scalar::from(port.ty)))
-                .with_elements(count)
-                .with_comment(format!("{word}: {}{unit}", port.meaning));
-            let comments = if *name == held[0] { variable.comments.clone() } else { Vec::new() };
-            let comments =
-                comments.into_iter().chain(about(&[], elements(shared, port.extent.into()))).collect();
-            let variable = Variable { comments, ..variable };
+            let mut variable = Variable::new(name, Basic::of(Scalar::from(port.ty))).with_elements(count);
+            if *name == held[0] {
+                variable.comments.push(format!("{word}: {}{unit}", port.meaning));
+            }
+            variable.comments.extend(about(&[], elements(shared, port.extent.into())));
             let has_initial = port.direction == Direction::Output && count.is_none();
             variables.push(if has_initial { variable.with_initial(first) } else { variable });
         }

@@ -92,18 +92,19 @@ impl Ranges<'_> {
             | ExprKind::Count { variable, domain, body }
             | ExprKind::Sum { variable, domain, body } => {
                 let inner = self.inner(*variable, domain, bound);
-                let mut is_longer = matches!(expr.kind, ExprKind::Sum { .. })
+                let leaves = matches!(expr.kind, ExprKind::Sum { .. })
                     && self.range(expr, bound).is_some_and(|range| !is_in_32_bits(range));
-                if let Domain::Range(low, high) = &**domain
-                    && let (Some(from), Some(to)) = (self.range(low, bound), self.range(high, bound))
-                {
-                    is_longer |= narrowed_count(low, high).is_some_and(|count| to.1 - from.0 + 1 > count);
-                }
-                return is_longer
-                    || expr.parts().into_iter().any(|part| {
-                        let is_body = std::ptr::eq(part, &raw const **body);
-                        self.may_fault(part, if is_body { &inner } else { bound })
-                    });
+                let is_longer = match &**domain {
+                    Domain::Range(low, high) => {
+                        narrowed_count(low, high).is_some_and(|count| self.most(domain, bound) > count)
+                    }
+                    Domain::Role(_) | Domain::Enum(_) => false,
+                };
+                let in_part = |part: &Expr| {
+                    let is_body = std::ptr::eq(part, &raw const **body);
+                    self.may_fault(part, if is_body { &inner } else { bound })
+                };
+                return leaves || is_longer || expr.parts().into_iter().any(in_part);
             }
             _ => false,
         };

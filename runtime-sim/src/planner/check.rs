@@ -1,0 +1,137 @@
+//! Whether a gantry keeps off obstacles on its path: first at a few times of a plan, then along the whole path.
+
+use super::scene::Nearby;
+use super::{LIFTED, Load, MARGIN_AT_PLACE, Plan, Planner, axis, turned};
+use crate::kinematics::arm::Joints;
+use crate::motion::{Path, Section};
+use crate::point::Point;
+
+/// A path rounds the corners of its plan: it keeps off obstacles where the plan does not keep off quite as far.
+const ROUNDED: f64 = 0.5;
+/// A path is checked between so many equal parts, before it is from end to end.
+const FIRST_LOOKS: u32 = 32;
+/// A path is checked again at the latest when some point may have gone this part of what is kept.
+const SHORTEST_STEP: f64 = 0.6;
+/// No point of the robot and its load goes farther for a metre of a rail or a radian of a joint, m: from the axis to
+/// the end of the stretched arm, from the shoulder, from the elbow, from the wrists.
+const RADII: [f64; 9] = [1.0, 1.0, 2.2, 1.6, 1.6, 1.0, 0.5, 0.4, 0.3];
+/// What is farther than this is not looked at, m.
+const ENOUGH: f64 = 0.15;
+/// Joints that differ by less are the same, m or rad.
+const SAME: f64 = 1e-9;
+
+/// What is near the robot between the ends of a path.
+struct Around<'a> {
+    near: Nearby<'a>,
+    ends: [&'a Joints; 2],
+    /// On the verticals at the ends the tool carries its load from these heights on, m.
+    lifted: [f64; 2],
+    load: Load,
+    margin: f64,
+}
+
+impl Planner {
+    /// False if the robot comes too near to something at one of a few times of a plan. That is found out without a path,
+    /// and nearly all plans that lead to no free path are of this kind. `suspect` as for [`Self::is_free`].
+    pub(super) fn may_be_free(&self, plan: &Plan, load: Load, margin: f64, suspect: &mut f64) -> bool {
+        let [from, to] = &plan.ends;
+        let last = plan.samples() - 1;
+        if last == 0 {
+            return true;
+        }
+        let Some(reached) = self.at_time(plan, plan.time(last), from) else { return false };
+        let tool = to.len() - 1;
+        // What turns on its path has another direction there than here.
+        let load = if turned(to[tool], reached[tool]).1 == 0.0 { load } else { Load::None };
+        let around = self.around([from, to], plan.line.places().iter().copied(), load, margin);
+        let is_apart = |part: f64| {
+            let sample = libm::round(part * f64::from(plan.samples())) as u32;
+            let time = plan.time(sample.clamp(1, last));
+            let Some(joints) = self.at_time(plan, time, from) else { return false };
+            let (gap, margin) = self.gap(&around, &joints, 0.0);
+            gap >= margin * ROUNDED
+        };
+        let found = [*suspect].into_iter().chain(first_looks()).find(|part| !is_apart(*part));
+        *suspect = found.unwrap_or(*suspect);
+        found.is_none()
+    }
+
+    /// What the gap is asked of on a path between two ends, with the torso at these places.
+    fn around<'a>(
+        &'a self,
+        ends: [&'a Joints; 2],
+        places: impl IntoIterator<Item = Point>,
+        load: Load,
+        margin: f64,
+    ) -> Around<'a> {
+        let lifted = ends.map(|end| self.arm.tool(end).z + self.scene.load_height + LIFTED);
+        Around { near: self.scene.near(places), ends, lifted, load, margin }
+    }
+
+    /// What the gap is at these joints, and what it has to be. It is not looked at beyond what it has to be and `enough`.
+    fn gap(&self, around: &Around, joints: &Joints, enough: f64) -> (f64, f64) {
+        let Around { near, ends, lifted, load, margin } = around;
+        let frames = self.arm.frames(joints);
+        let height = frames.last().map_or(0.0, |tool| tool.position.z);
+        let stands = |end: usize| (0..3).all(|i| (joints[i] - ends[end][i]).abs() < SAME);
+        let end = [0, 1].into_iter().find(|end| stands(*end));
+        let lies = end.is_some_and(|end| height < lifted[end]);
+        let load = if lies { Load::None } else { *load };
+        let margin = if end.is_some() { MARGIN_AT_PLACE } else { *margin };
+        (self.scene.gap(near, &frames, load, [margin, margin.max(enough)]), margin)
+    }
+
+    /// Whether nothing on this path comes nearer to an obstacle than `margin`. On the verticals at its ends it may come
+    /// nearer, and the load touches what it lies on. `suspect` is the place, 0 to 1, at which it is checked first: the
+    /// last one that was not free, of paths that are much alike.
+    pub(super) fn is_free(
+        &self,
+        ends: [&Joints; 2],
+        path: &Path,
+        load: Load,
+        margin: f64,
+        suspect: &mut f64,
+    ) -> bool {
+        let around = self.around(ends, path.knots().iter().map(axis), load, margin);
+        let gap = |place: f64, enough: f64| self.gap(&around, &path.at(place), enough);
+        let is_apart = |place: f64| {
+            let (gap, margin) = gap(place, 0.0);
+            gap >= margin
+        };
+        // Most that are not free are not by far.
+        if let Some(place) = [*suspect].into_iter().chain(first_looks()).find(|place| !is_apart(*place)) {
+            *suspect = place;
+            return false;
+        }
+        let sections = path.sections(&RADII);
+        let mut place = 0.0;
+        while place < 1.0 {
+            let (gap, margin) = gap(place, ENOUGH);
+            if gap < margin {
+                *suspect = place;
+                return false;
+            }
+            place = after(&sections, place, (gap - margin).max(margin * SHORTEST_STEP));
+        }
+        true
+    }
+}
+
+/// A plan is checked at these parts of its time first, a path at these places.
+fn first_looks() -> impl Iterator<Item = f64> {
+    (1..FIRST_LOOKS).map(|i| f64::from(i) / f64::from(FIRST_LOOKS))
+}
+
+/// The place on a path after so many metres of the fastest point from `place` on, at least.
+fn after(sections: &[Section], place: f64, mut distance: f64) -> f64 {
+    let mut at = place;
+    for section in &sections[sections.partition_point(|section| section.end <= place)..] {
+        let reached = at + distance / section.rate.max(f64::MIN_POSITIVE);
+        if reached < section.end {
+            return reached;
+        }
+        distance -= (section.end - at) * section.rate;
+        at = section.end;
+    }
+    1.0
+}
