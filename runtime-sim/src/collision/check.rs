@@ -43,6 +43,8 @@ pub struct Contact {
 #[derive(Clone, Debug)]
 pub struct CollisionCheck {
     groups: Vec<Group>,
+    /// Of the movements of the groups.
+    versions: Vec<u64>,
     pairs: Vec<Pair>,
     items: Vec<Tracked>,
     /// Events that were handled.
@@ -86,6 +88,7 @@ impl CollisionCheck {
         });
         Self {
             items: items.collect(),
+            versions: Vec::with_capacity(groups.len()),
             groups,
             pairs,
             read: 0,
@@ -118,15 +121,25 @@ impl CollisionCheck {
         for group in &mut self.groups {
             group.follow(plant);
         }
+        self.versions.clear();
+        self.versions.extend(self.groups.iter().map(Group::version));
+        let now = plant.now_ms() as f64 / 1000.0;
         let mut next = next;
         let mut near = Vec::new();
         for index in 0..self.pairs.len() {
-            if self.pairs[index].touches() {
+            let end = self.seconds * (next - scan) as f64;
+            let pair = &self.pairs[index];
+            if pair.touches() {
                 near.push(index);
                 continue;
             }
-            let end = self.seconds * (next - scan) as f64;
-            let clear = self.clear_for(index, plant, memory, end);
+            let versions = pair.groups.map(|group| self.versions[group]);
+            if pair.known.versions == versions && pair.known.until - now >= end {
+                continue;
+            }
+            let pair = &mut self.pairs[index];
+            let clear = pair.clear_for(&mut self.groups, index, plant, memory, end);
+            pair.known = Known { versions, until: now + clear };
             if clear < end {
                 // One scan less: the time is rounded.
                 let before = (clear / self.seconds) as u64;
@@ -141,24 +154,6 @@ impl CollisionCheck {
         }
         let found = self.search(near, plant);
         (next, self.note_all(found, plant))
-    }
-
-    /// Seconds from now in which the pair does not come into contact as both move now: at least so many as are asked for,
-    /// or as long as it takes to come so near that it could.
-    fn clear_for(&mut self, index: usize, plant: &Plant, memory: &mut Memory, asked: f64) -> f64 {
-        let pair = &mut self.pairs[index];
-        let [a, b] = pair.groups;
-        let now = plant.now_ms() as f64 / 1000.0;
-        let versions = [a, b].map(|group| self.groups[group].version());
-        if let Some(known) = &pair.known
-            && known.versions == versions
-            && known.until - now >= asked
-        {
-            return known.until - now;
-        }
-        let clear = pair.clear_for(&mut self.groups, index, plant, memory, asked);
-        pair.known = Some(Known { versions, until: now + clear });
-        clear
     }
 
     /// Which of these pairs come into contact in the scan that begins, by time.

@@ -66,6 +66,8 @@ pub struct Group {
     pub kind: Kind,
     /// Those of items may come and go, and leave their places to others.
     pub bodies: Vec<Option<Body>>,
+    /// Nothing of it ever moves, nor what lies on it.
+    is_fixed: bool,
     /// Another one if it does not go on as before, or bears something else.
     version: u64,
     /// Of the last look at the plant.
@@ -124,9 +126,16 @@ impl Group {
 
     fn new(name: String, kind: Kind, mut solids: Vec<Solid>) -> Self {
         solids.sort_by_key(|solid| solid.link);
+        let is_fixed = match &kind {
+            Kind::Obstacle => true,
+            Kind::Machine { machine, .. } | Kind::Arm { machine, .. } => {
+                !machine.parts.iter().any(|part| part.moves())
+            }
+        };
         let mut group = Self {
             name,
             kind,
+            is_fixed,
             bodies: Vec::new(),
             version: 0,
             now_ms: 0.0,
@@ -356,7 +365,7 @@ impl Group {
 
     /// Looks up how it is going to move from now on, and how far it has gone at most.
     pub fn follow(&mut self, plant: &Plant) {
-        let Some(index) = self.machine() else { return };
+        let Some(index) = self.machine().filter(|_| !self.is_fixed) else { return };
         let now_ms = plant.now_ms() as f64;
         let passed = (now_ms - self.now_ms) / 1000.0;
         self.now_ms = now_ms;

@@ -21,7 +21,7 @@ pub struct Pair {
     /// come into contact; negative infinity if nothing is known.
     bodies: Vec<Vec<f64>>,
     touching: Vec<Touching>,
-    pub known: Option<Known>,
+    pub known: Known,
 }
 
 /// That two groups do not come into contact as they move.
@@ -91,7 +91,8 @@ const AHEAD: f64 = 20.0;
 const SHORTEST_STEP: f64 = 1e-9;
 impl Pair {
     pub fn new(groups: [usize; 2], allowed: bool) -> Self {
-        Self { groups, allowed, contact: None, bodies: Vec::new(), touching: Vec::new(), known: None }
+        let known = Known { versions: [0; 2], until: f64::NEG_INFINITY };
+        Self { groups, allowed, contact: None, bodies: Vec::new(), touching: Vec::new(), known }
     }
 
     pub fn touches(&self) -> bool {
