@@ -8,23 +8,30 @@ use crate::part::chain::motions::Motions;
 use crate::planner::Planner;
 use crate::point::Point;
 use std::collections::HashMap;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// It changes no result: a run with the memory of another one is the same, and faster. Of other machines, obstacles or
 /// kinds of part it remembers nothing.
 #[derive(Debug, Default)]
 pub struct Memory {
     surroundings: Option<Surroundings>,
-    /// By machine; none for what is no arm.
-    motions: Vec<Option<Arc<Motions>>>,
+    shared: Arc<Mutex<Shared>>,
     /// Whether a motion is free of contact with what rests.
     free: HashMap<Fingerprint, bool>,
     /// What contains an arm on each piece of its path.
     boxes: HashMap<Fingerprint, Arc<[Swept]>>,
 }
 
+/// What several memories have in common.
+#[derive(Debug, Default)]
+struct Shared {
+    surroundings: Option<Surroundings>,
+    /// By machine; none for what is no arm.
+    motions: Vec<Option<Arc<Motions>>>,
+}
+
 /// All that paths and contacts depend on.
-#[derive(Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 struct Surroundings {
     machines: Vec<(Point, Vec<Arc<Part>>)>,
     obstacles: Vec<Obstacle>,
@@ -48,14 +55,24 @@ impl Memory {
     pub(crate) fn keep_for(&mut self, line: &Line) {
         let surroundings = Surroundings::of(line);
         if self.surroundings.as_ref() != Some(&surroundings) {
-            *self = Self { surroundings: Some(surroundings), ..Self::default() };
-            self.motions.resize(line.machines.len(), None);
+            *self = Self { surroundings: Some(surroundings), shared: self.shared.clone(), ..Self::default() };
         }
+    }
+
+    /// Another one that knows the motions of this one, for runs at the same time.
+    pub fn beside(&self) -> Self {
+        Self { shared: self.shared.clone(), ..Self::default() }
     }
 
     /// The motions of a machine; none if it is no arm.
     pub(crate) fn motions(&mut self, line: &Line, machine: usize) -> Option<Arc<Motions>> {
-        let known = self.motions.get_mut(machine)?;
+        // Nothing panics while it is locked.
+        let mut shared = self.shared.lock().unwrap_or_else(PoisonError::into_inner);
+        if shared.surroundings != self.surroundings {
+            let motions = vec![None; line.machines.len()];
+            *shared = Shared { surroundings: self.surroundings.clone(), motions };
+        }
+        let known = shared.motions.get_mut(machine)?;
         if known.is_none() {
             let arm = line.machines[machine].arm()?;
             let planner = Planner::of(line, machine);

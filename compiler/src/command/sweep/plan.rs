@@ -44,8 +44,9 @@ pub struct Line {
     /// Its own, or that of its file.
     name: String,
     library: Mutex<Option<Result<SharedLibrary, String>>>,
-    /// What runs of this layout have found; one for each that continues at the same time.
+    /// What runs of this layout have found; one for each that continues at the same time, beside the first one.
     memories: Mutex<Vec<Memory>>,
+    memory: Memory,
 }
 
 /// Why there is no plan.
@@ -211,13 +212,14 @@ impl Line {
             shown,
             library: Mutex::new(None),
             memories: Mutex::default(),
+            memory: Memory::default(),
         })
     }
 
     /// Lets a run use what others have found about this layout.
     pub fn remembering<T>(&self, run: impl FnOnce(&mut Memory) -> T) -> T {
         let memories = || self.memories.lock().unwrap_or_else(PoisonError::into_inner);
-        let mut memory = memories().pop().unwrap_or_default();
+        let mut memory = memories().pop().unwrap_or_else(|| self.memory.beside());
         let result = run(&mut memory);
         memories().push(memory);
         result

@@ -8,7 +8,7 @@ use crate::motion::{Knot, Motion, Travel};
 use crate::planner::{End, Load, Planner, Transfer};
 use crate::point::Point;
 use std::collections::HashMap;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// All motions of one machine, in all runs of the same line.
 #[derive(Debug)]
@@ -97,17 +97,27 @@ impl Motions {
         begin: f64,
     ) -> Option<Planned> {
         let question = Question::new([from, directed], target, limits);
-        // Nothing panics while it is locked.
-        let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
-        if known.len() >= MOST {
-            known.clear();
-        }
-        let planned = known.entry(question).or_insert_with(|| {
-            let motion = self.computed([from, directed], target, limits)?;
-            let tool = Arc::new(motion.travel(&self.radii));
-            Some(Planned { motion, tool })
+        let known = self.known().get(&question).cloned();
+        let planned = known.unwrap_or_else(|| {
+            let motion = self.computed([from, directed], target, limits);
+            let planned = motion.map(|motion| {
+                let tool = Arc::new(motion.travel(&self.radii));
+                Planned { motion, tool }
+            });
+            let mut known = self.known();
+            if known.len() >= MOST {
+                known.clear();
+            }
+            known.insert(question, planned.clone());
+            planned
         });
-        planned.as_ref().map(|Planned { motion, tool }| Planned { motion: motion.begun(begin), tool: tool.clone() })
+        planned.map(|Planned { motion, tool }| Planned { motion: motion.begun(begin), tool })
+    }
+
+    /// Another run may look while one computes.
+    fn known(&self) -> MutexGuard<'_, HashMap<Question, Option<Planned>>> {
+        // Nothing panics while it is locked.
+        self.known.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     fn computed(
