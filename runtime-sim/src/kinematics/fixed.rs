@@ -1,10 +1,12 @@
 //! An arm of six joints that stands where it is, its tool pointing down or to a side.
 
+use super::arm::{Frames, Joints};
 use super::facing::Facing;
 use super::links::Link;
 use super::opw::Opw;
 use super::pose::Pose;
 use super::room::room;
+use super::solver::Solver;
 use super::ur::{Angles, Lengths};
 use super::{is_finite, nearest_turn, root};
 use crate::frame::Frame;
@@ -317,6 +319,48 @@ fn margin(lengths: &Lengths, tool: &Pose, facing: Facing) -> f64 {
         Facing::Level { .. } => [slack(ahead, height - d5), slack(ahead, height + d5)],
     };
     room(ahead, d4, one.max(other))
+}
+
+impl Solver for FixedArm {
+    fn margin(&self, tool: Point, facing: Facing) -> f64 {
+        FixedArm::margin(self, tool, facing)
+    }
+
+    fn solve(&self, tool: Point, facing: Facing, from: &Joints) -> Option<Joints> {
+        FixedArm::solve(self, tool, facing, &from.array()).map(|joints| Joints::new(&joints))
+    }
+
+    fn tool_pose(&self, joints: &Joints) -> Pose {
+        FixedArm::tool_pose(self, &joints.array())
+    }
+
+    fn frames(&self, joints: &Joints) -> Frames {
+        Frames::new(&FixedArm::frames(self, &joints.array()))
+    }
+
+    fn links(&self) -> Vec<Link> {
+        FixedArm::links(self)
+    }
+
+    fn start(&self) -> Joints {
+        Joints::new(&FixedArm::start(self))
+    }
+
+    fn mount(&self) -> Pose {
+        self.base()
+    }
+
+    fn standing(&self) -> Option<usize> {
+        Some(0)
+    }
+
+    fn ranges(&self) -> Option<&[[f64; 2]]> {
+        FixedArm::ranges(self).map(|ranges| &ranges[..])
+    }
+
+    fn wrist_room(&self, tool: Point, facing: Facing) -> Option<f64> {
+        FixedArm::wrist_room(self, tool, facing)
+    }
 }
 
 #[cfg(test)]

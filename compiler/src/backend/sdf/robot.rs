@@ -66,7 +66,8 @@ fn drives(machine: &Machine, kinematics: &Arm) -> Vec<Drive> {
     let mut drives: Vec<Drive> = machine.named_axes().into_iter().map(of_axis).collect();
     let Some(chain) = machine.chain() else { return drives };
     let links = kinematics.links().into_iter().skip(drives.len());
-    let ranges = kinematics.turns().copied().unwrap_or([[-TAU, TAU]; 6]);
+    let turns = [[-TAU, TAU]; 6];
+    let ranges = kinematics.ranges().unwrap_or(&turns).iter().copied();
     drives.extend(chain.joints.iter().zip(links).zip(ranges).map(|((joint, link), range)| Drive {
         joint: joint.name.clone(),
         link: joint.link.clone(),
