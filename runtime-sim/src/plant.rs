@@ -28,6 +28,7 @@ use crate::point::Point;
 use conveyed::Conveyed;
 use conveying::{Among, Conveying, Falls};
 pub use conveying::{By, Gap, Transfer, gaps, transfers};
+use std::sync::Arc;
 use trajectory::Trajectory;
 use working::{Shared, Working};
 
@@ -48,6 +49,8 @@ pub struct Plant {
     machines: Vec<Working>,
     conveying: Conveying,
     items: Items,
+    /// Of all items, for reports.
+    names: Arc<[String]>,
     /// Heights of the kinds.
     heights: Vec<f64>,
     obstacles: Vec<Obstacle>,
@@ -80,6 +83,7 @@ impl Plant {
             machines,
             conveying: Conveying::new(line),
             items,
+            names: crate::item::names(line).into(),
             heights: line.kinds.iter().map(|kind| kind.height).collect(),
             obstacles: line.obstacles.clone(),
             desk,
@@ -213,6 +217,11 @@ impl Plant {
 
     fn fall(&mut self, Falls { item, from, ms }: Falls) {
         let (carrier, point) = fall::fall(self, (from, self.upper(item)), ms);
+        let under = self.convey(|conveying, among, _| conveying.lies_under(among, item, &carrier, ms));
+        if let (Some(under), Some(machine)) = (under, carrier.machine()) {
+            let [upper, lower] = [item, under].map(|item| &self.names[item]);
+            self.items.crash(machine, format!("{upper} comes down on {lower}, which lies on a conveyor"));
+        }
         self.items.pass(item, carrier, point);
     }
 
