@@ -129,11 +129,11 @@ impl Machine {
                 return Err(format!("the part {} refers to one that is not before it", part.name));
             };
             let schema = other.schema();
-            let frames = match &other.primitive {
-                Primitive::Chain(chain) => chain.joints.len() + 1,
-                _ => schema.frames.len().max(1),
+            let is_there = match &other.primitive {
+                Primitive::Chain(chain) => chain.link(*frame).is_some(),
+                _ => *frame < schema.frames.len().max(1),
             };
-            if !primitives.contains(&schema.name) || *frame >= frames {
+            if !primitives.contains(&schema.name) || !is_there {
                 return Err(format!("the part {} cannot refer to {}", part.name, other.name));
             }
         }

@@ -8,6 +8,7 @@ use super::links::Link;
 use super::pose::Pose;
 use super::rail_arm::RailArm;
 use super::riding::RidingArm;
+use super::scara::Scara;
 use super::solver::Solver;
 use super::{nearest_equivalent, nearest_turn};
 use crate::frame::Frame;
@@ -64,6 +65,7 @@ pub struct Arm {
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Family {
     Cartesian(Cartesian),
+    Scara(Scara),
     /// Upright where it is.
     Fixed(FixedArm),
     /// The same on one rail.
@@ -155,6 +157,7 @@ impl Arm {
                     None => Family::Riding(riding(axes, chain.mount, at)?),
                 }
             }
+            Geometry::Scara(arms) => Family::Scara(Scara::new(chain.base?, **arms)),
             Geometry::Tool(length) => Family::Cartesian(cartesian(axes, *length)?),
             Geometry::Ur10 => {
                 let at = axes.first()?.at()?;
@@ -182,6 +185,7 @@ impl Arm {
     fn solver(&self) -> &dyn Solver {
         match &self.family {
             Family::Cartesian(robot) => robot,
+            Family::Scara(arm) => arm,
             Family::Fixed(arm) => arm,
             Family::Riding(arm) => arm,
             Family::Rail(arm) => arm,

@@ -287,11 +287,11 @@ impl FixedArm {
 }
 
 /// An angle beyond its range by less is rounding, rad.
-const ROUNDED: f64 = 1e-9;
+pub(super) const ROUNDED: f64 = 1e-9;
 
 /// Of the equivalents of an angle that are within a range the one nearest to `present`; if there is none, the one that
 /// lacks least.
-fn turn_within(angle: f64, [low, high]: [f64; 2], present: f64) -> f64 {
+pub(super) fn turn_within(angle: f64, [low, high]: [f64; 2], present: f64) -> f64 {
     let lacks = |turn: f64| (low - turn).max(turn - high).max(ROUNDED);
     let turns = [angle, angle - TAU, angle + TAU, angle - 2.0 * TAU, angle + 2.0 * TAU];
     let cost = |turn: f64| (lacks(turn), (turn - present).abs());
