@@ -77,7 +77,8 @@ impl Machine {
         for (index, part) in self.parts.iter().enumerate() {
             let Primitive::Place(place) = &part.primitive else { continue };
             let strokes = self.strokes_under(place).and_then(|strokes| strokes.stroke);
-            if place.facing != Facing::Down && matches!(strokes, Some(Stroke::Turns { .. })) {
+            let turns = matches!(strokes, Some(Stroke::Turns { .. })) || self.is_on_track(place);
+            if place.facing != Facing::Down && turns {
                 return Err(Misfit::of(index, "a place that is filled from the side is on what turns"));
             }
         }
@@ -311,6 +312,12 @@ impl Machine {
     pub fn is_driven(&self, place: &Place) -> bool {
         let carrier = place.on.and_then(|part| self.parts.get(part));
         carrier.is_some_and(|part| matches!(part.primitive, Primitive::Route(_)))
+    }
+
+    /// Whether a place is on a vehicle that follows a track.
+    pub fn is_on_track(&self, place: &Place) -> bool {
+        let carrier = place.on.and_then(|part| self.parts.get(part));
+        carrier.is_some_and(|part| matches!(part.primitive, Primitive::Track(_)))
     }
 
     fn carriers(&self) -> Vec<(usize, &Axis)> {

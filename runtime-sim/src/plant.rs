@@ -144,6 +144,7 @@ impl Plant {
         let see = working.see(&self.items, &self.desk);
         let Some(tool) = see.tool(looks.chain) else { return f64::INFINITY };
         let Some(nearest) = self.nearest(tool.position) else { return f64::INFINITY };
+        let nearest = nearest - self.leap();
         let speed = self.machines.iter().map(|machine| machine.speed(now_ms)).fold(0.0, f64::max);
         let seconds = |ms: u64| ms as f64 / 1000.0;
         if !self.moves(machine) && speed == 0.0 && nearest > looks.near + ROUNDED {
@@ -157,6 +158,16 @@ impl Plant {
             look += looks.period_ms;
         }
         look as f64
+    }
+
+    /// How far an item on a vehicle may go at once, where this turns at a corner, m.
+    fn leap(&self) -> f64 {
+        let aside = (0..self.items.all().len()).filter_map(|item| {
+            let middle = self.vehicle_under(item)?.position;
+            let place = self.place(item)?;
+            Some(2.0 * libm::hypot(place.x - middle.x, place.y - middle.y))
+        });
+        aside.fold(0.0, f64::max)
     }
 
     /// How far a tool is from where the nearest item is gripped, of those that are not, m.
@@ -342,6 +353,12 @@ impl Plant {
     /// Where a vehicle on a track is, and how it is turned.
     pub(crate) fn vehicle(&self, machine: usize) -> Option<Frame> {
         self.machines.get(machine)?.first_vehicle().map(Driving::frame_now)
+    }
+
+    /// Where the vehicle on a track is that carries an item, and how it is turned.
+    pub(crate) fn vehicle_under(&self, item: usize) -> Option<Frame> {
+        let Carrier::Place { machine, part, .. } = self.items.all().get(item)?.carrier else { return None };
+        self.machines.get(machine)?.vehicle_under(part).map(Driving::frame_now)
     }
 
     /// The joints of an arm.
