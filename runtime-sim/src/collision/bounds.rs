@@ -216,10 +216,10 @@ mod tests {
             let bounds = chain.bounds(link, &ball).wider(1e-9);
             assert!(!bounds.is_apart(&BoundingBox::between(here, here)), "link {link}: {here:?} {bounds:?}");
             let radii = chain.radii(link, &ball);
-            for joint in 0..=link {
+            for (joint, radius) in radii.iter().enumerate().take(link + 1) {
                 let by = 1e-3;
                 let moved = at(&joints.map(|i, value| if i == joint { value + by } else { value }));
-                assert!((moved - here).length() <= radii[joint] * by + 1e-12, "link {link}, joint {joint}");
+                assert!((moved - here).length() <= radius * by + 1e-12, "link {link}, joint {joint}");
             }
         }
     }
