@@ -6,6 +6,7 @@ mod conveying;
 mod delay;
 pub(crate) mod fall;
 mod faults;
+mod gripping;
 mod sight;
 pub mod trajectory;
 mod working;
@@ -16,30 +17,23 @@ use crate::carrier::Carrier;
 use crate::frame::Frame;
 use crate::item::Items;
 use crate::kinematics::arm::Joints;
-use crate::kinematics::pose::Pose;
 use crate::line::{Line, Obstacle};
 use crate::memory::Memory;
-use crate::part::Looks;
+use crate::part::Primitive;
 use crate::part::orders::Desk;
-use crate::part::place::OPPOSITE;
 use crate::part::stroke::Stroking;
 use crate::part::track::Driving;
 use crate::point::Point;
 use conveyed::Conveyed;
 use conveying::{Among, Conveying, Falls};
 pub use conveying::{By, Gap, Transfer, gaps, transfers};
+use gripping::NextLook;
 use std::sync::Arc;
 use trajectory::Trajectory;
 use working::{Shared, Working};
 
-/// The direction of the vertical.
-const UP: Point = Point::new(0.0, 0.0, 1.0);
 /// A time is not distinguished from one that is so much later.
 const EARLY_MS: f64 = 1e-6;
-/// A gripper that finds nothing is asked again after so many looks at the latest.
-const MOST_LOOKS: u32 = 1000;
-/// What is rounded in a distance, m.
-const ROUNDED: f64 = 1e-6;
 
 /// The state of the plant at the start of a scan.
 #[derive(Clone, Debug)]
@@ -58,6 +52,12 @@ pub struct Plant {
     images: Vec<Vec<f64>>,
     /// An item has changed hands on the way to the present scan: what a lane shows of it may follow in the next one.
     has_handed: bool,
+    /// Machines and parts of all grippers.
+    grippers: Vec<(usize, usize)>,
+    /// Machines with scanners.
+    scanning: Vec<usize>,
+    /// By machine.
+    next_looks: Vec<Option<NextLook>>,
 }
 
 impl Plant {
@@ -77,6 +77,9 @@ impl Plant {
             .map(|index| Working::new(line, index, &desk, &mut items, memory))
             .collect::<Result<Vec<_>, _>>()?;
         let images = machines.iter().map(|machine| vec![0.0; machine.input_words()]).collect();
+        let scanners = parts(line, |part| matches!(part, Primitive::Scanner(_)));
+        let mut scanning: Vec<usize> = scanners.map(|(machine, _)| machine).collect();
+        scanning.dedup();
         let mut plant = Self {
             scan_ms: u64::from(line.scan_ms),
             scan: 0,
@@ -89,6 +92,9 @@ impl Plant {
             desk,
             images,
             has_handed: false,
+            grippers: parts(line, |part| matches!(part, Primitive::Grip(_))).collect(),
+            scanning,
+            next_looks: vec![None; line.machines.len()],
         };
         plant.sight();
         plant.write_images();
@@ -116,66 +122,17 @@ impl Plant {
 
     /// The first scan, not before the next one, at whose start something may have happened, if no output changes:
     /// until then all that moves continues along its path, and nothing else changes. None: nothing ever will.
-    pub(crate) fn next_change(&self) -> Option<u64> {
+    pub(crate) fn next_change(&mut self) -> Option<u64> {
         let now_ms = self.now_ms();
+        let look_ms = self.next_look(now_ms);
         let next = self.machines.iter().map(|machine| machine.next_change(&self.items, &self.desk, now_ms));
-        let looks = (0..self.machines.len()).map(|machine| self.next_look(machine, now_ms));
-        let sights = (0..self.machines.len()).map(|machine| self.next_sight(machine));
-        let next_ms = next.chain(looks).chain(sights).fold(self.conveying.next_ms(), f64::min);
+        let sights = self.scanning.iter().map(|machine| self.next_sight(*machine));
+        let next_ms = next.chain(sights).fold(self.conveying.next_ms().min(look_ms), f64::min);
         // What is rounded may be early.
         let scan = ((next_ms - EARLY_MS) / self.scan_ms as f64).ceil() as u64;
         let next = next_ms.is_finite().then(|| scan.max(self.scan + 1));
         let faults = self.machines.iter().map(|machine| machine.faults().next_change(self.scan));
         faults.chain([next, self.has_handed.then_some(self.scan + 1)]).flatten().min()
-    }
-
-    /// When a gripper of a machine next looks and could find an item, ms; infinity: never, as everything moves now.
-    fn next_look(&self, machine: usize, now_ms: u64) -> f64 {
-        let looks = self.machines[machine].looks();
-        looks.map(|looks| self.next_look_of(machine, looks, now_ms)).fold(f64::INFINITY, f64::min)
-    }
-
-    fn next_look_of(&self, machine: usize, looks: Looks, now_ms: u64) -> f64 {
-        let working = &self.machines[machine];
-        let mut look = (now_ms / looks.period_ms + 1) * looks.period_ms;
-        if looks.has_found {
-            return look as f64;
-        }
-        let see = working.see(&self.items, &self.desk);
-        let Some(tool) = see.tool(looks.chain) else { return f64::INFINITY };
-        let Some(nearest) = self.nearest(tool.position) else { return f64::INFINITY };
-        let nearest = nearest - self.leap();
-        let speed = self.machines.iter().map(|machine| machine.speed(now_ms)).fold(0.0, f64::max);
-        let seconds = |ms: u64| ms as f64 / 1000.0;
-        if !self.moves(machine) && speed == 0.0 && nearest > looks.near + ROUNDED {
-            return f64::INFINITY;
-        }
-        for _ in 0..MOST_LOOKS {
-            let tool_goes = working.tool_goes(looks.chain, seconds(now_ms), seconds(look));
-            if nearest - tool_goes - speed * seconds(look - now_ms) <= looks.near + ROUNDED {
-                break;
-            }
-            look += looks.period_ms;
-        }
-        look as f64
-    }
-
-    /// How far an item on a vehicle may go at once, where this turns at a corner, m.
-    fn leap(&self) -> f64 {
-        let aside = (0..self.items.all().len()).filter_map(|item| {
-            let middle = self.vehicle_under(item)?.position;
-            let place = self.place(item)?;
-            Some(2.0 * libm::hypot(place.x - middle.x, place.y - middle.y))
-        });
-        aside.fold(0.0, f64::max)
-    }
-
-    /// How far a tool is from where the nearest item is gripped, of those that are not, m.
-    fn nearest(&self, tool: Point) -> Option<f64> {
-        let all = self.items.all().iter().enumerate();
-        let free = all.filter(|(_, item)| !matches!(item.carrier, Carrier::Grip { .. }));
-        let tops = free.filter_map(|(index, _)| self.top(index));
-        tops.map(|top| (top - tool).length()).reduce(f64::min)
     }
 
     /// The second part of [`Self::advance`]: everything moves on to the start of a later scan, before which nothing
@@ -245,71 +202,10 @@ impl Plant {
         }
     }
 
-    /// In the last scan before this one.
-    fn grip(&mut self, scan: u64) {
-        let next_ms = scan * self.scan_ms;
-        let now_ms = next_ms - self.scan_ms;
-        for machine in 0..self.machines.len() {
-            for part in 0..self.machines[machine].count() {
-                let working = &self.machines[machine];
-                let see = working.see(&self.items, &self.desk);
-                let Some((tool, near)) = working.seeks(part, &see, now_ms, next_ms) else { continue };
-                let contact = self.contact(&tool, near);
-                if let Some(item) = self.machines[machine].meets(part, contact, now_ms, next_ms)
-                    && let Some(place) = self.place(item)
-                {
-                    self.take_from_under(machine, item);
-                    let hang = tool.inverse().point(place);
-                    self.items.pass(item, Carrier::Grip { machine, part, hang }, place);
-                }
-            }
-        }
-    }
-
-    /// An item on which another one lies is not lifted alone.
-    fn take_from_under(&mut self, machine: usize, item: usize) {
-        let carrier = self.items.all()[item].carrier;
-        let working = carrier.machine().and_then(|bearing| self.machines.get(bearing));
-        let upper = working.and_then(|working| working.lies_on(item, &carrier, &self.items, &self.desk));
-        if upper.is_some() {
-            self.items.crash(machine, "took an item on which another one lies".into());
-        }
-    }
-
-    /// Where an item is gripped: the middle of its upper side.
-    fn top(&self, item: usize) -> Option<Point> {
-        let (place, height) = (self.place(item)?, self.heights[self.items.all()[item].kind]);
-        Some(match self.upper(item) {
-            Some(upper) => place + upper.scaled(height),
-            None => place.up(height),
-        })
-    }
-
     /// Where the upper side of an item faces, a unit vector; none for up.
     pub fn upper(&self, item: usize) -> Option<Point> {
         let carrier = &self.items.all().get(item)?.carrier;
         self.machines.get(carrier.machine()?)?.upper(carrier, &self.items, &self.desk)
-    }
-
-    /// The item nearest to the tool among those that are gripped no farther from it and face it; the first of equals.
-    fn contact(&self, tool: &Pose, near: f64) -> Option<usize> {
-        let mut nearest: Option<(f64, usize)> = None;
-        for (index, item) in self.items.all().iter().enumerate() {
-            if matches!(item.carrier, Carrier::Grip { .. }) {
-                continue;
-            }
-            let Some(top) = self.top(index) else { continue };
-            let gap = top - tool.position;
-            let square = gap.x * gap.x + gap.y * gap.y + gap.z * gap.z;
-            let faces = |upper: Option<Point>| tool.axis(2).dot(upper.unwrap_or(UP)) < OPPOSITE;
-            if square <= near * near
-                && faces(self.upper(index))
-                && nearest.is_none_or(|(least, _)| square < least)
-            {
-                nearest = Some((square, index));
-            }
-        }
-        nearest.map(|(_, item)| item)
     }
 
     fn drop_item(&mut self, item: usize, now_ms: u64) {
@@ -438,4 +334,13 @@ impl Plant {
 pub fn outputs(line: &Line) -> Vec<Vec<f64>> {
     let kinds = line.kinds.len();
     line.machines.iter().map(|machine| vec![0.0; machine.wiring.output_words(kinds)]).collect()
+}
+
+/// Numbers of machines and of their parts of which this holds.
+fn parts(line: &Line, wanted: impl Fn(&Primitive) -> bool) -> impl Iterator<Item = (usize, usize)> {
+    line.machines.iter().enumerate().flat_map(move |(index, machine)| {
+        let parts = machine.parts.iter().enumerate();
+        let found: Vec<_> = parts.filter(|(_, part)| wanted(&part.primitive)).collect();
+        found.into_iter().map(move |(part, _)| (index, part))
+    })
 }

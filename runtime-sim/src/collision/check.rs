@@ -7,9 +7,8 @@
 
 use super::TOLERANCE;
 use super::body::Piece;
-use super::free::{Question, is_free};
-use super::group::{Anchor, Group, Kind, Swept};
-use super::pair::{Pair, Span, Touch};
+use super::group::{Anchor, Group, Kind};
+use super::pair::{Known, Pair, Span, Touch};
 use crate::carrier::Carrier;
 use crate::event::Event;
 use crate::fingerprint::Fingerprint;
@@ -44,6 +43,8 @@ pub struct Contact {
 #[derive(Clone, Debug)]
 pub struct CollisionCheck {
     groups: Vec<Group>,
+    /// Of the movements of the groups.
+    versions: Vec<u64>,
     pairs: Vec<Pair>,
     items: Vec<Tracked>,
     /// Events that were handled.
@@ -88,6 +89,7 @@ impl CollisionCheck {
         });
         Self {
             items: items.collect(),
+            versions: Vec::with_capacity(groups.len()),
             groups,
             pairs,
             read: 0,
@@ -117,61 +119,57 @@ impl CollisionCheck {
         next: u64,
     ) -> (u64, Option<&Contact>) {
         self.follow_items(plant);
-        let mut next = next;
-        loop {
-            let found = self.search(plant, memory, next - scan);
-            let Some((_, first)) = found.first().filter(|_| next > scan + 1) else {
-                return (next, self.note_all(found, plant));
-            };
-            // One scan less: the time is rounded.
-            let before = (first.time / self.seconds) as u64;
-            next = scan + before.saturating_sub(1).max(1);
-            self.pairs.iter_mut().for_each(Pair::forget);
+        for group in &mut self.groups {
+            group.follow(plant);
         }
+        self.versions.clear();
+        self.versions.extend(self.groups.iter().map(Group::version));
+        let now = plant.now_ms() as f64 / 1000.0;
+        let mut next = next;
+        let mut near = Vec::new();
+        for index in 0..self.pairs.len() {
+            let end = self.seconds * (next - scan) as f64;
+            let pair = &self.pairs[index];
+            if pair.touches() {
+                near.push(index);
+                continue;
+            }
+            let versions = pair.groups.map(|group| self.versions[group]);
+            if pair.known.versions == versions && pair.known.until - now >= end {
+                continue;
+            }
+            let pair = &mut self.pairs[index];
+            let clear = pair.clear_for(&mut self.groups, index, plant, memory, end);
+            pair.known = Known { versions, until: now + clear };
+            if clear < end {
+                // One scan less: the time is rounded.
+                let before = (clear / self.seconds) as u64;
+                next = next.min(scan + before.saturating_sub(1).max(1));
+            }
+            if clear < 2.0 * self.seconds {
+                near.push(index);
+            }
+        }
+        if next > scan + 1 {
+            return (next, None);
+        }
+        let found = self.search(near, plant);
+        (next, self.note_all(found, plant))
     }
 
-    /// What comes into contact within so many scans, by time; the numbers of the pairs. Within several, what comes so
-    /// near that it could: when it does is found scan by scan.
-    fn search(&mut self, plant: &Plant, memory: &mut Memory, scans: u64) -> Vec<(usize, Touch)> {
-        let seconds = self.seconds * scans as f64;
-        let contact = if scans == 1 { TOLERANCE } else { 2.0 * TOLERANCE };
-        for group in &mut self.groups {
-            group.begin(plant, seconds);
-        }
-        let sets_out: Vec<bool> = self.groups.iter().map(Group::is_about_to_slide).collect();
-        let mut boxes: Vec<Option<Swept>> = vec![None; self.groups.len()];
+    /// Which of these pairs come into contact in the scan that begins, by time.
+    fn search(&mut self, near: Vec<usize>, plant: &Plant) -> Vec<(usize, Touch)> {
         let mut found = Vec::new();
-        for (index, pair) in self.pairs.iter_mut().enumerate() {
-            let [a, b] = pair.groups;
-            let is_clear = self.groups[a].path + self.groups[b].path <= pair.clear;
-            // Later on its way it would be too late to ask.
-            if is_clear && !sets_out[a] && !sets_out[b] {
-                continue;
-            }
-            for group in [a, b] {
-                if boxes[group].is_none() {
-                    boxes[group] = Some(self.groups[group].boxes_for(seconds, plant, memory));
-                }
-            }
-            let swept = match (&boxes[a], &boxes[b]) {
-                (Some(first), Some(second)) if a != b => Some([first, second]),
-                _ => None,
+        for index in near {
+            let mut span = Span {
+                groups: &mut self.groups,
+                plant,
+                from: 0.0,
+                to: self.seconds,
+                contact: TOLERANCE,
+                swept: None,
             };
-            if !pair.touches() && swept.is_some_and(|[first, second]| first.all.is_apart(&second.all)) {
-                continue;
-            }
-            if let Some(question) = Question::of(&mut self.groups, index, [a, b], plant)
-                && !pair.touches()
-                && (pair.free == Some(question) || is_free(&mut self.groups, [a, b], plant, memory, question))
-            {
-                pair.free = Some(question);
-                continue;
-            }
-            if is_clear {
-                continue;
-            }
-            let mut span = Span { groups: &mut self.groups, plant, seconds, contact, swept };
-            if let Some(touch) = pair.look(&mut span) {
+            if let Some(touch) = self.pairs[index].look(&mut span) {
                 found.push((index, touch));
             }
         }

@@ -29,6 +29,8 @@ pub struct Question {
     machines: Fingerprint,
     /// The same with all items.
     all: Fingerprint,
+    /// The side of which only what stands in the world is asked about.
+    standing: Option<usize>,
 }
 
 impl Question {
@@ -46,9 +48,25 @@ impl Question {
         };
         let machines = both.with(pair as u64);
         let all = machines.and(groups[a].borne(plant)).and(groups[b].borne(plant));
-        Some(Self { machines, all })
+        Some(Self { machines, all, standing: None })
+    }
+
+    /// Of a group as it moves, and of what stands in the world of the other one, which has this side of the pair.
+    pub fn of_standing(
+        groups: &mut [Group],
+        pair: usize,
+        numbers: [usize; 2],
+        side: usize,
+        plant: &Plant,
+    ) -> Option<Self> {
+        let mover = &mut groups[numbers[1 - side]];
+        let machines = mover.moving(plant)?.with(pair as u64).with(STANDING + side as u64);
+        Some(Self { machines, all: machines.and(mover.borne(plant)), standing: Some(side) })
     }
 }
+
+/// Tells questions apart.
+const STANDING: u64 = 1 << 32;
 
 /// Whether two stay apart for the whole motion of one of them; false if that is not known.
 pub fn is_free(
@@ -56,15 +74,19 @@ pub fn is_free(
     [a, b]: [usize; 2],
     plant: &Plant,
     memory: &mut Memory,
-    Question { machines, all }: Question,
+    Question { machines, all, standing }: Question,
 ) -> bool {
     if let Some(known) = memory.is_free(all) {
         return known;
     }
+    let stands = |group: usize| standing.is_some_and(|side| [a, b][side] == group);
     let near = if a == b {
         vec![PathPiece { path: [0.0, 1.0], boxes: None }]
     } else {
-        near_pieces([a, b].map(|group| groups[group].boxes(plant, memory)))
+        near_pieces([a, b].map(|group| match stands(group) {
+            true => [groups[group].standing_boxes()].into(),
+            false => groups[group].boxes(plant, memory),
+        }))
     };
     if near.is_empty() {
         memory.note_free(all, true);
@@ -73,7 +95,10 @@ pub fn is_free(
     if ![a, b].into_iter().any(|group| groups[group].has_whole_path()) {
         return false;
     }
-    let units = [a, b].map(|group| groups[group].units(plant));
+    let units = [a, b].map(|group| match stands(group) {
+        true => vec![(Fingerprint::default(), groups[group].standing())],
+        false => groups[group].units(plant),
+    });
     let (mut open, mut asked) = (Vec::new(), Vec::new());
     for (first, of_a) in &units[0] {
         for (second, of_b) in &units[1] {

@@ -2,6 +2,7 @@
 
 mod boxes;
 mod extent;
+mod parts;
 mod prints;
 
 use super::body::{Ball, Piece};
@@ -13,13 +14,13 @@ use crate::kinematics::pose::Pose;
 use crate::line::{Line, Obstacle};
 use crate::machine::Machine;
 use crate::motion::Travel;
-use crate::part::stroke::Stroking;
 use crate::plant::Plant;
-use crate::plant::conveyed::Conveyed;
+use crate::plant::trajectory::Trajectory;
 use crate::point::Point;
 use crate::solid::{Link, Solid};
+use boxes::NEAR;
 pub use boxes::Swept;
-use std::collections::BTreeMap;
+use parts::Parts;
 use std::sync::Arc;
 
 /// Solids that keep their places to one another.
@@ -33,7 +34,7 @@ pub struct Body {
     pub bounds: BoundingBox,
     /// Of an arm's joints, if it is fixed to one of the links.
     radii: Option<Radii>,
-    /// Metres that no point of it has gone more than, from the start of the run to the end of the span.
+    /// Metres that no point of it has gone more than since the start of the run.
     pub path: f64,
     /// Along the path of an arm, metres that no point of it goes more than.
     pub travel: Travel,
@@ -65,13 +66,15 @@ pub struct Group {
     pub kind: Kind,
     /// Those of items may come and go, and leave their places to others.
     pub bodies: Vec<Option<Body>>,
-    /// Metres that no body has gone more than, from the start of the run to the end of the span.
-    pub path: f64,
+    /// Nothing of it ever moves, nor what lies on it.
+    is_fixed: bool,
+    /// Another one if it does not go on as before, or bears something else.
+    version: u64,
+    /// Of the last look at the plant.
+    now_ms: f64,
+    trajectory: Trajectory,
     movement: Movement,
-    /// How the items on its conveyors continue, by their numbers.
-    conveyed: BTreeMap<usize, Conveyed>,
-    /// How its cylinders continue, by their parts.
-    strokes: BTreeMap<usize, Stroking>,
+    parts: Parts,
     /// Of an arm, as last checked.
     frames: Option<(Joints, Frames)>,
     /// At a place on the path under way, as last checked.
@@ -85,6 +88,8 @@ pub struct Group {
     borne: Option<Fingerprint>,
     /// What contains it on each of [`PIECES`] of the path of an arm, or all the while. Empty until somebody asks.
     boxes: Arc<[Swept]>,
+    /// What contains it all the while. None until somebody asks.
+    whole: Option<Arc<Swept>>,
 }
 
 #[derive(Clone, Debug)]
@@ -121,20 +126,29 @@ impl Group {
 
     fn new(name: String, kind: Kind, mut solids: Vec<Solid>) -> Self {
         solids.sort_by_key(|solid| solid.link);
+        let is_fixed = match &kind {
+            Kind::Obstacle => true,
+            Kind::Machine { machine, .. } | Kind::Arm { machine, .. } => {
+                !machine.parts.iter().any(|part| part.moves())
+            }
+        };
         let mut group = Self {
             name,
             kind,
+            is_fixed,
             bodies: Vec::new(),
-            path: 0.0,
+            version: 0,
+            now_ms: 0.0,
+            trajectory: Trajectory::Rests,
             movement: Movement::Still,
-            conveyed: BTreeMap::new(),
-            strokes: BTreeMap::new(),
+            parts: Parts::default(),
             frames: None,
             along: None,
             moving: None,
             resting: None,
             borne: None,
             boxes: Arc::default(),
+            whole: None,
         };
         for solids in solids.chunk_by(|a, b| a.link == b.link) {
             let anchor = match solids[0].link {
@@ -143,9 +157,10 @@ impl Group {
                 Link::Route => Anchor::Route,
                 Link::Carriage(part) => Anchor::Carriage(part),
             };
-            let pieces =
+            let pieces: Vec<Piece> =
                 solids.iter().map(|solid| Piece::new(solid.name.clone(), &solid.pose, solid.shape)).collect();
-            group.bodies.push(Some(group.body(anchor, pieces, BoundingBox::around)));
+            let bounds = present(&pieces, &Pose::IDENTITY);
+            group.bodies.push(Some(group.body(anchor, pieces, |_| bounds)));
         }
         group
     }
@@ -166,7 +181,7 @@ impl Group {
             _ => (None, still(&ball)),
         };
         let travel = self.travel(radii.as_ref());
-        Body { anchor, pieces, ball, bounds, travel, radii, path: self.path, item: None }
+        Body { anchor, pieces, ball, bounds, travel, radii, path: 0.0, item: None }
     }
 
     /// Adds an item that comes to lie or to hang here; the number of its body.
@@ -203,12 +218,20 @@ impl Group {
         self.bodies[body].take()
     }
 
-    /// What it bears has changed.
+    /// What it bears has changed, or it moves along another path.
     fn forget(&mut self) {
+        self.version += 1;
+        self.forget_place();
+    }
+
+    /// It is where it was going to, or elsewhere.
+    fn forget_place(&mut self) {
         self.moving = None;
         self.resting = None;
         self.borne = None;
+        self.along = None;
         self.boxes = Arc::default();
+        self.whole = None;
     }
 
     fn position(&self, plant: &Plant) -> Point {
@@ -222,13 +245,13 @@ impl Group {
     /// How a body is turned that is an item on a conveyor or on what is carried, radians about the vertical.
     pub fn turn(&self, body: usize) -> Option<f64> {
         let Anchor::Lying { item, turn } = self.bodies.get(body)?.as_ref()?.anchor else { return None };
-        let conveyed = self.conveyed.get(&item)?;
+        let conveyed = self.parts.conveyed(item)?;
         Some(conveyed.yaw(0.0, turn.to_degrees()).to_radians())
     }
 
     /// Whether something moves on it, but not it as a whole.
     fn moves_parts(&self) -> bool {
-        self.conveyed.values().any(Conveyed::moves) || self.strokes.values().any(Stroking::moves)
+        self.parts.moves()
     }
 
     /// Whether [`Self::frame_along`] knows its path from the beginning to the end.
@@ -292,11 +315,6 @@ impl Group {
         self.movement.path(body, span)
     }
 
-    /// It has not set out yet.
-    pub fn is_about_to_slide(&self) -> bool {
-        self.movement.is_about_to_slide()
-    }
-
     /// Whether there is sense in looking at the two; for one group and itself, whether it could touch itself.
     pub fn can_meet(&self, other: &Group, is_same: bool) -> bool {
         match (&self.kind, &other.kind) {
@@ -340,48 +358,75 @@ impl Group {
         }
     }
 
-    /// Looks up how it is going to move in the span of so many seconds that begins, and how far at most.
-    pub fn begin(&mut self, plant: &Plant, seconds: f64) {
-        let Some(index) = self.machine() else { return };
-        let movement = Movement::new(plant.trajectory(index), plant.now_ms() as f64);
-        let last = std::mem::replace(&mut self.movement, movement);
-        let conveyed = std::mem::take(&mut self.conveyed);
-        let lying = self.bodies.iter().flatten().filter_map(Body::lying);
-        self.conveyed = lying.filter_map(|item| Some((item, plant.conveyed(item)?))).collect();
-        let moved = conveyed.values().any(Conveyed::moves) || self.strokes.values().any(Stroking::moves);
-        let cylinders = self.bodies.iter().flatten().filter_map(|body| match body.anchor {
-            Anchor::Carriage(part) => Some(part),
-            _ => None,
-        });
-        self.strokes = cylinders.filter_map(|part| Some((part, plant.stroking(index, part)?))).collect();
-        if moved {
-            self.moving = None;
-            self.resting = None;
-            self.borne = None;
+    /// Which of its movements this is.
+    pub fn version(&self) -> u64 {
+        self.version
+    }
+
+    /// Looks up how it is going to move from now on, and how far it has gone at most.
+    pub fn follow(&mut self, plant: &Plant) {
+        let Some(index) = self.machine().filter(|_| !self.is_fixed) else { return };
+        let now_ms = plant.now_ms() as f64;
+        let passed = (now_ms - self.now_ms) / 1000.0;
+        self.now_ms = now_ms;
+        if self.moves() && passed > 0.0 {
+            for body in self.bodies.iter_mut().flatten() {
+                body.path += path(&self.movement, &self.parts, body, [0.0, passed]);
+            }
         }
-        let rests = !moved && !self.moves_parts();
-        if rests && matches!((&self.movement, &last), (Movement::Still, Movement::Still)) {
+        let trajectory = plant.trajectory(index).since(now_ms);
+        if trajectory == Trajectory::Rests && self.movement.rests_after() <= passed {
+            self.settle();
+        } else if trajectory != self.trajectory {
+            self.begin(Movement::new(&trajectory, now_ms));
+            self.trajectory = trajectory;
+        } else if self.trajectory != Trajectory::Rests {
+            self.movement = Movement::new(&self.trajectory, now_ms);
+        }
+        self.follow_parts(index, plant, passed);
+    }
+
+    /// It has come to rest where it was going to.
+    fn settle(&mut self) {
+        self.trajectory = Trajectory::Rests;
+        self.movement = Movement::Still;
+        self.forget_place();
+    }
+
+    /// It moves in another way than before, or at other times.
+    fn begin(&mut self, movement: Movement) {
+        let goes_on = movement.goes_on(&self.movement);
+        self.movement = movement;
+        self.version += 1;
+        if goes_on {
             return;
         }
-        let goes_on = self.movement.goes_on(&last);
-        if !goes_on {
-            self.forget();
-            self.along = None;
-        }
-        if let Movement::Swings { motion, .. } = &self.movement
-            && !goes_on
-        {
+        self.forget();
+        if let Movement::Swings { motion, .. } = &self.movement {
             for body in self.bodies.iter_mut().flatten() {
                 body.travel = body.radii.as_ref().map_or_else(Travel::default, |radii| motion.travel(radii));
             }
         }
-        let mut longest = 0.0_f64;
-        for body in self.bodies.iter_mut().flatten() {
-            let path = path(&self.movement, &self.conveyed, &self.strokes, body, [0.0, seconds]);
-            body.path += path;
-            longest = longest.max(path);
+    }
+
+    /// How the items on its conveyors and its cylinders continue.
+    fn follow_parts(&mut self, index: usize, plant: &Plant, passed: f64) {
+        let moved = self.moves_parts();
+        let goes_on = self.parts.follow(&self.bodies, index, plant, passed);
+        if moved || !goes_on {
+            self.moving = None;
+            self.resting = None;
+            self.borne = None;
         }
-        self.path += longest;
+        if !goes_on {
+            self.forget();
+        }
+    }
+
+    /// Seconds from now until it rests, or something on it does, if nothing new is asked of it; infinity: never, or all
+    /// of it is at rest.
+    pub fn rests_after(&self) -> f64 {
+        self.movement.rests_after().min(self.parts.rests_after())
     }
 
     /// Of a body with these radii on the path of the arm.
@@ -394,7 +439,23 @@ impl Group {
 
     /// Metres that no point of the body goes more than between two times of the span.
     pub fn path_between(&self, body: &Body, from: f64, to: f64) -> f64 {
-        path(&self.movement, &self.conveyed, &self.strokes, body, [from, to])
+        path(&self.movement, &self.parts, body, [from, to])
+    }
+
+    /// Metres that no point of a body has gone more than by a time, seconds from now, since the start of the run.
+    pub fn path_to(&self, body: usize, time: f64) -> Option<f64> {
+        let body = self.bodies[body].as_ref()?;
+        Some(body.path + self.path_between(body, 0.0, time))
+    }
+
+    /// The same of all bodies, by their numbers.
+    pub fn paths_to(&self, time: f64) -> Vec<Option<f64>> {
+        let span = self.movement.span(0.0, time);
+        let path = |body: &Body| match body.lying().is_some() || matches!(body.anchor, Anchor::Carriage(_)) {
+            true => self.path_between(body, 0.0, time),
+            false => self.movement.path(body, span),
+        };
+        self.bodies.iter().map(|body| body.as_ref().map(|body| body.path + path(body))).collect()
     }
 
     /// The frame of an anchor at a time of the span.
@@ -413,13 +474,13 @@ impl Group {
                 Pose { position: place + self.movement.shift(time), ..Pose::IDENTITY }
             }
             Anchor::Carriage(part) => {
-                let stroking = self.strokes.get(&part).copied();
+                let stroking = self.parts.stroking(part).copied();
                 let index = self.machine();
                 let stroking = stroking.or_else(|| plant.stroking(index?, part));
                 stroking.map_or(Pose::IDENTITY, |stroking| stroking.frame(time).pose())
             }
             Anchor::Lying { item, turn } => {
-                if let Some(conveyed) = self.conveyed.get(&item) {
+                if let Some(conveyed) = self.parts.conveyed(item) {
                     let yaw = conveyed.yaw(time, turn.to_degrees());
                     return Pose::turned(conveyed.point(time), yaw.to_radians());
                 }
@@ -442,20 +503,20 @@ impl Group {
     }
 }
 
+/// What contains these pieces of a body where it is, and what is in contact with them.
+fn present(pieces: &[Piece], frame: &Pose) -> BoundingBox {
+    let bounds = pieces.iter().map(|piece| piece.within(frame).bounds().wider(NEAR));
+    bounds.fold(BoundingBox::NOTHING, |all, next| all.with(&next))
+}
+
 /// Metres that no point of a body goes more than between two times of the span.
-fn path(
-    movement: &Movement,
-    conveyed: &BTreeMap<usize, Conveyed>,
-    strokes: &BTreeMap<usize, Stroking>,
-    body: &Body,
-    [from, to]: [f64; 2],
-) -> f64 {
+fn path(movement: &Movement, parts: &Parts, body: &Body, [from, to]: [f64; 2]) -> f64 {
     if let Anchor::Carriage(part) = body.anchor {
-        let Some(stroking) = strokes.get(&part) else { return 0.0 };
+        let Some(stroking) = parts.stroking(part) else { return 0.0 };
         let part = (stroking.out(to) - stroking.out(from)).abs();
         return stroking.stroke.path(body.ball.middle, body.ball.radius, part);
     }
-    match body.lying().and_then(|item| conveyed.get(&item)) {
+    match body.lying().and_then(|item| parts.conveyed(item)) {
         Some(conveyed) => conveyed.speed_within(body.ball.middle.length() + body.ball.radius) * (to - from),
         None => movement.path(body, movement.span(from, to)),
     }

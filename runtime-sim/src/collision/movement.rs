@@ -28,16 +28,17 @@ pub enum Movement {
 }
 
 impl Movement {
-    pub fn new(trajectory: Trajectory, now_ms: f64) -> Self {
-        match trajectory.since(now_ms) {
+    /// Of what is not over yet.
+    pub fn new(trajectory: &Trajectory, now_ms: f64) -> Self {
+        match trajectory {
             Trajectory::Rests => Self::Still,
             Trajectory::Drives { velocity, from_ms, until_ms } => Self::Slides {
-                velocity,
+                velocity: *velocity,
                 from: (from_ms - now_ms) / 1000.0,
                 until: (until_ms - now_ms) / 1000.0,
             },
-            Trajectory::Rides(ride) => Self::Rides { ride, now_ms },
-            Trajectory::Swings(motion) => Self::Swings { motion, begin: now_ms / 1000.0 },
+            Trajectory::Rides(ride) => Self::Rides { ride: ride.clone(), now_ms },
+            Trajectory::Swings(motion) => Self::Swings { motion: motion.clone(), begin: now_ms / 1000.0 },
         }
     }
 
@@ -59,17 +60,27 @@ impl Movement {
         }
     }
 
+    /// Seconds from now; infinity if it rests, or does not come to rest by itself.
+    pub fn rests_after(&self) -> f64 {
+        match self {
+            Self::Still => f64::INFINITY,
+            Self::Slides { until, .. } => *until,
+            Self::Rides { ride, now_ms } => (ride.end_ms() - now_ms) / 1000.0,
+            Self::Swings { motion, begin } => motion.rests_at() - begin,
+        }
+    }
+
     /// It has not set out yet.
-    pub fn is_about_to_slide(&self) -> bool {
+    fn is_about_to_slide(&self) -> bool {
         matches!(self, Self::Slides { from, .. } if *from >= 0.0)
     }
 
-    /// Both are motions along the same path of an arm.
+    /// Both are motions along the same path.
     pub fn goes_on(&self, last: &Self) -> bool {
-        matches!(
-            (self, last),
-            (Self::Swings { motion, .. }, Self::Swings { motion: last, .. }) if motion.is_along(last)
-        )
+        match (self, last) {
+            (Self::Swings { motion, .. }, Self::Swings { motion: last, .. }) => motion.is_along(last),
+            _ => false,
+        }
     }
 
     /// Between two times: metres of what slides, both times of what rides, or both places on the path of an arm.

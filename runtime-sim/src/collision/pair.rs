@@ -2,9 +2,10 @@
 
 use super::body::Placed;
 use super::distance::Gap;
-use super::free::{Question, can_meet};
+use super::free::{Question, can_meet, is_free};
 use super::group::{Anchor, Body, Group, Swept};
 use super::{SKIN, TOLERANCE};
+use crate::memory::Memory;
 use crate::plant::Plant;
 use crate::point::Point;
 
@@ -16,13 +17,20 @@ pub struct Pair {
     pub allowed: bool,
     /// Number of the contact that was reported.
     pub contact: Option<usize>,
-    /// As long as the paths of both groups together are no longer than this, nothing has come into contact.
-    pub clear: f64,
-    /// The same for each body of the first group and each of the second; negative infinity if nothing is known.
+    /// As long as their paths together are no longer than this, a body of the first group and one of the second have not
+    /// come into contact; negative infinity if nothing is known.
     bodies: Vec<Vec<f64>>,
     touching: Vec<Touching>,
-    /// The motion of one of them in which it does not meet the other.
-    pub free: Option<Question>,
+    pub known: Known,
+}
+
+/// That two groups do not come into contact as they move.
+#[derive(Clone, Copy, Debug)]
+pub struct Known {
+    /// Of both groups: with others it does not hold.
+    pub versions: [u64; 2],
+    /// Seconds from the start of the run; infinity: as long as they go on like this.
+    pub until: f64,
 }
 
 /// Bodies that are in contact.
@@ -36,17 +44,19 @@ struct Touching {
 /// That two bodies have come into contact.
 #[derive(Clone, Debug)]
 pub struct Touch {
-    /// Seconds from the start of the span.
+    /// Seconds from now.
     pub time: f64,
     pub place: Point,
     pub parts: [String; 2],
 }
 
-/// The time that is checked: so many seconds from now on, in which no motion changes.
+/// The time that is checked, from now on, in which no motion changes.
 pub struct Span<'a> {
     pub groups: &'a mut [Group],
     pub plant: &'a Plant,
-    pub seconds: f64,
+    /// Seconds from now.
+    pub from: f64,
+    pub to: f64,
     /// Bodies that are no farther apart than this meet, m.
     pub contact: f64,
     /// What contains the bodies of the first group and those of the second; none if that is not known.
@@ -73,35 +83,82 @@ enum Search {
 
 /// Bodies whose balls are so much farther apart than they can go in a span are not looked at more closely, m.
 const FAR: f64 = 0.1;
+/// The time for which it is looked is halved so often at most, where boxes of the bodies meet.
+const HALVINGS: u32 = 4;
+/// What may come into contact is looked for so far ahead, s.
+const AHEAD: f64 = 20.0;
 /// No search takes shorter steps, s: whatever moves goes less than a thousandth of the tolerance.
 const SHORTEST_STEP: f64 = 1e-9;
 impl Pair {
     pub fn new(groups: [usize; 2], allowed: bool) -> Self {
-        Self {
-            groups,
-            allowed,
-            contact: None,
-            clear: f64::NEG_INFINITY,
-            bodies: Vec::new(),
-            touching: Vec::new(),
-            free: None,
-        }
+        let known = Known { versions: [0; 2], until: f64::NEG_INFINITY };
+        Self { groups, allowed, contact: None, bodies: Vec::new(), touching: Vec::new(), known }
     }
 
     pub fn touches(&self) -> bool {
         !self.touching.is_empty()
     }
 
-    /// What is known is looked up anew.
-    pub fn forget(&mut self) {
-        self.clear = f64::NEG_INFINITY;
-        self.bodies.iter_mut().for_each(|row| row.fill(f64::NEG_INFINITY));
-        self.touching.clear();
+    /// Seconds from now in which the groups do not come into contact as both move now: `asked` or more, or as long as it
+    /// takes to come so near that they could. The pair does not touch; `number` tells it apart.
+    pub fn clear_for(
+        &mut self,
+        groups: &mut [Group],
+        number: usize,
+        plant: &Plant,
+        memory: &mut Memory,
+        asked: f64,
+    ) -> f64 {
+        let [a, b] = self.groups;
+        let rest = ![a, b].into_iter().any(|group| groups[group].moves());
+        if a != b {
+            let [first, second] = [a, b].map(|group| groups[group].whole(plant, memory));
+            if first.is_apart(&second) {
+                return f64::INFINITY;
+            }
+        }
+        if let Some(question) = Question::of(groups, number, [a, b], plant)
+            && is_free(groups, [a, b], plant, memory, question)
+        {
+            return f64::INFINITY;
+        }
+        // All that moves is asked about together with what stands, or what stands alone.
+        let clear_standing = [0, 1].map(|side| {
+            let question =
+                (a != b).then(|| Question::of_standing(groups, number, [a, b], side, plant)).flatten();
+            question.is_some_and(|question| is_free(groups, [a, b], plant, memory, question))
+        });
+        let ends = [a, b].map(|group| groups[group].rests_after());
+        let seconds = if rest { asked } else { ends.into_iter().fold(AHEAD, f64::min).max(asked) };
+        let all_clear = if rest { f64::INFINITY } else { seconds };
+        let mut times = vec![(HALVINGS, [0.0, seconds])];
+        while let Some((halvings, [from, to])) = times.pop() {
+            let swept = [0, 1].map(|side| {
+                let all = groups[[a, b][side]].boxes_between([from, to], plant, memory);
+                if clear_standing[side] { all.without_standing() } else { all }
+            });
+            let [first, second] = &swept;
+            if a != b && first.is_apart(second) {
+                continue;
+            }
+            let middle = from + (to - from) / 2.0;
+            if a != b && !rest && halvings > 0 {
+                times.extend([[middle, to], [from, middle]].map(|times| (halvings - 1, times)));
+                continue;
+            }
+            let swept = (a != b).then_some([first, second]);
+            let touch = self.look(&mut Span { groups, plant, from, to, contact: 2.0 * TOLERANCE, swept });
+            // When they come into contact is found scan by scan.
+            self.touching.clear();
+            if let Some(touch) = touch {
+                return touch.time;
+            }
+        }
+        all_clear
     }
 
     /// Another body stands at this number of a group, or none any more.
     pub fn expect(&mut self, group: usize, body: usize) {
-        self.clear = f64::NEG_INFINITY;
         let [a, b] = self.groups;
         if group == a
             && let Some(row) = self.bodies.get_mut(body)
@@ -126,14 +183,14 @@ impl Pair {
         let touched = !self.touching.is_empty();
         self.touching.retain_mut(|touching| span.still_touch([a, b], touching));
         let mut first: Option<Touch> = None;
-        let mut slack = f64::INFINITY;
+        let paths = [a, b].map(|group| span.groups[group].paths_to(span.to));
         for i in 0..counts[0] {
             let from = if a == b { i + 1 } else { 0 };
             for j in from..counts[1] {
                 let two = [(a, i), (b, j)];
-                let Some(paths) = span.paths(two) else { continue };
-                if let Some(touching) = self.touching.iter().find(|touching| touching.bodies == [i, j]) {
-                    slack = slack.min(touching.until - paths);
+                let (Some(of_a), Some(of_b)) = (paths[0][i], paths[1][j]) else { continue };
+                let paths = of_a + of_b;
+                if self.touching.iter().any(|touching| touching.bodies == [i, j]) {
                     continue;
                 }
                 let clear = &mut self.bodies[i][j];
@@ -152,15 +209,11 @@ impl Pair {
                             if first.as_ref().is_none_or(|first| touch.time < first.time) {
                                 first = Some(touch);
                             }
-                            slack = slack.min(SKIN);
-                            continue;
                         }
                     }
                 }
-                slack = slack.min(*clear - paths);
             }
         }
-        self.clear = span.groups[a].path + span.groups[b].path + slack;
         first.filter(|_| !touched)
     }
 }
@@ -175,12 +228,6 @@ impl Span<'_> {
         self.swept.is_none_or(|[a, b]| !a.bodies[i].is_apart(&b.bodies[j]))
     }
 
-    /// Of both bodies by the end of the span.
-    fn paths(&self, two: Two) -> Option<f64> {
-        let [a, b] = two.map(|one| self.body(one));
-        Some(a?.path + b?.path)
-    }
-
     /// Metres that both bodies together go at most between two times.
     fn travel(&self, two: Two, from: f64, to: f64) -> f64 {
         let of = |one: (usize, usize)| {
@@ -191,7 +238,7 @@ impl Span<'_> {
 
     /// A time after this one in which both together go no farther than `distance`; `left` is what they go to the end.
     fn longest_step(&self, two: Two, time: f64, distance: f64, left: f64) -> f64 {
-        let mut step = self.seconds - time;
+        let mut step = self.to - time;
         let mut travel = left;
         while travel > distance && step > SHORTEST_STEP {
             step = (step * 0.99 * distance / travel).max(SHORTEST_STEP);
@@ -202,9 +249,9 @@ impl Span<'_> {
 
     /// Advances by as much as the distance allows, until the span is over or there is none.
     fn search(&mut self, two: Two) -> Search {
-        let mut time = 0.0;
+        let mut time = self.from;
         loop {
-            let left = self.travel(two, time, self.seconds);
+            let left = self.travel(two, time, self.to);
             let apart = self.apart(two, time, left + FAR);
             let distance = match apart {
                 Apart::AtLeast(distance) => distance,
@@ -237,11 +284,13 @@ impl Span<'_> {
     /// They are not apart before they have gone as far as they could be in one another.
     fn still_touch(&mut self, groups: [usize; 2], touching: &mut Touching) -> bool {
         let two = [0, 1].map(|i| (groups[i], touching.bodies[i]));
-        let Some(paths) = self.paths(two) else { return false };
+        let of = |(group, body): (usize, usize)| self.groups[group].path_to(body, self.to);
+        let (Some(of_a), Some(of_b)) = (of(two[0]), of(two[1])) else { return false };
+        let paths = of_a + of_b;
         if paths <= touching.until {
             return true;
         }
-        match self.apart(two, 0.0, FAR) {
+        match self.apart(two, self.from, FAR) {
             Apart::AtLeast(_) => false,
             Apart::Exactly(gap, _) => {
                 touching.until = paths + SKIN - gap.distance;

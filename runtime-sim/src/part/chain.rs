@@ -274,6 +274,10 @@ impl Running for Swinging {
         self.drive.tool_goes(from, to)
     }
 
+    fn tool_at(&self, time: f64) -> Option<Point> {
+        Some(self.drive.tool_at(time))
+    }
+
     fn joints(&self) -> Option<Joints> {
         Some(self.drive.joints())
     }

@@ -193,6 +193,40 @@ impl Part {
         }
     }
 
+    /// Whether it moves, or moves other parts or items.
+    pub(crate) fn moves(&self) -> bool {
+        match self.primitive {
+            Primitive::Axis(_)
+            | Primitive::Chain(_)
+            | Primitive::Cylinder(_)
+            | Primitive::Diverter(_)
+            | Primitive::Grip(_)
+            | Primitive::Lane(_)
+            | Primitive::Positioner(_)
+            | Primitive::Pusher(_)
+            | Primitive::Route(_)
+            | Primitive::Stopper(_)
+            | Primitive::Track(_) => true,
+            Primitive::Beam(_)
+            | Primitive::Body(_)
+            | Primitive::Button(_)
+            | Primitive::Camera(_)
+            | Primitive::Gauge(_)
+            | Primitive::Lamp(_)
+            | Primitive::Material(_)
+            | Primitive::Orders(_)
+            | Primitive::Place(_)
+            | Primitive::Process(_)
+            | Primitive::Scanner(_)
+            | Primitive::Selector(_)
+            | Primitive::Setpoint(_)
+            | Primitive::Sink(_)
+            | Primitive::Source(_)
+            | Primitive::Tank(_)
+            | Primitive::Zone(_) => false,
+        }
+    }
+
     /// None for a part of another primitive.
     pub fn axis(&self) -> Option<&axis::Axis> {
         match &self.primitive {

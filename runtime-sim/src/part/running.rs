@@ -226,6 +226,11 @@ pub trait Running: std::fmt::Debug + Send + Sync {
         0.0
     }
 
+    /// Where the tool is at a time, s, as it moves now; none if that is not known.
+    fn tool_at(&self, _time: f64) -> Option<Point> {
+        None
+    }
+
     /// Whether it takes the item that it found, or none, where it looked.
     fn meets(&mut self, _item: Option<usize>, _now_ms: u64, _next_ms: u64) -> Option<usize> {
         None

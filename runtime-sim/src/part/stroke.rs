@@ -52,6 +52,9 @@ impl Stroke {
     }
 }
 
+/// Parts of a stroke that differ by less are the same.
+const SAME: f64 = 1e-9;
+
 /// A stroke as it continues from now, until a valve or a command changes it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stroking {
@@ -77,6 +80,15 @@ impl Stroking {
 
     pub fn frame(&self, seconds: f64) -> Frame {
         self.stroke.frame(self.out(seconds))
+    }
+
+    /// Whether the other one is the same after so many seconds.
+    pub fn becomes(&self, other: &Self, seconds: f64) -> bool {
+        let then = self.after(seconds);
+        let rests = !then.moves() && !other.moves();
+        (rests || (then.rate, then.until) == (other.rate, other.until))
+            && then.stroke == other.stroke
+            && (then.out - other.out).abs() <= SAME
     }
 
     /// Seconds until it stops; infinity if it is at rest.

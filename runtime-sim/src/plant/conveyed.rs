@@ -21,6 +21,9 @@ pub struct Conveyed {
     pub carried: Option<Stroking>,
 }
 
+/// Places that differ by less are the same, m.
+const SAME: f64 = 1e-9;
+
 /// In the world at the beginning; metres and radians a second, turns to the left about the vertical.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Along {
@@ -74,8 +77,22 @@ impl Conveyed {
         lies + carried
     }
 
-    /// Seconds until something that stands stops it.
-    fn rests_after(&self) -> f64 {
+    /// Whether the other one is the same after so many seconds.
+    pub fn becomes(&self, other: &Self, seconds: f64) -> bool {
+        let is_carried_on = match (&self.carried, &other.carried) {
+            (Some(then), Some(now)) => then.becomes(now, seconds),
+            (then, now) => then.is_none() && now.is_none(),
+        };
+        let then = self.after(seconds);
+        let rests = then.speed == 0.0 && other.speed == 0.0;
+        is_carried_on
+            && (rests || (then.speed, then.stops_at) == (other.speed, other.stops_at))
+            && (then.centre_line, then.across) == (other.centre_line, other.across)
+            && (then.place - other.place).abs() <= SAME
+    }
+
+    /// Seconds until something that stands stops it; infinity: never.
+    pub fn rests_after(&self) -> f64 {
         if self.speed > 0.0 { ((self.place - self.stops_at) / self.speed).max(0.0) } else { f64::INFINITY }
     }
 

@@ -15,7 +15,8 @@ impl Plant {
     pub(super) fn sight(&mut self) {
         let now_ms = self.now_ms() as f64;
         let mut told = Vec::new();
-        for (machine, working) in self.machines.iter().enumerate() {
+        for &machine in &self.scanning {
+            let working = &self.machines[machine];
             for (part, scanning) in working.scanners() {
                 let Some(vehicle) = working.vehicle(scanning.scanner.track) else { continue };
                 let field = Field { vehicle, scanner: &scanning.scanner };

@@ -323,6 +323,11 @@ impl Working {
         self.parts.get(chain).and_then(Option::as_ref).map_or(0.0, |chain| chain.tool_goes(from, to))
     }
 
+    /// Where the tool of a chain is at a time, s, as it moves now; none if that is not known.
+    pub fn tool_at(&self, chain: usize, time: f64) -> Option<Point> {
+        self.parts.get(chain)?.as_ref()?.tool_at(time)
+    }
+
     /// An item that slips by the end of the scan.
     pub fn slip(&mut self, next_ms: u64) -> Option<usize> {
         self.parts.iter_mut().flatten().find_map(|part| part.slip(next_ms))
@@ -338,10 +343,6 @@ impl Working {
 
     pub fn meets(&mut self, part: usize, item: Option<usize>, now_ms: u64, next_ms: u64) -> Option<usize> {
         self.parts.get_mut(part)?.as_mut()?.meets(item, now_ms, next_ms)
-    }
-
-    pub fn count(&self) -> usize {
-        self.parts.len()
     }
 
     /// Ends a command that has waited for a signal, once it is known; then answers that were late are given.

@@ -10,78 +10,88 @@ use crate::machine::Machine;
 pub struct Changes {
     hash: Hash,
     words: Vec<f64>,
-    /// What the words of the trace are, as far as they count.
-    words_are: Vec<Word>,
+    times: Vec<Time>,
+    /// Whether each word of the trace is one of them, as far as the last.
+    is_time: Vec<bool>,
     /// Milliseconds that pass in a scan while the system runs.
     scan_ms: f64,
 }
 
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Word {
-    Value,
-    /// A time in a state, or one for which a property waits. It is at rest while the word at this place says that
-    /// the machine is stopped.
-    Time(Option<usize>),
+/// A word of the trace that is a time in a state, or one for which a property waits. It is at rest while the word at the
+/// second place says that the machine is stopped.
+#[derive(Clone, Copy)]
+struct Time {
+    word: usize,
+    stopped: Option<usize>,
 }
 
 impl Changes {
     /// `stays` are the words of the times in states, by machine.
     pub fn new(stays: &[usize], line: &Line) -> Self {
         let stays = stays.iter().enumerate().map(|(machine, word)| {
-            (*word, line.machines.get(machine).and_then(|machine| machine.monitor.stopped))
+            let machine = line.machines.get(machine);
+            Time { word: *word, stopped: machine.and_then(|machine| machine.monitor.stopped) }
         });
         let counters = line.machines.iter().flat_map(|Machine { monitor, .. }| {
-            monitor.counters.iter().map(|counter| (counter.word, monitor.stopped))
+            monitor.counters.iter().map(|counter| Time { word: counter.word, stopped: monitor.stopped })
         });
-        let times: Vec<_> = stays.chain(counters).collect();
-        let mut words_are = vec![Word::Value; times.iter().map(|(word, _)| word + 1).max().unwrap_or(0)];
-        times.iter().for_each(|(word, stopped)| words_are[*word] = Word::Time(*stopped));
-        Self { words_are, scan_ms: f64::from(line.scan_ms), ..Self::default() }
+        let times: Vec<Time> = stays.chain(counters).collect();
+        let mut is_time = vec![false; times.iter().map(|time| time.word + 1).max().unwrap_or(0)];
+        times.iter().for_each(|time| is_time[time.word] = true);
+        Self { times, is_time, scan_ms: f64::from(line.scan_ms), ..Self::default() }
     }
 
     /// Takes the trace and the outputs of a scan, and says whether anything has changed since the last one that was
     /// taken, so many scans of a running system before: a word, or a time in a state that has not just gone on.
     pub fn take(&mut self, scan: u64, running: u64, trace: &[f64], outputs: &[Vec<f64>]) -> bool {
-        let passed = running as f64 * self.scan_ms;
-        let mut changed = false;
-        let all = trace.iter().chain(outputs.iter().flatten());
-        for (index, word) in all.enumerate() {
-            let is_time = self.is_time(index);
-            let stands = self.stands(index);
-            let Some(last) = self.words.get_mut(index) else {
-                self.words.push(*word);
-                changed = true;
-                if !is_time {
+        if self.words.is_empty() {
+            self.words.extend(trace.iter().chain(outputs.iter().flatten()));
+            for (index, word) in self.words.iter().enumerate() {
+                if self.is_time.get(index) != Some(&true) {
                     self.hash.change(scan, index, *word);
                 }
-                continue;
-            };
-            if is_time {
-                let gone_on = match stands || *last < 0.0 {
-                    true => *last,
-                    false => (*last + passed).min(f64::from(i32::MAX)),
-                };
-                changed |= *word != gone_on;
-                *last = *word;
-            } else if last.to_bits() != word.to_bits() {
-                *last = *word;
-                changed = true;
-                self.hash.change(scan, index, *word);
             }
+            return !self.words.is_empty();
+        }
+        // Whether a time stood still is said by the last trace.
+        let mut changed = self.take_times(running as f64 * self.scan_ms, trace);
+        let mut first = 0;
+        for words in [trace].into_iter().chain(outputs.iter().map(Vec::as_slice)) {
+            changed |= self.take_words(scan, first, words);
+            first += words.len();
         }
         changed
     }
 
-    fn is_time(&self, word: usize) -> bool {
-        self.words_are.get(word).is_some_and(|word| matches!(word, Word::Time(_)))
+    /// Whether a time has not just gone on.
+    fn take_times(&mut self, passed: f64, trace: &[f64]) -> bool {
+        let went_otherwise = |Time { word, stopped }: &Time| {
+            let last = self.words[*word];
+            let stands = stopped.is_some_and(|stopped| self.words[stopped] != 0.0);
+            let gone_on = match stands || last < 0.0 {
+                true => last,
+                false => (last + passed).min(f64::from(i32::MAX)),
+            };
+            trace[*word] != gone_on
+        };
+        self.times.iter().any(went_otherwise)
     }
 
-    /// Whether a time stood still since the last scan: the word that says so comes behind it.
-    fn stands(&self, word: usize) -> bool {
-        match self.words_are.get(word) {
-            Some(Word::Time(Some(stopped))) => self.words.get(*stopped).is_some_and(|is| *is != 0.0),
-            _ => false,
+    /// Whether one of these words has changed that is no time; the first of them has this number.
+    fn take_words(&mut self, scan: u64, first: usize, words: &[f64]) -> bool {
+        let mut changed = false;
+        let known = &mut self.words[first..first + words.len()];
+        for (offset, (last, word)) in known.iter_mut().zip(words).enumerate() {
+            if last.to_bits() == word.to_bits() {
+                continue;
+            }
+            *last = *word;
+            if self.is_time.get(first + offset) != Some(&true) {
+                changed = true;
+                self.hash.change(scan, first + offset, *word);
+            }
         }
+        changed
     }
 
     /// Time in its state of the machine whose stay is at this place of the trace, ms.

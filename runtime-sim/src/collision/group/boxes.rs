@@ -4,7 +4,7 @@ use super::super::body::Ball;
 use super::super::bounds::BoundingBox;
 use super::super::movement::Movement;
 use super::super::{TOLERANCE, UNCERTAIN};
-use super::{Anchor, Body, Group, Kind};
+use super::{Anchor, Body, Group, Kind, present};
 use crate::memory::Memory;
 use crate::motion::Motion;
 use crate::part::lane::CentreLine;
@@ -13,30 +13,86 @@ use std::sync::Arc;
 
 /// Boxes that do not meet are farther apart than this, m: than what is in contact, and than what joints can differ by
 /// that have the same fingerprint.
-const NEAR: f64 = TOLERANCE + UNCERTAIN;
+pub const NEAR: f64 = TOLERANCE + UNCERTAIN;
 /// Pieces of the path of an arm, each of which has a box, and places in each of them at which it is checked.
 const PIECES: usize = 16;
 const PLACES: usize = 4;
+/// Of a body whose ball has a greater radius the pieces are looked at, m: of a long beam it holds much besides.
+const LONG: f64 = 0.5;
 
 /// What contains a group for a time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Swept {
     pub all: BoundingBox,
+    /// Without what stands in the world.
+    moving: BoundingBox,
+    /// By the numbers of the bodies.
+    stands: Vec<bool>,
     /// By the numbers of the bodies; that of nothing where there is none.
     pub bodies: Vec<BoundingBox>,
 }
 
 impl Swept {
-    fn new(bodies: Vec<BoundingBox>) -> Self {
-        Self { all: bodies.iter().fold(BoundingBox::NOTHING, |all, next| all.with(next)), bodies }
+    fn new(bodies: Vec<BoundingBox>, stands: Vec<bool>) -> Self {
+        let moving = bodies.iter().zip(&stands).filter(|(_, stands)| !**stands).map(|(body, _)| body);
+        Self {
+            all: bodies.iter().fold(BoundingBox::NOTHING, |all, next| all.with(next)),
+            moving: moving.fold(BoundingBox::NOTHING, |all, next| all.with(next)),
+            bodies,
+            stands,
+        }
     }
 
     fn with(&self, other: &Self) -> Self {
-        Self::new(self.bodies.iter().zip(&other.bodies).map(|(one, other)| one.with(other)).collect())
+        Self {
+            all: self.all.with(&other.all),
+            moving: self.moving.with(&other.moving),
+            bodies: self.bodies.iter().zip(&other.bodies).map(|(one, other)| one.with(other)).collect(),
+            stands: self.stands.clone(),
+        }
+    }
+
+    /// What stands in the world is left out.
+    pub fn without_standing(mut self) -> Self {
+        for (body, stands) in self.bodies.iter_mut().zip(&self.stands) {
+            if *stands {
+                *body = BoundingBox::NOTHING;
+            }
+        }
+        Self { all: self.moving, ..self }
+    }
+
+    /// Whether no body of one can come near one of the other; what stands in the world stays as it is.
+    pub fn is_apart(&self, other: &Self) -> bool {
+        if self.moving.is_apart(&other.all) && self.all.is_apart(&other.moving) {
+            return true;
+        }
+        let near = |group: &Self, all: &BoundingBox| -> Vec<usize> {
+            (0..group.bodies.len()).filter(|body| !group.bodies[*body].is_apart(all)).collect()
+        };
+        let others = near(other, &self.all);
+        near(self, &other.all).into_iter().all(|own| {
+            others.iter().all(|body| {
+                self.stands[own] && other.stands[*body] || self.bodies[own].is_apart(&other.bodies[*body])
+            })
+        })
     }
 }
 
 impl Group {
+    /// What contains it as long as it goes on like this.
+    pub fn whole(&mut self, plant: &Plant, memory: &mut Memory) -> Arc<Swept> {
+        if let Some(whole) = &self.whole {
+            return whole.clone();
+        }
+        let boxes = self.boxes(plant, memory);
+        let mut pieces = boxes.iter();
+        let first = pieces.next().cloned().unwrap_or_else(|| self.each(|_| BoundingBox::NOTHING));
+        let whole = Arc::new(pieces.fold(first, |all, next| all.with(next)));
+        self.whole = Some(whole.clone());
+        whole
+    }
+
     /// What contains it on each piece of its path, or all the while.
     pub fn boxes(&mut self, plant: &Plant, memory: &mut Memory) -> Arc<[Swept]> {
         if self.boxes.is_empty() {
@@ -58,23 +114,40 @@ impl Group {
         self.boxes.clone()
     }
 
+    /// Whether each body stands in the world.
+    fn stands(&self) -> Vec<bool> {
+        let stands = |body: &Option<Body>| body.as_ref().is_none_or(|body| body.anchor == Anchor::World);
+        self.bodies.iter().map(stands).collect()
+    }
+
+    /// The bodies that stand in the world.
+    pub fn standing(&self) -> Vec<usize> {
+        let all = self.bodies.iter().enumerate();
+        let stands = all.filter(|(_, body)| body.as_ref().is_some_and(|body| body.anchor == Anchor::World));
+        stands.map(|(number, _)| number).collect()
+    }
+
+    /// What contains them.
+    pub fn standing_boxes(&self) -> Swept {
+        self.each(|body| if body.anchor == Anchor::World { body.bounds } else { BoundingBox::NOTHING })
+    }
+
     fn each(&self, of: impl Fn(&Body) -> BoundingBox) -> Swept {
-        Swept::new(self.bodies.iter().map(|body| body.as_ref().map_or(BoundingBox::NOTHING, &of)).collect())
+        let bodies = self.bodies.iter().map(|body| body.as_ref().map_or(BoundingBox::NOTHING, &of));
+        Swept::new(bodies.collect(), self.stands())
     }
 
     /// What contains all bodies where they are.
     fn present(&mut self, plant: &Plant) -> Swept {
         let mut bodies = vec![BoundingBox::NOTHING; self.bodies.len()];
         for (number, here) in bodies.iter_mut().enumerate() {
-            let Some((anchor, ball)) = self.bodies[number].as_ref().map(|body| (body.anchor, body.ball))
-            else {
-                continue;
-            };
+            let Some(anchor) = self.bodies[number].as_ref().map(|body| body.anchor) else { continue };
             let frame = self.frame(anchor, plant, 0.0);
-            let Ball { middle, radius } = ball.within(&frame);
-            *here = BoundingBox::around(&Ball { middle, radius: radius + NEAR });
+            if let Some(body) = &self.bodies[number] {
+                *here = if anchor == Anchor::World { body.bounds } else { present(&body.pieces, &frame) };
+            }
         }
-        Swept::new(bodies)
+        Swept::new(bodies, self.stands())
     }
 
     /// On each piece of a path.
@@ -91,6 +164,9 @@ impl Group {
                     let gone = body.travel.to(middle);
                     let reach =
                         (gone - body.travel.to(middle - half)).max(body.travel.to(middle + half) - gone);
+                    if body.ball.radius > LONG {
+                        return present(&body.pieces, &frames[link]).wider(reach);
+                    }
                     let Ball { middle, radius } = body.ball.within(&frames[link]);
                     BoundingBox::around(&Ball { middle, radius: radius + reach + NEAR })
                 });
@@ -100,11 +176,11 @@ impl Group {
         (0..PIECES).map(piece).collect()
     }
 
-    /// What contains it for so many seconds from now on.
-    pub fn boxes_for(&mut self, seconds: f64, plant: &Plant, memory: &mut Memory) -> Swept {
+    /// What contains it between two times, seconds from now.
+    pub fn boxes_between(&mut self, [from, to]: [f64; 2], plant: &Plant, memory: &mut Memory) -> Swept {
         match &self.movement {
             Movement::Swings { .. } => {
-                let [from, to] = self.movement.span(0.0, seconds);
+                let [from, to] = self.movement.span(from, to);
                 let boxes = self.boxes(plant, memory);
                 let at = |place: f64| ((place * PIECES as f64) as usize).min(boxes.len() - 1);
                 let mut pieces = boxes[at(from.min(to))..=at(from.max(to))].iter();
@@ -112,7 +188,7 @@ impl Group {
                 pieces.fold(first, |all, next| all.with(next))
             }
             Movement::Rides { ride, now_ms } => {
-                let corners = ride.corners(*now_ms, now_ms + 1000.0 * seconds);
+                let corners = ride.corners(now_ms + 1000.0 * from, now_ms + 1000.0 * to);
                 self.each(|body| {
                     if body.anchor != Anchor::Route {
                         return body.bounds.wider(NEAR);
@@ -130,14 +206,14 @@ impl Group {
                     let Some(body) = &self.bodies[number] else { continue };
                     let (anchor, ball) = (body.anchor, Ball { radius: body.ball.radius + NEAR, ..body.ball });
                     *all = if self.goes_straight(anchor) {
-                        let ends = [0.0, seconds].map(|time| self.frame(anchor, plant, time));
+                        let ends = [from, to].map(|time| self.frame(anchor, plant, time));
                         let [begin, end] = ends.map(|frame| BoundingBox::around(&ball.within(&frame)));
                         begin.with(&end)
                     } else {
                         body.bounds.wider(NEAR)
                     };
                 }
-                Swept::new(bodies)
+                Swept::new(bodies, self.stands())
             }
         }
     }
@@ -147,7 +223,7 @@ impl Group {
         match anchor {
             Anchor::World | Anchor::Link(_) | Anchor::Route => true,
             Anchor::Carriage(_) => false,
-            Anchor::Lying { item, .. } => self.conveyed.get(&item).is_none_or(|conveyed| {
+            Anchor::Lying { item, .. } => self.parts.conveyed(item).is_none_or(|conveyed| {
                 let is_carried = conveyed.carried.is_some_and(|carried| carried.moves());
                 !is_carried && !matches!(conveyed.centre_line, CentreLine::Arc { .. })
             }),

@@ -55,7 +55,7 @@ impl Group {
 
     /// And of where its cylinders and positioners are.
     fn with_strokes(&self, print: Fingerprint) -> Fingerprint {
-        self.strokes.values().fold(print, |print, stroking| print.near(stroking.out))
+        self.parts.strokes().fold(print, |print, stroking| print.near(stroking.out))
     }
 
     /// Of all items, and of where they are on the machine.
@@ -80,7 +80,7 @@ impl Group {
     fn item(&self, body: &Body, plant: &Plant) -> Option<Fingerprint> {
         let (place, turn) = match body.anchor {
             Anchor::Lying { item, turn } => {
-                let conveyed = self.conveyed.get(&item);
+                let conveyed = self.parts.conveyed(item);
                 let turn =
                     conveyed.map_or(turn, |conveyed| conveyed.yaw(0.0, turn.to_degrees()).to_radians());
                 (plant.place(item).unwrap_or_default() - self.position(plant), turn)

@@ -129,6 +129,11 @@ impl Drive {
         })
     }
 
+    /// Where the tool is at a time of the motion under way.
+    pub fn tool_at(&self, time: f64) -> Point {
+        self.under_way().map_or(self.tool.position, |motion| self.motions.arm().tool(&motion.at(time)))
+    }
+
     /// Brakes and forgets the target.
     pub fn stop(&mut self, t: f64) {
         self.phase = match std::mem::replace(&mut self.phase, Phase::Rest) {

@@ -1,0 +1,205 @@
+//! How grippers look for items, and take them.
+
+use super::Plant;
+use crate::carrier::Carrier;
+use crate::kinematics::pose::Pose;
+use crate::part::Looks;
+use crate::part::place::OPPOSITE;
+use crate::plant::trajectory::Trajectory;
+use crate::point::Point;
+
+/// The direction of the vertical.
+const UP: Point = Point::new(0.0, 0.0, 1.0);
+/// A gripper that finds nothing is asked again after so many looks at the latest.
+const MOST_LOOKS: u32 = 1000;
+/// What is rounded in a distance, m.
+const ROUNDED: f64 = 1e-6;
+
+/// How far items are from the tool of a gripper at a time, at least.
+struct Nearest {
+    /// Of those that rest, m; infinity if there are none.
+    at_rest: f64,
+    /// Of those on each machine that moves, m, and how fast they go at most, m/s.
+    moving: Vec<(f64, f64)>,
+}
+
+impl Nearest {
+    /// So many seconds after their places were looked up.
+    fn after(&self, seconds: f64) -> f64 {
+        let moving = self.moving.iter().map(|(distance, speed)| distance - speed * seconds);
+        moving.fold(self.at_rest, f64::min)
+    }
+
+    /// Seconds from then until one of them can be so near; infinity: never.
+    fn until(&self, near: f64) -> f64 {
+        let at_rest = if self.at_rest <= near { 0.0 } else { f64::INFINITY };
+        let moving = self.moving.iter().map(|(distance, speed)| (distance - near).max(0.0) / speed);
+        moving.fold(at_rest, f64::min)
+    }
+}
+
+/// When a gripper of a machine next looks and could find an item, as long as nothing of this changes.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct NextLook {
+    motion: Trajectory,
+    /// Of each machine.
+    speeds: Vec<f64>,
+    /// Events of items.
+    logged: usize,
+    ms: f64,
+}
+
+impl Plant {
+    /// When a gripper next looks and could find an item, ms; infinity: never, as everything moves now.
+    pub(super) fn next_look(&mut self, now_ms: u64) -> f64 {
+        if self.machines.iter().all(|machine| machine.looks().next().is_none()) {
+            return f64::INFINITY;
+        }
+        let speeds: Vec<f64> = self.machines.iter().map(|machine| machine.speed(now_ms)).collect();
+        let mut next_ms = f64::INFINITY;
+        for machine in 0..self.machines.len() {
+            next_ms = next_ms.min(self.next_look_of(machine, &speeds, now_ms));
+        }
+        next_ms
+    }
+
+    fn next_look_of(&mut self, machine: usize, speeds: &[f64], now_ms: u64) -> f64 {
+        let all: Vec<Looks> = self.machines[machine].looks().collect();
+        if all.is_empty() {
+            return f64::INFINITY;
+        }
+        let (motion, logged) = (self.machines[machine].trajectory(now_ms), self.items.log().len());
+        let has_found = all.iter().any(|looks| looks.has_found);
+        if let Some(known) = &self.next_looks[machine]
+            && !has_found
+            && known.ms > now_ms as f64
+            && (known.logged, &known.motion) == (logged, &motion)
+            && known.speeds == speeds
+        {
+            return known.ms;
+        }
+        let of_one = |looks: Looks| self.next_look_with(machine, looks, speeds, now_ms);
+        let ms = all.into_iter().map(of_one).fold(f64::INFINITY, f64::min);
+        let next = NextLook { motion, speeds: speeds.to_vec(), logged, ms };
+        self.next_looks[machine] = (!has_found).then_some(next);
+        ms
+    }
+
+    fn next_look_with(&self, machine: usize, looks: Looks, speeds: &[f64], now_ms: u64) -> f64 {
+        let working = &self.machines[machine];
+        let mut look = (now_ms / looks.period_ms + 1) * looks.period_ms;
+        if looks.has_found {
+            return look as f64;
+        }
+        let Some(tool) = working.see(&self.items, &self.desk).tool(looks.chain) else { return f64::INFINITY };
+        let near = looks.near + ROUNDED;
+        let now = now_ms as f64 / 1000.0;
+        let mut nearest = self.nearest(tool.position, speeds);
+        let mut from = now;
+        for _ in 0..MOST_LOOKS {
+            if working.tool_goes(looks.chain, from, f64::MAX) == 0.0 {
+                let soonest_ms = 1000.0 * (now + nearest.until(near)) - self.scan_ms as f64;
+                let periods = (soonest_ms / looks.period_ms as f64).floor();
+                return (periods * looks.period_ms as f64).max(look as f64);
+            }
+            // A look is done at the end of its scan.
+            let at = (look.div_ceil(self.scan_ms) * self.scan_ms) as f64 / 1000.0;
+            if nearest.after(at - now) - working.tool_goes(looks.chain, from, at) <= near {
+                if let Some(tool) = working.tool_at(looks.chain, at) {
+                    nearest = self.nearest(tool, speeds);
+                    from = at;
+                }
+                if nearest.after(at - now) - working.tool_goes(looks.chain, from, at) <= near {
+                    break;
+                }
+            }
+            look += looks.period_ms;
+        }
+        look as f64
+    }
+
+    /// How far a place is from where items are gripped now, of those that are not; with the speed of each machine.
+    fn nearest(&self, place: Point, speeds: &[f64]) -> Nearest {
+        let mut distances = vec![f64::INFINITY; speeds.len()];
+        let mut at_rest = f64::INFINITY;
+        for (index, item) in self.items.all().iter().enumerate() {
+            if matches!(item.carrier, Carrier::Grip { .. }) {
+                continue;
+            }
+            let Some(top) = self.top(index) else { continue };
+            let (least, leap) = match item.carrier.machine() {
+                Some(machine) if speeds[machine] > 0.0 => (&mut distances[machine], self.leap(index)),
+                _ => (&mut at_rest, 0.0),
+            };
+            *least = least.min((top - place).length() - leap);
+        }
+        let moving = distances.into_iter().zip(speeds.iter().copied());
+        Nearest { at_rest, moving: moving.filter(|(distance, _)| distance.is_finite()).collect() }
+    }
+
+    /// How far an item that lies on a vehicle on a track goes at once at most, where this turns at corners, m.
+    fn leap(&self, item: usize) -> f64 {
+        let (Some(vehicle), Some(place)) = (self.vehicle_under(item), self.place(item)) else { return 0.0 };
+        2.0 * libm::hypot(place.x - vehicle.position.x, place.y - vehicle.position.y)
+    }
+
+    /// In the last scan before this one.
+    pub(super) fn grip(&mut self, scan: u64) {
+        let next_ms = scan * self.scan_ms;
+        let now_ms = next_ms - self.scan_ms;
+        for number in 0..self.grippers.len() {
+            let (machine, part) = self.grippers[number];
+            let working = &self.machines[machine];
+            let see = working.see(&self.items, &self.desk);
+            let Some((tool, near)) = working.seeks(part, &see, now_ms, next_ms) else { continue };
+            let contact = self.contact(&tool, near);
+            if let Some(item) = self.machines[machine].meets(part, contact, now_ms, next_ms)
+                && let Some(place) = self.place(item)
+            {
+                self.take_from_under(machine, item);
+                let hang = tool.inverse().point(place);
+                self.items.pass(item, Carrier::Grip { machine, part, hang }, place);
+            }
+        }
+    }
+
+    /// An item on which another one lies is not lifted alone.
+    fn take_from_under(&mut self, machine: usize, item: usize) {
+        let carrier = self.items.all()[item].carrier;
+        let working = carrier.machine().and_then(|bearing| self.machines.get(bearing));
+        let upper = working.and_then(|working| working.lies_on(item, &carrier, &self.items, &self.desk));
+        if upper.is_some() {
+            self.items.crash(machine, "took an item on which another one lies".into());
+        }
+    }
+
+    /// Where an item is gripped: the middle of its upper side.
+    fn top(&self, item: usize) -> Option<Point> {
+        let (place, height) = (self.place(item)?, self.heights[self.items.all()[item].kind]);
+        Some(match self.upper(item) {
+            Some(upper) => place + upper.scaled(height),
+            None => place.up(height),
+        })
+    }
+
+    /// The item nearest to the tool among those that are gripped no farther from it and face it; the first of equals.
+    fn contact(&self, tool: &Pose, near: f64) -> Option<usize> {
+        let mut nearest: Option<(f64, usize)> = None;
+        for (index, item) in self.items.all().iter().enumerate() {
+            if matches!(item.carrier, Carrier::Grip { .. }) {
+                continue;
+            }
+            let Some(top) = self.top(index) else { continue };
+            let gap = top - tool.position;
+            let square = gap.x * gap.x + gap.y * gap.y + gap.z * gap.z;
+            let faces = |upper: Option<Point>| tool.axis(2).dot(upper.unwrap_or(UP)) < OPPOSITE;
+            if square <= near * near
+                && faces(self.upper(index))
+                && nearest.is_none_or(|(least, _)| square < least)
+            {
+                nearest = Some((square, index));
+            }
+        }
+        nearest.map(|(_, item)| item)
+    }
+}
