@@ -69,6 +69,9 @@ struct Tracked {
     hang: Pose,
 }
 
+/// Times no farther apart are one, s.
+const AT_ONCE: f64 = 1e-9;
+
 impl CollisionCheck {
     pub fn new(line: &Line) -> Self {
         let machines = (0..line.machines.len()).map(|index| Group::of_machine(line, index));
@@ -128,7 +131,8 @@ impl CollisionCheck {
         let mut next = next;
         let mut near = Vec::new();
         for index in 0..self.pairs.len() {
-            let end = self.seconds * (next - scan) as f64;
+            // What comes into contact at the very end is found in this span, however it is rounded.
+            let end = self.seconds * (next - scan) as f64 + AT_ONCE;
             let pair = &self.pairs[index];
             if pair.touches() {
                 near.push(index);
