@@ -30,6 +30,8 @@ pub struct Items {
     list: Vec<Item>,
     /// Items that each machine bears, in the order in which they came.
     pub(crate) borne: Vec<Vec<usize>>,
+    /// Items on the ground or on obstacles.
+    fallen: Vec<usize>,
     log: Vec<Event>,
     pub(crate) scan: u64,
     /// What broke a machine, and which.
@@ -43,6 +45,7 @@ impl Items {
         Self {
             list: kinds.map(|&kind| Item { kind, carrier: Carrier::Supply }).collect(),
             borne: vec![Vec::new(); line.machines.len()],
+            fallen: Vec::new(),
             log: Vec::new(),
             scan: 0,
             crash: None,
@@ -70,6 +73,11 @@ impl Items {
         &self.borne[machine]
     }
 
+    /// Items that have a place on the line, in no order that means anything.
+    pub fn placed(&self) -> impl Iterator<Item = usize> {
+        self.borne.iter().flatten().chain(&self.fallen).copied()
+    }
+
     /// Number of machines that could bear items.
     pub fn machines(&self) -> usize {
         self.borne.len()
@@ -87,6 +95,12 @@ impl Items {
         }
         if let Some(machine) = to.machine() {
             self.borne[machine].push(item);
+        }
+        if matches!(from, Carrier::Floor { .. }) {
+            self.fallen.retain(|&other| other != item);
+        }
+        if matches!(to, Carrier::Floor { .. }) {
+            self.fallen.push(item);
         }
         self.log.push(Event::Item { scan: self.scan, item, from, to, point });
     }

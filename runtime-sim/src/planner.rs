@@ -18,7 +18,7 @@ use crate::motion::{Knot, Motion, Path};
 use crate::point::Point;
 use line::Line;
 use options::Options;
-use plane::{Rectangle, keeps_off, shortest};
+use plane::{Plane, Rectangle};
 pub use scene::Load;
 use scene::Scene;
 use std::collections::BTreeMap;
@@ -32,6 +32,7 @@ pub struct Planner {
     arm: Arm,
     scene: Scene,
     area: Rectangle,
+    plane: Plane,
 }
 
 /// Where the tool is to be brought.
@@ -179,11 +180,11 @@ const TURNINGS: [Turning; 3] = [Turning::Evenly, Turning::First, Turning::Last];
 impl Planner {
     /// Of the machine of this number; none if it is no gantry.
     pub fn of(line: &crate::line::Line, index: usize) -> Option<Self> {
-        let scene = Scene::of(line, index)?;
+        let (scene, blocks) = Scene::of(line, index)?;
         let arm = line.machines[index].arm()?;
         let [x, y] = arm.gantry()?.rails();
         let area = Rectangle { low: Point::new(x[0], y[0], 0.0), high: Point::new(x[1], y[1], 0.0) };
-        Some(Self { arm, scene, area })
+        Some(Self { arm, scene, area, plane: Plane::new(blocks, area) })
     }
 
     /// None if no path keeps off all obstacles. With a part on the tool the wrist stays on its side, and the part gets
@@ -274,7 +275,7 @@ impl Planner {
         if back > 0.0 {
             places.push(start);
         }
-        places.extend(shortest([start, end], &self.scene.blocks, &self.area)?);
+        places.extend(self.plane.shortest([start, end])?);
         if forth > 0.0 {
             places.push(end);
         }
@@ -291,7 +292,7 @@ impl Planner {
                 let stance = Stance { turn, beyond, wrist };
                 let joints = |tool| self.arm.solve_stance(tool, &stance, directed);
                 let (Some(over), Some(at)) = (joints(transfer.via), joints(transfer.goal)) else { continue };
-                let list = if keeps_off(axis(&over), &self.scene.blocks) { &mut wide } else { &mut narrow };
+                let list = if self.plane.keeps_off(axis(&over)) { &mut wide } else { &mut narrow };
                 list.push(Candidate { stance, over, at });
             }
         }

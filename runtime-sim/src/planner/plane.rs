@@ -4,6 +4,7 @@ use crate::point::Point;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 use std::f64::consts::FRAC_PI_2;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// On the plane: lower and upper corner; z has no meaning.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -98,64 +99,201 @@ fn square_distance(point: Point, [a, b]: [Point; 2]) -> f64 {
     x * x + y * y
 }
 
-/// Whether a disc with its middle here keeps off all blocks.
-pub fn keeps_off(place: Point, blocks: &[Block]) -> bool {
-    blocks.iter().all(|block| block.rectangle.is_apart([place; 2], block.radius))
+/// A plane with blocks, and what is known of the places round their corners.
+#[derive(Debug)]
+pub struct Plane {
+    blocks: Vec<Block>,
+    area: Rectangle,
+    /// The places in the area round the corners of each block, one block after the other.
+    corners: Vec<Corner>,
+    /// Where those of each block begin, and the end of all.
+    begins: Vec<usize>,
+    /// Of each corner that was passed: the blocks to which the segment to each of the others is too near.
+    segments: Mutex<Vec<Option<Arc<[Blocks]>>>>,
 }
 
-/// Places to pass between start and goal so that a disc keeps off all blocks, and its middle within `area`; where
-/// start or goal are nearer to a block, no nearer than they. None if there is no path.
-pub fn shortest([start, goal]: [Point; 2], blocks: &[Block], area: &Rectangle) -> Option<Vec<Point>> {
-    let near: Vec<Block> = (blocks.iter())
-        .filter(|block| block.rectangle.distance([start, goal]) <= DETOUR)
-        .map(|block| {
-            let [at_start, at_goal] = [start, goal].map(|end| block.rectangle.distance([end; 2]));
-            Block { radius: block.radius.min(at_start).min(at_goal) - 1e-9, ..*block }
-        })
-        .collect();
-    let is_free = |path: [Point; 2]| near.iter().all(|block| block.rectangle.is_apart(path, block.radius));
-    if is_free([start, goal]) {
-        return Some(Vec::new());
+#[derive(Debug)]
+struct Corner {
+    place: Point,
+    /// To which it is too near.
+    near: Blocks,
+}
+
+/// A set of the first [`KNOWN`] blocks by their numbers.
+type Blocks = u64;
+const KNOWN: usize = Blocks::BITS as usize;
+
+/// A place on the way from start to goal.
+#[derive(Clone, Copy)]
+struct Place {
+    point: Point,
+    /// Its number, if it is a corner.
+    corner: Option<usize>,
+}
+
+/// The blocks near start and goal.
+struct Near {
+    /// Whether a corner or a segment between two is too near to one of them is known.
+    known: Blocks,
+    /// All others.
+    others: Vec<Block>,
+    all: Vec<Block>,
+}
+
+impl Near {
+    fn is_free(&self, path: [Point; 2]) -> bool {
+        keeps_off_all(path, &self.all)
     }
-    let mut places = vec![start, goal];
-    for block in &near {
-        let middle = block.rectangle.low + (block.rectangle.high - block.rectangle.low).scaled(0.5);
-        let places_near = block.rectangle.corners().into_iter().flat_map(|corner| {
+
+    /// The same of what is between corners, and too near to these blocks.
+    fn is_free_beside(&self, near: Blocks, path: [Point; 2]) -> bool {
+        near & self.known == 0 && keeps_off_all(path, &self.others)
+    }
+}
+
+fn keeps_off_all(path: [Point; 2], blocks: &[Block]) -> bool {
+    blocks.iter().all(|block| block.rectangle.is_apart(path, block.radius))
+}
+
+impl Block {
+    /// What is exactly as far away as it has to be is far enough.
+    fn rounded(self, radius: f64) -> Self {
+        Self { radius: radius - 1e-9, ..self }
+    }
+
+    /// Places round its corners.
+    fn round_corners(&self) -> impl Iterator<Item = Point> + use<> {
+        let Block { rectangle, radius } = *self;
+        let middle = rectangle.low + (rectangle.high - rectangle.low).scaled(0.5);
+        rectangle.corners().into_iter().flat_map(move |corner| {
             // Away from the rectangle, in a quarter of a turn.
             let away = corner - middle;
             (0..=AROUND).map(move |i| {
                 let (y, x) = libm::sincos(FRAC_PI_2 * f64::from(i) / f64::from(AROUND));
                 let toward = Point::new(x.copysign(away.x), y.copysign(away.y), 0.0);
-                corner + toward.scaled(block.radius * WIDER)
+                corner + toward.scaled(radius * WIDER)
             })
-        });
-        places.extend(places_near.filter(|p| area.contains(*p) && is_free([*p; 2])));
+        })
     }
-    // Whether a segment is free is asked only when it is the next on the shortest path. Numbers that are not negative
-    // are in the order of their bits.
-    let still = |place: usize| (places[1] - places[place]).length();
-    let mut before: Vec<Option<usize>> = vec![None; places.len()];
-    let mut queue = BinaryHeap::from([Reverse((still(0).to_bits(), 0, 0, 0))]);
-    while let Some(Reverse((_, present, last, gone))) = queue.pop() {
-        if before[present].is_some() || !is_free([places[last], places[present]]) {
-            continue;
+}
+
+/// To which of these blocks a path is too near.
+fn too_near(path: [Point; 2], blocks: &[Block]) -> Blocks {
+    let near = blocks.iter().take(KNOWN).map(|block| {
+        let block = block.rounded(block.radius);
+        !block.rectangle.is_apart(path, block.radius)
+    });
+    near.enumerate().fold(0, |all, (number, is_near)| all | Blocks::from(is_near) << number)
+}
+
+impl Plane {
+    pub fn new(blocks: Vec<Block>, area: Rectangle) -> Self {
+        let mut corners = Vec::new();
+        let mut begins = vec![0];
+        for block in &blocks {
+            let round = block.rounded(block.radius);
+            let places = round.round_corners().filter(|place| area.contains(*place));
+            corners.extend(places.map(|place| Corner { place, near: too_near([place; 2], &blocks) }));
+            begins.push(corners.len());
         }
-        before[present] = Some(last);
-        if present == 1 {
-            return Some(back_from(1, &before, &places));
-        }
-        for next in (0..places.len()).filter(|next| before[*next].is_none()) {
-            let length = f64::from_bits(gone) + (places[next] - places[present]).length();
-            queue.push(Reverse(((length + still(next)).to_bits(), next, present, length.to_bits())));
-        }
+        let segments = Mutex::new(vec![None; corners.len()]);
+        Self { blocks, area, corners, begins, segments }
     }
-    None
+
+    /// Whether a disc with its middle here keeps off all blocks.
+    pub fn keeps_off(&self, place: Point) -> bool {
+        keeps_off_all([place; 2], &self.blocks)
+    }
+
+    /// Places to pass between start and goal so that a disc keeps off all blocks, and its middle within the area; where
+    /// start or goal are nearer to a block, no nearer than they. None if there is no path.
+    pub fn shortest(&self, [start, goal]: [Point; 2]) -> Option<Vec<Point>> {
+        let mut near = Near { known: 0, others: Vec::new(), all: Vec::new() };
+        let mut numbers = Vec::new();
+        for (number, block) in self.blocks.iter().enumerate() {
+            if block.rectangle.distance([start, goal]) > DETOUR {
+                continue;
+            }
+            let [at_start, at_goal] = [start, goal].map(|end| block.rectangle.distance([end; 2]));
+            let radius = block.radius.min(at_start).min(at_goal);
+            let is_known = radius == block.radius && number < KNOWN;
+            let block = block.rounded(radius);
+            near.all.push(block);
+            if is_known {
+                near.known |= 1 << number;
+            } else {
+                near.others.push(block);
+            }
+            numbers.push((number, is_known));
+        }
+        if near.is_free([start, goal]) {
+            return Some(Vec::new());
+        }
+        let mut places = [start, goal].map(|point| Place { point, corner: None }).to_vec();
+        for (block, (number, is_known)) in near.all.iter().zip(numbers) {
+            if is_known {
+                let corners = self.begins[number]..self.begins[number + 1];
+                let free = corners.filter(|corner| {
+                    let Corner { place, near: beside } = self.corners[*corner];
+                    near.is_free_beside(beside, [place; 2])
+                });
+                places.extend(
+                    free.map(|corner| Place { point: self.corners[corner].place, corner: Some(corner) }),
+                );
+            } else {
+                let round = block.round_corners().filter(|place| self.area.contains(*place));
+                let free = round.filter(|place| near.is_free([*place; 2]));
+                places.extend(free.map(|point| Place { point, corner: None }));
+            }
+        }
+        self.search(&places, &near)
+    }
+
+    /// From the first place to the second. Whether a segment is free is looked up if it is known, and asked only when it is
+    /// the next on the shortest path if it is not. Numbers that are not negative are in the order of their bits.
+    fn search(&self, places: &[Place], near: &Near) -> Option<Vec<Point>> {
+        let distance = |a: usize, b: usize| (places[b].point - places[a].point).length();
+        let still: Vec<f64> = (0..places.len()).map(|place| distance(place, 1)).collect();
+        let segment = |a: usize, b: usize| [places[a].point, places[b].point];
+        let mut before: Vec<Option<usize>> = vec![None; places.len()];
+        let mut queue = BinaryHeap::from([Reverse((still[0].to_bits(), 0, 0, 0))]);
+        while let Some(Reverse((_, present, last, gone))) = queue.pop() {
+            let is_known = places[last].corner.and(places[present].corner).is_some();
+            if before[present].is_some() || !is_known && !near.is_free(segment(last, present)) {
+                continue;
+            }
+            before[present] = Some(last);
+            if present == 1 {
+                return Some(back_from(1, &before, places));
+            }
+            let known = places[present].corner.map(|corner| self.segments(corner));
+            for next in (0..places.len()).filter(|next| before[*next].is_none()) {
+                if let (Some(known), Some(corner)) = (&known, places[next].corner)
+                    && !near.is_free_beside(known[corner], segment(present, next))
+                {
+                    continue;
+                }
+                let length = f64::from_bits(gone) + distance(present, next);
+                queue.push(Reverse(((length + still[next]).to_bits(), next, present, length.to_bits())));
+            }
+        }
+        None
+    }
+
+    /// Of a corner: the blocks to which the segment to each of the others is too near.
+    fn segments(&self, corner: usize) -> Arc<[Blocks]> {
+        // Nothing panics while it is locked.
+        let mut segments = self.segments.lock().unwrap_or_else(PoisonError::into_inner);
+        let from = self.corners[corner].place;
+        let of = || self.corners.iter().map(|to| too_near([from, to.place], &self.blocks)).collect();
+        segments[corner].get_or_insert_with(of).clone()
+    }
 }
 
 /// The places between the first one and this.
-fn back_from(place: usize, before: &[Option<usize>], places: &[Point]) -> Vec<Point> {
+fn back_from(place: usize, before: &[Option<usize>], places: &[Place]) -> Vec<Point> {
     let steps = std::iter::successors(before[place], |at| before[*at]);
-    let mut path: Vec<Point> = steps.take_while(|at| *at != 0).map(|at| places[at]).collect();
+    let mut path: Vec<Point> = steps.take_while(|at| *at != 0).map(|at| places[at].point).collect();
     path.reverse();
     path
 }
@@ -183,14 +321,17 @@ mod tests {
     #[test]
     fn without_an_obstacle_it_is_straight() {
         let aside = rectangle([-1.0, 1.0], [0.7, 2.0]);
-        assert_eq!(shortest([point(-3.0, 0.0), point(3.0, 0.0)], &[block(aside)], &area()), Some(vec![]));
+        assert_eq!(
+            Plane::new(vec![block(aside)], area()).shortest([point(-3.0, 0.0), point(3.0, 0.0)]),
+            Some(vec![])
+        );
     }
 
     #[test]
     fn it_goes_round_on_the_shorter_side_and_keeps_off() {
         let wall = rectangle([-0.1, 0.1], [-1.0, 3.0]);
         let ends = [point(-3.0, 0.0), point(3.0, 0.0)];
-        let path = shortest(ends, &[block(wall)], &area()).unwrap();
+        let path = Plane::new(vec![block(wall)], area()).shortest(ends).unwrap();
         assert!(!path.is_empty() && path.iter().all(|p| p.y < -1.0), "{path:?}");
         let all: Vec<Point> = [ends[0]].into_iter().chain(path).chain([ends[1]]).collect();
         for pair in all.windows(2) {
@@ -198,16 +339,17 @@ mod tests {
         }
         // The shorter side is closed: it takes the other.
         let closed = rectangle([-10.0, 10.0], [-1.5, 5.0]);
-        let path = shortest(ends, &[block(wall)], &closed).unwrap();
+        let path = Plane::new(vec![block(wall)], closed).shortest(ends).unwrap();
         assert!(path.iter().all(|p| p.y > 3.0), "{path:?}");
         let shut = rectangle([-10.0, 10.0], [-1.5, 3.5]);
-        assert_eq!(shortest(ends, &[block(wall)], &shut), None);
+        assert_eq!(Plane::new(vec![block(wall)], shut).shortest(ends), None);
     }
 
     #[test]
     fn who_begins_too_near_comes_no_nearer() {
         let wall = rectangle([-0.1, 0.1], [-1.0, 1.0]);
-        let path = shortest([point(-0.3, 0.0), point(3.0, 0.0)], &[block(wall)], &area()).unwrap();
+        let path =
+            Plane::new(vec![block(wall)], area()).shortest([point(-0.3, 0.0), point(3.0, 0.0)]).unwrap();
         let first = [point(-0.3, 0.0), path[0]];
         assert!(wall.distance(first) >= 0.2 - 1e-6, "{path:?}");
     }

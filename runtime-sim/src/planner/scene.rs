@@ -30,8 +30,6 @@ pub struct Scene {
     obstacles: Vec<Cluster>,
     /// The lowest point of what does not turn with the torso, m.
     lowest_beam: f64,
-    /// Obstacles higher than the torso hangs down, seen from above, and how far its axis keeps off.
-    pub blocks: Vec<Block>,
     places: Vec<Places>,
     /// Of the tool with the highest part at the highest place, m.
     pub highest_place: f64,
@@ -95,8 +93,8 @@ const AT_PLACE: f64 = 0.02;
 const OVER: f64 = 0.05;
 
 impl Scene {
-    /// What the machine of this number has around it; none if it is no gantry.
-    pub fn of(line: &Line, index: usize) -> Option<Self> {
+    /// What the machine of this number has around it, and what its axis keeps off; none if it is no gantry.
+    pub fn of(line: &Line, index: usize) -> Option<(Self, Vec<Block>)> {
         let own = line.machines.get(index)?;
         let arm = own.arm()?;
         arm.gantry()?;
@@ -129,18 +127,18 @@ impl Scene {
         let lowest_beam = beams.map(|piece| shoulder + piece.lowest()).fold(f64::INFINITY, f64::min);
         let places = places(line);
         let heights = places.iter().flat_map(|places| &places.all).map(|(place, _)| place.z);
-        Some(Self {
+        let scene = Self {
             arm,
             members,
             load: Member { link: hand, ball: load.ball(), pieces: vec![load] },
             obstacles,
             lowest_beam,
             load_height: size.z,
-            blocks,
             highest_place: heights.fold(0.0, f64::max) + size.z,
             places,
             over_all: tallest + size.z + OVER,
-        })
+        };
+        Some((scene, blocks))
     }
 
     /// The obstacles that the robot can come near while its torso is between these places.

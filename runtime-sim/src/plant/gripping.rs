@@ -122,12 +122,13 @@ impl Plant {
     fn nearest(&self, place: Point, speeds: &[f64]) -> Nearest {
         let mut distances = vec![f64::INFINITY; speeds.len()];
         let mut at_rest = f64::INFINITY;
-        for (index, item) in self.items.all().iter().enumerate() {
-            if matches!(item.carrier, Carrier::Grip { .. }) {
+        for index in self.items.placed() {
+            let carrier = self.items.all()[index].carrier;
+            if matches!(carrier, Carrier::Grip { .. }) {
                 continue;
             }
             let Some(top) = self.top(index) else { continue };
-            let (least, leap) = match item.carrier.machine() {
+            let (least, leap) = match carrier.machine() {
                 Some(machine) if speeds[machine] > 0.0 => (&mut distances[machine], self.leap(index)),
                 _ => (&mut at_rest, 0.0),
             };
@@ -185,8 +186,8 @@ impl Plant {
     /// The item nearest to the tool among those that are gripped no farther from it and face it; the first of equals.
     fn contact(&self, tool: &Pose, near: f64) -> Option<usize> {
         let mut nearest: Option<(f64, usize)> = None;
-        for (index, item) in self.items.all().iter().enumerate() {
-            if matches!(item.carrier, Carrier::Grip { .. }) {
+        for index in self.items.placed() {
+            if matches!(self.items.all()[index].carrier, Carrier::Grip { .. }) {
                 continue;
             }
             let Some(top) = self.top(index) else { continue };
@@ -195,7 +196,7 @@ impl Plant {
             let faces = |upper: Option<Point>| tool.axis(2).dot(upper.unwrap_or(UP)) < OPPOSITE;
             if square <= near * near
                 && faces(self.upper(index))
-                && nearest.is_none_or(|(least, _)| square < least)
+                && nearest.is_none_or(|least| (square, index) < least)
             {
                 nearest = Some((square, index));
             }
