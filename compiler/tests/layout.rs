@@ -53,6 +53,17 @@ fn fixtures() {
 }
 
 #[test]
+fn a_key_of_a_machine_beside_the_machines_is_told_where_it_belongs() {
+    let mut sources = Sources::default();
+    let file = sources.add("x.json", "{\"robots\": [], \"parameters\": {}}");
+    let [told] = &check(&sources, file)[..] else { panic!("one error") };
+    assert_eq!(
+        (told.code, told.help.as_str()),
+        ("E0111", "write \"parameters\" in the object of a machine, in \"robots\"")
+    );
+}
+
+#[test]
 fn examples() {
     let default = read("examples/ariac2021/default.json", &example("default.json"));
     let spaced = read("spaced.json", &example("spaced.json"));

@@ -104,6 +104,20 @@ fn fixtures() {
 }
 
 #[test]
+fn a_line_without_a_source_or_a_station_is_told_so() {
+    let bare = Line { belts: &[], stations: &[], ..LINE };
+    let codes = |text: &str| -> Vec<String> {
+        let told = resolve(text, &bare).unwrap_err();
+        told.into_iter().map(|d| format!("{} {}", d.code, d.message)).collect()
+    };
+    let kinds = r#""kinds": [{"name": "bolt", "height": 0.05}]"#;
+    let supply = format!(r#"{{{kinds}, "supply": {{"items": ["bolt"]}}}}"#);
+    assert_eq!(codes(&supply), ["E0135 the layout has no source"]);
+    let orders = format!(r#"{{{kinds}, "orders": {{"count": 1, "parts": {{"bolt": 1}}}}}}"#);
+    assert_eq!(codes(&orders), ["E0135 the layout has no source", "E0135 the layout has no station"]);
+}
+
+#[test]
 fn the_example_is_the_built_in_scenario() {
     let text = std::fs::read_to_string(root().join("examples/ariac2021/scenario.json")).unwrap();
     assert_eq!(text, scenario::DEFAULT);

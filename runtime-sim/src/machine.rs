@@ -39,38 +39,65 @@ pub const MOST_ELEMENTS: usize = 1024;
 /// What is rounded in a length, m.
 const ROUNDED: f64 = 1e-6;
 
+/// Why parts are no machine.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Misfit {
+    pub reason: String,
+    /// The part that does not fit, by its number, if it is one.
+    pub part: Option<usize>,
+}
+
+impl From<&str> for Misfit {
+    fn from(reason: &str) -> Self {
+        Self { reason: reason.into(), part: None }
+    }
+}
+
+impl Misfit {
+    fn of(part: usize, reason: impl Into<String>) -> Self {
+        Self { reason: reason.into(), part: Some(part) }
+    }
+}
+
 impl Machine {
     /// The first thing that is wrong with its parts or its wiring.
-    pub fn check(&self) -> Result<(), String> {
+    pub fn check(&self) -> Result<(), Misfit> {
         if !self.pose.is_near() {
             return Err("a coordinate of its pose is no number within 1000 km".into());
         }
         let mut names = HashSet::new();
         for (index, part) in self.parts.iter().enumerate() {
             if !names.insert(&part.name) {
-                return Err(format!("two parts {}", part.name));
+                return Err(Misfit::of(index, format!("two parts {}", part.name)));
             }
-            self.check_references(index, part)?;
-            self.check_on_lane(part)?;
+            let of_part = |reason| Misfit::of(index, reason);
+            self.check_references(index, part).map_err(of_part)?;
+            self.check_on_lane(part).map_err(of_part)?;
         }
-        for place in self.places().filter(|place| place.facing != Facing::Down) {
-            if let Some(Stroke::Turns { .. }) = self.strokes_under(place).and_then(|strokes| strokes.stroke) {
-                return Err("a place that is filled from the side is on what turns".into());
+        for (index, part) in self.parts.iter().enumerate() {
+            let Primitive::Place(place) = &part.primitive else { continue };
+            let strokes = self.strokes_under(place).and_then(|strokes| strokes.stroke);
+            let turns = matches!(strokes, Some(Stroke::Turns { .. })) || self.is_on_track(place);
+            if place.facing != Facing::Down && turns {
+                return Err(Misfit::of(index, "a place that is filled from the side is on what turns"));
             }
         }
+        let last = |primitive: &str| self.parts.iter().rposition(|part| part.schema().name == primitive);
         for primitive in ["chain", "route", "track", "source"] {
-            if self.parts.iter().filter(|part| part.schema().name == primitive).count() > 1 {
-                return Err(format!("two parts are a {primitive}"));
+            if let Some(last) = last(primitive)
+                && self.parts[..last].iter().any(|part| part.schema().name == primitive)
+            {
+                return Err(Misfit::of(last, format!("two parts are a {primitive}")));
             }
         }
-        if self.route().is_some() && self.track().is_some() {
-            return Err("it moves along a route and along a track".into());
+        if let (Some(_), Some(track)) = (last("route"), last("track")) {
+            return Err(Misfit::of(track, "it moves along a route and along a track"));
         }
-        if self.chain().is_some() {
-            let arm = self.arm().ok_or("there is no inverse kinematics for its chain on these axes")?;
-            let rest = self.chain().map(|chain| chain.rest).unwrap_or_default();
-            if arm.solve(rest, &arm.start()).is_none() {
-                return Err("its tool cannot reach its own rest position".into());
+        if let (Some(chain), Some(number)) = (self.chain(), last("chain")) {
+            let unsolved = "there is no inverse kinematics for its chain on these axes";
+            let arm = self.arm().ok_or_else(|| Misfit::of(number, unsolved))?;
+            if arm.solve(chain.rest, &arm.start()).is_none() {
+                return Err(Misfit::of(number, "its tool cannot reach its own rest position"));
             }
         }
         self.check_wiring()
@@ -103,11 +130,11 @@ impl Machine {
                 return Err(format!("the part {} refers to one that is not before it", part.name));
             };
             let schema = other.schema();
-            let frames = match &other.primitive {
-                Primitive::Chain(chain) => chain.joints.len() + 1,
-                _ => schema.frames.len().max(1),
+            let is_there = match &other.primitive {
+                Primitive::Chain(chain) => chain.link(*frame).is_some(),
+                _ => *frame < schema.frames.len().max(1),
             };
-            if !primitives.contains(&schema.name) || *frame >= frames {
+            if !primitives.contains(&schema.name) || !is_there {
                 return Err(format!("the part {} cannot refer to {}", part.name, other.name));
             }
         }
@@ -134,7 +161,7 @@ impl Machine {
         Ok(())
     }
 
-    fn check_wiring(&self) -> Result<(), String> {
+    fn check_wiring(&self) -> Result<(), Misfit> {
         let wiring = &self.wiring;
         let schema = |part: usize| self.parts.get(part).map(|part| part.schema());
         let sizes = wiring.inputs.iter().map(|i| i.size).chain(wiring.outputs.iter().map(|o| o.size));
@@ -194,7 +221,7 @@ impl Machine {
     }
 
     /// A lane that runs by its level and by commands would obey whoever came last.
-    fn check_lanes(&self) -> Result<(), String> {
+    fn check_lanes(&self) -> Result<(), Misfit> {
         let wiring = &self.wiring;
         let drives = |part: usize| {
             let is_driven =
@@ -204,8 +231,9 @@ impl Machine {
         let lanes = self.parts.iter().enumerate();
         let mut lanes = lanes.filter(|(_, part)| matches!(part.primitive, Primitive::Lane(_)));
         match lanes.find(|(number, _)| drives(*number)) {
-            Some((_, lane)) => {
-                Err(format!("{} is run by an output and by commands: take one of them", lane.name))
+            Some((number, lane)) => {
+                let reason = format!("{} is run by an output and by commands: take one of them", lane.name);
+                Err(Misfit::of(number, reason))
             }
             None => Ok(()),
         }
@@ -284,6 +312,12 @@ impl Machine {
     pub fn is_driven(&self, place: &Place) -> bool {
         let carrier = place.on.and_then(|part| self.parts.get(part));
         carrier.is_some_and(|part| matches!(part.primitive, Primitive::Route(_)))
+    }
+
+    /// Whether a place is on a vehicle that follows a track.
+    pub fn is_on_track(&self, place: &Place) -> bool {
+        let carrier = place.on.and_then(|part| self.parts.get(part));
+        carrier.is_some_and(|part| matches!(part.primitive, Primitive::Track(_)))
     }
 
     fn carriers(&self) -> Vec<(usize, &Axis)> {

@@ -41,10 +41,11 @@ pub struct Segment {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Law {
     Rests(Point),
-    /// Straight, on a belt or a vehicle: where it begins, and its velocity in m/s.
+    /// Straight, on a belt or a vehicle: where it begins, its velocity there in m/s, and how this changes, m/s2.
     Slides {
         from: Point,
         velocity: Point,
+        acceleration: Point,
     },
     /// On an arc of a conveyor, or on a conveyor that is turned.
     Conveyed(Conveyed),
@@ -108,7 +109,10 @@ impl Segment {
     pub fn place(&self, ms: f64) -> Point {
         match &self.law {
             Law::Rests(point) => *point,
-            Law::Slides { from, velocity } => *from + velocity.scaled((ms - self.begin_ms) / 1000.0),
+            Law::Slides { from, velocity, acceleration } => {
+                let seconds = (ms - self.begin_ms) / 1000.0;
+                *from + velocity.scaled(seconds) + acceleration.scaled(seconds * seconds / 2.0)
+            }
             Law::Conveyed(conveyed) => conveyed.point((ms - self.begin_ms) / 1000.0),
             Law::Hangs(hanging) => hanging.place(ms / 1000.0),
         }

@@ -28,6 +28,7 @@ use conveyed::Conveyed;
 use conveying::{Among, Conveying, Falls};
 pub use conveying::{By, Gap, Transfer, gaps, transfers};
 use gripping::NextLook;
+use std::sync::Arc;
 use trajectory::Trajectory;
 use working::{Shared, Working};
 
@@ -42,6 +43,8 @@ pub struct Plant {
     machines: Vec<Working>,
     conveying: Conveying,
     items: Items,
+    /// Of all items, for reports.
+    names: Arc<[String]>,
     /// Heights of the kinds.
     heights: Vec<f64>,
     obstacles: Vec<Obstacle>,
@@ -83,6 +86,7 @@ impl Plant {
             machines,
             conveying: Conveying::new(line),
             items,
+            names: crate::item::names(line).into(),
             heights: line.kinds.iter().map(|kind| kind.height).collect(),
             obstacles: line.obstacles.clone(),
             desk,
@@ -181,6 +185,11 @@ impl Plant {
 
     fn fall(&mut self, Falls { item, from, ms }: Falls) {
         let (carrier, point) = fall::fall(self, (from, self.upper(item)), ms);
+        let under = self.convey(|conveying, among, _| conveying.lies_under(among, item, &carrier, ms));
+        if let (Some(under), Some(machine)) = (under, carrier.machine()) {
+            let [upper, lower] = [item, under].map(|item| &self.names[item]);
+            self.items.crash(machine, format!("{upper} comes down on {lower}, which lies on a conveyor"));
+        }
         self.items.pass(item, carrier, point);
     }
 
@@ -240,6 +249,12 @@ impl Plant {
     /// Where a vehicle on a track is, and how it is turned.
     pub(crate) fn vehicle(&self, machine: usize) -> Option<Frame> {
         self.machines.get(machine)?.first_vehicle().map(Driving::frame_now)
+    }
+
+    /// Where the vehicle on a track is that carries an item, and how it is turned.
+    pub(crate) fn vehicle_under(&self, item: usize) -> Option<Frame> {
+        let Carrier::Place { machine, part, .. } = self.items.all().get(item)?.carrier else { return None };
+        self.machines.get(machine)?.vehicle_under(part).map(Driving::frame_now)
     }
 
     /// The joints of an arm.

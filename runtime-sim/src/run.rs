@@ -200,7 +200,9 @@ fn simulate(
             recorders.paths.look(&plant);
             recorders.history.look(&plant);
         }
-        let is_alive = plant.is_busy() || operator.is_busy(scan + 1, &line.scenario);
+        let is_alive = plant.is_busy()
+            || operator.is_busy(scan + 1, &line.scenario)
+            || agenda.is_timed(scan, &states, &changes);
         if is_alive {
             progress.is_alive(scan);
         }

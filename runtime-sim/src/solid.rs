@@ -69,7 +69,10 @@ impl Machine {
                     (Primitive::Chain(_), Some(arm)) if frame == 0 => {
                         (Link::Joint(axes - 1), arm.mount().then(&body.pose))
                     }
-                    (Primitive::Chain(_), _) => (Link::Joint(axes + frame - 1), body.pose),
+                    (Primitive::Chain(chain), _) => (
+                        Link::Joint((axes + chain.link(frame).unwrap_or_default()).saturating_sub(1)),
+                        body.pose,
+                    ),
                     // The last axis of a Cartesian robot moves with its tool.
                     (Primitive::Axis(_), Some(arm)) if chain == Some(other) && self.has_only_axes() => {
                         (Link::Joint(axes - 1), arm.mount().then(&body.pose))

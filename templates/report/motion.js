@@ -269,12 +269,12 @@ const Motion = (() => {
 
   /* Where the underside of an item is by the law of a segment. */
   function placeBy(segment, ms) {
-    const [begin, , law, a, b, c, d, e, f] = segment;
+    const [begin, , law, a, b, c, d, e, f, gx = 0, gy = 0, gz = 0] = segment;
     const s = (ms - begin) / 1000;
     const { machine, part } = carrierOf(segment);
     switch (law) {
       case 0: return [a, b, c];
-      case 1: return [a + d * s, b + e * s, c + f * s];
+      case 1: return [a + (d + (gx * s) / 2) * s, b + (e + (gy * s) / 2) * s, c + (f + (gz * s) / 2) * s];
       case 2: {
         if (carrierOf(segment).what === 'place') return point(carriedBy(segment, s), [a, b, c]);
         const { place, across, frame } = conveyed(segment, s);
@@ -322,6 +322,9 @@ const Motion = (() => {
     const begin = turnAtBegin(item, index);
     if (what === 'place' && segment[2] === 2) {
       return begin + yawOf(carriedBy(segment, (ms - segment[0]) / 1000)) - yawOf(carriedBy(segment, 0));
+    }
+    if (what === 'place' && machines[machine].rides.at.length) {
+      return begin + headingAt(machine, ms) - headingAt(machine, segment[0]);
     }
     if (what !== 'grip' || segment[2] !== 3) return begin;
     const tool = (at) => yawOf(framesAt(machine, at).slice(-1)[0]);

@@ -183,7 +183,7 @@ pub fn lathe_on_a_rail(arm: Option<&str>) -> Texts {
     texts
 }
 
-/// Every line of the examples by name; the prototype at full speed, the tending cell for three parts.
+/// Every line of the examples by name; the prototype at full speed, the tending cell for three parts, the lathe for one.
 pub fn examples() -> Vec<(String, Texts)> {
     let layouts = LAYOUTS.map(|layout| (layout.to_string(), ariac(layout)));
     let own = ["buffer", "shared_agv"].map(|line| (line.to_string(), own_line(line)));
@@ -192,7 +192,9 @@ pub fn examples() -> Vec<(String, Texts)> {
     tending.scenario = tending.scenario.map(|text| text.replace("41", "3"));
     let mut crossing = side_by_side("crossing/crossing");
     crossing.scenario = Some(r#"{"time_limit_s": 120}"#.into());
-    let lines = [("sorting", sorting), ("tending", tending), ("crossing", crossing)];
+    let mut lathe = side_by_side("lathe/lathe");
+    lathe.scenario = lathe.scenario.map(|text| text.replace("{\"disc\": 5}", "{\"disc\": 1}"));
+    let lines = [("sorting", sorting), ("tending", tending), ("crossing", crossing), ("lathe", lathe)];
     let lines = lines.map(|(name, texts)| (name.to_string(), texts));
     let fast = ["agv.capacity=4", "kitting.speed=1", "gantry.speed=1"];
     let prototype = fast.iter().fold(prototype("default"), |texts, setting| texts.set(setting));

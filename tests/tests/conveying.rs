@@ -67,6 +67,29 @@ fn what_falls_on_a_conveyor_goes_on_with_it_at_once() {
 }
 
 /// An item comes from one place only, and nothing is seen or stopped where there is no conveyor.
+/// The second conveyor carries the first box 0.25 * 3 m on until the second one comes down, more than its length; at 0.05 m/s
+/// it carries it 0.15 m on, and at 0.11 m/s 0.33 m.
+#[test]
+fn what_falls_onto_an_item_on_a_conveyor_ends_the_run() {
+    let reason = |speed: &str, at: &str| {
+        let mut texts = with_gap(0.0, 0.3);
+        let device = texts.specs[0].replace("speed: 0.25", speed).replace("0.7 - 0.3, 0", at);
+        assert_ne!(device, texts.specs[0]);
+        texts.specs[0] = device;
+        run(&texts).expect("a line that can be compiled").expect("a line that can be run").reason
+    };
+    let at = "0.7 - 0.3, 0";
+    let below = "0.7 - 0.3, 90";
+    assert_eq!(reason("speed: 0.25 ", at), "all items collected");
+    let touches = "interlock of gap: box_2 comes down on box_1, which lies on a conveyor";
+    assert_eq!(reason("speed: 0.05", at), touches);
+    assert_eq!(reason("speed: 0.0999", at), touches);
+    assert_eq!(reason("speed: 0.11", at), "all items collected");
+    // The second one lies across the first one, which is 0.3 m wide.
+    assert_eq!(reason("speed: 0.11", below), "all items collected");
+    assert_eq!(reason("speed: 0.05", below), touches);
+}
+
 #[test]
 fn devices_whose_parts_cannot_be_there_are_refused() {
     let refused = |part: &str| {

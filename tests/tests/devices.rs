@@ -66,6 +66,28 @@ const WRONG: &[(&str, &str, &str)] = &[
     ("part x = axis { from: origin; along: z; range: [0, 1]; speed: 1; acceleration: 1; };
       part arm = chain { on: x; opw: [0.1, 0, 0, 0.6, 0.7, 0.7, 0]; tool_length: 0.1;
       speeds: [1, 1, 1, 1, 1, 1]; acceleration: 1; rest: pose; };", "E0711", "no inverse kinematics"),
+    ("part arm = chain { from: origin; scara: [0.3]; lowest: [-90, -90, -0.2, -360]; highest: [90, 90, 0, 360]; tool_length: 0;
+      speeds: [1, 1, 1, 1]; acceleration: 1; rest: pose; };", "E0704", "the lengths of two arms"),
+    ("part arm = chain { from: origin; scara: [0.3, 0.3]; highest: [90, 90, 0, 360]; tool_length: 0;
+      speeds: [1, 1, 1, 1]; acceleration: 1; rest: pose; };", "E0704", "lowest is missing"),
+    ("part arm = chain { from: origin; scara: [0.3, 0.3]; lowest: [-90, -90, 0.2, -360]; highest: [90, 90, 0, 360]; tool_length: 0;
+      speeds: [1, 1, 1, 1]; acceleration: 1; rest: pose; };", "E0704", "the range of the quill"),
+    ("part arm = chain { from: origin; scara: [0.3, 0.3]; lowest: [-90, -90, -0.2, -80]; highest: [90, 90, 0, 80]; tool_length: 0;
+      speeds: [1, 1, 1, 1]; acceleration: 1; rest: pose; };", "E0704", "turns by 180 degrees at least"),
+    ("part arm = chain { from: origin; scara: [0.3, 0.3]; lowest: [-90, -90, -0.2, -360]; highest: [90, 90, 0, 360]; tool_length: 0;
+      speeds: [1, 1, 1, 1, 1, 1]; acceleration: 1; rest: pose; };", "E0704", "a number for each of 4 joints"),
+    ("part arm = chain { from: origin; scara: [0.3, 0.3]; opw: [0.1, 0, 0, 0.6, 0.7, 0.7, 0]; tool_length: 0;
+      speeds: [1, 1, 1, 1]; acceleration: 1; rest: pose; };", "E0704", "opw is not for a chain with scara"),
+    ("part arm = chain { from: origin; scara: [0.3, 0.3]; lowest: [-90, -90, -0.2, -360]; highest: [90, 90, 0, 360]; tool_length: 0;
+      speeds: [1, 1, 1, 1]; acceleration: 1; rest: pose; };", "E0711", "cannot reach its own rest position"),
+    ("part arm = chain { from: origin; scara: [0.3, 0.3]; lowest: [-90, -90, -0.2, -360]; highest: [90, 90, 0, 360]; tool_length: 0;
+      speeds: [1, 1, 1, 1]; acceleration: 1; rest: pose + point(0.4, 0, -0.1); };
+      part hand = body { on: arm.wrist_3; low: pose; high: pose + point(1, 1, 1); };", "E0711", "cannot refer to arm"),
+    ("part x = axis { from: origin; along: x; range: [0, 1]; speed: 1; acceleration: 1; };
+      part arm = chain { on: x; scara: [0.3, 0.3]; lowest: [-90, -90, -0.2, -360]; highest: [90, 90, 0, 360]; tool_length: 0;
+      speeds: [1, 1, 1, 1]; acceleration: 1; rest: pose; };", "E0704", "has from, and no axis"),
+    ("part seat = place { at: pose; slots: [point(0, 0, 0)]; by_kind: false; floor: point(0, 0, 0); floor_x: [-0.1, 0.1]; floor_y: [-0.1, 0.1]; };
+      part none = process { on: seat; time: []; };", "E0704", "time is an empty list"),
     ("part lift = positioner { slides: point(0, 0, 1); positions: [0, 1.5]; speed: 1; };", "E0704", "1.5 is not within the stroke, 0 to 1"),
     ("part lift = positioner { slides: point(0, 0, 1); positions: [0, 1, 0]; speed: 1; };", "E0704", "two positions are the same"),
     ("part lift = positioner { slides: point(0, 0, 1); positions: []; speed: 1; };", "E0704", "1 to 32 positions"),
@@ -177,6 +199,43 @@ fn an_axis_that_does_not_carry_the_chain_changes_nothing() {
     let machine = placed.machine("m", &[0.1], placed.device.place).unwrap();
     assert!(machine.arm().is_some());
     assert_eq!(placed.arm(), machine.arm());
+}
+
+/// What is told of machines stands where it can be changed: a part in its device, a conveyor of a loop in the loop.
+#[test]
+fn what_does_not_fit_is_told_where_it_stands() {
+    let device = "device thing {
+        part arm = chain { from: origin; opw: [0.1, 0, 0, 0.6, 0.7, 0.7, 0]; tool_length: 0.1;
+            speeds: [1, 1, 1, 1, 1, 1]; acceleration: 1; rest: pose + point(9, 0, 0); };
+        in tool: point = arm.tool;
+    }";
+    let layout = r#"{"robots": [{"name": "thing", "type": "thing", "pose": [0, 0, 0]}]}"#;
+    let texts = Texts { specs: vec![format!("{device}\n{AUTOMATON}")], ..Texts::of_layout(layout) };
+    let outcome = texts.compile();
+    let misfit = outcome.diagnostics.iter().find(|d| d.code == "E0711").expect("the arm does not fit");
+    assert_eq!((outcome.sources.text(misfit.place), outcome.sources.position(misfit.place).0), ("arm", 2));
+    assert_eq!(misfit.others.len(), 1);
+
+    let mut texts = side_by_side("loop/loop");
+    let (from, to) = (r#""c1.bed", "length": 0.785398"#, r#""c1.bed", "length": 0.8"#);
+    assert!(texts.layout.contains(from));
+    texts.layout = texts.layout.replacen(from, to, 1);
+    let outcome = texts.compile();
+    let [gap] = &outcome.warnings[..] else { panic!("{:?}", outcome.warnings) };
+    assert_eq!((gap.code, outcome.sources.text(gap.place)), ("W0201", "\"feed_end.bed\""));
+    assert!(gap.help.contains("change a length or a turn"), "{}", gap.help);
+
+    let device = "device thing {
+        part one = lane { from: origin; length: 1.0; width: 0.4; speed: 0.3; };
+        part other = lane { from: origin * frame(1.03, 0, 0, 0); length: 1.0; width: 0.4; speed: 0.3; };
+        out run: bool = one.run;
+        out run_second: bool = other.run;
+    }
+    automaton Thing on thing { initial -> Runs { run := true; run_second := true; } final state Runs; }";
+    let texts = Texts { specs: vec![device.into()], ..Texts::of_layout(layout) };
+    let outcome = texts.compile();
+    let [gap] = &outcome.warnings[..] else { panic!("{:?} {:?}", outcome.warnings, outcome.diagnostics) };
+    assert_eq!((gap.code, outcome.sources.text(gap.place)), ("W0201", "other"));
 }
 
 /// The pose that is proposed joins the conveyors again.

@@ -422,3 +422,39 @@ fn a_run_waits_for_the_end_of_a_fault() {
     let ended = report(r#", "for_s": 20"#);
     assert!((25.5..25.6).contains(&ended.simulated_s), "{}", ended.simulated_s);
 }
+
+/// A timer that runs is something that is to come, whatever its length: the line waits for it.
+#[test]
+fn a_run_waits_for_timers() {
+    let ends = |automaton: &str| {
+        let texts = line(BAR, automaton, &sensors(&[r#""signal": "is_open", "reads": false, "at_s": 0"#]));
+        let report = run(&texts, |line| {
+            line.scenario.stall_limit_s = 5.0;
+            line.scenario.time_limit_s = 400.0;
+        })
+        .report;
+        (report.reason, report.simulated_s)
+    };
+    // The bar is out 1 s after the start in scan 2, and the timer ends at 200.02 s; 5 s later nothing has changed.
+    let (reason, s) = ends(
+        "initial -> Opening { open := true; } state Opening { when is_open and after 200 s -> Opened {} } final state Opened;",
+    );
+    assert!(reason.starts_with("deadlock"), "{reason}");
+    assert!((205.0..205.1).contains(&s), "{s}");
+    let (reason, s) = ends(
+        "initial -> Opening { open := true; } state Opening within 200 s { when is_open -> Opened {} } final state Opened;",
+    );
+    assert!(reason.starts_with("fault"), "{reason}");
+    assert!((200.0..200.1).contains(&s), "{s}");
+    let (reason, s) = ends(
+        "initial -> Opening { open := true; } state Opening { when after 200 s -> Opened {} } final state Opened;",
+    );
+    assert!(reason.starts_with("deadlock"), "{reason}");
+    assert!((205.0..205.1).contains(&s), "{s}");
+    // A property that waits for its goal.
+    let (reason, s) = ends(
+        "whenever open then is_open within 200 s; initial -> Opening { open := true; } state Opening { when is_open -> Opened {} } final state Opened;",
+    );
+    assert!(reason.starts_with("fault"), "{reason}");
+    assert!((200.0..200.1).contains(&s), "{s}");
+}

@@ -9,6 +9,8 @@ use runtime_sim::kinematics::facing::Facing;
 use runtime_sim::kinematics::fixed::{FixedArm, Geometry, Mounting};
 use runtime_sim::kinematics::opw::Opw;
 use runtime_sim::kinematics::riding::RidingArm;
+use runtime_sim::kinematics::scara::{Arms, Scara};
+use runtime_sim::kinematics::solver::Solver;
 use runtime_sim::kinematics::ur::Lengths;
 use runtime_sim::point::{Axis, Direction, Point};
 use runtime_sim::random::Random;
@@ -284,4 +286,25 @@ fn of_arms_of_the_library() {
     let place = Point::new(-4.0, 0.0, 2.0);
     let arm = machines::arm(&machines::gantry(place, [-6.0, -2.0], [-2.0, 2.0]));
     of_library("gantry", &arm, around(place, Point::new(4.0, 4.0, 2.0)));
+}
+
+/// With the limits of an Epson LS6 of 0.6 m, but for the outer arm, which there turns by 150 degrees.
+#[test]
+fn of_a_scara() {
+    let turn = |degrees: f64| [-degrees.to_radians(), degrees.to_radians()];
+    let ranges = [turn(132.0), turn(150.0), [-0.2, 0.0], turn(360.0)];
+    let arms = Arms { lengths: [0.325, 0.275], tool: 0.1, ranges };
+    let arm = Scara::new(Frame::new(BASE, 20.0), arms);
+    let start = Solver::start(&arm);
+    let comes = |place: Point| {
+        let Some(joints) = Solver::solve(&arm, place, Facing::Down, &start) else { return false };
+        let tool = Solver::tool_pose(&arm, &joints);
+        assert!(
+            (tool.position - place).length() < 1e-9 && tool.axis(2).z < 1e-12 - 1.0,
+            "{place:?} {joints:?}"
+        );
+        true
+    };
+    let space = around(BASE.up(-0.2), Point::new(0.65, 0.65, 0.13));
+    promised("SCARA", space, |place| Solver::margin(&arm, place, Facing::Down), comes);
 }

@@ -5,8 +5,9 @@ use autogen_tests::words::with_words;
 use autogen_tests::{Texts, is_full_campaign};
 use runtime_sim::collision::Contact;
 use runtime_sim::memory::Memory;
+use runtime_sim::point::Point;
 use runtime_sim::random::Random;
-use runtime_sim::run::{Seen, Stepping, run_again};
+use runtime_sim::run::{Seen, Stepping, record, run_again};
 
 /// An open track of 10 m with a corner, and what drives on it.
 fn with_automaton(automaton: &str, scenario: &str) -> Texts {
@@ -185,6 +186,107 @@ fn it_touches_with_its_rear_what_stands_beside_its_corner() {
     let found = contact("", &post(-0.35));
     assert_eq!(found.pair, ["cart", "post"]);
     assert!(is_near(found.time_s, 6.0 / 1.5 + 1.5, SCANS), "{found:?}");
+}
+
+/// A conveyor whose end is 0.1 m ahead of the middle of a cart, and lays a piece of 0.2 m there on its deck. After 10 s the
+/// cart drives 3 m ahead, turns to the left and drives 2 m.
+fn loaded(stationary: &str) -> Texts {
+    let text = "device feeder {
+        part belt = lane { from: origin * frame(-1, 0, 0.6, 0); length: 1.0; width: 0.3; speed: 0.5; };
+        part feed = source { on: belt; inset: 0.2; };
+        out run: bool = belt.run;
+    }
+    automaton Feeder on feeder { initial -> Running { run := true; } final state Running; }
+    device cart {
+        part drive = track {
+            corners: [pose, pose + point(3, 0, 0), pose + point(3, 2, 0)]; places: [0.0, 5.0];
+            speed: 1.5; acceleration: 0.5; mass: 10.0;
+        };
+        part hull = body { on: drive; low: point(-0.4, -0.2, 0); high: point(0.1, 0.2, 0.39); };
+        part deck = place {
+            on: drive; at: point(0.1, 0, 0.4); slots: [point(0, 0, 0)]; by_kind: false;
+            floor: point(0, 0, 0); floor_x: [-0.3, 0.3]; floor_y: [-0.2, 0.2];
+        };
+        out goal: int 0..1;
+        command 1 go(goal) = drive.to(goal);
+    }
+    automaton Cart on cart {
+        initial -> Loading {}
+        state Loading { when after 10 s -> Driving { go(1); } }
+        state Driving { when done -> There; }
+        final state There;
+    }";
+    let layout = format!(
+        r#"{{"robots": [
+            {{"name": "feeder", "type": "feeder", "pose": [0, 0, 0]}}, {{"name": "cart", "type": "cart", "pose": [0, 0, 0]}}
+        ], "stationary": [{stationary}]}}"#
+    );
+    let scenario = r#"{"kinds": [{"name": "piece", "height": 0.1, "size": [0.2, 0.1]}],
+        "supply": {"items": ["piece"]}, "time_limit_s": 30}"#;
+    Texts { layout, specs: vec![text.into()], scenario: Some(scenario.into()), ..Texts::default() }
+}
+
+#[test]
+fn what_lies_on_a_vehicle_rides_and_turns_with_it() {
+    let texts = loaded("");
+    let outcome = texts.compile();
+    let Some(project) = outcome.project else {
+        panic!("{}", autogen_tests::plain(&outcome.sources, &outcome.diagnostics))
+    };
+    let execute = |stepping| {
+        let mut seen_at = Vec::new();
+        let mut observer = |seen: &Seen| {
+            seen_at.extend(seen.plant.place(0).map(|place| (seen.plant.now_ms(), place)));
+        };
+        let mut executor = Executor::new(&project.system);
+        let run = record(&project.plant, &mut executor, stepping, &[], &mut observer);
+        let run = run.expect("a line that can be run");
+        (run.report, run.paths, seen_at)
+    };
+    let (report, paths, seen_at) = execute(Stepping::EveryScan);
+    for stepping in [Stepping::Events, Stepping::Checked] {
+        assert_eq!(execute(stepping).0, report, "{stepping:?}");
+    }
+    let is_near = |a: Point, b: Point| (a - b).length() < 1e-9;
+    for (ms, place) in &seen_at {
+        let ms = *ms as f64;
+        let known: Vec<Point> = paths[0].at(ms).map(|segment| segment.place(ms)).collect();
+        assert!(known.iter().any(|known| is_near(*known, *place)), "{ms} ms: {known:?}, not {place:?}");
+    }
+    let at = |ms: u64| seen_at.iter().find(|(time, _)| *time == ms).expect("a scan").1;
+    // The command comes 10 s after the start in scan 2; then 0.25 t2 until 1.5 m/s, round the corner after 3 m.
+    assert!(is_near(at(10_000), Point::new(0.1, 0.0, 0.4)), "{:?}", at(10_000));
+    let ahead = at(11_020).x - 0.1;
+    assert!((ahead - 0.25).abs() < 0.02 && at(11_020).y == 0.0, "{:?}", at(11_020));
+    // Braking to 5 m: 2 sqrt(5 / 0.5) s.
+    let there = seen_at.last().expect("a place").1;
+    assert!(is_near(there, Point::new(3.0, 2.1, 0.4)), "{there:?}");
+    let corner = seen_at.windows(2).find(|pair| pair[0].1.x > 3.0 && pair[1].1.y > 0.0).expect("a corner");
+    assert!((corner[1].1 - corner[0].1).length() > 0.1, "{corner:?}");
+    assert_eq!((report.items[0].carrier.as_str(), report.collisions.len()), ("cart", 0));
+}
+
+/// It is 0.2 m long and lies 0.1 m ahead of the middle: 0.1 m beyond the hull, along the cart's own direction.
+#[test]
+fn what_lies_on_a_vehicle_touches_what_is_in_its_way() {
+    let run = |stationary: &str| {
+        let project = loaded(stationary).project();
+        let execute = |stepping| {
+            let (mut executor, mut memory) = (Executor::new(&project.system), Memory::default());
+            run_again(&project.plant, &mut executor, stepping, &mut memory, &mut |_| {})
+                .expect("a line that runs")
+        };
+        let [events, every, checked] =
+            [Stepping::Events, Stepping::EveryScan, Stepping::Checked].map(execute);
+        assert_eq!(events, every);
+        assert_eq!(checked, every);
+        every.reason
+    };
+    let wall =
+        |y: f64| format!(r#"{{"name": "wall", "type": "box", "pose": [3, {y}, 0], "box": [0.4, 0.2, 1]}}"#);
+    assert_eq!(run(&wall(2.31)), "time limit reached");
+    let touches = run(&wall(2.25));
+    assert!(touches.starts_with("collision of cart (piece_1) with wall (body)"), "{touches}");
 }
 
 /// What a layout with a device of one vehicle is told.

@@ -8,6 +8,7 @@ use autogen_tests::sdf::findings;
 use autogen_tests::xml::{self, Element};
 use autogen_tests::{LAYOUTS, Texts, ariac, lathe_on_a_rail, own_line, side_by_side, text};
 use runtime_sim::kinematics::arm::Joints;
+use runtime_sim::kinematics::links::Joint;
 use runtime_sim::kinematics::pose::Pose;
 use runtime_sim::line::{IoDelay, Line, Scenario};
 use runtime_sim::machine::Machine;
@@ -70,7 +71,7 @@ fn workshop() -> Line {
     }
 }
 
-/// A Cartesian robot and an arm with a spherical wrist, turned about the vertical, and an arm on a rail.
+/// A Cartesian robot and an arm with a spherical wrist, turned about the vertical, an arm on a rail, and a SCARA.
 fn turned() -> Vec<Machine> {
     let mut robot = side_by_side("scenes/palletizer");
     robot.layout = robot.layout.replace("[0, 0, 0]", "[20, 1, 0.3, 30]");
@@ -83,8 +84,10 @@ fn turned() -> Vec<Machine> {
     cell.layout = cell.layout.replace("\"pose\": [0, 0, 0.75]", "\"pose\": [0, 0, 0.75, 40]");
     let mut rail = lathe_on_a_rail(None);
     rail.layout = rail.layout.replace("\"arm\"", "\"rider\"");
-    let [robot, cell, rail] = [robot, cell, rail].map(|texts| texts.project().plant.machines);
-    robot.into_iter().chain(cell).chain(rail).filter(|machine| machine.arm().is_some()).collect()
+    let mut scara = side_by_side("scenes/scara");
+    scara.layout = scara.layout.replace("[0, 0, 0]", "[3, 1, 0.2, 25]");
+    let [robot, cell, rail, scara] = [robot, cell, rail, scara].map(|texts| texts.project().plant.machines);
+    robot.into_iter().chain(cell).chain(rail).chain(scara).filter(|machine| machine.arm().is_some()).collect()
 }
 
 fn models(text: &str) -> Vec<Element> {
@@ -231,8 +234,26 @@ fn assert_same(got: &Frame, expected: &Pose, what: &str) {
 
 /// The kinematics' values where SDF's are 0.
 fn middles(machine: &Machine) -> Vec<f64> {
-    let ranges = machine.axes().into_iter().filter_map(|axis| axis.range());
-    ranges.map(|[low, high]| (low + high) / 2.0).collect()
+    let middle = |[low, high]: [f64; 2]| (low + high) / 2.0;
+    let own = machine.arm().and_then(|arm| Some((arm.links(), arm.ranges()?.to_vec())));
+    let axes = machine.axes();
+    let own = own.map_or(Vec::new(), |(links, ranges)| {
+        let joints = links[axes.len()..].iter().zip(ranges);
+        joints.map(|(link, range)| if link.joint == Joint::Turns { 0.0 } else { middle(range) }).collect()
+    });
+    axes.iter().map(|axis| axis.range().map_or(0.0, middle)).chain(own).collect()
+}
+
+/// A beam of 20 kg/m as long as the rail, -1.5 to 1.2 m, which the device does not draw.
+#[test]
+fn a_rail_that_is_not_drawn_weighs_what_its_range_says() {
+    let line = workshop();
+    let text = sdf::files("workshop", &line).remove("factory.sdf").expect("the world");
+    let models = models(&text);
+    let rider = models.iter().find(|m| m.attribute("name") == Some("rider")).expect("the arm on a rail");
+    let rail = rider.named("link", "rail_link").expect("its rail");
+    let mass = rail.child("inertial").and_then(|i| i.child("mass")).expect("a mass");
+    assert_eq!(mass.text.trim(), "54");
 }
 
 #[test]
@@ -270,7 +291,7 @@ fn joints_put_tool_and_shapes_where_the_simulator_has_them() {
             }
         }
     }
-    assert_eq!(robots, 6);
+    assert_eq!(robots, 7);
 }
 
 /// Between both ends of its stroke.

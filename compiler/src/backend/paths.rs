@@ -201,5 +201,5 @@ fn supports(machine: &Machine) -> Vec<(Point, Point)> {
         let origins = if machine.is_driven(place) { stops } else { std::slice::from_ref(&place.at) };
         origins.iter().map(|origin| across(middle(*origin), half, place.floor.z)).collect()
     };
-    machine.places().flat_map(of_place).collect()
+    machine.places().filter(|place| !machine.is_on_track(place)).flat_map(of_place).collect()
 }

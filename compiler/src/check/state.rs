@@ -173,21 +173,26 @@ fn resumable(context: &mut Context, state: &ast::State) {
     );
 }
 
-/// From the text, so that a transition with an error still leads to its state.
+/// From the text, so that a transition with an error still leads to its state. A name that is no state's leads to the
+/// state that is probably meant, or else to any.
 fn unreachable_states(context: &mut Context, first: &str, states: &[ast::State]) {
     let number = |name: &str| states.iter().position(|s| s.name.value == name);
+    let meant = |name: &str| {
+        let names = states.iter().map(|state| state.name.value.as_str());
+        number(name).or_else(|| number(suggestion(name, names)?))
+    };
     let mut reached = vec![false; states.len()];
-    let mut open: Vec<usize> = number(first).into_iter().collect();
+    let mut open: Vec<Option<usize>> = vec![meant(first)];
     while let Some(state) = open.pop() {
+        let Some(state) = state else { return };
         if std::mem::replace(&mut reached[state], true) {
             continue;
         }
         let ast::Body::Transitions(transitions) = &states[state].body else { continue };
-        open.extend(transitions.iter().filter_map(|t| t.target.as_ref()).filter_map(|t| number(&t.value)));
+        open.extend(transitions.iter().filter_map(|t| t.target.as_ref()).map(|target| meant(&target.value)));
     }
-    let known_beginning = number(first).is_some();
     let is_lost = |name: &str| !name.contains('.') && number(name).is_some_and(|n| !reached[n]);
-    for state in states.iter().filter(|s| known_beginning && is_lost(&s.name.value)) {
+    for state in states.iter().filter(|s| is_lost(&s.name.value)) {
         context.report(
             Diagnostic::new(
                 "E0328",

@@ -208,6 +208,17 @@ impl Device {
         parts.map(|(number, part)| (number, part.name.value.as_str(), part.schema))
     }
 
+    /// Where a part is declared.
+    pub fn place_of(&self, part: usize) -> Option<Span> {
+        self.program.parts.get(part).map(|part| part.name.span)
+    }
+
+    /// Whether it gives a part this setting.
+    pub fn sets(&self, part: usize, setting: &str) -> bool {
+        let part = self.program.parts.get(part);
+        part.is_some_and(|part| part.settings.iter().any(|given| given.name.value == setting))
+    }
+
     /// Numbers and names of its parts of one primitive.
     pub fn parts_called(&self, primitive: &str) -> impl Iterator<Item = (usize, &str)> {
         let parts = self.program.parts.iter().enumerate();

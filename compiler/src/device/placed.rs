@@ -91,13 +91,13 @@ impl Placed {
         };
         match machine.check() {
             Ok(()) => Ok(machine),
-            Err(error) => {
-                let message = format!("`{name}` cannot be built from its device: {error}");
-                Err(vec![
-                    Diagnostic::new("E0711", place, message)
-                        .other(self.device.place, "the device")
-                        .help("change the device, or the values of the machine in the layout"),
-                ])
+            Err(misfit) => {
+                let message = format!("`{name}` cannot be built from its device: {}", misfit.reason);
+                let diagnostic = match misfit.part.and_then(|part| self.device.place_of(part)) {
+                    Some(part) => Diagnostic::new("E0711", part, message).other(place, "for this machine"),
+                    None => Diagnostic::new("E0711", place, message).other(self.device.place, "the device"),
+                };
+                Err(vec![diagnostic.help("change the device, or the values of the machine in the layout")])
             }
         }
     }

@@ -231,16 +231,23 @@ impl Decoder {
         found
     }
 
-    /// The keys of a whole file, which may name its schema for an editor.
-    pub fn unknown_keys_of_file(&mut self, members: &[Member], known: &[&str], what: &str) {
+    /// The keys of a whole file, which may name its schema for an editor; the help for a key that stands elsewhere.
+    pub fn unknown_keys_of_file(
+        &mut self,
+        members: &[Member],
+        known: &[&str],
+        what: &str,
+        elsewhere: impl Fn(&str) -> Option<String>,
+    ) {
         if let Some(schema) = find(members, SCHEMA) {
             self.text(schema, SCHEMA);
         }
-        self.unknown_among(members.iter().map(|m| &m.key).filter(|k| k.value != SCHEMA), known, what);
+        let keys = members.iter().map(|m| &m.key).filter(|k| k.value != SCHEMA);
+        self.unknown_among(keys, known, what, elsewhere);
     }
 
     pub fn unknown_keys(&mut self, members: &[Member], known: &[&str], what: &str) {
-        self.unknown_among(members.iter().map(|m| &m.key), known, what);
+        self.unknown_among(members.iter().map(|m| &m.key), known, what, |_| None);
     }
 
     fn unknown_among<'a>(
@@ -248,6 +255,7 @@ impl Decoder {
         keys: impl Iterator<Item = &'a Spanned<String>>,
         known: &[&str],
         what: &str,
+        elsewhere: impl Fn(&str) -> Option<String>,
     ) {
         for key in keys.filter(|k| !known.contains(&k.value.as_str())) {
             if self.is_full() {
@@ -257,7 +265,7 @@ impl Decoder {
                 Diagnostic::new("E0111", key.span, format!("{what} has no key \"{}\"", key.value))
                     .label("unknown key")
                     .note(format!("known keys: {}", listing(known)))
-                    .help(instead(&key.value, known)),
+                    .help(elsewhere(&key.value).unwrap_or_else(|| instead(&key.value, known))),
             );
         }
     }

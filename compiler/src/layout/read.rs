@@ -2,6 +2,7 @@
 
 use super::decode::{Decoder, find, instead, make_identifier, some};
 use super::json::{self, Json, Member, Value};
+use super::object::is_common;
 use super::{Layout, Object, Panel, Part};
 use crate::diagnostic::{Diagnostic, sort};
 use crate::source::{FileId, Sources, Spanned};
@@ -31,7 +32,9 @@ pub fn parse(sources: &Sources, file: FileId) -> Reading {
 impl Decoder {
     fn layout(&mut self, json: &Json, file_name: &str) -> Option<Layout> {
         let members = self.object(json, "a layout")?;
-        self.unknown_keys_of_file(members, &KEYS, "a layout");
+        self.unknown_keys_of_file(members, &KEYS, "a layout", |key| {
+            is_common(key).then(|| format!("write \"{key}\" in the object of a machine, in \"robots\""))
+        });
         let robots = self.required(members, "robots", json.span, "the layout");
         let mut objects = self.layout_objects(robots, "robots", Part::Robot);
         objects.extend(self.layout_objects(find(members, "stationary"), "stationary", Part::Stationary));

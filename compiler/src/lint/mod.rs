@@ -5,10 +5,11 @@ mod failure;
 mod flow;
 mod implies;
 mod lanes;
+mod undriven;
 mod unused;
 
 use crate::diagnostic::{self, Diagnostic};
-use crate::ir::Model;
+use crate::ir::{Model, System};
 use crate::layout::Layout;
 use crate::source::FileId;
 use crate::spec::ast;
@@ -23,13 +24,14 @@ pub fn warnings(model: &Model, files: &[(FileId, ast::File)]) -> Vec<Diagnostic>
         answer::check(automaton, &mut found);
     }
     unused::check(model, files, &mut found);
+    undriven::check(model, &mut found);
     diagnostic::sort(&mut found);
     found
 }
 
 /// Warnings of a layout that has no errors.
-pub fn of_layout(layout: &Layout, line: &Line) -> Vec<Diagnostic> {
-    let mut found = lanes::check(layout, line);
+pub fn of_layout(layout: &Layout, system: &System, line: &Line) -> Vec<Diagnostic> {
+    let mut found = lanes::check(layout, system, line);
     diagnostic::sort(&mut found);
     found
 }

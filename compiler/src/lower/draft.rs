@@ -235,7 +235,7 @@ impl Parts {
         if let Some(verdict) = &mut found.verdict {
             verdict.add_conveyors(&plant, &edges, &transfers);
         }
-        found.warnings = lint::of_layout(&layout, &plant);
+        found.warnings = lint::of_layout(&layout, &system, &plant);
         let Layout { name, may_touch, .. } = &*layout;
         found.project =
             Some(Project { name: name.clone(), system, plant, edges, may_touch: may_touch.clone() });

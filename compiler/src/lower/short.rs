@@ -17,7 +17,7 @@ pub fn lanes(layout: &Layout, line: &Line, comes: impl Fn((usize, usize), usize)
             let Primitive::Lane(lane) = &made.primitive else { continue };
             let length = lane.centre_line.length();
             let kinds = line.kinds.iter().enumerate().filter(|(kind, _)| comes((number, part), *kind));
-            let longest = kinds.map(|(_, kind)| (lane.length_of(kind.size), kind));
+            let longest = kinds.map(|(_, kind)| (lane.lengths_of(kind.size)[0], kind));
             let longest = longest.filter(|(long, _)| *long > length).max_by(|a, b| a.0.total_cmp(&b.0));
             let Some((long, kind)) = longest else { continue };
             let name = format!("{}.{}", machine.name, made.name);

@@ -32,7 +32,7 @@ pub fn parse(sources: &Sources, file: FileId) -> (Option<Scenario>, Vec<Diagnost
 impl Decoder {
     fn scenario(&mut self, json: &Json) -> Option<Scenario> {
         let members = self.object(json, "a scenario")?;
-        self.unknown_keys_of_file(members, &KEYS, "a scenario");
+        self.unknown_keys_of_file(members, &KEYS, "a scenario", |_| None);
         // Without orders nothing has to be brought, and nobody has to tell kinds apart.
         let has_parts = ["kinds", "orders", "supply"].iter().any(|key| find(members, key).is_some());
         let kinds = if has_parts {

@@ -206,9 +206,9 @@ impl<'a> Resolver<'a> {
     fn missing(&mut self, place: Span, what: &str, why: &str) {
         collect(
             &mut self.diagnostics,
-            Diagnostic::new("E0135", place, format!("the layout has no {what}"))
-                .note(why)
-                .help(format!("add a {what} to the layout, or use a scenario that needs none")),
+            Diagnostic::new("E0135", place, format!("the layout has no {what}")).note(why).help(format!(
+                "add a machine with a {what} to the layout, or use a scenario that needs none"
+            )),
         );
     }
 
@@ -220,7 +220,11 @@ impl<'a> Resolver<'a> {
         };
         let turn = turn?;
         if turn.is_empty() && !orders.list.is_empty() {
-            self.missing(orders.span, "station", "an order is made at a station");
+            self.missing(
+                orders.span,
+                "station",
+                "an order is made at a machine with a part `orders`, such as the library's station",
+            );
             return None;
         }
         let mut next = turn.iter().cycle();
@@ -269,7 +273,11 @@ impl<'a> Resolver<'a> {
                 [belt] => vec![(belt, items.clone())],
                 [] if items.is_empty() => Vec::new(),
                 [] => {
-                    self.missing(span, "belt", "parts come on a belt");
+                    self.missing(
+                        span,
+                        "source",
+                        "parts come from a machine with a part `source`, such as the library's conveyor",
+                    );
                     return None;
                 }
                 _ => {
@@ -311,7 +319,11 @@ impl<'a> Resolver<'a> {
             return None;
         }
         if belts.is_empty() && needed > 0 {
-            self.missing(span, "belt", "parts come on a belt");
+            self.missing(
+                span,
+                "source",
+                "parts come from a machine with a part `source`, such as the library's conveyor",
+            );
             return None;
         }
         let mut supply: Vec<(usize, Vec<usize>)> = belts.iter().map(|belt| (*belt, Vec::new())).collect();

@@ -28,17 +28,14 @@ pub struct Searched {
 /// A line as it is searched; or why it cannot be.
 pub fn model(project: &Project, asked: &Asked) -> Result<Searched, Vec<Diagnostic>> {
     let Project { system, plant: line, .. } = project;
-    let sideways =
-        system.instances.iter().enumerate().filter(|(number, _)| works_sideways(&line.machines[*number]));
-    let sideways: Vec<Diagnostic> = sideways
-        .map(|(number, instance)| {
-            let message = format!("`{}` cannot be searched: a tool comes from the side", instance.name);
-            Diagnostic::new("E1001", system.automaton_of(number).place, message)
-                .help("verify lines whose tools point down")
-        })
-        .collect();
-    if !sideways.is_empty() {
-        return Err(sideways);
+    let unknown = system.instances.iter().enumerate().filter_map(|(number, instance)| {
+        let (why, help) = not_searched(&line.machines[number])?;
+        let message = format!("`{}` cannot be searched: {why}", instance.name);
+        Some(Diagnostic::new("E1001", system.automaton_of(number).place, message).help(help))
+    });
+    let unknown: Vec<Diagnostic> = unknown.collect();
+    if !unknown.is_empty() {
+        return Err(unknown);
     }
     let mut memory = Memory::default();
     let mut changing = Changing::default();
@@ -176,7 +173,18 @@ pub fn model(project: &Project, asked: &Asked) -> Result<Searched, Vec<Diagnosti
     Ok(Searched { model, skipped })
 }
 
-/// What the search would take for a tool that points down.
+/// What the search would take for something else, and the help.
+fn not_searched(machine: &Machine) -> Option<(&'static str, &'static str)> {
+    if works_sideways(machine) {
+        return Some(("a tool comes from the side", "verify lines whose tools point down"));
+    }
+    let rides = machine.places().any(|place| machine.is_on_track(place));
+    rides.then_some((
+        "items ride on a vehicle on a track",
+        "verify lines whose loads are on a `route`, or that have no place on a track",
+    ))
+}
+
 fn works_sideways(machine: &Machine) -> bool {
     let is_facing = |command: &Command| {
         let schema = machine.parts[command.part].schema();

@@ -66,6 +66,8 @@ pub struct Chain {
     frames: Frames,
     /// For each joint that turns, a point on its axis, seen when all joints are at their start.
     pivots: Vec<Option<Point>>,
+    /// For each joint that slides how far it goes from its start at most, m.
+    strokes: [f64; MOST_JOINTS],
     /// The frames with the rails at their ends, such that these are corners of all places.
     ends: Vec<Frames>,
 }
@@ -84,7 +86,15 @@ impl Chain {
             let on_axis = (there - here).length() < 1e-9;
             turns.then(|| if on_axis { here } else { frames[joint - 1].position })
         });
-        Self { pivots: pivots.collect(), frames, ends: ends(arm, machine, &start) }
+        let mut strokes = [0.0; MOST_JOINTS];
+        let axes = machine.axes();
+        let of_axes = axes.iter().map_while(|axis| axis.range());
+        let own = arm.ranges().unwrap_or_default().iter().copied();
+        let ranges = of_axes.enumerate().chain(own.enumerate().map(|(i, range)| (axes.len() + i, range)));
+        for (joint, [low, high]) in ranges {
+            strokes[joint] = (high - start[joint]).max(start[joint] - low);
+        }
+        Self { pivots: pivots.collect(), frames, strokes, ends: ends(arm, machine, &start) }
     }
 
     /// The link that bears the tool.
@@ -97,11 +107,17 @@ impl Chain {
         let mut radii = [0.0; MOST_JOINTS];
         let place = self.frames[link].point(ball.middle);
         let mut arm: Option<(Point, f64)> = None;
+        let mut slid = 0.0;
         for joint in (0..=link).rev() {
             radii[joint] = match self.pivots[joint] {
-                None => 1.0,
+                // What slides is farther from the joints before it then.
+                None => {
+                    arm = arm.map(|(from, beyond)| (from, beyond + self.strokes[joint]));
+                    slid += self.strokes[joint];
+                    1.0
+                }
                 Some(pivot) => {
-                    let (from, beyond) = arm.unwrap_or((place, ball.radius));
+                    let (from, beyond) = arm.unwrap_or((place, ball.radius + slid));
                     let length = (pivot - from).length() + beyond;
                     arm = Some((pivot, length));
                     length
@@ -134,4 +150,77 @@ fn ends(arm: &Arm, machine: &Machine, start: &Joints) -> Vec<Frames> {
         arm.frames(&start.map(|i, value| ranges.get(i).map_or(value, |range| range[end(i)])))
     };
     (0..1 << ranges.len()).map(at).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frame::Frame;
+    use crate::kinematics::random::Random;
+    use crate::kinematics::scara::Arms;
+    use crate::part::chain::{Chain as Joined, Geometry, Joint};
+
+    /// A SCARA: its quill slides behind two joints that turn, and a joint turns behind the quill.
+    fn scara() -> Arm {
+        let joint = |name: &str| Joint {
+            name: name.into(),
+            link: name.into(),
+            speed: 1.0,
+            mass: 1.0,
+            effort: 1.0,
+            damping: 0.0,
+            friction: 0.0,
+        };
+        let arms = Arms {
+            lengths: [0.3, 0.2],
+            tool: 0.1,
+            ranges: [[-2.0, 2.0], [-2.5, 2.5], [-0.8, 0.4], [-PI, PI]],
+        };
+        let chain = Joined {
+            on: None,
+            base: Some(Frame::new(Point::new(1.0, -2.0, 0.9), 30.0)),
+            mount: Frame::default(),
+            mounting: Default::default(),
+            geometry: Geometry::Scara(Box::new(arms)),
+            rest: Point::default(),
+            joints: ["a", "b", "c", "d"].map(joint).into(),
+            acceleration: 1.0,
+            envelope: None,
+            clearances: Vec::new(),
+        };
+        Arm::new(&[], &chain).expect("a SCARA")
+    }
+
+    #[test]
+    fn a_slide_behind_joints_that_turn_is_within_the_bounds() {
+        let (arm, mut random) = (scara(), Random::new(7));
+        let machine = Machine {
+            name: "scara".into(),
+            pose: Point::default(),
+            parts: Vec::new(),
+            wiring: Default::default(),
+            states: Vec::new(),
+            monitor: Default::default(),
+        };
+        let chain = Chain::new(&arm, &machine);
+        let ranges = arm.ranges().expect("limits").to_vec();
+        for _ in 0..20_000 {
+            let link = (random.between(0.0, 3.99)) as usize;
+            let mut drawn = || random.between(-0.5, 0.5);
+            // A point of a body that is within a ball about the origin of its link, far from its axis.
+            let ball = Ball { middle: Point::new(drawn(), drawn(), drawn()), radius: 0.0 };
+            let joints: Vec<f64> = ranges.iter().map(|[low, high]| random.between(*low, *high)).collect();
+            let joints = Joints::new(&joints);
+            let at = |joints: &Joints| arm.frames(joints)[link].point(ball.middle);
+            let here = at(&joints);
+            let bounds = chain.bounds(link, &ball).wider(1e-9);
+            assert!(!bounds.is_apart(&BoundingBox::between(here, here)), "link {link}: {here:?} {bounds:?}");
+            let radii = chain.radii(link, &ball);
+            for (joint, radius) in radii.iter().enumerate().take(link + 1) {
+                let by = 1e-3;
+                let moved = at(&joints.map(|i, value| if i == joint { value + by } else { value }));
+                assert!((moved - here).length() <= radius * by + 1e-12, "link {link}, joint {joint}");
+            }
+        }
+    }
 }

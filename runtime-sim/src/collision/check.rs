@@ -64,9 +64,13 @@ struct Tracked {
     /// In the world, as it hung or lies, if its upper side does not face up.
     tipped: Pose,
     place: Option<(usize, usize)>,
-    /// From the frame of the last link to the item's underside, while it hangs.
+    /// From the frame of the last link to the item's underside, while it hangs; from that of a vehicle on a track, while it
+    /// lies there.
     hang: Pose,
 }
+
+/// Times no farther apart are one, s.
+const AT_ONCE: f64 = 1e-9;
 
 impl CollisionCheck {
     pub fn new(line: &Line) -> Self {
@@ -127,7 +131,8 @@ impl CollisionCheck {
         let mut next = next;
         let mut near = Vec::new();
         for index in 0..self.pairs.len() {
-            let end = self.seconds * (next - scan) as f64;
+            // What comes into contact at the very end is found in this span, however it is rounded.
+            let end = self.seconds * (next - scan) as f64 + AT_ONCE;
             let pair = &self.pairs[index];
             if pair.touches() {
                 near.push(index);
@@ -224,7 +229,13 @@ impl CollisionCheck {
         if let Some(turn) = group.turn(body) {
             tracked.turn = turn;
         }
-        if let Some(Anchor::Link(link)) = group.remove(body).map(|body| body.anchor) {
+        let anchor = group.remove(body).map(|body| body.anchor);
+        if let Some(Anchor::Route) = anchor {
+            let vehicle = plant.vehicle(index).unwrap_or_default();
+            let along = vehicle.pose().then(&tracked.hang).axis(0);
+            tracked.turn = libm::atan2(along.y, along.x);
+        }
+        if let Some(Anchor::Link(link)) = anchor {
             tracked.tipped = group.link_now(link, plant).then(&tracked.hang);
             let [along, left] = [0, 1].map(|axis| tracked.tipped.axis(axis));
             // Of an item that is put upright again after it lay on its side.
@@ -260,6 +271,11 @@ impl CollisionCheck {
             (Carrier::Grip { .. }, Kind::Arm { chain, .. }) => {
                 tracked.hang = group.link_now(chain.last(), plant).inverse().then(&lies);
                 (Anchor::Link(chain.last()), tracked.hang)
+            }
+            (Carrier::Place { .. }, _) if plant.vehicle_under(item).is_some() => {
+                let vehicle = plant.vehicle(index).unwrap_or_default();
+                tracked.hang = vehicle.pose().inverse().then(&lies);
+                (Anchor::Route, tracked.hang)
             }
             _ => {
                 let carried = plant.conveyed(item).and_then(|conveyed| conveyed.carried);

@@ -3,11 +3,13 @@
 use super::cartesian::{Cartesian, Slide};
 use super::facing::Facing;
 use super::fixed::FixedArm;
-use super::gantry::{self, Gantry, Stance};
+use super::gantry::{Gantry, Stance};
 use super::links::Link;
 use super::pose::Pose;
-use super::rail_arm::{self, RailArm};
+use super::rail_arm::RailArm;
 use super::riding::RidingArm;
+use super::scara::Scara;
+use super::solver::Solver;
 use super::{nearest_equivalent, nearest_turn};
 use crate::frame::Frame;
 use crate::part::axis::{Axis, Motion, Place};
@@ -17,9 +19,7 @@ use std::f64::consts::PI;
 use std::ops::Deref;
 
 /// The joint of a torso.
-const TORSO: usize = 2;
-/// Joints of the arm itself, behind its axes.
-const WRIST_JOINTS: usize = 6;
+pub(super) const TORSO: usize = 2;
 /// A tool that is not farther from a vertical line is on it, and an axis that moves less stands, m or rad.
 const ALIGNED: f64 = 1e-6;
 /// On a straight line of the tool the joints change evenly for so many metres: it is off the line by less than 0.2 mm.
@@ -57,14 +57,15 @@ pub struct Limits {
 /// A chain and the axes that carry it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Arm {
-    solver: Solver,
+    family: Family,
     limits: Limits,
 }
 
-/// The inverse kinematics, in closed form.
+/// The arms for which there is a closed form.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Solver {
+enum Family {
     Cartesian(Cartesian),
+    Scara(Scara),
     /// Upright where it is.
     Fixed(FixedArm),
     /// The same on one rail.
@@ -97,13 +98,13 @@ impl Joints {
     }
 
     /// The first values as an array; missing ones are 0.
-    fn array<const N: usize>(&self) -> [f64; N] {
+    pub(super) fn array<const N: usize>(&self) -> [f64; N] {
         std::array::from_fn(|i| self.values[i])
     }
 }
 
 impl Frames {
-    fn new(poses: &[Pose]) -> Self {
+    pub(super) fn new(poses: &[Pose]) -> Self {
         let mut frames = Self { poses: [Pose::IDENTITY; MOST_JOINTS], count: poses.len() };
         frames.poses[..poses.len()].copy_from_slice(poses);
         frames
@@ -146,28 +147,29 @@ impl Arm {
     /// `axes` carry the chain, the first one first. None if there is no closed form for it.
     pub fn new(axes: &[&Axis], chain: &Chain) -> Option<Self> {
         let motions: Vec<Motion> = axes.iter().map(|axis| axis.motion).collect();
-        let solver = match &chain.geometry {
+        let family = match &chain.geometry {
             Geometry::Fixed(geometry, ranges) => {
                 let at = |base: Frame| {
                     FixedArm::new(base, **geometry, ranges.as_deref().copied()).mounted(chain.mounting)
                 };
                 match chain.base {
-                    Some(base) => Solver::Fixed(at(base)),
-                    None => Solver::Riding(riding(axes, chain.mount, at)?),
+                    Some(base) => Family::Fixed(at(base)),
+                    None => Family::Riding(riding(axes, chain.mount, at)?),
                 }
             }
-            Geometry::Tool(length) => Solver::Cartesian(cartesian(axes, *length)?),
+            Geometry::Scara(arms) => Family::Scara(Scara::new(chain.base?, **arms)),
+            Geometry::Tool(length) => Family::Cartesian(cartesian(axes, *length)?),
             Geometry::Ur10 => {
                 let at = axes.first()?.at()?;
                 match motions[..] {
                     [Motion::Slides { along, range }] => {
-                        Solver::Rail(RailArm::new(at, along.level()?, range))
+                        Family::Rail(RailArm::new(at, along.level()?, range))
                     }
                     [
                         Motion::Slides { along: Direction::X, range: x },
                         Motion::Slides { along: Direction::Y, range: y },
                         Motion::Turns,
-                    ] => Solver::Gantry(Gantry::new(at, x, y)),
+                    ] => Family::Gantry(Gantry::new(at, x, y)),
                     _ => return None,
                 }
             }
@@ -177,116 +179,83 @@ impl Arm {
         let velocity = Joints::new(&velocities);
         let acceleration =
             velocity.map(|i, _| axes.get(i).map_or(chain.acceleration, |axis| axis.acceleration));
-        Some(Self { solver, limits: Limits { velocity, acceleration } })
+        Some(Self { family, limits: Limits { velocity, acceleration } })
     }
 
-    /// Limits of the joints that turn, rad; none if each turns once to either side.
-    pub fn turns(&self) -> Option<&[[f64; 2]; WRIST_JOINTS]> {
-        match &self.solver {
-            Solver::Fixed(arm) => arm.ranges(),
-            Solver::Riding(arm) => arm.ranges(),
-            Solver::Cartesian(_) | Solver::Rail(_) | Solver::Gantry(_) => None,
+    fn solver(&self) -> &dyn Solver {
+        match &self.family {
+            Family::Cartesian(robot) => robot,
+            Family::Scara(arm) => arm,
+            Family::Fixed(arm) => arm,
+            Family::Riding(arm) => arm,
+            Family::Rail(arm) => arm,
+            Family::Gantry(arm) => arm,
         }
+    }
+
+    /// Limits of the joints behind its axes, rad or m; none if each turns once to either side.
+    pub fn ranges(&self) -> Option<&[[f64; 2]]> {
+        self.solver().ranges()
     }
 
     /// None for an arm with joints of its own.
     pub fn cartesian(&self) -> Option<&Cartesian> {
-        match &self.solver {
-            Solver::Cartesian(robot) => Some(robot),
-            Solver::Fixed(_) | Solver::Riding(_) | Solver::Rail(_) | Solver::Gantry(_) => None,
+        match &self.family {
+            Family::Cartesian(robot) => Some(robot),
+            _ => None,
         }
     }
 
     /// Both ends of its base, for an arm on a rail that may lie in any direction.
     pub fn riding(&self) -> Option<[Point; 2]> {
-        match &self.solver {
-            Solver::Riding(arm) => Some(arm.ground()),
-            Solver::Cartesian(_) | Solver::Fixed(_) | Solver::Rail(_) | Solver::Gantry(_) => None,
+        match &self.family {
+            Family::Riding(arm) => Some(arm.ground()),
+            _ => None,
         }
     }
 
     /// Its two rails and its torso, if it has them.
     pub fn gantry(&self) -> Option<&Gantry> {
-        match &self.solver {
-            Solver::Gantry(gantry) => Some(gantry),
-            Solver::Cartesian(_) | Solver::Fixed(_) | Solver::Riding(_) | Solver::Rail(_) => None,
+        match &self.family {
+            Family::Gantry(gantry) => Some(gantry),
+            _ => None,
         }
     }
 
-    /// The frame of the chain's base in that of the axis that carries it; of a Cartesian robot that of the last axis in
-    /// the frame of the tool.
+    /// See [`Solver::mount`].
     pub fn mount(&self) -> Pose {
-        match self.solver {
-            Solver::Cartesian(robot) => robot.mount(),
-            Solver::Fixed(arm) => arm.base(),
-            Solver::Riding(arm) => arm.mount(),
-            Solver::Rail(_) => Pose::IDENTITY,
-            Solver::Gantry(_) => gantry::MOUNT,
-        }
+        self.solver().mount()
     }
 
     /// How far the wrist stays within its reach when the tool, pointing down, is at a place; negative out of reach, m.
     pub fn margin(&self, tool: Point) -> f64 {
-        match &self.solver {
-            Solver::Cartesian(robot) => robot.margin(tool),
-            Solver::Fixed(arm) => arm.margin(tool, Facing::Down),
-            Solver::Riding(arm) => arm.margin(tool, Facing::Down),
-            Solver::Rail(arm) => arm.margin(tool),
-            Solver::Gantry(arm) => arm.margin(tool),
-        }
+        self.solver().margin(tool, Facing::Down)
     }
 
     /// [`Self::margin`] with the tool pointing there; minus infinity for an arm whose tool only points down.
     pub fn margin_facing(&self, tool: Point, facing: Facing) -> f64 {
-        match (&self.solver, facing) {
-            (_, Facing::Down) => self.margin(tool),
-            (Solver::Fixed(arm), Facing::Level { .. }) => arm.margin(tool, facing),
-            (Solver::Riding(arm), Facing::Level { .. }) => arm.margin(tool, facing),
-            (Solver::Cartesian(_) | Solver::Rail(_) | Solver::Gantry(_), Facing::Level { .. }) => {
-                f64::NEG_INFINITY
-            }
-        }
+        self.solver().margin(tool, facing)
     }
 
     /// How far the last three joints are from their limits at a place, the nearest of them, rad; none out of reach, and if
     /// they have no limits.
     pub fn wrist_room(&self, tool: Point, facing: Facing) -> Option<f64> {
-        match &self.solver {
-            Solver::Fixed(arm) => arm.wrist_room(tool, facing),
-            Solver::Riding(arm) => arm.wrist_room(tool, facing),
-            Solver::Cartesian(_) | Solver::Rail(_) | Solver::Gantry(_) => None,
-        }
-    }
-
-    /// [`Self::solve`] with the tool pointing there; some exactly when [`Self::margin_facing`] is not negative.
-    pub fn solve_facing(&self, tool: Point, facing: Facing, from: &Joints) -> Option<Joints> {
-        match (&self.solver, facing) {
-            (_, Facing::Down) => self.solve(tool, from),
-            (Solver::Fixed(arm), Facing::Level { .. }) => {
-                arm.solve(tool, facing, &from.array()).map(|joints| Joints::new(&joints))
-            }
-            (Solver::Riding(arm), Facing::Level { .. }) => {
-                arm.solve(tool, facing, &from.array()).map(|joints| Joints::new(&joints))
-            }
-            (Solver::Cartesian(_) | Solver::Rail(_) | Solver::Gantry(_), Facing::Level { .. }) => None,
-        }
+        self.solver().wrist_room(tool, facing)
     }
 
     /// Joints for a place of the tool, near `from`; some exactly when [`Self::margin`] is not negative.
-    /// A part on the tool keeps its direction: the last joint turns back what the others turn.
     pub fn solve(&self, tool: Point, from: &Joints) -> Option<Joints> {
-        let joints = match &self.solver {
-            Solver::Cartesian(robot) => return robot.solve(tool).map(|values| Joints::new(&values)),
-            Solver::Fixed(arm) => {
-                return arm.solve(tool, Facing::Down, &from.array()).map(|joints| Joints::new(&joints));
-            }
-            Solver::Riding(arm) => {
-                return arm.solve(tool, Facing::Down, &from.array()).map(|joints| Joints::new(&joints));
-            }
-            Solver::Rail(arm) => arm.solve(tool, &from.array()).map(|joints| Joints::new(&joints)),
-            Solver::Gantry(arm) => arm.solve(tool, &from.array()).map(|joints| Joints::new(&joints)),
-        }?;
-        Some(Self::within_limits(self.with_direction_of(from, joints)))
+        self.solve_facing(tool, Facing::Down, from)
+    }
+
+    /// [`Self::solve`] with the tool pointing there; some exactly when [`Self::margin_facing`] is not negative. A part on
+    /// the tool keeps its direction, if that is for the last joint to do: it turns back what the others turn.
+    pub fn solve_facing(&self, tool: Point, facing: Facing, from: &Joints) -> Option<Joints> {
+        let joints = self.solver().solve(tool, facing, from)?;
+        match self.solver().keeps_direction() {
+            true => Some(Self::within_limits(self.with_direction_of(from, joints))),
+            false => Some(joints),
+        }
     }
 
     /// Joints to pass on the way of the tool to a place, the last ones there: straight up or down in small steps where
@@ -339,13 +308,12 @@ impl Arm {
     }
 
     fn vertical(&self, tool: Point, from: &Joints) -> Option<Vec<Joints>> {
-        // The tool of a Cartesian robot moves in straight lines.
-        let carriers = from.len().checked_sub(WRIST_JOINTS)?;
+        let standing = self.solver().standing()?;
         let start = self.tool(from);
         let is_over = (tool.x - start.x).abs() < ALIGNED && (tool.y - start.y).abs() < ALIGNED;
         let steps = ((tool.z - start.z).abs() / LINE_STEP).ceil();
         (is_over && steps > 1.0 && steps <= MOST_STEPS).then_some(())?;
-        self.stepped(steps, carriers, from, |i, last| {
+        self.stepped(steps, standing, from, |i, last| {
             let z = start.z + (tool.z - start.z) * f64::from(i) / steps;
             self.solve(Point { z, ..tool }, last)
         })
@@ -361,7 +329,7 @@ impl Arm {
     /// direction of a part.
     pub fn directed(&self, joints: &Joints, direction: f64) -> Joints {
         let off = self.direction(joints) - direction;
-        if off == 0.0 || matches!(self.solver, Solver::Cartesian(_) | Solver::Fixed(_) | Solver::Riding(_)) {
+        if off == 0.0 || !self.solver().keeps_direction() {
             return *joints;
         }
         let last = joints.len() - 1;
@@ -391,13 +359,8 @@ impl Arm {
     /// Joints for a place of the tool at this stance, near `from`; a part keeps its direction. None where the limits
     /// forbid it, and for a robot without a torso.
     pub fn solve_stance(&self, tool: Point, stance: &Stance, from: &Joints) -> Option<Joints> {
-        match &self.solver {
-            Solver::Cartesian(_) | Solver::Fixed(_) | Solver::Riding(_) | Solver::Rail(_) => None,
-            Solver::Gantry(arm) => {
-                let joints = Joints::new(&arm.solve_stance(tool, stance, &from.array())?);
-                Some(Self::within_limits(self.with_direction_of(from, joints)))
-            }
-        }
+        let joints = Joints::new(&self.gantry()?.solve_stance(tool, stance, &from.array())?);
+        Some(Self::within_limits(self.with_direction_of(from, joints)))
     }
 
     /// How the robot stands at these joints; none for a robot without a torso.
@@ -415,19 +378,13 @@ impl Arm {
     /// Joints for a place of the tool with rails, torso and the direction of the wrist as they are; none where the
     /// reach forbids it, and for a robot without a torso.
     pub fn solve_standing(&self, tool: Point, from: &Joints) -> Option<Joints> {
-        match &self.solver {
-            Solver::Cartesian(_) | Solver::Fixed(_) | Solver::Riding(_) | Solver::Rail(_) => None,
-            Solver::Gantry(arm) => arm.solve_standing(tool, &from.array()).map(|joints| Joints::new(&joints)),
-        }
+        self.gantry()?.solve_standing(tool, &from.array()).map(|joints| Joints::new(&joints))
     }
 
     /// Joints for a place of the tool, straight under the shoulder, with the torso at exactly this turn (rad);
     /// none where the limits forbid it, and for a robot without a torso.
     pub fn solve_turned(&self, tool: Point, turn: f64, from: &Joints) -> Option<Joints> {
-        match &self.solver {
-            Solver::Cartesian(_) | Solver::Fixed(_) | Solver::Riding(_) | Solver::Rail(_) => None,
-            Solver::Gantry(arm) => arm.solve_turned(tool, turn, &from.array()).map(|j| Joints::new(&j)),
-        }
+        self.gantry()?.solve_turned(tool, turn, &from.array()).map(|joints| Joints::new(&joints))
     }
 
     pub fn has_torso(&self) -> bool {
@@ -435,35 +392,17 @@ impl Arm {
     }
 
     pub fn tool_pose(&self, joints: &Joints) -> Pose {
-        match &self.solver {
-            Solver::Cartesian(robot) => robot.tool_pose(joints),
-            Solver::Fixed(arm) => arm.tool_pose(&joints.array()),
-            Solver::Riding(arm) => arm.tool_pose(&joints.array()),
-            Solver::Rail(arm) => arm.tool_pose(&joints.array::<{ rail_arm::JOINTS }>()),
-            Solver::Gantry(arm) => arm.tool_pose(&joints.array::<{ gantry::JOINTS }>()),
-        }
+        self.solver().tool_pose(joints)
     }
 
     /// Pose of the link behind each joint, world frame, in the order of the joints; the last is the tool's.
     pub fn frames(&self, joints: &Joints) -> Frames {
-        match &self.solver {
-            Solver::Cartesian(robot) => Frames::new(&robot.frames(joints)),
-            Solver::Fixed(arm) => Frames::new(&arm.frames(&joints.array())),
-            Solver::Riding(arm) => Frames::new(&arm.frames(&joints.array())),
-            Solver::Rail(arm) => Frames::new(&arm.frames(&joints.array())),
-            Solver::Gantry(arm) => Frames::new(&arm.frames(&joints.array())),
-        }
+        self.solver().frames(joints)
     }
 
     /// The joints, from the world on: those of [`Arm::frames`].
     pub fn links(&self) -> Vec<Link> {
-        match &self.solver {
-            Solver::Cartesian(robot) => robot.links(),
-            Solver::Fixed(arm) => arm.links(),
-            Solver::Riding(arm) => arm.links(),
-            Solver::Rail(arm) => arm.links(),
-            Solver::Gantry(arm) => arm.links(),
-        }
+        self.solver().links()
     }
 
     pub fn tool(&self, joints: &Joints) -> Point {
@@ -472,13 +411,7 @@ impl Arm {
 
     /// Joints to start from, the tool pointing down.
     pub fn start(&self) -> Joints {
-        match &self.solver {
-            Solver::Cartesian(robot) => Joints::new(&robot.start()),
-            Solver::Fixed(arm) => Joints::new(&arm.start()),
-            Solver::Riding(arm) => Joints::new(&arm.start()),
-            Solver::Rail(arm) => Joints::new(&arm.start()),
-            Solver::Gantry(arm) => Joints::new(&arm.start()),
-        }
+        self.solver().start()
     }
 
     pub fn limits(&self) -> Limits {

@@ -1,8 +1,11 @@
 //! A Cartesian robot: one to three axes at right angles that slide, and a tool that points down.
 
+use super::arm::{Frames, Joints};
+use super::facing::Facing;
 use super::is_finite;
 use super::links::Link;
 use super::pose::Pose;
+use super::solver::Solver;
 use crate::frame::Frame;
 use crate::point::{Direction, Point};
 
@@ -127,6 +130,46 @@ impl Cartesian {
 
     pub fn start(&self) -> Vec<f64> {
         self.slides().iter().map(|slide| (slide.range[0] + slide.range[1]) / 2.0).collect()
+    }
+}
+
+impl Solver for Cartesian {
+    fn margin(&self, tool: Point, facing: Facing) -> f64 {
+        match facing {
+            Facing::Down => Cartesian::margin(self, tool),
+            Facing::Level { .. } => f64::NEG_INFINITY,
+        }
+    }
+
+    fn solve(&self, tool: Point, facing: Facing, _from: &Joints) -> Option<Joints> {
+        match facing {
+            Facing::Down => Cartesian::solve(self, tool).map(|values| Joints::new(&values)),
+            Facing::Level { .. } => None,
+        }
+    }
+
+    fn tool_pose(&self, joints: &Joints) -> Pose {
+        Cartesian::tool_pose(self, joints)
+    }
+
+    fn frames(&self, joints: &Joints) -> Frames {
+        Frames::new(&Cartesian::frames(self, joints))
+    }
+
+    fn links(&self) -> Vec<Link> {
+        Cartesian::links(self)
+    }
+
+    fn start(&self) -> Joints {
+        Joints::new(&Cartesian::start(self))
+    }
+
+    fn mount(&self) -> Pose {
+        Cartesian::mount(self)
+    }
+
+    fn standing(&self) -> Option<usize> {
+        None
     }
 }
 

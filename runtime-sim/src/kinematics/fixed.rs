@@ -1,10 +1,12 @@
 //! An arm of six joints that stands where it is, its tool pointing down or to a side.
 
+use super::arm::{Frames, Joints};
 use super::facing::Facing;
 use super::links::Link;
 use super::opw::Opw;
 use super::pose::Pose;
 use super::room::room;
+use super::solver::Solver;
 use super::ur::{Angles, Lengths};
 use super::{is_finite, nearest_turn, root};
 use crate::frame::Frame;
@@ -285,11 +287,11 @@ impl FixedArm {
 }
 
 /// An angle beyond its range by less is rounding, rad.
-const ROUNDED: f64 = 1e-9;
+pub(super) const ROUNDED: f64 = 1e-9;
 
 /// Of the equivalents of an angle that are within a range the one nearest to `present`; if there is none, the one that
 /// lacks least.
-fn turn_within(angle: f64, [low, high]: [f64; 2], present: f64) -> f64 {
+pub(super) fn turn_within(angle: f64, [low, high]: [f64; 2], present: f64) -> f64 {
     let lacks = |turn: f64| (low - turn).max(turn - high).max(ROUNDED);
     let turns = [angle, angle - TAU, angle + TAU, angle - 2.0 * TAU, angle + 2.0 * TAU];
     let cost = |turn: f64| (lacks(turn), (turn - present).abs());
@@ -317,6 +319,48 @@ fn margin(lengths: &Lengths, tool: &Pose, facing: Facing) -> f64 {
         Facing::Level { .. } => [slack(ahead, height - d5), slack(ahead, height + d5)],
     };
     room(ahead, d4, one.max(other))
+}
+
+impl Solver for FixedArm {
+    fn margin(&self, tool: Point, facing: Facing) -> f64 {
+        FixedArm::margin(self, tool, facing)
+    }
+
+    fn solve(&self, tool: Point, facing: Facing, from: &Joints) -> Option<Joints> {
+        FixedArm::solve(self, tool, facing, &from.array()).map(|joints| Joints::new(&joints))
+    }
+
+    fn tool_pose(&self, joints: &Joints) -> Pose {
+        FixedArm::tool_pose(self, &joints.array())
+    }
+
+    fn frames(&self, joints: &Joints) -> Frames {
+        Frames::new(&FixedArm::frames(self, &joints.array()))
+    }
+
+    fn links(&self) -> Vec<Link> {
+        FixedArm::links(self)
+    }
+
+    fn start(&self) -> Joints {
+        Joints::new(&FixedArm::start(self))
+    }
+
+    fn mount(&self) -> Pose {
+        self.base()
+    }
+
+    fn standing(&self) -> Option<usize> {
+        Some(0)
+    }
+
+    fn ranges(&self) -> Option<&[[f64; 2]]> {
+        FixedArm::ranges(self).map(|ranges| &ranges[..])
+    }
+
+    fn wrist_room(&self, tool: Point, facing: Facing) -> Option<f64> {
+        FixedArm::wrist_room(self, tool, facing)
+    }
 }
 
 #[cfg(test)]

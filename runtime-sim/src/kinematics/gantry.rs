@@ -1,10 +1,13 @@
 //! A UR10 that hangs sideways from a torso which travels on two rails and turns.
 
+use super::arm::{self, Frames, TORSO};
+use super::facing::Facing;
 use super::links::Link;
 pub use super::planar::Wrist;
 use super::planar::{self, Links};
 use super::pose::Pose;
 use super::room::room;
+use super::solver::Solver;
 use super::ur10::{self, D1, D4};
 use super::{is_finite, nearest_turn, root};
 use crate::point::{Axis, Point};
@@ -302,4 +305,48 @@ fn level_radius(ahead: f64) -> f64 {
 fn level_distance(a: Point, b: Point) -> f64 {
     let d = a - b;
     root(d.x * d.x + d.y * d.y)
+}
+
+impl Solver for Gantry {
+    fn margin(&self, tool: Point, facing: Facing) -> f64 {
+        match facing {
+            Facing::Down => Gantry::margin(self, tool),
+            Facing::Level { .. } => f64::NEG_INFINITY,
+        }
+    }
+
+    fn solve(&self, tool: Point, facing: Facing, from: &arm::Joints) -> Option<arm::Joints> {
+        match facing {
+            Facing::Down => Gantry::solve(self, tool, &from.array()).map(|joints| arm::Joints::new(&joints)),
+            Facing::Level { .. } => None,
+        }
+    }
+
+    fn tool_pose(&self, joints: &arm::Joints) -> Pose {
+        Gantry::tool_pose(self, &joints.array())
+    }
+
+    fn frames(&self, joints: &arm::Joints) -> Frames {
+        Frames::new(&Gantry::frames(self, &joints.array()))
+    }
+
+    fn links(&self) -> Vec<Link> {
+        Gantry::links(self)
+    }
+
+    fn start(&self) -> arm::Joints {
+        arm::Joints::new(&Gantry::start(self))
+    }
+
+    fn mount(&self) -> Pose {
+        MOUNT
+    }
+
+    fn standing(&self) -> Option<usize> {
+        Some(TORSO + 1)
+    }
+
+    fn keeps_direction(&self) -> bool {
+        true
+    }
 }

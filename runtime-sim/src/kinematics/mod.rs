@@ -15,6 +15,8 @@ pub mod pose;
 pub mod rail_arm;
 pub mod riding;
 mod room;
+pub mod scara;
+pub mod solver;
 pub mod ur;
 pub mod ur10;
 

@@ -1,9 +1,12 @@
 //! A UR10 that stands on a rail: the kitting robot.
 
+use super::arm::{self, Frames};
+use super::facing::Facing;
 use super::links::Link;
 use super::planar::{self, Wrist};
 use super::pose::Pose;
 use super::room::room;
+use super::solver::Solver;
 use super::ur10::{self, D1, D4};
 use super::{is_finite, nearest_turn, root};
 use crate::point::{Axis, Point};
@@ -181,5 +184,49 @@ impl RailArm {
             Axis::Y => 0.0,
         };
         [middle, pan, -1.25, 1.74, -FRAC_PI_2 + 1.25 - 1.74, -FRAC_PI_2, 0.0]
+    }
+}
+
+impl Solver for RailArm {
+    fn margin(&self, tool: Point, facing: Facing) -> f64 {
+        match facing {
+            Facing::Down => RailArm::margin(self, tool),
+            Facing::Level { .. } => f64::NEG_INFINITY,
+        }
+    }
+
+    fn solve(&self, tool: Point, facing: Facing, from: &arm::Joints) -> Option<arm::Joints> {
+        match facing {
+            Facing::Down => RailArm::solve(self, tool, &from.array()).map(|joints| arm::Joints::new(&joints)),
+            Facing::Level { .. } => None,
+        }
+    }
+
+    fn tool_pose(&self, joints: &arm::Joints) -> Pose {
+        RailArm::tool_pose(self, &joints.array())
+    }
+
+    fn frames(&self, joints: &arm::Joints) -> Frames {
+        Frames::new(&RailArm::frames(self, &joints.array()))
+    }
+
+    fn links(&self) -> Vec<Link> {
+        RailArm::links(self)
+    }
+
+    fn start(&self) -> arm::Joints {
+        arm::Joints::new(&RailArm::start(self))
+    }
+
+    fn mount(&self) -> Pose {
+        Pose::IDENTITY
+    }
+
+    fn standing(&self) -> Option<usize> {
+        Some(1)
+    }
+
+    fn keeps_direction(&self) -> bool {
+        true
     }
 }

@@ -1,10 +1,12 @@
 //! An arm of six joints on a rail: its base stands beside the tool, as far as the rail goes.
 
+use super::arm::{self, Frames};
 use super::facing::Facing;
 use super::fixed::{self, FixedArm};
 use super::is_finite;
 use super::links::Link;
 use super::pose::Pose;
+use super::solver::Solver;
 use super::ur::Angles;
 use crate::frame::Frame;
 use crate::point::{Axis, Point};
@@ -126,6 +128,48 @@ impl RidingArm {
     /// Both ends of the base, in the world.
     pub fn ground(&self) -> [Point; 2] {
         self.range.map(|place| self.arm.base().position + self.moved(place))
+    }
+}
+
+impl Solver for RidingArm {
+    fn margin(&self, tool: Point, facing: Facing) -> f64 {
+        RidingArm::margin(self, tool, facing)
+    }
+
+    fn solve(&self, tool: Point, facing: Facing, from: &arm::Joints) -> Option<arm::Joints> {
+        RidingArm::solve(self, tool, facing, &from.array()).map(|joints| arm::Joints::new(&joints))
+    }
+
+    fn tool_pose(&self, joints: &arm::Joints) -> Pose {
+        RidingArm::tool_pose(self, &joints.array())
+    }
+
+    fn frames(&self, joints: &arm::Joints) -> Frames {
+        Frames::new(&RidingArm::frames(self, &joints.array()))
+    }
+
+    fn links(&self) -> Vec<Link> {
+        RidingArm::links(self)
+    }
+
+    fn start(&self) -> arm::Joints {
+        arm::Joints::new(&RidingArm::start(self))
+    }
+
+    fn mount(&self) -> Pose {
+        RidingArm::mount(self)
+    }
+
+    fn standing(&self) -> Option<usize> {
+        Some(1)
+    }
+
+    fn ranges(&self) -> Option<&[[f64; 2]]> {
+        RidingArm::ranges(self).map(|ranges| &ranges[..])
+    }
+
+    fn wrist_room(&self, tool: Point, facing: Facing) -> Option<f64> {
+        RidingArm::wrist_room(self, tool, facing)
     }
 }
 

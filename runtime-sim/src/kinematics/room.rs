@@ -104,7 +104,13 @@ fn add(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
 
 /// Distance of a point to the half of a circle that is on the left (1) or on the right (-1) of the line through its middle
 /// with this direction.
-fn from_half_circle(point: [f64; 2], middle: [f64; 2], radius: f64, direction: f64, side: f64) -> f64 {
+pub(super) fn from_half_circle(
+    point: [f64; 2],
+    middle: [f64; 2],
+    radius: f64,
+    direction: f64,
+    side: f64,
+) -> f64 {
     let [x, y] = [point[0] - middle[0], point[1] - middle[1]];
     let (sin, cos) = libm::sincos(direction);
     let (out, left) = (x * cos + y * sin, y * cos - x * sin);

@@ -33,7 +33,7 @@ impl Line {
         }
         for machine in &self.machines {
             check_name("machine", &machine.name)?;
-            machine.check().map_err(|error| format!("{}: {error}", machine.name))?;
+            machine.check().map_err(|misfit| format!("{}: {}", machine.name, misfit.reason))?;
             for state in &machine.states {
                 check_name("state", &state.name)?;
                 for &owner in &state.awaits {

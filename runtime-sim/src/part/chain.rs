@@ -8,6 +8,7 @@ use crate::kinematics::arm::Joints;
 use crate::kinematics::facing::Facing;
 use crate::kinematics::fixed::{self, Mounting};
 use crate::kinematics::pose::Pose;
+use crate::kinematics::scara::{self, Arms};
 use crate::part::axis::Axis;
 use crate::plant::trajectory::Trajectory;
 use crate::point::Point;
@@ -19,7 +20,10 @@ pub mod drive;
 pub(crate) mod motions;
 
 pub const SCHEMA: Schema = Schema {
-    frames: &["base", "shoulder", "upper_arm", "forearm", "wrist_1", "wrist_2", "wrist_3"],
+    frames: &[
+        "base", "shoulder", "upper_arm", "forearm", "wrist_1", "wrist_2", "wrist_3", "inner_arm", "outer_arm", "quill",
+        "flange",
+    ],
     signals: &[Signal { name: "tool", ty: PortType::Point, extent: Extent::One }],
     actions: &[
         Action { name: "joints", arguments: &[PortType::Point] },
@@ -34,7 +38,7 @@ pub const SCHEMA: Schema = Schema {
     can_jam: true,
     ..Schema::new(
         "chain",
-        "The joints of an arm that move together, with the tool pointing down, or to a side with `facing`. On one axis, or on two that slide and one that turns: the six joints of a UR10. Fixed at `from`, or on one axis that slides: the six joints of an arm of Universal Robots with `lengths`, or of an arm with a spherical wrist by the parameters `opw`. On one to three axes at right angles, without `speeds`: a Cartesian robot, which has no joints but its axes.",
+        "The joints of an arm that move together, with the tool pointing down, or to a side with `facing`. On one axis, or on two that slide and one that turns: the six joints of a UR10. Fixed at `from`, or on one axis that slides: the six joints of an arm of Universal Robots with `lengths`, or of an arm with a spherical wrist by the parameters `opw`. Fixed at `from`, with `scara`: two arms that turn about vertical axes, a quill that slides and a tool that turns; bodies are on `inner_arm`, `outer_arm`, `quill` and `flange`. On one to three axes at right angles, without `speeds`: a Cartesian robot, which has no joints but its axes.",
         &[
             Setting::new("on", Form::Part(&["axis"]), "", "the last of the axes that carry it").optional(),
             Setting::new("from", Form::Frame, "m", "frame of its base, if no axis carries it").optional(),
@@ -44,16 +48,18 @@ pub const SCHEMA: Schema = Schema {
                 .optional(),
             Setting::new("opw", Form::Numbers, "m", "a1, a2, b, c1, c2, c3, c4 of an arm with an ortho-parallel base and a spherical wrist")
                 .optional(),
+            Setting::new("scara", Form::Numbers, "m", "lengths of the inner and the outer arm of a SCARA, from axis to axis")
+                .optional(),
             Setting::new("offsets", Form::Numbers, "deg", "with `opw`: of each joint; without it 0").optional(),
             Setting::new("signs", Form::Numbers, "", "with `opw`: 1, or -1 for a joint that the manufacturer counts the other way; without it 1")
                 .optional(),
-            Setting::new("lowest", Form::Numbers, "deg", "lower limit of each joint, with `lengths` or `opw`; without it -360").optional(),
-            Setting::new("highest", Form::Numbers, "deg", "upper limit of each joint, with `lengths` or `opw`; without it 360").optional(),
+            Setting::new("lowest", Form::Numbers, "deg", "lower limit of each joint, with `lengths` or `opw`; without it -360. With `scara` required: two angles, the lowest height of the flange over `from` in m, an angle").optional(),
+            Setting::new("highest", Form::Numbers, "deg", "upper limit of each joint, with `lengths` or `opw`; without it 360. With `scara` required").optional(),
             Setting::new("tool_length", Form::Number, "m", "from the flange, or from the last axis of a Cartesian robot, to the tool centre point")
                 .optional(),
             Setting::new("rest", Form::Point, "m", "place of the tool at the start"),
-            Setting::new("speeds", Form::Numbers, "rad/s", "greatest velocity of each joint").optional(),
-            Setting::new("acceleration", Form::Positive, "rad/s2", "greatest of each joint, initially").optional(),
+            Setting::new("speeds", Form::Numbers, "rad/s", "greatest velocity of each joint; of a quill m/s").optional(),
+            Setting::new("acceleration", Form::Positive, "rad/s2", "greatest of each joint, initially; of a quill m/s2").optional(),
             Setting::new("joints", Form::Words, "", "names of the joints, in the world").optional(),
             Setting::new("links", Form::Words, "", "names of the links, in the world").optional(),
             Setting::new("masses", Form::Numbers, "kg", "of the links, for the world; without it 5 each").optional(),
@@ -105,16 +111,17 @@ pub enum Geometry {
     Ur10,
     /// With the limits of its joints, rad.
     Fixed(Box<fixed::Geometry>, Option<Box<[[f64; 2]; fixed::JOINTS]>>),
+    Scara(Box<Arms>),
     /// No joints: the tool is so far below the last axis, m.
     Tool(f64),
 }
 
-/// A joint that turns, and its link as the world describes it.
+/// A joint that turns or, of a SCARA, slides, and its link as the world describes it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Joint {
     pub name: String,
     pub link: String,
-    /// rad/s
+    /// rad/s or m/s
     pub speed: f64,
     /// kg
     pub mass: f64,
@@ -126,7 +133,20 @@ pub struct Joint {
     pub friction: f64,
 }
 
+/// The first frame of the schema that a SCARA has, behind those of six joints.
+const INNER_ARM: usize = 1 + fixed::JOINTS;
+
 impl Chain {
+    /// The link that a frame of the schema is, from 1; 0 for the base. None if the chain has no such link.
+    pub fn link(&self, frame: usize) -> Option<usize> {
+        match self.geometry {
+            Geometry::Scara(_) if frame > 0 => {
+                frame.checked_sub(INNER_ARM).filter(|link| *link < scara::JOINTS).map(|link| link + 1)
+            }
+            _ => (frame <= self.joints.len()).then_some(frame),
+        }
+    }
+
     /// The axes that carry it, the first one first, with the numbers of their parts. `axis` finds one by its number.
     pub fn carriers<'a>(&self, axis: impl Fn(usize) -> Option<&'a Axis>) -> Vec<(usize, &'a Axis)> {
         let mut carriers = Vec::new();

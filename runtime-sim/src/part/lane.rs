@@ -79,11 +79,13 @@ impl Described for Lane {
 }
 
 impl Lane {
-    /// Of an item with these lengths along its x and y, along the lane.
-    pub fn length_of(&self, [x, y]: [f64; 2]) -> f64 {
+    /// Of an item with these lengths along its x and y: along the lane, and across it.
+    pub fn lengths_of(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         match self.centre_line {
-            CentreLine::Axis { along: Axis::Y, .. } => y,
-            CentreLine::Axis { along: Axis::X, .. } | CentreLine::Line { .. } | CentreLine::Arc { .. } => x,
+            CentreLine::Axis { along: Axis::Y, .. } => [y, x],
+            CentreLine::Axis { along: Axis::X, .. } | CentreLine::Line { .. } | CentreLine::Arc { .. } => {
+                [x, y]
+            }
         }
     }
 

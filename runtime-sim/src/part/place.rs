@@ -13,12 +13,12 @@ pub const SCHEMA: Schema = Schema::new(
     "place",
     "A floor with slots. Items that fall on it stay on it.",
     &[
-        Setting::new("on", Form::Part(&["route", "cylinder", "positioner"]), "", "what carries it; without it, it is at rest").optional(),
+        Setting::new("on", Form::Part(&["route", "track", "cylinder", "positioner"]), "", "what carries it; without it, it is at rest").optional(),
         Setting::new(
             "at",
             Form::Point,
             "m",
-            "origin of the offsets: at the first stop of a route, at the inner end of a cylinder, at 0 of a positioner",
+            "origin of the offsets: at the first stop of a route, at the inner end of a cylinder, at 0 of a positioner; on a track from the middle of the vehicle, x ahead",
         ),
         Setting::new("slots", Form::Points, "m", "places of the undersides of items, from the origin"),
         Setting::new("by_kind", Form::Truth, "", "each slot is for one kind, in the order of the kinds"),
@@ -145,11 +145,14 @@ impl Bearing {
         tops.reduce(f64::max)
     }
 
-    /// Its frame, parallel to the world at the inner end of what carries it; at this time from the start of the span on, ms,
+    /// Its frame, parallel to the world at the inner end of what carries it, on a track as the vehicle is turned; at this time from the start of the span on, ms,
     /// or now.
     fn frame(&self, see: &See, ms: Option<f64>) -> Frame {
         let at = Frame::new(self.place.at, 0.0);
         let Some(on) = self.place.on else { return at };
+        if let Some(vehicle) = see.vehicle(on) {
+            return ms.map_or_else(|| vehicle.frame_now(), |ms| vehicle.frame(ms)).then(at);
+        }
         match see.carriage(on) {
             Some(carriage) => carriage.frame(ms.unwrap_or(carriage.now_ms() as f64)).then(at),
             None => Frame::new(see.position(on).unwrap_or(self.place.at), 0.0),

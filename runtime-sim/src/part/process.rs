@@ -113,6 +113,7 @@ fn times(settings: &Settings, kinds: &[String]) -> Result<Vec<Distribution>, Str
         if let Some(times) = times.as_ref().filter(|times| times.is_empty() || ![1, kinds.len()].contains(&times.len())) {
             let count = times.len();
             return Err(match kinds.is_empty() {
+                _ if count == 0 => format!("{name} is an empty list: write a time, or one for each of `kinds`"),
                 true => format!("{name} has {count} times: name their kinds in `kinds`"),
                 false => format!("{name} has {count} times for {} kinds", kinds.len()),
             });

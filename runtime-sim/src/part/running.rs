@@ -145,6 +145,11 @@ impl<'a> See<'a> {
         self.part(part)?.carriage()
     }
 
+    /// The vehicle on a track that this part is.
+    pub fn vehicle(&self, part: usize) -> Option<&'a track::Driving> {
+        self.part(part)?.vehicle()
+    }
+
     /// Where the origin is of what this part carries.
     pub fn position(&self, part: usize) -> Option<Point> {
         self.part(part)?.position()

@@ -41,9 +41,12 @@ fn put(json: &mut Json, line: &Line, segment: &Segment) {
     put_point(json, "to", segment.place(segment.end_ms));
     match &segment.law {
         Law::Rests(_) => json.put_text("law", "rests"),
-        Law::Slides { velocity, .. } => {
+        Law::Slides { velocity, acceleration, .. } => {
             json.put_text("law", "slides");
             put_point(json, "velocity", *velocity);
+            if *acceleration != Point::default() {
+                put_point(json, "acceleration", *acceleration);
+            }
         }
         Law::Conveyed(conveyed) => {
             match conveyed.along() {

@@ -5,6 +5,7 @@ use crate::carrier::Carrier;
 use crate::event::Event;
 use crate::kinematics::arm::Arm;
 use crate::line::Line;
+use crate::part::track::Ride;
 use crate::plant::Plant;
 use crate::plant::conveyed::{Along, Carry, Conveyed};
 use crate::plant::trajectory::Trajectory;
@@ -116,6 +117,10 @@ impl Recorder {
             Some(conveyed) => return self.convey(item, now_ms, carrier, conveyed),
             None => machine.map_or(Trajectory::Rests, |machine| self.trajectories[machine].clone()),
         };
+        if let (Trajectory::Rides(ride), Some(vehicle)) = (&trajectory, plant.vehicle_under(item)) {
+            let laws = on_ride(now_ms, vehicle.seen(place), ride);
+            return self.put(item, now_ms, carrier, laws);
+        }
         let arm = machine.and_then(|machine| self.arms[machine]);
         self.put(item, now_ms, carrier, laws(now_ms, place, carrier, trajectory, arm));
     }
@@ -124,9 +129,9 @@ impl Recorder {
         let laws = conveyed.pieces().into_iter().map(|(begin_s, end_s, goes)| {
             let law = match (goes.along(), goes.carry()) {
                 _ if !goes.moves() => Law::Rests(goes.point(0.0)),
-                (Along::Straight(velocity), None) => Law::Slides { from: goes.point(0.0), velocity },
+                (Along::Straight(velocity), None) => slides(goes.point(0.0), velocity),
                 (Along::Straight(velocity), Some(Carry::Slides(carried))) => {
-                    Law::Slides { from: goes.point(0.0), velocity: velocity + carried }
+                    slides(goes.point(0.0), velocity + carried)
                 }
                 _ => Law::Conveyed(goes),
             };
@@ -150,6 +155,31 @@ impl Recorder {
     }
 }
 
+fn slides(from: Point, velocity: Point) -> Law {
+    Law::Slides { from, velocity, acceleration: Point::default() }
+}
+
+/// Begin, end and law of all that an item does from now on that is here on a vehicle, from the middle of that.
+fn on_ride(now_ms: f64, here: Point, ride: &Ride) -> Vec<(f64, f64, Law)> {
+    let mut laws = Vec::new();
+    let mut rests = (now_ms, ride.frame(now_ms).point(here));
+    for piece in ride.pieces().into_iter().filter(|piece| piece.end_ms > now_ms) {
+        let begin_ms = piece.begin_ms.max(now_ms);
+        let gone = (begin_ms - piece.begin_ms) / 1000.0;
+        let law = Law::Slides {
+            from: piece.from.point(here)
+                + piece.velocity.scaled(gone)
+                + piece.acceleration.scaled(gone * gone / 2.0),
+            velocity: piece.velocity + piece.acceleration.scaled(gone),
+            acceleration: piece.acceleration,
+        };
+        laws.push((begin_ms, piece.end_ms, law));
+        rests = (piece.end_ms, ride.frame(piece.end_ms).point(here));
+    }
+    laws.push((rests.0, f64::INFINITY, Law::Rests(rests.1)));
+    laws
+}
+
 /// Begin, end and law of all that an item does that is here now.
 fn laws(
     now_ms: f64,
@@ -162,10 +192,8 @@ fn laws(
         (Trajectory::Drives { velocity, from_ms, until_ms }, ..) => {
             let begin_ms = from_ms.max(now_ms);
             let offset = || velocity.scaled((until_ms - begin_ms) / 1000.0);
-            let mut laws = vec![
-                (now_ms, begin_ms, Law::Rests(place)),
-                (begin_ms, until_ms, Law::Slides { from: place, velocity }),
-            ];
+            let mut laws =
+                vec![(now_ms, begin_ms, Law::Rests(place)), (begin_ms, until_ms, slides(place, velocity))];
             if until_ms.is_finite() {
                 laws.push((until_ms, f64::INFINITY, Law::Rests(place + offset())));
             }

@@ -423,7 +423,7 @@ fn places(line: &Line) -> Vec<Places> {
                 vec![of_place(place.at, place)]
             }
         };
-        machine.places().flat_map(at_all).collect()
+        machine.places().filter(|place| !machine.is_on_track(place)).flat_map(at_all).collect()
     };
     line.machines.iter().flat_map(of).collect()
 }

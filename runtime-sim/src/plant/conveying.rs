@@ -86,6 +86,28 @@ impl Conveying {
         self.next_ms
     }
 
+    /// The item on a lane onto which another one comes down, if its middle is there at a time, ms.
+    pub fn lies_under(&self, among: &Among, item: usize, lands: &Carrier, ms: f64) -> Option<usize> {
+        let Carrier::Lane { machine, part, at, across } = *lands else { return None };
+        let track = self.tracks.iter().find(|track| (track.machine, track.part) == (machine, part))?;
+        let lane = among.lane(track);
+        let kind = |item: usize| among.items.all()[item].kind;
+        let place = at - lane.travel_at(ms);
+        let borne = among.items.borne_by(machine).iter().copied();
+        let mut others = borne.filter(|other| *other != item);
+        others.find(|other| {
+            let Carrier::Lane { part: of, across: beside, .. } = among.carrier(*other) else { return false };
+            let Some(motion) = lane.motion(*other, &among.carrier(*other)).filter(|_| of == part) else {
+                return false;
+            };
+            let meets = |halves: &[f64], apart: f64| {
+                halves[kind(item)] + halves[kind(*other)] - apart.abs() > ahead::LIES_ON
+            };
+            meets(&track.halves, lane.place_at(motion, ms) - place)
+                && meets(&track.half_widths, beside - across)
+        })
+    }
+
     /// Whether items are still to appear on a lane that moves.
     pub fn is_busy(&self, machines: &[Working]) -> bool {
         let mut lanes = self.tracks.iter().filter(|track| track.feed.as_ref().is_some_and(|f| f.is_open()));

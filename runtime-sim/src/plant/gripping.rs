@@ -128,14 +128,20 @@ impl Plant {
                 continue;
             }
             let Some(top) = self.top(index) else { continue };
-            let least = match carrier.machine() {
-                Some(machine) if speeds[machine] > 0.0 => &mut distances[machine],
-                _ => &mut at_rest,
+            let (least, leap) = match carrier.machine() {
+                Some(machine) if speeds[machine] > 0.0 => (&mut distances[machine], self.leap(index)),
+                _ => (&mut at_rest, 0.0),
             };
-            *least = least.min((top - place).length());
+            *least = least.min((top - place).length() - leap);
         }
         let moving = distances.into_iter().zip(speeds.iter().copied());
         Nearest { at_rest, moving: moving.filter(|(distance, _)| distance.is_finite()).collect() }
+    }
+
+    /// How far an item that lies on a vehicle on a track goes at once at most, where this turns at corners, m.
+    fn leap(&self, item: usize) -> f64 {
+        let (Some(vehicle), Some(place)) = (self.vehicle_under(item), self.place(item)) else { return 0.0 };
+        2.0 * libm::hypot(place.x - vehicle.position.x, place.y - vehicle.position.y)
     }
 
     /// In the last scan before this one.

@@ -264,6 +264,11 @@ impl Working {
         self.parts.get(part)?.as_ref()?.vehicle()
     }
 
+    /// The vehicle on a track that carries a part.
+    pub fn vehicle_under(&self, part: usize) -> Option<&Driving> {
+        self.vehicle(self.parts.get(part)?.as_ref()?.on()?)
+    }
+
     pub fn first_vehicle(&self) -> Option<&Driving> {
         self.running().find_map(|part| part.vehicle())
     }

@@ -135,23 +135,44 @@ impl<'a> Agenda<'a> {
                 continue;
             }
             let Some(timers) = &state.timers else { return Some(scan + 1) };
-            let stay = self.stays.get(machine).map_or(0.0, |word| changes.stay(*word));
-            let mut left: Vec<f64> = timers.iter().map(|timer| f64::from(*timer) - stay).collect();
-            for counter in &description.monitor.counters {
-                let waited = changes.stay(counter.word);
-                match counter.limit {
-                    _ if waited < 0.0 => {}
-                    Some(limit) => left.push(f64::from(limit) - waited),
-                    None => return Some(scan + 1),
-                }
+            let counters = &description.monitor.counters;
+            if counters.iter().any(|it| it.limit.is_none() && changes.stay(it.word) >= 0.0) {
+                return Some(scan + 1);
             }
-            let left = left.into_iter().filter(|left| *left > 0.0);
-            let scans = left.map(|left| (left / f64::from(self.line.scan_ms)).ceil() as u64).min();
-            if let Some(scans) = scans {
-                let due = (last.scan + scans).max(scan + 1);
+            if let Some(ends) = self.timer_ends(last, machine, timers, changes).min() {
+                let due = ends.max(scan + 1);
                 next = Some(next.map_or(due, |next| next.min(due)));
             }
         }
         next
+    }
+
+    /// Whether a timer of a machine is running, which ends after this scan: of its present state, or of a property.
+    pub fn is_timed(&self, scan: u64, states: &[usize], changes: &Changes) -> bool {
+        let Some(last) = self.last.as_ref().filter(|last| last.running) else { return false };
+        self.line.machines.iter().enumerate().any(|(machine, description)| {
+            let timers = description.states.get(states[machine]).and_then(|state| state.timers.as_deref());
+            !description.monitor.is_stopped(changes.trace())
+                && self.timer_ends(last, machine, timers.unwrap_or_default(), changes).any(|ends| ends > scan)
+        })
+    }
+
+    /// The scans in which timers of a machine end that had not ended in the last step.
+    fn timer_ends(
+        &self,
+        last: &Stepped,
+        machine: usize,
+        timers: &[u32],
+        changes: &Changes,
+    ) -> impl Iterator<Item = u64> {
+        let stay = self.stays.get(machine).map_or(0.0, |word| changes.stay(*word));
+        let of_state = timers.iter().map(move |timer| f64::from(*timer) - stay);
+        let of_properties = self.line.machines[machine].monitor.counters.iter().filter_map(|counter| {
+            let waited = changes.stay(counter.word);
+            counter.limit.filter(|_| waited >= 0.0).map(|limit| f64::from(limit) - waited)
+        });
+        let [scan, scan_ms] = [last.scan, u64::from(self.line.scan_ms)];
+        let left = of_state.chain(of_properties).filter(|left| *left > 0.0);
+        left.map(move |left| scan + (left / scan_ms as f64).ceil() as u64)
     }
 }

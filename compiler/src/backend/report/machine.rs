@@ -142,9 +142,12 @@ fn lane(machine: &Machine, part: usize) -> Option<Value> {
     }))
 }
 
-/// A floor on which items lie: its sides along x and y, from the origin of what carries it.
+/// A floor on which items lie, but on a vehicle on a track, of which the bodies are drawn alone: its sides along x and y, from the origin of what carries it.
 fn place(machine: &Machine, part: usize) -> Option<Value> {
     let Primitive::Place(place) = &machine.parts[part].primitive else { return None };
+    if machine.is_on_track(place) {
+        return None;
+    }
     let [low_x, high_x] = place.floor_x.map(|x| place.floor.x + x);
     let [low_y, high_y] = place.floor_y.map(|y| place.floor.y + y);
     Some(json!({

@@ -67,14 +67,16 @@ fn law(segment: &Segment, carrier: usize, goes_on: bool) -> String {
     numbers.put(segment.begin_ms).put_whole(carrier);
     match &segment.law {
         Law::Rests(_) if goes_on => numbers.put_whole(GOES_ON),
-        Law::Slides { velocity, .. } if goes_on => {
-            numbers.put_whole(GOES_ON + 1).put_all([velocity.x, velocity.y, velocity.z])
+        Law::Slides { velocity, acceleration, .. } if goes_on => {
+            numbers.put_whole(GOES_ON + 1).put_all([velocity.x, velocity.y, velocity.z]);
+            numbers.put_all(gains(*acceleration).into_iter().flatten())
         }
         Law::Rests(point) => numbers.put_whole(0).put_all([point.x, point.y, point.z]),
-        Law::Slides { from, velocity } => numbers
+        Law::Slides { from, velocity, acceleration } => numbers
             .put_whole(1)
             .put_all([from.x, from.y, from.z])
-            .put_all([velocity.x, velocity.y, velocity.z]),
+            .put_all([velocity.x, velocity.y, velocity.z])
+            .put_all(gains(*acceleration).into_iter().flatten()),
         Law::Conveyed(conveyed) if matches!(segment.carrier, Carrier::Place { .. }) => {
             let Point { x, y, z } = conveyed.centre_line.point(conveyed.place, conveyed.across);
             numbers.put_whole(2).put_all([x, y, z, f64::NEG_INFINITY]);
@@ -96,6 +98,12 @@ fn law(segment: &Segment, carrier: usize, goes_on: bool) -> String {
         Law::Hangs(hanging) => numbers.put_whole(3).put_all([hanging.hang.x, hanging.hang.y, hanging.hang.z]),
     };
     numbers.end()
+}
+
+/// Nothing for what goes on evenly.
+fn gains(acceleration: Point) -> Option<[f64; 3]> {
+    let Point { x, y, z } = acceleration;
+    (acceleration != Point::default()).then_some([x, y, z])
 }
 
 fn carrier_json(line: &Line, carrier: Carrier) -> String {

@@ -5,6 +5,7 @@ use super::model::{self, Joint, Link, Model};
 use super::number;
 use super::shape::shapes;
 use runtime_sim::kinematics::arm::{Arm, Joints};
+use runtime_sim::kinematics::links;
 use runtime_sim::kinematics::pose::Pose;
 use runtime_sim::machine::Machine;
 use runtime_sim::part::axis;
@@ -66,12 +67,20 @@ fn drives(machine: &Machine, kinematics: &Arm) -> Vec<Drive> {
     let mut drives: Vec<Drive> = machine.named_axes().into_iter().map(of_axis).collect();
     let Some(chain) = machine.chain() else { return drives };
     let links = kinematics.links().into_iter().skip(drives.len());
-    let ranges = kinematics.turns().copied().unwrap_or([[-TAU, TAU]; 6]);
+    let turns = [[-TAU, TAU]; 6];
+    let ranges = kinematics.ranges().unwrap_or(&turns).to_vec();
+    let motion = |link: &links::Link, range: [f64; 2]| match link.joint {
+        links::Joint::Turns => Motion::Swing { mount: link.before, range },
+        // Arms with a joint of their own that slides stand upright.
+        links::Joint::Slides(along) => {
+            Motion::Slide { along: Point::default().with_coordinate(along, 1.0), range }
+        }
+    };
     drives.extend(chain.joints.iter().zip(links).zip(ranges).map(|((joint, link), range)| Drive {
         joint: joint.name.clone(),
         link: joint.link.clone(),
         mass: joint.mass,
-        motion: Motion::Swing { mount: link.before, range },
+        motion: motion(&link, range),
         effort: joint.effort,
         damping: joint.damping,
         friction: joint.friction,
@@ -93,7 +102,7 @@ pub fn model(name: String, machine: &Machine, kinematics: &Arm) -> Model {
 
     let mut model = Model { is_static: false, ..Model::of_links(name, Point::default(), Vec::new()) };
     let rails = of(solid::Link::World);
-    let rail = link("rail".into(), &Pose::IDENTITY, rail_mass(&rails), &rails, RAIL);
+    let rail = link("rail".into(), &Pose::IDENTITY, rail_mass(&rails, machine), &rails, RAIL);
     model.joints.push(fixed("rail_mount_joint", "world", &rail.name));
     model.links.push(rail);
     let mut before = Pose::IDENTITY;
@@ -167,14 +176,17 @@ fn fixed(name: &str, parent: &str, child: &str) -> Joint {
     }
 }
 
-/// Of all fixed beams, by their greatest lengths; of one metre if none is described.
-fn rail_mass(rails: &[Solid]) -> f64 {
+/// Of all fixed beams, by their greatest lengths. If none is described, of one as long as the first axis; of one metre for
+/// an arm that no axis carries.
+fn rail_mass(rails: &[Solid], machine: &Machine) -> f64 {
     let length = |solid: &Solid| match solid.shape {
         solid::Shape::Box { size } => size.x.max(size.y).max(size.z),
         solid::Shape::Capsule { length, .. } => length,
     };
     let all: f64 = rails.iter().map(length).sum();
-    BEAM * if all > 0.0 { all } else { 1.0 }
+    let range = machine.axes().first().and_then(|axis| axis.range());
+    let undrawn = range.map_or(1.0, |[low, high]| high - low);
+    BEAM * if all > 0.0 { all } else { undrawn }
 }
 
 impl Drive {

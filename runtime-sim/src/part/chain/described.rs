@@ -4,12 +4,18 @@ use super::drive::Drive;
 use super::{Chain, Geometry, Joint, Swinging};
 use crate::kinematics::fixed::{self, JOINTS, Mounting};
 use crate::kinematics::opw::Opw;
+use crate::kinematics::scara::{self, Arms};
 use crate::kinematics::ur::Lengths;
 use crate::part::{Described, Primitive, Running, Settings, Start};
 
 /// As Universal Robots names them.
 const NAMES: [&str; JOINTS] = ["shoulder_pan", "shoulder_lift", "elbow", "wrist_1", "wrist_2", "wrist_3"];
 const LINKS: [&str; JOINTS] = ["shoulder", "upper_arm", "forearm", "wrist_1", "wrist_2", "wrist_3"];
+
+const SCARA_JOINTS: [&str; scara::JOINTS] = ["inner_arm", "outer_arm", "quill", "flange"];
+const SCARA_LINKS: [&str; scara::JOINTS] = SCARA_JOINTS;
+/// Settings of other chains.
+const FOR_SIX: [&str; 5] = ["lengths", "opw", "offsets", "signs", "envelope"];
 
 impl Described for Chain {
     fn new(settings: &Settings) -> Result<Self, String> {
@@ -25,6 +31,9 @@ impl Described for Chain {
         }
         let has_joints = settings.has("speeds");
         let has_lengths = settings.has("lengths") || settings.has("opw");
+        if let Some(name) = FOR_SIX.into_iter().find(|name| settings.has("scara") && settings.has(name)) {
+            return Err(format!("the setting {name} is not for a chain with scara"));
+        }
         let mounting = match settings.optional("hung", Settings::truth)?.unwrap_or_default() {
             true if !has_lengths => return Err("the setting hung is for a chain with lengths or opw".into()),
             true => Mounting::Hung,
@@ -35,6 +44,8 @@ impl Described for Chain {
             return Err("the setting mount is for a chain on an axis with lengths or opw".into());
         }
         let geometry = match (on.is_some(), has_joints) {
+            (true, _) if settings.has("scara") => return Err("a chain with scara has from, and no axis".into()),
+            (false, true) if settings.has("scara") => Geometry::Scara(Box::new(scara(settings)?)),
             (true, true) if !has_lengths => of_ur10(settings)?,
             (true, false) if !has_lengths => Geometry::Tool(settings.number("tool_length")?),
             (_, true) => Geometry::Fixed(Box::new(fixed(settings)?), ranges(settings)?.map(Box::new)),
@@ -48,7 +59,10 @@ impl Described for Chain {
             mounting,
             geometry,
             rest: settings.point("rest")?,
-            joints: joints(settings)?,
+            joints: match settings.has("scara") {
+                true => joints(settings, SCARA_JOINTS, SCARA_LINKS)?,
+                false => joints(settings, NAMES, LINKS)?,
+            },
             acceleration: if has_joints { settings.positive("acceleration")? } else { 0.0 },
             envelope,
             clearances: clearances.iter().map(|p| [p.x, p.y, p.z]).collect(),
@@ -68,25 +82,30 @@ impl Described for Chain {
 }
 
 /// A number for each joint; none without the setting.
-fn numbers(settings: &Settings, name: &str) -> Result<Option<[f64; JOINTS]>, String> {
+fn numbers<const N: usize>(settings: &Settings, name: &str) -> Result<Option<[f64; N]>, String> {
     let Some(numbers) = settings.optional(name, Settings::numbers)? else { return Ok(None) };
-    let wrong = || format!("the setting {name} has not a number for each of {JOINTS} joints");
+    let wrong = || format!("the setting {name} has not a number for each of {N} joints");
     numbers.try_into().map(Some).map_err(|_| wrong())
 }
 
-fn words(settings: &Settings, name: &str) -> Result<Option<[String; JOINTS]>, String> {
+fn words<const N: usize>(settings: &Settings, name: &str) -> Result<Option<[String; N]>, String> {
     let Some(words) = settings.optional(name, Settings::words)? else { return Ok(None) };
-    let wrong = || format!("the setting {name} has not a name for each of {JOINTS} joints");
+    let wrong = || format!("the setting {name} has not a name for each of {N} joints");
     words.try_into().map(Some).map_err(|_| wrong())
 }
 
-fn joints(settings: &Settings) -> Result<Vec<Joint>, String> {
-    let or = |name: &str, default: f64| Ok::<_, String>(numbers(settings, name)?.unwrap_or([default; JOINTS]));
-    let names = words(settings, "joints")?.unwrap_or(NAMES.map(Into::into));
-    let links = words(settings, "links")?.unwrap_or(LINKS.map(Into::into));
+/// With these names unless the device gives others.
+fn joints<const N: usize>(
+    settings: &Settings,
+    names: [&str; N],
+    links: [&str; N],
+) -> Result<Vec<Joint>, String> {
+    let or = |name: &str, default: f64| Ok::<_, String>(numbers(settings, name)?.unwrap_or([default; N]));
+    let names = words(settings, "joints")?.unwrap_or(names.map(Into::into));
+    let links = words(settings, "links")?.unwrap_or(links.map(Into::into));
     let [masses, efforts] = [or("masses", 5.0)?, or("efforts", 300.0)?];
     let [damping, friction] = [or("damping", 0.0)?, or("friction", 0.0)?];
-    let Some(speeds) = numbers(settings, "speeds")? else { return Ok(Vec::new()) };
+    let Some(speeds) = numbers::<N>(settings, "speeds")? else { return Ok(Vec::new()) };
     if speeds.iter().any(|speed| *speed <= 0.0) {
         return Err("a number of the setting speeds is not over 0".into());
     }
@@ -110,12 +129,41 @@ fn of_ur10(settings: &Settings) -> Result<Geometry, String> {
     }
 }
 
+fn scara(settings: &Settings) -> Result<Arms, String> {
+    let lengths = settings.numbers("scara")?;
+    let lengths: [f64; 2] = match lengths[..] {
+        [inner, outer] if inner > 0.0 && outer > 0.0 => [inner, outer],
+        _ => return Err("the setting scara is the lengths of two arms, both over 0".into()),
+    };
+    let limits = |name: &str| {
+        let missing = || format!("the setting {name} is missing: it has the limit of the quill");
+        numbers::<{ scara::JOINTS }>(settings, name)?.ok_or_else(missing)
+    };
+    let (lowest, highest) = (limits("lowest")?, limits("highest")?);
+    for joint in (0..scara::JOINTS).filter(|joint| *joint != scara::QUILL) {
+        within_turns(joint, [lowest[joint], highest[joint]])?;
+    }
+    let [low, high] = [lowest, highest].map(|ends| ends[scara::QUILL]);
+    if low >= high {
+        return Err(format!("the range of the quill, {low} to {high} m, is none"));
+    }
+    let turn = highest[scara::JOINTS - 1] - lowest[scara::JOINTS - 1];
+    if turn < 180.0 {
+        return Err(format!("the tool of a chain with scara turns by 180 degrees at least, not by {turn}"));
+    }
+    let ranges = std::array::from_fn(|joint| {
+        let range = [lowest[joint], highest[joint]];
+        if joint == scara::QUILL { range } else { range.map(f64::to_radians) }
+    });
+    Ok(Arms { lengths, tool: settings.number("tool_length")?, ranges })
+}
+
 fn fixed(settings: &Settings) -> Result<fixed::Geometry, String> {
     let tool = settings.number("tool_length")?;
     let lengths = settings.optional("lengths", Settings::numbers)?;
     let opw = settings.optional("opw", Settings::numbers)?;
-    let signs = numbers(settings, "signs")?;
-    let offsets = numbers(settings, "offsets")?;
+    let signs = numbers::<JOINTS>(settings, "signs")?;
+    let offsets = numbers::<JOINTS>(settings, "offsets")?;
     match (lengths.as_deref(), opw.as_deref()) {
         (Some(_), None) if signs.is_some() || offsets.is_some() => {
             Err("the settings offsets and signs are for a chain with opw".into())
@@ -151,13 +199,16 @@ fn ranges(settings: &Settings) -> Result<Option<[[f64; 2]; JOINTS]>, String> {
     }
     let (lowest, highest) = (lowest.unwrap_or([-MOST; JOINTS]), highest.unwrap_or([MOST; JOINTS]));
     let ranges: [[f64; 2]; JOINTS] = std::array::from_fn(|i| [lowest[i], highest[i]]);
-    match ranges.iter().position(|[low, high]| low >= high || *low < -2.0 * MOST || *high > 2.0 * MOST) {
-        Some(joint) => Err(format!(
-            "the range of joint {}, {} to {} degrees, is none within -720 to 720",
-            joint + 1,
-            lowest[joint],
-            highest[joint]
-        )),
-        None => Ok(Some(ranges.map(|range| range.map(f64::to_radians)))),
+    for (joint, range) in ranges.iter().enumerate() {
+        within_turns(joint, *range)?;
     }
+    Ok(Some(ranges.map(|range| range.map(f64::to_radians))))
+}
+
+/// Limits of a joint by its number from 0, deg.
+fn within_turns(joint: usize, [low, high]: [f64; 2]) -> Result<(), String> {
+    if low < high && low >= -2.0 * MOST && high <= 2.0 * MOST {
+        return Ok(());
+    }
+    Err(format!("the range of joint {}, {low} to {high} degrees, is none within -720 to 720", joint + 1))
 }

@@ -136,7 +136,7 @@ fn wrong_settings_are_refused() {
         ),
         (vec![("time", numbers(&[5.0, 6.0]))], "time has 2 times: name their kinds in `kinds`"),
         (vec![("time", numbers(&[5.0, 6.0, 7.0])), kinds.clone()], "time has 3 times for 2 kinds"),
-        (vec![("time", numbers(&[])), kinds], "time has 0 times for 2 kinds"),
+        (vec![("time", numbers(&[])), kinds], "time is an empty list: write a time, or one for each of `kinds`"),
         (vec![("time", ms(5.0)), ("kinds", words(&["a", "a"]))], "the setting kinds names a twice"),
         (rejects(&[0.5]), "the setting rejects has 2 pairs, and shares 1 numbers"),
         (rejects(&[0.5, -0.1]), "a share is a number from 0 to 1"),

@@ -30,6 +30,8 @@ pub struct Track {
     pub inputs: Vec<usize>,
     /// Half of the length of an item of each kind, along the lane, m.
     pub halves: Vec<f64>,
+    /// Half of its width, across the lane, m.
+    pub half_widths: Vec<f64>,
 }
 
 impl Track {
@@ -110,7 +112,8 @@ pub fn tracks(line: &Line) -> Vec<Track> {
         joints: joints(&centre_lines, index),
         onto: None,
         inputs: Vec::new(),
-        halves: line.kinds.iter().map(|kind| lane.length_of(kind.size) / 2.0).collect(),
+        halves: line.kinds.iter().map(|kind| lane.lengths_of(kind.size)[0] / 2.0).collect(),
+        half_widths: line.kinds.iter().map(|kind| lane.lengths_of(kind.size)[1] / 2.0).collect(),
     };
     lanes().enumerate().map(track).collect()
 }
