@@ -14,6 +14,7 @@ pub mod device;
 pub mod diagnostic;
 pub mod executor;
 pub mod import;
+pub mod interlock;
 pub mod io_map;
 pub mod ir;
 pub mod layout;

@@ -3,6 +3,7 @@
 use super::options::{CheckOptions, Denied, Format, InputOptions};
 use super::{load, print};
 use crate::Status;
+use autogen::interlock;
 use autogen::lower::{Outcome, compile};
 
 pub fn run(options: &CheckOptions) -> Status {
@@ -11,7 +12,11 @@ pub fn run(options: &CheckOptions) -> Status {
         Ok(input) => input,
         Err(failure) => return print::failure(options, &failure),
     };
-    let outcome = compile(input);
+    let layout = input.layout.0.clone();
+    let mut outcome = compile(input);
+    if let (Some(layout), Some(project)) = (&layout, &outcome.project) {
+        outcome.warnings.extend(interlock::warnings(layout, project));
+    }
     show(options, &outcome);
     match outcome.project {
         Some(_) if outcome.warnings.is_empty() || *deny != Some(Denied::Warnings) => Status::Done,

@@ -13,21 +13,21 @@ impl<F: Fn(&ExprKind) -> bool> Asking<F> {
     pub fn new(automaton: &Automaton, is_wanted: F) -> Self {
         let mut asking = Self { is_wanted, defines: Vec::new() };
         for define in &automaton.defines {
-            let asks = asking.of(&define.value);
+            let asks = asking.expression(&define.value);
             asking.defines.push(asks);
         }
         asking
     }
 
-    fn of(&self, expr: &Expr) -> bool {
+    pub fn expression(&self, expr: &Expr) -> bool {
         match &expr.kind {
             ExprKind::Define(define) => self.defines.get(*define).is_some_and(|asks| *asks),
-            kind => (self.is_wanted)(kind) || expr.parts().into_iter().any(|part| self.of(part)),
+            kind => (self.is_wanted)(kind) || expr.parts().into_iter().any(|part| self.expression(part)),
         }
     }
 
     pub fn guard(&self, transition: &Transition) -> bool {
-        transition.guard_expressions().any(|expr| self.of(expr))
+        transition.guard_expressions().any(|expr| self.expression(expr))
     }
 }
 

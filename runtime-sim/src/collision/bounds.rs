@@ -40,6 +40,19 @@ impl BoundingBox {
         [self.low, self.high].map(|corner| corner.coordinate(axis))
     }
 
+    /// Both opposite corners, the one with the least coordinates first.
+    pub fn corners(&self) -> [Point; 2] {
+        [self.low, self.high]
+    }
+
+    /// What is in both, of two that are not apart.
+    pub fn common(&self, other: &BoundingBox) -> Self {
+        Self {
+            low: by_coordinate(self.low, other.low, f64::max),
+            high: by_coordinate(self.high, other.high, f64::min),
+        }
+    }
+
     pub fn between(low: Point, high: Point) -> Self {
         Self { low, high }
     }

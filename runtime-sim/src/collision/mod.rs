@@ -16,6 +16,7 @@ mod group;
 mod movement;
 mod pair;
 mod standing;
+mod ways;
 
 pub(crate) use group::Swept;
 
@@ -25,8 +26,10 @@ pub(crate) mod reach {
     pub use super::bounds::{Chain, Radii};
 }
 
+pub use bounds::BoundingBox;
 pub use check::{CollisionCheck, Contact};
 pub use standing::{Overlap, overlaps};
+pub use ways::{Moving, Way};
 
 /// Solids may go so far into one another, m.
 pub const SKIN: f64 = 0.001;

@@ -1,0 +1,153 @@
+//! Machines whose ways cross while no lock of their types keeps them apart.
+
+mod lock;
+mod region;
+mod stay;
+
+use crate::diagnostic::{Diagnostic, sort};
+use crate::layout::Layout;
+use crate::lower::Project;
+use crate::source::Span;
+use runtime_sim::collision::{BoundingBox, Moving};
+use runtime_sim::point::Axis;
+use stay::{Range, Stay};
+use std::cell::OnceCell;
+use std::collections::BTreeMap;
+
+/// Crossing ways of two machines of which the volume is told.
+const MOST_CROSSINGS: usize = 100;
+
+/// A machine that moves through the layout.
+struct Mover {
+    instance: usize,
+    moving: Moving,
+    range: OnceCell<Range>,
+}
+
+/// Where two machines can both be, and the commands that bring them there; none of one whose goals are not known.
+struct Crossing {
+    common: BoundingBox,
+    places: [Span; 2],
+    is_known: [bool; 2],
+}
+
+/// One for each pair of arms or vehicles that can be in one place at the same time, as far as texts and layout tell.
+/// Pairs that work with one another directly are left out, and so are those that the layout allows to touch.
+pub fn warnings(layout: &Layout, project: &Project) -> Vec<Diagnostic> {
+    let machines = project.plant.machines.iter().enumerate();
+    let movers = machines.filter_map(|(instance, machine)| {
+        Some(Mover { instance, moving: Moving::new(machine)?, range: OnceCell::new() })
+    });
+    let mut movers: Vec<Mover> = movers.collect();
+    let begin = |mover: &Mover| mover.moving.whole().along(Axis::X)[0];
+    movers.sort_by(|a, b| begin(a).total_cmp(&begin(b)));
+    let objects: BTreeMap<&str, Span> =
+        layout.objects.iter().map(|object| (object.name.value.as_str(), object.name.span)).collect();
+    let mut found = Vec::new();
+    for (number, first) in movers.iter().enumerate() {
+        let end = first.moving.whole().along(Axis::X)[1];
+        for second in movers[number + 1..].iter().take_while(|second| begin(second) <= end) {
+            let mut pair = [first, second];
+            pair.sort_by_key(|mover| mover.instance);
+            if let Some(crossing) = crossing(project, pair) {
+                found.extend(diagnostic(project, &objects, pair, &crossing));
+            }
+        }
+    }
+    sort(&mut found);
+    found
+}
+
+fn crossing(project: &Project, [a, b]: [&Mover; 2]) -> Option<Crossing> {
+    let names = [a, b].map(|mover| project.plant.machines[mover.instance].name.as_str());
+    let is_apart = a.moving.whole().is_apart(&b.moving.whole());
+    if is_apart || works_with(project, a, b) || works_with(project, b, a) || project.plant.allows(names) {
+        return None;
+    }
+    let ranges = [a, b].map(|mover| {
+        mover
+            .range
+            .get_or_init(|| stay::range(&project.system, &project.plant, mover.instance, &mover.moving))
+    });
+    match ranges {
+        [Range::Whole(one, here), Range::Whole(other, there)] => {
+            Some(Crossing { common: one.common(other), places: [*here, *there], is_known: [false; 2] })
+        }
+        [Range::Whole(whole, here), Range::Stays(stays)] => within(whole, stays)
+            .map(|(common, there)| Crossing { common, places: [*here, there], is_known: [false, true] }),
+        [Range::Stays(stays), Range::Whole(whole, there)] => within(whole, stays)
+            .map(|(common, here)| Crossing { common, places: [here, *there], is_known: [true, false] }),
+        [Range::Stays(stays), Range::Stays(others)] => both([&a.moving, &b.moving], stays, others),
+    }
+}
+
+fn within(whole: &BoundingBox, stays: &[Stay]) -> Option<(BoundingBox, Span)> {
+    let near = stays.iter().filter(|stay| !stay.way.bounds.is_apart(whole));
+    let common = near.map(|stay| (stay.way.bounds.common(whole), stay.place));
+    common.reduce(|(all, place), (next, _)| (all.with(&next), place))
+}
+
+fn both([a, b]: [&Moving; 2], stays: &[Stay], others: &[Stay]) -> Option<Crossing> {
+    let all = |stays: &[Stay]| stays.iter().map(|stay| stay.way.bounds).reduce(|a, b| a.with(&b));
+    if all(stays)?.is_apart(&all(others)?) {
+        return None;
+    }
+    let mut found: Option<Crossing> = None;
+    let mut count = 0;
+    for stay in stays {
+        for other in others.iter().filter(|other| stay.locks.is_disjoint(&other.locks)) {
+            if let Some(common) = a.common(&stay.way, (b, &other.way)) {
+                let crossing = found.get_or_insert(Crossing {
+                    common,
+                    places: [stay.place, other.place],
+                    is_known: [true; 2],
+                });
+                crossing.common = crossing.common.with(&common);
+                count += 1;
+                if count == MOST_CROSSINGS {
+                    return found;
+                }
+            }
+        }
+    }
+    found
+}
+
+/// Whether the second one is a member of a role of the first: what they share is the matter of their handover.
+fn works_with(project: &Project, a: &Mover, b: &Mover) -> bool {
+    let system = &project.system;
+    let automaton = system.automaton_of(a.instance);
+    let roles = automaton.roles.iter().zip(&system.instances[a.instance].roles);
+    roles
+        .into_iter()
+        .any(|(role, rows)| rows.iter().any(|row| system.members[role.interface.0][*row] == b.instance))
+}
+
+fn diagnostic(
+    project: &Project,
+    objects: &BTreeMap<&str, Span>,
+    pair: [&Mover; 2],
+    crossing: &Crossing,
+) -> Option<Diagnostic> {
+    let [a, b] = pair.map(|mover| project.plant.machines[mover.instance].name.as_str());
+    let message = format!("{a} and {b} can be in one place at the same time: no lock keeps them apart");
+    let [low, high] = crossing.common.corners();
+    let range = |low: f64, high: f64| format!("{low:.2} to {high:.2}");
+    let mut diagnostic = Diagnostic::new("W0202", *objects.get(a)?, message)
+        .other(*objects.get(b)?, "the other one")
+        .other(crossing.places[0], format!("{a} comes there by this"))
+        .other(crossing.places[1], format!("{b} by this"))
+        .note(format!(
+            "both come to x {}, y {}, z {} m",
+            range(low.x, high.x),
+            range(low.y, high.y),
+            range(low.z, high.z)
+        ));
+    for (name, _) in [a, b].iter().zip(crossing.is_known).filter(|(_, is_known)| !is_known) {
+        diagnostic =
+            diagnostic.note(format!("the goals of {name} are not known: all that it reaches is taken"));
+    }
+    Some(diagnostic.help(
+        "let both set the same cell `by lock` before they go there and reset it behind it, move one of them, or say under \"may_touch\" why they cannot meet",
+    ))
+}

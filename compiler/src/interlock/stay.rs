@@ -1,0 +1,325 @@
+//! Where a machine is and goes, with the locks that it has there.
+
+use super::lock::{self, Lock};
+use super::region::{Bound, Region, Regions, around, rows_of_local};
+use crate::ir::{Asking, Automaton, Expr, ExprKind, Place, Scalar, StateId, System, Transition, UpdateKind};
+use crate::source::Span;
+use runtime_sim::collision::{BoundingBox, Moving, Way};
+use runtime_sim::device::Direction;
+use runtime_sim::kinematics::facing::Facing;
+use runtime_sim::line::Line;
+use runtime_sim::machine::Machine;
+use runtime_sim::part::Primitive;
+use runtime_sim::point::Point;
+use runtime_sim::wiring::Source;
+use std::collections::{BTreeMap, BTreeSet, HashSet};
+
+/// Choices of the machines that one works with.
+const MOST_BOUND: usize = 64;
+/// Ways of one machine.
+const MOST_WAYS: usize = 4000;
+
+/// A way, or a place where the machine stands.
+pub struct Stay {
+    pub way: Way,
+    /// Instances of which it has a lock all the while.
+    pub locks: BTreeSet<usize>,
+    /// The transition with the command.
+    pub place: Span,
+}
+
+pub enum Range {
+    /// The goal of the command there is not known.
+    Whole(BoundingBox, Span),
+    Stays(Vec<Stay>),
+}
+
+/// A command that moves the machine.
+struct Motion<'a> {
+    state: usize,
+    transition: &'a Transition,
+    /// The places past which it goes, and the last one.
+    goals: Vec<(&'a Expr, Facing)>,
+    /// The locals by which it reads places of other machines.
+    named: BTreeSet<usize>,
+}
+
+pub fn range(system: &System, line: &Line, instance: usize, moving: &Moving) -> Range {
+    let automaton = system.automaton_of(instance);
+    let motions = motions(system, line, instance);
+    let from = origins(automaton, &motions);
+    let held = lock::held(system, automaton);
+    let rest = rest(line, instance);
+    let mut found = Found { moving, stays: Vec::new(), known: HashSet::new() };
+    for bound in bounds(system, instance) {
+        let goals = |motion: &Motion, bound: &Bound| -> Option<Vec<(Vec<Region>, Facing)>> {
+            let regions = Regions::new(system, line, instance, bound, motion.transition);
+            motion.goals.iter().map(|(goal, facing)| Some((regions.points(goal)?, *facing))).collect()
+        };
+        let at_rest: Vec<(Vec<Region>, Facing)> = vec![(rest.into_iter().collect(), Facing::Down)];
+        found.add(&at_rest, &BTreeSet::new(), automaton.place);
+        for (number, motion) in motions.iter().enumerate() {
+            let Some(stages) = goals(motion, &bound) else {
+                return Range::Whole(moving.whole(), motion.transition.place);
+            };
+            let target = motion.transition.target.map_or(motion.state, |StateId(target)| target);
+            let first = lock::after(system, motion.transition, &held[motion.state]);
+            let locks = |goes: bool| -> BTreeSet<usize> {
+                let held = held_behind(system, automaton, &motions, (target, first.clone()), goes);
+                held.iter().flat_map(|lock| owner(system, instance, &bound, lock)).collect()
+            };
+            let place = motion.transition.place;
+            // A machine that offers its places and locks itself has its lock for whoever comes.
+            let lent = |motion: &Motion, bound: &Bound| -> BTreeSet<usize> {
+                let rows = motion.named.iter().flat_map(|local| members(system, instance, bound, *local));
+                rows.filter(|member| lock::locks_itself(system, *member)).collect()
+            };
+            let here = lent(motion, &bound);
+            let (on_the_way, at_the_goal) = (locks(true), &locks(false) | &here);
+            found.add(&stages[stages.len() - 1..], &at_the_goal, place);
+            let chosen = lock::chosen(motion.transition);
+            let mut before = bound.clone();
+            before.rows.retain(|(local, _)| !chosen.contains(local));
+            for origin in &from[number] {
+                let (begin, there) = match origin {
+                    None => (Some(at_rest.clone()), BTreeSet::new()),
+                    Some(origin) => (goals(&motions[*origin], &before), lent(&motions[*origin], &before)),
+                };
+                let on_the_way = &(&on_the_way | &here) | &there;
+                let begin = begin.as_ref().and_then(|stages| stages.last());
+                let passed: Vec<_> = begin.into_iter().chain(&stages).cloned().collect();
+                found.add(&passed, &on_the_way, place);
+            }
+        }
+    }
+    Range::Stays(found.stays)
+}
+
+struct Found<'a> {
+    moving: &'a Moving,
+    stays: Vec<Stay>,
+    known: HashSet<(Vec<[i64; 3]>, BTreeSet<usize>)>,
+}
+
+impl Found<'_> {
+    /// The ways from region to region: for each choice of one of each stage, between corners that lie alike, and between
+    /// those that lie opposite.
+    fn add(&mut self, stages: &[(Vec<Region>, Facing)], locks: &BTreeSet<usize>, place: Span) {
+        let mut choices: Vec<Vec<(Region, Facing)>> = vec![Vec::new()];
+        for (regions, facing) in stages {
+            let with = |choice: &Vec<(Region, Facing)>| -> Vec<Vec<(Region, Facing)>> {
+                let also = regions.iter().map(|region| [choice.as_slice(), &[(*region, *facing)]].concat());
+                also.collect()
+            };
+            choices = choices.iter().flat_map(with).collect();
+        }
+        let corners: &[usize] = if choices.len() == 1 { &[0, 1, 2, 3, 4, 5, 6, 7] } else { &[0, 7] };
+        for choice in &choices {
+            for &corner in corners {
+                for first in [corner, 7 - corner] {
+                    let at = choice.iter().enumerate().map(|(number, (region, facing))| {
+                        (self::corner(region, if number == 0 { first } else { corner }), *facing)
+                    });
+                    self.way(&at.collect::<Vec<_>>(), locks, place);
+                }
+            }
+        }
+    }
+
+    fn way(&mut self, goals: &[(Point, Facing)], locks: &BTreeSet<usize>, place: Span) {
+        let rounded = |value: f64| (value * 1e3).round() as i64;
+        let key: Vec<[i64; 3]> = goals.iter().map(|(p, _)| [p.x, p.y, p.z].map(rounded)).collect();
+        if self.stays.len() >= MOST_WAYS || !self.known.insert((key, locks.clone())) {
+            return;
+        }
+        if let Some(way) = self.moving.way(goals) {
+            self.stays.push(Stay { way, locks: locks.clone(), place });
+        }
+    }
+}
+
+fn motions<'a>(system: &'a System, line: &Line, instance: usize) -> Vec<Motion<'a>> {
+    let automaton = system.automaton_of(instance);
+    let machine = &line.machines[instance];
+    let of_tool = of_tool(automaton, machine);
+    let mut motions = Vec::new();
+    for (state, transition) in
+        automaton.states.iter().enumerate().flat_map(|(n, s)| s.transitions.iter().map(move |t| (n, t)))
+    {
+        for update in &transition.updates {
+            let UpdateKind::Command { verb, arguments } = &update.kind else { continue };
+            let Some(command) = machine.wiring.commands.iter().find(|command| command.number == *verb) else {
+                continue;
+            };
+            let part = &machine.parts[command.part];
+            if !matches!(part.primitive, Primitive::Chain(_) | Primitive::Route(_)) {
+                continue;
+            }
+            let points =
+                arguments.iter().map(|argument| &argument.value).filter(|value| value.ty == Scalar::Point);
+            let goals: Vec<(&Expr, Facing)> = match part.schema().actions[command.action].name {
+                "facing" => {
+                    let points: Vec<&Expr> = points.collect();
+                    let [goal, direction] = points[..] else { continue };
+                    let bound = Bound::default();
+                    let regions = Regions::new(system, line, instance, &bound, transition);
+                    let ahead = regions.points(direction).as_deref().and_then(middle).and_then(Facing::new);
+                    vec![(goal, ahead.unwrap_or_default())]
+                }
+                _ => points.map(|point| (point, Facing::Down)).collect(),
+            };
+            // Up from where it is, or the like: it stays about there.
+            let asks_tool = Asking::new(automaton, |kind| match kind {
+                ExprKind::Read(Place::Local { local, .. }) => of_tool.contains(local),
+                kind => is_tool(automaton, machine, kind),
+            });
+            if !goals.is_empty() && !goals.iter().any(|(goal, _)| asks_tool.expression(goal)) {
+                let mut named = BTreeSet::new();
+                goals.iter().for_each(|(goal, _)| names(automaton, goal, &mut named));
+                motions.push(Motion { state, transition, goals, named });
+            }
+        }
+    }
+    motions
+}
+
+/// Locals that keep where the machine was.
+fn of_tool(automaton: &Automaton, machine: &Machine) -> BTreeSet<usize> {
+    let asks_tool = Asking::new(automaton, |kind| is_tool(automaton, machine, kind));
+    let transitions = automaton.states.iter().flat_map(|state| &state.transitions);
+    let kept =
+        transitions.flat_map(|transition| &transition.updates).filter_map(|update| match &update.kind {
+            UpdateKind::Assign { target, value, .. } if asks_tool.expression(value) => match target.place {
+                Place::Local { local, .. } => Some(local),
+                _ => None,
+            },
+            _ => None,
+        });
+    kept.collect()
+}
+
+/// Whether an expression reads where the machine is.
+fn is_tool(automaton: &Automaton, machine: &Machine, kind: &ExprKind) -> bool {
+    let ExprKind::Read(Place::Port { port, .. }) = kind else { return false };
+    let ports = &automaton.device.ports;
+    let inputs = ports[..*port].iter().filter(|port| port.direction == Direction::Input).count();
+    let input = machine.wiring.inputs.get(inputs).filter(|_| ports[*port].direction == Direction::Input);
+    let Some(Source::Signal { part, signal }) = input.map(|input| input.source) else { return false };
+    machine.parts[part].schema().name == "chain"
+        && machine.parts[part].schema().signals[signal].name == "tool"
+}
+
+fn names(automaton: &Automaton, expr: &Expr, found: &mut BTreeSet<usize>) {
+    match &expr.kind {
+        ExprKind::Define(define) => names(automaton, &automaton.defines[*define].value, found),
+        ExprKind::Read(Place::Local { local, .. }) if matches!(expr.ty, Scalar::Ref(_)) => {
+            found.insert(*local);
+        }
+        _ => expr.parts().into_iter().for_each(|part| names(automaton, part, found)),
+    }
+}
+
+fn middle(regions: &[Region]) -> Option<Point> {
+    let [x, y, z] = around(regions)?.map(|[low, high]| (low + high) / 2.0);
+    Some(Point::new(x, y, z))
+}
+
+/// Of each motion those whose goals the machine is at, or on its way to, when it begins; none: it is at rest.
+fn origins(automaton: &Automaton, motions: &[Motion]) -> Vec<BTreeSet<Option<usize>>> {
+    let mut at: Vec<BTreeSet<Option<usize>>> = vec![BTreeSet::new(); automaton.states.len()];
+    at[0].insert(None);
+    let mut has_changed = true;
+    while std::mem::take(&mut has_changed) {
+        for (number, state) in automaton.states.iter().enumerate() {
+            for transition in &state.transitions {
+                let target = transition.target.map_or(number, |StateId(target)| target);
+                let after =
+                    match motions.iter().position(|motion| std::ptr::eq(motion.transition, transition)) {
+                        Some(motion) => BTreeSet::from([Some(motion)]),
+                        None => at[number].clone(),
+                    };
+                let before = at[target].len();
+                at[target].extend(after);
+                has_changed |= at[target].len() > before;
+            }
+        }
+    }
+    motions.iter().map(|motion| at[motion.state].clone()).collect()
+}
+
+/// The locks that a machine has in all states that can follow before the next motion, and before this one has ended if it
+/// `goes`. It has the given ones in the first of these.
+fn held_behind(
+    system: &System,
+    automaton: &Automaton,
+    motions: &[Motion],
+    first: (usize, BTreeSet<Lock>),
+    goes: bool,
+) -> BTreeSet<Lock> {
+    let done = Asking::new(automaton, |kind| *kind == ExprKind::Done);
+    let mut held: BTreeMap<usize, BTreeSet<Lock>> = BTreeMap::new();
+    let mut open = vec![first];
+    while let Some((state, locks)) = open.pop() {
+        let all = held.get(&state).map_or_else(|| locks.clone(), |known| known & &locks);
+        if held.insert(state, all.clone()).as_ref() == Some(&all) {
+            continue;
+        }
+        for transition in &automaton.states[state].transitions {
+            let moves = motions.iter().any(|motion| std::ptr::eq(motion.transition, transition));
+            if !moves && !(goes && done.guard(transition)) {
+                let target = transition.target.map_or(state, |StateId(target)| target);
+                open.push((target, lock::after(system, transition, &all)));
+            }
+        }
+    }
+    held.into_values().reduce(|a, b| &a & &b).unwrap_or_default()
+}
+
+/// The instance of which a lock is; all of which it may be, so that nothing is said that may not be true.
+fn owner(system: &System, instance: usize, bound: &Bound, lock: &Lock) -> Vec<usize> {
+    lock.of.map_or(vec![instance], |local| members(system, instance, bound, local))
+}
+
+/// The instances that a local may name.
+fn members(system: &System, instance: usize, bound: &Bound, local: usize) -> Vec<usize> {
+    let Scalar::Ref(interface) = system.automaton_of(instance).locals[local].ty.scalar else {
+        return Vec::new();
+    };
+    let rows = bound.row(local).map_or_else(|| rows_of_local(system, instance, local), |row| vec![row]);
+    rows.into_iter().map(|row| system.members[interface.0][row]).collect()
+}
+
+/// All choices of the machines that the locals of an instance name.
+fn bounds(system: &System, instance: usize) -> Vec<Bound> {
+    let locals = &system.automaton_of(instance).locals;
+    let names = locals.iter().enumerate().filter(|(_, local)| matches!(local.ty.scalar, Scalar::Ref(_)));
+    let mut all = vec![Bound::default()];
+    for (local, _) in names {
+        let rows = rows_of_local(system, instance, local);
+        if rows.is_empty() || all.len() * rows.len() > MOST_BOUND {
+            continue;
+        }
+        let with = |bound: &Bound| -> Vec<Bound> {
+            let also = rows.iter().map(|row| {
+                let mut bound = bound.clone();
+                bound.rows.push((local, *row));
+                bound
+            });
+            also.collect()
+        };
+        all = all.iter().flat_map(with).collect();
+    }
+    all
+}
+
+/// Where the machine is before its first motion.
+fn rest(line: &Line, instance: usize) -> Option<Region> {
+    let machine = &line.machines[instance];
+    let point = machine.chain().map(|chain| chain.rest).or_else(|| machine.stops().first().copied())?;
+    Some([point.x, point.y, point.z].map(|value| [value, value]))
+}
+
+fn corner(region: &Region, number: usize) -> Point {
+    let [x, y, z] = [0, 1, 2].map(|axis| region[axis][number >> axis & 1]);
+    Point::new(x, y, z)
+}

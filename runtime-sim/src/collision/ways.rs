@@ -1,0 +1,181 @@
+//! What moves of a machine on its ways, whenever it goes there: for questions that no run answers.
+
+use super::body::{Piece, Placed};
+use super::bounds::{BoundingBox, Chain};
+use crate::frame::Frame;
+use crate::kinematics::arm::{Arm, Joints};
+use crate::kinematics::facing::Facing;
+use crate::kinematics::pose::Pose;
+use crate::machine::Machine;
+use crate::point::Point;
+use crate::solid::{Link, Solid};
+use std::cell::OnceCell;
+
+/// From one place on a way to the next one no link goes much farther, m.
+const STEP: f64 = 0.08;
+const MOST_STEPS: f64 = 40.0;
+
+/// The bodies of a machine that move with an arm or along a route. Of an arm under a torso, whose planner chooses how it
+/// stands and goes, those that move with the tool.
+#[derive(Clone, Debug)]
+pub struct Moving {
+    arm: Option<Arm>,
+    pieces: Vec<(Link, Piece)>,
+    whole: BoundingBox,
+}
+
+/// What a machine takes up on a way, at places that are near to one another.
+#[derive(Clone, Debug)]
+pub struct Way {
+    poses: Poses,
+    pub bounds: BoundingBox,
+    places: OnceCell<Vec<Taken>>,
+}
+
+/// Where it is at each place.
+#[derive(Clone, Debug)]
+enum Poses {
+    Joints(Vec<Joints>),
+    Points(Vec<Point>),
+}
+
+/// Its bodies at one place, and what contains them.
+type Taken = (BoundingBox, Vec<Placed>);
+
+impl Moving {
+    /// None of a machine without an arm and without a route, and of one of which nothing moves with them.
+    pub fn new(machine: &Machine) -> Option<Self> {
+        let arm = machine.arm();
+        let last = arm.map_or(0, |arm| arm.frames(&arm.start()).len() - 1);
+        let moves = |link: Link| match link {
+            Link::Joint(joint) => arm.is_some_and(|arm| !arm.has_torso() || joint == last),
+            Link::Route => machine.route().is_some(),
+            Link::World | Link::Carriage(_) => false,
+        };
+        let solids: Vec<Solid> = machine.solids().into_iter().filter(|solid| moves(solid.link)).collect();
+        let pieces =
+            solids.into_iter().map(|solid| (solid.link, Piece::new(solid.name, &solid.pose, solid.shape)));
+        let pieces: Vec<(Link, Piece)> = pieces.collect();
+        let chain = arm.map(|arm| Chain::new(&arm, machine));
+        let whole = pieces.iter().flat_map(|(link, piece)| match (link, &chain) {
+            (Link::Joint(joint), Some(chain)) => vec![chain.bounds(*joint, &piece.ball())],
+            _ => {
+                machine.stops().iter().map(|stop| BoundingBox::around(&piece.ball().shifted(*stop))).collect()
+            }
+        });
+        let whole = whole.reduce(|a, b| a.with(&b))?;
+        Some(Self { arm, pieces, whole })
+    }
+
+    /// All that it can ever take up.
+    pub fn whole(&self) -> BoundingBox {
+        self.whole
+    }
+
+    /// From goal to goal, each with the direction of the tool: all joints of an arm together, or a vehicle straight on. An
+    /// arm under a torso only at the goals, and straight up or down between them. None if one is out of reach, or if there are none.
+    pub fn way(&self, goals: &[(Point, Facing)]) -> Option<Way> {
+        let poses = match &self.arm {
+            Some(arm) => Poses::Joints(joints(arm, goals)?),
+            None => Poses::Points(points(goals)),
+        };
+        let mut bounds: Option<BoundingBox> = None;
+        self.each(&poses, |taken| {
+            let here = taken.iter().map(Placed::bounds).reduce(|a, b| a.with(&b));
+            bounds = bounds.into_iter().chain(here).reduce(|a, b| a.with(&b));
+        });
+        Some(Way { poses, bounds: bounds?, places: OnceCell::new() })
+    }
+
+    /// Its bodies at each place.
+    fn each(&self, poses: &Poses, mut see: impl FnMut(Vec<Placed>)) {
+        let placed = |frame: &dyn Fn(Link) -> Pose| -> Vec<Placed> {
+            self.pieces.iter().map(|(link, piece)| piece.within(&frame(*link))).collect()
+        };
+        match (poses, &self.arm) {
+            (Poses::Joints(all), Some(arm)) => {
+                for joints in all {
+                    let frames = arm.frames(joints);
+                    see(placed(&|link| match link {
+                        Link::Joint(joint) => frames[joint],
+                        Link::World | Link::Route | Link::Carriage(_) => Pose::IDENTITY,
+                    }));
+                }
+            }
+            (Poses::Points(points), _) => {
+                points.iter().for_each(|point| see(placed(&|_| Frame::new(*point, 0.0).pose())));
+            }
+            (Poses::Joints(_), None) => {}
+        }
+    }
+
+    /// Contains places where bodies of both are, whenever each of them is there; none if there are none.
+    pub fn common(&self, way: &Way, (other, beside): (&Moving, &Way)) -> Option<BoundingBox> {
+        if way.bounds.is_apart(&beside.bounds) {
+            return None;
+        }
+        let mut all: Option<BoundingBox> = None;
+        for (bounds, pieces) in self.places(way).iter().filter(|(bounds, _)| !bounds.is_apart(&beside.bounds))
+        {
+            for (near, others) in other.places(beside).iter().filter(|(near, _)| !near.is_apart(bounds)) {
+                for piece in pieces.iter().filter(|piece| !piece.bounds().is_apart(near)) {
+                    for next in others {
+                        let may = piece.apart_at_least(next, f64::MIN_POSITIVE) <= 0.0;
+                        if may && piece.gap(next).distance <= 0.0 {
+                            let common = piece.bounds().common(&next.bounds());
+                            all = Some(all.map_or(common, |all| all.with(&common)));
+                        }
+                    }
+                }
+            }
+        }
+        all
+    }
+
+    fn places<'w>(&self, way: &'w Way) -> &'w [Taken] {
+        way.places.get_or_init(|| {
+            let mut places = Vec::new();
+            self.each(&way.poses, |taken| {
+                let bounds =
+                    taken.iter().map(Placed::bounds).fold(BoundingBox::NOTHING, |all, next| all.with(&next));
+                places.push((bounds, taken));
+            });
+            places
+        })
+    }
+}
+
+fn joints(arm: &Arm, goals: &[(Point, Facing)]) -> Option<Vec<Joints>> {
+    let mut all: Vec<Joints> = Vec::new();
+    for (goal, facing) in goals {
+        let from = all.last().copied();
+        let to = arm.solve_facing(*goal, *facing, &from.unwrap_or_else(|| arm.start()))?;
+        let from = from.unwrap_or(to);
+        let aside = Point { z: 0.0, ..arm.tool(&to) - arm.tool(&from) };
+        let is_known = !arm.has_torso() || aside.length() < 1e-6;
+        let steps = if is_known { steps_between(arm, &from, &to) } else { 1.0 };
+        for step in 1..=steps as u32 {
+            let part = f64::from(step) / steps;
+            all.push(from.map(|i, value| value + part * (to[i] - value)));
+        }
+    }
+    Some(all)
+}
+
+fn points(goals: &[(Point, Facing)]) -> Vec<Point> {
+    let mut all: Vec<Point> = Vec::new();
+    for (goal, _) in goals {
+        let from = all.last().copied().unwrap_or(*goal);
+        let steps = ((*goal - from).length() / STEP).ceil().max(1.0);
+        all.extend((1..=steps as u32).map(|step| from + (*goal - from).scaled(f64::from(step) / steps)));
+    }
+    all
+}
+
+fn steps_between(arm: &Arm, from: &Joints, to: &Joints) -> f64 {
+    let (a, b) = (arm.frames(from), arm.frames(to));
+    let turned = (0..from.len()).map(|i| (to[i] - from[i]).abs()).fold(0.0, f64::max);
+    let farthest =
+        a.iter().zip(b.iter()).map(|(a, b)| (b.position - a.position).length()).fold(turned, f64::max);
+    (farthest / STEP).ceil().clamp(1.0, MOST_STEPS)
+}
