@@ -195,6 +195,7 @@ fn simulate(
         }
         progress.note(scan, acted || arrived == Arrived::Events);
 
+        check.follow_items(&plant);
         plant.obey(&outputs);
         if let Some(recorders) = &mut recorders {
             recorders.paths.look(&plant);

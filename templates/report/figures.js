@@ -9,8 +9,10 @@ const Figures = (() => {
     document.title = `${raw.name} – report`;
     byId('name').textContent = raw.name;
     const verdict = byId('verdict');
-    verdict.textContent = results.reason;
-    verdict.className = 'verdict ' + (results.finished ? 'good' : 'wrong');
+    const { violation } = results;
+    const found = violation ? `${violation.text}: at ${violation.at_s.toFixed(2)} s; the run ends: ` : '';
+    verdict.textContent = found + results.reason;
+    verdict.className = 'verdict ' + (results.finished && !violation ? 'good' : 'wrong');
     const legs = raw.limit.machines, whole = legs.reduce((sum, { s }) => sum + s, 0);
     const contacts = (results.collisions || []).length;
     const figures = [

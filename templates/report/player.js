@@ -134,6 +134,7 @@ const Player = (() => {
     Signals.listen();
     listen();
     Plan.resize();
+    if (Data.results.violation) seek(Data.results.violation.at_s * 1000);
     draw();
     document.documentElement.dataset.drawn = String(Math.round(performance.now()));
   }

@@ -56,16 +56,33 @@ const Timeline = (() => {
     }
   }
 
-  /* Where the plan is. */
-  function cursor(context, width, height) {
-    const px = x(Player.time(), width);
+  /* When a property was violated, in a run that shows it. */
+  function violation(context, width, height) {
+    const { violation } = Data.results;
+    const px = violation ? x(violation.at_s * 1000, width) : -1;
     if (px < GUTTER || px > width) return;
-    context.strokeStyle = Colours.get().accent;
-    context.lineWidth = 1.5;
+    context.strokeStyle = Colours.get().bad;
+    context.lineWidth = 2;
+    context.setLineDash([5, 3]);
     context.beginPath();
     context.moveTo(px, 0);
     context.lineTo(px, height);
     context.stroke();
+    context.setLineDash([]);
+  }
+
+  /* Where the plan is. */
+  function cursor(context, width, height) {
+    const px = x(Player.time(), width);
+    if (px >= GUTTER && px <= width) {
+      context.strokeStyle = Colours.get().accent;
+      context.lineWidth = 1.5;
+      context.beginPath();
+      context.moveTo(px, 0);
+      context.lineTo(px, height);
+      context.stroke();
+    }
+    violation(context, width, height);
   }
 
   /* Pointer and wheel on a canvas of this time line; `press` is told where it was pressed without being moved. */

@@ -21,6 +21,7 @@ mod numbers;
 mod paths;
 mod signals;
 mod states;
+pub mod story;
 pub mod sweep;
 mod throughput;
 

@@ -332,6 +332,9 @@ pub struct VerifyOptions {
     /// Write the scenario that shows the first violation in `commission` to this file
     #[arg(long, value_name = "FILE")]
     pub counterexample: Option<PathBuf>,
+    /// Write a page with the Gantt chart and the plan of the first violation to this file
+    #[arg(long, value_name = "FILE")]
+    pub report: Option<PathBuf>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

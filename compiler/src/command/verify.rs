@@ -1,5 +1,6 @@
 //! `autogen verify`: all executions are searched.
 
+mod drawing;
 mod report;
 
 use super::interrupt;
@@ -15,6 +16,7 @@ use autogen_search::plant::Faults;
 use report::{Report, Shown};
 use std::io::{self, IsTerminal};
 use std::num::NonZeroUsize;
+use std::path::PathBuf;
 use std::thread::available_parallelism;
 use std::time::{Duration, Instant};
 
@@ -35,9 +37,13 @@ pub fn run(options: &VerifyOptions) -> Status {
         }
     };
     let overwrite = super::output::Overwrite::Own;
-    let file = options.counterexample.as_ref().map(|path| Pending::new(path, Content::Scenario, overwrite));
-    let file = match file.transpose() {
-        Ok(file) => file,
+    let pending = |path: &Option<PathBuf>, content: Content| {
+        path.as_ref().map(|path| Pending::new(path, content, overwrite)).transpose()
+    };
+    let files = pending(&options.counterexample, Content::Scenario)
+        .and_then(|scenario| Ok((scenario, pending(&options.report, Content::Report)?)));
+    let (file, page) = match files {
+        Ok(files) => files,
         Err(text) => {
             complain!("autogen: {text}");
             return Status::WrongCommand;
@@ -93,6 +99,14 @@ pub fn run(options: &VerifyOptions) -> Status {
         }
     }
     let teller = verify::story::Teller { project, model: &model, sources: &outcome.sources };
+    if let (Some(file), Some(first)) = (page, shown.first()) {
+        let text = drawing::page(project, &teller, first);
+        let written = text.and_then(|text| file.write(&text)).and_then(|()| file.keep());
+        if let Err(text) = written {
+            complain!("autogen: {text}");
+            return Status::WrongCommand;
+        }
+    }
     let report =
         Report { options, teller: &teller, outcome: &found, answers, shown: &shown, skipped: &skipped };
     match options.input.format {

@@ -3,6 +3,7 @@
 mod asked;
 mod automaton;
 mod expression;
+pub mod gantt;
 mod live;
 mod memory;
 mod model;

@@ -1,9 +1,10 @@
 //! The collision check of a run.
 //!
-//! Conservative advancement: of each pair of bodies it is known how far the two may go before they can meet at
-//! the earliest, from their last distance; it is checked again when they may have gone so far. Between two
-//! events the places are those of the exact motion at exact times, each time so much later as the distance allows.
-//! So nothing is stepped over, however thin.
+//! Of each pair of machines it is looked up once, for the motions of both, how long they stay apart: by boxes, by what
+//! is remembered of a motion beside something that rests, or by conservative advancement. This holds until one of the
+//! two moves in another way or bears something else. Conservative advancement: at a time the distance of two bodies says
+//! how far they may go before they can meet at the earliest, so how much later it is looked at again. So nothing is
+//! stepped over, however thin. What comes so near that it could be in contact is checked scan by scan.
 
 use super::TOLERANCE;
 use super::body::Piece;
@@ -15,7 +16,7 @@ use crate::fingerprint::Fingerprint;
 use crate::item;
 use crate::kinematics::facing::Facing;
 use crate::kinematics::pose::Pose;
-use crate::line::Line;
+use crate::line::{self, Line};
 use crate::memory::Memory;
 use crate::part::place::OPPOSITE;
 use crate::plant::Plant;
@@ -47,6 +48,8 @@ pub struct CollisionCheck {
     versions: Vec<u64>,
     pairs: Vec<Pair>,
     items: Vec<Tracked>,
+    /// Of the kinds.
+    sizes: Vec<Point>,
     /// Events that were handled.
     read: usize,
     contacts: Vec<Contact>,
@@ -84,14 +87,15 @@ impl CollisionCheck {
                 }
             }
         }
+        let size = |kind: &line::Kind| Point::new(kind.size[0], kind.size[1], kind.height);
+        let sizes: Vec<Point> = line.kinds.iter().map(size).collect();
         let kinds = line.scenario.supply.iter().flat_map(|supply| supply.items.iter());
         let items = item::names(line).into_iter().zip(kinds).map(|(name, &kind)| {
-            let kind = &line.kinds[kind];
-            let size = Point::new(kind.size[0], kind.size[1], kind.height);
-            Tracked { name, size, turn: 0.0, tipped: Pose::IDENTITY, place: None, hang: Pose::IDENTITY }
+            Tracked { name, size: sizes[kind], turn: 0.0, tipped: Pose::IDENTITY, place: None, hang: Pose::IDENTITY }
         });
         Self {
             items: items.collect(),
+            sizes,
             versions: Vec::with_capacity(groups.len()),
             groups,
             pairs,
@@ -133,16 +137,19 @@ impl CollisionCheck {
         for index in 0..self.pairs.len() {
             // What comes into contact at the very end is found in this span, however it is rounded.
             let end = self.seconds * (next - scan) as f64 + AT_ONCE;
-            let pair = &self.pairs[index];
+            let pair = &mut self.pairs[index];
+            let versions = pair.groups.map(|group| self.versions[group]);
             if pair.touches() {
+                if pair.known.versions != versions {
+                    pair.known = Known { versions, until: f64::NEG_INFINITY };
+                    pair.forget_paths();
+                }
                 near.push(index);
                 continue;
             }
-            let versions = pair.groups.map(|group| self.versions[group]);
             if pair.known.versions == versions && pair.known.until - now >= end {
                 continue;
             }
-            let pair = &mut self.pairs[index];
             let clear = pair.clear_for(&mut self.groups, index, plant, memory, end);
             pair.known = Known { versions, until: now + clear };
             if clear < end {
@@ -206,17 +213,31 @@ impl CollisionCheck {
         });
     }
 
-    fn follow_items(&mut self, plant: &Plant) {
+    /// Where items have come to since the last time, and what they have become.
+    pub(crate) fn follow_items(&mut self, plant: &Plant) {
         let log = plant.items().log();
         for event in &log[self.read..] {
-            let Event::Item { item, to, .. } = *event else { continue };
-            self.leave(item, plant);
-            // What was passed on since is followed with its own event.
-            if plant.items().all()[item].carrier == to {
-                self.come(item, to, plant);
+            match *event {
+                Event::Item { item, to, .. } => {
+                    self.leave(item, plant);
+                    // What was passed on since is followed with its own event.
+                    if plant.items().all()[item].carrier == to {
+                        self.come(item, to, plant);
+                    }
+                }
+                Event::Kind { item, kind, .. } => self.remake(item, self.sizes[kind], plant),
+                _ => {}
             }
         }
         self.read = log.len();
+    }
+
+    fn remake(&mut self, item: usize, size: Point, plant: &Plant) {
+        if std::mem::replace(&mut self.items[item].size, size) == size || self.items[item].place.is_none() {
+            return;
+        }
+        self.leave(item, plant);
+        self.come(item, plant.items().all()[item].carrier, plant);
     }
 
     fn leave(&mut self, item: usize, plant: &Plant) {
@@ -226,7 +247,7 @@ impl CollisionCheck {
             pair.expect(index, body);
         }
         let group = &mut self.groups[index];
-        if let Some(turn) = group.turn(body) {
+        if let Some(turn) = group.turn(body, plant) {
             tracked.turn = turn;
         }
         let anchor = group.remove(body).map(|body| body.anchor);

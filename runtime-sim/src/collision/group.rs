@@ -242,11 +242,12 @@ impl Group {
         !matches!(self.movement, Movement::Still) || self.moves_parts()
     }
 
-    /// How a body is turned that is an item on a conveyor or on what is carried, radians about the vertical.
-    pub fn turn(&self, body: usize) -> Option<f64> {
+    /// How a body is turned that is an item on a conveyor or on what is carried, radians about the vertical, now.
+    pub fn turn(&self, body: usize, plant: &Plant) -> Option<f64> {
         let Anchor::Lying { item, turn } = self.bodies.get(body)?.as_ref()?.anchor else { return None };
         let conveyed = self.parts.conveyed(item)?;
-        Some(conveyed.yaw(0.0, turn.to_degrees()).to_radians())
+        let passed = (plant.now_ms() as f64 - self.now_ms) / 1000.0;
+        Some(conveyed.yaw(passed, turn.to_degrees()).to_radians())
     }
 
     /// Whether something moves on it, but not it as a whole.

@@ -105,7 +105,7 @@ impl Movement {
         }
     }
 
-    /// How far it has slid by then. What lies on a vehicle on a track is a body of it.
+    /// How far it has slid by then; zero for what rides along a track: what lies on it is a body of it.
     pub fn shift(&self, time: f64) -> Point {
         match self {
             Self::Slides { velocity, from, until } => {

@@ -18,7 +18,8 @@ pub struct Pair {
     /// Number of the contact that was reported.
     pub contact: Option<usize>,
     /// As long as their paths together are no longer than this, a body of the first group and one of the second have not
-    /// come into contact; negative infinity if nothing is known.
+    /// come into contact, if both go on as they did when it was looked at; negative infinity if nothing is known, infinity
+    /// if they never meet.
     bodies: Vec<Vec<f64>>,
     touching: Vec<Touching>,
     pub known: Known,
@@ -89,6 +90,7 @@ const HALVINGS: u32 = 4;
 const AHEAD: f64 = 20.0;
 /// No search takes shorter steps, s: whatever moves goes less than a thousandth of the tolerance.
 const SHORTEST_STEP: f64 = 1e-9;
+
 impl Pair {
     pub fn new(groups: [usize; 2], allowed: bool) -> Self {
         let known = Known { versions: [0; 2], until: f64::NEG_INFINITY };
@@ -131,6 +133,7 @@ impl Pair {
         let ends = [a, b].map(|group| groups[group].rests_after());
         let seconds = if rest { asked } else { ends.into_iter().fold(AHEAD, f64::min).max(asked) };
         let all_clear = if rest { f64::INFINITY } else { seconds };
+        self.forget_paths();
         let mut times = vec![(HALVINGS, [0.0, seconds])];
         while let Some((halvings, [from, to])) = times.pop() {
             let swept = [0, 1].map(|side| {
@@ -151,10 +154,18 @@ impl Pair {
             // When they come into contact is found scan by scan.
             self.touching.clear();
             if let Some(touch) = touch {
+                self.forget_paths();
                 return touch.time;
             }
         }
+        self.forget_paths();
         all_clear
+    }
+
+    /// A group does not go on as it did when it was looked at, or may not.
+    pub fn forget_paths(&mut self) {
+        let known = self.bodies.iter_mut().flatten().filter(|clear| clear.is_finite());
+        known.for_each(|clear| *clear = f64::NEG_INFINITY);
     }
 
     /// Another body stands at this number of a group, or none any more.

@@ -60,7 +60,7 @@ pub fn milliseconds(seconds: f64) -> u64 {
 }
 
 /// How a part looks for an item.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Looks {
     /// The chain at whose tool it looks.
     pub chain: usize,

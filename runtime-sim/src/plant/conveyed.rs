@@ -125,19 +125,11 @@ impl Conveyed {
 
     /// Metres per second that no point of it goes faster than which is so far from its middle line.
     pub fn speed_within(&self, reach: f64) -> f64 {
-        let turns = match self.centre_line {
-            CentreLine::Arc { radius, .. } => (self.across.abs() + reach) / radius.abs(),
-            CentreLine::Axis { .. } | CentreLine::Line { .. } => 0.0,
-        };
-        let climbs = match self.centre_line {
-            CentreLine::Axis { .. } => 0.0,
-            CentreLine::Line { length, rise, .. } | CentreLine::Arc { length, rise, .. } => rise / length,
-        };
         let carried = self.carried.map_or(0.0, |carried| {
             let place = self.centre_line.point(self.place, self.across);
             carried.stroke.path(place, reach + self.centre_line.length(), carried.rate.abs())
         });
-        self.speed * (libm::hypot(1.0, climbs) + turns) + carried
+        self.speed * self.centre_line.stretch(self.across.abs() + reach) + carried
     }
 
     /// How it moves along its centre line, as seen from what the conveyor is on.

@@ -41,6 +41,7 @@ impl Nearest {
 /// When a gripper of a machine next looks and could find an item, as long as nothing of this changes.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct NextLook {
+    looks: Vec<Looks>,
     motion: Trajectory,
     /// Of each machine.
     speeds: Vec<f64>,
@@ -75,12 +76,13 @@ impl Plant {
             && known.ms > now_ms as f64
             && (known.logged, &known.motion) == (logged, &motion)
             && known.speeds == speeds
+            && known.looks == all
         {
             return known.ms;
         }
         let of_one = |looks: Looks| self.next_look_with(machine, looks, speeds, now_ms);
-        let ms = all.into_iter().map(of_one).fold(f64::INFINITY, f64::min);
-        let next = NextLook { motion, speeds: speeds.to_vec(), logged, ms };
+        let ms = all.iter().copied().map(of_one).fold(f64::INFINITY, f64::min);
+        let next = NextLook { looks: all, motion, speeds: speeds.to_vec(), logged, ms };
         self.next_looks[machine] = (!has_found).then_some(next);
         ms
     }

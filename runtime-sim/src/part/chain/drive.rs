@@ -1,12 +1,12 @@
 //! The drives of an arm: its joints moving to a target of the tool.
 
-use super::motions::{Planned, Motions};
+use super::motions::{Motions, Planned};
 use crate::kinematics::arm::{Joints, Limits};
 use crate::kinematics::facing::Facing;
 use crate::kinematics::pose::Pose;
 use crate::motion::{Motion, Travel};
-use crate::point::Point;
 use crate::planner::{Load, Transfer};
+use crate::point::Point;
 use std::sync::Arc;
 
 #[derive(Clone, Debug)]

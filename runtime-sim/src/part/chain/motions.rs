@@ -1,8 +1,8 @@
 //! The motions of an arm: what was asked for before is not computed again.
 
 use super::drive::Target;
-use crate::kinematics::arm::{Arm, Joints, Limits};
 use crate::collision::reach::{Ball, Chain, Radii};
+use crate::kinematics::arm::{Arm, Joints, Limits};
 use crate::machine::Machine;
 use crate::motion::{Knot, Motion, Travel};
 use crate::planner::{End, Load, Planner, Transfer};

@@ -20,6 +20,16 @@ pub enum CentreLine {
 const LEAST_TURN: f64 = 1e-6;
 
 impl CentreLine {
+    /// How much farther a point goes at most than its place along the line, as a factor, so far beside it, m.
+    pub fn stretch(&self, beside: f64) -> f64 {
+        let (climb, turn) = match self {
+            Self::Axis { .. } => (0.0, 0.0),
+            Self::Line { length, rise, .. } => (rise / length, 0.0),
+            Self::Arc { length, rise, radius, .. } => (rise / length, beside / radius.abs()),
+        };
+        libm::hypot(1.0, climb) + turn
+    }
+
     pub fn new(settings: &Settings) -> Result<Self, String> {
         let [axis, frame] =
             [["along", "range", "surface"].as_slice(), &["from", "length"]].map(|names| {

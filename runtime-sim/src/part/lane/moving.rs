@@ -107,6 +107,11 @@ impl Moving {
         if self.is_moving() { self.lane.speed } else { 0.0 }
     }
 
+    /// Of any point of the surface at most, m/s: up or down, or on the outer side of an arc.
+    pub fn top_speed(&self) -> f64 {
+        self.speed() * self.lane.centre_line.stretch(self.lane.width / 2.0)
+    }
+
     /// Of an item that goes so, m/s.
     pub fn speed_of(&self, motion: Motion) -> f64 {
         match motion {
