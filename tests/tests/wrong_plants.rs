@@ -80,9 +80,13 @@ fn a_chain_without_a_solution_anywhere() {
             }};"
         )
     };
-    assert_eq!(told(&with_belt(1.0, &arm("point(0.7, 0, 0.5)")), BOX), [""; 0]);
+    let errors = |rest: &str| -> Vec<String> {
+        let found = told(&with_belt(1.0, &arm(rest)), BOX);
+        found.into_iter().filter(|found| found.starts_with('E')).collect()
+    };
+    assert_eq!(errors("point(0.7, 0, 0.5)"), [""; 0]);
     assert_eq!(
-        told(&with_belt(1.0, &arm("point(2.7, 0, 0.5)")), BOX),
+        errors("point(2.7, 0, 0.5)"),
         ["E0711 1:13 `thing` cannot be built from its device: its tool cannot reach its own rest position"]
     );
 }
