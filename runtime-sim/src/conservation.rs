@@ -80,6 +80,7 @@ mod tests {
             kinds: vec![Kind {
                 name: "part".into(),
                 height: 0.1,
+                grasp: 0.1,
                 size: [0.1, 0.1],
                 is: Vec::new(),
                 mass: 0.0,

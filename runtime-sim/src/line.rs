@@ -27,8 +27,10 @@ pub struct Line {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Kind {
     pub name: String,
-    /// Of its top over what it lies on, where the tool grips it, in metres.
+    /// Of its top over what it lies on, in metres.
     pub height: f64,
+    /// Over its underside, where the tool grips it, in metres.
+    pub grasp: f64,
     /// Lengths along x and y as it appears on a belt, in metres.
     pub size: [f64; 2],
     /// What sensors for it find it to be, such as `metal`.

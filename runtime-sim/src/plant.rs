@@ -45,8 +45,8 @@ pub struct Plant {
     items: Items,
     /// Of all items, for reports.
     names: Arc<[String]>,
-    /// Heights of the kinds.
-    heights: Vec<f64>,
+    /// Of the kinds: over the underside of an item, where it is gripped, m.
+    grasps: Vec<f64>,
     obstacles: Vec<Obstacle>,
     desk: Desk,
     images: Vec<Vec<f64>>,
@@ -87,7 +87,7 @@ impl Plant {
             conveying: Conveying::new(line),
             items,
             names: crate::item::names(line).into(),
-            heights: line.kinds.iter().map(|kind| kind.height).collect(),
+            grasps: line.kinds.iter().map(|kind| kind.grasp).collect(),
             obstacles: line.obstacles.clone(),
             desk,
             images,

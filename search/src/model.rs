@@ -23,6 +23,8 @@ pub struct Model {
     pub orders: Vec<Order>,
     /// Heights of the kinds, m.
     pub heights: Vec<f64>,
+    /// Heights over their undersides at which tools grip them, m.
+    pub grasps: Vec<f64>,
     pub faults: Faults,
     pub watch: Watch,
     pub reductions: Reductions,

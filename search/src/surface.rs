@@ -77,7 +77,7 @@ pub fn landing(model: &Model, values: &Values, state: &[u8], tool: Point, kind: 
 /// How deep an item of a kind falls that a tool lets go here, m, and where it lands; without end where nothing is known to
 /// be below.
 pub fn fall(model: &Model, values: &Values, state: &[u8], tool: Point, kind: usize) -> (f64, Landing) {
-    let under = [tool[0], tool[1], tool[2] - model.heights[kind]];
+    let under = [tool[0], tool[1], tool[2] - model.grasps[kind]];
     let mut highest = (f64::NEG_INFINITY, Landing::Elsewhere);
     for (machine, plant) in model.machines.iter().enumerate() {
         for (number, place) in plant.places.iter().enumerate() {
@@ -117,7 +117,7 @@ fn slot_at(place: &Place, origin: Point, point: Point) -> Option<usize> {
 /// The item that a gripper finds with its tool here, no farther than `near` from where it is gripped.
 pub fn found(model: &Model, values: &Values, state: &[u8], tool: Point, near: f64) -> Option<Found> {
     let meets = |p: Point, kind: usize| {
-        let gap = [p[0] - tool[0], p[1] - tool[1], p[2] + model.heights[kind] - tool[2]];
+        let gap = [p[0] - tool[0], p[1] - tool[1], p[2] + model.grasps[kind] - tool[2]];
         gap.iter().map(|c| c * c).sum::<f64>() <= near * near
     };
     for (machine, plant) in model.machines.iter().enumerate() {

@@ -1,7 +1,7 @@
 //! Machines of the library's devices, for tests.
 #![allow(dead_code)] // each test uses some of them
 
-use autogen::device::Placed;
+use autogen::device::{Heights, Placed};
 use autogen::library;
 use runtime_sim::frame::Frame;
 use runtime_sim::kinematics::arm::Arm;
@@ -48,7 +48,7 @@ pub fn bin(pose: Point) -> Placed {
 
 /// With four kinds of part, each 0.1 m high.
 pub fn machine(name: &str, placed: &Placed) -> Machine {
-    placed.machine(name, &[0.1; 4], placed.device.place).expect("a machine")
+    placed.machine(name, &[Heights { top: 0.1, grasp: 0.1 }; 4], placed.device.place).expect("a machine")
 }
 
 pub fn arm(placed: &Placed) -> Arm {

@@ -170,6 +170,36 @@ fn limits_of_the_wrist_are_told_in_degrees() {
     assert!(!less(used - 0.01));
 }
 
+/// Blanks 30 mm high, gripped 20 mm over their undersides by a finger on each side.
+#[test]
+fn a_blank_is_gripped_below_its_upper_side() {
+    let fingers = "part fingers = body { on: arm.wrist_3; low: point(-0.02, -0.05, -0.06); high: point(0.02, 0.05, 0); grips: true; };";
+    let beside = "part left = body { on: arm.wrist_3; low: point(0.022, -0.02, -0.06); high: point(0.05, 0.02, 0.01); grips: true; };
+        part right = body { on: arm.wrist_3; low: point(-0.05, -0.02, -0.06); high: point(-0.022, 0.02, 0.01); grips: true; };";
+    let mut texts = cell(&[(fingers, beside)]).set("tender.height=0.02");
+    texts.layout = texts.layout.replace("\"turn\": 30", "\"turn\": 30, \"length\": 0.02");
+    let scenario = texts.scenario.as_mut().expect("a scenario");
+    *scenario = scenario.replace("\"height\": 0.03", "\"height\": 0.03, \"grasp\": 0.02");
+    let mut in_chuck = 0;
+    let report = run(&texts, |seen: &Seen| {
+        for item in seen.plant.items().borne_by(LATHE) {
+            let place = seen.plant.place(*item).expect("a place");
+            assert!((place.x - 1.15).abs() < 1e-6, "{place:?}");
+            in_chuck += 1;
+        }
+    });
+    assert_eq!(report.reason.to_string(), "all items collected");
+    assert!(in_chuck > 5 * 3000, "{in_chuck}");
+    let wanted = margin([1.15 - 0.02, 0.0, 1.0]).min(margin([1.15 - 0.02 - 0.13, 0.0, 1.0]));
+    let project = texts.project();
+    let edges = project.edges.iter().filter(|edge| edge.from == LATHE || edge.to == LATHE);
+    let found: Vec<f64> = edges.map(|edge| edge.margin).collect();
+    assert!(
+        found.len() == 2 && found.iter().all(|margin| (margin - wanted).abs() < 1e-6),
+        "{found:?} {wanted}"
+    );
+}
+
 #[test]
 fn what_is_let_go_beside_the_chuck_falls() {
     let beside = [(

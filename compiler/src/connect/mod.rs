@@ -68,7 +68,7 @@ pub struct Line {
     /// In layout order.
     pub nodes: Vec<Node>,
     pub proposals: Vec<Proposal>,
-    /// Name and height (m) of each kind of part.
+    /// Name, and height of the grip point over the underside, m, of each kind of part.
     pub kinds: Vec<(String, f64)>,
 }
 

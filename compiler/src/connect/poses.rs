@@ -6,7 +6,7 @@ use runtime_sim::kinematics::arm::Arm;
 use runtime_sim::point::Point;
 use std::ops::ControlFlow;
 
-/// Every pose of the tool, which grips an item on its upper side: each place, with each kind of part,
+/// Every pose of the tool, which grips an item from its upper side: each place, with each kind of part,
 /// at contact and above it. `see` gets the place, the kind's name, the stage and the tool's place,
 /// and answers whether to continue.
 fn each(
@@ -16,8 +16,8 @@ fn each(
     mut see: impl FnMut(&Place, &str, Stage, Point) -> ControlFlow<()>,
 ) -> ControlFlow<()> {
     for place in &places(line, proposal, passive) {
-        for (kind, height) in &line.kinds {
-            let contact = place.facing.back(place.point, *height);
+        for (kind, grasp) in &line.kinds {
+            let contact = place.facing.back(place.point, *grasp);
             see(place, kind, Stage::Contact, contact)?;
             see(place, kind, Stage::Approach, place.facing.back(contact, proposal.site.approach))?;
         }

@@ -20,7 +20,7 @@ pub type Declared<'a> = HashMap<&'a str, &'a ast::Device>;
 /// Assemblies one in another.
 const DEEPEST: usize = 8;
 /// Names that every expression has.
-const BUILT_IN: [&str; 5] = ["pose", "origin", "kind_heights", "index", "pi"];
+const BUILT_IN: [&str; 6] = ["pose", "origin", "kind_heights", "kind_grasps", "index", "pi"];
 /// Parts of a device with all its assemblies.
 const MOST_PARTS: usize = 1000;
 

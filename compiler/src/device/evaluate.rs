@@ -21,6 +21,14 @@ pub enum Found {
     Assembly(usize),
 }
 
+/// Of a kind of part, over what it lies on, m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Heights {
+    pub top: f64,
+    /// Where the tool grips it.
+    pub grasp: f64,
+}
+
 /// A device for one machine.
 pub struct Environment<'a> {
     pub program: &'a Program,
@@ -29,7 +37,7 @@ pub struct Environment<'a> {
     /// Of each parameter of the device.
     pub arguments: &'a [Value],
     /// Of the kinds, in their order; none before they are known.
-    pub heights: Option<&'a [f64]>,
+    pub heights: Option<&'a [Heights]>,
     /// Behind the name of a place: `index`.
     pub index: Option<usize>,
     pub values: Values,
@@ -230,9 +238,8 @@ impl Environment<'_> {
                 let built_in = match name {
                     "pose" => self.pose.map(|pose| Value::Point(pose.position)),
                     "origin" => self.pose.map(Value::Frame),
-                    "kind_heights" => self.heights.map(|heights| {
-                        Value::List(heights.iter().map(|height| Value::Number(*height)).collect())
-                    }),
+                    "kind_heights" => self.of_each_kind(|kind| kind.top),
+                    "kind_grasps" => self.of_each_kind(|kind| kind.grasp),
                     "pi" => Some(Value::Number(std::f64::consts::PI)),
                     "index" => self.index.map(|index| Value::Number(index as f64)),
                     _ => None,
@@ -241,6 +248,10 @@ impl Environment<'_> {
                 built_in.map(Found::Value).ok_or_else(|| unknown(name, span, known))
             }
         }
+    }
+
+    fn of_each_kind(&self, height: fn(&Heights) -> f64) -> Option<Value> {
+        Some(Value::List(self.heights?.iter().map(|kind| Value::Number(height(kind))).collect()))
     }
 
     /// A coordinate, a frame or a setting of a part, or what stands in an assembly.

@@ -13,6 +13,7 @@ mod settle;
 mod wires;
 
 pub use check::{Declared, check};
+pub use evaluate::Heights;
 pub use placed::{Place, Placed};
 
 use crate::source::Span;

@@ -1,6 +1,6 @@
 //! A device at a place of the layout.
 
-use super::evaluate::{Environment, Values, Wrong};
+use super::evaluate::{Environment, Heights, Values, Wrong};
 use super::program::Symbol;
 use super::{Device, Form, Parameter};
 use crate::diagnostic::{Diagnostic, sort};
@@ -56,7 +56,7 @@ pub struct Unmet {
 }
 
 impl Placed {
-    fn environment<'a>(&'a self, heights: &'a [f64], index: Option<usize>) -> Environment<'a> {
+    fn environment<'a>(&'a self, heights: &'a [Heights], index: Option<usize>) -> Environment<'a> {
         Environment {
             program: &self.device.program,
             pose: Some(self.pose),
@@ -68,7 +68,7 @@ impl Placed {
     }
 
     /// All parts of the machine; `place` is where the layout describes it. `heights` are those of the kinds.
-    pub fn parts(&self, heights: &[f64], place: Span) -> Result<Vec<Arc<Part>>, Vec<Diagnostic>> {
+    pub fn parts(&self, heights: &[Heights], place: Span) -> Result<Vec<Arc<Part>>, Vec<Diagnostic>> {
         let mut diagnostics = Vec::new();
         let all: Vec<usize> = (0..self.device.program.parts.len()).collect();
         let parts = self.some(&all, heights, place, &mut diagnostics);
@@ -80,7 +80,7 @@ impl Placed {
     }
 
     /// The machine as the simulator takes it, without an automaton.
-    pub fn machine(&self, name: &str, heights: &[f64], place: Span) -> Result<Machine, Vec<Diagnostic>> {
+    pub fn machine(&self, name: &str, heights: &[Heights], place: Span) -> Result<Machine, Vec<Diagnostic>> {
         let machine = Machine {
             name: name.into(),
             pose: self.pose.position,
@@ -106,7 +106,7 @@ impl Placed {
     fn some(
         &self,
         numbers: &[usize],
-        heights: &[f64],
+        heights: &[Heights],
         place: Span,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Vec<(usize, Arc<Part>)> {
@@ -143,7 +143,7 @@ impl Placed {
     }
 
     /// Constants that are not of their types for this machine: generated code relies on them.
-    fn wrong_constants(&self, heights: &[f64], place: Span) -> Vec<Diagnostic> {
+    fn wrong_constants(&self, heights: &[Heights], place: Span) -> Vec<Diagnostic> {
         let environment = self.environment(heights, None);
         let constants =
             self.device.constants.iter().filter_map(|constant| {
@@ -258,7 +258,7 @@ impl Placed {
     }
 
     /// The values of a device constant, flattened; `None` if this device has no such constant.
-    pub fn constant(&self, name: &str, heights: &[f64]) -> Option<Vec<f64>> {
+    pub fn constant(&self, name: &str, heights: &[Heights]) -> Option<Vec<f64>> {
         let constant = self.device.constants.iter().find(|constant| constant.name == name)?;
         let value = self.environment(heights, None).value(0, self.expression(name)?).ok()?;
         let mut words = Vec::new();

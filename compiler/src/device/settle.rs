@@ -1,7 +1,7 @@
 //! What of a device can be told before there is a machine: values that are the same for all, and expressions that are
 //! wrong for any.
 
-use super::evaluate::{Environment, Found, Values, Wrong};
+use super::evaluate::{Environment, Found, Heights, Values, Wrong};
 use super::program::{Program, Setting as Given};
 use super::{Constant, Form, Parameter};
 use crate::diagnostic::Diagnostic;
@@ -60,7 +60,7 @@ pub fn wrong(
         program,
         pose: Some(Frame::new(Point::new(0.5, 0.25, 1.0), 0.0)),
         arguments: &arguments,
-        heights: Some(&[0.1]),
+        heights: Some(&[Heights { top: 0.1, grasp: 0.1 }]),
         index: None,
         values: Values::Sample,
     };

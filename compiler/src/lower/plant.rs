@@ -101,6 +101,7 @@ pub fn line(
             .map(|kind| line::Kind {
                 name: kind.name.value.clone(),
                 height: kind.height,
+                grasp: kind.grasp,
                 size: kind.size,
                 mass: kind.mass,
                 is: kind.is.iter().map(|word| word.value.clone()).collect(),

@@ -3,6 +3,7 @@
 use super::bind::Robot;
 use super::{Apart, Verdict};
 use crate::connect::{self, Connected, Ground, Node, Proposal, Site};
+use crate::device::Heights;
 use crate::diagnostic::{Diagnostic, collect};
 use crate::executor::Executor;
 use crate::ir::{
@@ -28,8 +29,9 @@ pub struct Line<'a> {
     pub model: Model,
     /// The automaton of each robot.
     automata: Vec<AutomatonId>,
+    /// Name, and height of the grip point over the underside, m, of each kind.
     pub kinds: Vec<(String, f64)>,
-    pub heights: Vec<f64>,
+    pub heights: Vec<Heights>,
     /// Parts of each kind that all orders of the scenario ask for, and where these stand. `None`: without end.
     pub ordered: Option<Vec<u64>>,
     pub orders_place: Span,
@@ -48,8 +50,8 @@ pub struct Line<'a> {
 impl<'a> Line<'a> {
     pub fn new(layout: &'a Layout, robots: Vec<Robot<'a>>, model: Model, scenario: &Scenario) -> Self {
         let kinds: Vec<(String, f64)> =
-            scenario.kinds.iter().map(|k| (k.name.value.clone(), k.height)).collect();
-        let heights = kinds.iter().map(|k| k.1).collect();
+            scenario.kinds.iter().map(|k| (k.name.value.clone(), k.grasp)).collect();
+        let heights = scenario.kinds.iter().map(|k| Heights { top: k.height, grasp: k.grasp }).collect();
         let asked = |kind: usize| scenario.orders.list.iter().map(|o| u64::from(o.parts[kind])).sum();
         let has_end = scenario.orders.number == Number::Listed;
         let ordered = has_end.then(|| (0..kinds.len()).map(asked).collect());

@@ -249,7 +249,7 @@ impl<'t> Place<'t> {
         }
         let own = [What::Key, What::DeviceDefine, What::Part, What::Port, What::Constant];
         let mut words = named(specs, &own, name);
-        words.extend(of_language(&["pose", "origin", "kind_heights", "pi", "point", "frame"]));
+        words.extend(of_language(&["pose", "origin", "kind_heights", "kind_grasps", "pi", "point", "frame"]));
         words
     }
 

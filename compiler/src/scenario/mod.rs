@@ -49,6 +49,8 @@ pub struct Kind {
     pub name: Spanned<String>,
     /// In metres.
     pub height: f64,
+    /// Over its underside, where a tool grips it, in metres.
+    pub grasp: f64,
     /// Lengths along x and y as it appears on a belt, in metres.
     pub size: [f64; 2],
     /// What sensors find it to be, such as `metal`.

@@ -52,6 +52,11 @@ fn kind() -> Value {
         property("name", name(), "Its name"),
         property("height", length(), "Height over what it lies on, m"),
         property(
+            "grasp",
+            length(),
+            "Height over what it lies on at which a tool grips it, m. Without it: its height",
+        ),
+        property(
             "size",
             tuple(&[length(), length()]),
             "Lengths along x and y as it appears on a belt, m. Without it: 0.1 each",

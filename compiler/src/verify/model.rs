@@ -163,6 +163,7 @@ pub fn model(project: &Project, asked: &Asked) -> Result<Searched, Vec<Diagnosti
         processes: changing.processes,
         orders,
         heights: line.kinds.iter().map(|kind| kind.height).collect(),
+        grasps: line.kinds.iter().map(|kind| kind.grasp).collect(),
         faults: asked.faults,
         watch: Watch::Everything,
         reductions: Reductions::On,

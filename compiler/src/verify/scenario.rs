@@ -8,7 +8,14 @@ pub fn text(line: &Line) -> String {
     let name = |machine: usize| line.machines[machine].name.as_str();
     let kind = |kind: usize| line.kinds[kind].name.as_str();
     let kinds: Vec<Value> = (line.kinds.iter())
-        .map(|k| json!({"name": k.name, "height": k.height, "size": k.size, "is": k.is, "mass": k.mass}))
+        .map(|k| {
+            let mut value =
+                json!({"name": k.name, "height": k.height, "size": k.size, "is": k.is, "mass": k.mass});
+            if k.grasp != k.height {
+                value["grasp"] = json!(k.grasp);
+            }
+            value
+        })
         .collect();
     let orders: Vec<Value> = (line.scenario.orders.iter())
         .map(|order| {

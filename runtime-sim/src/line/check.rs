@@ -23,6 +23,9 @@ impl Line {
             if !(kind.height > 0.0 && kind.height.is_finite()) {
                 return Err(format!("the height of {} is no positive number", kind.name));
             }
+            if !(kind.grasp > 0.0 && kind.grasp <= kind.height) {
+                return Err(format!("{} is not gripped between its underside and its upper side", kind.name));
+            }
             if !kind.size.iter().all(|length| *length > 0.0 && length.is_finite()) {
                 return Err(format!("a length of {} is no positive number", kind.name));
             }

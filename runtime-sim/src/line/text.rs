@@ -24,7 +24,7 @@ impl Line {
             out.push_str(entry.trim_end());
             out.push('\n');
         };
-        put("line 9".into());
+        put("line 10".into());
         put(format!("scan_ms {}", self.scan_ms));
         put(match self.io_delay {
             IoDelay::Fixed(scans) => format!("io_delay fixed {scans}"),
@@ -34,7 +34,8 @@ impl Line {
         for kind in &self.kinds {
             let [x, y] = kind.size;
             let is = list(&kind.is);
-            put(format!("  {} {:?} {x:?} {y:?} {is} {:?}", kind.name, kind.height, kind.mass));
+            let [height, grasp] = [kind.height, kind.grasp];
+            put(format!("  {} {height:?} {grasp:?} {x:?} {y:?} {is} {:?}", kind.name, kind.mass));
         }
         let mut devices: Vec<&Wiring> = Vec::new();
         for machine in &self.machines {
@@ -152,7 +153,7 @@ impl Line {
     /// Reads the text form, and leaves what follows it.
     pub fn read(words: &mut Words) -> Result<Line, String> {
         words.expect("line")?;
-        words.expect("9")?;
+        words.expect("10")?;
         words.expect("scan_ms")?;
         let scan_ms = words.int()?;
         words.expect("io_delay")?;
@@ -163,9 +164,10 @@ impl Line {
         };
         words.expect("kinds")?;
         let kinds = words.list(|w| {
-            let (name, height, size) = (w.name()?.into(), w.real()?, [w.real()?, w.real()?]);
+            let (name, height, grasp) = (w.name()?.into(), w.real()?, w.real()?);
+            let size = [w.real()?, w.real()?];
             let is = w.list(|w| Ok(w.name()?.into()))?;
-            Ok(Kind { name, height, size, is, mass: w.real()? })
+            Ok(Kind { name, height, grasp, size, is, mass: w.real()? })
         })?;
         words.expect("devices")?;
         let devices = words.list(|w| Ok(Arc::new(Wiring::read(w)?)))?;

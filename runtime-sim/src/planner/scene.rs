@@ -25,13 +25,13 @@ struct Member {
 pub struct Scene {
     arm: Arm,
     members: Vec<Member>,
-    /// The largest part, under the gripper.
+    /// The largest part, around the grip point.
     load: Member,
     obstacles: Vec<Cluster>,
     /// The lowest point of what does not turn with the torso, m.
     lowest_beam: f64,
     places: Vec<Places>,
-    /// Of the tool with the highest part at the highest place, m.
+    /// Of the tool at the highest grip point of a part at the highest place, m.
     pub highest_place: f64,
     /// Of the highest part, m.
     pub load_height: f64,
@@ -116,13 +116,12 @@ impl Scene {
         let blocks: Vec<Block> = blocks.flatten().collect();
         let obstacles = boxes.iter().flatten();
         let largest = |value: fn(&Kind) -> f64| line.kinds.iter().map(value).fold(0.0, f64::max);
-        let size = Point::new(largest(|k| k.size[0]), largest(|k| k.size[1]), largest(|k| k.height));
+        let under = largest(|kind| kind.grasp);
         let tallest = obstacles.clone().map(top).filter(|top| *top < shoulder).fold(0.0, f64::max);
         let obstacles = boxes.iter().filter_map(|solids| Cluster::new(solids)).collect();
-        let load = Pose { position: Point::new(0.0, 0.0, size.z / 2.0 + 0.001), ..Pose::IDENTITY };
         let members = members(own);
         let hand = members.last()?.link;
-        let load = Piece::new(String::new(), &load, Shape::Box { size });
+        let load = largest_load(&line.kinds);
         let beams = members.iter().filter(|member| member.link < TORSO).flat_map(|member| &member.pieces);
         let lowest_beam = beams.map(|piece| shoulder + piece.lowest()).fold(f64::INFINITY, f64::min);
         let places = places(line);
@@ -133,10 +132,10 @@ impl Scene {
             load: Member { link: hand, ball: load.ball(), pieces: vec![load] },
             obstacles,
             lowest_beam,
-            load_height: size.z,
-            highest_place: heights.fold(0.0, f64::max) + size.z,
+            load_height: largest(|kind| kind.height),
+            highest_place: heights.fold(0.0, f64::max) + under,
             places,
-            over_all: tallest + size.z + OVER,
+            over_all: tallest + under + OVER,
         };
         Some((scene, blocks))
     }
@@ -395,6 +394,15 @@ fn footprint(solid: &Solid, [low, high]: [f64; 2]) -> Option<Rectangle> {
     is_between.then(|| Rectangle { low: flat(middle - half), high: flat(middle + half) })
 }
 
+/// In the frame of a tool, whose z points down: as large as the largest kinds, from their grip points.
+fn largest_load(kinds: &[Kind]) -> Piece {
+    let largest = |value: fn(&Kind) -> f64| kinds.iter().map(value).fold(0.0, f64::max);
+    let (under, over) = (largest(|kind| kind.grasp), largest(|kind| kind.height - kind.grasp));
+    let size = Point::new(largest(|kind| kind.size[0]), largest(|kind| kind.size[1]), under + over);
+    let middle = Point::new(0.0, 0.0, (under - over) / 2.0 + 0.001);
+    Piece::new(String::new(), &Pose { position: middle, ..Pose::IDENTITY }, Shape::Box { size })
+}
+
 /// Where parts may lie: on trays and in bins the highest kind anywhere, in a briefcase each kind at its place.
 fn places(line: &Line) -> Vec<Places> {
     let part = |kind: &Kind, place: Point| {
@@ -426,4 +434,34 @@ fn places(line: &Line) -> Vec<Places> {
         machine.places().filter(|place| !machine.is_on_track(place)).flat_map(at_all).collect()
     };
     line.machines.iter().flat_map(of).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn kind(height: f64, grasp: f64) -> Kind {
+        Kind { name: "part".into(), height, grasp, size: [0.1, 0.2], is: Vec::new(), mass: 0.1 }
+    }
+
+    /// Upper and lower end under the tool, m.
+    fn ends(kinds: &[Kind]) -> [f64; 2] {
+        let load = largest_load(kinds);
+        [load.lowest(), 2.0 * load.ball().middle.z - load.lowest()]
+    }
+
+    #[test]
+    fn the_load_is_around_the_grip_points() {
+        for (kinds, [upper, lower]) in [
+            (vec![kind(0.1, 0.1)], [0.0, 0.1]),
+            (vec![kind(0.1, 0.06)], [-0.04, 0.06]),
+            (vec![kind(0.1, 0.06), kind(0.05, 0.05), kind(0.2, 0.02)], [-0.18, 0.06]),
+        ] {
+            let found = ends(&kinds);
+            assert!(
+                (found[0] - upper).abs() < 0.002 && (found[1] - lower).abs() < 0.002,
+                "{kinds:?} {found:?}"
+            );
+        }
+    }
 }

@@ -129,12 +129,12 @@ impl Plant {
             if matches!(carrier, Carrier::Grip { .. }) {
                 continue;
             }
-            let Some(top) = self.top(index) else { continue };
+            let Some(grip) = self.grip_point(index) else { continue };
             let (least, leap) = match carrier.machine() {
                 Some(machine) if speeds[machine] > 0.0 => (&mut distances[machine], self.leap(index)),
                 _ => (&mut at_rest, 0.0),
             };
-            *least = least.min((top - place).length() - leap);
+            *least = least.min((grip - place).length() - leap);
         }
         let moving = distances.into_iter().zip(speeds.iter().copied());
         Nearest { at_rest, moving: moving.filter(|(distance, _)| distance.is_finite()).collect() }
@@ -176,12 +176,17 @@ impl Plant {
         }
     }
 
-    /// Where an item is gripped: the middle of its upper side.
-    fn top(&self, item: usize) -> Option<Point> {
-        let (place, height) = (self.place(item)?, self.heights[self.items.all()[item].kind]);
+    /// How far over its underside an item is gripped, m.
+    pub fn grasp(&self, item: usize) -> f64 {
+        self.grasps[self.items.all()[item].kind]
+    }
+
+    /// Where an item is gripped: over the middle of its underside.
+    fn grip_point(&self, item: usize) -> Option<Point> {
+        let (place, grasp) = (self.place(item)?, self.grasp(item));
         Some(match self.upper(item) {
-            Some(upper) => place + upper.scaled(height),
-            None => place.up(height),
+            Some(upper) => place + upper.scaled(grasp),
+            None => place.up(grasp),
         })
     }
 
@@ -192,8 +197,8 @@ impl Plant {
             if matches!(self.items.all()[index].carrier, Carrier::Grip { .. }) {
                 continue;
             }
-            let Some(top) = self.top(index) else { continue };
-            let gap = top - tool.position;
+            let Some(grip) = self.grip_point(index) else { continue };
+            let gap = grip - tool.position;
             let square = gap.x * gap.x + gap.y * gap.y + gap.z * gap.z;
             let faces = |upper: Option<Point>| tool.axis(2).dot(upper.unwrap_or(UP)) < OPPOSITE;
             if square <= near * near

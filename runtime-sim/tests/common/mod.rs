@@ -35,11 +35,19 @@ pub fn line() -> Line {
             Kind {
                 name: "battery".into(),
                 height: BATTERY_HEIGHT,
+                grasp: BATTERY_HEIGHT,
                 size: [0.135, 0.06],
                 is: Vec::new(),
                 mass: 0.1,
             },
-            Kind { name: "pump".into(), height: PUMP_HEIGHT, size: [0.11, 0.11], is: Vec::new(), mass: 0.1 },
+            Kind {
+                name: "pump".into(),
+                height: PUMP_HEIGHT,
+                grasp: PUMP_HEIGHT,
+                size: [0.11, 0.11],
+                is: Vec::new(),
+                mass: 0.1,
+            },
         ],
         machines: vec![
             machine("belt", &belt(Point::new(-0.573076, 0.0, 0.0), Axis::Y, [-5.0, 5.0])),

@@ -25,6 +25,7 @@ pub fn any(span: Span) -> Kind {
     Kind {
         name: Spanned { value: "part".into(), span },
         height: SIZE[0],
+        grasp: SIZE[0],
         size: SIZE,
         is: Vec::new(),
         mass: MASS,
@@ -52,7 +53,7 @@ impl Decoder {
     /// With any height if that cannot be read, so that its name is known.
     fn kind(&mut self, json: &Json) -> Option<Kind> {
         let members = self.object(json, "a kind")?;
-        self.unknown_keys(members, &["name", "height", "size", "is", "mass"], "a kind");
+        self.unknown_keys(members, &["name", "height", "grasp", "size", "is", "mass"], "a kind");
         let name = self.required(members, "name", json.span, "a kind");
         let name = name.and_then(|j| self.text(j, "name"));
         if let Some(name) = &name {
@@ -60,13 +61,29 @@ impl Decoder {
         }
         let height = self.required(members, "height", json.span, "a kind");
         let height = height.and_then(|j| self.number_in(j, "height", LENGTHS));
+        let grasp = find(members, "grasp").and_then(|j| self.grasp(j, height));
         let size = find(members, "size").and_then(|j| self.footprint(j));
         let mass = find(members, "mass").and_then(|j| self.number_in(j, "mass", MASSES)).unwrap_or(MASS);
         let is = find(members, "is").and_then(|j| self.texts(j, "is")).unwrap_or_default();
         is.iter().for_each(|word| {
             self.identifier(word, "what a kind is");
         });
-        Some(Kind { name: name?, height: height.unwrap_or_default(), size: size.unwrap_or(SIZE), is, mass })
+        let height = height.unwrap_or_default();
+        let (grasp, size) = (grasp.unwrap_or(height), size.unwrap_or(SIZE));
+        Some(Kind { name: name?, height, grasp, size, is, mass })
+    }
+
+    /// Not over the upper side of the part, if its height is known.
+    fn grasp(&mut self, json: &Json, height: Option<f64>) -> Option<f64> {
+        let grasp = self.number_in(json, "grasp", LENGTHS)?;
+        let Some(height) = height.filter(|height| grasp > *height) else { return Some(grasp) };
+        let message = format!("grasp is {grasp} m over the underside of a part {height} m high");
+        self.report(
+            Diagnostic::new("E0114", json.span, message)
+                .note("a tool grips a part between its underside and its upper side")
+                .help(format!("write a number from {} to {height}", LENGTHS.start())),
+        );
+        None
     }
 
     fn footprint(&mut self, json: &Json) -> Option<[f64; 2]> {

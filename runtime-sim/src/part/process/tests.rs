@@ -21,7 +21,7 @@ fn process(settings: Vec<(&'static str, Value)>) -> Result<Process, String> {
 }
 
 fn kind(name: &str) -> Kind {
-    Kind { name: name.into(), height: 0.05, size: [0.1, 0.1], is: Vec::new(), mass: 0.1 }
+    Kind { name: name.into(), height: 0.05, grasp: 0.05, size: [0.1, 0.1], is: Vec::new(), mass: 0.1 }
 }
 
 fn cycle(settings: Vec<(&'static str, Value)>, place: [u64; 2]) -> Cycle {

@@ -125,6 +125,7 @@ impl Design {
                 .map(|(number, length)| Kind {
                     name: format!("kind_{number}"),
                     height: 0.1,
+                    grasp: 0.1,
                     size: [*length, 0.05],
                     is: Vec::new(),
                     mass: 0.1,
