@@ -7,6 +7,8 @@ mod conveyors;
 #[cfg(unix)]
 #[path = "command_line/copies.rs"]
 mod copies;
+#[path = "command_line/counterexample.rs"]
+mod counterexample;
 #[path = "command_line/daily.rs"]
 mod daily;
 #[path = "command_line/drives.rs"]

@@ -90,8 +90,13 @@ impl CollisionCheck {
         let size = |kind: &line::Kind| Point::new(kind.size[0], kind.size[1], kind.height);
         let sizes: Vec<Point> = line.kinds.iter().map(size).collect();
         let kinds = line.scenario.supply.iter().flat_map(|supply| supply.items.iter());
-        let items = item::names(line).into_iter().zip(kinds).map(|(name, &kind)| {
-            Tracked { name, size: sizes[kind], turn: 0.0, tipped: Pose::IDENTITY, place: None, hang: Pose::IDENTITY }
+        let items = item::names(line).into_iter().zip(kinds).map(|(name, &kind)| Tracked {
+            name,
+            size: sizes[kind],
+            turn: 0.0,
+            tipped: Pose::IDENTITY,
+            place: None,
+            hang: Pose::IDENTITY,
         });
         Self {
             items: items.collect(),

@@ -314,8 +314,9 @@ impl Working {
         if self.strokes(now_ms) {
             return f64::INFINITY;
         }
-        let speed =
-            |part: &dyn Running| part.trajectory(now_ms).speed().max(part.lane().map_or(0.0, Moving::top_speed));
+        let speed = |part: &dyn Running| {
+            part.trajectory(now_ms).speed().max(part.lane().map_or(0.0, Moving::top_speed))
+        };
         self.running().map(speed).fold(0.0, f64::max)
     }
 
