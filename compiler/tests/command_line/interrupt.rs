@@ -136,7 +136,8 @@ fn nothing_is_left_of_a_sweep_that_a_signal_ends() {
     let folder = folder("interrupt_sweep");
     let (layout, cache) = (example("ariac2021/default.json"), folder.with_file_name("cache"));
     for signal in ["INT", "TERM"] {
-        let mut child = begin(&folder, &cache, &["sweep", &layout, "--set", "agv.capacity=2,4"]);
+        let long = ["--set", "agv.capacity=2,4", "--replications", "1000"];
+        let mut child = begin(&folder, &cache, &[&["sweep", layout.as_str()][..], &long].concat());
         wait_until(&mut child, || has(&cache, "library.sha256") && !has(&cache, "workspace"));
         sleep(Duration::from_secs(2));
         end(child, signal);
