@@ -87,6 +87,6 @@ fn a_chain_without_a_solution_anywhere() {
     assert_eq!(errors("point(0.7, 0, 0.5)"), [""; 0]);
     assert_eq!(
         errors("point(2.7, 0, 0.5)"),
-        ["E0711 1:13 `thing` cannot be built from its device: its tool cannot reach its own rest position"]
+        ["E0711 4:57 `thing` cannot be built from its device: its tool cannot reach its own rest position"]
     );
 }
