@@ -47,32 +47,29 @@ pub fn after(system: &System, transition: &Transition, before: &BTreeSet<Lock>) 
     held.retain(|lock| lock.of.is_none_or(|local| !chosen.contains(&local)));
     for update in &transition.updates {
         let UpdateKind::Assign { target, value, .. } = &update.kind else { continue };
-        match &target.place {
-            Place::Cell { interface, cell, of, index: None } => {
-                let Some(of) = named(of.as_deref(), transition) else { continue };
-                let lock = Lock { interface: *interface, cell: *cell, of };
-                let rule = |cell: usize| &system.model.interface(*interface).cells[cell].rule;
-                match (&value.kind, rule(*cell)) {
-                    (ExprKind::Constant(Value::Bool(true)), Rule::Lock) => {
+        if let Place::Cell { interface, cell, of, index: None } = &target.place {
+            let Some(of) = named(of.as_deref(), transition) else { continue };
+            let lock = Lock { interface: *interface, cell: *cell, of };
+            let rule = |cell: usize| &system.model.interface(*interface).cells[cell].rule;
+            match (&value.kind, rule(*cell)) {
+                (ExprKind::Constant(Value::Bool(true)), Rule::Lock) => {
+                    held.insert(lock);
+                }
+                (ExprKind::Constant(Value::Bool(true)), Rule::Handshake) if of.is_some() => {
+                    if finds_false(transition, &target.place) {
                         held.insert(lock);
-                    }
-                    (ExprKind::Constant(Value::Bool(true)), Rule::Handshake) if of.is_some() => {
-                        if finds_false(transition, &target.place) {
-                            held.insert(lock);
-                        } else {
-                            // It reports an end: the owner resets what was claimed.
-                            held.retain(|lock| {
-                                (lock.interface, lock.of) != (*interface, of)
-                                    || !matches!(rule(lock.cell), Rule::Handshake)
-                            });
-                        }
-                    }
-                    _ => {
-                        held.remove(&lock);
+                    } else {
+                        // It reports an end: the owner resets what was claimed.
+                        held.retain(|lock| {
+                            (lock.interface, lock.of) != (*interface, of)
+                                || !matches!(rule(lock.cell), Rule::Handshake)
+                        });
                     }
                 }
+                _ => {
+                    held.remove(&lock);
+                }
             }
-            _ => {}
         }
     }
     held

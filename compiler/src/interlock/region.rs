@@ -299,11 +299,11 @@ impl<'a> Regions<'a> {
                 if let Some(row) = assigned.and_then(|local| self.bound.row(local)) {
                     return vec![row];
                 }
-                let binders = self.transition.clauses.iter().filter_map(|clause| match clause {
+                let mut binders = self.transition.clauses.iter().filter_map(|clause| match clause {
                     crate::ir::Clause::Bind(binder) if binder.variable == *variable => Some(&binder.domain),
                     _ => None,
                 });
-                match binders.last() {
+                match binders.next_back() {
                     Some(Domain::Role(role)) => self.system.instances[self.instance].roles[role.0].clone(),
                     _ => self.all(expr.ty),
                 }
@@ -349,7 +349,7 @@ pub fn rows_of_local(system: &System, instance: usize, local: usize) -> Vec<usiz
             if target.place != (Place::Local { local, index: None }) {
                 continue;
             }
-            let binders = transition.clauses.iter().filter_map(|clause| match (clause, &value.kind) {
+            let mut binders = transition.clauses.iter().filter_map(|clause| match (clause, &value.kind) {
                 (crate::ir::Clause::Bind(binder), ExprKind::Variable(variable))
                     if binder.variable == *variable =>
                 {
@@ -357,7 +357,7 @@ pub fn rows_of_local(system: &System, instance: usize, local: usize) -> Vec<usiz
                 }
                 _ => None,
             });
-            match (binders.last(), value.ty) {
+            match (binders.next_back(), value.ty) {
                 (Some(Domain::Role(role)), _) => rows.extend(&system.instances[instance].roles[role.0]),
                 (_, Scalar::Ref(interface)) => rows.extend(0..system.members[interface.0].len()),
                 _ => {}
