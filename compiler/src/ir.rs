@@ -362,6 +362,18 @@ pub enum UpdateKind {
     Command { verb: i32, arguments: Vec<Argument> },
 }
 
+impl UpdateKind {
+    /// None for a command.
+    pub fn target(&self) -> Option<&Target> {
+        match self {
+            Self::Assign { target, .. } | Self::Fill { target, .. } | Self::Copy { target, .. } => {
+                Some(target)
+            }
+            Self::Command { .. } => None,
+        }
+    }
+}
+
 #[derive(Clone, Debug)]
 pub struct Argument {
     /// Index into the ports of the device.

@@ -94,14 +94,9 @@ pub fn locks_itself(system: &System, instance: usize) -> bool {
 
 /// The locals that a transition writes.
 pub fn chosen(transition: &Transition) -> BTreeSet<usize> {
-    let written = transition.updates.iter().filter_map(|update| match &update.kind {
-        UpdateKind::Assign { target, .. }
-        | UpdateKind::Fill { target, .. }
-        | UpdateKind::Copy { target, .. } => match target.place {
-            Place::Local { local, .. } => Some(local),
-            _ => None,
-        },
-        UpdateKind::Command { .. } => None,
+    let written = transition.updates.iter().filter_map(|update| match update.kind.target()?.place {
+        Place::Local { local, .. } => Some(local),
+        _ => None,
     });
     written.collect()
 }

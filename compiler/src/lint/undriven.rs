@@ -3,7 +3,7 @@
 
 use crate::device::Device;
 use crate::diagnostic::Diagnostic;
-use crate::ir::{Automaton, Model, Place, UpdateKind};
+use crate::ir::{Automaton, Model, Place};
 use runtime_sim::device::Direction;
 use runtime_sim::wiring::{Drives, Output};
 use std::collections::BTreeSet;
@@ -27,17 +27,10 @@ pub fn check(model: &Model, found: &mut Vec<Diagnostic>) {
 
 fn unwritten(automaton: &Automaton) -> impl Iterator<Item = Diagnostic> {
     let transitions = automaton.states.iter().flat_map(|state| &state.transitions);
-    let written = transitions.flat_map(|transition| &transition.updates).filter_map(|update| {
-        let target = match &update.kind {
-            UpdateKind::Assign { target, .. }
-            | UpdateKind::Fill { target, .. }
-            | UpdateKind::Copy { target, .. } => target,
-            UpdateKind::Command { .. } => return None,
-        };
-        match target.place {
-            Place::Port { port, .. } => Some(port),
-            _ => None,
-        }
+    let updates = transitions.flat_map(|transition| &transition.updates);
+    let written = updates.filter_map(|update| match update.kind.target()?.place {
+        Place::Port { port, .. } => Some(port),
+        _ => None,
     });
     let written: BTreeSet<usize> = written.collect();
     levels(&automaton.device).filter(move |(port, _)| !written.contains(port)).map(|(port, _)| {

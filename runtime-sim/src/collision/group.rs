@@ -2,6 +2,7 @@
 
 mod boxes;
 mod extent;
+mod follow;
 mod parts;
 mod prints;
 
@@ -218,22 +219,6 @@ impl Group {
         self.bodies[body].take()
     }
 
-    /// What it bears has changed, or it moves along another path.
-    fn forget(&mut self) {
-        self.version += 1;
-        self.forget_place();
-    }
-
-    /// It is where it was going to, or elsewhere.
-    fn forget_place(&mut self) {
-        self.moving = None;
-        self.resting = None;
-        self.borne = None;
-        self.along = None;
-        self.boxes = Arc::default();
-        self.whole = None;
-    }
-
     fn position(&self, plant: &Plant) -> Point {
         self.machine().and_then(|index| plant.position(index)).unwrap_or_default()
     }
@@ -357,77 +342,6 @@ impl Group {
             Kind::Obstacle => None,
             Kind::Machine { index, .. } | Kind::Arm { index, .. } => Some(index),
         }
-    }
-
-    /// Which of its movements this is.
-    pub fn version(&self) -> u64 {
-        self.version
-    }
-
-    /// Looks up how it is going to move from now on, and how far it has gone at most.
-    pub fn follow(&mut self, plant: &Plant) {
-        let Some(index) = self.machine().filter(|_| !self.is_fixed) else { return };
-        let now_ms = plant.now_ms() as f64;
-        let passed = (now_ms - self.now_ms) / 1000.0;
-        self.now_ms = now_ms;
-        if self.moves() && passed > 0.0 {
-            for body in self.bodies.iter_mut().flatten() {
-                body.path += path(&self.movement, &self.parts, body, [0.0, passed]);
-            }
-        }
-        let trajectory = plant.trajectory(index).since(now_ms);
-        if trajectory == Trajectory::Rests && self.movement.rests_after() <= passed {
-            self.settle();
-        } else if trajectory != self.trajectory {
-            self.begin(Movement::new(&trajectory, now_ms));
-            self.trajectory = trajectory;
-        } else if self.trajectory != Trajectory::Rests {
-            self.movement = Movement::new(&self.trajectory, now_ms);
-        }
-        self.follow_parts(index, plant, passed);
-    }
-
-    /// It has come to rest where it was going to.
-    fn settle(&mut self) {
-        self.trajectory = Trajectory::Rests;
-        self.movement = Movement::Still;
-        self.forget_place();
-    }
-
-    /// It moves in another way than before, or at other times.
-    fn begin(&mut self, movement: Movement) {
-        let goes_on = movement.goes_on(&self.movement);
-        self.movement = movement;
-        self.version += 1;
-        if goes_on {
-            return;
-        }
-        self.forget();
-        if let Movement::Swings { motion, .. } = &self.movement {
-            for body in self.bodies.iter_mut().flatten() {
-                body.travel = body.radii.as_ref().map_or_else(Travel::default, |radii| motion.travel(radii));
-            }
-        }
-    }
-
-    /// How the items on its conveyors and its cylinders continue.
-    fn follow_parts(&mut self, index: usize, plant: &Plant, passed: f64) {
-        let moved = self.moves_parts();
-        let goes_on = self.parts.follow(&self.bodies, index, plant, passed);
-        if moved || !goes_on {
-            self.moving = None;
-            self.resting = None;
-            self.borne = None;
-        }
-        if !goes_on {
-            self.forget();
-        }
-    }
-
-    /// Seconds from now until it rests, or something on it does, if nothing new is asked of it; infinity: never, or all
-    /// of it is at rest.
-    pub fn rests_after(&self) -> f64 {
-        self.movement.rests_after().min(self.parts.rests_after())
     }
 
     /// Of a body with these radii on the path of the arm.

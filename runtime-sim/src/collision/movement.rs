@@ -77,10 +77,10 @@ impl Movement {
 
     /// Both are motions along the same path.
     pub fn goes_on(&self, last: &Self) -> bool {
-        match (self, last) {
-            (Self::Swings { motion, .. }, Self::Swings { motion: last, .. }) => motion.is_along(last),
-            _ => false,
-        }
+        matches!(
+            (self, last),
+            (Self::Swings { motion, .. }, Self::Swings { motion: last, .. }) if motion.is_along(last)
+        )
     }
 
     /// Between two times: metres of what slides, both times of what rides, or both places on the path of an arm.
