@@ -7,10 +7,30 @@ pub use rendered::{render, render_plain, render_styled};
 use crate::plain::shortened;
 use crate::source::Span;
 
-/// Something wrong with the input: an error, with which nothing is made of it, or a warning.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Severity {
+    /// Nothing is made of the input.
+    Error,
+    /// A line that has warnings can be built and run.
+    Warning,
+    /// What somebody has asked for; nothing has to be wrong.
+    Note,
+}
+
+impl Severity {
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Error => "error",
+            Self::Warning => "warning",
+            Self::Note => "note",
+        }
+    }
+}
+
+/// Something of the input: an error, a warning or a note.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnostic {
-    /// Stable, such as `E0104`, or `W0101` of a warning; every code is in `docs/errors.md`.
+    /// Stable, such as `E0104`, `W0101` of a warning or `N0101` of a note; every code is in `docs/errors.md`.
     pub code: &'static str,
     /// What is wrong, in one line that is complete by itself.
     pub message: String,
@@ -38,9 +58,12 @@ impl Diagnostic {
         }
     }
 
-    /// A line that has warnings can be built and run.
-    pub fn is_warning(&self) -> bool {
-        self.code.starts_with('W')
+    pub fn severity(&self) -> Severity {
+        match self.code.as_bytes().first() {
+            Some(b'W') => Severity::Warning,
+            Some(b'N') => Severity::Note,
+            _ => Severity::Error,
+        }
     }
 
     pub fn label(mut self, text: impl Into<String>) -> Self {

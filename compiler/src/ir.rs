@@ -372,6 +372,14 @@ impl UpdateKind {
             Self::Command { .. } => None,
         }
     }
+
+    /// What the target, or each of its elements, becomes; none if that is not one expression.
+    pub fn value(&self) -> Option<&Expr> {
+        match self {
+            Self::Assign { value, .. } | Self::Fill { value, .. } => Some(value),
+            Self::Copy { .. } | Self::Command { .. } => None,
+        }
+    }
 }
 
 #[derive(Clone, Debug)]

@@ -51,6 +51,11 @@ pub(crate) fn excerpt(text: &str) -> Cow<'_, str> {
     replaced(text, |c| c.is_ascii())
 }
 
+/// As it may be in XML, in attributes too, if its characters may.
+pub fn xml(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
 /// As it may be on a terminal, line breaks and tabs included, each character that is not plain as an escape of
 /// JSON. The texts of JSON keep their value by it.
 pub fn escaped(text: &str) -> Cow<'_, str> {

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 fn codes_of(text: &str, found: &mut BTreeSet<String>) {
-    let begins = text.match_indices("\"E").chain(text.match_indices("\"W0"));
+    let begins = ["\"E", "\"W0", "\"N0"].into_iter().flat_map(|begin| text.match_indices(begin));
     for (at, _) in begins {
         let code: String = text[at + 1..].chars().take_while(char::is_ascii_alphanumeric).collect();
         if code.len() == 5 && code[1..].bytes().all(|b| b.is_ascii_digit()) {

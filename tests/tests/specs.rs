@@ -2,12 +2,13 @@
 //!
 //! In a fixture `//~ E0311 part of the message` expects a diagnostic on its own
 //! line, `//~^` on the line above, with one `^` more for each line further up.
-//! Behind ` => ` may stand a part of its help.
+//! Behind ` => ` may stand a part of its help, or of a note.
 
 use autogen::diagnostic::Diagnostic;
 use autogen::library;
 use autogen::source::Sources;
-use autogen::{check, lint, spec};
+use autogen::{check, lint, overlap, spec};
+use autogen_tests::instances::instantiate;
 use autogen_tests::{devices, examples, own_line, plain, prototype, root};
 use std::collections::BTreeSet;
 
@@ -59,6 +60,17 @@ fn warnings_stand_where_they_are_expected() {
     expected_of(&["W01"], &codes);
 }
 
+/// Each of two transitions that can fire at the same time, with values for which both can.
+#[test]
+fn notes_stand_where_they_are_expected() {
+    let (_, codes) = compare("notes", |sources, name, text| {
+        let (system, read) = instantiate(&[(name.into(), text.into())]);
+        *sources = read;
+        overlap::notes(&system)
+    });
+    expected_of(&["N01"], &codes);
+}
+
 /// The library's types, and all that is shown how to write: nothing in them is hardly meant.
 #[test]
 fn the_library_and_the_examples_have_no_warnings() {
@@ -106,12 +118,9 @@ fn compare(
             match found.iter().position(is_meant) {
                 Some(i) => {
                     let diagnostic = found.remove(i);
-                    if diagnostic.help.is_empty() || !diagnostic.help.contains(&help) {
-                        wrong.push(format!(
-                            "{}:{line}: {code} has the help {:?}",
-                            path.display(),
-                            diagnostic.help
-                        ));
+                    let told = [&diagnostic.notes[..], &[diagnostic.help.clone()]].concat();
+                    if diagnostic.help.is_empty() || !told.iter().any(|told| told.contains(&help)) {
+                        wrong.push(format!("{}:{line}: {code} says {told:?}", path.display()));
                     }
                 }
                 None => wrong.push(format!("{}:{line}: {code} {part}: not found", path.display())),

@@ -3,11 +3,12 @@
 use super::options::{CheckOptions, Denied, Format, InputOptions};
 use super::{load, print};
 use crate::Status;
-use autogen::interlock;
+use autogen::diagnostic::Diagnostic;
 use autogen::lower::{Outcome, compile};
+use autogen::{interlock, overlap};
 
 pub fn run(options: &CheckOptions) -> Status {
-    let CheckOptions { input: options, deny } = options;
+    let CheckOptions { input: options, deny, notes } = options;
     let input = match load::load(options) {
         Ok(input) => input,
         Err(failure) => return print::failure(options, &failure),
@@ -17,17 +18,18 @@ pub fn run(options: &CheckOptions) -> Status {
     if let (Some(layout), Some(project)) = (&layout, &outcome.project) {
         outcome.warnings.extend(interlock::warnings(layout, project));
     }
-    show(options, &outcome);
+    let notes = outcome.project.as_ref().filter(|_| *notes).map(|project| overlap::notes(&project.system));
+    show(options, &outcome, &notes.unwrap_or_default());
     match outcome.project {
         Some(_) if outcome.warnings.is_empty() || *deny != Some(Denied::Warnings) => Status::Done,
         Some(_) | None => Status::WrongInput,
     }
 }
 
-fn show(options: &InputOptions, outcome: &Outcome) {
+fn show(options: &InputOptions, outcome: &Outcome, notes: &[Diagnostic]) {
     let Outcome { sources, diagnostics, warnings, verdict, project } = outcome;
-    let warnings = warnings.iter().filter(|_| !options.quiet);
-    let found: Vec<_> = diagnostics.iter().chain(warnings).cloned().collect();
+    let others = warnings.iter().chain(notes).filter(|_| !options.quiet);
+    let found: Vec<_> = diagnostics.iter().chain(others).cloned().collect();
     match options.format {
         Format::Json => say!("{}", print::verdict_json(verdict.as_ref(), sources, &found)),
         Format::Text => {

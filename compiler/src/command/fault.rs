@@ -1,6 +1,7 @@
 //! Faults and alarms of a run, by what and where they are in the text.
 
-use autogen::ir::{FaultSite, Severity, System};
+use autogen::fault::{place, reason, site};
+use autogen::ir::{Severity, System};
 use autogen::source::Sources;
 use serde_json::{Value, json};
 
@@ -8,21 +9,19 @@ use serde_json::{Value, json};
 /// numbers only.
 pub fn name(report: &mut Value, system: &System, sources: &Sources) {
     name_alarms(report, system, sources);
-    let Some(code) = report["fault"]["code"].as_u64().filter(|code| *code > 0) else { return };
-    let Some(site) = system.model.faults.get(code as usize - 1) else { return };
-    let place = place(sources, site);
+    let Some(code) = report["fault"]["code"].as_u64() else { return };
+    let Some(site) = site(system, code) else { return };
     let robot = report["fault"]["robot"].as_str().unwrap_or("").to_string();
     let state = report["robots"][&robot]["state"].as_str().unwrap_or("").to_string();
-    report["reason"] = json!(format!("fault {code} of {robot}, in state {state}: {} ({place})", site.text));
+    report["reason"] = json!(reason(system, sources, code, &robot, &state));
     report["fault"]["text"] = json!(site.text);
-    report["fault"]["place"] = json!(place);
+    report["fault"]["place"] = json!(place(sources, site));
     report["fault"]["state"] = json!(state);
 }
 
 fn name_alarms(report: &mut Value, system: &System, sources: &Sources) {
     for alarm in report["alarms"].as_array_mut().into_iter().flatten() {
-        let code = alarm["code"].as_u64().filter(|code| *code > 0);
-        let Some(site) = code.and_then(|code| system.model.faults.get(code as usize - 1)) else { continue };
+        let Some(site) = alarm["code"].as_u64().and_then(|code| site(system, code)) else { continue };
         alarm["text"] = json!(site.text);
         alarm["place"] = json!(place(sources, site));
         alarm["stops"] = json!(site.severity == Severity::Machine);
@@ -47,8 +46,4 @@ fn name_alarms(report: &mut Value, system: &System, sources: &Sources) {
     if let Some(reason) = report["reason"].as_str().map(|reason| reason.to_string() + &told) {
         report["reason"] = json!(reason);
     }
-}
-
-fn place(sources: &Sources, site: &FaultSite) -> String {
-    format!("{}:{}", sources.file(site.place.file).name, sources.position(site.place).0)
 }

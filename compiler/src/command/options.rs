@@ -98,6 +98,9 @@ pub struct CheckOptions {
     /// Diagnostics that end the check with exit status 1, as errors do
     #[arg(long, value_enum, value_name = "WHAT")]
     pub deny: Option<Denied>,
+    /// Note transitions that can fire at the same time, of which the first one does
+    #[arg(long)]
+    pub notes: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

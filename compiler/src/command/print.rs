@@ -4,7 +4,7 @@ use super::interrupt;
 use super::load::Failure;
 use super::options::{Format, InputOptions};
 use crate::Status;
-use autogen::diagnostic::{self, Diagnostic};
+use autogen::diagnostic::{self, Diagnostic, Severity};
 use autogen::lower::{Apart, Handover, Loss, Lost, Passage, Verdict};
 use autogen::plain;
 use autogen::source::Sources;
@@ -52,9 +52,9 @@ pub fn diagnostics(sources: &Sources, found: &[Diagnostic]) {
     if shown.len() < found.len() {
         complain!("and {} more, with `--format json`", found.len() - shown.len());
     }
-    let warnings = found.iter().filter(|found| found.is_warning()).count();
-    for (count, what) in [(found.len() - warnings, "error"), (warnings, "warning")] {
-        match count {
+    for severity in [Severity::Error, Severity::Warning, Severity::Note] {
+        let what = severity.name();
+        match found.iter().filter(|found| found.severity() == severity).count() {
             0 => {}
             1 => complain!("1 {what}"),
             n => complain!("{n} {what}s"),
@@ -68,7 +68,7 @@ pub fn diagnostics_json(sources: &Sources, found: &[Diagnostic]) -> Value {
         .map(|d| {
             let (line, column) = sources.position(d.place);
             json!({
-                "code": d.code, "severity": if d.is_warning() { "warning" } else { "error" }, "message": d.message, "file": sources.file(d.place.file).name,
+                "code": d.code, "severity": d.severity().name(), "message": d.message, "file": sources.file(d.place.file).name,
                 "line": line, "column": column, "help": d.help, "notes": d.notes,
             })
         })
@@ -131,7 +131,7 @@ pub fn verdict_json(verdict: Option<&Verdict>, sources: &Sources, found: &[Diagn
     let empty = Verdict::default();
     let v = verdict.unwrap_or(&empty);
     json!({
-        "feasible": v.feasible && found.iter().all(Diagnostic::is_warning),
+        "feasible": v.feasible && found.iter().all(|d| d.severity() != Severity::Error),
         "robots": v.robots,
         "edges": v.edges.iter().map(handover_json).collect::<Vec<_>>(),
         "sources": v.sources,

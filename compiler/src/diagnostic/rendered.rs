@@ -1,6 +1,6 @@
 //! Diagnostics as text for people.
 
-use super::Diagnostic;
+use super::{Diagnostic, Severity};
 use crate::plain::{self, boundary};
 use crate::source::{FileId, Sources, Span};
 use annotate_snippets::{Annotation, AnnotationKind, Group, Level, Origin, Renderer, Snippet};
@@ -50,7 +50,11 @@ fn rendered(sources: &Sources, diagnostic: &Diagnostic, renderer: &Renderer) -> 
             false => shown.extend(own.into_iter().map(|place| vec![place])),
         }
     }
-    let level = if diagnostic.is_warning() { Level::WARNING } else { Level::ERROR };
+    let level = match diagnostic.severity() {
+        Severity::Error => Level::ERROR,
+        Severity::Warning => Level::WARNING,
+        Severity::Note => Level::NOTE,
+    };
     let mut group =
         Group::with_title(level.primary_title(plain::lines(&diagnostic.message)).id(diagnostic.code));
     for places in &shown {

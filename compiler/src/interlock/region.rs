@@ -1,7 +1,7 @@
 //! Where points of a line may be, as far as its texts and its layout tell.
 
 use crate::ir::{
-    Asking, Domain, Expr, ExprKind, InterfaceId, Operator, Place, Scalar, System, Transition, Update,
+    Asking, Domain, Expr, ExprKind, InterfaceId, Operator, Place, Scalar, System, Target, Transition, Update,
     UpdateKind, Value,
 };
 use runtime_sim::line::Line;
@@ -112,20 +112,16 @@ impl<'a> Regions<'a> {
                 for transition in transitions {
                     let here = Self { transition, ..*self };
                     for update in &transition.updates {
-                        match &update.kind {
-                            UpdateKind::Assign { target, value, .. }
-                            | UpdateKind::Fill { target, value, .. }
-                                if matches!(target.place, Place::Local { local: of, .. } if of == *local)
-                                    // How far it goes step by step is not known.
-                                    && !itself.expression(value) =>
-                            {
-                                all.extend(here.points(value)?);
-                            }
-                            UpdateKind::Copy { target, source, .. } if matches!(target.place, Place::Local { local: of, .. } if of == *local) =>
-                            {
-                                all.extend(here.points_at(source)?);
-                            }
-                            _ => {}
+                        let is_it = |target: &Target| matches!(target.place, Place::Local { local: of, .. } if of == *local);
+                        if !update.kind.target().is_some_and(is_it) {
+                            continue;
+                        }
+                        // How far it goes step by step is not known.
+                        if let Some(value) = update.kind.value().filter(|value| !itself.expression(value)) {
+                            all.extend(here.points(value)?);
+                        }
+                        if let UpdateKind::Copy { source, .. } = &update.kind {
+                            all.extend(here.points_at(source)?);
                         }
                     }
                 }
@@ -151,13 +147,8 @@ impl<'a> Regions<'a> {
             for transition in automaton.states.iter().flat_map(|state| &state.transitions) {
                 let here = Regions { instance, bound: &unbound, transition, ..inner };
                 for update in &transition.updates {
-                    let (target, value) = match &update.kind {
-                        UpdateKind::Assign { target, value, .. } | UpdateKind::Fill { target, value, .. } => {
-                            (target, Some(value))
-                        }
-                        UpdateKind::Copy { target, .. } => (target, None),
-                        UpdateKind::Command { .. } => continue,
-                    };
+                    let Some(target) = update.kind.target() else { continue };
+                    let value = update.kind.value();
                     let Place::Cell { interface: of_interface, cell: of_cell, of, .. } = &target.place else {
                         continue;
                     };

@@ -32,7 +32,8 @@ impl<F: Fn(&ExprKind) -> bool> Asking<F> {
 }
 
 impl Transition {
-    fn guard_expressions(&self) -> impl Iterator<Item = &Expr> {
+    /// All that its guard consists of, keys and ranges of binders included.
+    pub fn guard_expressions(&self) -> impl Iterator<Item = &Expr> {
         self.clauses.iter().flat_map(|clause| match clause {
             Clause::Condition(condition) => vec![condition],
             Clause::Bind(binder) => {

@@ -5,6 +5,7 @@ mod failure;
 mod flow;
 mod implies;
 mod lanes;
+mod overwritten;
 mod undriven;
 mod unused;
 
@@ -22,6 +23,7 @@ pub fn warnings(model: &Model, files: &[(FileId, ast::File)]) -> Vec<Diagnostic>
         flow::check(automaton, &mut found);
         failure::check(automaton, &mut found);
         answer::check(automaton, &mut found);
+        overwritten::check(automaton, &mut found);
     }
     unused::check(model, files, &mut found);
     undriven::check(model, &mut found);

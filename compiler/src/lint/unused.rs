@@ -90,13 +90,13 @@ impl Uses {
         variable: Variable,
         place: Option<Span>,
     ) -> Option<Diagnostic> {
-        let missing = match (self.read.contains(&variable), self.written.contains(&variable)) {
+        let wrong = match (self.read.contains(&variable), self.written.contains(&variable)) {
             (true, true) => return None,
-            (true, false) => "written: it keeps its first value",
-            (false, true) => "read",
-            (false, false) => "used",
+            (true, false) => "keeps its first value: nothing else is written to it",
+            (false, true) => "is never read",
+            (false, false) => "is never used",
         };
-        let message = format!("the {what} `{name}` is never {missing}");
+        let message = format!("the {what} `{name}` {wrong}");
         Some(Diagnostic::new(code, place?, message).help("remove it, or use it"))
     }
 
@@ -107,7 +107,7 @@ impl Uses {
             state.within.iter().for_each(|(longest, _)| self.expr(longest));
             for transition in &state.transitions {
                 transition.clauses.iter().for_each(|clause| self.clause(clause));
-                transition.updates.iter().for_each(|update| self.update(&update.kind));
+                transition.updates.iter().for_each(|update| self.update(automaton, &update.kind));
             }
         }
     }
@@ -136,10 +136,20 @@ impl Uses {
         }
     }
 
-    fn update(&mut self, update: &UpdateKind) {
+    /// A local to which its first value is written keeps it.
+    fn update(&mut self, automaton: &Automaton, update: &UpdateKind) {
         match update {
             UpdateKind::Assign { target, value, .. } | UpdateKind::Fill { target, value, .. } => {
-                self.write(&target.place);
+                let is_first = match (&target.place, &value.kind) {
+                    (Place::Local { local, .. }, ExprKind::Constant(value)) => {
+                        *value == automaton.locals[*local].initial
+                    }
+                    _ => false,
+                };
+                match is_first {
+                    true => target.place.parts().into_iter().for_each(|part| self.expr(part)),
+                    false => self.write(&target.place),
+                }
                 self.value(value, &target.place);
             }
             UpdateKind::Copy { target, source, .. } => {

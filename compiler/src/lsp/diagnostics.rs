@@ -1,7 +1,7 @@
 //! Diagnostics as editors show them.
 
 use super::lines::Lines;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Severity};
 use crate::plain;
 use crate::source::Span;
 use gen_lsp_types::{self as protocol, DiagnosticRelatedInformation, DiagnosticSeverity, Location};
@@ -29,9 +29,10 @@ pub fn shown(diagnostic: &Diagnostic, lines: &Lines, files: &dyn Located) -> pro
     if !diagnostic.help.is_empty() {
         text.push(format!("help: {}", diagnostic.help));
     }
-    let severity = match diagnostic.is_warning() {
-        true => DiagnosticSeverity::Warning,
-        false => DiagnosticSeverity::Error,
+    let severity = match diagnostic.severity() {
+        Severity::Error => DiagnosticSeverity::Error,
+        Severity::Warning => DiagnosticSeverity::Warning,
+        Severity::Note => DiagnosticSeverity::Information,
     };
     protocol::Diagnostic {
         range: lines.range(diagnostic.place),

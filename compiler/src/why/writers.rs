@@ -2,7 +2,7 @@
 
 use super::Watch;
 use crate::ir::Element;
-use crate::ir::{Automaton, Expr, ExprKind, InterfaceId, Place, Rule, System, UpdateKind, Value};
+use crate::ir::{Automaton, Expr, ExprKind, InterfaceId, Place, Rule, System, Value};
 use crate::spec::ast::Side;
 use std::collections::BTreeSet;
 
@@ -103,13 +103,8 @@ fn written(automaton: &Automaton) -> BTreeSet<Written> {
 /// What is written, with the value if it is one expression.
 fn targets(automaton: &Automaton) -> impl Iterator<Item = (&Place, Option<&Expr>)> {
     let transitions = automaton.states.iter().flat_map(|state| &state.transitions);
-    transitions.flat_map(|transition| &transition.updates).filter_map(|update| match &update.kind {
-        UpdateKind::Assign { target, value, .. } | UpdateKind::Fill { target, value, .. } => {
-            Some((&target.place, Some(value)))
-        }
-        UpdateKind::Copy { target, .. } => Some((&target.place, None)),
-        UpdateKind::Command { .. } => None,
-    })
+    let updates = transitions.flat_map(|transition| &transition.updates);
+    updates.filter_map(|update| Some((&update.kind.target()?.place, update.kind.value())))
 }
 
 /// To whom a reference leads: a variable of a guard to a member of a role, as does a local that holds nothing else.

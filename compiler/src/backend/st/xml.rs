@@ -257,7 +257,7 @@ fn typed(attributes: &str, ty: &str, initial: &str, about: &str, indent: usize) 
 }
 
 fn escaped(text: &str) -> String {
-    plain::line(text).replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+    plain::xml(&plain::line(text))
 }
 
 /// Text that does not end a CDATA section.

@@ -9,7 +9,7 @@ use autogen::lower::{Input, compile};
 use autogen::lsp::json;
 use autogen::lsp::specs::{Specs, trees};
 use autogen::source::{FileId, Sources};
-use autogen::{library, lint, scenario, testing};
+use autogen::{interlock, library, lint, scenario, testing};
 use serde_json::json;
 use std::path::{Path, PathBuf};
 
@@ -67,10 +67,14 @@ fn layout(path: &Path) -> Found {
     let mut sources = Sources::default();
     match load::texts(&mut sources, path, &[], None) {
         Ok(load::Texts { layout, specs, scenario, .. }) => {
+            let machines = layout.0.clone();
             let input = Input { sources, layout, specs, scenario, settings: Vec::new(), order: None };
             let outcome = compile(input);
             let mut diagnostics = outcome.diagnostics;
             diagnostics.extend(outcome.warnings);
+            if let (Some(machines), Some(project)) = (&machines, &outcome.project) {
+                diagnostics.extend(interlock::warnings(machines, project));
+            }
             Found { sources: outcome.sources, diagnostics, refused: None }
         }
         Err(Failure::Refused(sources, diagnostics) | Failure::Wrong(sources, diagnostics)) => {

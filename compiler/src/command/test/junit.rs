@@ -62,15 +62,5 @@ pub fn text(files: &[OfFile], not_run: &[NotRun]) -> String {
 
 /// As it may be in XML, in attributes too.
 fn escaped(text: &str) -> String {
-    let mut out = String::new();
-    for c in plain::lines(text).chars() {
-        match c {
-            '&' => out += "&amp;",
-            '<' => out += "&lt;",
-            '>' => out += "&gt;",
-            '"' => out += "&quot;",
-            c => out.push(c),
-        }
-    }
-    out
+    plain::xml(&plain::lines(text))
 }

@@ -1,0 +1,65 @@
+//! Updates without effect: a later one of the same transition writes the same value anew, and nothing has read it.
+
+use crate::diagnostic::Diagnostic;
+use crate::ir::{Automaton, Expr, ExprKind, Place, Update, UpdateKind};
+
+pub fn check(automaton: &Automaton, found: &mut Vec<Diagnostic>) {
+    for transition in automaton.states.iter().flat_map(|state| &state.transitions) {
+        for (number, update) in transition.updates.iter().enumerate() {
+            let Some(by) = overwriting(automaton, update, &transition.updates[number + 1..]) else {
+                continue;
+            };
+            found.push(
+                Diagnostic::new("W0111", update.place, "this update has no effect")
+                    .other(by.place, "this one writes the same, and nothing has read it before")
+                    .help("remove one of the two"),
+            );
+        }
+    }
+}
+
+/// The first of these that writes what the update writes, if none before it, nor itself, reads that.
+fn overwriting<'a>(automaton: &Automaton, update: &Update, later: &'a [Update]) -> Option<&'a Update> {
+    let written = &update.kind.target()?.place;
+    for next in later {
+        if reads(automaton, &next.kind, written) {
+            return None;
+        }
+        if next.kind.target().is_some_and(|target| target.place == *written) {
+            return Some(next);
+        }
+    }
+    None
+}
+
+fn reads(automaton: &Automaton, update: &UpdateKind, place: &Place) -> bool {
+    let target = update.target().map(|target| target.place.parts()).unwrap_or_default();
+    let values: Vec<&Expr> = match update {
+        UpdateKind::Assign { value, .. } | UpdateKind::Fill { value, .. } => vec![value],
+        UpdateKind::Copy { source, .. } if is_same_variable(source, place) => return true,
+        UpdateKind::Copy { source, .. } => source.parts(),
+        UpdateKind::Command { arguments, .. } => arguments.iter().map(|argument| &argument.value).collect(),
+    };
+    target.into_iter().chain(values).any(|expr| asks(automaton, expr, place))
+}
+
+/// Through definitions too.
+fn asks(automaton: &Automaton, expr: &Expr, place: &Place) -> bool {
+    match &expr.kind {
+        ExprKind::Define(define) => asks(automaton, &automaton.defines[*define].value, place),
+        ExprKind::Read(read) if is_same_variable(read, place) => true,
+        _ => expr.parts().into_iter().any(|part| asks(automaton, part, place)),
+    }
+}
+
+/// Whichever element and whichever instance.
+fn is_same_variable(a: &Place, b: &Place) -> bool {
+    match (a, b) {
+        (Place::Local { local: a, .. }, Place::Local { local: b, .. }) => a == b,
+        (Place::Port { port: a, .. }, Place::Port { port: b, .. }) => a == b,
+        (Place::Cell { interface: a, cell: of_a, .. }, Place::Cell { interface: b, cell: of_b, .. }) => {
+            (a, of_a) == (b, of_b)
+        }
+        _ => false,
+    }
+}
