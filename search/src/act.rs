@@ -16,6 +16,7 @@ impl Scan<'_> {
     pub(crate) fn begin(&mut self, machine: usize, command: usize, points: &[Point], is_under_way: bool) {
         let plant = &self.model.machines[machine];
         let Some(head) = &plant.head else { return };
+        let before = is_under_way.then(|| self.asked(plant));
         if is_under_way {
             self.interrupt(plant);
         }
@@ -38,7 +39,22 @@ impl Scan<'_> {
         }
         head.status.store(self.bytes, status::UNDER_WAY);
         head.command.store(self.bytes, command as i32);
-        self.moved = true;
+        self.given |= bit(machine);
+        if before == Some(self.asked(plant)) {
+            self.repeated |= bit(machine);
+        }
+    }
+
+    /// The last command, and where it leads.
+    fn asked(&self, plant: &Machine) -> [Option<i32>; 4] {
+        let arm = plant.arm.as_ref();
+        let vars = [
+            plant.head.as_ref().map(|head| head.command),
+            arm.map(|arm| arm.via),
+            arm.map(|arm| arm.goal),
+            plant.route.as_ref().map(|route| route.goal),
+        ];
+        vars.map(|var| var.map(|var| var.load(self.bytes)))
     }
 
     /// An arm goes nowhere if its goal is out of reach.
@@ -126,7 +142,12 @@ impl Scan<'_> {
                 input.var.store(self.bytes, 0);
             }
         }
-        if self.moved && model.watch == Watch::Everything { self.hazards() } else { Ok(()) }
+        if self.given == 0 || model.watch != Watch::Everything {
+            return Ok(());
+        }
+        self.hazards()?;
+        self.remark();
+        Ok(())
     }
 
     /// The answer to a command, once it is of no use.

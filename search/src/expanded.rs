@@ -19,6 +19,8 @@ pub(crate) struct Expanded {
     pub unknown: Store,
     /// Of each of these: instances that may do something in the next scan even if no device does.
     pub restless: Vec<u64>,
+    /// What has been found to be hardly meant: each thing once.
+    remarked: Vec<Violation>,
 }
 
 /// What follows one state.
@@ -49,6 +51,8 @@ pub(crate) enum Step {
     /// To a stop, without a fault.
     Stop,
     Found(Box<(Violation, Vec<Event>)>),
+    /// What is hardly meant.
+    Remarked(Box<(Violation, Vec<Event>)>),
 }
 
 impl Expanded {
@@ -59,6 +63,7 @@ impl Expanded {
             steps: Vec::new(),
             unknown: Store::new(length),
             restless: Vec::new(),
+            remarked: Vec::new(),
         }
     }
 
@@ -69,11 +74,17 @@ impl Expanded {
 
     /// Adds what follows the state of this number.
     pub fn expand(&mut self, expander: &mut Expander, store: &Store, state: usize, restless: u64) {
-        let Self { states, steps, unknown, restless: of_unknown, .. } = self;
+        let Self { states, steps, unknown, restless: of_unknown, remarked, .. } = self;
         let count = expander.values.count();
         let mut after = After { end: 0, transitions: 0, stops: 0, has_new_values: false };
         expander.expand(store.state(state), restless, &mut |successor| {
             after.transitions += 1;
+            for remark in successor.remarked {
+                if !remarked.contains(remark) {
+                    remarked.push(remark.clone());
+                    steps.push(Step::Remarked(Box::new((remark.clone(), successor.events.to_vec()))));
+                }
+            }
             let mut find = |violation: &Violation| {
                 steps.push(Step::Found(Box::new((violation.clone(), successor.events.to_vec()))));
             };

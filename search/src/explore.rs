@@ -11,6 +11,7 @@ use crate::successor::{Expander, Orders};
 use crate::value::Values;
 use crate::violation::Violation;
 use std::collections::HashSet;
+use std::mem::discriminant;
 use std::time::{Duration, Instant};
 
 /// How far to search.
@@ -94,6 +95,8 @@ struct Search<'a> {
     edges: Edges,
     found: Vec<Found>,
     known: HashSet<Violation>,
+    /// Of each kind the first.
+    remarked: Vec<Found>,
     covered: Covered,
 }
 
@@ -124,6 +127,7 @@ impl Search<'_> {
                 Step::Out => self.edges.lead_out(from),
                 Step::Stop => self.edges.lead_to_stop(from),
                 Step::Found(found) => self.find(from, found),
+                Step::Remarked(found) => self.remark(from, found),
             }
         }
     }
@@ -137,6 +141,13 @@ impl Search<'_> {
     fn find(&mut self, from: usize, (violation, events): &(Violation, Vec<Event>)) {
         if self.found.len() < self.bounds.violations && self.known.insert(violation.clone()) {
             self.found.push(Found { violation: violation.clone(), from, events: events.clone() });
+        }
+    }
+
+    fn remark(&mut self, from: usize, (remark, events): &(Violation, Vec<Event>)) {
+        let is_known = |known: &Found| discriminant(&known.violation) == discriminant(remark);
+        if !self.remarked.iter().any(is_known) {
+            self.remarked.push(Found { violation: remark.clone(), from, events: events.clone() });
         }
     }
 
@@ -175,6 +186,7 @@ pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -
         edges: Edges::default(),
         found: Vec::new(),
         known: HashSet::new(),
+        remarked: Vec::new(),
         covered: Covered::default(),
     };
     search.store.add(&model.initial, 0);
@@ -224,15 +236,13 @@ pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -
         }
     };
     search.measure(begin);
-    let Search { store, edges, found, mut covered, .. } = search;
-    let mut violations: Vec<(Violation, Execution)> = found
-        .into_iter()
-        .map(|found| {
-            let execution =
-                story::to_violation(&store, &mut first, found.from, &found.violation, &found.events);
-            (found.violation, execution)
-        })
-        .collect();
+    let Search { store, edges, found, remarked, mut covered, .. } = search;
+    let told = |first: &mut Expander, found: Found| {
+        let execution = story::to_violation(&store, first, found.from, &found.violation, &found.events);
+        (found.violation, execution)
+    };
+    let mut violations: Vec<(Violation, Execution)> =
+        found.into_iter().map(|found| told(&mut first, found)).collect();
     let mut remarks = Vec::new();
     if end == End::Complete {
         let calm = Model { faults: Faults::None, ..model.clone() };
@@ -250,6 +260,7 @@ pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -
             for (remark, state) in possible.remarks() {
                 remarks.push((remark, story::to_state(&store, &mut first, state)));
             }
+            remarks.extend(remarked.into_iter().map(|found| told(&mut first, found)));
         }
         covered.stopped = (0..store.len()).filter(|state| model.any_stands(store.state(*state))).count();
     }

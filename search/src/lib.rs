@@ -4,7 +4,6 @@
 
 mod act;
 mod choice;
-pub mod equal;
 mod evaluate;
 pub mod event;
 mod expanded;

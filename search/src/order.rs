@@ -16,7 +16,8 @@ struct Midway {
     written: u64,
     fired: u64,
     restless: u64,
-    moved: bool,
+    given: u64,
+    repeated: u64,
     told: Told,
 }
 
@@ -31,7 +32,8 @@ impl Expander<'_> {
             written: 0,
             fired: 0,
             restless: 0,
-            moved: false,
+            given: 0,
+            repeated: 0,
             told: Told::default(),
         };
         let mut waiting = vec![begin];
@@ -54,6 +56,7 @@ impl Expander<'_> {
                             is_plain: self.is_plain(),
                             result: Err(violation),
                             noted: &[],
+                            remarked: &[],
                             restless: 0,
                             told: &next.told,
                         }),
@@ -101,9 +104,10 @@ impl Expander<'_> {
         loop {
             let mut end = midway.clone();
             self.noted.clear();
+            self.remarked.clear();
             let mut result = self.on(&mut end, |scan| scan.finish(touched));
-            if result == Err(Violation::Stop) && self.stops_again(&end.bytes) {
-                result = Err(Violation::StopsAgain);
+            if result == Err(Violation::Stop) {
+                result = Err(self.behind_stop(&end.bytes).unwrap_or(Violation::Stop));
             }
             emit(Successor {
                 state: &end.bytes,
@@ -111,6 +115,7 @@ impl Expander<'_> {
                 is_plain: self.is_plain(),
                 result,
                 noted: &self.noted,
+                remarked: &self.remarked,
                 restless: end.restless | midway.restless,
                 told: &end.told,
             });
@@ -134,15 +139,17 @@ impl Expander<'_> {
             variables: &mut self.variables,
             written: midway.written,
             fired: midway.fired,
-            moved: midway.moved,
+            given: midway.given,
+            repeated: midway.repeated,
             restless: midway.restless,
             noted: &mut self.noted,
+            remarked: &mut self.remarked,
             story: self.tell.then_some(&mut midway.told),
         };
         let result = work(&mut scan);
-        let (written, fired, moved, restless) = (scan.written, scan.fired, scan.moved, scan.restless);
-        (midway.written, midway.fired) = (written, fired);
-        (midway.moved, midway.restless) = (moved, restless);
+        let (written, fired, restless) = (scan.written, scan.fired, scan.restless);
+        (midway.given, midway.repeated) = (scan.given, scan.repeated);
+        (midway.written, midway.fired, midway.restless) = (written, fired, restless);
         result
     }
 }

@@ -37,6 +37,8 @@ pub mod status {
 #[derive(Clone, Debug)]
 pub struct Asked {
     pub action: Action,
+    /// The machine plans the way round obstacles: it begins straight up.
+    pub is_planned: bool,
     /// It ends well when the signal that it awaits is there, else in this error.
     pub awaits: Option<Awaits>,
     /// Errors in which it may end before it has changed anything.

@@ -1,11 +1,12 @@
-//! What is hardly meant in a line in which nothing has failed, although nothing goes wrong.
+//! What is hardly meant, although nothing goes wrong.
 
 use crate::event::{self, What};
 use crate::model::Model;
-use crate::plant::{motion, status};
+use crate::plant::{Action, Arm, Asked, motion, status};
 use crate::possible::{Possible, Stops};
-use crate::program::Update;
-use crate::successor::Successor;
+use crate::program::bit;
+use crate::scan::Scan;
+use crate::surface;
 use crate::violation::Violation;
 
 impl Possible<'_> {
@@ -16,30 +17,22 @@ impl Possible<'_> {
             return Vec::new();
         }
         let never_rests = self.never_rests().map(|state| (Violation::NeverRests, state));
-        let (mut waits, mut repeats) = (None, None);
         let calm = self.calm();
         self.expander.answers = 1;
-        self.expander.tell = true;
+        let mut waits = None;
         for number in (0..self.store.len()).filter(|number| calm[*number]) {
-            if waits.is_some() && repeats.is_some() {
+            let state = self.store.state(number);
+            let Some(instance) = self.timer(state).filter(|_| !model.is_made(state)) else { continue };
+            let mut stays = true;
+            self.expander.expand(state, u64::MAX, &mut |successor| {
+                stays &= !successor.events.is_empty() || successor.state == state;
+            });
+            if stays {
+                waits = Some((Violation::WaitsForTime { instance }, number));
                 break;
             }
-            let state = self.store.state(number);
-            let mut stays = true;
-            let expander = &mut self.expander;
-            expander.expand(state, u64::MAX, &mut |successor| {
-                stays &= !successor.events.is_empty() || successor.state == state;
-                repeats = repeats.take().or_else(|| {
-                    let machine = repeated(model, state, &successor)?;
-                    Some((Violation::Repeats { machine }, number))
-                });
-            });
-            if waits.is_none() && stays && !model.is_made(state) {
-                waits = self.timer(state).map(|instance| (Violation::WaitsForTime { instance }, number));
-            }
         }
-        self.expander.tell = false;
-        never_rests.into_iter().chain(waits).chain(repeats).collect()
+        never_rests.into_iter().chain(waits).collect()
     }
 
     /// The first state with all orders made from which the line cannot come to rest.
@@ -73,19 +66,51 @@ fn rests(model: &Model, state: &[u8]) -> bool {
     })
 }
 
-/// A machine to which the command that is under way is given again, with the same goal.
-fn repeated(model: &Model, before: &[u8], successor: &Successor) -> Option<usize> {
-    let fired = successor.told.fired.iter();
-    fired.map(|fired| (fired, &model.machines[fired.instance])).find_map(|(fired, plant)| {
-        let machine = fired.instance;
-        let head = plant.head.as_ref().filter(|head| head.status.load(before) == status::UNDER_WAY)?;
-        let ends = |event: &event::Event| event.machine == machine && matches!(event.what, What::Ends(_));
-        let command = head.command.load(before);
-        let updates = &model.instances[machine].states[fired.state].transitions[fired.transition].updates;
-        let is_same =
-            |update: &Update| matches!(update, Update::Command(given) if given.command as i32 == command);
-        let goals = plant.arm.iter().map(|arm| arm.goal).chain(plant.route.iter().map(|route| route.goal));
-        let stays = goals.into_iter().all(|goal| goal.load(before) == goal.load(successor.state));
-        (!successor.events.iter().any(ends) && updates.iter().any(is_same) && stays).then_some(machine)
-    })
+/// A tool that is moved by less goes straight up or down, m.
+const STRAIGHT: f64 = 0.01;
+
+impl Scan<'_> {
+    /// What is hardly meant of the commands that were given in this scan.
+    pub(crate) fn remark(&mut self) {
+        let model = self.model;
+        for (machine, plant) in model.machines.iter().enumerate() {
+            if self.repeated & bit(machine) != 0 {
+                self.remarked.push(Violation::Repeats { machine });
+            }
+            if self.given & bit(machine) != 0
+                && let (Some(head), Some(arm)) = (&plant.head, &plant.arm)
+            {
+                let asked = &head.commands[head.command.load(self.bytes) as usize];
+                if asked.action == Action::Motion && arm.goal.load(self.bytes) != 0 {
+                    let remark = self.of_motion(machine, arm, asked);
+                    self.remarked.extend(remark);
+                }
+            }
+        }
+    }
+
+    fn of_motion(&self, machine: usize, arm: &Arm, asked: &Asked) -> Option<Violation> {
+        let Self { model, values, bytes: state, .. } = self;
+        let [tool, via, goal] = [arm.tool, arm.via, arm.goal].map(|place| values.point(place.load(state)));
+        let is_empty = arm.holds.load(state) == 0;
+        if asked.awaits.is_some_and(|awaits| awaits.is_hold) {
+            if is_empty && surface::found(model, values, state, goal, arm.near).is_none() {
+                let (at, slot) = surface::empty_slot(model, values, state, goal, arm.near)?;
+                return Some(Violation::NothingThere { arm: machine, machine: at, slot });
+            }
+            return None;
+        }
+        let first = if arm.via.load(state) == 0 { goal } else { via };
+        let is_straight = (0..2).all(|axis| (first[axis] - tool[axis]).abs() <= STRAIGHT);
+        let is_on = arm.closes.is_some_and(|level| level.is_on(state));
+        let goes_down = is_straight && first[2] < tool[2];
+        if is_on && is_empty && arm.shown.load(state) == 0 && !goes_down {
+            return Some(Violation::OnAndEmpty { arm: machine });
+        }
+        if !asked.is_planned && !is_straight {
+            let at = surface::low_in_slot(model, values, state, tool)?;
+            return Some(Violation::LeavesSideways { arm: machine, machine: at });
+        }
+        None
+    }
 }

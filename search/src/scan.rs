@@ -20,11 +20,16 @@ pub struct Scan<'a> {
     pub(crate) written: u64,
     /// Instances that have fired.
     pub(crate) fired: u64,
-    pub(crate) moved: bool,
+    /// Machines that were given a command.
+    pub(crate) given: u64,
+    /// Those of them to which the one under way was given again.
+    pub(crate) repeated: u64,
     /// Instances that may do something in the next scan even if no device does.
     pub(crate) restless: u64,
     /// Violations after which the line continues.
     pub(crate) noted: &'a mut Vec<Violation>,
+    /// What is hardly meant.
+    pub(crate) remarked: &'a mut Vec<Violation>,
     pub(crate) story: Option<&'a mut Told>,
 }
 

@@ -13,7 +13,8 @@ pub struct Store {
 }
 
 impl Store {
-    pub(crate) fn new(length: usize) -> Self {
+    /// For states of so many bytes.
+    pub fn new(length: usize) -> Self {
         Self { length, bytes: Vec::new(), parents: Vec::new(), table: vec![EMPTY; 1 << 12] }
     }
 
@@ -50,7 +51,7 @@ impl Store {
     }
 
     /// The number of the state, and whether it is new.
-    pub(crate) fn add(&mut self, state: &[u8], parent: usize) -> (usize, bool) {
+    pub fn add(&mut self, state: &[u8], parent: usize) -> (usize, bool) {
         let hash = hash(state);
         let slot = match self.slot(state, hash) {
             Ok(number) => return (number, false),

@@ -56,7 +56,9 @@ pub(crate) fn to_violation(
     let before = store.state(from).to_vec();
     let last = expander.shortest(&before, |successor| {
         successor.events == events
-            && (successor.noted.contains(violation) || successor.result.as_ref() == Err(violation))
+            && (successor.noted.contains(violation)
+                || successor.remarked.contains(violation)
+                || successor.result.as_ref() == Err(violation))
     });
     execution.scans.extend(last);
     execution

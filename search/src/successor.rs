@@ -21,7 +21,7 @@ pub enum Orders {
     All,
 }
 
-pub(crate) struct Expander<'a> {
+pub struct Expander<'a> {
     pub model: &'a Model,
     pub values: Values,
     /// At most so many devices do something in one scan.
@@ -38,6 +38,7 @@ pub(crate) struct Expander<'a> {
     pub(crate) before: Vec<u8>,
     work: Vec<u8>,
     pub(crate) noted: Vec<Violation>,
+    pub(crate) remarked: Vec<Violation>,
     pub(crate) chosen: Vec<Event>,
     restless: u64,
     /// Whether the first of the chosen events is a fault.
@@ -48,7 +49,7 @@ pub(crate) struct Expander<'a> {
 }
 
 /// What follows a state.
-pub(crate) struct Successor<'a> {
+pub struct Successor<'a> {
     pub state: &'a [u8],
     pub events: &'a [Event],
     pub result: Result<(), Violation>,
@@ -56,6 +57,8 @@ pub(crate) struct Successor<'a> {
     pub is_plain: bool,
     /// Violations after which the line continues.
     pub noted: &'a [Violation],
+    /// What is hardly meant.
+    pub remarked: &'a [Violation],
     /// Instances that may do something in the next scan even if no device does.
     pub restless: u64,
     /// What is told of it, if that was asked for.
@@ -77,6 +80,7 @@ impl<'a> Expander<'a> {
             before: vec![0; model.initial.len()],
             work: vec![0; model.initial.len()],
             noted: Vec::new(),
+            remarked: Vec::new(),
             chosen: Vec::new(),
             restless: 0,
             is_fault: false,
@@ -142,9 +146,11 @@ impl<'a> Expander<'a> {
             variables: &mut self.variables,
             written: 0,
             fired: 0,
-            moved: false,
+            given: 0,
+            repeated: 0,
             restless: 0,
             noted: &mut self.noted,
+            remarked: &mut self.remarked,
             story: self.tell.then_some(&mut self.told),
         }
     }
@@ -178,32 +184,37 @@ impl<'a> Expander<'a> {
         }
     }
 
-    /// Whether the line, which has stopped for an operator in this state, stops again in each scan once the operator has
-    /// come.
-    pub(crate) fn stops_again(&mut self, stopped: &[u8]) -> bool {
+    /// What is wrong once an operator has come, for whom the line has stopped in this state, while no device does anything:
+    /// it stops again in each scan, or in a fault.
+    pub(crate) fn behind_stop(&mut self, stopped: &[u8]) -> Option<Violation> {
         let work = std::mem::replace(&mut self.work, stopped.to_vec());
         let (choices, told) = (std::mem::take(&mut self.choices), self.told.clone());
-        let noted = self.noted.len();
+        let (noted, remarked) = (self.noted.len(), self.remarked.len());
         let order = std::mem::take(&mut self.order);
         let first = self.before.clone();
-        let mut is_for_ever = false;
+        let mut found = None;
         for _ in 0..MOST_STOPS {
             self.before.clone_from(&self.work);
             self.choices.clear();
+            let result = self.begin().run(&order, u64::MAX);
+            if let Err(Violation::Fault { instance, fault }) = result {
+                found = Some(Violation::FaultBehindStop { instance, fault });
+            }
             // A signal that changes by itself may end it.
-            if self.begin().run(&order, u64::MAX) != Err(Violation::Stop) || !self.choices.is_empty() {
+            if result != Err(Violation::Stop) || !self.choices.is_empty() {
                 break;
             }
             if self.work == self.before {
-                is_for_ever = true;
+                found = Some(Violation::StopsAgain);
                 break;
             }
         }
         self.before = first;
         self.noted.truncate(noted);
+        self.remarked.truncate(remarked);
         self.order = order;
         (self.work, self.choices, self.told) = (work, choices, told);
-        is_for_ever
+        found
     }
 
     /// Every outcome of one scan.
@@ -215,6 +226,7 @@ impl<'a> Expander<'a> {
         loop {
             self.work.copy_from_slice(&self.levels[level]);
             self.noted.clear();
+            self.remarked.clear();
             self.told.fired.clear();
             self.told.read.clear();
             let order = std::mem::take(&mut self.order);
@@ -222,8 +234,9 @@ impl<'a> Expander<'a> {
             let mut result = scan.run(&order, touched);
             let restless = scan.restless;
             self.order = order;
-            if result == Err(Violation::Stop) && self.stops_again(&self.work.clone()) {
-                result = Err(Violation::StopsAgain);
+            if result == Err(Violation::Stop) {
+                let stopped = self.work.clone();
+                result = Err(self.behind_stop(&stopped).unwrap_or(Violation::Stop));
             }
             emit(Successor {
                 state: &self.work,
@@ -231,6 +244,7 @@ impl<'a> Expander<'a> {
                 is_plain: self.is_plain(),
                 result,
                 noted: &self.noted,
+                remarked: &self.remarked,
                 restless,
                 told: &self.told,
             });

@@ -147,3 +147,43 @@ pub fn found(model: &Model, values: &Values, state: &[u8], tool: Point, near: f6
     }
     None
 }
+
+/// An empty slot, of a machine that stands, at which an item of some kind would be gripped with the tool here.
+pub fn empty_slot(
+    model: &Model,
+    values: &Values,
+    state: &[u8],
+    tool: Point,
+    near: f64,
+) -> Option<(usize, usize)> {
+    places(model, values, state).find_map(|(machine, place, origin)| {
+        let slot = slot_at(place, origin, tool)?;
+        let at = origin[2] + place.slots[slot][2];
+        let is_height = model.grasps.iter().any(|grasp| (at + grasp - tool[2]).abs() <= near);
+        (is_height && place.items.get(slot)?.load(state) == 0).then_some((machine, slot))
+    })
+}
+
+/// The machine of which a slot is under the tool, if it is so low that it touches items in others.
+pub fn low_in_slot(model: &Model, values: &Values, state: &[u8], tool: Point) -> Option<usize> {
+    let tallest = model.heights.iter().copied().fold(0.0, f64::max);
+    places(model, values, state).find_map(|(machine, place, origin)| {
+        let is_low = tool[2] <= origin[2] + place.floor[2] + tallest + 0.001;
+        (is_low && is_over(place, origin, tool) && slot_at(place, origin, tool).is_some()).then_some(machine)
+    })
+}
+
+/// Places that are there and stand, with their machines and their origins.
+fn places<'a>(
+    model: &'a Model,
+    values: &'a Values,
+    state: &'a [u8],
+) -> impl Iterator<Item = (usize, &'a Place, Point)> {
+    model.machines.iter().enumerate().flat_map(move |(machine, plant)| {
+        let places = plant.places.iter().enumerate();
+        let there = places.filter(move |(number, _)| {
+            is_there(model, state, machine, *number) && !is_driving(model, state, machine)
+        });
+        there.map(move |(_, place)| (machine, place, origin(model, values, state, machine, place)))
+    })
+}

@@ -15,14 +15,22 @@ pub enum Violation {
     Stop,
     /// The same, and once an operator has come it stops again in the next scan, each time, while no device does anything.
     StopsAgain,
+    /// The same, and the scan in which it goes on once an operator has come ends in a fault.
+    FaultBehindStop { instance: usize, fault: usize },
     /// From here the orders cannot be made any more, whatever happens.
     NeverMade,
     /// All orders are made, and from here the line cannot come to rest any more, although nothing has failed.
     NeverRests,
     /// Nothing has failed, orders are to be made, and the line does nothing until a time of this instance has passed.
     WaitsForTime { instance: usize },
-    /// Nothing has failed, and a machine is given the command again that is under way.
+    /// A machine is given the command again that is under way.
     Repeats { machine: usize },
+    /// An arm sets out with its gripper on and empty, and not straight down to grip.
+    OnAndEmpty { arm: usize },
+    /// An arm is to grip at a place at which nothing lies.
+    NothingThere { arm: usize, machine: usize, slot: usize },
+    /// An arm leaves a slot sideways, so low that it touches items beside it.
+    LeavesSideways { arm: usize, machine: usize },
     /// Two arms are over one place.
     TwoArms { arms: [usize; 2], machine: usize },
     /// A machine moves while an arm is at it.

@@ -3,6 +3,7 @@
 pub mod browser;
 pub mod constructs;
 pub mod coverage;
+pub mod equal;
 pub mod generate;
 pub mod instances;
 pub mod json_schema;

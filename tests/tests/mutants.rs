@@ -2,11 +2,11 @@
 
 use autogen::library;
 use autogen::verify::{Asked, model};
-use autogen_search::equal::{Comparison, compare};
 use autogen_search::explore::{Bounds, explore};
 use autogen_search::model::Model;
 use autogen_search::plant::Faults;
 use autogen_search::successor::Orders;
+use autogen_tests::equal::{Comparison, compare};
 use autogen_tests::mutants::mutants;
 use autogen_tests::{Texts, is_full_campaign, on_all_processors, own_line};
 use std::collections::BTreeSet;
@@ -72,7 +72,7 @@ const COMPARED: usize = 6;
 const BOUNDS: Bounds = Bounds {
     answers: Some(1),
     orders: Orders::One,
-    time: Some(Duration::from_secs(5)),
+    time: Some(Duration::from_secs(20)),
     memory: 500_000_000,
     violations: 1,
     jobs: 1,
@@ -91,6 +91,13 @@ fn found(model: &Model) -> Option<String> {
     found.map(|(violation, _)| format!("{violation:?}"))
 }
 
+/// That of this thread: others work at the same time.
+fn processor_time() -> Duration {
+    let text = std::fs::read_to_string("/proc/thread-self/schedstat").expect("the times of a thread");
+    let nanoseconds = text.split_whitespace().next().and_then(|number| number.parse().ok());
+    Duration::from_nanos(nanoseconds.expect("a number"))
+}
+
 #[derive(Debug)]
 enum Result {
     Refused,
@@ -101,7 +108,7 @@ enum Result {
 }
 
 fn of_mutant(lines: &[Line], originals: &[Model], name: &str, text: &str) -> Result {
-    let begin = Instant::now();
+    let begin = processor_time();
     let mut changed = Vec::new();
     for (number, line) in lines.iter().enumerate() {
         let mut texts = line.texts.clone();
@@ -115,17 +122,17 @@ fn of_mutant(lines: &[Line], originals: &[Model], name: &str, text: &str) -> Res
                 return Result::Refused;
             }
             if let Some(warning) = outcome.warnings.first() {
-                return Result::Found(format!("check: {}", warning.code), begin.elapsed());
+                return Result::Found(format!("check: {}", warning.code), processor_time() - begin);
             }
         }
         let Some(model) = searched(&texts, line.faults) else { return Result::Refused };
-        let begin = Instant::now();
+        let begin = processor_time();
         // One arm more at the table is of interest to arms alone.
         if number == COMPARED && name != "kitting" {
             continue;
         }
         if let Some(violation) = found(&model) {
-            return Result::Found(format!("{}: {violation}", line.name), begin.elapsed());
+            return Result::Found(format!("{}: {violation}", line.name), processor_time() - begin);
         }
         changed.push(model);
     }
@@ -191,9 +198,9 @@ fn mistakes_are_found() {
     }
     missed.iter().for_each(|what| println!("missed: {what}"));
     println!(
-        "{} mutants, {refused} refused, {equal} equal, {caught} of the others found, each within {longest:.1?}",
+        "{} mutants, {refused} refused, {equal} equal, {caught} of the others found, each within {longest:.1?} of a processor",
         all.len()
     );
-    let least = if is_long { 210 } else { 30 };
+    let least = if is_long { 240 } else { 30 };
     assert!(caught >= least, "{caught} of {} mutants are found", all.len() - refused);
 }

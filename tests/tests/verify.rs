@@ -1,6 +1,7 @@
 //! The search against the simulator, against itself with reductions off, and on lines with known mistakes.
 
 use autogen::executor::Executor;
+use autogen::library;
 use autogen::lower::Project;
 use autogen::verify::{Asked, model, replay::replay};
 use autogen_search::explore::{Bounds, End, Outcome, explore};
@@ -37,6 +38,16 @@ fn changed(from: &str, to: &str) -> Texts {
     let mut texts = buffer(TWO_PARTS);
     assert!(texts.specs[0].contains(from), "{from}");
     texts.specs[0] = texts.specs[0].replace(from, to);
+    texts
+}
+
+/// The line with a type of the library in which something is changed.
+fn with_library(scenario: &str, name: &str, from: &str, to: &str) -> Texts {
+    let file = library::FILES.iter().find(|(file, _)| *file == format!("library/{name}.aut"));
+    let text = file.expect("a type of the library").1;
+    assert!(text.contains(from), "{from}");
+    let mut texts = buffer(scenario);
+    texts.specs.push(text.replace(from, to));
     texts
 }
 
@@ -82,18 +93,105 @@ fn a_table_without_its_lock_has_two_arms_over_it_in_the_simulator_too() {
 
 #[test]
 fn orders_that_can_never_be_made_are_found() {
-    let mut texts = buffer(ONE_PART);
-    texts.specs.push(
-        autogen::library::FILES
-            .iter()
-            .find(|(name, _)| name.ends_with("/station.aut") && !name.contains("devices"))
-            .expect("the library's station")
-            .1
-            .replace("complete := true;", ""),
-    );
+    let texts = with_library(ONE_PART, "station", "complete := true;", "");
     let outcome = search(&model_of(&texts.project(), Faults::None), &BOUNDS);
     assert_eq!(outcome.end, End::Complete);
     assert!(matches!(outcome.violations[..], [(Violation::NeverMade, _)]), "{:?}", outcome.violations);
+}
+
+/// From 40 mm over its slot an item comes to lie there; from 60 mm it is dropped.
+#[test]
+fn an_item_that_is_dropped_too_high_is_found() {
+    let found = |height: &str| {
+        let texts = with_library(
+            ONE_PART,
+            "kitting",
+            "move(put_point);",
+            &format!("move(put_point + up({height}));"),
+        );
+        let outcome = search(&model_of(&texts.project(), Faults::None), &BOUNDS);
+        outcome.violations.into_iter().map(|(violation, _)| violation).next()
+    };
+    assert_eq!(found("0.04"), None);
+    assert!(matches!(found("0.06"), Some(Violation::Dropped { .. })), "{:?}", found("0.06"));
+}
+
+/// An item put 50 mm beside its slot: the other arm does not find it, in the simulator neither.
+#[test]
+fn an_item_that_is_put_beside_the_slots_is_found() {
+    let texts = with_library(
+        ONE_PART,
+        "kitting",
+        "define put_point = tray.places[n] + up(heights[k]);",
+        "define put_point = tray.places[n] + up(heights[k]) + point(0.05, 0, 0);",
+    );
+    let project = texts.project();
+    let model = model_of(&project, Faults::None);
+    let outcome = search(&model, &BOUNDS);
+    let [(Violation::NeverMade, execution)] = &outcome.violations[..] else {
+        panic!("{:?}", outcome.violations)
+    };
+    let replay = replay(&project, &model, execution).expect("a run");
+    assert!(!replay.report.finished, "{}", replay.report.reason);
+}
+
+/// An arm that has lost an item over the table, and goes on, puts the next one among what lies there.
+#[test]
+fn an_item_that_is_put_where_one_has_fallen_is_found() {
+    let calls =
+        "when not attached and (over_tray or over_source) -> Astray { astray := true; grip := false; }";
+    let texts = with_library(ONE_PART, "kitting", calls, "");
+    let outcome = search(&model_of(&texts.project(), Faults::All), &Bounds { answers: Some(1), ..BOUNDS });
+    assert!(
+        matches!(outcome.violations[..], [(Violation::ItemAmongItems { .. }, _)]),
+        "{:?}",
+        outcome.violations
+    );
+}
+
+/// The third attempt to take a part has failed, and an arm has claimed it again before the line stops: what the table does
+/// behind the stop breaks the rules of the handover.
+#[test]
+fn a_fault_behind_a_stop_is_found() {
+    let mut texts = changed(" offer := misses < 3;", "");
+    texts.scenario = Some(ONE_PART.into());
+    let outcome = search(&model_of(&texts.project(), Faults::All), &Bounds { answers: Some(1), ..BOUNDS });
+    assert!(
+        matches!(outcome.violations[..], [(Violation::FaultBehindStop { .. }, _)]),
+        "{:?}",
+        outcome.violations
+    );
+}
+
+#[test]
+fn what_is_hardly_meant_is_noticed() {
+    let mistakes = [
+        ("kitting", "when not attached and grip { grip := false; }", "", "OnAndEmpty"),
+        ("kitting", "when not attached -> Astray { astray := true; grip := false; }", "", "NothingThere"),
+        (
+            "kitting",
+            "when not attached and over_slot -> Leaving { grip := false; move(put_point + up(tray_clearance)); }",
+            "when not attached and over_slot -> Leaving { grip := false; }",
+            "LeavesSideways",
+        ),
+        ("conveyor", "when ready and not moving and after 2 s", "when ready and after 2 s", "Repeats"),
+    ];
+    for (name, from, to, expected) in mistakes {
+        let texts = with_library(ONE_PART, name, from, to);
+        let model = model_of(&texts.project(), Faults::All);
+        let outcome = search(&model, &Bounds { answers: Some(1), ..BOUNDS });
+        assert_eq!(verdict(&outcome), (End::Complete, Vec::new()), "{expected}");
+        let noticed: Vec<String> = outcome.remarks.iter().map(|(remark, _)| format!("{remark:?}")).collect();
+        assert!(noticed.iter().any(|noticed| noticed.starts_with(expected)), "{expected}: {noticed:?}");
+    }
+}
+
+#[test]
+fn a_rack_with_one_part_is_proved() {
+    let project = Texts { scenario: Some(ONE_PART.into()), ..own_line("rack") }.project();
+    let outcome = search(&model_of(&project, Faults::All), &Bounds { answers: Some(1), ..BOUNDS });
+    assert_eq!(verdict(&outcome), (End::Complete, Vec::new()));
+    assert!(outcome.remarks.is_empty(), "{:?}", outcome.remarks[0].0);
 }
 
 #[test]
@@ -107,7 +205,7 @@ fn a_fault_is_found_and_its_course_is_the_shortest() {
     };
     assert_eq!(execution.scans.len(), outcome.covered.depth + 1);
     let replay = replay(&project, &model, execution).expect("a run");
-    assert!(replay.reason.starts_with("fault "), "{}", replay.reason);
+    assert!(replay.report.reason.starts_with("fault "), "{}", replay.report.reason);
 }
 
 #[test]

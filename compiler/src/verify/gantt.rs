@@ -1,6 +1,7 @@
 //! An execution as a Gantt chart, SVG: a row for each machine, a column for each scan in which something happens.
 
 use crate::lower::Project;
+use crate::plain;
 use autogen_search::story::Execution;
 use std::fmt::Write;
 
@@ -90,5 +91,5 @@ pub fn svg(project: &Project, execution: &Execution) -> String {
 fn text(text: &str, width: usize) -> String {
     let room = (width as f64 / LETTER) as usize;
     let shown: String = text.chars().take(room).collect();
-    shown.replace('&', "&amp;").replace('<', "&lt;")
+    plain::xml(&shown)
 }

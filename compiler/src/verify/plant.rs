@@ -86,7 +86,8 @@ fn refusals(action: Action, reads_error: bool) -> Vec<i32> {
 /// two places; all other motions end at the last one.
 fn asked(machine: &Machine, command: &Command, reads_error: bool) -> (Asked, usize) {
     let schema = machine.parts[command.part].schema();
-    let (action, points) = match (schema.name, schema.actions[command.action].name) {
+    let name = schema.actions[command.action].name;
+    let (action, points) = match (schema.name, name) {
         ("chain", "joints" | "turned" | "direct" | "around") => (Action::Motion, 1),
         ("chain", "past" | "onto") => (Action::Motion, 2),
         ("route", "to") => (Action::Trip, 1),
@@ -99,9 +100,10 @@ fn asked(machine: &Machine, command: &Command, reads_error: bool) -> (Asked, usi
         error: then.error,
     });
     // A place that a vehicle is too near to.
-    let asks_place = (schema.name, schema.actions[command.action].name) == ("track", "to");
+    let asks_place = (schema.name, name) == ("track", "to");
     let refusals = refusals(if asks_place { Action::Trip } else { action }, reads_error);
-    (Asked { action, awaits, refusals }, points)
+    let is_planned = matches!(name, "around" | "onto");
+    (Asked { action, is_planned, awaits, refusals }, points)
 }
 
 fn signal_name(machine: &Machine, part: usize, signal: usize) -> (&'static str, &'static str) {

@@ -10,6 +10,7 @@ use autogen_search::plant::motion;
 use autogen_search::story::Execution;
 use runtime_sim::line::{Answer, Line, Slip, Supply};
 use runtime_sim::plant::{self, Plant};
+use runtime_sim::report::Report;
 use runtime_sim::run::{Seen, Stepping, run};
 use runtime_sim::scan::{Controllers, SystemInputs};
 use runtime_sim::wiring::{Drives, Source};
@@ -30,7 +31,7 @@ pub struct Replay {
     /// With the scenario.
     pub line: Line,
     /// How the run ended.
-    pub reason: String,
+    pub report: Report,
     /// When all transitions of the execution had fired, s; or what kept them from it.
     pub result: Result<f64, String>,
 }
@@ -77,7 +78,7 @@ pub fn replay(project: &Project, model: &Model, execution: &Execution) -> Result
             None => Ok(seconds),
         }
     });
-    Ok(Replay { line, reason: report.reason, result })
+    Ok(Replay { line, report, result })
 }
 
 /// Whether a run does what the execution says, machine by machine.
@@ -332,7 +333,8 @@ impl<'a> Director<'a> {
         }
         let waits = (0..count).filter(|machine| !marks[*machine].is_empty());
         let waits: Vec<&str> = waits.map(|m| self.project.system.instances[m].name.as_str()).collect();
-        Err(format!("{} wait for something that does not come", waits.join(", ")))
+        let verb = if waits.len() == 1 { "waits" } else { "wait" };
+        Err(format!("{} {verb} for something that does not come", waits.join(", ")))
     }
 
     /// Whether an arm is where it is to lose its item.

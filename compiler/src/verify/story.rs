@@ -1,6 +1,7 @@
 //! An execution in words.
 
 use super::Skipped;
+use crate::fault;
 use crate::lower::Project;
 use crate::source::{Sources, Span};
 use autogen_search::Fired;
@@ -9,6 +10,7 @@ use autogen_search::model::Model;
 use autogen_search::story::{Execution, Happened};
 use autogen_search::stroke::position;
 use autogen_search::violation::Violation;
+use runtime_sim::report::Report;
 use std::fmt::Write;
 
 /// Who tells it.
@@ -46,6 +48,15 @@ impl Teller<'_> {
             Violation::StopsAgain => {
                 "the line stops until an operator comes, and stops again in the next scan each time".into()
             }
+            Violation::FaultBehindStop { instance, fault } => {
+                let site = &self.project.system.model.faults[fault];
+                format!(
+                    "the line stops until an operator comes, and as it goes on: fault of {}: {} ({})",
+                    name(instance),
+                    site.text,
+                    self.place(site.place)
+                )
+            }
             Violation::NeverRests => {
                 "all orders are made, and the line cannot come to rest although nothing has failed".into()
             }
@@ -54,7 +65,24 @@ impl Teller<'_> {
                 name(instance)
             ),
             Violation::Repeats { machine } => {
-                format!("nothing has failed, and {} gives the command again that is under way", name(machine))
+                format!("{} gives the command again that is under way", name(machine))
+            }
+            Violation::OnAndEmpty { arm } => {
+                format!("{} sets out with its gripper on and empty", name(arm))
+            }
+            Violation::NothingThere { arm, machine, slot } => {
+                format!(
+                    "{} is to take an item from place {slot} of {}, where none lies",
+                    name(arm),
+                    name(machine)
+                )
+            }
+            Violation::LeavesSideways { arm, machine } => {
+                format!(
+                    "{} leaves a slot of {} sideways, lower than items in other slots",
+                    name(arm),
+                    name(machine)
+                )
             }
             Violation::NeverMade => "from here the orders cannot be made any more".into(),
             Violation::TwoArms { arms: [a, b], machine } => {
@@ -111,6 +139,16 @@ impl Teller<'_> {
         let automaton = self.project.system.automaton_of(skipped.instance);
         let property = &automaton.properties[skipped.property];
         format!("{}: {} ({})", self.name(skipped.instance), property.text, self.place(property.place))
+    }
+
+    /// Why a run ended: a fault as `commission` tells it.
+    pub fn reason(&self, report: &Report) -> String {
+        let told = report.fault.as_ref().and_then(|(code, robot)| {
+            let machine = report.machines.iter().find(|machine| machine.name == *robot)?;
+            let code = u64::try_from(*code).ok()?;
+            fault::reason(&self.project.system, self.sources, code, robot, &machine.state)
+        });
+        told.unwrap_or_else(|| report.reason.clone())
     }
 
     fn part(&self, machine: usize, part: usize) -> &str {

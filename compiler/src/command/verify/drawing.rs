@@ -13,7 +13,8 @@ use serde_json::{Value, json};
 pub fn page(project: &Project, teller: &Teller, shown: &Shown) -> Result<String, String> {
     let (replay, seconds) = match &shown.replay {
         Ok(replay @ Replay { result: Ok(seconds), .. }) => (replay, seconds),
-        Ok(Replay { result: Err(why), reason, .. }) => {
+        Ok(Replay { result: Err(why), report, .. }) => {
+            let reason = teller.reason(report);
             let simulator = format!("In the simulator, {why}, and the run ends: {reason}");
             return Ok(story::html(project, teller, shown.violation, shown.execution, &simulator));
         }

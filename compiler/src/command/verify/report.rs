@@ -119,7 +119,7 @@ impl Report<'_> {
         for shown in self.shown {
             let _ = writeln!(out, "{}\n", self.teller.title(shown.violation));
             let _ = writeln!(out, "{}", self.teller.tell(shown.execution));
-            let _ = writeln!(out, "in the simulator   {}\n", replayed(&shown.replay));
+            let _ = writeln!(out, "in the simulator   {}\n", replayed(self.teller, &shown.replay));
         }
         for (remark, execution) in &self.outcome.remarks {
             let _ = writeln!(out, "noticed: {}\n", self.teller.title(remark));
@@ -154,7 +154,7 @@ impl Report<'_> {
                 json!({
                     "violation": self.teller.title(shown.violation),
                     "story": self.teller.tell(shown.execution).lines().collect::<Vec<_>>(),
-                    "simulator": replayed(&shown.replay),
+                    "simulator": replayed(self.teller, &shown.replay),
                 })
             })
             .collect();
@@ -183,12 +183,15 @@ impl Report<'_> {
     }
 }
 
-fn replayed(replay: &Result<Replay, String>) -> String {
+fn replayed(teller: &Teller, replay: &Result<Replay, String>) -> String {
     match replay {
-        Ok(Replay { result: Ok(seconds), reason, .. }) => {
+        Ok(Replay { result: Ok(seconds), report, .. }) => {
+            let reason = teller.reason(report);
             format!("the same transitions have fired by {seconds:.2} s; the run ends: {reason}")
         }
-        Ok(Replay { result: Err(why), reason, .. }) => format!("{why}; the run ends: {reason}"),
+        Ok(Replay { result: Err(why), report, .. }) => {
+            format!("{why}; the run ends: {}", teller.reason(report))
+        }
         Err(why) => format!("there is no run: {why}"),
     }
 }

@@ -1,14 +1,14 @@
 //! Whether two lines do the same to their plant: a bisimulation over all that can be reached, with as many answers in a
 //! scan as the bounds allow, and up to a violation or a stop for an operator.
 
-use crate::event::{Event, What};
-use crate::explore::Bounds;
-use crate::model::Model;
-use crate::plant::{Action, Arm, Machine, motion, status};
-use crate::store::Store;
-use crate::successor::Expander;
-use crate::value::{Values, Var};
-use crate::violation::Violation;
+use autogen_search::event::{Event, What};
+use autogen_search::explore::Bounds;
+use autogen_search::model::Model;
+use autogen_search::plant::{Action, Arm, Machine, motion, status};
+use autogen_search::store::Store;
+use autogen_search::successor::Expander;
+use autogen_search::value::{Values, Var};
+use autogen_search::violation::Violation;
 use std::collections::{BTreeMap, BTreeSet};
 use std::time::Instant;
 
@@ -35,6 +35,7 @@ pub fn compare(a: &Model, b: &Model, bounds: &Bounds) -> Comparison {
     let begin = Instant::now();
     let answers = bounds.answers.unwrap_or(usize::MAX);
     let [mut of_a, mut of_b] = [a, b].map(|model| Expander::new(model, answers, bounds.orders));
+    let [common_of_a, common_of_b] = [(a, b), (b, a)].map(|(model, other)| Common::new(model, other));
     let both = |a: &[u8], b: &[u8]| [a, b].concat();
     let length = a.initial.len();
     let mut pairs = Store::new(length + b.initial.len());
@@ -43,7 +44,8 @@ pub fn compare(a: &Model, b: &Model, bounds: &Bounds) -> Comparison {
     while next < pairs.len() {
         let pair = pairs.state(next).to_vec();
         let (left, right) = pair.split_at(length);
-        let (after_a, after_b) = (successors(&mut of_a, left), successors(&mut of_b, right));
+        let (after_a, after_b) =
+            (successors(&mut of_a, &common_of_a, left), successors(&mut of_b, &common_of_b, right));
         if after_a.len() != after_b.len() {
             return Comparison::Unequal;
         }
@@ -51,10 +53,14 @@ pub fn compare(a: &Model, b: &Model, bounds: &Bounds) -> Comparison {
             if seen != also {
                 return Comparison::Unequal;
             }
-            // Several states that look alike are paired in their order: any pairing that holds is a proof.
-            let last = |states: &[Vec<u8>], number: usize| number.min(states.len() - 1);
-            for number in (0..of_a.len().max(of_b.len())).filter(|_| seen.1.is_ok()) {
-                pairs.add(&both(&of_a[last(&of_a, number)], &of_b[last(&of_b, number)]), next);
+            // Several states that look alike are paired by the values that both models have: any pairing that holds is a proof.
+            if seen.1.is_ok() {
+                for (number, state) in of_a.iter().enumerate() {
+                    pairs.add(&both(&state.1, partner(&of_b, number, state)), next);
+                }
+                for (number, state) in of_b.iter().enumerate() {
+                    pairs.add(&both(partner(&of_a, number, state), &state.1), next);
+                }
             }
         }
         let is_late = next % 64 == 0 && bounds.time.is_some_and(|time| begin.elapsed() > time);
@@ -66,7 +72,39 @@ pub fn compare(a: &Model, b: &Model, bounds: &Bounds) -> Comparison {
     Comparison::Equal { pairs: pairs.len() }
 }
 
-fn successors(expander: &mut Expander, state: &[u8]) -> BTreeMap<Seen, Vec<Vec<u8>>> {
+/// A state, behind the values of what both models have.
+type After = (Vec<i32>, Vec<u8>);
+
+/// The one with the same values; else the one of this number, or the last one.
+fn partner<'a>(states: &'a [After], number: usize, state: &After) -> &'a [u8] {
+    let same = states.iter().find(|other| other.0 == state.0);
+    let (_, bytes) = same.unwrap_or(&states[number.min(states.len() - 1)]);
+    bytes
+}
+
+/// What both models have, in the order of the names.
+struct Common {
+    variables: Vec<Var>,
+    /// Those of them that change by themselves.
+    signals: Vec<Var>,
+}
+
+impl Common {
+    fn new(model: &Model, other: &Model) -> Self {
+        let names: BTreeSet<&str> = other.variables.iter().map(|variable| variable.name.as_str()).collect();
+        let named = model.variables.iter().map(|variable| (variable.name.as_str(), variable.var));
+        let common: BTreeMap<&str, Var> = named.filter(|(name, _)| names.contains(name)).collect();
+        let is_signal = |var: &Var| model.inputs.iter().any(|input| input.var == *var);
+        let variables: Vec<Var> = common.into_values().collect();
+        Self { signals: variables.iter().copied().filter(is_signal).collect(), variables }
+    }
+
+    fn values(&self, state: &[u8]) -> Vec<i32> {
+        self.variables.iter().map(|var| var.load(state)).collect()
+    }
+}
+
+fn successors(expander: &mut Expander, common: &Common, state: &[u8]) -> BTreeMap<Seen, Vec<After>> {
     let mut all = Vec::new();
     let model = expander.model;
     expander.expand(state, u64::MAX, &mut |successor| {
@@ -75,12 +113,13 @@ fn successors(expander: &mut Expander, state: &[u8]) -> BTreeMap<Seen, Vec<Vec<u
         let events = successor.events.iter().copied().filter(|event| !is_hidden(model, state, event));
         all.push((events.collect::<Vec<_>>(), result, noted, successor.state.to_vec()));
     });
-    let mut found: BTreeMap<Seen, BTreeSet<Vec<u8>>> = BTreeMap::new();
+    let mut found: BTreeMap<Seen, BTreeSet<After>> = BTreeMap::new();
     for (events, result, noted, state) in all {
         // Behind a violation there is nothing.
-        let plant = if result.is_ok() { plant(model, &expander.values, &state) } else { Vec::new() };
+        let plant =
+            if result.is_ok() { plant(model, &common.signals, &expander.values, &state) } else { Vec::new() };
         let events = events.iter().map(|Event { machine, what }| format!("{machine} {what:?}")).collect();
-        found.entry((events, result, noted, plant)).or_default().insert(state);
+        found.entry((events, result, noted, plant)).or_default().insert((common.values(&state), state));
     }
     found.into_iter().map(|(seen, states)| (seen, states.into_iter().collect())).collect()
 }
@@ -124,7 +163,7 @@ fn kind(violation: &Violation) -> String {
 }
 
 /// The plant in a state: numbers of both lines are equal where it is.
-fn plant(model: &Model, values: &Values, state: &[u8]) -> Vec<u64> {
+fn plant(model: &Model, signals: &[Var], values: &Values, state: &[u8]) -> Vec<u64> {
     let mut all = Vec::new();
     let number = |var: Var| var.load(state) as u64;
     for (machine, plant) in model.machines.iter().enumerate() {
@@ -146,7 +185,7 @@ fn plant(model: &Model, values: &Values, state: &[u8]) -> Vec<u64> {
             all.extend(place.items.iter().chain(&place.stray).copied().map(number));
         }
     }
-    all.extend(model.inputs.iter().map(|input| number(input.var)));
+    all.extend(signals.iter().map(|signal| number(*signal)));
     all.extend(model.cylinders.iter().map(|cylinder| number(cylinder.position)));
     all.extend(
         model.processes.iter().flat_map(|process| [process.asked, process.runs, process.ended]).map(number),
