@@ -17,13 +17,13 @@ pub fn diagnostics(line: &Line, flow: &Flow, stands: &[bool], failures: &[Failur
     if !line.nodes.iter().any(|node| node.is_source) {
         found.push(
             Diagnostic::new("E0404", line.span, "no machine of this layout brings items in")
-                .help("add a machine whose type is a source, such as a conveyor"),
+                .help("add a machine whose type only offers items, such as a conveyor, or an arm whose device has a `source`"),
         );
     }
     if !line.nodes.iter().any(|node| node.is_destination) {
         found.push(
             Diagnostic::new("E0405", line.span, "no machine of this layout takes finished items away")
-                .help("add a machine whose type is a destination, such as an assembly station"),
+                .help("add a machine whose type only accepts items, such as an assembly station, or an arm whose device has a `sink`"),
         );
     }
     let mut stands = stands.to_vec();
