@@ -91,6 +91,31 @@ fn the_tending_cell_takes_the_time_of_its_closed_form() {
     }
 }
 
+/// At the worst places of the cell, over the vise and over the conveyors: how far the centre of the wrist is from the base's
+/// axis, and in the plane of the arm from its longest reach, by a second program; and how far it is in space from any
+/// place that the arm does not reach, by trying directions.
+const WORST: [([&str; 2], [f64; 3]); 4] = [
+    (["infeed", "arm"], [0.851469, 0.372996, 0.369990]),
+    (["arm", "mill"], [1.05, 0.170198, 0.169980]),
+    (["arm", "outfeed"], [0.851469, 0.372996, 0.369990]),
+    (["mill", "arm"], [1.05, 0.170198, 0.169980]),
+];
+
+#[test]
+fn the_margins_of_the_tending_cell_are_safe() {
+    let verdict = side_by_side("tending/tending").compile().verdict.expect("a verdict");
+    assert_eq!(verdict.edges.len(), WORST.len());
+    for (edge, ([from, to], [radius, in_plane, in_space])) in verdict.edges.iter().zip(WORST) {
+        assert_eq!([&edge.from[..], &edge.to[..]], [from, to]);
+        // The plane is d4 beside the axis: docs/devices.md.
+        let d4 = 0.17415_f64;
+        let ahead = (radius * radius - d4 * d4).sqrt() - in_plane;
+        let margin = radius - ahead.hypot(d4);
+        assert!((edge.margin - margin).abs() < 1e-5, "{from}, {to}: {} m, not {margin} m", edge.margin);
+        assert!(margin < in_space && margin > 0.96 * in_space, "{margin} m of {in_space} m");
+    }
+}
+
 /// A mill 0.4 m further away is out of reach; what is suggested brings it back, and a millimetre less does not.
 #[test]
 fn a_mill_too_far_away_is_brought_back_by_217_mm() {
