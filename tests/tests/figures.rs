@@ -135,6 +135,30 @@ fn a_mill_too_far_away_is_brought_back_by_217_mm() {
     assert!(!with_mill_at("1.684").verdict.expect("a verdict").feasible);
 }
 
+/// The vise is 0.45 m beside the mill's axis, which is 1.5 m from the arm's, and in reach up to 1.233335 m: the sine of the
+/// yaw has to be 0.6899 at least.
+#[test]
+fn a_mill_that_is_turned_away_is_turned_back_by_134_degrees() {
+    let turned_to = |yaw: &str| {
+        let mut texts = side_by_side("tending/tending");
+        texts.layout = texts.layout.replace("[1.50, 0, 0, 90]", &format!("[1.50, 0, 0, {yaw}]"));
+        texts.compile()
+    };
+    let apart = turned_to("-90");
+    let verdict = apart.verdict.expect("a verdict");
+    let turns: Vec<_> = verdict.apart.iter().filter_map(|pair| pair.turn.clone()).collect();
+    assert_eq!(turns, [("mill".to_string(), -90.0, 44.0), ("mill".to_string(), -90.0, 44.0)]);
+    let wanted = "; or turn mill to 44 (the fourth number of its pose, now -90): 134 degrees bring the two together, 133 do not";
+    let helps: Vec<_> = apart.diagnostics.iter().map(|found| &found.help).collect();
+    assert!(
+        helps.iter().any(|help| help.starts_with("set `pose[0]` of mill") && help.ends_with(wanted)),
+        "{helps:?}"
+    );
+    for (yaw, is_feasible) in [("43", false), ("44", true), ("136", true), ("137", false)] {
+        assert_eq!(turned_to(yaw).verdict.expect("a verdict").feasible, is_feasible, "{yaw}");
+    }
+}
+
 #[test]
 fn a_mill_that_is_started_with_its_door_open_ends_the_run() {
     let mut texts = side_by_side("tending/tending");

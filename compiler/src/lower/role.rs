@@ -306,6 +306,7 @@ impl<'a> Line<'a> {
                             .suggestion
                             .as_ref()
                             .map(|m| (name(m.node), m.path.clone(), m.present, m.value)),
+                        turn: failure.turn.as_ref().map(|t| (name(t.node), t.present, t.value)),
                     }
                 })
                 .collect(),
