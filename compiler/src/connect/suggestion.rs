@@ -73,10 +73,24 @@ pub fn turn(
         if !reachable.matters(pair, (node, &turned(1))) {
             continue;
         }
+        let farthest = reachable.farthest(pair, node);
         for direction in [1, -1] {
-            let mut turns = (1..=180).map(|degrees| (direction * degrees, turned(direction * degrees)));
-            let meets = |placed: &Placed| reachable.first_miss(pair, (node, placed)).is_none();
-            let Some((change_deg, placed_then)) = turns.find(|(_, turned)| meets(turned)) else { continue };
+            let mut degrees = 1_i32;
+            let found = loop {
+                let (change, turned) = (direction * degrees, turned(direction * degrees));
+                match reachable.first_miss(pair, (node, &turned)) {
+                    None => break Some((change, turned)),
+                    // The tool moves by no more than this angle times its distance: as in `stride`.
+                    Some(missing) => {
+                        let step = (missing / 2.0 / farthest).to_degrees() as i32;
+                        degrees = degrees.saturating_add(step.max(1));
+                    }
+                }
+                if degrees > 180 {
+                    break None;
+                }
+            };
+            let Some((change_deg, placed_then)) = found else { continue };
             let Some(stands_then) = after(line, reachable, stands, node, &placed_then) else { continue };
             let connected = flow.served(&stands_then).connected();
             let is_better =
