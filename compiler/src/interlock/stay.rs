@@ -391,7 +391,8 @@ fn held_behind(
         }
         for transition in &automaton.states[state].transitions {
             let moves = motions.iter().any(|motion| std::ptr::eq(motion.transition, transition));
-            if !moves && !(goes && done.guard(transition)) {
+            let ends = goes && done.guard(transition);
+            if !moves && !ends {
                 let target = transition.target.map_or(state, |StateId(target)| target);
                 open.push((target, lock::after(system, transition, &all)));
             }
