@@ -3,16 +3,19 @@
 mod lock;
 mod region;
 mod stay;
+mod writers;
 
 use crate::diagnostic::{Diagnostic, sort};
 use crate::layout::Layout;
 use crate::lower::Project;
 use crate::source::Span;
+use region::Given;
 use runtime_sim::collision::{BoundingBox, Moving};
 use runtime_sim::point::Axis;
-use stay::{Range, Stay};
+use stay::{Range, Stays};
 use std::cell::OnceCell;
 use std::collections::BTreeMap;
+use writers::Writers;
 
 /// Crossing ways of two machines of which the volume is told.
 const MOST_CROSSINGS: usize = 100;
@@ -43,13 +46,15 @@ pub fn warnings(layout: &Layout, project: &Project) -> Vec<Diagnostic> {
     movers.sort_by(|a, b| begin(a).total_cmp(&begin(b)));
     let objects: BTreeMap<&str, Span> =
         layout.objects.iter().map(|object| (object.name.value.as_str(), object.name.span)).collect();
+    let writers = Writers::new(&project.system);
+    let given = Given { system: &project.system, line: &project.plant, writers: &writers };
     let mut found = Vec::new();
     for (number, first) in movers.iter().enumerate() {
         let end = first.moving.whole().along(Axis::X)[1];
         for second in movers[number + 1..].iter().take_while(|second| begin(second) <= end) {
             let mut pair = [first, second];
             pair.sort_by_key(|mover| mover.instance);
-            if let Some(crossing) = crossing(project, pair) {
+            if let Some(crossing) = crossing(project, &given, pair) {
                 found.extend(diagnostic(project, &objects, pair, &crossing));
             }
         }
@@ -58,17 +63,14 @@ pub fn warnings(layout: &Layout, project: &Project) -> Vec<Diagnostic> {
     found
 }
 
-fn crossing(project: &Project, [a, b]: [&Mover; 2]) -> Option<Crossing> {
+fn crossing(project: &Project, given: &Given, [a, b]: [&Mover; 2]) -> Option<Crossing> {
     let names = [a, b].map(|mover| project.plant.machines[mover.instance].name.as_str());
     let is_apart = a.moving.whole().is_apart(&b.moving.whole());
     if is_apart || works_with(project, a, b) || works_with(project, b, a) || project.plant.allows(names) {
         return None;
     }
-    let ranges = [a, b].map(|mover| {
-        mover
-            .range
-            .get_or_init(|| stay::range(&project.system, &project.plant, mover.instance, &mover.moving))
-    });
+    let ranges =
+        [a, b].map(|mover| mover.range.get_or_init(|| stay::range(given, mover.instance, &mover.moving)));
     match ranges {
         [Range::Whole(one, here), Range::Whole(other, there)] => {
             Some(Crossing { common: one.common(other), places: [*here, *there], is_known: [false; 2] })
@@ -81,21 +83,23 @@ fn crossing(project: &Project, [a, b]: [&Mover; 2]) -> Option<Crossing> {
     }
 }
 
-fn within(whole: &BoundingBox, stays: &[Stay]) -> Option<(BoundingBox, Span)> {
-    let near = stays.iter().filter(|stay| !stay.way.bounds.is_apart(whole));
+fn within(whole: &BoundingBox, stays: &Stays) -> Option<(BoundingBox, Span)> {
+    let near = stays.all.iter().filter(|stay| !stay.way.bounds.is_apart(whole));
     let common = near.map(|stay| (stay.way.bounds.common(whole), stay.place));
     common.reduce(|(all, place), (next, _)| (all.with(&next), place))
 }
 
-fn both([a, b]: [&Moving; 2], stays: &[Stay], others: &[Stay]) -> Option<Crossing> {
-    let all = |stays: &[Stay]| stays.iter().map(|stay| stay.way.bounds).reduce(|a, b| a.with(&b));
-    if all(stays)?.is_apart(&all(others)?) {
+fn both([a, b]: [&Moving; 2], stays: &Stays, others: &Stays) -> Option<Crossing> {
+    let all = |stays: &Stays| stays.all.iter().map(|stay| stay.way.bounds).reduce(|a, b| a.with(&b));
+    let (here, there) = (all(stays)?, all(others)?);
+    if here.is_apart(&there) {
         return None;
     }
+    let is_free = stays.without_common_lock(others);
     let mut found: Option<Crossing> = None;
     let mut count = 0;
-    for stay in stays {
-        for other in others.iter().filter(|other| stay.locks.is_disjoint(&other.locks)) {
+    for stay in stays.all.iter().filter(|stay| !stay.way.bounds.is_apart(&there)) {
+        for other in others.all.iter().filter(|other| is_free[stay.locks][other.locks]) {
             if let Some(common) = a.common(&stay.way, (b, &other.way)) {
                 let crossing = found.get_or_insert(Crossing {
                     common,

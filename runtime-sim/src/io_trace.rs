@@ -75,6 +75,7 @@ impl Form {
     fn text(self) -> String {
         match self {
             Self::Truth => "bool".into(),
+            Self::WHOLE => "whole".into(),
             Self::Whole { lo, hi } => format!("int {lo} {hi}"),
             Self::Real => "real".into(),
         }
@@ -83,6 +84,7 @@ impl Form {
     fn read(words: &mut Words) -> Result<Self, String> {
         match words.name()? {
             "bool" => Ok(Self::Truth),
+            "whole" => Ok(Self::WHOLE),
             "int" => {
                 let (lo, hi) = (words.int()?, words.int()?);
                 if lo > hi {
@@ -181,28 +183,61 @@ impl Columns {
         out.push('\n');
     }
 
-    /// The text that [`Columns::from_text`] reads back.
+    /// The text that [`Columns::from_text`] reads back: a line for each column, and one for the elements of an array whose
+    /// words stand one behind the other.
     pub fn to_text(&self) -> String {
-        let mut out = format!("columns 1\n{}\n", self.0.len());
-        for Column { name, form, source } in &self.0 {
-            let _ = writeln!(out, "{name} {} {}", form.text(), source.text());
+        let mut lines = String::new();
+        let mut count = 0;
+        let mut rest = self.0.as_slice();
+        while let [first, ..] = rest {
+            let follows = |(i, next): &(usize, &Column)| first.element(*i).as_ref() == Some(*next);
+            let row = rest.iter().enumerate().take(MOST_ELEMENTS).skip(1).take_while(follows).count() + 1;
+            let Column { name, form, source } = first;
+            let _ = writeln!(lines, "{name} {row} {} {}", form.text(), source.text());
+            rest = &rest[row..];
+            count += 1;
         }
-        out
+        format!("columns 2\n{count}\n{lines}")
     }
 
     pub fn from_text(text: &str) -> Result<Self, String> {
         let mut words = Words::new(text);
         words.expect("columns")?;
-        words.expect("1")?;
-        let columns = words.list(|words| {
+        words.expect("2")?;
+        let rows = words.list(|words| {
             let name = words.name()?.to_string();
-            Ok(Column { name, form: Form::read(words)?, source: Source::read(words)? })
+            let elements: usize = words.int()?;
+            if !(1..=MOST_ELEMENTS).contains(&elements) {
+                return Err(words.error(format_args!("there are not {elements} elements in a line")));
+            }
+            let first = Column { name, form: Form::read(words)?, source: Source::read(words)? };
+            let others: Option<Vec<Column>> = (1..elements).map(|i| first.element(i)).collect();
+            let others = others.ok_or_else(|| words.error("elements of no array"))?;
+            Ok([vec![first], others].concat())
         })?;
         if words.is_empty() {
-            Ok(Self(columns))
+            Ok(Self(rows.concat()))
         } else {
             Err(words.error("more columns than were announced"))
         }
+    }
+}
+
+/// Elements of an array in a line of the text.
+const MOST_ELEMENTS: usize = 10_000;
+
+impl Column {
+    /// The column of an element so far behind the one that this is of.
+    fn element(&self, behind: usize) -> Option<Self> {
+        let (array, index) = self.name.strip_suffix(']')?.rsplit_once('[')?;
+        let index = index.parse::<usize>().ok()?.checked_add(behind)?;
+        let source = match self.source {
+            Source::Input { machine, word } => Source::Input { machine, word: word.checked_add(behind)? },
+            Source::Output { machine, word } => Source::Output { machine, word: word.checked_add(behind)? },
+            Source::Trace(word) => Source::Trace(word.checked_add(behind)?),
+            _ => return None,
+        };
+        Some(Self { name: format!("{array}[{index}]"), source, ..self.clone() })
     }
 }
 
@@ -248,16 +283,36 @@ mod tests {
     }
 
     #[test]
+    fn elements_of_an_array_are_one_line() {
+        let column = |name: String, word| Column { name, form: Form::WHOLE, source: Source::Trace(word) };
+        let mut columns: Vec<Column> = (0..12).map(|i| column(format!("slot[{}]", i + 12), 30 + i)).collect();
+        assert_eq!(Columns(columns.clone()).to_text(), "columns 2\n1\nslot[12] 12 whole trace 30\n");
+        // The words of the next row stand elsewhere, and so do those of another array.
+        columns.push(column("slot[24]".into(), 80));
+        columns.push(column("holds[25]".into(), 81));
+        columns.push(column("holds[27]".into(), 82));
+        let columns = Columns(columns);
+        let text = columns.to_text();
+        assert_eq!(text.lines().count(), 2 + 4, "{text}");
+        assert_eq!(Columns::from_text(&text), Ok(columns));
+    }
+
+    #[test]
     fn wrong_columns_are_errors() {
         for text in [
             "",
-            "columns 2",
-            "columns 1\n1\na bool",
-            "columns 1\n1\na bool input 0",
-            "columns 1\n1\na int 5 1 trace 0",
-            "columns 1\n1\na word trace 0",
-            "columns 1\n1\na bool trace 0 b",
-            "columns 1\n1\na bool somewhere",
+            "columns 1",
+            "columns 2\n1\na 1 bool",
+            "columns 2\n1\na 1 bool input 0",
+            "columns 2\n1\na 1 int 5 1 trace 0",
+            "columns 2\n1\na 1 word trace 0",
+            "columns 2\n1\na 1 bool trace 0 b",
+            "columns 2\n1\na 1 bool somewhere",
+            "columns 2\n1\na[0] 0 bool trace 0",
+            "columns 2\n1\na 2 bool trace 0",
+            "columns 2\n1\na[0] 2 bool running",
+            "columns 2\n1\na[0] 99999999999 bool trace 0",
+            "columns 2\n1\na[18446744073709551615] 2 bool trace 0",
         ] {
             assert!(Columns::from_text(text).is_err(), "{text}");
         }

@@ -5,7 +5,10 @@
 //! on the trip from the first to the second. It does not know where others are at present, nor other arms.
 
 mod check;
+mod gap;
 mod line;
+mod member;
+mod obstacle;
 mod options;
 mod plane;
 mod scene;
@@ -16,10 +19,11 @@ use crate::kinematics::gantry::{Stance, Wrist};
 use crate::kinematics::{nearest_equivalent, nearest_turn};
 use crate::motion::{Knot, Motion, Path};
 use crate::point::Point;
+pub use gap::Load;
 use line::Line;
 use options::Options;
 use plane::{Plane, Rectangle};
-pub use scene::Load;
+
 use scene::Scene;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -301,7 +305,7 @@ impl Planner {
 
     fn is_free_at_place(&self, Candidate { over, at, .. }: &Candidate) -> bool {
         let near = self.scene.near([over, at].map(axis));
-        let gap = |joints, enough| self.scene.gap(&near, &self.arm.frames(joints), Load::None, [enough; 2]);
+        let gap = |joints, enough| self.scene.gap(&near, joints, Load::None, [enough; 2]);
         gap(at, MARGIN_AT_PLACE) >= MARGIN_AT_PLACE
             && gap(over, MARGIN_AT_PLACE) >= MARGIN_AT_PLACE
             && self.scene.gap_at_place(at, MARGIN_AT_PLACE) >= MARGIN_AT_PLACE
@@ -356,7 +360,7 @@ impl Planner {
         let gap = if tool.z < top {
             f64::INFINITY
         } else {
-            self.scene.gap(&near, &self.arm.frames(low), load, [MARGIN_AT_PLACE, MARGIN])
+            self.scene.gap(&near, low, load, [MARGIN_AT_PLACE, MARGIN])
         };
         let mut vertical = Vertical { top, gap };
         let (mut z, mut step, mut last) = (tool.z, LINE_STEP, *low);
@@ -368,7 +372,7 @@ impl Planner {
             last = self.arm.solve_standing(Point { z, ..tool }, &last)?;
             let lifted = z > tool.z + self.scene.load_height + LIFTED;
             let load = if lifted { load } else { Load::None };
-            vertical.gap = self.scene.gap(&near, &self.arm.frames(&last), load, [MARGIN_AT_PLACE, MARGIN]);
+            vertical.gap = self.scene.gap(&near, &last, load, [MARGIN_AT_PLACE, MARGIN]);
             if vertical.gap < MARGIN_AT_PLACE {
                 return None;
             }

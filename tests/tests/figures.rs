@@ -91,6 +91,31 @@ fn the_tending_cell_takes_the_time_of_its_closed_form() {
     }
 }
 
+/// At the worst places of the cell, over the vise and over the conveyors: how far the centre of the wrist is from the base's
+/// axis, and in the plane of the arm from its longest reach, by a second program; and how far it is in space from any
+/// place that the arm does not reach, by trying directions.
+const WORST: [([&str; 2], [f64; 3]); 4] = [
+    (["infeed", "arm"], [0.851469, 0.372996, 0.369990]),
+    (["arm", "mill"], [1.05, 0.170198, 0.169980]),
+    (["arm", "outfeed"], [0.851469, 0.372996, 0.369990]),
+    (["mill", "arm"], [1.05, 0.170198, 0.169980]),
+];
+
+#[test]
+fn the_margins_of_the_tending_cell_are_safe() {
+    let verdict = side_by_side("tending/tending").compile().verdict.expect("a verdict");
+    assert_eq!(verdict.edges.len(), WORST.len());
+    for (edge, ([from, to], [radius, in_plane, in_space])) in verdict.edges.iter().zip(WORST) {
+        assert_eq!([&edge.from[..], &edge.to[..]], [from, to]);
+        // The plane is d4 beside the axis: docs/devices.md.
+        let d4 = 0.17415_f64;
+        let ahead = (radius * radius - d4 * d4).sqrt() - in_plane;
+        let margin = radius - ahead.hypot(d4);
+        assert!((edge.margin - margin).abs() < 1e-5, "{from}, {to}: {} m, not {margin} m", edge.margin);
+        assert!(margin < in_space && margin > 0.96 * in_space, "{margin} m of {in_space} m");
+    }
+}
+
 /// A mill 0.4 m further away is out of reach; what is suggested brings it back, and a millimetre less does not.
 #[test]
 fn a_mill_too_far_away_is_brought_back_by_217_mm() {
@@ -108,6 +133,30 @@ fn a_mill_too_far_away_is_brought_back_by_217_mm() {
     assert!((new - 1.683).abs() < 1e-9, "{new}");
     assert!(with_mill_at("1.683").verdict.expect("a verdict").feasible);
     assert!(!with_mill_at("1.684").verdict.expect("a verdict").feasible);
+}
+
+/// The vise is 0.45 m beside the mill's axis, which is 1.5 m from the arm's, and in reach up to 1.233335 m: the sine of the
+/// yaw has to be 0.6899 at least.
+#[test]
+fn a_mill_that_is_turned_away_is_turned_back_by_134_degrees() {
+    let turned_to = |yaw: &str| {
+        let mut texts = side_by_side("tending/tending");
+        texts.layout = texts.layout.replace("[1.50, 0, 0, 90]", &format!("[1.50, 0, 0, {yaw}]"));
+        texts.compile()
+    };
+    let apart = turned_to("-90");
+    let verdict = apart.verdict.expect("a verdict");
+    let turns: Vec<_> = verdict.apart.iter().filter_map(|pair| pair.turn.clone()).collect();
+    assert_eq!(turns, [("mill".to_string(), -90.0, 44.0), ("mill".to_string(), -90.0, 44.0)]);
+    let wanted = "; or turn mill to 44 (the fourth number of its pose, now -90): 134 degrees bring the two together, 133 do not";
+    let helps: Vec<_> = apart.diagnostics.iter().map(|found| &found.help).collect();
+    assert!(
+        helps.iter().any(|help| help.starts_with("set `pose[0]` of mill") && help.ends_with(wanted)),
+        "{helps:?}"
+    );
+    for (yaw, is_feasible) in [("43", false), ("44", true), ("136", true), ("137", false)] {
+        assert_eq!(turned_to(yaw).verdict.expect("a verdict").feasible, is_feasible, "{yaw}");
+    }
 }
 
 #[test]

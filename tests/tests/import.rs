@@ -60,6 +60,21 @@ fn written(lengths: &[f64; 7], offsets: &[f64; 6], signs: &[f64; 6]) -> String {
     )
 }
 
+/// A file that is small, and has more elements than are read.
+#[test]
+fn elements_are_counted() {
+    let codes = |count: usize| {
+        let mut sources = Sources::default();
+        let text = format!("<robot name=\"arm\">{}</robot>", "<a/>".repeat(count));
+        let file = sources.add("arm.urdf", text);
+        let found = urdf::import(&sources, file, &URDF).expect_err("a robot without links");
+        found.iter().map(|found| (found.code, found.place.start)).collect::<Vec<_>>()
+    };
+    assert_eq!(codes(99_999), [("E1103", 0)]);
+    let [("E1102", at)] = codes(100_000)[..] else { panic!("{:?}", codes(100_000)) };
+    assert!(at > 300_000, "{at}");
+}
+
 #[test]
 fn lengths_and_signs_of_an_arm_come_back_from_its_joints() {
     let mut lot = Lot::new(12);

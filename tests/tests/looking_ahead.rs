@@ -13,7 +13,7 @@ const SCAN: f64 = 0.01;
 /// The report, and when a word of the inputs was first true, s; whichever scans are executed.
 fn first_true(texts: &Texts, word: Option<&str>) -> (Report, Option<f64>) {
     let (project, words) = with_words(texts);
-    let word = word.map(|name| words[name].clone());
+    let word = word.map(|name| words[name]);
     let execute = |stepping| {
         let (mut executor, mut memory, mut first) = (Executor::new(&project.system), Memory::default(), None);
         let mut observer = |seen: &Seen| {

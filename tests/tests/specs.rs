@@ -5,6 +5,7 @@
 //! Behind ` => ` may stand a part of its help, or of a note.
 
 use autogen::diagnostic::Diagnostic;
+use autogen::layout::Panel;
 use autogen::library;
 use autogen::source::Sources;
 use autogen::{check, lint, overlap, spec};
@@ -22,7 +23,7 @@ fn read(sources: &mut Sources, name: &str, text: &str) -> Result<Vec<Diagnostic>
     if !found.is_empty() {
         return Err(found);
     }
-    Ok(lint::warnings(checked?.model(), &trees))
+    Ok(lint::warnings(checked?.model(), &trees, Panel::Line))
 }
 
 fn diagnostics(sources: &mut Sources, name: &str, text: &str) -> Vec<Diagnostic> {

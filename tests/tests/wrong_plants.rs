@@ -90,3 +90,73 @@ fn a_chain_without_a_solution_anywhere() {
         ["E0711 4:57 `thing` cannot be built from its device: its tool cannot reach its own rest position"]
     );
 }
+
+/// A robot that puts boxes onto a shelf, or takes them from it; its own lane brings them, or takes them away.
+fn robot_with(part_of_lane: &str, hands: &str, place: &str) -> Vec<&'static str> {
+    let text = format!(
+        "device robot {{
+            part lane = lane {{ from: origin * frame(0, 0.5, 0.5, 0); length: 1.0; width: 0.4; speed: 0.2; }};
+            {part_of_lane}
+            part slide = axis {{ from: origin * frame(0, 0, 1.2, 0); along: y; range: [-0.6, 0.6]; speed: 1.0; acceleration: 1.0; }};
+            part lift = axis {{ on: slide; along: z; range: [-0.9, 0]; speed: 1.0; acceleration: 1.0; }};
+            part arm = chain {{ on: lift; tool_length: 0.1; rest: origin * point(0, 0, 1.0); }};
+            part claw = grip {{ on: arm; closes: 300 ms; opens: 300 ms; sure_after: 50 ms; near: 0.01; }};
+            in moves: bool = lane.moves;
+            out close: bool = claw.close;
+            out goal: point;
+            command 1 move(goal) = arm.joints(goal);
+        }}
+        device shelf {{
+            part board = place {{
+                at: pose; slots: [point(0, 0, 0.5)]; by_kind: false;
+                floor: point(0, 0, 0.5); floor_x: [-0.2, 0.2]; floor_y: [-0.2, 0.2];
+            }};
+            constant at: point = pose + point(0, 0, 0.5);
+            handover at = at \"board\";
+        }}
+        interface Shelf {{ parameter at: point; }}
+        automaton Board on shelf is Shelf {place} at at approach 0.2 {{ initial state S {{ when false -> S {{}} }} }}
+        automaton Robot on robot {{ {hands} shelves: Shelf[]; initial state S {{ when moves -> S {{}} }} }}"
+    );
+    let layout = r#"{"robots": [
+        {"name": "robot", "type": "robot", "pose": [0, 0, 0]}, {"name": "board", "type": "board", "pose": [0, -0.5, 0]}
+    ]}"#;
+    let scenario = format!(r#"{{"kinds": [{BOX}]}}"#);
+    let texts = Texts { specs: vec![text], scenario: Some(scenario), ..Texts::of_layout(layout) };
+    let found = texts.compile().diagnostics;
+    found
+        .iter()
+        .inspect(|found| assert!(!found.help.is_empty(), "{found:?}"))
+        .map(|found| found.code)
+        .collect()
+}
+
+#[test]
+fn items_come_and_go_by_an_arms_own_lane() {
+    let (source, sink) =
+        ("part feed = source { on: lane; inset: 0.1; };", "part box = sink { of: lane; inset: 0; };");
+    assert_eq!(robot_with(source, "hands to", "accepts"), [""; 0]);
+    assert_eq!(robot_with("", "hands to", "accepts"), ["E0404"]);
+    assert_eq!(robot_with(sink, "takes from", "offers"), [""; 0]);
+    assert_eq!(robot_with("", "takes from", "offers"), ["E0405"]);
+}
+
+/// With a panel for the machine a person moves what the automaton does not.
+#[test]
+fn an_output_that_only_a_person_sets() {
+    let spec = "device gate {
+            part bar = cylinder { extend: 1 s; retract: 1 s; };
+            in is_open: bool = bar.is_out;
+            out open: bool = bar.extend;
+        }
+        automaton Gate on gate { initial state S { when is_open -> S {} } }";
+    let warnings = |panel: &str| -> Vec<&str> {
+        let layout = format!(
+            r#"{{"panel": "{panel}", "robots": [{{"name": "gate", "type": "gate", "pose": [0, 0, 0]}}]}}"#
+        );
+        let texts = Texts { specs: vec![spec.into()], ..Texts::of_layout(layout) };
+        texts.compile().warnings.iter().map(|warning| warning.code).collect()
+    };
+    assert_eq!(warnings("line"), ["W0109"]);
+    assert_eq!(warnings("machines"), [""; 0]);
+}

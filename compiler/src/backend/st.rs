@@ -50,6 +50,7 @@ mod xml;
 use super::Files;
 use crate::io_map::{IoMap, Point};
 use crate::ir::{AutomatonId, System};
+use crate::naming::st::Scope;
 use crate::source::Sources;
 use crate::translation::Translations;
 use context::Shared;
@@ -72,46 +73,93 @@ pub fn files(system: &System, sources: &Sources) -> Files {
 /// The files of the folder `plc/`, with the addresses of a map for [`points`] of the same system. And the columns
 /// of an I/O trace, named as the globals of `portable/main.st`; the state of a robot as `robot.state`.
 pub fn mapped(system: &System, sources: &Sources, map: &IoMap) -> (Files, Columns) {
-    let names = names::names(system);
-    let mut program = names.program.inner();
-    let image = image::image(system, &names, map, &mut program);
-    let shared = Shared { system, sources, names: &names };
-    let line = line(shared, &image);
-    let mut files = Files::new();
-    files.insert("portable/main.st".into(), text::portable(shared, &line));
-    // One of them at a time: each is as large as the line.
-    let with = |enumerated: Enumerated| structured(shared, &line, enumerated, &mut program.clone());
-    for (name, text) in text::codesys(shared, &with(Enumerated::ByType)) {
-        files.insert(format!("codesys/{name}"), text);
-    }
-    for (name, text) in siemens::files(shared, &with(Enumerated::ByNumber)) {
-        files.insert(format!("siemens/{name}"), text);
-    }
-    files.insert("io.csv".into(), table::io(shared, map));
-    files.insert("alarms.csv".into(), alarms::table(shared, &mut screen::as_written));
-    files.insert("states.csv".into(), states::table(shared, &mut screen::as_written));
-    files.extend(screen::files(shared, &Translations::default()));
-    files.insert("bounds.txt".into(), figures::report(shared, &line));
-    let raw = program.renamed().iter().map(|renamed| ("globals".to_string(), renamed.clone()));
-    let renamed: Vec<_> = names.renamed.iter().cloned().chain(raw).collect();
-    if !renamed.is_empty() {
-        files.insert("names.csv".into(), table::renamed(&renamed));
-    }
-    (files, columns::columns(shared, &line.globals))
+    with_line(system, sources, map, |made| {
+        let mut files = made.texts_without_types();
+        files.extend(made.codesys(&made.by_type()));
+        files.extend(made.siemens());
+        (files, made.columns())
+    })
 }
 
 /// The text of [`mapped`] as PLCopen XML, in the two flavours that tools import; files of the folder `plc/`.
 pub fn plcopen(system: &System, sources: &Sources, map: &IoMap) -> Files {
+    with_line(system, sources, map, |made| made.plcopen(&made.by_type()))
+}
+
+/// [`mapped`] and [`plcopen`], for which the line is made once.
+pub fn mapped_with_plcopen(system: &System, sources: &Sources, map: &IoMap) -> (Files, Columns) {
+    with_line(system, sources, map, |made| {
+        let mut files = made.texts_without_types();
+        let by_type = made.by_type();
+        files.extend(made.codesys(&by_type));
+        files.extend(made.plcopen(&by_type));
+        drop(by_type);
+        files.extend(made.siemens());
+        (files, made.columns())
+    })
+}
+
+/// A line as it is written in all flavours. With structures it is made for one of them at a time: it is as large as the
+/// whole line.
+struct Made<'a> {
+    shared: Shared<'a>,
+    map: &'a IoMap,
+    line: &'a Line,
+    /// The names of MAIN.
+    program: &'a Scope,
+}
+
+fn with_line<T>(system: &System, sources: &Sources, map: &IoMap, write: impl FnOnce(&Made) -> T) -> T {
     let names = names::names(system);
     let mut program = names.program.inner();
     let image = image::image(system, &names, map, &mut program);
     let shared = Shared { system, sources, names: &names };
-    let line = line(shared, &image);
-    let with_types = structured(shared, &line, Enumerated::ByType, &mut program);
-    Files::from([
-        ("portable/project.xml".into(), xml::plcopen(shared, &line)),
-        ("codesys/project.xml".into(), xml::codesys(shared, &with_types)),
-    ])
+    write(&Made { shared, map, line: &line(shared, &image), program: &program })
+}
+
+impl Made<'_> {
+    fn by_type(&self) -> Line {
+        structured(self.shared, self.line, Enumerated::ByType, &mut self.program.clone())
+    }
+
+    fn texts_without_types(&self) -> Files {
+        let (shared, names) = (self.shared, self.shared.names);
+        let mut files = Files::new();
+        files.insert("portable/main.st".into(), text::portable(shared, self.line));
+        files.insert("io.csv".into(), table::io(shared, self.map));
+        files.insert("alarms.csv".into(), alarms::table(shared, &mut screen::as_written));
+        files.insert("states.csv".into(), states::table(shared, &mut screen::as_written));
+        files.extend(screen::files(shared, &Translations::default()));
+        files.insert("bounds.txt".into(), figures::report(shared, self.line));
+        let raw = self.program.renamed().iter().map(|renamed| ("globals".to_string(), renamed.clone()));
+        let renamed: Vec<_> = names.renamed.iter().cloned().chain(raw).collect();
+        if !renamed.is_empty() {
+            files.insert("names.csv".into(), table::renamed(&renamed));
+        }
+        files
+    }
+
+    fn codesys(&self, by_type: &Line) -> Files {
+        let files = text::codesys(self.shared, by_type).into_iter();
+        files.map(|(name, text)| (format!("codesys/{name}"), text)).collect()
+    }
+
+    fn siemens(&self) -> Files {
+        let line = structured(self.shared, self.line, Enumerated::ByNumber, &mut self.program.clone());
+        let files = siemens::files(self.shared, &line).into_iter();
+        files.map(|(name, text)| (format!("siemens/{name}"), text)).collect()
+    }
+
+    fn plcopen(&self, by_type: &Line) -> Files {
+        Files::from([
+            ("portable/project.xml".into(), xml::plcopen(self.shared, self.line)),
+            ("codesys/project.xml".into(), xml::codesys(self.shared, by_type)),
+        ])
+    }
+
+    fn columns(&self) -> Columns {
+        columns::columns(self.shared, &self.line.globals)
+    }
 }
 
 /// Texts that a screen shows, each once.

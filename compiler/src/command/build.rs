@@ -16,6 +16,7 @@ use autogen::simulator;
 use autogen::source::{FileId, Sources};
 use autogen::translation::{self, Translations};
 use autogen::version;
+use runtime_sim::io_trace::Columns;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeSet;
 use std::path::{Component, Path, PathBuf};
@@ -102,11 +103,12 @@ pub fn build(options: &BuildOptions) -> Result<Built, Status> {
     let Copies { files: copies, command } = copies(options, &with_texts);
     // The same input gives the same bytes, from whatever folder it is compiled.
     let sources = shown(&sources, &options.input.layout);
-    let mut files = files(&project, &sources, &map);
+    let plc = match options.no_plcopen {
+        true => st::mapped(&project.system, &sources, &map),
+        false => st::mapped_with_plcopen(&project.system, &sources, &map),
+    };
+    let mut files = files(&project, &sources, plc);
     files.extend(copies);
-    if !options.no_plcopen {
-        put(&mut files, "plc", st::plcopen(&project.system, &sources, &map));
-    }
     if options.drives {
         put(&mut files, "plc", st::drives());
     }
@@ -236,11 +238,10 @@ fn put(files: &mut Files, folder: &str, more: Files) {
     files.extend(more.into_iter().map(|(name, text)| (format!("{folder}/{name}"), text)));
 }
 
-/// All files of the output but PLCopen XML.
-fn files(project: &Project, sources: &Sources, map: &IoMap) -> Files {
+/// With the files of the folder `plc/`, and the columns of an I/O trace.
+fn files(project: &Project, sources: &Sources, (texts, columns): (Files, Columns)) -> Files {
     let mut files = Files::new();
     put(&mut files, "rust", files_of_rust(&project.system, sources));
-    let (texts, columns) = st::mapped(&project.system, sources, map);
     put(&mut files, "plc", texts);
     put(&mut files, "graph", dot::files(&project.system, &project.edges));
     files.insert("graph/plan.svg".into(), plan::svg(&project.plant, &project.edges));

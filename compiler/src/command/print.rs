@@ -183,7 +183,11 @@ fn apart_json(apart: &Apart) -> Value {
     let suggestion = apart.suggestion.as_ref().map(|(robot, path, present, value)| {
         json!({ "robot": robot, "number": path, "present": present, "value": value })
     });
-    json!({ "from": apart.from, "to": apart.to, "poses_tested": apart.tested, "misses": misses, "suggested_change": suggestion })
+    let turn = apart
+        .turn
+        .as_ref()
+        .map(|(robot, present, value)| json!({ "robot": robot, "present_deg": present, "value_deg": value }));
+    json!({ "from": apart.from, "to": apart.to, "poses_tested": apart.tested, "misses": misses, "suggested_change": suggestion, "suggested_turn": turn })
 }
 
 /// The verdict in text.

@@ -120,6 +120,19 @@ pub struct Suggestion {
     pub joined: Vec<usize>,
 }
 
+/// A turn of one machine about its own place that makes two machines meet: by whole degrees, and one fewer is not enough.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Turn {
+    pub node: usize,
+    /// Yaw of its pose, degrees to the left.
+    pub present: f64,
+    pub value: f64,
+    /// Change in degrees, signed.
+    pub change_deg: i32,
+    /// Nodes on a path from a source to a destination after the turn.
+    pub connected: usize,
+}
+
 /// Two machines that should meet and do not.
 #[derive(Clone, Debug)]
 pub struct Failure {
@@ -131,6 +144,8 @@ pub struct Failure {
     pub tested: usize,
     /// Sought only in a layout that is not connected.
     pub suggestion: Option<Suggestion>,
+    /// The same; it connects no fewer nodes than the suggestion.
+    pub turn: Option<Turn>,
 }
 
 /// What the check found, whether the layout is connected or not.
@@ -213,7 +228,11 @@ pub fn check(line: &Line) -> Report {
             let suggestion = (number < sought)
                 .then(|| suggestion::find(line, &flow, &reachable, &stands, proposal))
                 .flatten();
-            Failure { proposal, misses, tested, suggestion }
+            let turn = (number < sought)
+                .then(|| suggestion::turn(line, &flow, &reachable, &stands, proposal))
+                .flatten()
+                .filter(|turn| suggestion.as_ref().is_none_or(|other| turn.connected >= other.connected));
+            Failure { proposal, misses, tested, suggestion, turn }
         })
         .collect();
     let diagnostics = verdict::diagnostics(line, &flow, &stands, &failures);

@@ -100,6 +100,18 @@ impl<'a> Reachable<'a> {
         (misses, tested)
     }
 
+    /// How far from the place of a machine, about which it turns, the tool is at most, m.
+    pub fn farthest(&self, proposal: &Proposal, node: usize) -> f64 {
+        let own = self.line.nodes[node].placed.pose.position;
+        let mut farthest = 0.0_f64;
+        let passive = &self.line.nodes[proposal.passive()].placed;
+        let _ = each(self.line, proposal, passive, |_, _, _, tool| {
+            farthest = farthest.max((tool.x - own.x).hypot(tool.y - own.y));
+            ControlFlow::Continue(())
+        });
+        farthest
+    }
+
     /// By how much the first pose that misses does so with `placed` instead of the one of `node`, m; none if all
     /// are in reach.
     pub fn first_miss(&self, proposal: &Proposal, (node, placed): (usize, &Placed)) -> Option<f64> {

@@ -1,8 +1,9 @@
-//! The smallest change of one number that makes two machines meet.
+//! The smallest change of one number, and the smallest turn, that make two machines meet.
 
 use super::poses::Reachable;
-use super::{Line, Suggestion, flow::Flow};
+use super::{Line, Node, Suggestion, Turn, flow::Flow};
 use crate::device::Placed;
+use runtime_sim::frame::whole_turn;
 
 /// How far a number is changed at most, mm.
 const FURTHEST: i32 = 10_000;
@@ -49,6 +50,63 @@ pub fn find(
         }
     }
     best
+}
+
+/// Of both machines, as far as they can be turned, and both directions the turn after which most nodes are connected, among
+/// these the smallest; turns that cost an edge do not count.
+pub fn turn(
+    line: &Line,
+    flow: &Flow,
+    reachable: &Reachable,
+    stands: &[bool],
+    proposal: usize,
+) -> Option<Turn> {
+    let pair = &line.proposals[proposal];
+    let mut best: Option<Turn> = None;
+    for node in [pair.passive(), pair.arm].into_iter().filter(|node| can_turn(&line.nodes[*node])) {
+        let placed = &line.nodes[node].placed;
+        let turned = |degrees: i32| {
+            let mut turned = placed.clone();
+            turned.pose.yaw = whole_turn(placed.pose.yaw + f64::from(degrees));
+            turned
+        };
+        if !reachable.matters(pair, (node, &turned(1))) {
+            continue;
+        }
+        let farthest = reachable.farthest(pair, node);
+        for direction in [1, -1] {
+            let mut degrees = 1_i32;
+            let found = loop {
+                let (change, turned) = (direction * degrees, turned(direction * degrees));
+                match reachable.first_miss(pair, (node, &turned)) {
+                    None => break Some((change, turned)),
+                    // The tool moves by no more than this angle times its distance: as in `stride`.
+                    Some(missing) => {
+                        let step = (missing / 2.0 / farthest).to_degrees() as i32;
+                        degrees = degrees.saturating_add(step.max(1));
+                    }
+                }
+                if degrees > 180 {
+                    break None;
+                }
+            };
+            let Some((change_deg, placed_then)) = found else { continue };
+            let Some(stands_then) = after(line, reachable, stands, node, &placed_then) else { continue };
+            let connected = flow.served(&stands_then).connected();
+            let is_better =
+                |best: &Turn| (connected, -change_deg.abs()) > (best.connected, -best.change_deg.abs());
+            if best.as_ref().is_none_or(is_better) {
+                let (present, value) = (placed.pose.yaw, placed_then.pose.yaw);
+                best = Some(Turn { node, present, value, change_deg, connected });
+            }
+        }
+    }
+    best
+}
+
+/// Its device turns with its pose, and the layout gives this.
+fn can_turn(node: &Node) -> bool {
+    node.placed.device.can_turn && node.numbers.iter().any(|number| number.path.starts_with("pose["))
 }
 
 /// `value` and so many millimetres, without the dust of binary fractions.

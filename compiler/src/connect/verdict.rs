@@ -17,13 +17,13 @@ pub fn diagnostics(line: &Line, flow: &Flow, stands: &[bool], failures: &[Failur
     if !line.nodes.iter().any(|node| node.is_source) {
         found.push(
             Diagnostic::new("E0404", line.span, "no machine of this layout brings items in")
-                .help("add a machine whose type is a source, such as a conveyor"),
+                .help("add a machine whose type only offers items, such as a conveyor, or an arm whose device has a `source`"),
         );
     }
     if !line.nodes.iter().any(|node| node.is_destination) {
         found.push(
             Diagnostic::new("E0405", line.span, "no machine of this layout takes finished items away")
-                .help("add a machine whose type is a destination, such as an assembly station"),
+                .help("add a machine whose type only accepts items, such as an assembly station, or an arm whose device has a `sink`"),
         );
     }
     let mut stands = stands.to_vec();
@@ -163,11 +163,21 @@ fn apart(
     if !also.is_empty() {
         diagnostic = diagnostic.note(format!("out of reach as well: {}", also.join(", ")));
     }
-    match &failure.suggestion {
-        Some(suggestion) => {
+    let turn = failure.turn.as_ref().map(|turn| {
+        let (name, degrees) = (&line.nodes[turn.node].name, turn.change_deg.abs());
+        format!(
+            "turn {name} to {} (the fourth number of its pose, now {}): {degrees} degrees bring the two together, {} do not",
+            turn.value,
+            turn.present,
+            degrees - 1
+        )
+    });
+    match (&failure.suggestion, turn) {
+        (Some(suggestion), turn) => {
             let name = &line.nodes[suggestion.node].name;
+            let or_turn = turn.map(|turn| format!("; or {turn}")).unwrap_or_default();
             diagnostic.other(suggestion.span, "a change of this number is enough").help(format!(
-                "set `{}` of {name} to {} (now {}): {} mm bring the two together, {} mm do not",
+                "set `{}` of {name} to {} (now {}): {} mm bring the two together, {} mm do not{or_turn}",
                 suggestion.path,
                 suggestion.value,
                 suggestion.present,
@@ -175,7 +185,8 @@ fn apart(
                 suggestion.change_mm.abs() - 1
             ))
         }
-        None => diagnostic.help(format!(
+        (None, Some(turn)) => diagnostic.help(turn),
+        (None, None) => diagnostic.help(format!(
             "no change of one number by up to 10 m brings the two together without separating others: move {} or {}, or lower the approach",
             passive.name, arm.name
         )),

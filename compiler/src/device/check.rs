@@ -9,7 +9,7 @@ use crate::layout::object::is_common;
 use crate::source::Span;
 use crate::spec::ast::{self, ExprKind, Name, Scalar};
 use runtime_sim::machine::MOST_ELEMENTS;
-use runtime_sim::part::{ALL, Form as SettingForm, Schema};
+use runtime_sim::part::{self, ALL, Form as SettingForm, Schema};
 use runtime_sim::value::Value;
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
@@ -315,17 +315,21 @@ impl Checker<'_> {
                 self.report("E0703", name.span, message, help);
             }
         }
-        for setting in schema.settings.iter().filter(|setting| !setting.is_optional) {
-            if part.settings.iter().all(|(name, _)| name.value != setting.name) {
-                let message = format!("the setting `{}` of `{}` is missing", setting.name, part.name.value);
-                self.report(
-                    "E0703",
-                    part.name.span,
-                    message,
-                    format!("{}: {}", setting.name, setting.meaning),
-                );
-            }
+        let is_missing = |setting: &&part::Setting| {
+            !setting.is_optional && part.settings.iter().all(|(name, _)| name.value != setting.name)
+        };
+        let missing: Vec<&part::Setting> = schema.settings.iter().filter(is_missing).collect();
+        if missing.is_empty() {
+            return;
         }
+        let names: Vec<String> = missing.iter().map(|setting| format!("`{}`", setting.name)).collect();
+        let message = match &names[..] {
+            [name] => format!("the setting {name} of `{}` is missing", part.name.value),
+            names => format!("the settings {} of `{}` are missing", names.join(", "), part.name.value),
+        };
+        let meanings: Vec<String> =
+            missing.iter().map(|setting| format!("{}: {}", setting.name, setting.meaning)).collect();
+        self.report("E0703", part.name.span, message, meanings.join("; "));
     }
 
     /// A part refers to parts before it only: whose names are known by now.

@@ -1,5 +1,6 @@
 //! Where points of a line may be, as far as its texts and its layout tell.
 
+use super::writers::Writers;
 use crate::ir::{
     Asking, Domain, Expr, ExprKind, InterfaceId, Operator, Place, Scalar, System, Target, Transition, Update,
     UpdateKind, Value,
@@ -7,6 +8,7 @@ use crate::ir::{
 use runtime_sim::line::Line;
 use runtime_sim::part::Primitive;
 use runtime_sim::wiring::Source;
+use std::cell::RefCell;
 use std::collections::BTreeSet;
 
 /// Both bounds, included.
@@ -21,22 +23,43 @@ const MOST: usize = 4;
 const DEEPEST: usize = 12;
 
 /// Of one instance, which of its references to others stand where they stand.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default)]
 pub struct Bound {
     /// A local, and its row.
     pub rows: Vec<(usize, usize)>,
+    asked: RefCell<BTreeSet<(usize, Option<usize>)>>,
 }
 
 impl Bound {
-    pub fn row(&self, local: usize) -> Option<usize> {
-        self.rows.iter().find(|(bound, _)| *bound == local).map(|(_, row)| *row)
+    pub fn new(rows: Vec<(usize, usize)>) -> Self {
+        Self { rows, ..Self::default() }
     }
+
+    pub fn row(&self, local: usize) -> Option<usize> {
+        let row = self.rows.iter().find(|(bound, _)| *bound == local).map(|(_, row)| *row);
+        self.asked.borrow_mut().insert((local, row));
+        row
+    }
+
+    /// Locals that were asked for, with the answers.
+    pub fn asked(&self) -> BTreeSet<(usize, Option<usize>)> {
+        self.asked.borrow().clone()
+    }
+}
+
+/// A line, and who writes what in it.
+#[derive(Clone, Copy)]
+pub struct Given<'a> {
+    pub system: &'a System,
+    pub line: &'a Line,
+    pub writers: &'a Writers<'a>,
 }
 
 /// Evaluates for one instance, in one of its transitions.
 pub struct Regions<'a> {
     pub system: &'a System,
     pub line: &'a Line,
+    writers: &'a Writers<'a>,
     pub instance: usize,
     pub bound: &'a Bound,
     pub transition: &'a Transition,
@@ -44,14 +67,9 @@ pub struct Regions<'a> {
 }
 
 impl<'a> Regions<'a> {
-    pub fn new(
-        system: &'a System,
-        line: &'a Line,
-        instance: usize,
-        bound: &'a Bound,
-        transition: &'a Transition,
-    ) -> Self {
-        Self { system, line, instance, bound, transition, depth: 0 }
+    pub fn new(given: &Given<'a>, instance: usize, bound: &'a Bound, transition: &'a Transition) -> Self {
+        let Given { system, line, writers } = *given;
+        Self { system, line, writers, instance, bound, transition, depth: 0 }
     }
 
     fn deeper(&self) -> Option<Self> {
@@ -142,27 +160,14 @@ impl<'a> Regions<'a> {
         let inner = self.deeper()?;
         let unbound = Bound::default();
         let mut all = Vec::new();
-        for instance in 0..self.system.instances.len() {
-            let automaton = self.system.automaton_of(instance);
-            for transition in automaton.states.iter().flat_map(|state| &state.transitions) {
-                let here = Regions { instance, bound: &unbound, transition, ..inner };
-                for update in &transition.updates {
-                    let Some(target) = update.kind.target() else { continue };
-                    let value = update.kind.value();
-                    let Place::Cell { interface: of_interface, cell: of_cell, of, .. } = &target.place else {
-                        continue;
-                    };
-                    if (*of_interface, *of_cell) != (interface, cell) {
-                        continue;
-                    }
-                    let written = match of {
-                        Some(of) => here.rows(of),
-                        None => here.own(interface).into_iter().collect(),
-                    };
-                    if written.iter().any(|row| rows.contains(row)) {
-                        all.extend(here.points(value?)?);
-                    }
-                }
+        for (instance, write) in self.writers.of(interface, cell) {
+            let here = Regions { instance, bound: &unbound, transition: write.transition, ..inner };
+            let written = match write.of {
+                Some(of) => here.rows(of),
+                None => here.own(interface).into_iter().collect(),
+            };
+            if written.iter().any(|row| rows.contains(row)) {
+                all.extend(here.points(write.value?)?);
             }
         }
         Some(few(all))

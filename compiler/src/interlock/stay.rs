@@ -1,7 +1,7 @@
 //! Where a machine is and goes, with the locks that it has there.
 
 use super::lock::{self, Lock};
-use super::region::{Bound, Region, Regions, around, rows_of_local};
+use super::region::{Bound, Given, Region, Regions, around, rows_of_local};
 use crate::ir::{Asking, Automaton, Expr, ExprKind, Place, Scalar, StateId, System, Transition, UpdateKind};
 use crate::source::Span;
 use runtime_sim::collision::{BoundingBox, Moving, Way};
@@ -12,7 +12,9 @@ use runtime_sim::machine::Machine;
 use runtime_sim::part::Primitive;
 use runtime_sim::point::Point;
 use runtime_sim::wiring::Source;
-use std::collections::{BTreeMap, BTreeSet, HashSet};
+use std::cmp::Ordering;
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
+use std::rc::Rc;
 
 /// Choices of the machines that one works with.
 const MOST_BOUND: usize = 64;
@@ -22,8 +24,8 @@ const MOST_WAYS: usize = 4000;
 /// A way, or a place where the machine stands.
 pub struct Stay {
     pub way: Way,
-    /// Instances of which it has a lock all the while.
-    pub locks: BTreeSet<usize>,
+    /// The set of instances of which it has a lock all the while, by its number.
+    pub locks: usize,
     /// The transition with the command.
     pub place: Span,
 }
@@ -31,7 +33,54 @@ pub struct Stay {
 pub enum Range {
     /// The goal of the command there is not known.
     Whole(BoundingBox, Span),
-    Stays(Vec<Stay>),
+    Stays(Stays),
+}
+
+pub struct Stays {
+    pub all: Vec<Stay>,
+    /// The sets of instances, each in layout order.
+    locks: Vec<Vec<usize>>,
+}
+
+impl Stays {
+    /// For each set of locks of one machine and each of another one, whether no instance is in both.
+    pub fn without_common_lock(&self, other: &Self) -> Vec<Vec<bool>> {
+        let with = |set: &Vec<usize>| other.locks.iter().map(|next| is_disjoint(set, next)).collect();
+        self.locks.iter().map(with).collect()
+    }
+}
+
+/// Both ascend.
+fn is_disjoint(a: &[usize], b: &[usize]) -> bool {
+    let (mut a, mut b) = (a, b);
+    while let ([first, left @ ..], [second, right @ ..]) = (a, b) {
+        match first.cmp(second) {
+            Ordering::Less => a = left,
+            Ordering::Greater => b = right,
+            Ordering::Equal => return false,
+        }
+    }
+    true
+}
+
+/// Where a machine goes past, one after the other, and the direction of its tool.
+type Stages = Vec<(Vec<Region>, Facing)>;
+
+/// Of one motion, for all bounds that answer alike.
+struct Evaluated {
+    asked: BTreeSet<(usize, Option<usize>)>,
+    stages: Option<Rc<Stages>>,
+}
+
+/// Instances of which a machine has a lock. In a long line a local names a thousand: they are written out once for each set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+enum Holder {
+    Itself,
+    One(usize),
+    /// All that a local may name.
+    Named(usize),
+    /// Those of them that lock themselves.
+    Lending(usize),
 }
 
 /// A command that moves the machine.
@@ -44,67 +93,135 @@ struct Motion<'a> {
     named: BTreeSet<usize>,
 }
 
-pub fn range(system: &System, line: &Line, instance: usize, moving: &Moving) -> Range {
+pub fn range(given: &Given, instance: usize, moving: &Moving) -> Range {
+    let Given { system, line, .. } = *given;
     let automaton = system.automaton_of(instance);
-    let motions = motions(system, line, instance);
+    let motions = motions(given, instance);
     let from = origins(automaton, &motions);
     let held = lock::held(system, automaton);
-    let rest = rest(line, instance);
-    let mut found = Found { moving, stays: Vec::new(), known: HashSet::new() };
+    let locks = motions.iter().map(|motion| {
+        let target = motion.transition.target.map_or(motion.state, |StateId(target)| target);
+        let first = (target, lock::after(system, motion.transition, &held[motion.state]));
+        [true, false].map(|goes| held_behind(system, automaton, &motions, first.clone(), goes))
+    });
+    let locks: Vec<[BTreeSet<Lock>; 2]> = locks.collect();
+    let at_rest = Rc::new(vec![(rest(line, instance).into_iter().collect(), Facing::Down)]);
+    let mut known: Vec<Vec<Evaluated>> = motions.iter().map(|_| Vec::new()).collect();
+    let mut goals = |number: usize, bound: &Bound| -> Option<Rc<Stages>> {
+        let motion = &motions[number];
+        let is_same = |of: &&Evaluated| of.asked.iter().all(|(local, row)| bound.row(*local) == *row);
+        if let Some(evaluated) = known[number].iter().find(is_same) {
+            return evaluated.stages.clone();
+        }
+        let bound = Bound::new(bound.rows.clone());
+        let regions = Regions::new(given, instance, &bound, motion.transition);
+        let stages = motion.goals.iter().map(|(goal, facing)| Some((regions.points(goal)?, *facing)));
+        let stages = stages.collect::<Option<Stages>>().map(Rc::new);
+        known[number].push(Evaluated { asked: bound.asked(), stages: stages.clone() });
+        stages
+    };
+    let mut found =
+        Found { system, instance, moving, stays: Vec::new(), known: HashSet::new(), sets: Sets::default() };
+    found.add(&at_rest, &BTreeSet::new(), automaton.place);
+    // For most bounds goals and locks are those of another one.
+    let mut stood: HashSet<(*const Stages, BTreeSet<Holder>)> = HashSet::new();
+    let mut gone: HashSet<(Option<*const Stages>, *const Stages, BTreeSet<Holder>)> = HashSet::new();
     for bound in bounds(system, instance) {
-        let goals = |motion: &Motion, bound: &Bound| -> Option<Vec<(Vec<Region>, Facing)>> {
-            let regions = Regions::new(system, line, instance, bound, motion.transition);
-            motion.goals.iter().map(|(goal, facing)| Some((regions.points(goal)?, *facing))).collect()
-        };
-        let at_rest: Vec<(Vec<Region>, Facing)> = vec![(rest.into_iter().collect(), Facing::Down)];
-        found.add(&at_rest, &BTreeSet::new(), automaton.place);
         for (number, motion) in motions.iter().enumerate() {
-            let Some(stages) = goals(motion, &bound) else {
-                return Range::Whole(moving.whole(), motion.transition.place);
-            };
-            let target = motion.transition.target.map_or(motion.state, |StateId(target)| target);
-            let first = lock::after(system, motion.transition, &held[motion.state]);
-            let locks = |goes: bool| -> BTreeSet<usize> {
-                let held = held_behind(system, automaton, &motions, (target, first.clone()), goes);
-                held.iter().flat_map(|lock| owner(system, instance, &bound, lock)).collect()
-            };
             let place = motion.transition.place;
+            let Some(stages) = goals(number, &bound) else {
+                return Range::Whole(moving.whole(), place);
+            };
+            let [going, there] = &locks[number];
+            let holders = |locks: &BTreeSet<Lock>| -> BTreeSet<Holder> {
+                locks.iter().map(|lock| owner(system, instance, &bound, lock)).collect()
+            };
             // A machine that offers its places and locks itself has its lock for whoever comes.
-            let lent = |motion: &Motion, bound: &Bound| -> BTreeSet<usize> {
-                let rows = motion.named.iter().flat_map(|local| members(system, instance, bound, *local));
-                rows.filter(|member| lock::locks_itself(system, *member)).collect()
+            let lent = |motion: &Motion, bound: &Bound| -> BTreeSet<Holder> {
+                motion.named.iter().filter_map(|local| lender(system, instance, bound, *local)).collect()
             };
             let here = lent(motion, &bound);
-            let (on_the_way, at_the_goal) = (locks(true), &locks(false) | &here);
-            found.add(&stages[stages.len() - 1..], &at_the_goal, place);
+            let (on_the_way, at_the_goal) = (&holders(going) | &here, &holders(there) | &here);
+            if stood.insert((Rc::as_ptr(&stages), at_the_goal.clone())) {
+                found.add(&stages[stages.len() - 1..], &at_the_goal, place);
+            }
             let chosen = lock::chosen(motion.transition);
             let mut before = bound.clone();
             before.rows.retain(|(local, _)| !chosen.contains(local));
             for origin in &from[number] {
                 let (begin, there) = match origin {
                     None => (Some(at_rest.clone()), BTreeSet::new()),
-                    Some(origin) => (goals(&motions[*origin], &before), lent(&motions[*origin], &before)),
+                    Some(origin) => (goals(*origin, &before), lent(&motions[*origin], &before)),
                 };
-                let on_the_way = &(&on_the_way | &here) | &there;
-                let begin = begin.as_ref().and_then(|stages| stages.last());
-                let passed: Vec<_> = begin.into_iter().chain(&stages).cloned().collect();
-                found.add(&passed, &on_the_way, place);
+                let held = &on_the_way | &there;
+                if gone.insert((begin.as_ref().map(Rc::as_ptr), Rc::as_ptr(&stages), held.clone())) {
+                    let begin = begin.as_ref().and_then(|stages| stages.last());
+                    let passed: Stages = begin.into_iter().chain(stages.iter()).cloned().collect();
+                    found.add(&passed, &held, place);
+                }
             }
         }
     }
-    Range::Stays(found.stays)
+    Range::Stays(Stays { all: found.stays, locks: found.sets.all })
 }
 
 struct Found<'a> {
+    system: &'a System,
+    instance: usize,
     moving: &'a Moving,
     stays: Vec<Stay>,
-    known: HashSet<(Vec<[i64; 3]>, BTreeSet<usize>)>,
+    known: HashSet<(Vec<[i64; 3]>, usize)>,
+    sets: Sets,
+}
+
+/// Sets of instances, each once.
+#[derive(Default)]
+struct Sets {
+    all: Vec<Vec<usize>>,
+    numbers: HashMap<Vec<usize>, usize>,
+    of_holders: HashMap<BTreeSet<Holder>, usize>,
+}
+
+impl Sets {
+    fn number(&mut self, system: &System, instance: usize, holders: &BTreeSet<Holder>) -> usize {
+        if let Some(number) = self.of_holders.get(holders) {
+            return *number;
+        }
+        let mut instances: Vec<usize> =
+            holders.iter().flat_map(|holder| holder.instances(system, instance)).collect();
+        instances.sort_unstable();
+        instances.dedup();
+        let number = *self.numbers.entry(instances.clone()).or_insert(self.all.len());
+        if number == self.all.len() {
+            self.all.push(instances);
+        }
+        self.of_holders.insert(holders.clone(), number);
+        number
+    }
+}
+
+impl Holder {
+    fn instances(self, system: &System, instance: usize) -> Vec<usize> {
+        match self {
+            Self::Itself => vec![instance],
+            Self::One(instance) => vec![instance],
+            Self::Named(local) => members(system, instance, local),
+            Self::Lending(local) => {
+                let named = members(system, instance, local);
+                named.into_iter().filter(|member| lock::locks_itself(system, *member)).collect()
+            }
+        }
+    }
 }
 
 impl Found<'_> {
     /// The ways from region to region: for each choice of one of each stage, between corners that lie alike, and between
     /// those that lie opposite.
-    fn add(&mut self, stages: &[(Vec<Region>, Facing)], locks: &BTreeSet<usize>, place: Span) {
+    fn add(&mut self, stages: &[(Vec<Region>, Facing)], holders: &BTreeSet<Holder>, place: Span) {
+        if self.stays.len() >= MOST_WAYS {
+            return;
+        }
+        let locks = self.sets.number(self.system, self.instance, holders);
         let mut choices: Vec<Vec<(Region, Facing)>> = vec![Vec::new()];
         for (regions, facing) in stages {
             let with = |choice: &Vec<(Region, Facing)>| -> Vec<Vec<(Region, Facing)>> {
@@ -115,8 +232,15 @@ impl Found<'_> {
         }
         let corners: &[usize] = if choices.len() == 1 { &[0, 1, 2, 3, 4, 5, 6, 7] } else { &[0, 7] };
         for choice in &choices {
+            // Of places that are known exactly all corners are one.
+            let mut known = [false; 64];
+            let wide = wide(choice);
             for &corner in corners {
                 for first in [corner, 7 - corner] {
+                    let number = (corner & wide) * 8 + (first & wide);
+                    if std::mem::replace(&mut known[number], true) {
+                        continue;
+                    }
                     let at = choice.iter().enumerate().map(|(number, (region, facing))| {
                         (self::corner(region, if number == 0 { first } else { corner }), *facing)
                     });
@@ -126,19 +250,20 @@ impl Found<'_> {
         }
     }
 
-    fn way(&mut self, goals: &[(Point, Facing)], locks: &BTreeSet<usize>, place: Span) {
+    fn way(&mut self, goals: &[(Point, Facing)], locks: usize, place: Span) {
         let rounded = |value: f64| (value * 1e3).round() as i64;
         let key: Vec<[i64; 3]> = goals.iter().map(|(p, _)| [p.x, p.y, p.z].map(rounded)).collect();
-        if self.stays.len() >= MOST_WAYS || !self.known.insert((key, locks.clone())) {
+        if self.stays.len() >= MOST_WAYS || !self.known.insert((key, locks)) {
             return;
         }
         if let Some(way) = self.moving.way(goals) {
-            self.stays.push(Stay { way, locks: locks.clone(), place });
+            self.stays.push(Stay { way, locks, place });
         }
     }
 }
 
-fn motions<'a>(system: &'a System, line: &Line, instance: usize) -> Vec<Motion<'a>> {
+fn motions<'a>(given: &Given<'a>, instance: usize) -> Vec<Motion<'a>> {
+    let Given { system, line, .. } = *given;
     let automaton = system.automaton_of(instance);
     let machine = &line.machines[instance];
     let of_tool = of_tool(automaton, machine);
@@ -162,7 +287,7 @@ fn motions<'a>(system: &'a System, line: &Line, instance: usize) -> Vec<Motion<'
                     let points: Vec<&Expr> = points.collect();
                     let [goal, direction] = points[..] else { continue };
                     let bound = Bound::default();
-                    let regions = Regions::new(system, line, instance, &bound, transition);
+                    let regions = Regions::new(given, instance, &bound, transition);
                     let ahead = regions.points(direction).as_deref().and_then(middle).and_then(Facing::new);
                     vec![(goal, ahead.unwrap_or_default())]
                 }
@@ -266,8 +391,8 @@ fn held_behind(
         }
         for transition in &automaton.states[state].transitions {
             let moves = motions.iter().any(|motion| std::ptr::eq(motion.transition, transition));
-            let is_behind = moves || goes && done.guard(transition);
-            if !is_behind {
+            let ends = goes && done.guard(transition);
+            if !moves && !ends {
                 let target = transition.target.map_or(state, |StateId(target)| target);
                 open.push((target, lock::after(system, transition, &all)));
             }
@@ -276,17 +401,32 @@ fn held_behind(
     held.into_values().reduce(|a, b| &a & &b).unwrap_or_default()
 }
 
-/// The instance of which a lock is; all of which it may be, so that nothing is said that may not be true.
-fn owner(system: &System, instance: usize, bound: &Bound, lock: &Lock) -> Vec<usize> {
-    lock.of.map_or(vec![instance], |local| members(system, instance, bound, local))
+/// Of which instance a lock is; all of which it may be, so that nothing is said that may not be true.
+fn owner(system: &System, instance: usize, bound: &Bound, lock: &Lock) -> Holder {
+    let named = |local: usize| one(system, instance, bound, local).map_or(Holder::Named(local), Holder::One);
+    lock.of.map_or(Holder::Itself, named)
+}
+
+/// The instances that a local may name, as far as they lock themselves.
+fn lender(system: &System, instance: usize, bound: &Bound, local: usize) -> Option<Holder> {
+    match one(system, instance, bound, local) {
+        Some(member) => lock::locks_itself(system, member).then_some(Holder::One(member)),
+        None => Some(Holder::Lending(local)),
+    }
+}
+
+/// The one that a bound local names.
+fn one(system: &System, instance: usize, bound: &Bound, local: usize) -> Option<usize> {
+    let Scalar::Ref(interface) = system.automaton_of(instance).locals[local].ty.scalar else { return None };
+    bound.row(local).map(|row| system.members[interface.0][row])
 }
 
 /// The instances that a local may name.
-fn members(system: &System, instance: usize, bound: &Bound, local: usize) -> Vec<usize> {
+fn members(system: &System, instance: usize, local: usize) -> Vec<usize> {
     let Scalar::Ref(interface) = system.automaton_of(instance).locals[local].ty.scalar else {
         return Vec::new();
     };
-    let rows = bound.row(local).map_or_else(|| rows_of_local(system, instance, local), |row| vec![row]);
+    let rows = rows_of_local(system, instance, local);
     rows.into_iter().map(|row| system.members[interface.0][row]).collect()
 }
 
@@ -318,6 +458,12 @@ fn rest(line: &Line, instance: usize) -> Option<Region> {
     let machine = &line.machines[instance];
     let point = machine.chain().map(|chain| chain.rest).or_else(|| machine.stops().first().copied())?;
     Some([point.x, point.y, point.z].map(|value| [value, value]))
+}
+
+/// A bit for each axis along which one of the regions has an extent, as in the number of a corner.
+fn wide(regions: &[(Region, Facing)]) -> usize {
+    let is_wide = |axis: usize| regions.iter().any(|(region, _)| region[axis][0] != region[axis][1]);
+    (0..3).map(|axis| usize::from(is_wide(axis)) << axis).sum()
 }
 
 fn corner(region: &Region, number: usize) -> Point {

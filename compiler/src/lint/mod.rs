@@ -11,13 +11,14 @@ mod unused;
 
 use crate::diagnostic::{self, Diagnostic};
 use crate::ir::{Model, System};
-use crate::layout::Layout;
+use crate::layout::{Layout, Panel};
 use crate::source::FileId;
 use crate::spec::ast;
 use runtime_sim::line::Line;
 
-/// Warnings of all types of a model that has no errors, in the order of the text. `files` are the texts of the model.
-pub fn warnings(model: &Model, files: &[(FileId, ast::File)]) -> Vec<Diagnostic> {
+/// Warnings of all types of a model that has no errors, in the order of the text. `files` are the texts of the model,
+/// `panel` is that of the layout.
+pub fn warnings(model: &Model, files: &[(FileId, ast::File)], panel: Panel) -> Vec<Diagnostic> {
     let mut found = Vec::new();
     for automaton in &model.automata {
         flow::check(automaton, &mut found);
@@ -26,7 +27,7 @@ pub fn warnings(model: &Model, files: &[(FileId, ast::File)]) -> Vec<Diagnostic>
         overwritten::check(automaton, &mut found);
     }
     unused::check(model, files, &mut found);
-    undriven::check(model, &mut found);
+    undriven::check(model, panel, &mut found);
     diagnostic::sort(&mut found);
     found
 }

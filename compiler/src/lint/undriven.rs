@@ -4,6 +4,7 @@
 use crate::device::Device;
 use crate::diagnostic::Diagnostic;
 use crate::ir::{Automaton, Model, Place};
+use crate::layout::Panel;
 use runtime_sim::device::Direction;
 use runtime_sim::wiring::{Drives, Output};
 use std::collections::BTreeSet;
@@ -15,10 +16,13 @@ const ACT_ALONE: [&str; 3] = ["lane", "source", "tank"];
 /// What holds a fixed stop: a cylinder that is never driven, and out.
 const STANDS_OUT: &str = "begins_out";
 
-pub fn check(model: &Model, found: &mut Vec<Diagnostic>) {
+/// With a panel for each machine, a person moves by hand what the automaton does not write.
+pub fn check(model: &Model, panel: Panel, found: &mut Vec<Diagnostic>) {
     let mut devices = BTreeSet::new();
     for automaton in &model.automata {
-        found.extend(unwritten(automaton));
+        if panel == Panel::Line {
+            found.extend(unwritten(automaton));
+        }
         if devices.insert(&automaton.device.name) {
             found.extend(undriven(&automaton.device));
         }

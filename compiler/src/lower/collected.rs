@@ -8,7 +8,8 @@ use crate::scenario::Scenario;
 use runtime_sim::line::{self, Goal, Line};
 use runtime_sim::part::Primitive;
 use runtime_sim::plant::Transfer;
-use std::collections::HashSet;
+use std::cell::OnceCell;
+use std::collections::{HashMap, HashSet};
 
 /// Where an item may be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -89,14 +90,17 @@ pub fn losses(line: &Line, edges: &[Edge], transfers: &[Transfer]) -> Vec<Loss> 
     (0..line.machines.len()).filter_map(without).collect()
 }
 
-/// Whether a kind may get onto a lane, a part of a machine.
-pub fn comes_onto(
-    line: &Line,
-    edges: &[Edge],
-    transfers: &[Transfer],
-) -> impl Fn((usize, usize), usize) -> bool + use<> {
-    let reached = reached(line, edges, transfers, None);
-    move |(machine, part), kind| reached.contains(&(Spot::Lane(machine, part), kind))
+/// Whether a kind may get onto a lane, a part of a machine. Found out when it is first asked for.
+pub fn comes_onto<'a>(
+    line: &'a Line,
+    edges: &'a [Edge],
+    transfers: &'a [Transfer],
+) -> impl Fn((usize, usize), usize) -> bool + 'a {
+    let all = OnceCell::new();
+    move |(machine, part), kind| {
+        let reached = all.get_or_init(|| reached(line, edges, transfers, None));
+        reached.contains(&(Spot::Lane(machine, part), kind))
+    }
 }
 
 fn has_grip(line: &Line, machine: usize) -> bool {
@@ -130,6 +134,11 @@ fn reached(
             }
         }
     }
+    // In a long line everything gets nearly everywhere.
+    let mut leads_to: HashMap<(usize, usize), Vec<(usize, usize)>> = HashMap::new();
+    transfers.iter().for_each(|transfer| leads_to.entry(transfer.from).or_default().push(transfer.to));
+    let mut hands_to = vec![Vec::new(); line.machines.len()];
+    edges.iter().for_each(|edge| hands_to[edge.from].push(edge.to));
     let mut reached = HashSet::new();
     while let Some((spot, kind)) = open.pop() {
         let (Spot::Lane(machine, _) | Spot::Machine(machine)) = spot;
@@ -141,15 +150,15 @@ fn reached(
         }
         let machine = match spot {
             Spot::Lane(machine, part) => {
-                let transfers = transfers.iter().filter(|transfer| transfer.from == (machine, part));
-                open.extend(transfers.map(|transfer| (Spot::Lane(transfer.to.0, transfer.to.1), kind)));
+                let next = leads_to.get(&(machine, part)).into_iter().flatten();
+                open.extend(next.map(|(machine, part)| (Spot::Lane(*machine, *part), kind)));
                 open.push((Spot::Machine(machine), kind));
                 machine
             }
             Spot::Machine(machine) => {
-                for edge in edges.iter().filter(|edge| edge.from == machine) {
-                    open.push((Spot::Machine(edge.to), kind));
-                    open.extend(lanes(edge.to).map(|lane| (lane, kind)));
+                for &to in &hands_to[machine] {
+                    open.push((Spot::Machine(to), kind));
+                    open.extend(lanes(to).map(|lane| (lane, kind)));
                 }
                 if has_grip(line, machine) {
                     open.extend(lanes(machine).map(|lane| (lane, kind)));

@@ -121,6 +121,8 @@ pub struct Apart {
     pub misses: Vec<connect::Miss>,
     /// Robot, path of the number, present and new value.
     pub suggestion: Option<(String, String, f64, f64)>,
+    /// Robot, present and new yaw, degrees.
+    pub turn: Option<(String, f64, f64)>,
 }
 
 impl Verdict {

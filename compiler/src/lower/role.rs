@@ -132,13 +132,16 @@ impl<'a> Line<'a> {
                 self.handover(r, Direction::Accepts).count() > 0,
             );
             let robot = &self.robots[r];
+            let device = &robot.placed.device;
+            // Nothing is given to an arm or taken from it: items come and go by its own lanes.
+            let is_arm = !offers && !accepts;
             Node {
                 name: robot.object.name.value.clone(),
                 span: robot.object.name.span,
                 placed: robot.placed.clone(),
                 numbers: robot.numbers.clone(),
-                is_source: offers && !accepts,
-                is_destination: accepts && !offers,
+                is_source: (offers && !accepts) || (is_arm && device.has("source")),
+                is_destination: (accepts && !offers) || (is_arm && device.has("sink")),
             }
         });
         let nodes: Vec<Node> = nodes.collect();
@@ -303,6 +306,7 @@ impl<'a> Line<'a> {
                             .suggestion
                             .as_ref()
                             .map(|m| (name(m.node), m.path.clone(), m.present, m.value)),
+                        turn: failure.turn.as_ref().map(|t| (name(t.node), t.present, t.value)),
                     }
                 })
                 .collect(),

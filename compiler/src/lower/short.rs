@@ -16,10 +16,10 @@ pub fn lanes(layout: &Layout, line: &Line, comes: impl Fn((usize, usize), usize)
         for (part, made) in machine.parts.iter().enumerate() {
             let Primitive::Lane(lane) = &made.primitive else { continue };
             let length = lane.centre_line.length();
-            let kinds = line.kinds.iter().enumerate().filter(|(kind, _)| comes((number, part), *kind));
-            let longest = kinds.map(|(_, kind)| (lane.lengths_of(kind.size)[0], kind));
-            let longest = longest.filter(|(long, _)| *long > length).max_by(|a, b| a.0.total_cmp(&b.0));
-            let Some((long, kind)) = longest else { continue };
+            let kinds = line.kinds.iter().enumerate();
+            let kinds = kinds.map(|(number, kind)| (number, lane.lengths_of(kind.size)[0], kind));
+            let longer = kinds.filter(|(kind, long, _)| *long > length && comes((number, part), *kind));
+            let Some((_, long, kind)) = longer.max_by(|a, b| a.1.total_cmp(&b.1)) else { continue };
             let name = format!("{}.{}", machine.name, made.name);
             let message = format!("the conveyor {name} is shorter than a `{}`", kind.name);
             found.push(

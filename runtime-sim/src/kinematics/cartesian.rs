@@ -1,7 +1,6 @@
 //! A Cartesian robot: one to three axes at right angles that slide, and a tool that points down.
 
 use super::arm::{Frames, Joints};
-use super::facing::Facing;
 use super::is_finite;
 use super::links::Link;
 use super::pose::Pose;
@@ -134,18 +133,12 @@ impl Cartesian {
 }
 
 impl Solver for Cartesian {
-    fn margin(&self, tool: Point, facing: Facing) -> f64 {
-        match facing {
-            Facing::Down => Cartesian::margin(self, tool),
-            Facing::Level { .. } => f64::NEG_INFINITY,
-        }
+    fn margin_down(&self, tool: Point) -> f64 {
+        Cartesian::margin(self, tool)
     }
 
-    fn solve(&self, tool: Point, facing: Facing, _from: &Joints) -> Option<Joints> {
-        match facing {
-            Facing::Down => Cartesian::solve(self, tool).map(|values| Joints::new(&values)),
-            Facing::Level { .. } => None,
-        }
+    fn solve_down(&self, tool: Point, _from: &Joints) -> Option<Joints> {
+        Cartesian::solve(self, tool).map(|values| Joints::new(&values))
     }
 
     fn tool_pose(&self, joints: &Joints) -> Pose {

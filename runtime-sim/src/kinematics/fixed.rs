@@ -322,6 +322,14 @@ fn margin(lengths: &Lengths, tool: &Pose, facing: Facing) -> f64 {
 }
 
 impl Solver for FixedArm {
+    fn margin_down(&self, tool: Point) -> f64 {
+        FixedArm::margin(self, tool, Facing::Down)
+    }
+
+    fn solve_down(&self, tool: Point, from: &Joints) -> Option<Joints> {
+        Solver::solve(self, tool, Facing::Down, from)
+    }
+
     fn margin(&self, tool: Point, facing: Facing) -> f64 {
         FixedArm::margin(self, tool, facing)
     }

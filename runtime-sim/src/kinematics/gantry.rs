@@ -1,7 +1,6 @@
 //! A UR10 that hangs sideways from a torso which travels on two rails and turns.
 
 use super::arm::{self, Frames, TORSO};
-use super::facing::Facing;
 use super::links::Link;
 pub use super::planar::Wrist;
 use super::planar::{self, Links};
@@ -308,18 +307,12 @@ fn level_distance(a: Point, b: Point) -> f64 {
 }
 
 impl Solver for Gantry {
-    fn margin(&self, tool: Point, facing: Facing) -> f64 {
-        match facing {
-            Facing::Down => Gantry::margin(self, tool),
-            Facing::Level { .. } => f64::NEG_INFINITY,
-        }
+    fn margin_down(&self, tool: Point) -> f64 {
+        Gantry::margin(self, tool)
     }
 
-    fn solve(&self, tool: Point, facing: Facing, from: &arm::Joints) -> Option<arm::Joints> {
-        match facing {
-            Facing::Down => Gantry::solve(self, tool, &from.array()).map(|joints| arm::Joints::new(&joints)),
-            Facing::Level { .. } => None,
-        }
+    fn solve_down(&self, tool: Point, from: &arm::Joints) -> Option<arm::Joints> {
+        Gantry::solve(self, tool, &from.array()).map(|joints| arm::Joints::new(&joints))
     }
 
     fn tool_pose(&self, joints: &arm::Joints) -> Pose {

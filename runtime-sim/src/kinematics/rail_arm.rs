@@ -1,7 +1,6 @@
 //! A UR10 that stands on a rail: the kitting robot.
 
 use super::arm::{self, Frames};
-use super::facing::Facing;
 use super::links::Link;
 use super::planar::{self, Wrist};
 use super::pose::Pose;
@@ -188,18 +187,12 @@ impl RailArm {
 }
 
 impl Solver for RailArm {
-    fn margin(&self, tool: Point, facing: Facing) -> f64 {
-        match facing {
-            Facing::Down => RailArm::margin(self, tool),
-            Facing::Level { .. } => f64::NEG_INFINITY,
-        }
+    fn margin_down(&self, tool: Point) -> f64 {
+        RailArm::margin(self, tool)
     }
 
-    fn solve(&self, tool: Point, facing: Facing, from: &arm::Joints) -> Option<arm::Joints> {
-        match facing {
-            Facing::Down => RailArm::solve(self, tool, &from.array()).map(|joints| arm::Joints::new(&joints)),
-            Facing::Level { .. } => None,
-        }
+    fn solve_down(&self, tool: Point, from: &arm::Joints) -> Option<arm::Joints> {
+        RailArm::solve(self, tool, &from.array()).map(|joints| arm::Joints::new(&joints))
     }
 
     fn tool_pose(&self, joints: &arm::Joints) -> Pose {

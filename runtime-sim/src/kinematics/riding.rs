@@ -132,6 +132,14 @@ impl RidingArm {
 }
 
 impl Solver for RidingArm {
+    fn margin_down(&self, tool: Point) -> f64 {
+        RidingArm::margin(self, tool, Facing::Down)
+    }
+
+    fn solve_down(&self, tool: Point, from: &arm::Joints) -> Option<arm::Joints> {
+        Solver::solve(self, tool, Facing::Down, from)
+    }
+
     fn margin(&self, tool: Point, facing: Facing) -> f64 {
         RidingArm::margin(self, tool, facing)
     }

@@ -199,18 +199,12 @@ impl Scara {
 }
 
 impl Solver for Scara {
-    fn margin(&self, tool: Point, facing: Facing) -> f64 {
-        match facing {
-            Facing::Down => Scara::margin(self, tool),
-            Facing::Level { .. } => f64::NEG_INFINITY,
-        }
+    fn margin_down(&self, tool: Point) -> f64 {
+        Scara::margin(self, tool)
     }
 
-    fn solve(&self, tool: Point, facing: Facing, from: &arm::Joints) -> Option<arm::Joints> {
-        match facing {
-            Facing::Down => Scara::solve(self, tool, &from.array()).map(|joints| arm::Joints::new(&joints)),
-            Facing::Level { .. } => None,
-        }
+    fn solve_down(&self, tool: Point, from: &arm::Joints) -> Option<arm::Joints> {
+        Scara::solve(self, tool, &from.array()).map(|joints| arm::Joints::new(&joints))
     }
 
     fn tool_pose(&self, joints: &arm::Joints) -> Pose {

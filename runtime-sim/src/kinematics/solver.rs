@@ -8,12 +8,29 @@ use crate::point::Point;
 
 /// The kinematics of an arm with its axes, forward and inverse, in closed form. Places are in the world.
 pub trait Solver {
+    /// [`Self::margin`] with the tool pointing down.
+    fn margin_down(&self, tool: Point) -> f64;
+
+    /// [`Self::solve`] with the tool pointing down.
+    fn solve_down(&self, tool: Point, from: &Joints) -> Option<Joints>;
+
     /// How far the tool may go from a place in any direction, at least, until the arm loses it, while it points there;
-    /// out of reach negative, m. Minus infinity for an arm whose tool does not point there at all.
-    fn margin(&self, tool: Point, facing: Facing) -> f64;
+    /// out of reach negative, m. Minus infinity for an arm whose tool does not point there at all: without a method of
+    /// its own, an arm only points down.
+    fn margin(&self, tool: Point, facing: Facing) -> f64 {
+        match facing {
+            Facing::Down => self.margin_down(tool),
+            Facing::Level { .. } => f64::NEG_INFINITY,
+        }
+    }
 
     /// Joints for a place of the tool, near `from`; some exactly when [`Self::margin`] is not negative.
-    fn solve(&self, tool: Point, facing: Facing, from: &Joints) -> Option<Joints>;
+    fn solve(&self, tool: Point, facing: Facing, from: &Joints) -> Option<Joints> {
+        match facing {
+            Facing::Down => self.solve_down(tool, from),
+            Facing::Level { .. } => None,
+        }
+    }
 
     fn tool_pose(&self, joints: &Joints) -> Pose;
 

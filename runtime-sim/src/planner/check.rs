@@ -1,9 +1,9 @@
 //! Whether a gantry keeps off obstacles on its path: first at a few times of a plan, then along the whole path.
 
-use super::scene::Nearby;
-use super::{LIFTED, Load, MARGIN_AT_PLACE, Plan, Planner, axis, turned};
+use super::gap::{Load, Nearby, Pair};
+use super::{LIFTED, MARGIN_AT_PLACE, Plan, Planner, axis, turned};
 use crate::kinematics::arm::Joints;
-use crate::motion::{Path, Section};
+use crate::motion::{Path, Section, Travel};
 use crate::point::Point;
 
 /// A path rounds the corners of its plan: it keeps off obstacles where the plan does not keep off quite as far.
@@ -15,7 +15,7 @@ const SHORTEST_STEP: f64 = 0.6;
 /// No point of the robot and its load goes farther for a metre of a rail or a radian of a joint, m: from the axis to
 /// the end of the stretched arm, from the shoulder, from the elbow, from the wrists.
 const RADII: [f64; 9] = [1.0, 1.0, 2.2, 1.6, 1.6, 1.0, 0.5, 0.4, 0.3];
-/// What is farther than this is not looked at, m.
+/// What is farther than this does not count, m.
 const ENOUGH: f64 = 0.15;
 /// Joints that differ by less are the same, m or rad.
 const SAME: f64 = 1e-9;
@@ -28,6 +28,41 @@ struct Around<'a> {
     lifted: [f64; 2],
     load: Load,
     margin: f64,
+}
+
+/// What is asked at one place of a path.
+struct Asked {
+    load: Load,
+    /// How far everything has to be apart, m.
+    margin: f64,
+}
+
+/// Two on a path.
+struct Looked<'a> {
+    pair: &'a Pair,
+    /// As seen from one another.
+    travel: Travel,
+    /// A distance that was no shorter when they had gone so far, m.
+    distance: f64,
+    gone: f64,
+}
+
+impl<'a> Looked<'a> {
+    /// Not looked at yet.
+    fn new(pair: &'a Pair, path: &Path) -> Self {
+        Self { pair, travel: Travel::new(path.sections(&pair.radii)), distance: 0.0, gone: 0.0 }
+    }
+}
+
+impl Around<'_> {
+    fn asked(&self, planner: &Planner, joints: &Joints) -> Asked {
+        let stands = |end: usize| (0..3).all(|i| (joints[i] - self.ends[end][i]).abs() < SAME);
+        let Some(end) = [0, 1].into_iter().find(|end| stands(*end)) else {
+            return Asked { load: self.load, margin: self.margin };
+        };
+        let lies = planner.arm.tool(joints).z < self.lifted[end];
+        Asked { load: if lies { Load::None } else { self.load }, margin: MARGIN_AT_PLACE }
+    }
 }
 
 impl Planner {
@@ -48,8 +83,9 @@ impl Planner {
             let sample = libm::round(part * f64::from(plan.samples())) as u32;
             let time = plan.time(sample.clamp(1, last));
             let Some(joints) = self.at_time(plan, time, from) else { return false };
-            let (gap, margin) = self.gap(&around, &joints, 0.0);
-            gap >= margin * ROUNDED
+            let Asked { load, margin } = around.asked(self, &joints);
+            let margin = margin * ROUNDED;
+            self.scene.gap(&around.near, &joints, load, [margin; 2]) >= margin
         };
         let found = [*suspect].into_iter().chain(first_looks()).find(|part| !is_apart(*part));
         *suspect = found.unwrap_or(*suspect);
@@ -68,19 +104,6 @@ impl Planner {
         Around { near: self.scene.near(places), ends, lifted, load, margin }
     }
 
-    /// What the gap is at these joints, and what it has to be. It is not looked at beyond what it has to be and `enough`.
-    fn gap(&self, around: &Around, joints: &Joints, enough: f64) -> (f64, f64) {
-        let Around { near, ends, lifted, load, margin } = around;
-        let frames = self.arm.frames(joints);
-        let height = frames.last().map_or(0.0, |tool| tool.position.z);
-        let stands = |end: usize| (0..3).all(|i| (joints[i] - ends[end][i]).abs() < SAME);
-        let end = [0, 1].into_iter().find(|end| stands(*end));
-        let lies = end.is_some_and(|end| height < lifted[end]);
-        let load = if lies { Load::None } else { *load };
-        let margin = if end.is_some() { MARGIN_AT_PLACE } else { *margin };
-        (self.scene.gap(near, &frames, load, [margin, margin.max(enough)]), margin)
-    }
-
     /// Whether nothing on this path comes nearer to an obstacle than `margin`. On the verticals at its ends it may come
     /// nearer, and the load touches what it lies on. `suspect` is the place, 0 to 1, at which it is checked first: the
     /// last one that was not free, of paths that are much alike.
@@ -93,36 +116,66 @@ impl Planner {
         suspect: &mut f64,
     ) -> bool {
         let around = self.around(ends, path.knots().iter().map(axis), load, margin);
-        let gap = |place: f64, enough: f64| self.gap(&around, &path.at(place), enough);
         let is_apart = |place: f64| {
-            let (gap, margin) = gap(place, 0.0);
-            gap >= margin
+            let joints = path.at(place);
+            let Asked { load, margin } = around.asked(self, &joints);
+            self.scene.gap(&around.near, &joints, load, [margin; 2]) >= margin
         };
         // Most that are not free are not by far.
         if let Some(place) = [*suspect].into_iter().chain(first_looks()).find(|place| !is_apart(*place)) {
             *suspect = place;
             return false;
         }
+        let mut all: Vec<Looked> = self.scene.links.pairs(load).map(|pair| Looked::new(pair, path)).collect();
         let sections = path.sections(&RADII);
         let mut place = 0.0;
         while place < 1.0 {
-            let (gap, margin) = gap(place, ENOUGH);
-            if gap < margin {
+            let Some(room) = self.room(&mut all, place, &around, path) else {
                 *suspect = place;
                 return false;
-            }
-            place = after(&sections, place, (gap - margin).max(margin * SHORTEST_STEP));
+            };
+            place = after(&sections, place, room);
         }
         true
+    }
+
+    /// How far the fastest point may go from a place of a path, m; none if something is too near there. What was
+    /// measured before tells how near it can have come since, and most of it need not be measured again.
+    fn room(&self, all: &mut [Looked], place: f64, around: &Around, path: &Path) -> Option<f64> {
+        let joints = path.at(place);
+        let Asked { load, margin } = around.asked(self, &joints);
+        let links = self.scene.links.at(&joints);
+        let section = all.first().map_or(0, |looked| looked.travel.section(place));
+        let (mut least, mut nearest) = (ENOUGH, 0);
+        for (number, looked) in all.iter_mut().enumerate() {
+            let gone = looked.travel.within(section, place);
+            let is_there = load == Load::Largest || !self.scene.links.is_of_load(looked.pair);
+            if !is_there || looked.distance - (gone - looked.gone) >= least {
+                continue;
+            }
+            let distance = links.distance(looked.pair, &around.near, ENOUGH);
+            (looked.distance, looked.gone) = (distance, gone);
+            if distance < least {
+                (least, nearest) = (distance, number);
+            }
+            if least < margin {
+                return None;
+            }
+        }
+        // Next time it comes first, and most others need not be measured.
+        all.swap(0, nearest);
+        Some((least - margin).max(margin * SHORTEST_STEP))
     }
 }
 
 /// A plan is checked at these parts of its time first, a path at these places.
 fn first_looks() -> impl Iterator<Item = f64> {
-    (1..FIRST_LOOKS).map(|i| f64::from(i) / f64::from(FIRST_LOOKS))
+    // Far from one another at first.
+    let turned = |i: u32| i.reverse_bits() >> (FIRST_LOOKS.leading_zeros() + 1);
+    (1..FIRST_LOOKS).map(move |i| f64::from(turned(i)) / f64::from(FIRST_LOOKS))
 }
 
-/// The place on a path after so many metres of the fastest point from `place` on, at least.
+/// The place on a path from `place` on before which nothing has gone so many metres.
 fn after(sections: &[Section], place: f64, mut distance: f64) -> f64 {
     let mut at = place;
     for section in &sections[sections.partition_point(|section| section.end <= place)..] {

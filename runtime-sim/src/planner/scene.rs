@@ -1,8 +1,12 @@
 //! Obstacles about a gantry, as its planner takes it.
 
+use super::gap::{Links, Load, Nearby, TORSO};
+use super::member::Member;
+use super::obstacle::{Cluster, half, top};
 use super::plane::{Block, Rectangle};
-use crate::collision::body::{Ball, Piece, Placed};
-use crate::kinematics::arm::{Arm, Frames, Joints};
+use crate::collision::body::{Piece, Placed};
+use crate::collision::reach::Chain;
+use crate::kinematics::arm::{Arm, Joints};
 use crate::kinematics::pose::Pose;
 use crate::line::{Kind, Line};
 use crate::machine::Machine;
@@ -10,23 +14,12 @@ use crate::part::axis::Motion;
 use crate::part::place::Place;
 use crate::point::{Axis, Point};
 use crate::solid::{Link, Shape, Solid};
-use std::cell::OnceCell;
-
-/// A link of the robot with all that is fixed to it.
-#[derive(Clone, Debug)]
-struct Member {
-    link: usize,
-    pieces: Vec<Piece>,
-    ball: Ball,
-}
 
 /// The robot itself, obstacles around it, and what may lie beside a place.
 #[derive(Clone, Debug)]
 pub struct Scene {
     arm: Arm,
-    members: Vec<Member>,
-    /// The largest part, around the grip point.
-    load: Member,
+    pub links: Links,
     obstacles: Vec<Cluster>,
     /// The lowest point of what does not turn with the torso, m.
     lowest_beam: f64,
@@ -37,22 +30,6 @@ pub struct Scene {
     pub load_height: f64,
     /// Over all obstacles the arm carries its load from this height of the tool on, m.
     pub over_all: f64,
-}
-
-/// A solid that is an obstacle, with the axes of the world, and its corners.
-#[derive(Clone, Debug)]
-pub struct Obstruction {
-    placed: Placed,
-    low: Point,
-    high: Point,
-}
-
-/// Obstacles that stand together, and the corners of all of them.
-#[derive(Clone, Debug)]
-pub struct Cluster {
-    all: Vec<Obstruction>,
-    low: Point,
-    high: Point,
 }
 
 /// The places of one machine at which parts may lie, with the largest part of each.
@@ -78,15 +55,11 @@ struct AroundAxis {
     radius: f64,
 }
 
-/// Number of the joint that turns the torso.
-const TORSO: usize = 2;
 /// No point of the robot and its load is farther from the torso's axis, m: to the shoulder 0.64, upper arm and forearm
 /// 1.19, wrists and load 0.5.
 const REACH: f64 = 2.33;
 /// An obstacle this much lower than what travels on the rails is not near it, m.
 const HIGH: f64 = 0.3;
-/// Links with so many joints between them or more may meet.
-const FREE: usize = 3;
 /// A tool is over a place if it is no farther from it than this, m.
 const AT_PLACE: f64 = 0.02;
 /// Clearance over obstacles when the arm passes over them, m.
@@ -119,17 +92,17 @@ impl Scene {
         let under = largest(|kind| kind.grasp);
         let tallest = obstacles.clone().map(top).filter(|top| *top < shoulder).fold(0.0, f64::max);
         let obstacles = boxes.iter().filter_map(|solids| Cluster::new(solids)).collect();
-        let members = members(own);
+        let members = Member::all(own);
         let hand = members.last()?.link;
         let load = largest_load(&line.kinds);
+        let load = Member { link: hand, ball: load.ball(), pieces: vec![load] };
         let beams = members.iter().filter(|member| member.link < TORSO).flat_map(|member| &member.pieces);
         let lowest_beam = beams.map(|piece| shoulder + piece.lowest()).fold(f64::INFINITY, f64::min);
         let places = places(line);
         let heights = places.iter().flat_map(|places| &places.all).map(|(place, _)| place.z);
         let scene = Self {
+            links: Links::new(arm, &Chain::new(&arm, own), members, load),
             arm,
-            members,
-            load: Member { link: hand, ball: load.ball(), pieces: vec![load] },
             obstacles,
             lowest_beam,
             load_height: largest(|kind| kind.height),
@@ -151,47 +124,22 @@ impl Scene {
             ]
         });
         let is_near = |other: &&Cluster| {
-            let beside = other.low.x > high.x + REACH || other.high.x < low.x - REACH;
-            let behind = other.low.y > high.y + REACH || other.high.y < low.y - REACH;
+            let corners = &other.corners;
+            let beside = corners.low.x > high.x + REACH || corners.high.x < low.x - REACH;
+            let behind = corners.low.y > high.y + REACH || corners.high.y < low.y - REACH;
             !(beside || behind)
         };
-        Nearby {
-            all: self.obstacles.iter().filter(is_near).collect(),
-            high: self.obstacles.iter().filter(|other| other.high.z > self.lowest_beam - HIGH).collect(),
-        }
+        let all = self.obstacles.iter().filter(is_near).collect();
+        let high = self.obstacles.iter().filter(|other| other.corners.high.z > self.lowest_beam - HIGH);
+        Nearby { all, high: high.collect() }
     }
 
-    /// How far the robot is from these obstacles and from its own links, with or without a load, m; `enough` if it is
-    /// that far or farther, 0 if they touch. Something less than `needed` if it is nearer than that.
-    pub fn gap(&self, near: &Nearby, frames: &Frames, load: Load, [needed, enough]: [f64; 2]) -> f64 {
-        let members = self.members.iter().chain((load == Load::Largest).then_some(&self.load));
-        let members: Vec<Located> = members.map(|member| Located::new(member, frames)).collect();
-        let mut least = enough;
-        for (i, member) in members.iter().enumerate() {
-            let obstacles = if member.link < TORSO { &near.high } else { &near.all };
-            for cluster in obstacles {
-                if !is_within([cluster.low, cluster.high], &member.ball, least) {
-                    continue;
-                }
-                for other in &cluster.all {
-                    if other.is_within(&member.ball, least) {
-                        least = member.gap_to(other, least);
-                    }
-                }
-            }
-            for other in members[i..].iter().filter(|other| other.link >= member.link + FREE) {
-                if !member.ball.is_apart_by(&other.ball, least) {
-                    least = other.pieces().iter().fold(least, |least, piece| member.gap(piece, least));
-                }
-            }
-            if least < needed {
-                break;
-            }
-        }
-        least
+    /// See [`super::gap::Standing::gap`].
+    pub fn gap(&self, near: &Nearby, joints: &Joints, load: Load, range: [f64; 2]) -> f64 {
+        self.links.at(joints).gap(near, load, range)
     }
 
-    /// The same from parts that may lie beside the place under the tool.
+    /// How far the robot is from parts that may lie beside the place under the tool, m; `enough` if it is that far or farther.
     pub fn gap_at_place(&self, joints: &Joints, enough: f64) -> f64 {
         let frames = self.arm.frames(joints);
         let tool = self.arm.tool(joints);
@@ -199,63 +147,18 @@ impl Scene {
             let offset = *place - tool;
             offset.x * offset.x + offset.y * offset.y <= AT_PLACE * AT_PLACE
         };
-        let members: Vec<Located> = self.members.iter().map(|m| Located::new(m, &frames)).collect();
+        let members = self.links.located(&frames);
         let mut least = enough;
         for Places { all, order } in &self.places {
             let Some(here) = all.iter().position(|(place, _)| is_here(place)) else { continue };
             for (i, (_, part)) in all.iter().enumerate() {
                 if i > here || i < here && *order == Order::Any {
-                    least = members.iter().fold(least, |least, member| member.gap(part, least));
+                    least = members.iter().fold(least, |least, member| least.min(member.gap(part, least)));
                 }
             }
         }
         least
     }
-}
-
-/// The obstacles that the robot can come near.
-pub struct Nearby<'s> {
-    all: Vec<&'s Cluster>,
-    /// What travels on the rails without turning can come near these.
-    high: Vec<&'s Cluster>,
-}
-
-impl Obstruction {
-    fn new(solid: &Solid) -> Self {
-        let (middle, half) = (solid.pose.position, half(solid));
-        let placed = Piece::new(String::new(), &solid.pose, solid.shape).within(&Pose::IDENTITY);
-        Self { placed, low: middle - half, high: middle + half }
-    }
-
-    /// Whether it is nearer to a ball than this, m.
-    fn is_within(&self, ball: &Ball, distance: f64) -> bool {
-        is_within([self.low, self.high], ball, distance)
-    }
-}
-
-impl Cluster {
-    /// None of nothing.
-    fn new(solids: &[Solid]) -> Option<Self> {
-        let all: Vec<Obstruction> = solids.iter().map(Obstruction::new).collect();
-        let corners = all.iter().map(|one| [one.low, one.high]);
-        let by = |a: Point, b: Point, rule: fn(f64, f64) -> f64| {
-            Point::new(rule(a.x, b.x), rule(a.y, b.y), rule(a.z, b.z))
-        };
-        let [low, high] =
-            corners.reduce(|[low, high], [a, b]| [by(low, a, f64::min), by(high, b, f64::max)])?;
-        Some(Self { all, low, high })
-    }
-}
-
-/// Whether what is between two corners is nearer to a ball than this, m.
-fn is_within([low, high]: [Point; 2], ball: &Ball, distance: f64) -> bool {
-    let outside = |at: f64, low: f64, high: f64| (low - at).max(at - high).max(0.0);
-    let Ball { middle, radius } = *ball;
-    let x = outside(middle.x, low.x, high.x);
-    let y = outside(middle.y, low.y, high.y);
-    let z = outside(middle.z, low.z, high.z);
-    let reach = radius + distance;
-    x * x + y * y + z * z < reach * reach
 }
 
 impl AroundAxis {
@@ -266,66 +169,6 @@ impl AroundAxis {
         let rectangle = all.reduce(|a, b| a.with(&b))?;
         Some(Block { rectangle, radius: self.radius })
     }
-}
-
-/// What hangs on the gripper.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Load {
-    None,
-    Largest,
-}
-
-/// A link where it is.
-struct Located<'a> {
-    member: &'a Member,
-    frame: &'a Pose,
-    link: usize,
-    ball: Ball,
-    /// Known when something is near.
-    pieces: OnceCell<Vec<Placed>>,
-}
-
-impl<'a> Located<'a> {
-    fn new(member: &'a Member, frames: &'a [Pose]) -> Self {
-        let frame = &frames[member.link];
-        let ball = member.ball.within(frame);
-        Self { member, frame, link: member.link, ball, pieces: OnceCell::new() }
-    }
-
-    fn pieces(&self) -> &[Placed] {
-        self.pieces.get_or_init(|| self.member.pieces.iter().map(|p| p.within(self.frame)).collect())
-    }
-
-    /// The lesser of `least` and the distance.
-    fn gap_to(&self, other: &Obstruction, least: f64) -> f64 {
-        self.pieces().iter().fold(least, |least, piece| {
-            let is_near = other.is_within(&piece.ball, least) && !piece.is_apart_by(&other.placed, least);
-            if is_near { least.min(piece.gap(&other.placed).distance) } else { least }
-        })
-    }
-
-    /// The lesser of `least` and the distance.
-    fn gap(&self, other: &Placed, least: f64) -> f64 {
-        self.pieces().iter().fold(least, |least, piece| {
-            if piece.is_apart_by(other, least) {
-                return least;
-            }
-            least.min(piece.gap(other).distance)
-        })
-    }
-}
-
-fn members(machine: &Machine) -> Vec<Member> {
-    let mut solids = machine.solids();
-    solids.sort_by_key(|solid| solid.link);
-    let links = solids.chunk_by(|a, b| a.link == b.link).filter_map(|solids| {
-        let Link::Joint(link) = solids[0].link else { return None };
-        let pieces: Vec<Piece> =
-            solids.iter().map(|s| Piece::new(s.name.clone(), &s.pose, s.shape)).collect();
-        let balls: Vec<Ball> = pieces.iter().map(Piece::ball).collect();
-        Some(Member { link, pieces, ball: Ball::around(&balls) })
-    });
-    links.collect()
 }
 
 fn shifted(solids: &[Solid], by: Point) -> Vec<Solid> {
@@ -371,20 +214,6 @@ fn workspaces(machine: &Machine) -> Vec<Vec<Solid>> {
 
 /// A vehicle that travels is taken at places so far apart: less than what passes between them is thick, m.
 const STEP: f64 = 0.5;
-
-fn half(solid: &Solid) -> Point {
-    match solid.shape {
-        Shape::Box { size } => size.scaled(0.5),
-        Shape::Capsule { length, radius } => {
-            let reach = length / 2.0 + radius;
-            Point::new(reach, reach, reach)
-        }
-    }
-}
-
-fn top(solid: &Solid) -> f64 {
-    solid.pose.position.z + half(solid).z
-}
 
 /// From above, if it is at these heights. Obstacles have the axes of the world.
 fn footprint(solid: &Solid, [low, high]: [f64; 2]) -> Option<Rectangle> {

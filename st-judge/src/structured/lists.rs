@@ -3,7 +3,7 @@
 use super::initial::Value;
 use super::types::{Leaf, Ty, Types};
 use super::{Parsed, children};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use tree_sitter::Node;
 
 /// By their names in lower case.
@@ -127,7 +127,9 @@ fn store(
             }
         }
         (Ty::Structure(structure), Value::Fields(values)) => {
-            if values.len() != types.fields_of(structure).len() {
+            // Fields that are not written keep the zero that memory begins with; none is written twice.
+            let names: BTreeSet<String> = values.iter().map(|(field, _)| field.to_lowercase()).collect();
+            if names.len() != values.len() {
                 return None;
             }
             for (field, value) in values {

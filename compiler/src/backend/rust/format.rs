@@ -21,8 +21,10 @@ pub fn module(text: &str, importable: &Importable) -> String {
         used.0.remove(&own);
     }
     let names = used.0.iter().map(String::as_str).collect();
-    let (head, rest) = with_imports(text, &names, importable);
-    print(&format!("{head}\n{rest}"))
+    let (head, _) = with_imports(text, &names, importable);
+    let mut items = parse(&head).items;
+    items.extend(file.items.into_iter().filter(|item| !matches!(item, syn::Item::Use(_))));
+    printed(&syn::File { items, ..file })
 }
 
 /// A module that is laid out but for its imports, which are added. Nothing of it is parsed: it may be long.
@@ -58,7 +60,11 @@ fn words(text: &str) -> BTreeSet<&str> {
 
 /// Lays out a file that is complete.
 pub fn print(text: &str) -> String {
-    let printed = prettyplease::unparse(&parse(text));
+    printed(&parse(text))
+}
+
+fn printed(file: &syn::File) -> String {
+    let printed = prettyplease::unparse(file);
     let mut out = String::new();
     let mut before = "";
     let mut is_import = false;

@@ -5,6 +5,7 @@ use crate::command::load::{self, Failure};
 use crate::command::{named, read};
 use autogen::check;
 use autogen::diagnostic::Diagnostic;
+use autogen::layout::Panel;
 use autogen::lower::{Input, compile};
 use autogen::lsp::json;
 use autogen::lsp::specs::{Specs, trees};
@@ -194,7 +195,7 @@ fn folder(path: &Path) -> Found {
     let (trees, mut diagnostics) = trees(&sources, &files);
     if diagnostics.is_empty() {
         diagnostics = match check::check(&sources, &trees, &kinds) {
-            Ok(checked) => lint::warnings(checked.model(), &trees),
+            Ok(checked) => lint::warnings(checked.model(), &trees, Panel::Line),
             Err(found) => found,
         };
     }

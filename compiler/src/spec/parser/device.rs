@@ -140,9 +140,22 @@ impl Parser {
         let name = self.expect_name("the part")?;
         self.expect_sign("=", "before what the part is")?;
         let kind = self.expect_name("the primitive or assembly")?;
-        self.expect_sign("{", "before the settings of the part")?;
+        let is_wrong = self.at_sign("(") || self.at_sign("[");
+        if is_wrong {
+            let found = self.found();
+            self.error(
+                "E0205",
+                format!("the settings of a part begin with `{{`, not with {found}"),
+                "write `{ ... }`",
+            );
+            self.next();
+        } else {
+            self.expect_sign("{", "before the settings of the part")?;
+        }
         let mut settings = Vec::new();
-        while !self.at_sign("}") && *self.peek() != Token::End {
+        let ends =
+            |parser: &Self| parser.at_sign("}") || (is_wrong && (parser.at_sign(")") || parser.at_sign("]")));
+        while !ends(self) && *self.peek() != Token::End {
             let setting = self.expect_name("the setting")?;
             self.expect_sign(":", "before the value of the setting")?;
             settings.push((setting, self.parse_expr()));
@@ -151,7 +164,9 @@ impl Parser {
                 break;
             }
         }
-        self.expect_sign("}", "after the settings of the part")?;
+        if !(is_wrong && (self.maybe_sign(")") || self.maybe_sign("]"))) {
+            self.expect_sign("}", "after the settings of the part")?;
+        }
         Some(ast::Part { name, kind, settings })
     }
 

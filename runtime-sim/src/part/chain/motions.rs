@@ -18,7 +18,32 @@ pub struct Motions {
     planner: Option<Planner>,
     /// How far the tool goes at most for a metre or a radian of each joint, m.
     radii: Radii,
-    known: Mutex<HashMap<Question, Option<Planned>>>,
+    known: Mutex<Known>,
+}
+
+/// The motions of late: what nobody asked for since [`MOST`] others were computed is forgotten.
+#[derive(Debug, Default)]
+struct Known {
+    recent: HashMap<Question, Option<Planned>>,
+    older: HashMap<Question, Option<Planned>>,
+}
+
+impl Known {
+    fn get(&mut self, question: &Question) -> Option<Option<Planned>> {
+        if let Some(planned) = self.recent.get(question) {
+            return Some(planned.clone());
+        }
+        let (question, planned) = self.older.remove_entry(question)?;
+        self.insert(question, planned.clone());
+        Some(planned)
+    }
+
+    fn insert(&mut self, question: Question, planned: Option<Planned>) {
+        if self.recent.len() >= MOST {
+            self.older = std::mem::take(&mut self.recent);
+        }
+        self.recent.insert(question, planned);
+    }
 }
 
 /// A motion from rest to rest, and how far the tool goes at most along it.
@@ -32,8 +57,8 @@ pub struct Planned {
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 struct Question(Vec<u64>);
 
-/// So many are remembered: some 20 kB each at most.
-const MOST: usize = 4_000;
+/// Twice as many are remembered at most: some 10 kB each.
+const MOST: usize = 8_000;
 
 impl Question {
     fn new([from, directed]: [&Joints; 2], target: &Target, limits: &Limits) -> Self {
@@ -97,25 +122,21 @@ impl Motions {
         begin: f64,
     ) -> Option<Planned> {
         let question = Question::new([from, directed], target, limits);
-        let known = self.known().get(&question).cloned();
+        let known = self.known().get(&question);
         let planned = known.unwrap_or_else(|| {
             let motion = self.computed([from, directed], target, limits);
             let planned = motion.map(|motion| {
                 let tool = Arc::new(motion.travel(&self.radii));
                 Planned { motion, tool }
             });
-            let mut known = self.known();
-            if known.len() >= MOST {
-                known.clear();
-            }
-            known.insert(question, planned.clone());
+            self.known().insert(question, planned.clone());
             planned
         });
         planned.map(|Planned { motion, tool }| Planned { motion: motion.begun(begin), tool })
     }
 
     /// Another run may look while one computes.
-    fn known(&self) -> MutexGuard<'_, HashMap<Question, Option<Planned>>> {
+    fn known(&self) -> MutexGuard<'_, Known> {
         // Nothing panics while it is locked.
         self.known.lock().unwrap_or_else(PoisonError::into_inner)
     }

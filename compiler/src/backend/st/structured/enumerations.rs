@@ -9,7 +9,7 @@ use crate::backend::st::context::Shared;
 use crate::backend::st::declaration::Unit;
 use crate::backend::st::names::{AutomatonNames, Held};
 use crate::ir::{AutomatonId, Scalar};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// Whether the tool has enumerations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,16 +20,20 @@ pub enum Enumerated {
 
 /// The enumeration of a variable: by its unit, empty for what all units share, and its name.
 #[derive(Default)]
-pub struct Typed(BTreeMap<(String, String), String>);
+pub struct Typed(BTreeMap<String, BTreeMap<String, String>>);
 
 impl Typed {
     pub fn get(&self, unit: &str, variable: &str) -> Option<&String> {
-        self.0.get(&(unit.into(), variable.into()))
+        self.0.get(unit)?.get(variable)
+    }
+
+    fn insert(&mut self, unit: &str, variable: &str, enumeration: &str) {
+        self.0.entry(unit.into()).or_default().insert(variable.into(), enumeration.into());
     }
 
     fn add(&mut self, shared: Shared, unit: &str, held: &Held, scalar: Scalar) {
         if let (Scalar::Enum(id), Some(name)) = (scalar, held.first()) {
-            self.0.insert((unit.into(), name.clone()), shared.names.enums[id.0].ty.clone());
+            self.insert(unit, name, &shared.names.enums[id.0].ty);
         }
     }
 }
@@ -51,7 +55,7 @@ pub fn typed(shared: Shared, line: &Line, enumerated: Enumerated) -> Typed {
     }
     for (number, (automaton, names)) in model.automata.iter().zip(&shared.names.automata).enumerate() {
         for unit in [&names.block, &names.properties] {
-            typed.0.insert((unit.clone(), "state".into()), names.states.ty.clone());
+            typed.insert(unit, "state", &names.states.ty);
             let parameters = automaton.parameters.iter().zip(&names.parameters);
             parameters.for_each(|(p, held)| typed.add(shared, unit, held, p.ty.scalar));
             let locals = automaton.locals.iter().zip(&names.locals);
@@ -60,11 +64,16 @@ pub fn typed(shared: Shared, line: &Line, enumerated: Enumerated) -> Typed {
         tables(shared, AutomatonId(number), names, &mut typed);
     }
     let blocks = line.program.instances.iter().map(|i| (i.name.as_str(), i.block.as_str())).collect();
-    let not_of_it = |typed: &Typed| {
-        line.units().find_map(|unit| Users { typed, blocks: &blocks, unit }.not_of_it(&unit.body))
+    let units: Vec<Users> = line.units().map(|unit| Users::new(&blocks, unit)).collect();
+    let not_of_it = |typed: &Typed| -> Option<(String, String)> {
+        let mut users = units.iter();
+        let (unit, name) = users.find_map(|users| users.not_of_it(typed, &users.unit.body))?;
+        Some((unit.into(), name.into()))
     };
-    while let Some(key) = not_of_it(&typed) {
-        typed.0.remove(&key);
+    while let Some((unit, name)) = not_of_it(&typed) {
+        if let Some(variables) = typed.0.get_mut(&unit) {
+            variables.remove(&name);
+        }
     }
     typed
 }
@@ -81,59 +90,68 @@ fn tables(shared: Shared, id: AutomatonId, names: &AutomatonNames, typed: &mut T
 
 /// The uses of variables in a unit.
 struct Users<'a> {
-    typed: &'a Typed,
     /// By the names of their instances.
-    blocks: &'a BTreeMap<&'a str, &'a str>,
+    blocks: &'a HashMap<&'a str, &'a str>,
     unit: &'a Unit,
+    own: HashSet<&'a str>,
 }
 
-impl Users<'_> {
+/// A variable, behind its unit.
+type Key<'a> = (&'a str, &'a str);
+
+impl<'a> Users<'a> {
+    fn new(blocks: &'a HashMap<&'a str, &'a str>, unit: &'a Unit) -> Self {
+        let declared = [&unit.inputs, &unit.outputs, &unit.variables];
+        let own = declared.into_iter().flatten().map(|variable| variable.name.as_str()).collect();
+        Self { blocks, unit, own }
+    }
+
     /// A variable that gets what is no value of its enumeration.
-    fn not_of_it(&self, statements: &[Stmt]) -> Option<(String, String)> {
+    fn not_of_it(&self, typed: &Typed, statements: &'a [Stmt]) -> Option<Key<'a>> {
+        let inner = |body: &'a [Stmt]| self.not_of_it(typed, body);
         statements.iter().find_map(|statement| match statement {
-            Stmt::Assign(target, value) => self.assigned(self.key(target)?, value),
+            Stmt::Assign(target, value) => self.assigned(typed, self.key(typed, target)?, value),
             Stmt::If(arms, otherwise) => {
-                let mut arms = arms.iter();
-                arms.find_map(|arm| self.not_of_it(&arm.body)).or_else(|| self.not_of_it(otherwise))
+                arms.iter().find_map(|arm| inner(&arm.body)).or_else(|| inner(otherwise))
             }
             Stmt::Case { branches, otherwise, .. } => {
-                let mut branches = branches.iter();
-                branches.find_map(|(_, body)| self.not_of_it(body)).or_else(|| self.not_of_it(otherwise))
+                branches.iter().find_map(|(_, body)| inner(body)).or_else(|| inner(otherwise))
             }
-            Stmt::While { body, .. } => self.not_of_it(body),
+            Stmt::While { body, .. } => inner(body),
             Stmt::Call { instance, arguments } => {
                 let block = self.block(instance)?;
-                arguments.iter().find_map(|(name, value)| self.assigned((block.into(), name.clone()), value))
+                arguments.iter().find_map(|(name, value)| self.assigned(typed, (block, name), value))
             }
             Stmt::Comment(_) | Stmt::Exit | Stmt::Return => None,
         })
     }
 
-    fn assigned(&self, key: (String, String), value: &Ex) -> Option<(String, String)> {
-        let wanted = self.typed.0.get(&key)?;
+    fn assigned(&self, typed: &Typed, target: Key<'a>, value: &'a Ex) -> Option<Key<'a>> {
+        let wanted = typed.get(target.0, target.1)?;
         let is = match value {
             Ex::Member(member) => {
                 let ty = member.qualified.as_ref().and_then(|q| q.split_once('.')).map(|(ty, _)| ty);
                 ty == Some(wanted.as_str())
             }
-            _ => self.key(value).and_then(|key| self.typed.0.get(&key)) == Some(wanted),
+            _ => self.key(typed, value).and_then(|(unit, name)| typed.get(unit, name)) == Some(wanted),
         };
-        (!is).then_some(key)
+        (!is).then_some(target)
     }
 
-    fn key(&self, place: &Ex) -> Option<(String, String)> {
+    /// None of what is of no enumeration.
+    fn key(&self, typed: &Typed, place: &'a Ex) -> Option<Key<'a>> {
+        let unit = self.unit.name.as_str();
         match place {
             Ex::Name(name) | Ex::Element(name, _) => {
-                let declared = [&self.unit.inputs, &self.unit.outputs, &self.unit.variables];
-                let is_own = declared.into_iter().flatten().any(|variable| variable.name == *name);
-                Some((if is_own { self.unit.name.clone() } else { String::new() }, name.clone()))
+                let is_typed = [unit, ""].into_iter().any(|unit| typed.get(unit, name).is_some());
+                is_typed.then(|| (if self.own.contains(name.as_str()) { unit } else { "" }, name.as_str()))
             }
-            Ex::Field(instance, output) => Some((self.block(instance)?.into(), output.clone())),
+            Ex::Field(instance, output) => Some((self.block(instance)?, output)),
             _ => None,
         }
     }
 
-    fn block(&self, instance: &str) -> Option<&str> {
+    fn block(&self, instance: &str) -> Option<&'a str> {
         self.blocks.get(instance).copied()
     }
 }

@@ -101,9 +101,12 @@ fn table_of_alarms(line: &Line) -> Option<(Structure, Variable)> {
         elements: None,
         ..table.variable.clone()
     });
+    // What is not written is zero.
     let row = |i: usize| {
-        let fields =
-            columns.iter().filter_map(|(name, t)| Some((name.to_string(), t.values.get(i)?.clone())));
+        let fields = columns.iter().filter_map(|(name, table)| {
+            let value = table.values.get(i).filter(|value| **value != table.variable.basic.zero())?;
+            Some((name.to_string(), value.clone()))
+        });
         Ex::Fields(fields.collect())
     };
     let count = first.variable.elements.unwrap_or_default();
