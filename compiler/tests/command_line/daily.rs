@@ -1,4 +1,4 @@
-//! `compare`, `fmt` and `completions`.
+//! `compare`, `fmt`, `completions` and the notes of `check`.
 
 use super::*;
 
@@ -145,4 +145,19 @@ fn a_line_of_which_nothing_is_asked_says_so() {
     assert!(said(&output).contains(&format!("note: {note}; ")), "{}", said(&output));
     let output = autogen(&folder, &[&arguments[..], &["--format", "json"]].concat());
     assert!(json(&output)["note"].as_str().expect("a text").starts_with(note), "{}", said(&output));
+}
+
+#[test]
+fn notes_are_given_on_request_and_never_fail_a_check() {
+    let folder = folder("notes");
+    let layout = example("ariac2021/default.json");
+    let check = |more: &[&str]| {
+        autogen(&folder, &[&["check", &layout, "--deny", "warnings"], more].concat())
+    };
+    let output = check(&["--notes"]);
+    assert_eq!(status(&output), 0, "{}", errors(&output));
+    let text = errors(&output);
+    assert!(text.contains("note[N0101]: "), "{text}");
+    assert!(text.contains("for example with attached = false, done"), "{text}");
+    assert!(!errors(&check(&[])).contains("N0101"));
 }
