@@ -185,21 +185,36 @@ impl Plant {
 
     fn fall(&mut self, Falls { item, from, ms }: Falls) {
         let (carrier, point) = fall::fall(self, (from, self.upper(item)), ms);
-        let under = self.convey(|conveying, among, _| conveying.lies_under(among, item, &carrier, ms));
-        if let (Some(under), Some(machine)) = (under, carrier.machine()) {
+        if let (Some(under), Some(machine)) = (self.lies_under(item, &carrier, ms), carrier.machine()) {
             let [upper, lower] = [item, under].map(|item| &self.names[item]);
             self.items.crash(machine, format!("{upper} comes down on {lower}, which lies on a conveyor"));
         }
         self.items.pass(item, carrier, point);
     }
 
+    /// An item on a conveyor on which another one comes down.
+    fn lies_under(&mut self, item: usize, carrier: &Carrier, ms: f64) -> Option<usize> {
+        self.convey(|conveying, among, _| conveying.lies_under(among, item, carrier, ms))
+    }
+
     fn slip(&mut self, scan: u64) {
         let next_ms = scan * self.scan_ms;
         for index in 0..self.machines.len() {
             while let Some(item) = self.machines[index].slip(next_ms) {
-                self.drop_item(item, next_ms);
+                self.lose(item, next_ms as f64);
             }
         }
+    }
+
+    /// An item that slips falls; it does not stay on another one that lies on a conveyor.
+    fn lose(&mut self, item: usize, ms: f64) {
+        let Some(from) = self.place(item) else { return };
+        let (carrier, point) = fall::fall(self, (from, self.upper(item)), ms);
+        let (carrier, point) = match self.lies_under(item, &carrier, ms) {
+            Some(_) => fall::to_floor(self, from),
+            None => (carrier, point),
+        };
+        self.items.pass(item, carrier, point);
     }
 
     /// Where the upper side of an item faces, a unit vector; none for up.

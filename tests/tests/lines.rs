@@ -273,8 +273,9 @@ fn a_part_that_slips_is_made_up_for() {
         let (robot, pick) = (["kitting", "gantry"][random.up_to(1) as usize], 1 + random.up_to(30));
         (robot, u64::from(pick), f64::from(random.up_to(1000)) / 100.0)
     });
-    // Over its place, while the arm still turns: what it did next once brought its links together.
-    let slips: Vec<_> = [("gantry", 11, 5.79)].into_iter().chain(drawn).collect();
+    // Over its place, while the arm still turns: what it did next once brought its links together. And onto another part
+    // on the conveyor, which ended the run.
+    let slips: Vec<_> = [("gantry", 11, 5.79), ("kitting", 17, 2.17)].into_iter().chain(drawn).collect();
     let reports = on_all_processors(&slips, |(robot, pick, after_s)| {
         let mut project = ariac("default").project();
         let machine =

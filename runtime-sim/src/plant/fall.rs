@@ -7,7 +7,8 @@ use crate::point::Point;
 /// An item that is let go at most so far below a surface lies on it: the reach of a contact, twice, m.
 pub(crate) const SINK: f64 = 0.01;
 
-/// The highest surface under `point`, or what holds an item whose upper side faces there (none: up); the top of an obstacle or the floor, and where the item then rests. It stays there however
+/// The highest surface under `point`, or what holds an item whose upper side faces there (none: up); the top of an obstacle
+/// or the floor, and where the item then rests. It stays there however
 /// deep it fell. Items lie on one another only where a place says so.
 pub fn fall(plant: &Plant, (point, upper): (Point, Option<Point>), ms: f64) -> (Carrier, Point) {
     let mut lands: Option<(f64, Carrier)> = None;
@@ -19,13 +20,16 @@ pub fn fall(plant: &Plant, (point, upper): (Point, Option<Point>), ms: f64) -> (
             lands = Some((height, carrier));
         }
     }
+    match (lands, to_floor(plant, point)) {
+        (Some((height, carrier)), (_, floor)) if height >= floor.z => (carrier, Point { z: height, ..point }),
+        (_, on_floor) => on_floor,
+    }
+}
+
+/// The floor under `point`, or the top of an obstacle.
+pub fn to_floor(plant: &Plant, point: Point) -> (Carrier, Point) {
     let tops = plant.obstacles.iter().filter_map(|obstacle| obstacle.top_at(point));
     let floor = tops.filter(|top| *top <= point.z + SINK).fold(0.0, f64::max);
-    match lands {
-        Some((height, carrier)) if height >= floor => (carrier, Point { z: height, ..point }),
-        _ => {
-            let point = Point { z: floor, ..point };
-            (Carrier::Floor { point }, point)
-        }
-    }
+    let point = Point { z: floor, ..point };
+    (Carrier::Floor { point }, point)
 }
