@@ -65,6 +65,9 @@ fn coverage(job: &Job) -> Coverage {
                 coverage.take(&text, |beside| drawn(beside, &text, Lots::powered(text.system, seed), 3000));
             }
             coverage.take(&text, |beside| drawn(beside, &text, Lots::new(text.system, 4), 3000));
+            coverage.enter_the_rest(&text, &outcome.sources, |beside, text| {
+                drawn(beside, text, Lots::lively(text.system, 2), 300);
+            });
         }
         Job::Fixture(path) => {
             let file = (name(path), std::fs::read_to_string(path).expect("a text"));
