@@ -3,9 +3,9 @@
 mod assumed;
 
 use crate::diagnostic::{Diagnostic, sort};
-use crate::ir::{Expr, PropertyKind, Severity, State, StateId, System, Transition};
+use crate::ir::{Clause, Expr, ExprKind, PropertyKind, Severity, State, StateId, System, Transition};
 use crate::source::Span;
-use assumed::Assumed;
+use assumed::{Assumed, MOST_STEPS_OF_STATE};
 use std::collections::BTreeSet;
 
 /// Instances of a type that are looked at: they differ in parameters and roles.
@@ -35,16 +35,18 @@ pub fn notes(system: &System) -> Vec<Diagnostic> {
         // What stands once in the text, as of `any state`, is told once.
         let mut told: BTreeSet<[Span; 2]> = BTreeSet::new();
         for (state_number, state) in automaton.states.iter().enumerate() {
+            let mut left = MOST_STEPS_OF_STATE;
             for [first, second] in pairs(state) {
                 let places = [first.place, second.place];
                 // What stands behind one that always fires is warned of.
-                if told.contains(&places) || first.is_unconditional() {
+                if told.contains(&places) || first.is_unconditional() || is_time(second) {
                     continue;
                 }
-                let example = |instance: &usize| {
-                    Assumed::new(system, *instance, StateId(state_number), [first, second], &always).find()
+                let mut example = |instance: &usize| {
+                    Assumed::new(system, *instance, StateId(state_number), [first, second], &always)
+                        .find(&mut left)
                 };
-                let example = instances.iter().find_map(example);
+                let example = instances.iter().find_map(&mut example);
                 if let Some(example) = example {
                     told.insert(places);
                     found.push(note(state, first, second, &example));
@@ -54,6 +56,11 @@ pub fn notes(system: &System) -> Vec<Diagnostic> {
     }
     sort(&mut found);
     found
+}
+
+/// A time that is up behind other conditions is meant as it stands.
+fn is_time(transition: &Transition) -> bool {
+    matches!(&transition.clauses[..], [Clause::Condition(Expr { kind: ExprKind::After(_), .. })])
 }
 
 fn pairs(state: &State) -> impl Iterator<Item = [&Transition; 2]> {
@@ -66,7 +73,7 @@ fn pairs(state: &State) -> impl Iterator<Item = [&Transition; 2]> {
 
 fn note(state: &State, first: &Transition, second: &Transition, example: &[String]) -> Diagnostic {
     let message =
-        format!("`{}` and `{}` of `{}` can hold at the same time", first.title(), second.title(), state.name);
+        format!("`{}` and `{}` of `{}` can hold at the same time, as far as the text tells", first.title(), second.title(), state.name);
     let mut shown = example[..example.len().min(MOST_SHOWN)].join(", ");
     if example.len() > MOST_SHOWN {
         shown += &format!(", and {} more", example.len() - MOST_SHOWN);

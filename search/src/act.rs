@@ -40,7 +40,7 @@ impl Scan<'_> {
         head.status.store(self.bytes, status::UNDER_WAY);
         head.command.store(self.bytes, command as i32);
         self.given |= bit(machine);
-        if before == Some(self.asked(plant)) {
+        if head.commands[command].is_kept && before == Some(self.asked(plant)) {
             self.repeated |= bit(machine);
         }
     }

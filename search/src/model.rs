@@ -25,6 +25,8 @@ pub struct Model {
     pub heights: Vec<f64>,
     /// Heights over their undersides at which tools grip them, m.
     pub grasps: Vec<f64>,
+    /// Of each fault of the text whether its condition reads an input of a device.
+    pub sensed: Vec<bool>,
     pub faults: Faults,
     pub watch: Watch,
     pub reductions: Reductions,

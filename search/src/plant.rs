@@ -37,6 +37,8 @@ pub mod status {
 #[derive(Clone, Debug)]
 pub struct Asked {
     pub action: Action,
+    /// The same command with the same goal is the same: it has no arguments that are not kept.
+    pub is_kept: bool,
     /// The machine plans the way round obstacles: it begins straight up.
     pub is_planned: bool,
     /// It ends well when the signal that it awaits is there, else in this error.

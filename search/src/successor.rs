@@ -197,7 +197,11 @@ impl<'a> Expander<'a> {
             self.before.clone_from(&self.work);
             self.choices.clear();
             let result = self.begin().run(&order, u64::MAX);
-            if let Err(Violation::Fault { instance, fault }) = result {
+            // What the operator does may change inputs of devices.
+            if let Err(Violation::Fault { instance, fault }) = result
+                && self.choices.is_empty()
+                && !self.model.sensed[fault]
+            {
                 found = Some(Violation::FaultBehindStop { instance, fault });
             }
             // A signal that changes by itself may end it.

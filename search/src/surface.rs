@@ -164,12 +164,13 @@ pub fn empty_slot(
     })
 }
 
-/// The machine of which a slot is under the tool, if it is so low that it touches items in others.
+/// The machine of which a slot is under the tool, if it has others and the tool is so low that it touches items in them.
 pub fn low_in_slot(model: &Model, values: &Values, state: &[u8], tool: Point) -> Option<usize> {
     let tallest = model.heights.iter().copied().fold(0.0, f64::max);
     places(model, values, state).find_map(|(machine, place, origin)| {
         let is_low = tool[2] <= origin[2] + place.floor[2] + tallest + 0.001;
-        (is_low && is_over(place, origin, tool) && slot_at(place, origin, tool).is_some()).then_some(machine)
+        let has_others = place.slots.len() > 1;
+        (has_others && is_low && is_over(place, origin, tool) && slot_at(place, origin, tool).is_some()).then_some(machine)
     })
 }
 

@@ -18,7 +18,8 @@ pub fn check(automaton: &Automaton, found: &mut Vec<Diagnostic>) {
     }
 }
 
-/// The first of these that writes what the update writes, if none before it, nor itself, reads that.
+/// The first of these that writes what the update writes, if none before it, nor itself, reads that, or changes which
+/// element or whose cell it is.
 fn overwriting<'a>(automaton: &Automaton, update: &Update, later: &'a [Update]) -> Option<&'a Update> {
     let written = &update.kind.target()?.place;
     for next in later {
@@ -27,6 +28,10 @@ fn overwriting<'a>(automaton: &Automaton, update: &Update, later: &'a [Update]) 
         }
         if next.kind.target().is_some_and(|target| target.place == *written) {
             return Some(next);
+        }
+        let changes = |target: &Place| written.parts().into_iter().any(|part| asks(automaton, part, target));
+        if next.kind.target().is_some_and(|target| changes(&target.place)) {
+            return None;
         }
     }
     None

@@ -10,6 +10,8 @@ use std::collections::{BTreeSet, HashMap};
 const MOST_TRIED: usize = 5_000;
 /// Steps of evaluation for one choice.
 const MOST_STEPS: usize = 20_000;
+/// The same for all pairs of transitions of a state.
+pub const MOST_STEPS_OF_STATE: usize = 2_000_000;
 /// Errors of commands that are assumed.
 const MOST_ERROR: i32 = 3;
 /// Candidates for one value.
@@ -79,9 +81,10 @@ impl<'a> Assumed<'a> {
         }
     }
 
-    /// Values with which both guards hold, as `name = value`; none if none were found.
-    pub fn find(mut self) -> Option<Vec<String>> {
+    /// Values with which both guards hold, as `name = value`; none if none were found before `left` steps were used up.
+    pub fn find(mut self, left: &mut usize) -> Option<Vec<String>> {
         for _ in 0..MOST_TRIED {
+            *left = left.checked_sub(self.steps)?;
             self.values.clear();
             self.read.clear();
             (self.steps, self.asks_error) = (0, false);

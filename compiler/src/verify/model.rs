@@ -7,7 +7,7 @@ use super::properties::{can_stop, read_by, searched};
 use super::strokes::Changing;
 use super::{Asked, Skipped};
 use crate::diagnostic::Diagnostic;
-use crate::ir::{Automaton, Expr, ExprKind, KeptBy, Place, Scalar, System, Type, UpdateKind, Value};
+use crate::ir::{Asking, Automaton, Expr, ExprKind, KeptBy, Place, Scalar, System, Type, UpdateKind, Value};
 use crate::lower::Project;
 use autogen_search::model::{Model, Reach, Reductions};
 use autogen_search::plant::{Order, Watch};
@@ -164,6 +164,7 @@ pub fn model(project: &Project, asked: &Asked) -> Result<Searched, Vec<Diagnosti
         orders,
         heights: line.kinds.iter().map(|kind| kind.height).collect(),
         grasps: line.kinds.iter().map(|kind| kind.grasp).collect(),
+        sensed: sensed(system),
         faults: asked.faults,
         watch: Watch::Everything,
         reductions: Reductions::On,
@@ -172,6 +173,21 @@ pub fn model(project: &Project, asked: &Asked) -> Result<Searched, Vec<Diagnosti
         variables,
     };
     Ok(Searched { model, skipped })
+}
+
+/// Of each fault whether the property of which it is reads an input of a device.
+fn sensed(system: &System) -> Vec<bool> {
+    let mut sensed = vec![false; system.model.faults.len()];
+    for automaton in &system.model.automata {
+        let ports = &automaton.device.ports;
+        let asks = Asking::new(automaton, |kind| {
+            matches!(kind, ExprKind::Read(Place::Port { port, .. }) if ports[*port].direction == Direction::Input)
+        });
+        for property in &automaton.properties {
+            sensed[property.site.0] |= property.exprs().into_iter().any(|expr| asks.expression(expr));
+        }
+    }
+    sensed
 }
 
 /// What the search would take for something else, and the help.

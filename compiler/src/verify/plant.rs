@@ -103,7 +103,8 @@ fn asked(machine: &Machine, command: &Command, reads_error: bool) -> (Asked, usi
     let asks_place = (schema.name, name) == ("track", "to");
     let refusals = refusals(if asks_place { Action::Trip } else { action }, reads_error);
     let is_planned = matches!(name, "around" | "onto");
-    (Asked { action, is_planned, awaits, refusals }, points)
+    let is_kept = action != Action::Other || command.arguments.is_empty();
+    (Asked { action, is_kept, is_planned, awaits, refusals }, points)
 }
 
 fn signal_name(machine: &Machine, part: usize, signal: usize) -> (&'static str, &'static str) {

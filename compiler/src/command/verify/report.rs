@@ -5,6 +5,7 @@ use autogen::verify::Skipped;
 use autogen::verify::replay::Replay;
 use autogen::verify::story::Teller;
 use autogen_search::explore::{End, Outcome};
+use autogen_search::program::Instance;
 use autogen_search::property::Check;
 use autogen_search::story::Execution;
 use autogen_search::violation::Violation;
@@ -107,10 +108,34 @@ impl Report<'_> {
                 self.teller.skipped(skipped)
             ));
         }
+        let never = self.never_entered();
+        if !never.is_empty() {
+            bounds.push(format!("no state was reached with: {}", never.join("; ")));
+        }
         if plant.scenario.orders.is_empty() {
             bounds.push("nothing is ordered: whether orders can be made is not checked".into());
         }
         bounds
+    }
+
+    /// Machines with the states that they have in no reached state of a complete search.
+    fn never_entered(&self) -> Vec<String> {
+        if self.outcome.end != End::Complete {
+            return Vec::new();
+        }
+        let system = &self.teller.project.system;
+        let reached = &self.outcome.reached;
+        let of_instance = |(number, instance): (usize, &Instance)| {
+            let states = &system.automaton_of(number).states;
+            let mut entered = vec![false; states.len()];
+            for state in 0..reached.len() {
+                entered[instance.state.load(reached.state(state)) as usize] = true;
+            }
+            let never = states.iter().zip(entered).filter(|(_, entered)| !entered);
+            let names: Vec<&str> = never.map(|(state, _)| state.name.as_str()).collect();
+            (!names.is_empty()).then(|| format!("{} in {}", system.instances[number].name, names.join(", ")))
+        };
+        self.teller.model.instances.iter().enumerate().filter_map(of_instance).collect()
     }
 
     pub fn text(&self) -> String {

@@ -21,7 +21,7 @@ pub struct Motions {
     known: Mutex<Known>,
 }
 
-/// The motions of late: what nobody asked for since [`MOST`] others were computed is forgotten.
+/// The motions of late: what nobody asked for is forgotten when [`MOST`] others at least have come.
 #[derive(Debug, Default)]
 struct Known {
     recent: HashMap<Question, Option<Planned>>,
