@@ -72,8 +72,12 @@ fn pairs(state: &State) -> impl Iterator<Item = [&Transition; 2]> {
 }
 
 fn note(state: &State, first: &Transition, second: &Transition, example: &[String]) -> Diagnostic {
-    let message =
-        format!("`{}` and `{}` of `{}` can hold at the same time, as far as the text tells", first.title(), second.title(), state.name);
+    let message = format!(
+        "`{}` and `{}` of `{}` can hold at the same time, as far as the text tells",
+        first.title(),
+        second.title(),
+        state.name
+    );
     let mut shown = example[..example.len().min(MOST_SHOWN)].join(", ");
     if example.len() > MOST_SHOWN {
         shown += &format!(", and {} more", example.len() - MOST_SHOWN);

@@ -170,7 +170,8 @@ pub fn low_in_slot(model: &Model, values: &Values, state: &[u8], tool: Point) ->
     places(model, values, state).find_map(|(machine, place, origin)| {
         let is_low = tool[2] <= origin[2] + place.floor[2] + tallest + 0.001;
         let has_others = place.slots.len() > 1;
-        (has_others && is_low && is_over(place, origin, tool) && slot_at(place, origin, tool).is_some()).then_some(machine)
+        (has_others && is_low && is_over(place, origin, tool) && slot_at(place, origin, tool).is_some())
+            .then_some(machine)
     })
 }
 

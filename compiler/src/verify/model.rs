@@ -180,9 +180,10 @@ fn sensed(system: &System) -> Vec<bool> {
     let mut sensed = vec![false; system.model.faults.len()];
     for automaton in &system.model.automata {
         let ports = &automaton.device.ports;
-        let asks = Asking::new(automaton, |kind| {
-            matches!(kind, ExprKind::Read(Place::Port { port, .. }) if ports[*port].direction == Direction::Input)
-        });
+        let asks = Asking::new(
+            automaton,
+            |kind| matches!(kind, ExprKind::Read(Place::Port { port, .. }) if ports[*port].direction == Direction::Input),
+        );
         for property in &automaton.properties {
             sensed[property.site.0] |= property.exprs().into_iter().any(|expr| asks.expression(expr));
         }

@@ -151,9 +151,7 @@ fn a_line_of_which_nothing_is_asked_says_so() {
 fn notes_are_given_on_request_and_never_fail_a_check() {
     let folder = folder("notes");
     let layout = example("ariac2021/default.json");
-    let check = |more: &[&str]| {
-        autogen(&folder, &[&["check", &layout, "--deny", "warnings"], more].concat())
-    };
+    let check = |more: &[&str]| autogen(&folder, &[&["check", &layout, "--deny", "warnings"], more].concat());
     let output = check(&["--notes"]);
     assert_eq!(status(&output), 0, "{}", errors(&output));
     let text = errors(&output);
