@@ -241,7 +241,7 @@ impl Executor<'_> {
 }
 
 /// Order of numbers; nothing is less than NaN, and NaN less than nothing.
-pub(super) fn less(a: Value, b: Value) -> bool {
+pub(crate) fn less(a: Value, b: Value) -> bool {
     match (a, b) {
         (Value::Int(a), Value::Int(b)) => a < b,
         (Value::Real(a), Value::Real(b)) => a < b,

@@ -1,5 +1,6 @@
 //! Values with which conditions hold: each is assumed where it is first read, one after the other of some candidates.
 
+use crate::executor::less;
 use crate::ir::{
     Automaton, Clause, Domain, Element, Expr, ExprKind, InterfaceId, Operator, Place, Scalar, StateId,
     System, Transition, Value, VariableId,
@@ -411,14 +412,6 @@ impl<'a> Assumed<'a> {
             None => 0,
         };
         (index < count).then_some(index)
-    }
-}
-
-fn less(a: Value, b: Value) -> bool {
-    match (a, b) {
-        (Value::Int(a), Value::Int(b)) => a < b,
-        (Value::Real(a), Value::Real(b)) => a < b,
-        _ => false,
     }
 }
 

@@ -63,6 +63,16 @@ impl BoundingBox {
         Self { low: self.low - corner, high: self.high + corner }
     }
 
+    /// A distance that nothing within the ball is nearer to it than, m; less than 0 if they meet.
+    pub fn gap(&self, ball: &Ball) -> f64 {
+        let outside = |at: f64, low: f64, high: f64| (low - at).max(at - high).max(0.0);
+        let Ball { middle, radius } = *ball;
+        let x = outside(middle.x, self.low.x, self.high.x);
+        let y = outside(middle.y, self.low.y, self.high.y);
+        let z = outside(middle.z, self.low.z, self.high.z);
+        (x * x + y * y + z * z).sqrt() - radius
+    }
+
     pub fn is_apart(&self, other: &BoundingBox) -> bool {
         let beyond = |low: Point, high: Point| low.x > high.x || low.y > high.y || low.z > high.z;
         beyond(self.low, other.high) || beyond(other.low, self.high)

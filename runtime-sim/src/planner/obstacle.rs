@@ -1,53 +1,35 @@
 //! Obstacles about a gantry.
 
+use crate::collision::BoundingBox;
 use crate::collision::body::{Ball, Piece, Placed};
 use crate::kinematics::pose::Pose;
 use crate::point::Point;
 use crate::solid::{Shape, Solid};
 
-/// A solid that is an obstacle, with the axes of the world, and its corners.
+/// A solid that is an obstacle, with the axes of the world.
 #[derive(Clone, Debug)]
 pub struct Obstruction {
     pub placed: Placed,
-    corners: Corners,
+    bounds: BoundingBox,
 }
 
-/// Obstacles that stand together, and the corners of all of them.
+/// Obstacles that stand together.
 #[derive(Clone, Debug)]
 pub struct Cluster {
     pub all: Vec<Obstruction>,
-    pub corners: Corners,
-}
-
-/// What is between two opposite corners.
-#[derive(Clone, Copy, Debug)]
-pub struct Corners {
-    pub low: Point,
-    pub high: Point,
-}
-
-impl Corners {
-    /// A distance that nothing within the ball is nearer to it than, m.
-    fn apart(&self, ball: &Ball) -> f64 {
-        let outside = |at: f64, low: f64, high: f64| (low - at).max(at - high).max(0.0);
-        let Ball { middle, radius } = *ball;
-        let x = outside(middle.x, self.low.x, self.high.x);
-        let y = outside(middle.y, self.low.y, self.high.y);
-        let z = outside(middle.z, self.low.z, self.high.z);
-        (x * x + y * y + z * z).sqrt() - radius
-    }
+    pub bounds: BoundingBox,
 }
 
 impl Obstruction {
     fn new(solid: &Solid) -> Self {
         let (middle, half) = (solid.pose.position, half(solid));
         let placed = Piece::new(String::new(), &solid.pose, solid.shape).within(&Pose::IDENTITY);
-        Self { placed, corners: Corners { low: middle - half, high: middle + half } }
+        Self { placed, bounds: BoundingBox::between(middle - half, middle + half) }
     }
 
     /// A distance that nothing within the ball is nearer to it than, m.
     pub fn apart(&self, ball: &Ball) -> f64 {
-        self.corners.apart(ball)
+        self.bounds.gap(ball)
     }
 }
 
@@ -55,18 +37,13 @@ impl Cluster {
     /// None of nothing.
     pub fn new(solids: &[Solid]) -> Option<Self> {
         let all: Vec<Obstruction> = solids.iter().map(Obstruction::new).collect();
-        let corners = all.iter().map(|one| one.corners);
-        let by = |a: Point, b: Point, rule: fn(f64, f64) -> f64| {
-            Point::new(rule(a.x, b.x), rule(a.y, b.y), rule(a.z, b.z))
-        };
-        let corners = corners
-            .reduce(|a, b| Corners { low: by(a.low, b.low, f64::min), high: by(a.high, b.high, f64::max) })?;
-        Some(Self { all, corners })
+        let bounds = all.iter().map(|one| one.bounds).reduce(|a, b| a.with(&b))?;
+        Some(Self { all, bounds })
     }
 
     /// A distance that nothing within the ball is nearer to any of them than, m.
     pub fn apart(&self, ball: &Ball) -> f64 {
-        self.corners.apart(ball)
+        self.bounds.gap(ball)
     }
 }
 

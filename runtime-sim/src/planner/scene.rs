@@ -124,13 +124,14 @@ impl Scene {
             ]
         });
         let is_near = |other: &&Cluster| {
-            let corners = &other.corners;
-            let beside = corners.low.x > high.x + REACH || corners.high.x < low.x - REACH;
-            let behind = corners.low.y > high.y + REACH || corners.high.y < low.y - REACH;
+            let [lowest, highest] = other.bounds.corners();
+            let beside = lowest.x > high.x + REACH || highest.x < low.x - REACH;
+            let behind = lowest.y > high.y + REACH || highest.y < low.y - REACH;
             !(beside || behind)
         };
         let all = self.obstacles.iter().filter(is_near).collect();
-        let high = self.obstacles.iter().filter(|other| other.corners.high.z > self.lowest_beam - HIGH);
+        let is_high = |other: &&Cluster| other.bounds.corners()[1].z > self.lowest_beam - HIGH;
+        let high = self.obstacles.iter().filter(is_high);
         Nearby { all, high: high.collect() }
     }
 
