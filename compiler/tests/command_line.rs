@@ -49,11 +49,15 @@ use runtime_sim::point::{Axis, Point};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use std::sync::Once;
 use std::{env, fs};
 
 /// A new empty folder with the compiled programs of all tests beside it.
 fn folder(name: &str) -> PathBuf {
-    let folder = env::temp_dir().join(format!("autogen-command-line-{}", std::process::id())).join(name);
+    static EMPTIED: Once = Once::new();
+    let above = Path::new(env!("CARGO_TARGET_TMPDIR")).join("command_line");
+    EMPTIED.call_once(|| _ = fs::remove_dir_all(&above));
+    let folder = above.join(name);
     let _ = fs::remove_dir_all(&folder);
     fs::create_dir_all(&folder).expect("a folder that can be made");
     folder

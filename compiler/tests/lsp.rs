@@ -17,7 +17,7 @@ use std::{env, fs};
 
 /// A folder in which `autogen new` wrote its line.
 fn new_line(name: &str) -> PathBuf {
-    let above = env::temp_dir().join(format!("autogen-lsp-{}", std::process::id()));
+    let above = Path::new(env!("CARGO_TARGET_TMPDIR")).join("lsp");
     fs::create_dir_all(&above).expect("a folder that can be made");
     let folder = above.canonicalize().expect("the folder").join(name);
     let _ = fs::remove_dir_all(&folder);

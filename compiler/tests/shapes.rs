@@ -9,7 +9,7 @@ mod layouts;
 #[path = "shapes/scenarios.rs"]
 mod scenarios;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 use std::time::{Duration, Instant};
 use std::{env, fs};
@@ -86,7 +86,8 @@ fn run(command: &str, arguments: &[String], kilobytes: usize, longest: Duration)
 fn every_shape_is_answered() {
     // Below the limits of types, below those of layouts, and above all.
     let sizes: &[usize] = if is_full() { &[30_000, 1_100_000, 9_900_000] } else { &[30_000, 300_000] };
-    let folder: PathBuf = env::temp_dir().join(format!("autogen-shapes-{}", std::process::id()));
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("shapes");
+    let _ = fs::remove_dir_all(&folder);
     let mut bad = Vec::new();
     let makers = layouts::ALL.iter().chain(automata::ALL).chain(scenarios::ALL);
     for (make, bytes) in makers.flat_map(|make| sizes.iter().map(move |bytes| (make, *bytes))) {
