@@ -6,6 +6,7 @@ use crate::store::Store;
 use crate::successor::Expander;
 use crate::violation::Violation;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
 
 /// States that one processor takes at a time.
 const RUN: usize = 32;
@@ -67,6 +68,17 @@ impl Expanded {
         }
     }
 
+    /// Nothing is known any more but what is the first state; the memory is kept.
+    fn begin_anew(&mut self, first: usize) {
+        let Self { first: old, states, steps, unknown, restless, remarked } = self;
+        *old = first;
+        states.clear();
+        steps.clear();
+        unknown.clear();
+        restless.clear();
+        remarked.clear();
+    }
+
     pub fn steps(&self, state: usize) -> &[Step] {
         let begin = state.checked_sub(1).map_or(0, |before| self.states[before].end);
         &self.steps[begin..self.states[state].end]
@@ -124,15 +136,24 @@ impl Expanded {
     }
 }
 
-/// What follows the states from `begin` to before `end`, in runs in their order; each expander works by itself.
+/// What follows the states from `begin` to before `end`, in runs in their order; each expander works by itself. The memory
+/// of `spare` is used again: threads that take it anew each time would wait for one another.
 pub(crate) fn expand(
     expanders: &mut [Expander],
     store: &Store,
     restless: &[u64],
     begin: usize,
     end: usize,
+    spare: Vec<Expanded>,
 ) -> Vec<Expanded> {
     let next = AtomicUsize::new(begin);
+    let spare = Mutex::new(spare);
+    let take = |first: usize| {
+        let run = spare.lock().unwrap_or_else(PoisonError::into_inner).pop();
+        let mut run = run.unwrap_or_else(|| Expanded::new(first, store.length()));
+        run.begin_anew(first);
+        run
+    };
     let work = |expander: &mut Expander| {
         let count = expander.values.count();
         let mut runs = Vec::new();
@@ -141,7 +162,7 @@ pub(crate) fn expand(
             if first >= end {
                 return runs;
             }
-            let mut run = Expanded::new(first, store.length());
+            let mut run = take(first);
             let last = end.min(first + RUN);
             for (state, restless) in (first..last).zip(&restless[first..last]) {
                 run.expand(expander, store, state, *restless);

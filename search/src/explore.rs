@@ -191,13 +191,14 @@ pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -
     };
     search.store.add(&model.initial, 0);
     let (mut next, mut end_of_depth, mut batch) = (0, 1, LEAST);
+    let mut spare = Vec::new();
     let end = 'search: loop {
         if next == search.store.len() {
             break End::Complete;
         }
         let batch_begins = Instant::now();
         let to = search.store.len().min(next + batch);
-        let runs = expanded::expand(&mut expanders, &search.store, &search.restless, next, to);
+        let runs = expanded::expand(&mut expanders, &search.store, &search.restless, next, to, spare);
         for run in &runs {
             let mut numbers = Vec::new();
             for (state, after) in run.states.iter().enumerate() {
@@ -222,6 +223,7 @@ pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -
                 }
             }
         }
+        spare = runs;
         if first.values.count() != expanders[0].values.count() {
             expanders.iter_mut().for_each(|expander| expander.values.clone_from(&first.values));
         }

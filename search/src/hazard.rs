@@ -8,59 +8,52 @@ use crate::violation::Violation;
 
 /// A place where its machine stands: at a stop, if a vehicle carries it. A point is at it if it is over it, and at a
 /// field over a conveyor if it is so low that items on it would be touched.
-struct Site {
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Site {
+    number: usize,
     machine: usize,
     /// At this stop of its vehicle.
     stop: Option<usize>,
     is_lane: bool,
 }
 
-fn sites(scan: &Scan) -> Vec<Site> {
-    let mut sites = Vec::new();
-    for (machine, plant) in scan.model.machines.iter().enumerate() {
-        for place in &plant.places {
-            match (place.stands, &plant.route) {
-                (None, Some(route)) => {
-                    let stops = 0..route.stops.len();
-                    sites.extend(stops.map(|stop| Site { machine, stop: Some(stop), is_lane: false }));
-                }
-                _ => sites.push(Site { machine, stop: None, is_lane: false }),
-            }
-        }
-        let zones = plant.lane.iter().flat_map(|lane| &lane.zones);
-        sites.extend(zones.map(|_| Site { machine, stop: None, is_lane: true }));
-    }
-    sites
-}
-
-/// For each site whether a point is at it.
-fn sites_at(scan: &Scan, number: i32) -> Vec<usize> {
+/// The sites at which a point is.
+fn sites_at(scan: &Scan, number: i32) -> Vec<Site> {
     let model = scan.model;
     let point = scan.values.point(number);
     let tallest = model.heights.iter().copied().fold(0.0, f64::max);
     let mut all = Vec::new();
-    for plant in &model.machines {
+    let mut number = 0;
+    for (machine, plant) in model.machines.iter().enumerate() {
+        let mut add = |stop, is_lane, is_at| {
+            if is_at {
+                all.push(Site { number, machine, stop, is_lane });
+            }
+            number += 1;
+        };
         for place in &plant.places {
             match (place.stands, &plant.route) {
                 (None, Some(route)) => {
-                    all.extend(route.stops.iter().map(|stop| surface::is_over(place, *stop, point)));
+                    for (stop, at) in route.stops.iter().enumerate() {
+                        add(Some(stop), false, surface::is_over(place, *at, point));
+                    }
                 }
-                (stands, _) => all.push(surface::is_over(place, stands.unwrap_or_default(), point)),
+                (stands, _) => add(None, false, surface::is_over(place, stands.unwrap_or_default(), point)),
             }
         }
-        let zones = plant.lane.iter().flat_map(|lane| &lane.zones);
-        all.extend(
-            zones.map(|zone| surface::is_in(zone, point) && point[2] <= zone.surface + tallest + 0.001),
-        );
+        for zone in plant.lane.iter().flat_map(|lane| &lane.zones) {
+            let is_low = point[2] <= zone.surface + tallest + 0.001;
+            add(None, true, surface::is_in(zone, point) && is_low);
+        }
     }
-    all.iter().enumerate().filter(|(_, is_at)| **is_at).map(|(site, _)| site).collect()
+    all
 }
 
 impl Scan<'_> {
     /// What a command that has just been given makes dangerous.
     pub(crate) fn hazards(&mut self) -> Result<(), Violation> {
         let model = self.model;
-        let mut at: [(usize, usize); 64] = [(0, 0); 64];
+        let mut at: [(Site, usize); 64] = [(Site::default(), 0); 64];
         let mut count = 0;
         for (machine, plant) in model.machines.iter().enumerate() {
             let Some(arm) = &plant.arm else { continue };
@@ -78,12 +71,8 @@ impl Scan<'_> {
                 }
             }
         }
-        if count == 0 {
-            return Ok(());
-        }
-        let sites = sites(self);
         for (index, (site, arm)) in at[..count].iter().enumerate() {
-            let Site { machine, stop, is_lane } = sites[*site];
+            let Site { number, machine, stop, is_lane } = *site;
             let plant = &model.machines[machine];
             if is_lane {
                 let lane = plant.lane.as_ref().map(|lane| lane.motion.load(self.bytes));
@@ -103,7 +92,9 @@ impl Scan<'_> {
                     continue;
                 }
             }
-            if let Some((_, other)) = at[..index].iter().find(|(s, other)| s == site && other != arm) {
+            if let Some((_, other)) =
+                at[..index].iter().find(|(site, other)| site.number == number && other != arm)
+            {
                 return Err(Violation::TwoArms { arms: [*other, *arm], machine });
             }
         }

@@ -8,6 +8,7 @@ mod evaluate;
 pub mod event;
 mod expanded;
 pub mod explore;
+mod footprint;
 mod hazard;
 pub mod model;
 mod order;

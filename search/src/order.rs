@@ -1,108 +1,212 @@
 //! One scan with the steps of its instances in any order.
 
+use crate::footprint::Footprint;
 use crate::model::Reductions;
 use crate::program::bit;
 use crate::scan::{Scan, Told};
 use crate::successor::{Expander, Successor};
 use crate::violation::Violation;
-use std::collections::HashSet;
 
 /// Some instances have stepped.
-#[derive(Clone)]
 struct Midway {
     bytes: Vec<u8>,
+    marks: Marks,
+    told: Told,
+}
+
+#[derive(Clone, Copy, Default)]
+struct Marks {
     /// Instances that have stepped, or that would have done nothing when they did.
     stepped: u64,
+    /// Others that might do something.
+    due: u64,
+    /// A step has ended in a fault: it only matters which of the others do.
+    has_failed: bool,
     written: u64,
     fired: u64,
     restless: u64,
     given: u64,
     repeated: u64,
-    told: Told,
+}
+
+impl Midway {
+    fn is_like(&self, bytes: &[u8], marks: &Marks) -> bool {
+        let key = |marks: &Marks| (marks.stepped, marks.due, marks.written, marks.has_failed);
+        key(&self.marks) == key(marks) && self.bytes == bytes
+    }
 }
 
 impl Expander<'_> {
-    /// Instances that would do nothing now may step now or later; all others take their turns. A line has 64 instances
-    /// at most.
+    /// Instances that would do nothing now may step now or later; all others take their turns. Groups of instances whose
+    /// steps do not depend on one another step one group after the other. A line has 64 instances at most.
     pub(crate) fn scan_in_any_order(&mut self, level: usize, touched: u64, emit: &mut impl FnMut(Successor)) {
-        let mut seen: HashSet<(Vec<u8>, u64, u64)> = HashSet::new();
-        let begin = Midway {
-            bytes: self.levels[level].clone(),
-            stepped: 0,
-            written: 0,
-            fired: 0,
-            restless: 0,
-            given: 0,
-            repeated: 0,
-            told: Told::default(),
-        };
-        let mut waiting = vec![begin];
-        while let Some(midway) = waiting.pop() {
-            let due = self.due(&midway, touched);
-            if due == 0 {
-                self.finish(&midway, touched, emit);
+        let all = u64::MAX.checked_shr(64 - self.model.instances.len() as u32).unwrap_or(0);
+        let due = if self.model.reductions == Reductions::Off { all } else { touched & all };
+        let mut bytes = self.spare.pop().unwrap_or_default();
+        bytes.clone_from(&self.levels[level]);
+        let begin = Midway { bytes, marks: Marks { due, ..Marks::default() }, told: Told::default() };
+        let mut ends = vec![self.copy(&begin)];
+        let (mut left, mut next, mut reached) = (all, Vec::new(), Vec::new());
+        while begin.marks.due & left != 0 {
+            let group = self.group(&begin, left);
+            left &= !group;
+            for end in ends.drain(..) {
+                reached.push(end);
+                self.steps(&mut reached, group, emit, &mut next);
+                reached.drain(..).for_each(|midway| self.spare.push(midway.bytes));
+            }
+            std::mem::swap(&mut ends, &mut next);
+        }
+        for end in ends {
+            if !end.marks.has_failed {
+                self.finish(&end, touched, emit);
+            }
+            self.spare.push(end.bytes);
+        }
+        self.spare.push(begin.bytes);
+    }
+
+    fn copy(&mut self, midway: &Midway) -> Midway {
+        let mut bytes = self.spare.pop().unwrap_or_default();
+        bytes.clone_from(&midway.bytes);
+        Midway { bytes, marks: midway.marks, told: midway.told.clone() }
+    }
+
+    /// The first of these instances that is due, and all those whose steps may depend on its step in this scan. None is due:
+    /// all of them.
+    fn group(&self, midway: &Midway, of: u64) -> u64 {
+        if self.model.reductions == Reductions::Off || midway.marks.due & of == 0 {
+            return of;
+        }
+        let footprint = |instance| self.footprint(midway, instance);
+        let first = 1_u64 << (midway.marks.due & of).trailing_zeros();
+        let (mut group, mut waiting) = (first, first);
+        // Who is not due, and becomes so by nobody, does nothing.
+        let mut may_step = midway.marks.due & of;
+        let mut asked = may_step;
+        while asked != 0 {
+            let instance = asked.trailing_zeros() as usize;
+            asked &= asked - 1;
+            let fed = members(of & !may_step).filter(|other| footprint(instance).feeds(footprint(*other)));
+            let fed = fed.fold(0, |fed, other| fed | bit(other));
+            may_step |= fed;
+            asked |= fed;
+        }
+        while waiting != 0 {
+            let instance = waiting.trailing_zeros() as usize;
+            waiting &= waiting - 1;
+            let more =
+                members(may_step & !group).filter(|other| footprint(instance).depends_on(footprint(*other)));
+            let more = more.fold(0, |more, other| more | bit(other));
+            group |= more;
+            waiting |= more;
+        }
+        group
+    }
+
+    fn footprint(&self, midway: &Midway, instance: usize) -> &Footprint {
+        &self.footprints[instance][self.model.instances[instance].state.load(&midway.bytes) as usize]
+    }
+
+    /// The steps of one group in every order. The first midway of those that are reached is the begin; those in which
+    /// nobody of the group is due any more are moved to the ends.
+    fn steps(
+        &mut self,
+        reached: &mut Vec<Midway>,
+        group: u64,
+        emit: &mut impl FnMut(Successor),
+        ends: &mut Vec<Midway>,
+    ) {
+        let mut next = 0;
+        while next < reached.len() {
+            let midway = self.copy(&reached[next]);
+            next += 1;
+            if midway.marks.due & group == 0 {
+                ends.push(midway);
                 continue;
             }
-            for instance in (0..self.model.instances.len()).filter(|instance| due & bit(*instance) != 0) {
+            // Those on which nothing depends that the others do, are not interchanged with them.
+            let first = self.group(&midway, group & !midway.marks.stepped);
+            for instance in members(midway.marks.due & first) {
                 self.choices.clear();
                 loop {
-                    let mut next = midway.clone();
-                    let result = self.on(&mut next, |scan| scan.step_if_due(instance, u64::MAX));
-                    next.stepped |= bit(instance);
-                    match result {
-                        Err(violation) => emit(Successor {
-                            state: &next.bytes,
-                            events: &self.chosen,
-                            is_plain: self.is_plain(),
-                            result: Err(violation),
-                            noted: &[],
-                            remarked: &[],
-                            restless: 0,
-                            told: &next.told,
-                        }),
-                        Ok(()) => {
-                            // What has become due only now might have stepped before, when it was not.
-                            let newly = self.due(&next, touched) & !due;
-                            let mut earlier = newly;
-                            loop {
-                                let with = Midway { stepped: next.stepped | earlier, ..next.clone() };
-                                if seen.insert((with.bytes.clone(), with.stepped, with.written)) {
-                                    waiting.push(with);
-                                }
-                                if earlier == 0 {
-                                    break;
-                                }
-                                earlier = (earlier - 1) & newly;
-                            }
-                        }
+                    let mut after = self.copy(&midway);
+                    if let Err(violation) = self.step(&mut after, instance) {
+                        self.fail(&after, violation, emit);
+                        after.bytes.clone_from(&midway.bytes);
+                        after.marks = midway.marks;
+                        after.marks.has_failed = true;
+                        after.marks.stepped |= first;
+                        after.marks.due &= !first;
                     }
+                    // What has become due only now might have stepped before, when it was not.
+                    let newly = after.marks.due & group & !midway.marks.due;
+                    let mut earlier = newly;
+                    while earlier != 0 {
+                        let mut with = self.copy(&after);
+                        with.marks.stepped |= earlier;
+                        with.marks.due &= !earlier;
+                        self.reach(with, reached);
+                        earlier = (earlier - 1) & newly;
+                    }
+                    self.reach(after, reached);
                     if !self.choices.advance() {
                         break;
                     }
                 }
             }
+            self.spare.push(midway.bytes);
         }
     }
 
-    /// Instances that have not stepped and might do something.
-    fn due(&self, midway: &Midway, touched: u64) -> u64 {
-        let mut due = 0;
-        for (instance, program) in self.model.instances.iter().enumerate() {
-            let state = program.state.load(&midway.bytes) as usize;
-            let is_due = touched & bit(instance) != 0
-                || midway.written & program.states[state].reads != 0
-                || self.model.reductions == Reductions::Off;
-            if is_due && midway.stepped & bit(instance) == 0 {
-                due |= bit(instance);
+    fn reach(&mut self, midway: Midway, reached: &mut Vec<Midway>) {
+        if reached.iter().any(|other| other.is_like(&midway.bytes, &midway.marks)) {
+            self.spare.push(midway.bytes);
+        } else {
+            reached.push(midway);
+        }
+    }
+
+    fn fail(&self, midway: &Midway, violation: Violation, emit: &mut impl FnMut(Successor)) {
+        emit(Successor {
+            state: &midway.bytes,
+            events: &self.chosen,
+            is_plain: self.is_plain(),
+            result: Err(violation),
+            noted: &[],
+            remarked: &[],
+            restless: 0,
+            told: &midway.told,
+        });
+    }
+
+    /// The step of an instance, and who becomes due by it.
+    fn step(&mut self, midway: &mut Midway, instance: usize) -> Result<(), Violation> {
+        let written = std::mem::take(&mut midway.marks.written);
+        let state = self.model.instances[instance].state.load(&midway.bytes) as usize;
+        let result = self.on(midway, |scan| scan.step_if_due(instance, u64::MAX));
+        let Midway { bytes, marks, .. } = midway;
+        marks.stepped |= bit(instance);
+        marks.due &= !bit(instance);
+        if marks.written != 0 {
+            for (other, program) in self.model.instances.iter().enumerate() {
+                let to = program.state.load(bytes) as usize;
+                if marks.stepped & bit(other) == 0
+                    && marks.written & program.states[to].reads != 0
+                    && self.footprints[instance][state].feeds(&self.footprints[other][to])
+                {
+                    marks.due |= bit(other);
+                }
             }
         }
-        due
+        marks.written |= written;
+        result
     }
 
     fn finish(&mut self, midway: &Midway, touched: u64, emit: &mut impl FnMut(Successor)) {
         self.choices.clear();
         loop {
-            let mut end = midway.clone();
+            let mut end = self.copy(midway);
             self.noted.clear();
             self.remarked.clear();
             let mut result = self.on(&mut end, |scan| scan.finish(touched));
@@ -116,9 +220,10 @@ impl Expander<'_> {
                 result,
                 noted: &self.noted,
                 remarked: &self.remarked,
-                restless: end.restless | midway.restless,
+                restless: end.marks.restless,
                 told: &end.told,
             });
+            self.spare.push(end.bytes);
             if !self.choices.advance() {
                 return;
             }
@@ -130,26 +235,35 @@ impl Expander<'_> {
         midway: &mut Midway,
         work: impl FnOnce(&mut Scan) -> Result<(), Violation>,
     ) -> Result<(), Violation> {
+        let Midway { bytes, marks, told } = midway;
         let mut scan = Scan {
             model: self.model,
-            bytes: &mut midway.bytes,
+            bytes,
             before: &mut self.before,
             values: &mut self.values,
             choices: &mut self.choices,
             variables: &mut self.variables,
-            written: midway.written,
-            fired: midway.fired,
-            given: midway.given,
-            repeated: midway.repeated,
-            restless: midway.restless,
+            written: marks.written,
+            fired: marks.fired,
+            given: marks.given,
+            repeated: marks.repeated,
+            restless: marks.restless,
             noted: &mut self.noted,
             remarked: &mut self.remarked,
-            story: self.tell.then_some(&mut midway.told),
+            story: self.tell.then_some(told),
         };
         let result = work(&mut scan);
-        let (written, fired, restless) = (scan.written, scan.fired, scan.restless);
-        (midway.given, midway.repeated) = (scan.given, scan.repeated);
-        (midway.written, midway.fired, midway.restless) = (written, fired, restless);
+        let Scan { written, fired, given, repeated, restless, .. } = scan;
+        *marks = Marks { written, fired, given, repeated, restless, ..*marks };
         result
     }
+}
+
+/// The instances of a mask.
+fn members(mut mask: u64) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let instance = (mask != 0).then(|| mask.trailing_zeros() as usize)?;
+        mask &= mask - 1;
+        Some(instance)
+    })
 }

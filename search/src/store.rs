@@ -18,6 +18,13 @@ impl Store {
         Self { length, bytes: Vec::new(), parents: Vec::new(), table: vec![EMPTY; 1 << 12] }
     }
 
+    /// Forgets all states, and keeps the memory.
+    pub(crate) fn clear(&mut self) {
+        self.bytes.clear();
+        self.parents.clear();
+        self.table.fill(EMPTY);
+    }
+
     #[allow(clippy::len_without_is_empty)] // The first state is always there.
     pub fn len(&self) -> usize {
         self.parents.len()

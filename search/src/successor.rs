@@ -2,6 +2,7 @@
 
 use crate::choice::Choices;
 use crate::event::{self, Event};
+use crate::footprint::{Footprint, footprints};
 use crate::model::Model;
 use crate::program::{Instance, bit};
 use crate::property::Whenever;
@@ -28,6 +29,10 @@ pub struct Expander<'a> {
     pub answers: usize,
     pub orders: Orders,
     order: Vec<usize>,
+    /// Of each state of each instance, if they step in any order.
+    pub(crate) footprints: Vec<Vec<Footprint>>,
+    /// Memory of states midway in a scan, to be used again.
+    pub(crate) spare: Vec<Vec<u8>>,
     pub(crate) choices: Choices,
     pub(crate) variables: Vec<i32>,
     /// Of each source that may do anything what that is.
@@ -73,6 +78,8 @@ impl<'a> Expander<'a> {
             answers,
             orders,
             order: (0..model.instances.len()).collect(),
+            footprints: if orders == Orders::All { footprints(model) } else { Vec::new() },
+            spare: Vec::new(),
             choices: Choices::default(),
             variables: vec![0; model.most_variables()],
             options: Vec::new(),

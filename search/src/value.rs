@@ -1,5 +1,6 @@
 //! Values of a state: where each stands among its bytes, and numbers for what is no whole number.
 
+use crate::hazard::Site;
 use std::collections::HashMap;
 
 /// Where a value stands in a state. 1, 2 or 4 bytes; those of one and two hold no negative numbers.
@@ -41,10 +42,10 @@ pub struct Values {
     reals: Vec<f64>,
     real_numbers: HashMap<u64, u16>,
     is_full: bool,
-    /// Whether an arm can bring its tool to a point, where that was asked.
-    reached: HashMap<(usize, i32), bool>,
-    /// Of each point that was asked for the sites that it is at, see [`crate::hazard`].
-    pub(crate) sites: Vec<Option<Box<[usize]>>>,
+    /// Of each point for which machines it was asked whether they can bring their tools there, and whether they can.
+    reached: Vec<Vec<(usize, bool)>>,
+    /// Of each point that was asked for the sites that it is at.
+    pub(crate) sites: Vec<Option<Box<[Site]>>>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,7 +63,7 @@ impl Default for Values {
             reals: Vec::new(),
             real_numbers: HashMap::new(),
             is_full: false,
-            reached: HashMap::new(),
+            reached: Vec::new(),
             sites: Vec::new(),
         };
         values.number_of_point([0.0; 3]);
@@ -133,16 +134,24 @@ impl Values {
         }
         self.is_full = count.is_full;
         self.sites.truncate(count.points);
-        self.reached.retain(|(_, number), _| (*number as usize) < count.points);
+        self.reached.truncate(count.points);
     }
 
     /// Asks once for each machine and point.
     pub fn is_reached(&mut self, machine: usize, number: i32, ask: impl FnOnce(Point) -> bool) -> bool {
-        let point = self.point(number);
-        *self.reached.entry((machine, number)).or_insert_with(|| ask(point))
+        if self.reached.len() < self.points.len() {
+            self.reached.resize(self.points.len(), Vec::new());
+        }
+        let known = &mut self.reached[number as usize];
+        if let Some((_, is_reached)) = known.iter().find(|(other, _)| *other == machine) {
+            return *is_reached;
+        }
+        let is_reached = ask(self.points[number as usize]);
+        known.push((machine, is_reached));
+        is_reached
     }
 
-    pub(crate) fn note_sites(&mut self, number: i32, sites: Vec<usize>) {
+    pub(crate) fn note_sites(&mut self, number: i32, sites: Vec<Site>) {
         let number = number as usize;
         if self.sites.len() <= number {
             self.sites.resize(number + 1, None);
@@ -150,7 +159,7 @@ impl Values {
         self.sites[number] = Some(sites.into());
     }
 
-    pub(crate) fn sites_of(&self, number: i32) -> &[usize] {
+    pub(crate) fn sites_of(&self, number: i32) -> &[Site] {
         self.sites.get(number as usize).and_then(Option::as_deref).unwrap_or(&[])
     }
 
