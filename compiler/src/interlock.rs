@@ -10,8 +10,7 @@ use crate::layout::Layout;
 use crate::lower::Project;
 use crate::source::Span;
 use region::Given;
-use runtime_sim::collision::{BoundingBox, Moving};
-use runtime_sim::point::Axis;
+use runtime_sim::collision::{BoundingBox, Moving, Sweep};
 use stay::{Range, Stays};
 use std::cell::OnceCell;
 use std::collections::BTreeMap;
@@ -41,22 +40,17 @@ pub fn warnings(layout: &Layout, project: &Project) -> Vec<Diagnostic> {
     let movers = machines.filter_map(|(instance, machine)| {
         Some(Mover { instance, moving: Moving::new(machine)?, range: OnceCell::new() })
     });
-    let mut movers: Vec<Mover> = movers.collect();
-    let begin = |mover: &Mover| mover.moving.whole().along(Axis::X)[0];
-    movers.sort_by(|a, b| begin(a).total_cmp(&begin(b)));
+    let movers: Vec<Mover> = movers.collect();
+    let sweep = Sweep::new(movers.iter().map(|mover| mover.moving.whole()));
     let objects: BTreeMap<&str, Span> =
         layout.objects.iter().map(|object| (object.name.value.as_str(), object.name.span)).collect();
     let writers = Writers::new(&project.system);
     let given = Given { system: &project.system, line: &project.plant, writers: &writers };
     let mut found = Vec::new();
-    for (number, first) in movers.iter().enumerate() {
-        let end = first.moving.whole().along(Axis::X)[1];
-        for second in movers[number + 1..].iter().take_while(|second| begin(second) <= end) {
-            let mut pair = [first, second];
-            pair.sort_by_key(|mover| mover.instance);
-            if let Some(crossing) = crossing(project, &given, pair) {
-                found.extend(diagnostic(project, &objects, pair, &crossing));
-            }
+    for mut pair in sweep.meeting().map(|pair| pair.map(|number| &movers[number])) {
+        pair.sort_by_key(|mover| mover.instance);
+        if let Some(crossing) = crossing(project, &given, pair) {
+            found.extend(diagnostic(project, &objects, pair, &crossing));
         }
     }
     sort(&mut found);
@@ -65,8 +59,7 @@ pub fn warnings(layout: &Layout, project: &Project) -> Vec<Diagnostic> {
 
 fn crossing(project: &Project, given: &Given, [a, b]: [&Mover; 2]) -> Option<Crossing> {
     let names = [a, b].map(|mover| project.plant.machines[mover.instance].name.as_str());
-    let is_apart = a.moving.whole().is_apart(&b.moving.whole());
-    if is_apart || works_with(project, a, b) || works_with(project, b, a) || project.plant.allows(names) {
+    if works_with(project, a, b) || works_with(project, b, a) || project.plant.allows(names) {
         return None;
     }
     let ranges =

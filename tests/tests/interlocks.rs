@@ -4,7 +4,10 @@ use autogen::diagnostic::Diagnostic;
 use autogen::interlock::warnings;
 use autogen::layout;
 use autogen::source::Sources;
+use autogen_tests::machines::{machine, vehicle};
 use autogen_tests::{Texts, examples, on_all_processors};
+use runtime_sim::collision::Moving;
+use runtime_sim::point::Point;
 
 const TYPES: &str = "
     device hand {
@@ -117,6 +120,18 @@ fn of_a_goal_that_nobody_knows_the_whole_range_is_taken() {
         text(&found[0]).ends_with("the goals of left are not known: all that it reaches is taken"),
         "{found:?}"
     );
+}
+
+#[test]
+fn vehicles_that_pass_beside_one_another_are_apart() {
+    let beside = |y: f64| {
+        let at = |x: f64| Point::new(x, y, 0.0);
+        let vehicle = machine("vehicle", &vehicle(at(0.0), [at(-3.3), at(-8.0)]));
+        Moving::new(&vehicle).expect("it moves").whole()
+    };
+    // Its bumper is 0.67 m wide.
+    assert!(beside(0.0).is_apart(&beside(0.7)));
+    assert!(!beside(0.0).is_apart(&beside(0.6)));
 }
 
 #[test]

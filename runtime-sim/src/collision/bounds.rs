@@ -57,6 +57,10 @@ impl BoundingBox {
         Self { low, high }
     }
 
+    pub fn shifted(&self, offset: Point) -> Self {
+        Self { low: self.low + offset, high: self.high + offset }
+    }
+
     /// By so much on each side, m.
     pub fn wider(&self, by: f64) -> Self {
         let corner = Point::new(by, by, by);

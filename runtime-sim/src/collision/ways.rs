@@ -59,8 +59,10 @@ impl Moving {
         let chain = arm.map(|arm| Chain::new(&arm, machine));
         let whole = pieces.iter().flat_map(|(link, piece)| match (link, &chain) {
             (Link::Joint(joint), Some(chain)) => vec![chain.bounds(*joint, &piece.ball())],
+            // Straight from stop to stop, without a turn.
             _ => {
-                machine.stops().iter().map(|stop| BoundingBox::around(&piece.ball().shifted(*stop))).collect()
+                let here = piece.within(&Pose::IDENTITY).bounds();
+                machine.stops().iter().map(|stop| here.shifted(*stop)).collect()
             }
         });
         let whole = whole.reduce(|a, b| a.with(&b))?;
