@@ -2,6 +2,7 @@
 
 mod lock;
 mod region;
+mod stage;
 mod stay;
 mod writers;
 
@@ -14,7 +15,6 @@ use runtime_sim::collision::{BoundingBox, Moving, Sweep};
 use stay::{Range, Stays};
 use std::cell::OnceCell;
 use std::collections::BTreeMap;
-use writers::Writers;
 
 /// Crossing ways of two machines of which the volume is told.
 const MOST_CROSSINGS: usize = 100;
@@ -44,8 +44,7 @@ pub fn warnings(layout: &Layout, project: &Project) -> Vec<Diagnostic> {
     let sweep = Sweep::new(movers.iter().map(|mover| mover.moving.whole()));
     let objects: BTreeMap<&str, Span> =
         layout.objects.iter().map(|object| (object.name.value.as_str(), object.name.span)).collect();
-    let writers = Writers::new(&project.system);
-    let given = Given { system: &project.system, line: &project.plant, writers: &writers };
+    let given = Given::new(&project.system, &project.plant);
     let mut found = Vec::new();
     for mut pair in sweep.meeting().map(|pair| pair.map(|number| &movers[number])) {
         pair.sort_by_key(|mover| mover.instance);

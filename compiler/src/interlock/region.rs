@@ -9,7 +9,8 @@ use runtime_sim::line::Line;
 use runtime_sim::part::Primitive;
 use runtime_sim::wiring::Source;
 use std::cell::RefCell;
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
+use std::rc::Rc;
 
 /// Both bounds, included.
 pub type Span = [f64; 2];
@@ -47,12 +48,29 @@ impl Bound {
     }
 }
 
+/// What one update writes into a cell.
+pub struct Written {
+    /// The members whose cell it may be.
+    rows: Vec<usize>,
+    /// None: that is not known.
+    regions: Option<Vec<Region>>,
+}
+
+/// What is known of cells, by how deep it was asked for.
+type Known = RefCell<HashMap<(InterfaceId, usize, usize), Rc<Vec<Written>>>>;
+
 /// A line, and who writes what in it.
-#[derive(Clone, Copy)]
 pub struct Given<'a> {
     pub system: &'a System,
     pub line: &'a Line,
-    pub writers: &'a Writers<'a>,
+    writers: Writers<'a>,
+    known: Known,
+}
+
+impl<'a> Given<'a> {
+    pub fn new(system: &'a System, line: &'a Line) -> Self {
+        Self { system, line, writers: Writers::new(system), known: Known::default() }
+    }
 }
 
 /// Evaluates for one instance, in one of its transitions.
@@ -60,6 +78,7 @@ pub struct Regions<'a> {
     pub system: &'a System,
     pub line: &'a Line,
     writers: &'a Writers<'a>,
+    known: &'a Known,
     pub instance: usize,
     pub bound: &'a Bound,
     pub transition: &'a Transition,
@@ -67,9 +86,9 @@ pub struct Regions<'a> {
 }
 
 impl<'a> Regions<'a> {
-    pub fn new(given: &Given<'a>, instance: usize, bound: &'a Bound, transition: &'a Transition) -> Self {
-        let Given { system, line, writers } = *given;
-        Self { system, line, writers, instance, bound, transition, depth: 0 }
+    pub fn new(given: &'a Given<'a>, instance: usize, bound: &'a Bound, transition: &'a Transition) -> Self {
+        let Given { system, line, writers, known } = given;
+        Self { system, line, writers, known, instance, bound, transition, depth: 0 }
     }
 
     fn deeper(&self) -> Option<Self> {
@@ -116,7 +135,7 @@ impl<'a> Regions<'a> {
                     let elements = self.system.shown(*interface, *row, *parameter);
                     points_of(self.elements(elements, index.as_deref()))
                 });
-                Some(shown.collect())
+                Some(few(shown))
             }
             Place::Port { port, .. } => self.seen(*port),
             Place::Local { local, .. } => {
@@ -158,19 +177,35 @@ impl<'a> Regions<'a> {
     /// All that anybody writes into a cell of these members.
     fn written(&self, interface: InterfaceId, cell: usize, rows: &[usize]) -> Option<Vec<Region>> {
         let inner = self.deeper()?;
+        let mut is_asked = vec![false; self.system.members[interface.0].len()];
+        rows.iter().for_each(|row| is_asked[*row] = true);
+        let mut all = Few::default();
+        for written in inner.all_written(interface, cell).iter() {
+            if written.rows.iter().any(|row| is_asked[*row]) {
+                all.extend(written.regions.as_ref()?.iter().copied());
+            }
+        }
+        Some(all.regions)
+    }
+
+    /// All that anybody writes into a cell of any member: whoever asks, it is the same.
+    fn all_written(&self, interface: InterfaceId, cell: usize) -> Rc<Vec<Written>> {
+        let key = (interface, cell, self.depth);
+        if let Some(known) = self.known.borrow().get(&key) {
+            return known.clone();
+        }
         let unbound = Bound::default();
-        let mut all = Vec::new();
-        for (instance, write) in self.writers.of(interface, cell) {
-            let here = Regions { instance, bound: &unbound, transition: write.transition, ..inner };
-            let written = match write.of {
+        let written = self.writers.of(interface, cell).map(|(instance, write)| {
+            let here = Regions { instance, bound: &unbound, transition: write.transition, ..*self };
+            let rows = match write.of {
                 Some(of) => here.rows(of),
                 None => here.own(interface).into_iter().collect(),
             };
-            if written.iter().any(|row| rows.contains(row)) {
-                all.extend(here.points(write.value?)?);
-            }
-        }
-        Some(few(all))
+            Written { rows, regions: write.value.and_then(|value| here.points(value)) }
+        });
+        let written: Rc<Vec<Written>> = Rc::new(written.collect());
+        self.known.borrow_mut().insert(key, written.clone());
+        written
     }
 
     /// What an input shows.
@@ -338,7 +373,7 @@ fn assigns(update: &Update, variable: &Expr) -> Option<usize> {
 /// The members that a local may name once it has been written.
 pub fn rows_of_local(system: &System, instance: usize, local: usize) -> Vec<usize> {
     let automaton = system.automaton_of(instance);
-    let mut rows = BTreeSet::new();
+    let mut rows: Vec<usize> = Vec::new();
     for transition in automaton.states.iter().flat_map(|state| &state.transitions) {
         for update in &transition.updates {
             let UpdateKind::Assign { target, value, .. } = &update.kind else { continue };
@@ -360,7 +395,9 @@ pub fn rows_of_local(system: &System, instance: usize, local: usize) -> Vec<usiz
             }
         }
     }
-    rows.into_iter().collect()
+    rows.sort_unstable();
+    rows.dedup();
+    rows
 }
 
 fn declared(ty: Scalar) -> Option<Span> {
@@ -384,7 +421,7 @@ fn points_of(values: &[Value]) -> Vec<Region> {
         Value::Point(point) => Some(point.map(|value| [value, value])),
         _ => None,
     });
-    few(points.collect())
+    few(points)
 }
 
 fn exactly(point: runtime_sim::point::Point) -> Region {
@@ -393,11 +430,38 @@ fn exactly(point: runtime_sim::point::Point) -> Region {
 
 /// The least one that contains them; none of none.
 pub fn around(regions: &[Region]) -> Option<Region> {
-    let all = regions.iter().copied();
-    all.reduce(|a, b| [0, 1, 2].map(|i| [a[i][0].min(b[i][0]), a[i][1].max(b[i][1])]))
+    regions.iter().copied().reduce(joined)
 }
 
-fn few(mut regions: Vec<Region>) -> Vec<Region> {
-    regions.dedup();
-    if regions.len() <= MOST { regions } else { around(&regions).into_iter().collect() }
+fn joined(a: Region, b: Region) -> Region {
+    [0, 1, 2].map(|i| [a[i][0].min(b[i][0]), a[i][1].max(b[i][1])])
+}
+
+fn few(regions: impl IntoIterator<Item = Region>) -> Vec<Region> {
+    let mut few = Few::default();
+    few.extend(regions);
+    few.regions
+}
+
+/// Regions that come one after the other: they become one when there are too many.
+#[derive(Default)]
+struct Few {
+    regions: Vec<Region>,
+    are_one: bool,
+}
+
+impl Extend<Region> for Few {
+    fn extend<T: IntoIterator<Item = Region>>(&mut self, regions: T) {
+        for region in regions {
+            match self.regions.last_mut() {
+                Some(all) if self.are_one => *all = joined(*all, region),
+                Some(last) if *last == region => {}
+                _ => self.regions.push(region),
+            }
+            if self.regions.len() > MOST {
+                self.regions = around(&self.regions).into_iter().collect();
+                self.are_one = true;
+            }
+        }
+    }
 }
