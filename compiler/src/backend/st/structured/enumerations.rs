@@ -9,7 +9,7 @@ use crate::backend::st::context::Shared;
 use crate::backend::st::declaration::Unit;
 use crate::backend::st::names::{AutomatonNames, Held};
 use crate::ir::{AutomatonId, Scalar};
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{HashMap, HashSet};
 
 /// Whether the tool has enumerations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,7 +20,7 @@ pub enum Enumerated {
 
 /// The enumeration of a variable: by its unit, empty for what all units share, and its name.
 #[derive(Default)]
-pub struct Typed(BTreeMap<String, BTreeMap<String, String>>);
+pub struct Typed(HashMap<String, HashMap<String, String>>);
 
 impl Typed {
     pub fn get(&self, unit: &str, variable: &str) -> Option<&String> {
