@@ -24,7 +24,8 @@ pub fn comment(text: &str) -> String {
 
 /// Text on one line that neither begins nor ends a comment.
 pub fn harmless(text: &str) -> String {
-    plain::line(text).replace("(*", "( *").replace("*)", "* )")
+    let text = plain::line(text);
+    if text.contains('*') { text.replace("(*", "( *").replace("*)", "* )") } else { text }
 }
 
 pub fn real(value: f64) -> String {

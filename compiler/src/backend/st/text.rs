@@ -181,6 +181,8 @@ pub fn made_from(shared: Shared) -> String {
 
 /// The text of a template, with one line break at its end. Writing to memory does not fail.
 pub fn render(template: &impl Template) -> String {
-    let text = template.render().unwrap_or_default();
-    format!("{}\n", text.trim_end())
+    let mut text = template.render().unwrap_or_default();
+    text.truncate(text.trim_end().len());
+    text.push('\n');
+    text
 }
