@@ -56,14 +56,22 @@ pub fn warnings(layout: &Layout, project: &Project) -> Vec<Diagnostic> {
     found
 }
 
-fn crossing(project: &Project, given: &Given, [a, b]: [&Mover; 2]) -> Option<Crossing> {
+fn crossing<'m>(project: &Project, given: &Given, [a, b]: [&'m Mover; 2]) -> Option<Crossing> {
     let names = [a, b].map(|mover| project.plant.machines[mover.instance].name.as_str());
     if works_with(project, a, b) || works_with(project, b, a) || project.plant.allows(names) {
         return None;
     }
-    let ranges =
-        [a, b].map(|mover| mover.range.get_or_init(|| stay::range(given, mover.instance, &mover.moving)));
-    match ranges {
+    let range =
+        |mover: &'m Mover| mover.range.get_or_init(|| stay::range(given, mover.instance, &mover.moving));
+    // Where the one goes that could take up more often shows that the other one need not be looked at.
+    let volume = |mover: &Mover| mover.moving.whole().volume();
+    let (larger, other) = if volume(a) >= volume(b) { (a, b) } else { (b, a) };
+    if let Range::Stays(stays) = range(larger)
+        && stays.bounds.is_apart(&other.moving.whole())
+    {
+        return None;
+    }
+    match [a, b].map(range) {
         [Range::Whole(one, here), Range::Whole(other, there)] => {
             Some(Crossing { common: one.common(other), places: [*here, *there], is_known: [false; 2] })
         }
@@ -82,15 +90,13 @@ fn within(whole: &BoundingBox, stays: &Stays) -> Option<(BoundingBox, Span)> {
 }
 
 fn both([a, b]: [&Moving; 2], stays: &Stays, others: &Stays) -> Option<Crossing> {
-    let all = |stays: &Stays| stays.all.iter().map(|stay| stay.way.bounds).reduce(|a, b| a.with(&b));
-    let (here, there) = (all(stays)?, all(others)?);
-    if here.is_apart(&there) {
+    if stays.bounds.is_apart(&others.bounds) {
         return None;
     }
     let is_free = stays.without_common_lock(others);
     let mut found: Option<Crossing> = None;
     let mut count = 0;
-    for stay in stays.all.iter().filter(|stay| !stay.way.bounds.is_apart(&there)) {
+    for stay in stays.all.iter().filter(|stay| !stay.way.bounds.is_apart(&others.bounds)) {
         for other in others.all.iter().filter(|other| is_free[stay.locks][other.locks]) {
             if let Some(common) = a.common(&stay.way, (b, &other.way)) {
                 let crossing = found.get_or_insert(Crossing {

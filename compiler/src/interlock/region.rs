@@ -56,8 +56,14 @@ pub struct Written {
     regions: Option<Vec<Region>>,
 }
 
-/// What is known of cells, by how deep it was asked for.
-type Known = RefCell<HashMap<(InterfaceId, usize, usize), Rc<Vec<Written>>>>;
+/// What is the same for whoever asks.
+#[derive(Default)]
+struct Known {
+    /// Of each cell, by how deep it was asked for.
+    written: RefCell<HashMap<(InterfaceId, usize, usize), Rc<Vec<Written>>>>,
+    /// What all members show, by the bounds of the index.
+    of_all: RefCell<HashMap<(InterfaceId, usize, Option<[u64; 2]>), Vec<Region>>>,
+}
 
 /// A line, and who writes what in it.
 pub struct Given<'a> {
@@ -127,15 +133,10 @@ impl<'a> Regions<'a> {
         match place {
             Place::Parameter { parameter, index } => {
                 let elements = &self.system.instances[self.instance].parameters[*parameter];
-                Some(points_of(self.elements(elements, index.as_deref())))
+                Some(points_of(elements_of(elements, self.numbers(index.as_deref()))))
             }
             Place::Shown { interface, parameter, of, index } => {
-                let rows = self.rows(of);
-                let shown = rows.iter().flat_map(|row| {
-                    let elements = self.system.shown(*interface, *row, *parameter);
-                    points_of(self.elements(elements, index.as_deref()))
-                });
-                Some(few(shown))
+                Some(self.shown(*interface, &self.rows(of), *parameter, self.numbers(index.as_deref())))
             }
             Place::Port { port, .. } => self.seen(*port),
             Place::Local { local, .. } => {
@@ -174,6 +175,26 @@ impl<'a> Regions<'a> {
         }
     }
 
+    /// What these members show, in some elements of an array.
+    fn shown(
+        &self,
+        interface: InterfaceId,
+        rows: &[usize],
+        parameter: usize,
+        numbers: Option<Span>,
+    ) -> Vec<Region> {
+        let evaluate = || {
+            few(rows.iter().flat_map(|row| {
+                points_of(elements_of(self.system.shown(interface, *row, parameter), numbers))
+            }))
+        };
+        if rows.len() < self.system.members[interface.0].len() {
+            return evaluate();
+        }
+        let key = (interface, parameter, numbers.map(|span| span.map(f64::to_bits)));
+        self.known.of_all.borrow_mut().entry(key).or_insert_with(evaluate).clone()
+    }
+
     /// All that anybody writes into a cell of these members.
     fn written(&self, interface: InterfaceId, cell: usize, rows: &[usize]) -> Option<Vec<Region>> {
         let inner = self.deeper()?;
@@ -191,7 +212,7 @@ impl<'a> Regions<'a> {
     /// All that anybody writes into a cell of any member: whoever asks, it is the same.
     fn all_written(&self, interface: InterfaceId, cell: usize) -> Rc<Vec<Written>> {
         let key = (interface, cell, self.depth);
-        if let Some(known) = self.known.borrow().get(&key) {
+        if let Some(known) = self.known.written.borrow().get(&key) {
             return known.clone();
         }
         let unbound = Bound::default();
@@ -204,7 +225,7 @@ impl<'a> Regions<'a> {
             Written { rows, regions: write.value.and_then(|value| here.points(value)) }
         });
         let written: Rc<Vec<Written>> = Rc::new(written.collect());
-        self.known.borrow_mut().insert(key, written.clone());
+        self.known.written.borrow_mut().insert(key, written.clone());
         written
     }
 
@@ -231,13 +252,10 @@ impl<'a> Regions<'a> {
         }
     }
 
-    /// Those elements of an array that an index may name.
-    fn elements<'v>(&self, values: &'v [Value], index: Option<&Expr>) -> &'v [Value] {
-        let Some(index) = index else { return values };
-        let [low, high] = self.deeper().and_then(|inner| inner.span(index)).unwrap_or([0.0, f64::MAX]);
-        let last = values.len().saturating_sub(1);
-        let (low, high) = ((low.max(0.0) as usize).min(last), (high.max(0.0) as usize).min(last));
-        values.get(low..=high).unwrap_or(values)
+    /// What an index may be; none without one.
+    fn numbers(&self, index: Option<&Expr>) -> Option<Span> {
+        let span = |index: &Expr| self.deeper()?.span(index);
+        index.map(|index| span(index).unwrap_or([0.0, f64::MAX]))
     }
 
     /// Between what a number may be; none where that is not known.
@@ -283,13 +301,13 @@ impl<'a> Regions<'a> {
             }
             ExprKind::Read(Place::Parameter { parameter, index }) => {
                 let elements = &self.system.instances[self.instance].parameters[*parameter];
-                spanned(inner.elements(elements, index.as_deref()).iter().map(number))
+                spanned(elements_of(elements, inner.numbers(index.as_deref())).iter().map(number))
             }
             ExprKind::Read(Place::Shown { interface, parameter, of, index }) => {
-                let rows = inner.rows(of);
-                let elements = rows.iter().flat_map(|row| {
-                    inner.elements(self.system.shown(*interface, *row, *parameter), index.as_deref())
-                });
+                let (rows, numbers) = (inner.rows(of), inner.numbers(index.as_deref()));
+                let elements = rows
+                    .iter()
+                    .flat_map(|row| elements_of(self.system.shown(*interface, *row, *parameter), numbers));
                 spanned(elements.map(number))
             }
             ExprKind::Read(Place::Local { local, .. }) if expr.ty == Scalar::Real => {
@@ -398,6 +416,14 @@ pub fn rows_of_local(system: &System, instance: usize, local: usize) -> Vec<usiz
     rows.sort_unstable();
     rows.dedup();
     rows
+}
+
+/// Those elements of an array that an index may name.
+fn elements_of(values: &[Value], numbers: Option<Span>) -> &[Value] {
+    let Some([low, high]) = numbers else { return values };
+    let last = values.len().saturating_sub(1);
+    let (low, high) = ((low.max(0.0) as usize).min(last), (high.max(0.0) as usize).min(last));
+    values.get(low..=high).unwrap_or(values)
 }
 
 fn declared(ty: Scalar) -> Option<Span> {

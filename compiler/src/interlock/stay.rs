@@ -39,6 +39,7 @@ pub enum Range {
 
 pub struct Stays {
     pub all: Vec<Stay>,
+    pub bounds: BoundingBox,
     /// The sets of instances, each in layout order.
     locks: Vec<Vec<usize>>,
 }
@@ -172,7 +173,8 @@ pub fn range(given: &Given, instance: usize, moving: &Moving) -> Range {
             }
         }
     }
-    Range::Stays(Stays { all: found.stays, locks: found.sets.all })
+    let bounds = found.stays.iter().fold(BoundingBox::NOTHING, |all, stay| all.with(&stay.way.bounds));
+    Range::Stays(Stays { all: found.stays, bounds, locks: found.sets.all })
 }
 
 struct Found<'a> {

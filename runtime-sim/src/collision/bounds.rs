@@ -53,6 +53,12 @@ impl BoundingBox {
         }
     }
 
+    /// m3
+    pub fn volume(&self) -> f64 {
+        let Point { x, y, z } = self.high - self.low;
+        x * y * z
+    }
+
     pub fn between(low: Point, high: Point) -> Self {
         Self { low, high }
     }
