@@ -56,13 +56,17 @@ pub struct Written {
     regions: Option<Vec<Region>>,
 }
 
+/// A cell, and how deep it was asked for.
+type Cell = (InterfaceId, usize, usize);
+
+/// A parameter that all members show, and the bounds of the index.
+type Shown = (InterfaceId, usize, Option<[u64; 2]>);
+
 /// What is the same for whoever asks.
 #[derive(Default)]
 struct Known {
-    /// Of each cell, by how deep it was asked for.
-    written: RefCell<HashMap<(InterfaceId, usize, usize), Rc<Vec<Written>>>>,
-    /// What all members show, by the bounds of the index.
-    of_all: RefCell<HashMap<(InterfaceId, usize, Option<[u64; 2]>), Vec<Region>>>,
+    written: RefCell<HashMap<Cell, Rc<Vec<Written>>>>,
+    shown: RefCell<HashMap<Shown, Vec<Region>>>,
 }
 
 /// A line, and who writes what in it.
@@ -192,7 +196,7 @@ impl<'a> Regions<'a> {
             return evaluate();
         }
         let key = (interface, parameter, numbers.map(|span| span.map(f64::to_bits)));
-        self.known.of_all.borrow_mut().entry(key).or_insert_with(evaluate).clone()
+        self.known.shown.borrow_mut().entry(key).or_insert_with(evaluate).clone()
     }
 
     /// All that anybody writes into a cell of these members.
