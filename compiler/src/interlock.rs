@@ -1,5 +1,6 @@
 //! Machines whose ways cross while no lock of their types keeps them apart.
 
+mod few;
 mod lock;
 mod region;
 mod stage;

@@ -1,5 +1,6 @@
 //! Where points of a line may be, as far as its texts and its layout tell.
 
+use super::few::{Few, around, few};
 use super::writers::Writers;
 use crate::ir::{
     Asking, Domain, Expr, ExprKind, InterfaceId, Operator, Place, Scalar, System, Target, Transition, Update,
@@ -18,8 +19,6 @@ pub type Span = [f64; 2];
 /// A box, by its bounds along x, y and z.
 pub type Region = [Span; 3];
 
-/// More regions become one.
-const MOST: usize = 4;
 /// Values of values: deeper ones are not followed.
 const DEEPEST: usize = 12;
 
@@ -456,42 +455,4 @@ fn points_of(values: &[Value]) -> Vec<Region> {
 
 fn exactly(point: runtime_sim::point::Point) -> Region {
     [[point.x, point.x], [point.y, point.y], [point.z, point.z]]
-}
-
-/// The least one that contains them; none of none.
-pub fn around(regions: &[Region]) -> Option<Region> {
-    regions.iter().copied().reduce(joined)
-}
-
-fn joined(a: Region, b: Region) -> Region {
-    [0, 1, 2].map(|i| [a[i][0].min(b[i][0]), a[i][1].max(b[i][1])])
-}
-
-fn few(regions: impl IntoIterator<Item = Region>) -> Vec<Region> {
-    let mut few = Few::default();
-    few.extend(regions);
-    few.regions
-}
-
-/// Regions that come one after the other: they become one when there are too many.
-#[derive(Default)]
-struct Few {
-    regions: Vec<Region>,
-    are_one: bool,
-}
-
-impl Extend<Region> for Few {
-    fn extend<T: IntoIterator<Item = Region>>(&mut self, regions: T) {
-        for region in regions {
-            match self.regions.last_mut() {
-                Some(all) if self.are_one => *all = joined(*all, region),
-                Some(last) if *last == region => {}
-                _ => self.regions.push(region),
-            }
-            if self.regions.len() > MOST {
-                self.regions = around(&self.regions).into_iter().collect();
-                self.are_one = true;
-            }
-        }
-    }
 }

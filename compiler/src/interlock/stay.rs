@@ -1,7 +1,8 @@
 //! Where a machine is and goes, with the locks that it has there.
 
+use super::few::around;
 use super::lock::{self, Lock};
-use super::region::{Bound, Given, Region, Regions, around, rows_of_local};
+use super::region::{Bound, Given, Region, Regions, rows_of_local};
 use super::stage::{Corner, Corners, Places, Stage};
 use crate::ir::{Asking, Automaton, Expr, ExprKind, Place, Scalar, StateId, System, Transition, UpdateKind};
 use crate::source::Span;

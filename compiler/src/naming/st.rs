@@ -159,4 +159,19 @@ mod tests {
             ["blend_Program", "bend_function_end_action", "initial_steps"].map(|n| scope.take(n)).into();
         assert_eq!(given, ["blend_v_Program", "bend_v_function_end_v_action", "initial_v_steps"]);
     }
+
+    #[test]
+    fn names_outside_are_taken_inside_and_no_others() {
+        let mut outer = Scope::new(&["x"]);
+        outer.take("y");
+        let mut middle = outer.inner();
+        middle.take("m");
+        let mut inner = middle.inner();
+        let given: Vec<_> = ["X", "y", "m", "z"].map(|name| inner.take(name)).into();
+        assert_eq!(given, ["X_2", "y_2", "m_2", "z"]);
+        assert_eq!(outer.take("z"), "z");
+        // What is named outside later is no name of the scope that it was inside of.
+        outer.take("late");
+        assert_eq!(inner.take("late"), "late");
+    }
 }
