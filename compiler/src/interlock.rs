@@ -1,7 +1,9 @@
 //! Machines whose ways cross while no lock of their types keeps them apart.
 
+mod few;
 mod lock;
 mod region;
+mod stage;
 mod stay;
 mod writers;
 
@@ -10,12 +12,10 @@ use crate::layout::Layout;
 use crate::lower::Project;
 use crate::source::Span;
 use region::Given;
-use runtime_sim::collision::{BoundingBox, Moving};
-use runtime_sim::point::Axis;
+use runtime_sim::collision::{BoundingBox, Moving, Sweep};
 use stay::{Range, Stays};
 use std::cell::OnceCell;
 use std::collections::BTreeMap;
-use writers::Writers;
 
 /// Crossing ways of two machines of which the volume is told.
 const MOST_CROSSINGS: usize = 100;
@@ -41,37 +41,38 @@ pub fn warnings(layout: &Layout, project: &Project) -> Vec<Diagnostic> {
     let movers = machines.filter_map(|(instance, machine)| {
         Some(Mover { instance, moving: Moving::new(machine)?, range: OnceCell::new() })
     });
-    let mut movers: Vec<Mover> = movers.collect();
-    let begin = |mover: &Mover| mover.moving.whole().along(Axis::X)[0];
-    movers.sort_by(|a, b| begin(a).total_cmp(&begin(b)));
+    let movers: Vec<Mover> = movers.collect();
+    let sweep = Sweep::new(movers.iter().map(|mover| mover.moving.whole()));
     let objects: BTreeMap<&str, Span> =
         layout.objects.iter().map(|object| (object.name.value.as_str(), object.name.span)).collect();
-    let writers = Writers::new(&project.system);
-    let given = Given { system: &project.system, line: &project.plant, writers: &writers };
+    let given = Given::new(&project.system, &project.plant);
     let mut found = Vec::new();
-    for (number, first) in movers.iter().enumerate() {
-        let end = first.moving.whole().along(Axis::X)[1];
-        for second in movers[number + 1..].iter().take_while(|second| begin(second) <= end) {
-            let mut pair = [first, second];
-            pair.sort_by_key(|mover| mover.instance);
-            if let Some(crossing) = crossing(project, &given, pair) {
-                found.extend(diagnostic(project, &objects, pair, &crossing));
-            }
+    for mut pair in sweep.meeting().map(|pair| pair.map(|number| &movers[number])) {
+        pair.sort_by_key(|mover| mover.instance);
+        if let Some(crossing) = crossing(project, &given, pair) {
+            found.extend(diagnostic(project, &objects, pair, &crossing));
         }
     }
     sort(&mut found);
     found
 }
 
-fn crossing(project: &Project, given: &Given, [a, b]: [&Mover; 2]) -> Option<Crossing> {
+fn crossing<'m>(project: &Project, given: &Given, [a, b]: [&'m Mover; 2]) -> Option<Crossing> {
     let names = [a, b].map(|mover| project.plant.machines[mover.instance].name.as_str());
-    let is_apart = a.moving.whole().is_apart(&b.moving.whole());
-    if is_apart || works_with(project, a, b) || works_with(project, b, a) || project.plant.allows(names) {
+    if works_with(project, a, b) || works_with(project, b, a) || project.plant.allows(names) {
         return None;
     }
-    let ranges =
-        [a, b].map(|mover| mover.range.get_or_init(|| stay::range(given, mover.instance, &mover.moving)));
-    match ranges {
+    let range =
+        |mover: &'m Mover| mover.range.get_or_init(|| stay::range(given, mover.instance, &mover.moving));
+    // Where the one goes that could take up more often shows that the other one need not be looked at.
+    let volume = |mover: &Mover| mover.moving.whole().volume();
+    let (larger, other) = if volume(a) >= volume(b) { (a, b) } else { (b, a) };
+    if let Range::Stays(stays) = range(larger)
+        && stays.bounds.is_apart(&other.moving.whole())
+    {
+        return None;
+    }
+    match [a, b].map(range) {
         [Range::Whole(one, here), Range::Whole(other, there)] => {
             Some(Crossing { common: one.common(other), places: [*here, *there], is_known: [false; 2] })
         }
@@ -90,15 +91,13 @@ fn within(whole: &BoundingBox, stays: &Stays) -> Option<(BoundingBox, Span)> {
 }
 
 fn both([a, b]: [&Moving; 2], stays: &Stays, others: &Stays) -> Option<Crossing> {
-    let all = |stays: &Stays| stays.all.iter().map(|stay| stay.way.bounds).reduce(|a, b| a.with(&b));
-    let (here, there) = (all(stays)?, all(others)?);
-    if here.is_apart(&there) {
+    if stays.bounds.is_apart(&others.bounds) {
         return None;
     }
     let is_free = stays.without_common_lock(others);
     let mut found: Option<Crossing> = None;
     let mut count = 0;
-    for stay in stays.all.iter().filter(|stay| !stay.way.bounds.is_apart(&there)) {
+    for stay in stays.all.iter().filter(|stay| !stay.way.bounds.is_apart(&others.bounds)) {
         for other in others.all.iter().filter(|other| is_free[stay.locks][other.locks]) {
             if let Some(common) = a.common(&stay.way, (b, &other.way)) {
                 let crossing = found.get_or_insert(Crossing {

@@ -32,6 +32,10 @@ fn replaced(text: &str, keeps: fn(char) -> bool) -> Cow<'_, str> {
 
 /// As it may be in a comment, a title or a name: on one line. White space of any kind is a blank.
 pub fn line(text: &str) -> String {
+    // Most are so.
+    if text.bytes().all(|byte| (b' '..=b'~').contains(&byte)) {
+        return text.to_string();
+    }
     text.chars()
         .map(|c| match c {
             c if c.is_whitespace() => ' ',
@@ -53,6 +57,9 @@ pub(crate) fn excerpt(text: &str) -> Cow<'_, str> {
 
 /// As it may be in XML, in attributes too, if its characters may.
 pub fn xml(text: &str) -> String {
+    if !text.contains(['&', '<', '>', '"']) {
+        return text.to_string();
+    }
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 

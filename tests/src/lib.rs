@@ -74,6 +74,10 @@ impl Texts {
     }
 
     pub fn compile(&self) -> Outcome {
+        compile(self.input())
+    }
+
+    pub fn input(&self) -> Input {
         let mut sources = Sources::default();
         let layout = sources.add("layout.json", self.layout.as_str());
         let mut specs: Vec<_> = library::FILES.iter().map(|(name, text)| sources.add(*name, *text)).collect();
@@ -84,7 +88,7 @@ impl Texts {
         let files: Vec<_> = self.settings.iter().map(|s| sources.add("--set", s.as_str())).collect();
         let settings = files.into_iter().map(|f| Setting::parse(&sources, f).expect("a setting")).collect();
         let layout = layout::parse(&sources, layout);
-        compile(Input { sources, layout, specs, scenario, settings, order: self.order })
+        Input { sources, layout, specs, scenario, settings, order: self.order }
     }
 
     /// The project, or a panic with the diagnostics.

@@ -4,7 +4,12 @@ use autogen::diagnostic::Diagnostic;
 use autogen::interlock::warnings;
 use autogen::layout;
 use autogen::source::Sources;
+use autogen_tests::machines::{gantry, machine, rail_arm, vehicle};
 use autogen_tests::{Texts, examples, on_all_processors};
+use runtime_sim::collision::Moving;
+use runtime_sim::kinematics::facing::Facing;
+use runtime_sim::point::{Axis, Point};
+use runtime_sim::random::Random;
 
 const TYPES: &str = "
     device hand {
@@ -117,6 +122,38 @@ fn of_a_goal_that_nobody_knows_the_whole_range_is_taken() {
         text(&found[0]).ends_with("the goals of left are not known: all that it reaches is taken"),
         "{found:?}"
     );
+}
+
+#[test]
+fn vehicles_that_pass_beside_one_another_are_apart() {
+    let beside = |y: f64| {
+        let at = |x: f64| Point::new(x, y, 0.0);
+        let vehicle = machine("vehicle", &vehicle(at(0.0), [at(-3.3), at(-8.0)]));
+        Moving::new(&vehicle).expect("it moves").whole()
+    };
+    // Its bumper is 0.67 m wide.
+    assert!(beside(0.0).is_apart(&beside(0.7)));
+    assert!(!beside(0.0).is_apart(&beside(0.6)));
+}
+
+#[test]
+fn a_path_leads_to_each_place_that_is_reached_and_to_no_other_one() {
+    let arms = [
+        rail_arm(Point::new(-1.3, 0.7, 1.127), Axis::Y, [0.4, 4.8]),
+        gantry(Point::new(0.0, 0.0, 2.0), [-3.0, 3.0], [-2.0, 4.0]),
+    ];
+    let mut random = Random::new(5);
+    let mut reached = 0;
+    for arm in arms.map(|arm| Moving::new(&machine("arm", &arm)).expect("it moves")) {
+        for _ in 0..2000 {
+            let mut drawn = |low: f64, high: f64| low + random.fraction() * (high - low);
+            let goal = Point::new(drawn(-5.0, 5.0), drawn(-4.0, 6.0), drawn(0.0, 2.0));
+            let leads = arm.way(&[(goal, Facing::Down)]).is_some();
+            assert_eq!(arm.reaches(goal, Facing::Down), leads, "{goal:?}");
+            reached += usize::from(leads);
+        }
+    }
+    assert!((500..3500).contains(&reached), "{reached}");
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! Where points of a line may be, as far as its texts and its layout tell.
 
+use super::few::{Few, around, few};
 use super::writers::Writers;
 use crate::ir::{
     Asking, Domain, Expr, ExprKind, InterfaceId, Operator, Place, Scalar, System, Target, Transition, Update,
@@ -9,7 +10,8 @@ use runtime_sim::line::Line;
 use runtime_sim::part::Primitive;
 use runtime_sim::wiring::Source;
 use std::cell::RefCell;
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
+use std::rc::Rc;
 
 /// Both bounds, included.
 pub type Span = [f64; 2];
@@ -17,8 +19,6 @@ pub type Span = [f64; 2];
 /// A box, by its bounds along x, y and z.
 pub type Region = [Span; 3];
 
-/// More regions become one.
-const MOST: usize = 4;
 /// Values of values: deeper ones are not followed.
 const DEEPEST: usize = 12;
 
@@ -47,12 +47,39 @@ impl Bound {
     }
 }
 
+/// What one update writes into a cell.
+pub struct Written {
+    /// The members whose cell it may be.
+    rows: Vec<usize>,
+    /// None: that is not known.
+    regions: Option<Vec<Region>>,
+}
+
+/// A cell, and how deep it was asked for.
+type Cell = (InterfaceId, usize, usize);
+
+/// A parameter that all members show, and the bounds of the index.
+type Shown = (InterfaceId, usize, Option<[u64; 2]>);
+
+/// What is the same for whoever asks.
+#[derive(Default)]
+struct Known {
+    written: RefCell<HashMap<Cell, Rc<Vec<Written>>>>,
+    shown: RefCell<HashMap<Shown, Vec<Region>>>,
+}
+
 /// A line, and who writes what in it.
-#[derive(Clone, Copy)]
 pub struct Given<'a> {
     pub system: &'a System,
     pub line: &'a Line,
-    pub writers: &'a Writers<'a>,
+    writers: Writers<'a>,
+    known: Known,
+}
+
+impl<'a> Given<'a> {
+    pub fn new(system: &'a System, line: &'a Line) -> Self {
+        Self { system, line, writers: Writers::new(system), known: Known::default() }
+    }
 }
 
 /// Evaluates for one instance, in one of its transitions.
@@ -60,6 +87,7 @@ pub struct Regions<'a> {
     pub system: &'a System,
     pub line: &'a Line,
     writers: &'a Writers<'a>,
+    known: &'a Known,
     pub instance: usize,
     pub bound: &'a Bound,
     pub transition: &'a Transition,
@@ -67,9 +95,9 @@ pub struct Regions<'a> {
 }
 
 impl<'a> Regions<'a> {
-    pub fn new(given: &Given<'a>, instance: usize, bound: &'a Bound, transition: &'a Transition) -> Self {
-        let Given { system, line, writers } = *given;
-        Self { system, line, writers, instance, bound, transition, depth: 0 }
+    pub fn new(given: &'a Given<'a>, instance: usize, bound: &'a Bound, transition: &'a Transition) -> Self {
+        let Given { system, line, writers, known } = given;
+        Self { system, line, writers, known, instance, bound, transition, depth: 0 }
     }
 
     fn deeper(&self) -> Option<Self> {
@@ -108,15 +136,10 @@ impl<'a> Regions<'a> {
         match place {
             Place::Parameter { parameter, index } => {
                 let elements = &self.system.instances[self.instance].parameters[*parameter];
-                Some(points_of(self.elements(elements, index.as_deref())))
+                Some(points_of(elements_of(elements, self.numbers(index.as_deref()))))
             }
             Place::Shown { interface, parameter, of, index } => {
-                let rows = self.rows(of);
-                let shown = rows.iter().flat_map(|row| {
-                    let elements = self.system.shown(*interface, *row, *parameter);
-                    points_of(self.elements(elements, index.as_deref()))
-                });
-                Some(shown.collect())
+                Some(self.shown(*interface, &self.rows(of), *parameter, self.numbers(index.as_deref())))
             }
             Place::Port { port, .. } => self.seen(*port),
             Place::Local { local, .. } => {
@@ -155,22 +178,58 @@ impl<'a> Regions<'a> {
         }
     }
 
+    /// What these members show, in some elements of an array.
+    fn shown(
+        &self,
+        interface: InterfaceId,
+        rows: &[usize],
+        parameter: usize,
+        numbers: Option<Span>,
+    ) -> Vec<Region> {
+        let evaluate = || {
+            few(rows.iter().flat_map(|row| {
+                points_of(elements_of(self.system.shown(interface, *row, parameter), numbers))
+            }))
+        };
+        if rows.len() < self.system.members[interface.0].len() {
+            return evaluate();
+        }
+        let key = (interface, parameter, numbers.map(|span| span.map(f64::to_bits)));
+        self.known.shown.borrow_mut().entry(key).or_insert_with(evaluate).clone()
+    }
+
     /// All that anybody writes into a cell of these members.
     fn written(&self, interface: InterfaceId, cell: usize, rows: &[usize]) -> Option<Vec<Region>> {
         let inner = self.deeper()?;
+        let mut is_asked = vec![false; self.system.members[interface.0].len()];
+        rows.iter().for_each(|row| is_asked[*row] = true);
+        let mut all = Few::default();
+        for written in inner.all_written(interface, cell).iter() {
+            if written.rows.iter().any(|row| is_asked[*row]) {
+                all.extend(written.regions.as_ref()?.iter().copied());
+            }
+        }
+        Some(all.regions)
+    }
+
+    /// All that anybody writes into a cell of any member: whoever asks, it is the same.
+    fn all_written(&self, interface: InterfaceId, cell: usize) -> Rc<Vec<Written>> {
+        let key = (interface, cell, self.depth);
+        if let Some(known) = self.known.written.borrow().get(&key) {
+            return known.clone();
+        }
         let unbound = Bound::default();
-        let mut all = Vec::new();
-        for (instance, write) in self.writers.of(interface, cell) {
-            let here = Regions { instance, bound: &unbound, transition: write.transition, ..inner };
-            let written = match write.of {
+        let written = self.writers.of(interface, cell).map(|(instance, write)| {
+            let here = Regions { instance, bound: &unbound, transition: write.transition, ..*self };
+            let rows = match write.of {
                 Some(of) => here.rows(of),
                 None => here.own(interface).into_iter().collect(),
             };
-            if written.iter().any(|row| rows.contains(row)) {
-                all.extend(here.points(write.value?)?);
-            }
-        }
-        Some(few(all))
+            Written { rows, regions: write.value.and_then(|value| here.points(value)) }
+        });
+        let written: Rc<Vec<Written>> = Rc::new(written.collect());
+        self.known.written.borrow_mut().insert(key, written.clone());
+        written
     }
 
     /// What an input shows.
@@ -196,13 +255,10 @@ impl<'a> Regions<'a> {
         }
     }
 
-    /// Those elements of an array that an index may name.
-    fn elements<'v>(&self, values: &'v [Value], index: Option<&Expr>) -> &'v [Value] {
-        let Some(index) = index else { return values };
-        let [low, high] = self.deeper().and_then(|inner| inner.span(index)).unwrap_or([0.0, f64::MAX]);
-        let last = values.len().saturating_sub(1);
-        let (low, high) = ((low.max(0.0) as usize).min(last), (high.max(0.0) as usize).min(last));
-        values.get(low..=high).unwrap_or(values)
+    /// What an index may be; none without one.
+    fn numbers(&self, index: Option<&Expr>) -> Option<Span> {
+        let span = |index: &Expr| self.deeper()?.span(index);
+        index.map(|index| span(index).unwrap_or([0.0, f64::MAX]))
     }
 
     /// Between what a number may be; none where that is not known.
@@ -248,13 +304,13 @@ impl<'a> Regions<'a> {
             }
             ExprKind::Read(Place::Parameter { parameter, index }) => {
                 let elements = &self.system.instances[self.instance].parameters[*parameter];
-                spanned(inner.elements(elements, index.as_deref()).iter().map(number))
+                spanned(elements_of(elements, inner.numbers(index.as_deref())).iter().map(number))
             }
             ExprKind::Read(Place::Shown { interface, parameter, of, index }) => {
-                let rows = inner.rows(of);
-                let elements = rows.iter().flat_map(|row| {
-                    inner.elements(self.system.shown(*interface, *row, *parameter), index.as_deref())
-                });
+                let (rows, numbers) = (inner.rows(of), inner.numbers(index.as_deref()));
+                let elements = rows
+                    .iter()
+                    .flat_map(|row| elements_of(self.system.shown(*interface, *row, *parameter), numbers));
                 spanned(elements.map(number))
             }
             ExprKind::Read(Place::Local { local, .. }) if expr.ty == Scalar::Real => {
@@ -338,7 +394,7 @@ fn assigns(update: &Update, variable: &Expr) -> Option<usize> {
 /// The members that a local may name once it has been written.
 pub fn rows_of_local(system: &System, instance: usize, local: usize) -> Vec<usize> {
     let automaton = system.automaton_of(instance);
-    let mut rows = BTreeSet::new();
+    let mut rows: Vec<usize> = Vec::new();
     for transition in automaton.states.iter().flat_map(|state| &state.transitions) {
         for update in &transition.updates {
             let UpdateKind::Assign { target, value, .. } = &update.kind else { continue };
@@ -360,7 +416,17 @@ pub fn rows_of_local(system: &System, instance: usize, local: usize) -> Vec<usiz
             }
         }
     }
-    rows.into_iter().collect()
+    rows.sort_unstable();
+    rows.dedup();
+    rows
+}
+
+/// Those elements of an array that an index may name.
+fn elements_of(values: &[Value], numbers: Option<Span>) -> &[Value] {
+    let Some([low, high]) = numbers else { return values };
+    let last = values.len().saturating_sub(1);
+    let (low, high) = ((low.max(0.0) as usize).min(last), (high.max(0.0) as usize).min(last));
+    values.get(low..=high).unwrap_or(values)
 }
 
 fn declared(ty: Scalar) -> Option<Span> {
@@ -384,20 +450,9 @@ fn points_of(values: &[Value]) -> Vec<Region> {
         Value::Point(point) => Some(point.map(|value| [value, value])),
         _ => None,
     });
-    few(points.collect())
+    few(points)
 }
 
 fn exactly(point: runtime_sim::point::Point) -> Region {
     [[point.x, point.x], [point.y, point.y], [point.z, point.z]]
-}
-
-/// The least one that contains them; none of none.
-pub fn around(regions: &[Region]) -> Option<Region> {
-    let all = regions.iter().copied();
-    all.reduce(|a, b| [0, 1, 2].map(|i| [a[i][0].min(b[i][0]), a[i][1].max(b[i][1])]))
-}
-
-fn few(mut regions: Vec<Region>) -> Vec<Region> {
-    regions.dedup();
-    if regions.len() <= MOST { regions } else { around(&regions).into_iter().collect() }
 }

@@ -1,7 +1,9 @@
 //! Where a machine is and goes, with the locks that it has there.
 
+use super::few::around;
 use super::lock::{self, Lock};
-use super::region::{Bound, Given, Region, Regions, around, rows_of_local};
+use super::region::{Bound, Given, Region, Regions, rows_of_local};
+use super::stage::{Corner, Corners, Places, Stage};
 use crate::ir::{Asking, Automaton, Expr, ExprKind, Place, Scalar, StateId, System, Transition, UpdateKind};
 use crate::source::Span;
 use runtime_sim::collision::{BoundingBox, Moving, Way};
@@ -23,7 +25,7 @@ const MOST_WAYS: usize = 4000;
 
 /// A way, or a place where the machine stands.
 pub struct Stay {
-    pub way: Way,
+    pub way: Rc<Way>,
     /// The set of instances of which it has a lock all the while, by its number.
     pub locks: usize,
     /// The transition with the command.
@@ -38,6 +40,7 @@ pub enum Range {
 
 pub struct Stays {
     pub all: Vec<Stay>,
+    pub bounds: BoundingBox,
     /// The sets of instances, each in layout order.
     locks: Vec<Vec<usize>>,
 }
@@ -63,8 +66,8 @@ fn is_disjoint(a: &[usize], b: &[usize]) -> bool {
     true
 }
 
-/// Where a machine goes past, one after the other, and the direction of its tool.
-type Stages = Vec<(Vec<Region>, Facing)>;
+/// Where a machine goes past, one after the other.
+type Stages = Vec<Stage>;
 
 /// Of one motion, for all bounds that answer alike.
 struct Evaluated {
@@ -105,7 +108,8 @@ pub fn range(given: &Given, instance: usize, moving: &Moving) -> Range {
         [true, false].map(|goes| held_behind(system, automaton, &motions, first.clone(), goes))
     });
     let locks: Vec<[BTreeSet<Lock>; 2]> = locks.collect();
-    let at_rest = Rc::new(vec![(rest(line, instance).into_iter().collect(), Facing::Down)]);
+    let mut places = Places::new(moving);
+    let at_rest = Rc::new(vec![places.stage(rest(line, instance).as_slice(), Facing::Down)]);
     let mut known: Vec<Vec<Evaluated>> = motions.iter().map(|_| Vec::new()).collect();
     let mut goals = |number: usize, bound: &Bound| -> Option<Rc<Stages>> {
         let motion = &motions[number];
@@ -115,14 +119,22 @@ pub fn range(given: &Given, instance: usize, moving: &Moving) -> Range {
         }
         let bound = Bound::new(bound.rows.clone());
         let regions = Regions::new(given, instance, &bound, motion.transition);
-        let stages = motion.goals.iter().map(|(goal, facing)| Some((regions.points(goal)?, *facing)));
+        let stages =
+            motion.goals.iter().map(|(goal, facing)| Some(places.stage(&regions.points(goal)?, *facing)));
         let stages = stages.collect::<Option<Stages>>().map(Rc::new);
         known[number].push(Evaluated { asked: bound.asked(), stages: stages.clone() });
         stages
     };
-    let mut found =
-        Found { system, instance, moving, stays: Vec::new(), known: HashSet::new(), sets: Sets::default() };
-    found.add(&at_rest, &BTreeSet::new(), automaton.place);
+    let mut found = Found {
+        system,
+        instance,
+        moving,
+        stays: Vec::new(),
+        paths: HashMap::new(),
+        key: Vec::new(),
+        sets: Sets::default(),
+    };
+    found.add(&[&at_rest[0]], &BTreeSet::new(), automaton.place);
     // For most bounds goals and locks are those of another one.
     let mut stood: HashSet<(*const Stages, BTreeSet<Holder>)> = HashSet::new();
     let mut gone: HashSet<(Option<*const Stages>, *const Stages, BTreeSet<Holder>)> = HashSet::new();
@@ -143,7 +155,7 @@ pub fn range(given: &Given, instance: usize, moving: &Moving) -> Range {
             let here = lent(motion, &bound);
             let (on_the_way, at_the_goal) = (&holders(going) | &here, &holders(there) | &here);
             if stood.insert((Rc::as_ptr(&stages), at_the_goal.clone())) {
-                found.add(&stages[stages.len() - 1..], &at_the_goal, place);
+                found.add(&[&stages[stages.len() - 1]], &at_the_goal, place);
             }
             let chosen = lock::chosen(motion.transition);
             let mut before = bound.clone();
@@ -156,13 +168,14 @@ pub fn range(given: &Given, instance: usize, moving: &Moving) -> Range {
                 let held = &on_the_way | &there;
                 if gone.insert((begin.as_ref().map(Rc::as_ptr), Rc::as_ptr(&stages), held.clone())) {
                     let begin = begin.as_ref().and_then(|stages| stages.last());
-                    let passed: Stages = begin.into_iter().chain(stages.iter()).cloned().collect();
+                    let passed: Vec<&Stage> = begin.into_iter().chain(stages.iter()).collect();
                     found.add(&passed, &held, place);
                 }
             }
         }
     }
-    Range::Stays(Stays { all: found.stays, locks: found.sets.all })
+    let bounds = found.stays.iter().fold(BoundingBox::NOTHING, |all, stay| all.with(&stay.way.bounds));
+    Range::Stays(Stays { all: found.stays, bounds, locks: found.sets.all })
 }
 
 struct Found<'a> {
@@ -170,8 +183,19 @@ struct Found<'a> {
     instance: usize,
     moving: &'a Moving,
     stays: Vec<Stay>,
-    known: HashSet<(Vec<[i64; 3]>, usize)>,
+    /// By the numbers of the corners.
+    paths: HashMap<Vec<usize>, Path>,
+    /// The numbers of the present one.
+    key: Vec<usize>,
     sets: Sets,
+}
+
+/// Of one machine, past some corners.
+struct Path {
+    /// None: not all of them are reached.
+    way: Option<Rc<Way>>,
+    /// With which it goes there, by their numbers.
+    locks: BTreeSet<usize>,
 }
 
 /// Sets of instances, each once.
@@ -217,49 +241,64 @@ impl Holder {
 impl Found<'_> {
     /// The ways from region to region: for each choice of one of each stage, between corners that lie alike, and between
     /// those that lie opposite.
-    fn add(&mut self, stages: &[(Vec<Region>, Facing)], holders: &BTreeSet<Holder>, place: Span) {
+    fn add(&mut self, stages: &[&Stage], holders: &BTreeSet<Holder>, place: Span) {
         if self.stays.len() >= MOST_WAYS {
             return;
         }
         let locks = self.sets.number(self.system, self.instance, holders);
-        let mut choices: Vec<Vec<(Region, Facing)>> = vec![Vec::new()];
-        for (regions, facing) in stages {
-            let with = |choice: &Vec<(Region, Facing)>| -> Vec<Vec<(Region, Facing)>> {
-                let also = regions.iter().map(|region| [choice.as_slice(), &[(*region, *facing)]].concat());
-                also.collect()
-            };
-            choices = choices.iter().flat_map(with).collect();
-        }
-        let corners: &[usize] = if choices.len() == 1 { &[0, 1, 2, 3, 4, 5, 6, 7] } else { &[0, 7] };
-        for choice in &choices {
+        let choices: usize = stages.iter().map(|stage| stage.regions.len()).product();
+        let numbers: &[usize] = if choices == 1 { &[0, 1, 2, 3, 4, 5, 6, 7] } else { &[0, 7] };
+        let mut path: Vec<(Corner, Facing)> = Vec::with_capacity(stages.len());
+        for choice in 0..choices {
+            let regions = chosen(stages, choice);
             // Of places that are known exactly all corners are one.
             let mut known = [false; 64];
-            let wide = wide(choice);
-            for &corner in corners {
-                for first in [corner, 7 - corner] {
-                    let number = (corner & wide) * 8 + (first & wide);
-                    if std::mem::replace(&mut known[number], true) {
+            let wide = regions.iter().fold(0, |wide, region| wide | region.wide);
+            for &number in numbers {
+                for first in [number, 7 - number] {
+                    let pair = (number & wide) * 8 + (first & wide);
+                    if std::mem::replace(&mut known[pair], true) {
                         continue;
                     }
-                    let at = choice.iter().enumerate().map(|(number, (region, facing))| {
-                        (self::corner(region, if number == 0 { first } else { corner }), *facing)
-                    });
-                    self.way(&at.collect::<Vec<_>>(), locks, place);
+                    path.clear();
+                    path.extend(regions.iter().zip(stages).enumerate().map(|(i, (region, stage))| {
+                        (region.corners[if i == 0 { first } else { number }], stage.facing)
+                    }));
+                    self.way(&path, locks, place);
                 }
             }
         }
     }
 
-    fn way(&mut self, goals: &[(Point, Facing)], locks: usize, place: Span) {
-        let rounded = |value: f64| (value * 1e3).round() as i64;
-        let key: Vec<[i64; 3]> = goals.iter().map(|(p, _)| [p.x, p.y, p.z].map(rounded)).collect();
-        if self.stays.len() >= MOST_WAYS || !self.known.insert((key, locks)) {
+    fn way(&mut self, path: &[(Corner, Facing)], locks: usize, place: Span) {
+        if self.stays.len() >= MOST_WAYS || !path.iter().all(|(corner, _)| corner.is_reached) {
             return;
         }
-        if let Some(way) = self.moving.way(goals) {
-            self.stays.push(Stay { way, locks, place });
+        self.key.clear();
+        self.key.extend(path.iter().map(|(corner, _)| corner.number));
+        if !self.paths.contains_key(&self.key) {
+            let goals: Vec<(Point, Facing)> = path.iter().map(|(at, facing)| (at.point, *facing)).collect();
+            let way = self.moving.way(&goals).map(Rc::new);
+            self.paths.insert(self.key.clone(), Path { way, locks: BTreeSet::new() });
+        }
+        let path = self.paths.get_mut(&self.key);
+        let Some(Path { way: Some(way), locks: known }) = path else { return };
+        if known.insert(locks) {
+            self.stays.push(Stay { way: way.clone(), locks, place });
         }
     }
+}
+
+/// One region of each stage: all choices have a number, and those of the last stage follow one another.
+fn chosen<'a>(stages: &[&'a Stage], choice: usize) -> Vec<&'a Corners> {
+    let mut left = choice;
+    let mut regions: Vec<&Corners> = Vec::with_capacity(stages.len());
+    for stage in stages.iter().rev() {
+        regions.push(&stage.regions[left % stage.regions.len()]);
+        left /= stage.regions.len();
+    }
+    regions.reverse();
+    regions
 }
 
 fn motions<'a>(given: &Given<'a>, instance: usize) -> Vec<Motion<'a>> {
@@ -458,15 +497,4 @@ fn rest(line: &Line, instance: usize) -> Option<Region> {
     let machine = &line.machines[instance];
     let point = machine.chain().map(|chain| chain.rest).or_else(|| machine.stops().first().copied())?;
     Some([point.x, point.y, point.z].map(|value| [value, value]))
-}
-
-/// A bit for each axis along which one of the regions has an extent, as in the number of a corner.
-fn wide(regions: &[(Region, Facing)]) -> usize {
-    let is_wide = |axis: usize| regions.iter().any(|(region, _)| region[axis][0] != region[axis][1]);
-    (0..3).map(|axis| usize::from(is_wide(axis)) << axis).sum()
-}
-
-fn corner(region: &Region, number: usize) -> Point {
-    let [x, y, z] = [0, 1, 2].map(|axis| region[axis][number >> axis & 1]);
-    Point::new(x, y, z)
 }

@@ -1,7 +1,8 @@
 //! Identifiers of Structured Text. Case does not count; no underscore stands at an end or beside another one.
 
 use super::reserved::{is_reserved, keyword_inside};
-use std::collections::BTreeSet;
+use std::collections::HashSet;
+use std::sync::Arc;
 
 /// Longest identifier; old tools take no longer ones.
 const LONGEST: usize = 32;
@@ -18,19 +19,27 @@ pub struct Renamed {
 /// Names that stand side by side, all different even if case is ignored.
 #[derive(Clone, Debug, Default)]
 pub struct Scope {
+    /// Of the scopes outside, in lower case.
+    outer: Vec<Arc<HashSet<String>>>,
     /// In lower case.
-    taken: BTreeSet<String>,
+    taken: Arc<HashSet<String>>,
     renamed: Vec<Renamed>,
 }
 
 impl Scope {
     pub fn new(taken: &[&str]) -> Self {
-        Self { taken: taken.iter().map(|name| name.to_ascii_lowercase()).collect(), renamed: Vec::new() }
+        let taken = taken.iter().map(|name| name.to_ascii_lowercase()).collect();
+        Self { taken: Arc::new(taken), ..Self::default() }
     }
 
     /// A scope inside this one: no name of this one is given again.
     pub fn inner(&self) -> Self {
-        Self { taken: self.taken.clone(), renamed: Vec::new() }
+        let outer = self.outer.iter().chain([&self.taken]).cloned().collect();
+        Self { outer, ..Self::default() }
+    }
+
+    fn is_taken(&self, name: &str) -> bool {
+        self.taken.contains(name) || self.outer.iter().any(|outer| outer.contains(name))
     }
 
     pub fn take(&mut self, wanted: &str) -> String {
@@ -58,7 +67,7 @@ impl Scope {
         }
         let mut found = stem.clone();
         for number in 2.. {
-            if suffixes.iter().all(|suffix| !self.taken.contains(&lower(&found, suffix))) {
+            if suffixes.iter().all(|suffix| !self.is_taken(&lower(&found, suffix))) {
                 break;
             }
             let tail = format!("_{number}");
@@ -68,7 +77,7 @@ impl Scope {
         suffixes
             .iter()
             .map(|suffix| {
-                self.taken.insert(lower(&found, suffix));
+                Arc::make_mut(&mut self.taken).insert(lower(&found, suffix));
                 let name = format!("{found}{suffix}");
                 if !reason.is_empty() {
                     self.renamed.push(Renamed {
@@ -149,5 +158,20 @@ mod tests {
         let given: Vec<_> =
             ["blend_Program", "bend_function_end_action", "initial_steps"].map(|n| scope.take(n)).into();
         assert_eq!(given, ["blend_v_Program", "bend_v_function_end_v_action", "initial_v_steps"]);
+    }
+
+    #[test]
+    fn names_outside_are_taken_inside_and_no_others() {
+        let mut outer = Scope::new(&["x"]);
+        outer.take("y");
+        let mut middle = outer.inner();
+        middle.take("m");
+        let mut inner = middle.inner();
+        let given: Vec<_> = ["X", "y", "m", "z"].map(|name| inner.take(name)).into();
+        assert_eq!(given, ["X_2", "y_2", "m_2", "z"]);
+        assert_eq!(outer.take("z"), "z");
+        // What is named outside later is no name of the scope that it was inside of.
+        outer.take("late");
+        assert_eq!(inner.take("late"), "late");
     }
 }

@@ -53,8 +53,18 @@ impl BoundingBox {
         }
     }
 
+    /// m3
+    pub fn volume(&self) -> f64 {
+        let Point { x, y, z } = self.high - self.low;
+        x * y * z
+    }
+
     pub fn between(low: Point, high: Point) -> Self {
         Self { low, high }
+    }
+
+    pub fn shifted(&self, offset: Point) -> Self {
+        Self { low: self.low + offset, high: self.high + offset }
     }
 
     /// By so much on each side, m.

@@ -16,6 +16,7 @@ mod group;
 mod movement;
 mod pair;
 mod standing;
+mod sweep;
 mod ways;
 
 pub(crate) use group::Swept;
@@ -29,6 +30,7 @@ pub(crate) mod reach {
 pub use bounds::BoundingBox;
 pub use check::{CollisionCheck, Contact};
 pub use standing::{Overlap, overlaps};
+pub use sweep::Sweep;
 pub use ways::{Moving, Way};
 
 /// Solids may go so far into one another, m.

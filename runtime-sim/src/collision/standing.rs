@@ -2,11 +2,11 @@
 
 use super::body::{Piece, Placed};
 use super::bounds::BoundingBox;
+use super::sweep::Sweep;
 use crate::frame::Frame;
 use crate::kinematics::pose::Pose;
 use crate::line::Line;
 use crate::machine::Machine;
-use crate::point::Axis;
 use crate::solid::{Link, Solid};
 
 /// Two that are in one another by more than the skin of the collision check, by their names, and which solid of each.
@@ -40,24 +40,13 @@ pub fn overlaps(line: &Line, most: usize) -> Vec<Overlap> {
         thing(&machine.name, true, solids)
     });
     let obstacles = line.obstacles.iter().map(|o| thing(&o.name, false, o.solid().into_iter()));
-    let mut things: Vec<Thing> = machines.chain(obstacles).filter(|thing| !thing.pieces.is_empty()).collect();
-    let axis = longer_axis(&things);
-    things.sort_by(|a, b| a.bounds.along(axis)[0].total_cmp(&b.bounds.along(axis)[0]));
-    let mut found = Vec::new();
-    for (i, first) in things.iter().enumerate() {
-        let end = first.bounds.along(axis)[1];
-        let near = things[i + 1..].iter().take_while(|second| second.bounds.along(axis)[0] <= end);
-        for second in near {
-            let matters = first.is_machine || second.is_machine;
-            if found.len() >= most {
-                return found;
-            }
-            if matters && !first.bounds.is_apart(&second.bounds) && !line.allows([first.name, second.name]) {
-                found.extend(overlap(first, second));
-            }
-        }
-    }
-    found
+    let things: Vec<Thing> = machines.chain(obstacles).filter(|thing| !thing.pieces.is_empty()).collect();
+    let sweep = Sweep::new(things.iter().map(|thing| thing.bounds));
+    let pairs = sweep.meeting().map(|pair| pair.map(|number| &things[number]));
+    let matter = pairs.filter(|[first, second]| {
+        (first.is_machine || second.is_machine) && !line.allows([first.name, second.name])
+    });
+    matter.filter_map(|[first, second]| overlap(first, second)).take(most).collect()
 }
 
 /// What is on a cylinder or a positioner when a run begins.
@@ -75,13 +64,6 @@ fn thing(name: &str, is_machine: bool, solids: impl Iterator<Item = Solid>) -> T
     let bounds = pieces.iter().map(|(_, placed)| placed.bounds());
     let bounds = bounds.fold(BoundingBox::NOTHING, |all, next| all.with(&next));
     Thing { name, is_machine, pieces, bounds }
-}
-
-/// Along which they are spread farther.
-fn longer_axis(things: &[Thing]) -> Axis {
-    let all = things.iter().fold(BoundingBox::NOTHING, |all, thing| all.with(&thing.bounds));
-    let length = |axis: Axis| all.along(axis)[1] - all.along(axis)[0];
-    if length(Axis::X) >= length(Axis::Y) { Axis::X } else { Axis::Y }
 }
 
 fn overlap(first: &Thing, second: &Thing) -> Option<Overlap> {

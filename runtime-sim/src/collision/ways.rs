@@ -59,8 +59,10 @@ impl Moving {
         let chain = arm.map(|arm| Chain::new(&arm, machine));
         let whole = pieces.iter().flat_map(|(link, piece)| match (link, &chain) {
             (Link::Joint(joint), Some(chain)) => vec![chain.bounds(*joint, &piece.ball())],
+            // Straight from stop to stop, without a turn.
             _ => {
-                machine.stops().iter().map(|stop| BoundingBox::around(&piece.ball().shifted(*stop))).collect()
+                let here = piece.within(&Pose::IDENTITY).bounds();
+                machine.stops().iter().map(|stop| here.shifted(*stop)).collect()
             }
         });
         let whole = whole.reduce(|a, b| a.with(&b))?;
@@ -72,6 +74,11 @@ impl Moving {
         self.whole
     }
 
+    /// Whether the tool of an arm can be brought to a place; a vehicle is taken anywhere.
+    pub fn reaches(&self, goal: Point, facing: Facing) -> bool {
+        self.arm.is_none_or(|arm| arm.margin_facing(goal, facing) >= 0.0)
+    }
+
     /// From goal to goal, each with the direction of the tool: all joints of an arm together, or a vehicle straight on. An
     /// arm under a torso only at the goals, and straight up or down between them. None if one is out of reach, or if there are none.
     pub fn way(&self, goals: &[(Point, Facing)]) -> Option<Way> {
@@ -80,30 +87,29 @@ impl Moving {
             None => Poses::Points(points(goals)),
         };
         let mut bounds: Option<BoundingBox> = None;
-        self.each(&poses, |taken| {
-            let here = taken.iter().map(Placed::bounds).reduce(|a, b| a.with(&b));
-            bounds = bounds.into_iter().chain(here).reduce(|a, b| a.with(&b));
+        self.each(&poses, |pieces| {
+            bounds = bounds.into_iter().chain(pieces.map(|placed| placed.bounds())).reduce(|a, b| a.with(&b));
         });
         Some(Way { poses, bounds: bounds?, places: OnceCell::new() })
     }
 
     /// Its bodies at each place.
-    fn each(&self, poses: &Poses, mut see: impl FnMut(Vec<Placed>)) {
-        let placed = |frame: &dyn Fn(Link) -> Pose| -> Vec<Placed> {
-            self.pieces.iter().map(|(link, piece)| piece.within(&frame(*link))).collect()
+    fn each(&self, poses: &Poses, mut see: impl FnMut(&mut dyn Iterator<Item = Placed>)) {
+        let mut placed = |frame: &dyn Fn(Link) -> Pose| {
+            see(&mut self.pieces.iter().map(|(link, piece)| piece.within(&frame(*link))));
         };
         match (poses, &self.arm) {
             (Poses::Joints(all), Some(arm)) => {
                 for joints in all {
                     let frames = arm.frames(joints);
-                    see(placed(&|link| match link {
+                    placed(&|link| match link {
                         Link::Joint(joint) => frames[joint],
                         Link::World | Link::Route | Link::Carriage(_) => Pose::IDENTITY,
-                    }));
+                    });
                 }
             }
             (Poses::Points(points), _) => {
-                points.iter().for_each(|point| see(placed(&|_| Frame::new(*point, 0.0).pose())));
+                points.iter().for_each(|point| placed(&|_| Frame::new(*point, 0.0).pose()));
             }
             (Poses::Joints(_), None) => {}
         }
@@ -135,7 +141,8 @@ impl Moving {
     fn places<'w>(&self, way: &'w Way) -> &'w [Taken] {
         way.places.get_or_init(|| {
             let mut places = Vec::new();
-            self.each(&way.poses, |taken| {
+            self.each(&way.poses, |pieces| {
+                let taken: Vec<Placed> = pieces.collect();
                 let bounds =
                     taken.iter().map(Placed::bounds).fold(BoundingBox::NOTHING, |all, next| all.with(&next));
                 places.push((bounds, taken));

@@ -1,13 +1,15 @@
-//! How `build` grows with the number of robots.
+//! How `check` and `build` grow with the number of robots.
 
 use crate::lines;
 use autogen::backend::{dot, plan, rust, st};
+use autogen::interlock;
+use autogen::lower::compile;
 use autogen_tests::Texts;
 use std::collections::BTreeMap;
 use std::hint::black_box;
 use std::time::Instant;
 
-/// Texts become a system, and the system becomes files; figures are milliseconds in all, and microseconds for
+/// Texts become a system, all warnings included, and the system becomes files; figures are milliseconds in all, and microseconds for
 /// each robot, which stay the same if the cost grows as the layout does.
 pub fn measure() {
     println!("long lines: up to 1000 robots each, one of 8 and ten of 1000");
@@ -38,8 +40,11 @@ fn one(robots: usize, layout: String) {
             least[part] = least[part].min(begin.elapsed().as_secs_f64() * 1e3);
             begin = Instant::now();
         };
-        let outcome = Texts::of_layout(layout.as_str()).compile();
+        let input = Texts::of_layout(layout.as_str()).input();
+        let read = input.layout.0.clone().expect("a layout that can be read");
+        let outcome = compile(input);
         let project = outcome.project.expect("a line that is right");
+        black_box(interlock::warnings(&read, &project));
         lap(0);
         let of_rust = rust::files(&project.system, &outcome.sources);
         lap(1);

@@ -1,7 +1,7 @@
 //! From text that parses to text that reads well.
 
 use crate::plain;
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashSet};
 use syn::visit::{Visit, visit_path};
 
 /// Modules of the crate and what can be imported from each.
@@ -20,8 +20,7 @@ pub fn module(text: &str, importable: &Importable) -> String {
     for own in file.items.iter().filter_map(defined) {
         used.0.remove(&own);
     }
-    let names = used.0.iter().map(String::as_str).collect();
-    let (head, _) = with_imports(text, &names, importable);
+    let (head, _) = with_imports(text, |name| used.0.contains(name), importable);
     let mut items = parse(&head).items;
     items.extend(file.items.into_iter().filter(|item| !matches!(item, syn::Item::Use(_))));
     printed(&syn::File { items, ..file })
@@ -29,16 +28,19 @@ pub fn module(text: &str, importable: &Importable) -> String {
 
 /// A module that is laid out but for its imports, which are added. Nothing of it is parsed: it may be long.
 pub fn laid_out(text: &str, importable: &Importable) -> String {
-    let (head, rest) = with_imports(text, &words(text), importable);
+    let importable_names: HashSet<&str> =
+        importable.iter().flat_map(|(_, names)| names).map(String::as_str).collect();
+    let used: HashSet<&str> = words(text).filter(|word| importable_names.contains(word)).collect();
+    let (head, rest) = with_imports(text, |name| used.contains(name), importable);
     format!("{}\n{}\n", print(&head), rest.trim())
 }
 
 /// The comment of a module with all its imports, and the rest of its text.
-fn with_imports(text: &str, used: &BTreeSet<&str>, importable: &Importable) -> (String, String) {
+fn with_imports(text: &str, is_used: impl Fn(&str) -> bool, importable: &Importable) -> (String, String) {
     let (own, rest): (Vec<&str>, Vec<&str>) = text.lines().partition(|line| line.starts_with("use "));
     let mut imports: Vec<String> = own.into_iter().map(String::from).collect();
     for (module, names) in importable {
-        let names: Vec<&str> = names.iter().map(String::as_str).filter(|n| used.contains(n)).collect();
+        let names: Vec<&str> = names.iter().map(String::as_str).filter(|n| is_used(n)).collect();
         match names.as_slice() {
             [] => {}
             [one] => imports.push(format!("use {module}::{one};")),
@@ -52,10 +54,10 @@ fn with_imports(text: &str, used: &BTreeSet<&str>, importable: &Importable) -> (
 }
 
 /// All words of code, without those of comments and texts. A text has no escapes.
-fn words(text: &str) -> BTreeSet<&str> {
+fn words(text: &str) -> impl Iterator<Item = &str> {
     let code = text.lines().filter(|line| !line.trim_start().starts_with("//"));
     let code = code.flat_map(|line| line.split('"').step_by(2));
-    code.flat_map(|part| part.split(|c: char| !c.is_ascii_alphanumeric() && c != '_')).collect()
+    code.flat_map(|part| part.split(|c: char| !c.is_ascii_alphanumeric() && c != '_'))
 }
 
 /// Lays out a file that is complete.

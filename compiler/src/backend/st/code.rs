@@ -1,6 +1,7 @@
 //! Statements and expressions of Structured Text, as values: they are printed, counted and searched.
 
 use std::collections::BTreeSet;
+use std::rc::Rc;
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Ex {
@@ -19,8 +20,8 @@ pub enum Ex {
     Item(Box<Ex>, Vec<Ex>),
     /// The values of an array.
     List(Vec<Ex>),
-    /// The values of a structure.
-    Fields(Vec<(String, Ex)>),
+    /// The values of a structure. Many have the same fields.
+    Fields(Vec<(Rc<str>, Ex)>),
     /// An output of a function block.
     Field(String, String),
     Not(Box<Ex>),

@@ -181,11 +181,27 @@ impl Variable {
     /// The same variable without initial value, as it is declared where it is used.
     pub fn external(&self) -> Self {
         let comments = self.comments.iter().take(1).cloned().collect();
-        Self { address: None, initial: None, comments, is_retained: false, ..self.clone() }
+        Self { address: None, comments, is_retained: false, ..self.without_value() }
     }
 
     pub fn uncommented(&self) -> Self {
-        Self { address: None, initial: None, comments: Vec::new(), is_retained: false, ..self.clone() }
+        Self { address: None, comments: Vec::new(), is_retained: false, ..self.without_value() }
+    }
+
+    /// Without its initial value, which is long in a table.
+    pub fn without_value(&self) -> Self {
+        Self {
+            name: self.name.clone(),
+            basic: self.basic,
+            address: self.address.clone(),
+            elements: self.elements,
+            each: self.each,
+            structure: self.structure.clone(),
+            enumeration: self.enumeration.clone(),
+            initial: None,
+            comments: self.comments.clone(),
+            is_retained: self.is_retained,
+        }
     }
 
     /// The declaration, with its comments.
@@ -255,27 +271,32 @@ fn block(keyword: &str, lines: Vec<String>) -> String {
 }
 
 /// Those that are retained in a section of their own.
-pub fn sections(keyword: &str, variables: &[Variable], line: impl Fn(&Variable) -> String) -> String {
+pub fn sections<'a>(
+    keyword: &str,
+    variables: impl IntoIterator<Item = &'a Variable> + Clone,
+    line: impl Fn(&Variable) -> String,
+) -> String {
     let of = |is_retained: bool| {
-        variables.iter().filter(move |v| v.is_retained == is_retained).map(&line).collect::<Vec<_>>()
+        let some = variables.clone().into_iter().filter(move |v| v.is_retained == is_retained);
+        some.map(&line).collect::<Vec<_>>()
     };
     block(keyword, of(false)) + &block(&format!("{keyword} RETAIN"), of(true))
 }
 
 /// Declarations of globals.
-pub fn globals(variables: &[Variable], dialect: Dialect) -> String {
+pub fn globals(variables: &[&Variable], dialect: Dialect) -> String {
     let line = |v: &Variable| v.line(dialect, &v.ty(dialect));
     let lists = lists_of_globals(variables, dialect);
-    lists.iter().map(|list| sections("VAR_GLOBAL", list, line)).collect()
+    lists.iter().map(|list| sections("VAR_GLOBAL", list.iter().copied(), line)).collect()
 }
 
 /// The globals as they are declared together. matiec retains the first variable of a list only, so in the portable
 /// text each has its own.
-pub fn lists_of_globals(variables: &[Variable], dialect: Dialect) -> Vec<Vec<Variable>> {
+pub fn lists_of_globals<'a>(variables: &[&'a Variable], dialect: Dialect) -> Vec<Vec<&'a Variable>> {
     if dialect != Dialect::Portable {
         return vec![variables.to_vec()];
     }
-    let (retained, others): (Vec<_>, Vec<_>) = variables.iter().cloned().partition(|v| v.is_retained);
+    let (retained, others): (Vec<_>, Vec<_>) = variables.iter().partition(|v| v.is_retained);
     [others].into_iter().chain(retained.into_iter().map(|variable| vec![variable])).collect()
 }
 

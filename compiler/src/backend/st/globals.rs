@@ -17,6 +17,7 @@ use super::version;
 use super::watchdog;
 use crate::ir::{AutomatonId, Extent, InterfaceId, RoleId, Scalar, Type};
 use runtime_sim::device::Direction;
+use std::collections::{BTreeSet, HashMap};
 
 /// A global array and what its elements are at power-up.
 pub struct Table {
@@ -39,11 +40,11 @@ pub struct Globals {
     pub unread: Vec<Table>,
 }
 
-pub struct List {
+pub struct List<'a> {
     pub name: &'static str,
     pub about: &'static str,
     pub attributes: &'static [Attribute],
-    pub variables: Vec<Variable>,
+    pub variables: Vec<&'a Variable>,
     /// They outlast a loss of power.
     pub is_retained: bool,
 }
@@ -74,15 +75,27 @@ impl Globals {
     }
 
     /// The globals as lists that have a name.
-    pub fn lists(&self) -> Vec<List> {
-        let tables = |tables: &[Table]| tables.iter().map(|t| t.variable.clone()).collect::<Vec<_>>();
-        let list = |name, about, attributes, mut variables: Vec<Variable>| {
+    pub fn lists(&self) -> Vec<List<'_>> {
+        fn tables(tables: &[Table]) -> Vec<&Variable> {
+            tables.iter().map(|table| &table.variable).collect()
+        }
+        fn list<'a>(
+            name: &'static str,
+            about: &'static str,
+            attributes: &'static [Attribute],
+            mut variables: Vec<&'a Variable>,
+        ) -> List<'a> {
             variables.retain(|variable| !variable.is_retained);
             List { name, about, attributes, variables, is_retained: false }
-        };
-        let retained = self.all().filter(|variable| variable.is_retained).cloned().collect();
+        }
+        let retained = self.all().filter(|variable| variable.is_retained).collect();
         let lists = [
-            list("GVL_System", "inputs and outputs of the line", OF_WHAT_IS_SHOWN, self.system.clone()),
+            list(
+                "GVL_System",
+                "inputs and outputs of the line",
+                OF_WHAT_IS_SHOWN,
+                self.system.iter().collect(),
+            ),
             List {
                 name: "GVL_Retained",
                 about: "retained values",
@@ -90,8 +103,8 @@ impl Globals {
                 variables: retained,
                 is_retained: true,
             },
-            list("GVL_Ports", "ports of the robots", OF_WHAT_IS_SHOWN, self.ports.concat()),
-            list("GVL_Raw", "raw values of the process image", &[], self.raw.clone()),
+            list("GVL_Ports", "ports of the robots", OF_WHAT_IS_SHOWN, self.ports.iter().flatten().collect()),
+            list("GVL_Raw", "raw values of the process image", &[], self.raw.iter().collect()),
             list("GVL_Cells", "shared cells", OF_WHAT_IS_SHOWN, tables(&self.cells)),
             list("GVL_Alarms", "the table of alarms", OF_WHAT_IS_SHOWN, tables(&self.alarms)),
             list("GVL_Parameters", "parameters", &[], tables(&self.parameters)),
@@ -102,6 +115,28 @@ impl Globals {
     pub fn all(&self) -> impl Iterator<Item = &Variable> {
         let tables = self.cells.iter().chain(&self.parameters).chain(&self.alarms).map(|t| &t.variable);
         self.system.iter().chain(self.ports.iter().flatten()).chain(&self.raw).chain(tables)
+    }
+}
+
+/// The globals in their order, to be found by their names.
+pub struct Index<'a> {
+    all: Vec<&'a Variable>,
+    numbers: HashMap<&'a str, usize>,
+}
+
+impl<'a> Index<'a> {
+    pub fn new(globals: &'a Globals) -> Self {
+        let all: Vec<&Variable> = globals.all().collect();
+        let numbers = all.iter().enumerate().map(|(number, variable)| (variable.name.as_str(), number));
+        Self { numbers: numbers.collect(), all }
+    }
+
+    /// Those that are among these.
+    pub fn among(&self, names: &BTreeSet<String>) -> impl Iterator<Item = &'a Variable> {
+        let mut numbers: Vec<usize> =
+            names.iter().filter_map(|name| self.numbers.get(name.as_str()).copied()).collect();
+        numbers.sort_unstable();
+        numbers.into_iter().map(|number| self.all[number])
     }
 }
 

@@ -24,7 +24,8 @@ pub fn comment(text: &str) -> String {
 
 /// Text on one line that neither begins nor ends a comment.
 pub fn harmless(text: &str) -> String {
-    plain::line(text).replace("(*", "( *").replace("*)", "* )")
+    let text = plain::line(text);
+    if text.contains('*') { text.replace("(*", "( *").replace("*)", "* )") } else { text }
 }
 
 pub fn real(value: f64) -> String {
@@ -59,43 +60,98 @@ impl Dialect {
     }
 
     pub fn expression(self, ex: &Ex) -> String {
+        let mut text = String::new();
+        self.write(ex, &mut text);
+        text
+    }
+
+    /// Adds an expression to a text.
+    pub fn write(self, ex: &Ex, text: &mut String) {
         match ex {
-            Ex::Bool(true) => "TRUE".into(),
-            Ex::Bool(false) => "FALSE".into(),
-            Ex::Int(i32::MIN) => "-2147483647 - 1".into(),
-            Ex::Int(i) => i.to_string(),
+            Ex::Bool(true) => *text += "TRUE",
+            Ex::Bool(false) => *text += "FALSE",
+            Ex::Int(i32::MIN) => *text += "-2147483647 - 1",
+            Ex::Int(i) => *text += &i.to_string(),
             Ex::Real(r) => match factors(*r) {
-                Some((rest, power)) => self.expression(&code::binary("*", Ex::Real(rest), Ex::Real(power))),
-                None if self == Dialect::Siemens => format!("LREAL#{}", real(*r)),
-                None => real(*r),
+                Some((rest, power)) => self.write(&code::binary("*", Ex::Real(rest), Ex::Real(power)), text),
+                None => {
+                    if self == Dialect::Siemens {
+                        *text += "LREAL#";
+                    }
+                    *text += &real(*r);
+                }
             },
-            Ex::Member(member) => self.member(member),
-            Ex::Name(name) => name.clone(),
-            Ex::Element(name, index) => format!("{name}[{}]", self.expression(index)),
-            Ex::Field(instance, output) => format!("{instance}.{output}"),
+            Ex::Member(member) => *text += &self.member(member),
+            Ex::Name(name) => *text += name,
+            Ex::Element(name, index) => {
+                *text += name;
+                self.write_all("[", std::slice::from_ref(&**index), "]", text);
+            }
+            Ex::Field(instance, output) => text.extend([instance, ".", output]),
             Ex::Within(row, each, element) => {
-                self.expression(&code::sum(code::times((**row).clone(), *each), (**element).clone()))
+                self.write(&code::sum(code::times((**row).clone(), *each), (**element).clone()), text);
             }
-            Ex::Part(of, field) => format!("{}.{field}", self.expression(of)),
+            Ex::Part(of, field) => {
+                self.write(of, text);
+                text.push('.');
+                *text += field;
+            }
             Ex::Item(of, indices) => {
-                let indices: Vec<_> = indices.iter().map(|index| self.expression(index)).collect();
-                format!("{}[{}]", self.expression(of), indices.join(", "))
+                self.write(of, text);
+                self.write_all("[", indices, "]", text);
             }
-            Ex::List(values) => format!("[{}]", self.list(values).join(", ")),
+            Ex::List(values) => text.extend(["[", &self.list(values).join(", "), "]"]),
             Ex::Fields(fields) => {
-                let field = |(name, value): &(String, Ex)| format!("{name} := {}", self.expression(value));
-                format!("({})", fields.iter().map(field).collect::<Vec<_>>().join(", "))
+                for (i, (name, value)) in fields.iter().enumerate() {
+                    text.extend([if i == 0 { "(" } else { ", " }, name, " := "]);
+                    self.write(value, text);
+                }
+                *text += if fields.is_empty() { "()" } else { ")" };
             }
-            Ex::Not(a) => format!("NOT {}", self.operand(a)),
-            Ex::Minus(a) => format!("-{}", self.operand(a)),
-            Ex::Binary(operator, a, b) => format!("{} {operator} {}", self.operand(a), self.operand(b)),
-            Ex::Chain(operator, parts) => self.operands(parts).join(&format!(" {operator} ")),
+            Ex::Not(a) => {
+                *text += "NOT ";
+                self.write_operand(a, text);
+            }
+            Ex::Minus(a) => {
+                text.push('-');
+                self.write_operand(a, text);
+            }
+            Ex::Binary(operator, a, b) => {
+                self.write_operand(a, text);
+                text.extend([" ", operator, " "]);
+                self.write_operand(b, text);
+            }
+            Ex::Chain(operator, parts) => {
+                for (i, part) in parts.iter().enumerate() {
+                    if i > 0 {
+                        text.extend([" ", operator, " "]);
+                    }
+                    self.write_operand(part, text);
+                }
+            }
             Ex::Call(function, arguments) => {
-                let arguments: Vec<_> =
-                    arguments.iter().map(|(name, value)| self.argument(name, value)).collect();
-                format!("{}({})", self.function(function), arguments.join(", "))
+                *text += &self.function(function);
+                text.push('(');
+                for (i, (name, value)) in arguments.iter().enumerate() {
+                    if i > 0 {
+                        *text += ", ";
+                    }
+                    self.write_argument(name, value, text);
+                }
+                text.push(')');
             }
         }
+    }
+
+    fn write_all(self, begin: &str, all: &[Ex], end: &str, text: &mut String) {
+        *text += begin;
+        for (i, ex) in all.iter().enumerate() {
+            if i > 0 {
+                *text += ", ";
+            }
+            self.write(ex, text);
+        }
+        *text += end;
     }
 
     /// The value in a declaration: that of a long array on several lines.
@@ -145,11 +201,12 @@ impl Dialect {
     }
 
     /// Functions of the standard are called by position: their arguments have no names.
-    fn argument(self, name: &str, value: &Ex) -> String {
-        match name {
-            "" => self.expression(value),
-            name => format!("{name} := {}", self.expression(value)),
+    fn write_argument(self, name: &str, value: &Ex, text: &mut String) {
+        if !name.is_empty() {
+            *text += name;
+            *text += " := ";
         }
+        self.write(value, text);
     }
 
     fn operands(self, parts: &[Ex]) -> Vec<String> {
@@ -157,14 +214,24 @@ impl Dialect {
     }
 
     fn operand(self, ex: &Ex) -> String {
-        let text = self.expression(ex);
+        let mut text = String::new();
+        self.write_operand(ex, &mut text);
+        text
+    }
+
+    fn write_operand(self, ex: &Ex, text: &mut String) {
+        let begin = text.len();
+        self.write(ex, text);
         let is_simple = match ex {
             Ex::Not(_) | Ex::Minus(_) | Ex::Binary(..) | Ex::Chain(..) => false,
             Ex::Real(r) if factors(*r).is_some() => false,
-            Ex::Int(_) | Ex::Real(_) => !text.starts_with('-'),
+            Ex::Int(_) | Ex::Real(_) => !text[begin..].starts_with('-'),
             _ => true,
         };
-        if is_simple { text } else { format!("({text})") }
+        if !is_simple {
+            text.insert(begin, '(');
+            text.push(')');
+        }
     }
 
     pub fn statements(self, statements: &[Stmt], depth: usize) -> String {
@@ -181,9 +248,13 @@ struct Printer {
 
 impl Printer {
     fn line(&mut self, depth: usize, text: &str) {
-        self.text += &"    ".repeat(depth);
+        self.indent(depth);
         self.text += text;
         self.text.push('\n');
+    }
+
+    fn indent(&mut self, depth: usize) {
+        (0..depth).for_each(|_| self.text += "    ");
     }
 
     /// Long ones go over several lines.
@@ -292,16 +363,38 @@ impl Printer {
     }
 
     /// A call on one line, or with an argument on each.
-    fn call<'a>(&mut self, begin: &str, arguments: impl Iterator<Item = (&'a str, &'a Ex)>, depth: usize) {
-        let arguments: Vec<_> = arguments.map(|(name, value)| self.dialect.argument(name, value)).collect();
-        let one_line = format!("{begin}({});", arguments.join(", "));
-        if 4 * depth + one_line.len() <= WIDTH {
-            return self.line(depth, &one_line);
+    fn call<'a>(
+        &mut self,
+        begin: &str,
+        arguments: impl Iterator<Item = (&'a str, &'a Ex)> + Clone,
+        depth: usize,
+    ) {
+        let mut one_line = format!("{begin}(");
+        for (i, (name, value)) in arguments.clone().enumerate() {
+            if i > 0 {
+                one_line += ", ";
+            }
+            self.dialect.write_argument(name, value, &mut one_line);
+            // The brackets and the semicolon have three characters.
+            if 4 * depth + one_line.len() + 2 > WIDTH {
+                return self.long_call(begin, arguments, depth);
+            }
         }
+        self.line(depth, &(one_line + ");"));
+    }
+
+    fn long_call<'a>(
+        &mut self,
+        begin: &str,
+        arguments: impl Iterator<Item = (&'a str, &'a Ex)>,
+        depth: usize,
+    ) {
         self.line(depth, &format!("{begin}("));
-        let last = arguments.len().saturating_sub(1);
-        for (i, argument) in arguments.iter().enumerate() {
-            self.line(depth + 1, &format!("{argument}{}", if i == last { ");" } else { "," }));
+        let mut arguments = arguments.peekable();
+        while let Some((name, value)) = arguments.next() {
+            self.indent(depth + 1);
+            self.dialect.write_argument(name, value, &mut self.text);
+            self.text += if arguments.peek().is_none() { ");\n" } else { ",\n" };
         }
     }
 }

@@ -13,7 +13,8 @@ use super::structured::Structure;
 use super::text::{made_from, render};
 use crate::backend::Files;
 use askama::Template;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
+use std::fmt::Write;
 
 /// The data block of what all blocks share.
 const SHARED: &str = "Line";
@@ -105,17 +106,16 @@ pub fn files(shared: Shared, line: &Line) -> Files {
     let mut parts = vec![render(&Header { made_from: made_from(shared) })];
     let at_addresses: Vec<&str> =
         line.globals.all().filter(|v| v.address.is_some()).map(|v| v.name.as_str()).collect();
-    let all: Vec<Variable> = line.globals.all().cloned().map(|v| Variable { address: None, ..v }).collect();
-    let is_retained = all.iter().any(|variable| variable.is_retained);
+    let is_retained = line.globals.all().any(|variable| variable.is_retained);
     parts.extend(line.structures.iter().map(structure));
-    let (values, declared): (Vec<_>, Vec<_>) = all.iter().map(without_values).unzip();
+    let (values, declared): (Vec<_>, Vec<_>) = line.globals.all().map(without_values).unzip();
     parts.push(render(&DataBlock {
         sections: sections("VAR", &declared),
         values: values.concat(),
         is_retained,
     }));
     parts.extend(line.functions.iter().map(|function| function_text(function.text)));
-    let names: BTreeSet<&str> = all.iter().map(|variable| variable.name.as_str()).collect();
+    let names: HashSet<&str> = line.globals.all().map(|variable| variable.name.as_str()).collect();
     let is_global = |name: &str| names.contains(name);
     parts.extend(line.units().map(|unit| block(shared, unit, &is_global)));
     let instance = include_str!("../../../../templates/plc/siemens/instance.scl");
@@ -164,37 +164,53 @@ fn structure(structure: &Structure) -> String {
     })
 }
 
-/// The values of arrays and structures as assignments, and the declaration without them.
+/// The values of arrays and structures as assignments, and the declaration without them and without an address.
 fn without_values(variable: &Variable) -> (String, Variable) {
-    let Some(initial @ (Ex::List(_) | Ex::Fields(_))) = &variable.initial else {
-        return (String::new(), variable.clone());
-    };
+    let declared = Variable { address: None, ..variable.without_value() };
     let mut lines = String::new();
-    assign(&quoted(&variable.name), initial, variable.each, &mut lines);
-    (lines, Variable { initial: None, ..variable.clone() })
+    match &variable.initial {
+        Some(initial @ (Ex::List(_) | Ex::Fields(_))) => {
+            assign(&mut quoted(&variable.name), initial, variable.each, &mut lines);
+            (lines, declared)
+        }
+        single => (lines, Variable { initial: single.clone(), ..declared }),
+    }
 }
 
 /// `each`: the number of elements in a row of an array of two dimensions.
-fn assign(place: &str, value: &Ex, each: Option<usize>, lines: &mut String) {
+fn assign(place: &mut String, value: &Ex, each: Option<usize>, lines: &mut String) {
+    let whole = place.len();
     match value {
         Ex::List(values) => {
             for (i, value) in values.iter().enumerate() {
-                let index = each.map_or_else(|| i.to_string(), |each| format!("{}, {}", i / each, i % each));
-                assign(&format!("{place}[{index}]"), value, None, lines);
+                // Writing to memory does not fail.
+                let _ = match each {
+                    Some(each) => write!(place, "[{}, {}]", i / each, i % each),
+                    None => write!(place, "[{i}]"),
+                };
+                assign(place, value, None, lines);
+                place.truncate(whole);
             }
         }
         Ex::Fields(fields) => {
             for (field, value) in fields {
-                assign(&format!("{place}.{}", quoted(field)), value, None, lines);
+                place.push('.');
+                *place += &quoted(field);
+                assign(place, value, None, lines);
+                place.truncate(whole);
             }
         }
         // What a data block has without a start value.
         Ex::Bool(false) | Ex::Int(0) => {}
         Ex::Real(real) if real.to_bits() == 0 => {}
         Ex::Member(member) => {
-            *lines += &format!("    {place} := {}; {}\n", member.value, comment(&member.note));
+            let _ = writeln!(lines, "    {place} := {}; {}", member.value, comment(&member.note));
         }
-        single => *lines += &format!("    {place} := {};\n", DIALECT.expression(single)),
+        single => {
+            let _ = write!(lines, "    {place} := ");
+            DIALECT.write(single, lines);
+            *lines += ";\n";
+        }
     }
 }
 

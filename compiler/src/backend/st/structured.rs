@@ -15,6 +15,7 @@ mod units;
 use super::Line;
 use super::context::Shared;
 use super::declaration::Variable;
+use super::globals::Index;
 use super::program::Blocks;
 use super::{block::Block, declaration::Unit};
 use crate::ir::AutomatonId;
@@ -39,15 +40,16 @@ pub fn structured(shared: Shared, line: &Line, enumerated: Enumerated, scope: &m
     let typed = enumerations::typed(shared, line, enumerated);
     let shared_places = Places::shared(shared);
     let (globals, structures) = globals::globals(shared, line, &shared_places, &typed);
+    let index = Index::new(&globals);
     let of_unit = |unit: &Unit, id: Option<AutomatonId>| {
         let places = match id {
             Some(id) => shared_places.of_automaton(shared, id),
             None => shared_places.clone(),
         };
-        units::unit(unit, &places, &globals, &typed)
+        units::unit(unit, &places, &index, &typed)
     };
     let layout = layout::unit(shared, line);
-    let layout = units::unit(&layout, &shared_places, &globals, &typed);
+    let layout = units::unit(&layout, &shared_places, &index, &typed);
     let mut given: Vec<Given> = vec![layout];
     given.push(of_unit(&line.watchdog, None));
     let blocks: Vec<Option<Blocks>> = (line.blocks.iter().enumerate())
@@ -65,10 +67,9 @@ pub fn structured(shared: Shared, line: &Line, enumerated: Enumerated, scope: &m
         })
         .collect();
     let mut calls = Calls::new(shared, &given, &line.program, scope);
-    let mut program = units::program(&line.program, &shared_places, &mut calls);
+    let program = units::program(&line.program, &shared_places, &mut calls);
     let mut globals = globals;
     globals.parameters.extend(calls.parameters);
-    program.externals.clear();
     let [layout, watchdog] = [0, 1].map(|i| given[i].unit.clone());
     Line { functions: line.functions.clone(), blocks, watchdog, layout, program, globals, structures }
 }

@@ -47,7 +47,7 @@ pub fn portable(shared: Shared, line: &Line) -> String {
     let mut parts = vec![render(&Header { made_from: made_from(shared), example: first })];
     parts.extend(line.functions.iter().map(|f| f.text.to_string()));
     parts.extend(line.units().map(|u| unit(shared, u, dialect)));
-    let all: Vec<_> = line.globals.all().cloned().collect();
+    let all: Vec<_> = line.globals.all().collect();
     parts.push(render(&Configuration {
         made_from: made_from(shared),
         globals: globals(&all, dialect),
@@ -181,6 +181,8 @@ pub fn made_from(shared: Shared) -> String {
 
 /// The text of a template, with one line break at its end. Writing to memory does not fail.
 pub fn render(template: &impl Template) -> String {
-    let text = template.render().unwrap_or_default();
-    format!("{}\n", text.trim_end())
+    let mut text = template.render().unwrap_or_default();
+    text.truncate(text.trim_end().len());
+    text.push('\n');
+    text
 }

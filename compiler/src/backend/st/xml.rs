@@ -62,10 +62,10 @@ struct List {
 
 /// For Beremiz, OpenPLC and other tools that keep to the standard.
 pub fn plcopen(shared: Shared, line: &Line) -> String {
-    let all: Vec<Variable> = line.globals.all().cloned().collect();
+    let all: Vec<&Variable> = line.globals.all().collect();
     let lists = lists_of_globals(&all, Dialect::Portable);
     let of = |v: &Variable| variable(v, Dialect::Portable, 10);
-    let globals = lists.iter().map(|list| sections("globalVars", list, 8, of)).collect();
+    let globals = lists.iter().map(|list| sections("globalVars", list.iter().copied(), 8, of)).collect();
     render(&Plcopen {
         made_from: escaped(&made_from(shared)),
         version: version::NUMBER,
@@ -174,9 +174,15 @@ fn function(function: &Function) -> Pou {
 }
 
 /// Those that are retained in a section of their own.
-fn sections(name: &str, variables: &[Variable], indent: usize, of: impl Fn(&Variable) -> String) -> String {
+fn sections<'a>(
+    name: &str,
+    variables: impl IntoIterator<Item = &'a Variable> + Clone,
+    indent: usize,
+    of: impl Fn(&Variable) -> String,
+) -> String {
     let lines = |is_retained: bool| {
-        variables.iter().filter(move |v| v.is_retained == is_retained).map(&of).collect::<Vec<_>>()
+        let some = variables.clone().into_iter().filter(move |v| v.is_retained == is_retained);
+        some.map(&of).collect::<Vec<_>>()
     };
     section(name, indent, lines(false)) + &retained(name, indent, lines(true))
 }
@@ -209,8 +215,12 @@ fn variable(variable: &Variable, dialect: Dialect, indent: usize) -> String {
             last.iter().map(dimension).collect::<String>()
         ),
     };
-    let initial =
-        variable.initial.as_ref().map(|e| format!("<initialValue>{}</initialValue>", value(e, dialect)));
+    let mut initial = String::new();
+    if let Some(ex) = &variable.initial {
+        initial += "<initialValue>";
+        value(ex, dialect, &mut initial);
+        initial += "</initialValue>";
+    }
     let about = variable.comments.iter().fold(String::new(), |text, line| match text.as_str() {
         "" => line.clone(),
         text if text.ends_with('.') => format!("{text} {line}"),
@@ -227,24 +237,33 @@ fn variable(variable: &Variable, dialect: Dialect, indent: usize) -> String {
         }
     };
     let address = variable.address.as_ref().map(|at| format!(" address=\"{at}\"")).unwrap_or_default();
-    typed(&(named(&variable.name) + &address), &ty, &initial.unwrap_or_default(), &about, indent)
+    typed(&(named(&variable.name) + &address), &ty, &initial, &about, indent)
 }
 
 /// A value in a declaration.
-fn value(ex: &Ex, dialect: Dialect) -> String {
+fn value(ex: &Ex, dialect: Dialect, text: &mut String) {
     match ex {
         Ex::List(values) => {
-            let one = |ex: &Ex| format!("<value>{}</value>", value(ex, dialect));
-            let values: String = values.iter().map(one).collect();
-            format!("<arrayValue>{values}</arrayValue>")
+            *text += "<arrayValue>";
+            for ex in values {
+                *text += "<value>";
+                value(ex, dialect, text);
+                *text += "</value>";
+            }
+            *text += "</arrayValue>";
         }
         Ex::Fields(fields) => {
-            let one = |(name, ex): &(String, Ex)| {
-                format!("<value member=\"{name}\">{}</value>", value(ex, dialect))
-            };
-            format!("<structValue>{}</structValue>", fields.iter().map(one).collect::<String>())
+            *text += "<structValue>";
+            for (name, ex) in fields {
+                let _ = write!(text, "<value member=\"{name}\">");
+                value(ex, dialect, text);
+                *text += "</value>";
+            }
+            *text += "</structValue>";
         }
-        single => format!("<simpleValue value=\"{}\"/>", escaped(&dialect.expression(single))),
+        single => {
+            let _ = write!(text, "<simpleValue value=\"{}\"/>", escaped(&dialect.expression(single)));
+        }
     }
 }
 

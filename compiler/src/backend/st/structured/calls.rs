@@ -85,7 +85,7 @@ impl<'a> Calls<'a> {
         let parameter = &self.shared.system.model.automaton(own.automaton).parameters[number];
         let variable = self.scope.take(&format!("{}_{}", own.name, parameter.name));
         let value = own.parameters[number].first().copied().unwrap_or(Value::Point([0.0; 3]));
-        let fields = COORDINATES.iter().map(|c| c.to_string()).zip(constants(value)).collect();
+        let fields = COORDINATES.iter().map(|c| Rc::from(*c)).zip(constants(value)).collect();
         let declared = Variable::new(&variable, Basic::Lreal).with_initial(Ex::Fields(fields));
         let comments = about(&parameter.doc, String::new());
         let declared = Variable { structure: Some(POINT.into()), comments, ..declared };

@@ -9,7 +9,7 @@ use crate::backend::st::context::Shared;
 use crate::backend::st::declaration::Unit;
 use crate::backend::st::names::{AutomatonNames, Held};
 use crate::ir::{AutomatonId, Scalar};
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{HashMap, HashSet};
 
 /// Whether the tool has enumerations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,7 +20,7 @@ pub enum Enumerated {
 
 /// The enumeration of a variable: by its unit, empty for what all units share, and its name.
 #[derive(Default)]
-pub struct Typed(BTreeMap<String, BTreeMap<String, String>>);
+pub struct Typed(HashMap<String, HashMap<String, String>>);
 
 impl Typed {
     pub fn get(&self, unit: &str, variable: &str) -> Option<&String> {
@@ -65,17 +65,19 @@ pub fn typed(shared: Shared, line: &Line, enumerated: Enumerated) -> Typed {
     }
     let blocks = line.program.instances.iter().map(|i| (i.name.as_str(), i.block.as_str())).collect();
     let units: Vec<Users> = line.units().map(|unit| Users::new(&blocks, unit)).collect();
-    let not_of_it = |typed: &Typed| -> Option<(String, String)> {
-        let mut users = units.iter();
-        let (unit, name) = users.find_map(|users| users.not_of_it(typed, &users.unit.body))?;
-        Some((unit.into(), name.into()))
-    };
-    while let Some((unit, name)) = not_of_it(&typed) {
-        if let Some(variables) = typed.0.get_mut(&unit) {
-            variables.remove(&name);
+    // A variable that is none of its enumeration is no value of it for another one.
+    loop {
+        let mut found = Vec::new();
+        units.iter().for_each(|users| users.not_of_it(&typed, &users.unit.body, &mut found));
+        if found.is_empty() {
+            return typed;
+        }
+        for (unit, name) in found {
+            if let Some(variables) = typed.0.get_mut(unit) {
+                variables.remove(name);
+            }
         }
     }
-    typed
 }
 
 /// The arrays that the robots of a type are given.
@@ -106,24 +108,33 @@ impl<'a> Users<'a> {
         Self { blocks, unit, own }
     }
 
-    /// A variable that gets what is no value of its enumeration.
-    fn not_of_it(&self, typed: &Typed, statements: &'a [Stmt]) -> Option<Key<'a>> {
-        let inner = |body: &'a [Stmt]| self.not_of_it(typed, body);
-        statements.iter().find_map(|statement| match statement {
-            Stmt::Assign(target, value) => self.assigned(typed, self.key(typed, target)?, value),
-            Stmt::If(arms, otherwise) => {
-                arms.iter().find_map(|arm| inner(&arm.body)).or_else(|| inner(otherwise))
+    /// The variables that get what is no value of their enumeration.
+    fn not_of_it(&self, typed: &Typed, statements: &'a [Stmt], found: &mut Vec<Key<'a>>) {
+        for statement in statements {
+            match statement {
+                Stmt::Assign(target, value) => {
+                    let target = self.key(typed, target);
+                    found.extend(target.and_then(|target| self.assigned(typed, target, value)));
+                }
+                Stmt::If(arms, otherwise) => {
+                    arms.iter().for_each(|arm| self.not_of_it(typed, &arm.body, found));
+                    self.not_of_it(typed, otherwise, found);
+                }
+                Stmt::Case { branches, otherwise, .. } => {
+                    branches.iter().for_each(|(_, body)| self.not_of_it(typed, body, found));
+                    self.not_of_it(typed, otherwise, found);
+                }
+                Stmt::While { body, .. } => self.not_of_it(typed, body, found),
+                Stmt::Call { instance, arguments } => {
+                    let Some(block) = self.block(instance) else { continue };
+                    let assigned = arguments.iter();
+                    found.extend(
+                        assigned.filter_map(|(name, value)| self.assigned(typed, (block, name), value)),
+                    );
+                }
+                Stmt::Comment(_) | Stmt::Exit | Stmt::Return => {}
             }
-            Stmt::Case { branches, otherwise, .. } => {
-                branches.iter().find_map(|(_, body)| inner(body)).or_else(|| inner(otherwise))
-            }
-            Stmt::While { body, .. } => inner(body),
-            Stmt::Call { instance, arguments } => {
-                let block = self.block(instance)?;
-                arguments.iter().find_map(|(name, value)| self.assigned(typed, (block, name), value))
-            }
-            Stmt::Comment(_) | Stmt::Exit | Stmt::Return => None,
-        })
+        }
     }
 
     fn assigned(&self, typed: &Typed, target: Key<'a>, value: &'a Ex) -> Option<Key<'a>> {

@@ -12,6 +12,7 @@ use crate::backend::st::globals::{Globals, Table, about, meaning, rows};
 use crate::backend::st::restart;
 use crate::ir::{Extent, InterfaceId, Scalar};
 use std::collections::BTreeMap;
+use std::rc::Rc;
 
 pub fn globals(shared: Shared, line: &Line, places: &Places, typed: &Typed) -> (Globals, Vec<Structure>) {
     let of = |variables: &[Variable]| variables_of(variables, "", places, typed);
@@ -101,11 +102,12 @@ fn table_of_alarms(line: &Line) -> Option<(Structure, Variable)> {
         elements: None,
         ..table.variable.clone()
     });
+    let names: Vec<Rc<str>> = columns.iter().map(|(name, _)| (*name).into()).collect();
     // What is not written is zero.
     let row = |i: usize| {
-        let fields = columns.iter().filter_map(|(name, table)| {
+        let fields = names.iter().zip(&columns).filter_map(|(name, (_, table))| {
             let value = table.values.get(i).filter(|value| **value != table.variable.basic.zero())?;
-            Some((name.to_string(), value.clone()))
+            Some((name.clone(), value.clone()))
         });
         Ex::Fields(fields.collect())
     };
@@ -152,8 +154,10 @@ fn parameters(shared: Shared, line: &Line, places: &Places, typed: &Typed) -> Ve
                 let Some(mut parts) = points.remove(&point) else { continue };
                 parts.sort_by_key(|(coordinate, _)| *coordinate);
                 let first = parts[0].1;
+                let names: Vec<Rc<str>> = parts.iter().map(|(coordinate, _)| (*coordinate).into()).collect();
                 let value = |i: usize| {
-                    let fields = parts.iter().map(|(c, table)| (c.to_string(), table.values[i].clone()));
+                    let values = parts.iter().map(|(_, table)| table.values[i].clone());
+                    let fields = names.iter().cloned().zip(values);
                     Ex::Fields(fields.collect())
                 };
                 let initial = Some(Ex::List((0..first.values.len()).map(value).collect()));

@@ -44,8 +44,10 @@ pub fn unit(shared: Shared, line: &Line) -> Unit {
         variables: counters
             .map(|(name, about)| Variable::new(name, Basic::Dint).with_comment(about))
             .collect(),
+        name: line.layout.name.clone(),
+        inputs: line.layout.inputs.clone(),
         body,
-        ..line.layout.clone()
+        ..Unit::default()
     }
 }
 

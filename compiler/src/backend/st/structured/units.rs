@@ -7,7 +7,7 @@ use super::enumerations::Typed;
 use super::rewrite::joined;
 use crate::backend::st::code::{self, Ex, Stmt};
 use crate::backend::st::declaration::{Unit, Variable};
-use crate::backend::st::globals::Globals;
+use crate::backend::st::globals::Index;
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
@@ -19,7 +19,7 @@ pub struct Given {
     pub places: Rc<Places>,
 }
 
-pub fn unit(unit: &Unit, places: &Places, globals: &Globals, typed: &Typed) -> Given {
+pub fn unit(unit: &Unit, places: &Places, globals: &Index, typed: &Typed) -> Given {
     let body = places.statements(&unit.body);
     let used = code::names(&body);
     let written = written(&body);
@@ -31,13 +31,23 @@ pub fn unit(unit: &Unit, places: &Places, globals: &Globals, typed: &Typed) -> G
     variables.retain(|variable| outputs.iter().all(|output| output.name != variable.name));
     let mut references = Vec::new();
     let mut shared = Vec::new();
-    for global in globals.all().filter(|global| used.contains(&global.name)) {
+    for global in globals.among(&used) {
         let is_single = global.elements.is_none() && global.structure.is_none();
         let is_read = is_single && !written.contains(&global.name);
         if is_read { &mut inputs } else { &mut references }.push(global.external());
         shared.push(global.name.clone());
     }
-    let unit = Unit { inputs, outputs, references, externals: Vec::new(), variables, body, ..unit.clone() };
+    let unit = Unit {
+        name: unit.name.clone(),
+        comments: unit.comments.clone(),
+        inputs,
+        outputs,
+        references,
+        externals: Vec::new(),
+        variables,
+        instances: unit.instances.clone(),
+        body,
+    };
     Given { unit, shared, places: Rc::new(places.clone()) }
 }
 
@@ -49,7 +59,17 @@ pub fn program(unit: &Unit, places: &Places, calls: &mut Calls) -> Unit {
         _ => places.statement(statement),
     };
     let body = joined(unit.body.iter().map(statement).collect());
-    Unit { body, ..unit.clone() }
+    Unit {
+        name: unit.name.clone(),
+        comments: unit.comments.clone(),
+        inputs: unit.inputs.clone(),
+        outputs: unit.outputs.clone(),
+        references: unit.references.clone(),
+        externals: Vec::new(),
+        variables: unit.variables.clone(),
+        instances: unit.instances.clone(),
+        body,
+    }
 }
 
 /// Coordinates as points, and members of enumerations as such.

@@ -1,0 +1,60 @@
+//! Places that a machine passes on its paths: corners of regions, each with a number and solved once.
+
+use super::region::Region;
+use runtime_sim::collision::Moving;
+use runtime_sim::kinematics::facing::Facing;
+use runtime_sim::point::Point;
+use std::collections::HashMap;
+
+#[derive(Clone, Copy)]
+pub struct Corner {
+    pub point: Point,
+    /// Of all corners that are the same to a millimetre.
+    pub number: usize,
+    pub is_reached: bool,
+}
+
+/// Of one region: bit 0 of a corner's number is for x, bit 1 for y, bit 2 for z.
+pub struct Corners {
+    pub corners: [Corner; 8],
+    /// The bits of the axes along which the region has an extent.
+    pub wide: usize,
+}
+
+/// Where a machine goes past: in one of the regions, and the direction of its tool there.
+pub struct Stage {
+    pub regions: Vec<Corners>,
+    pub facing: Facing,
+}
+
+/// The corners of one machine.
+pub struct Places<'a> {
+    moving: &'a Moving,
+    numbers: HashMap<[i64; 3], usize>,
+}
+
+impl<'a> Places<'a> {
+    pub fn new(moving: &'a Moving) -> Self {
+        Self { moving, numbers: HashMap::new() }
+    }
+
+    pub fn stage(&mut self, regions: &[Region], facing: Facing) -> Stage {
+        let corners = |region: &Region| Corners {
+            corners: std::array::from_fn(|number| self.corner(region, number, facing)),
+            wide: (0..3).map(|axis| usize::from(region[axis][0] != region[axis][1]) << axis).sum(),
+        };
+        Stage { regions: regions.iter().map(corners).collect(), facing }
+    }
+
+    fn corner(&mut self, region: &Region, number: usize, facing: Facing) -> Corner {
+        let [x, y, z] = [0, 1, 2].map(|axis| region[axis][number >> axis & 1]);
+        let next = self.numbers.len();
+        let rounded = [x, y, z].map(|value| (value * 1e3).round() as i64);
+        let point = Point::new(x, y, z);
+        Corner {
+            point,
+            number: *self.numbers.entry(rounded).or_insert(next),
+            is_reached: self.moving.reaches(point, facing),
+        }
+    }
+}
