@@ -131,6 +131,12 @@ impl<'a> Finder<'a> {
         self.int(&target.index);
     }
 
+    /// Which element of an array it is, is not known.
+    fn element(&mut self, vars: &[Var], index: &Int) {
+        vars.iter().for_each(|var| self.read(*var));
+        self.int(index);
+    }
+
     fn input(&mut self, input: usize) {
         let var = self.model.inputs[input].var;
         self.read(var);
@@ -141,10 +147,7 @@ impl<'a> Finder<'a> {
         match expr {
             Int::Constant(_) | Int::Variable(_) | Int::Chance => {}
             Int::Load(var, _) => self.read(*var),
-            Int::Element(elements, index) => {
-                elements.vars.iter().for_each(|var| self.read(*var));
-                self.int(index);
-            }
+            Int::Element(elements, index) => self.element(&elements.vars, index),
             Int::Table(_, a) | Int::Not(a) | Int::Negate(a) | Int::Absolute(a) | Int::OneOf(_, a) => {
                 self.int(a)
             }
@@ -180,10 +183,7 @@ impl<'a> Finder<'a> {
         match expr {
             Real::Constant(_) => {}
             Real::Load(var) => self.read(*var),
-            Real::Element(vars, index) => {
-                vars.iter().for_each(|var| self.read(*var));
-                self.int(index);
-            }
+            Real::Element(vars, index) => self.element(vars, index),
             Real::Table(_, index) => self.int(index),
             Real::OfInt(a) => self.int(a),
             Real::Negate(a) | Real::Absolute(a) => self.real(a),
@@ -203,10 +203,7 @@ impl<'a> Finder<'a> {
         match expr {
             PointValue::Constant(_) => {}
             PointValue::Load(var) => self.read(*var),
-            PointValue::Element(vars, index) => {
-                vars.iter().for_each(|var| self.read(*var));
-                self.int(index);
-            }
+            PointValue::Element(vars, index) => self.element(vars, index),
             PointValue::Table(_, index) => self.int(index),
             PointValue::Make(parts) => parts.iter().for_each(|a| self.real(a)),
             PointValue::Add(pair) | PointValue::Subtract(pair) => pair.iter().for_each(|a| self.point(a)),

@@ -30,9 +30,9 @@ struct Marks {
 }
 
 impl Midway {
-    fn is_like(&self, bytes: &[u8], marks: &Marks) -> bool {
-        let key = |marks: &Marks| (marks.stepped, marks.due, marks.written, marks.has_failed);
-        key(&self.marks) == key(marks) && self.bytes == bytes
+    fn is_like(&self, other: &Self) -> bool {
+        let key = |Midway { marks, .. }: &Self| (marks.stepped, marks.due, marks.written, marks.has_failed);
+        key(self) == key(other) && self.bytes == other.bytes
     }
 }
 
@@ -125,7 +125,7 @@ impl Expander<'_> {
                 ends.push(midway);
                 continue;
             }
-            // Those on which nothing depends that the others do, are not interchanged with them.
+            // Those that do not depend on the others are not interchanged with them.
             let first = self.group(&midway, group & !midway.marks.stepped);
             for instance in members(midway.marks.due & first) {
                 self.choices.clear();
@@ -160,7 +160,7 @@ impl Expander<'_> {
     }
 
     fn reach(&mut self, midway: Midway, reached: &mut Vec<Midway>) {
-        if reached.iter().any(|other| other.is_like(&midway.bytes, &midway.marks)) {
+        if reached.iter().any(|other| other.is_like(&midway)) {
             self.spare.push(midway.bytes);
         } else {
             reached.push(midway);

@@ -9,8 +9,8 @@ use std::collections::BTreeMap;
 use std::hint::black_box;
 use std::time::Instant;
 
-/// Texts become a system, all warnings included, and the system becomes files; figures are milliseconds in all, and microseconds for
-/// each robot, which stay the same if the cost grows as the layout does.
+/// Texts become a system, all warnings included, and the system becomes files; figures are milliseconds in all, and
+/// microseconds for each robot, which stay the same if the cost grows as the layout does.
 pub fn measure() {
     println!("long lines: up to 1000 robots each, one of 8 and ten of 1000");
     heading();

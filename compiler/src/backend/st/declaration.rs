@@ -219,6 +219,21 @@ impl Variable {
 }
 
 impl Unit {
+    /// Without its body and its externals, which are long.
+    pub fn without_body(&self) -> Self {
+        Self {
+            name: self.name.clone(),
+            comments: self.comments.clone(),
+            inputs: self.inputs.clone(),
+            outputs: self.outputs.clone(),
+            references: self.references.clone(),
+            externals: Vec::new(),
+            variables: self.variables.clone(),
+            instances: self.instances.clone(),
+            body: Vec::new(),
+        }
+    }
+
     pub fn attributes(&self, dialect: Dialect) -> &'static [Attribute] {
         match (dialect, self.name == "MAIN") {
             (Dialect::Codesys, true) => OF_WHAT_IS_SHOWN,

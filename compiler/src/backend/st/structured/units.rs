@@ -37,17 +37,7 @@ pub fn unit(unit: &Unit, places: &Places, globals: &Index, typed: &Typed) -> Giv
         if is_read { &mut inputs } else { &mut references }.push(global.external());
         shared.push(global.name.clone());
     }
-    let unit = Unit {
-        name: unit.name.clone(),
-        comments: unit.comments.clone(),
-        inputs,
-        outputs,
-        references,
-        externals: Vec::new(),
-        variables,
-        instances: unit.instances.clone(),
-        body,
-    };
+    let unit = Unit { inputs, outputs, references, variables, body, ..unit.without_body() };
     Given { unit, shared, places: Rc::new(places.clone()) }
 }
 
@@ -59,17 +49,7 @@ pub fn program(unit: &Unit, places: &Places, calls: &mut Calls) -> Unit {
         _ => places.statement(statement),
     };
     let body = joined(unit.body.iter().map(statement).collect());
-    Unit {
-        name: unit.name.clone(),
-        comments: unit.comments.clone(),
-        inputs: unit.inputs.clone(),
-        outputs: unit.outputs.clone(),
-        references: unit.references.clone(),
-        externals: Vec::new(),
-        variables: unit.variables.clone(),
-        instances: unit.instances.clone(),
-        body,
-    }
+    Unit { body, ..unit.without_body() }
 }
 
 /// Coordinates as points, and members of enumerations as such.
