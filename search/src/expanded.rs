@@ -3,8 +3,9 @@
 
 use crate::event::Event;
 use crate::store::Store;
-use crate::successor::Expander;
+use crate::successor::{Expander, Part};
 use crate::violation::Violation;
+use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
@@ -84,12 +85,19 @@ impl Expanded {
         &self.steps[begin..self.states[state].end]
     }
 
-    /// Adds what follows the state of this number.
-    pub fn expand(&mut self, expander: &mut Expander, store: &Store, state: usize, restless: u64) {
+    /// Adds what follows the state of this number, as far as it is asked for.
+    pub fn expand(
+        &mut self,
+        expander: &mut Expander,
+        part: Part,
+        store: &Store,
+        state: usize,
+        restless: u64,
+    ) {
         let Self { states, steps, unknown, restless: of_unknown, remarked, .. } = self;
         let count = expander.values.count();
         let mut after = After { end: 0, transitions: 0, stops: 0, has_new_values: false };
-        expander.expand(store.state(state), restless, &mut |successor| {
+        expander.expand_part(part, store.state(state), restless, &mut |successor| {
             after.transitions += 1;
             for remark in successor.remarked {
                 if !remarked.contains(remark) {
@@ -136,17 +144,17 @@ impl Expanded {
     }
 }
 
-/// What follows the states from `begin` to before `end`, in runs in their order; each expander works by itself. The memory
+/// What follows these states, as far as it is asked for, in runs in their order; each expander works by itself. The memory
 /// of `spare` is used again: threads that take it anew each time would wait for one another.
 pub(crate) fn expand(
     expanders: &mut [Expander],
+    part: Part,
     store: &Store,
     restless: &[u64],
-    begin: usize,
-    end: usize,
+    states: Range<usize>,
     spare: Vec<Expanded>,
 ) -> Vec<Expanded> {
-    let next = AtomicUsize::new(begin);
+    let next = AtomicUsize::new(states.start);
     let spare = Mutex::new(spare);
     let take = |first: usize| {
         let run = spare.lock().unwrap_or_else(PoisonError::into_inner).pop();
@@ -159,13 +167,13 @@ pub(crate) fn expand(
         let mut runs = Vec::new();
         loop {
             let first = next.fetch_add(RUN, Ordering::Relaxed);
-            if first >= end {
+            if first >= states.end {
                 return runs;
             }
             let mut run = take(first);
-            let last = end.min(first + RUN);
+            let last = states.end.min(first + RUN);
             for (state, restless) in (first..last).zip(&restless[first..last]) {
-                run.expand(expander, store, state, *restless);
+                run.expand(expander, part, store, state, *restless);
                 // Their numbers are given in the order of the states.
                 expander.values.forget_after(count);
             }
@@ -173,7 +181,7 @@ pub(crate) fn expand(
         }
     };
     let Some((own, others)) =
-        expanders.split_first_mut().filter(|(_, others)| !others.is_empty() && end - begin > RUN)
+        expanders.split_first_mut().filter(|(_, others)| !others.is_empty() && states.len() > RUN)
     else {
         return expanders.first_mut().map(work).unwrap_or_default();
     };

@@ -1,17 +1,20 @@
-//! Breadth first through all states.
+//! Through all states: first those that are reached without a fault, then those behind one scan with faults, and so on; each
+//! time breadth first. So what is found has as few faults as possible, and is the shortest with so few; and a search that is
+//! cut has checked all that happens with up to so many.
 
 use crate::event::Event;
 use crate::expanded::{self, Expanded, Step};
 use crate::model::Model;
 use crate::plant::Faults;
-use crate::possible::{Edges, Possible};
+use crate::possible::{Edges, Mark, Possible};
 use crate::store::Store;
 use crate::story::{self, Execution};
-use crate::successor::{Expander, Orders};
+use crate::successor::{Expander, Orders, Part};
 use crate::value::Values;
 use crate::violation::Violation;
 use std::collections::HashSet;
 use std::mem::discriminant;
+use std::ops::Range;
 use std::time::{Duration, Instant};
 
 /// How far to search.
@@ -40,6 +43,8 @@ pub struct Covered {
     pub stopped: usize,
     /// Scans from the start to the farthest state that has been checked.
     pub depth: usize,
+    /// All sequences were checked in which devices fail before at most so many scans; none: not even those without faults.
+    pub failing: Option<usize>,
     /// Bytes of memory.
     pub memory: usize,
     pub time: Duration,
@@ -79,6 +84,13 @@ const BATCH: Duration = Duration::from_millis(50);
 const LEAST: usize = 32;
 const MOST: usize = 1 << 16;
 
+/// The states that hold all sequences with so many faults, and what leads from one to another.
+#[derive(Default)]
+struct Reached {
+    states: usize,
+    edges: Mark,
+}
+
 struct Found {
     violation: Violation,
     /// The state before, and what devices did then.
@@ -89,6 +101,15 @@ struct Found {
 /// A search under way.
 struct Search<'a> {
     bounds: &'a Bounds,
+    begin: Instant,
+    watch: &'a mut dyn FnMut(&Covered) -> bool,
+    /// It gives the numbers to places and reals, in the order of the states.
+    first: Expander<'a>,
+    /// One for each processor.
+    expanders: Vec<Expander<'a>>,
+    /// States that are expanded before what was found is put together.
+    batch: usize,
+    spare: Vec<Expanded>,
     store: Store,
     /// Of each state: instances that may do something even if no device does.
     restless: Vec<u64>,
@@ -100,8 +121,109 @@ struct Search<'a> {
     covered: Covered,
 }
 
-impl Search<'_> {
-    /// Takes over what follows a state, the next one of the store.
+impl<'a> Search<'a> {
+    fn new(model: &'a Model, bounds: &'a Bounds, watch: &'a mut dyn FnMut(&Covered) -> bool) -> Self {
+        let expander = || Expander::new(model, bounds.answers.unwrap_or(usize::MAX), bounds.orders);
+        let mut store = Store::new(model.initial.len());
+        store.add(&model.initial, 0);
+        Self {
+            bounds,
+            begin: Instant::now(),
+            watch,
+            first: expander(),
+            expanders: (0..bounds.jobs.max(1)).map(|_| expander()).collect(),
+            batch: LEAST,
+            spare: Vec::new(),
+            store,
+            restless: vec![u64::MAX],
+            edges: Edges::default(),
+            found: Vec::new(),
+            known: HashSet::new(),
+            remarked: Vec::new(),
+            covered: Covered::default(),
+        }
+    }
+
+    /// Why it has to end, if it is not complete; and how many states, with which edges, hold all sequences of
+    /// [`Covered::failing`].
+    fn search(&mut self, faults: Faults) -> (Option<End>, Reached) {
+        let mut complete = Reached::default();
+        // Of each depth the states that devices fail in the fewest scans to reach, and those with one less.
+        let (mut level, mut last) = (vec![0..1], Vec::new());
+        loop {
+            let mut depth = 0;
+            while depth < level.len().max(last.len()) {
+                let next = self.store.len();
+                self.covered.depth = self.covered.depth.max(depth);
+                for (part, states) in [(Part::Calm, &level), (Part::Failing, &last)] {
+                    let states: Option<Range<usize>> = states.get(depth).cloned();
+                    if let Some(end) = states.and_then(|states| self.expand(part, states)) {
+                        return (Some(end), complete);
+                    }
+                }
+                depth += 1;
+                if level.len() == depth && (next < self.store.len() || depth < last.len()) {
+                    level.push(next..self.store.len());
+                }
+            }
+            complete = Reached { states: self.store.len(), edges: self.edges.mark() };
+            self.covered.failing = Some(self.covered.failing.map_or(0, |failing| failing + 1));
+            if faults == Faults::None || level.iter().all(Range::is_empty) {
+                return (None, complete);
+            }
+            // No state is reached in no scan and with a fault.
+            last = std::mem::replace(&mut level, vec![0..0]);
+        }
+    }
+
+    /// Expands some states, in batches; why it has to end, if it has to.
+    fn expand(&mut self, part: Part, states: Range<usize>) -> Option<End> {
+        let mut next = states.start;
+        while next < states.end {
+            let batch_begins = Instant::now();
+            let batch = next..states.end.min(next + self.batch);
+            let spare = std::mem::take(&mut self.spare);
+            let Self { expanders, store, restless, .. } = self;
+            let runs = expanded::expand(expanders, part, store, restless, batch, spare);
+            for run in &runs {
+                let mut numbers = Vec::new();
+                for (state, after) in run.states.iter().enumerate() {
+                    if after.has_new_values {
+                        // The numbers that it was given are of no use to others.
+                        let mut again = Expanded::new(next, self.store.length());
+                        again.expand(&mut self.first, part, &self.store, next, self.restless[next]);
+                        self.add(&again, 0, &mut Vec::new());
+                    } else {
+                        self.add(run, state, &mut numbers);
+                    }
+                    next += 1;
+                    if self.found.len() >= self.bounds.violations {
+                        return Some(End::Violated);
+                    }
+                    if self.first.values.is_full() {
+                        return Some(End::TooManyValues);
+                    }
+                }
+            }
+            self.spare = runs;
+            if self.first.values.count() != self.expanders[0].values.count() {
+                let values = &self.first.values;
+                self.expanders.iter_mut().for_each(|expander| expander.values.clone_from(values));
+            }
+            self.measure();
+            if let Some(end) = self.end() {
+                return Some(end);
+            }
+            match batch_begins.elapsed() {
+                time if time < BATCH / 2 => self.batch = (self.batch * 2).min(MOST),
+                time if time > BATCH * 2 => self.batch = (self.batch / 2).max(LEAST),
+                _ => {}
+            }
+        }
+        None
+    }
+
+    /// Takes over what follows a state.
     fn add(&mut self, expanded: &Expanded, state: usize, numbers: &mut Vec<u32>) {
         let from = expanded.first + state;
         let after = expanded.states[state];
@@ -151,19 +273,19 @@ impl Search<'_> {
         }
     }
 
-    fn measure(&mut self, begin: Instant) {
-        self.covered.time = begin.elapsed();
+    fn measure(&mut self) {
+        self.covered.time = self.begin.elapsed();
         self.covered.memory = self.store.size() + 8 * self.restless.capacity() + self.edges.size();
         self.covered.states = self.store.len();
     }
 
     /// Why it has to end here, if it has to.
-    fn end(&self, watch: &mut dyn FnMut(&Covered) -> bool) -> Option<End> {
+    fn end(&mut self) -> Option<End> {
         if self.bounds.time.is_some_and(|time| self.covered.time > time) {
             Some(End::TimeIsUp)
         } else if self.covered.memory > self.bounds.memory || self.store.is_full() {
             Some(End::MemoryIsFull)
-        } else if !watch(&self.covered) {
+        } else if !(self.watch)(&self.covered) {
             Some(End::Stopped)
         } else {
             None
@@ -174,71 +296,11 @@ impl Search<'_> {
 /// `watch` is told how far it is, some times a second, and says whether to continue. The outcome does not depend on the
 /// number of processors, but for where a limit of time or memory cuts it.
 pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -> bool) -> Outcome {
-    let begin = Instant::now();
-    let expander = || Expander::new(model, bounds.answers.unwrap_or(usize::MAX), bounds.orders);
-    // It gives the numbers to places and reals, in the order of the states.
-    let mut first = expander();
-    let mut expanders: Vec<Expander> = (0..bounds.jobs.max(1)).map(|_| expander()).collect();
-    let mut search = Search {
-        bounds,
-        store: Store::new(model.initial.len()),
-        restless: vec![u64::MAX],
-        edges: Edges::default(),
-        found: Vec::new(),
-        known: HashSet::new(),
-        remarked: Vec::new(),
-        covered: Covered::default(),
-    };
-    search.store.add(&model.initial, 0);
-    let (mut next, mut end_of_depth, mut batch) = (0, 1, LEAST);
-    let mut spare = Vec::new();
-    let end = 'search: loop {
-        if next == search.store.len() {
-            break End::Complete;
-        }
-        let batch_begins = Instant::now();
-        let to = search.store.len().min(next + batch);
-        let runs = expanded::expand(&mut expanders, &search.store, &search.restless, next, to, spare);
-        for run in &runs {
-            let mut numbers = Vec::new();
-            for (state, after) in run.states.iter().enumerate() {
-                if next == end_of_depth {
-                    search.covered.depth += 1;
-                    end_of_depth = search.store.len();
-                }
-                if after.has_new_values {
-                    // The numbers that it was given are of no use to others.
-                    let mut again = Expanded::new(next, search.store.length());
-                    again.expand(&mut first, &search.store, next, search.restless[next]);
-                    search.add(&again, 0, &mut Vec::new());
-                } else {
-                    search.add(run, state, &mut numbers);
-                }
-                next += 1;
-                if search.found.len() >= bounds.violations {
-                    break 'search End::Violated;
-                }
-                if first.values.is_full() {
-                    break 'search End::TooManyValues;
-                }
-            }
-        }
-        spare = runs;
-        if first.values.count() != expanders[0].values.count() {
-            expanders.iter_mut().for_each(|expander| expander.values.clone_from(&first.values));
-        }
-        search.measure(begin);
-        if let Some(end) = search.end(watch) {
-            break end;
-        }
-        match batch_begins.elapsed() {
-            time if time < BATCH / 2 => batch = (batch * 2).min(MOST),
-            time if time > BATCH * 2 => batch = (batch / 2).max(LEAST),
-            _ => {}
-        }
-    };
-    search.measure(begin);
-    let Search { store, edges, found, remarked, mut covered, .. } = search;
+    let mut search = Search::new(model, bounds, watch);
+    let (cut, reached) = search.search(model.faults);
+    let end = cut.unwrap_or(End::Complete);
+    search.measure();
+    let Search { begin, mut first, store, mut edges, found, remarked, mut covered, .. } = search;
     let told = |first: &mut Expander, found: Found| {
         let execution = story::to_violation(&store, first, found.from, &found.violation, &found.events);
         (found.violation, execution)
@@ -246,9 +308,10 @@ pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -
     let mut violations: Vec<(Violation, Execution)> =
         found.into_iter().map(|found| told(&mut first, found)).collect();
     let mut remarks = Vec::new();
-    if end == End::Complete {
+    if end != End::Violated && reached.states > 0 {
         let calm = Model { faults: Faults::None, ..model.clone() };
-        let mut possible = Possible::new(&calm, &store, &edges, &first.values, bounds);
+        edges.forget_after(&reached.edges);
+        let mut possible = Possible::new(&calm, &store, reached.states, &edges, &first.values, bounds);
         let never = possible.never_made().map(|state| (Violation::NeverMade, state));
         let mut never: Vec<(Violation, usize)> = never.into_iter().collect();
         if violations.len() + never.len() < bounds.violations {
@@ -258,12 +321,14 @@ pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -
             violations.push((violation, story::to_state(&store, &mut first, state)));
         }
         violations.truncate(bounds.violations);
-        if violations.is_empty() {
+        if violations.is_empty() && end == End::Complete {
             for (remark, state) in possible.remarks() {
                 remarks.push((remark, story::to_state(&store, &mut first, state)));
             }
             remarks.extend(remarked.into_iter().map(|found| told(&mut first, found)));
         }
+    }
+    if end == End::Complete {
         covered.stopped = (0..store.len()).filter(|state| model.any_stands(store.state(*state))).count();
     }
     covered.time = begin.elapsed();

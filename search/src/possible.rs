@@ -20,6 +20,14 @@ pub(crate) struct Edges {
     stops: Vec<u32>,
 }
 
+/// How many of each there were at some time.
+#[derive(Default)]
+pub(crate) struct Mark {
+    edges: usize,
+    out: usize,
+    stops: usize,
+}
+
 impl Edges {
     pub fn add(&mut self, from: usize, to: usize) {
         let edge = (from as u32, to as u32);
@@ -40,6 +48,16 @@ impl Edges {
         }
     }
 
+    pub fn mark(&self) -> Mark {
+        Mark { edges: self.list.len(), out: self.out.len(), stops: self.stops.len() }
+    }
+
+    pub fn forget_after(&mut self, mark: &Mark) {
+        self.list.truncate(mark.edges);
+        self.out.truncate(mark.out);
+        self.stops.truncate(mark.stops);
+    }
+
     /// Bytes of memory that they take, and that sorting them will take.
     pub fn size(&self) -> usize {
         12 * self.list.capacity()
@@ -49,22 +67,26 @@ impl Edges {
 /// What is to be possible, from every state that was reached, if nothing fails any more.
 pub(crate) struct Possible<'a> {
     pub(crate) store: &'a Store,
+    /// Those of the store that are asked about.
+    pub(crate) states: usize,
     edges: &'a Edges,
     pub(crate) expander: Expander<'a>,
 }
 
 impl<'a> Possible<'a> {
-    /// `calm`: the model without faults.
+    /// `calm`: the model without faults. The first `states` of the store, from which nothing leads to others as long as nothing
+    /// fails.
     pub fn new(
         calm: &'a Model,
         store: &'a Store,
+        states: usize,
         edges: &'a Edges,
         values: &Values,
         bounds: &Bounds,
     ) -> Self {
         let mut expander = Expander::new(calm, bounds.answers.unwrap_or(usize::MAX), bounds.orders);
         expander.values.clone_from(values);
-        Self { store, edges, expander }
+        Self { store, states, edges, expander }
     }
 
     /// The first state from which the orders cannot be made, nor does an operator come who was called because something
@@ -75,10 +97,10 @@ impl<'a> Possible<'a> {
             return None;
         }
         let is_there = |state: &[u8]| model.is_made(state) || model.any_stands(state);
-        let can: Vec<bool> = (0..self.store.len()).map(|state| is_there(self.store.state(state))).collect();
+        let can: Vec<bool> = (0..self.states).map(|state| is_there(self.store.state(state))).collect();
         let calm = self.calm();
         self.reach(can.clone(), &calm, Stops::AreNoWay).or_else(|| {
-            let all = vec![true; self.store.len()];
+            let all = vec![true; self.states];
             self.reach(can, &all, Stops::AreWays)
         })
     }
@@ -87,13 +109,13 @@ impl<'a> Possible<'a> {
     pub fn never_followed(&mut self) -> Vec<(Violation, usize)> {
         let model = self.expander.model;
         let ends = |state: &[u8]| !model.orders.is_empty() && model.is_made(state) || model.any_stands(state);
-        let all = vec![true; self.store.len()];
+        let all = vec![true; self.states];
         let mut found = Vec::new();
         for (instance, program) in model.instances.iter().enumerate() {
             for property in &program.properties {
                 let Check::Whenever(whenever) = &property.check else { continue };
-                let mut can = Vec::with_capacity(self.store.len());
-                for number in 0..self.store.len() {
+                let mut can = Vec::with_capacity(self.states);
+                for number in 0..self.states {
                     let state = self.store.state(number);
                     can.push(!self.expander.is_waiting(state, program, whenever) || ends(state));
                 }
@@ -108,7 +130,7 @@ impl<'a> Possible<'a> {
     /// States to which the ways lead from the first one.
     pub(crate) fn calm(&self) -> Vec<bool> {
         let backwards: Vec<(u32, u32)> = self.edges.list.iter().map(|(from, to)| (*to, *from)).collect();
-        let mut calm = vec![false; self.store.len()];
+        let mut calm = vec![false; self.states];
         calm[0] = true;
         spread(&mut calm, &backwards);
         calm
@@ -116,7 +138,7 @@ impl<'a> Possible<'a> {
 
     /// The first of the states `asked` that does not lead to one that can.
     pub(crate) fn reach(&mut self, mut can: Vec<bool>, asked: &[bool], stops: Stops) -> Option<usize> {
-        let Self { store, edges, expander } = self;
+        let Self { store, states, edges, expander } = self;
         let fails = |can: &[bool]| can.iter().zip(asked).position(|(can, asked)| *asked && !can);
         fails(&can)?;
         edges.out.iter().for_each(|state| can[*state as usize] = true);
@@ -128,7 +150,7 @@ impl<'a> Possible<'a> {
             fails(&can)?;
         }
         let mut all = Vec::new();
-        for state in 0..store.len() {
+        for state in 0..*states {
             if can[state] || !asked[state] {
                 continue;
             }

@@ -20,7 +20,7 @@ impl Possible<'_> {
         let calm = self.calm();
         self.expander.answers = 1;
         let mut waits = None;
-        for number in (0..self.store.len()).filter(|number| calm[*number]) {
+        for number in (0..self.states).filter(|number| calm[*number]) {
             let state = self.store.state(number);
             let Some(instance) = self.timer(state).filter(|_| !model.is_made(state)) else { continue };
             let mut stays = true;
@@ -39,7 +39,7 @@ impl Possible<'_> {
     fn never_rests(&mut self) -> Option<usize> {
         let model = self.expander.model;
         let calm = self.calm();
-        let states = || (0..self.store.len()).map(|state| self.store.state(state));
+        let states = || (0..self.states).map(|state| self.store.state(state));
         let can = states().map(|state| rests(model, state)).collect();
         let asked: Vec<bool> =
             states().zip(&calm).map(|(state, calm)| *calm && model.is_made(state)).collect();

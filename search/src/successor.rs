@@ -22,6 +22,16 @@ pub enum Orders {
     All,
 }
 
+/// Which successors of a state are asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    All,
+    /// Those before which no device fails.
+    Calm,
+    /// The others.
+    Failing,
+}
+
 pub struct Expander<'a> {
     pub model: &'a Model,
     pub values: Values,
@@ -36,7 +46,8 @@ pub struct Expander<'a> {
     pub(crate) choices: Choices,
     pub(crate) variables: Vec<i32>,
     /// Of each source that may do anything what that is.
-    options: Vec<Vec<Event>>,
+    options: Vec<Vec<Choice>>,
+    events: Vec<Event>,
     /// The state after the events chosen so far, by their number.
     pub(crate) levels: Vec<Vec<u8>>,
     /// The state that is expanded.
@@ -46,11 +57,19 @@ pub struct Expander<'a> {
     pub(crate) remarked: Vec<Violation>,
     pub(crate) chosen: Vec<Event>,
     restless: u64,
-    /// Whether the first of the chosen events is a fault.
-    pub(crate) is_fault: bool,
+    /// How many of the chosen events are faults.
+    faults: usize,
+    part: Part,
     /// Whether successors are to say what has fired.
     pub tell: bool,
     pub(crate) told: Told,
+}
+
+/// What a device may do.
+#[derive(Clone, Copy)]
+struct Choice {
+    event: Event,
+    is_fault: bool,
 }
 
 /// What follows a state.
@@ -83,6 +102,7 @@ impl<'a> Expander<'a> {
             choices: Choices::default(),
             variables: vec![0; model.most_variables()],
             options: Vec::new(),
+            events: Vec::new(),
             levels: Vec::new(),
             before: vec![0; model.initial.len()],
             work: vec![0; model.initial.len()],
@@ -90,7 +110,8 @@ impl<'a> Expander<'a> {
             remarked: Vec::new(),
             chosen: Vec::new(),
             restless: 0,
-            is_fault: false,
+            faults: 0,
+            part: Part::All,
             tell: false,
             told: Told::default(),
         }
@@ -99,20 +120,33 @@ impl<'a> Expander<'a> {
     /// Calls `emit` with every successor; a state may come several times.
     /// `restless` are the instances that may do something even if no device does.
     pub fn expand(&mut self, state: &[u8], restless: u64, emit: &mut impl FnMut(Successor)) {
+        self.expand_part(Part::All, state, restless, emit);
+    }
+
+    /// The same for a part of them.
+    pub fn expand_part(&mut self, part: Part, state: &[u8], restless: u64, emit: &mut impl FnMut(Successor)) {
+        self.part = part;
         self.before.copy_from_slice(state);
         self.restless = self.restless_in(state, restless);
         let sources = event::sources(self.model);
-        let mut options: Vec<Vec<Event>> = std::mem::take(&mut self.options);
+        let mut options: Vec<Vec<Choice>> = std::mem::take(&mut self.options);
         options.truncate(sources);
         let mut used = 0;
+        let mut events = std::mem::take(&mut self.events);
         for source in 0..sources {
             if used == options.len() {
                 options.push(Vec::new());
             }
+            events.clear();
+            event::events(self.model, &self.values, state, source, &mut events);
             options[used].clear();
-            event::events(self.model, &self.values, state, source, &mut options[used]);
+            options[used].extend(events.iter().filter_map(|event| {
+                let is_fault = event::is_fault(self.model, &self.values, state, event);
+                (part != Part::Calm || !is_fault).then_some(Choice { event: *event, is_fault })
+            }));
             used += usize::from(!options[used].is_empty());
         }
+        self.events = events;
         self.levels.resize_with(used + 2, || vec![0; state.len()]);
         self.levels[0].copy_from_slice(state);
         self.chosen.clear();
@@ -164,29 +198,35 @@ impl<'a> Expander<'a> {
 
     /// Whether at most one device did something, and it was no fault.
     pub(crate) fn is_plain(&self) -> bool {
-        self.chosen.is_empty() || self.chosen.len() == 1 && !self.is_fault
+        self.chosen.len() <= 1 && self.faults == 0
     }
 
     fn answer(
         &mut self,
-        options: &[Vec<Event>],
+        options: &[Vec<Choice>],
         level: usize,
         touched: u64,
         emit: &mut impl FnMut(Successor),
     ) {
-        let Some((events, rest)) = options.split_first().filter(|_| self.chosen.len() < self.answers) else {
-            return self.scan(level, touched | self.restless, emit);
+        let has_to_fail = self.part == Part::Failing && self.faults == 0;
+        if has_to_fail && !options.iter().flatten().any(|choice| choice.is_fault) {
+            return;
+        }
+        let Some((choices, rest)) = options.split_first().filter(|_| self.chosen.len() < self.answers) else {
+            if !has_to_fail {
+                self.scan(level, touched | self.restless, emit);
+            }
+            return;
         };
         self.answer(rest, level, touched, emit);
-        for event in events {
-            if self.chosen.is_empty() {
-                self.is_fault = event::is_fault(self.model, &self.values, &self.before, event);
-            }
+        for Choice { event, is_fault } in choices {
             let (before, after) = self.levels.split_at_mut(level + 1);
             after[0].copy_from_slice(&before[level]);
             event::apply(self.model, &mut self.values, &mut after[0], *event);
             self.chosen.push(*event);
+            self.faults += usize::from(*is_fault);
             self.answer(rest, level + 1, touched | bit(event.machine), emit);
+            self.faults -= usize::from(*is_fault);
             self.chosen.pop();
         }
     }

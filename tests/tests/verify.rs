@@ -217,6 +217,42 @@ fn a_search_that_is_cut_proves_nothing() {
     assert_eq!(outcome.end, End::Stopped);
 }
 
+/// A missed grip leads there in fewer scans.
+#[test]
+fn what_is_found_has_as_few_faults_as_possible() {
+    let project = changed(
+        "local next: int 0..11 := 0;",
+        "local next: int 0..11 := 0; invariant not missed and slot[1] <> Full;",
+    )
+    .project();
+    let [all, none] = [Faults::All, Faults::None].map(|faults| search(&model_of(&project, faults), &BOUNDS));
+    let scans = |outcome: &Outcome| outcome.violations[0].1.scans.len();
+    assert_eq!(verdict(&all), verdict(&none));
+    assert_eq!(scans(&all), scans(&none));
+    let missed = changed("local next: int 0..11 := 0;", "local next: int 0..11 := 0; invariant not missed;");
+    let missed = search(&model_of(&missed.project(), Faults::All), &BOUNDS);
+    assert!(scans(&missed) < scans(&all));
+    assert_eq!((all.covered.failing, missed.covered.failing), (None, Some(0)));
+}
+
+/// Of the sequences with few faults it is decided whether the orders can be made.
+#[test]
+fn a_search_that_is_cut_has_checked_all_with_few_faults() {
+    let model = model_of(&buffer(ONE_PART).project(), Faults::All);
+    let whole = search(&model, &BOUNDS);
+    let mut states = 0;
+    for failing in 0..3 {
+        let cut = explore(&model, &BOUNDS, &mut |covered| covered.failing != Some(failing));
+        assert_eq!(verdict(&cut), (End::Stopped, Vec::new()));
+        assert!(states < cut.reached.len() && cut.reached.len() < whole.reached.len());
+        states = cut.reached.len();
+    }
+    let model =
+        model_of(&changed("when taken -> Ready", "when taken and missed -> Ready").project(), Faults::All);
+    let cut = explore(&model, &BOUNDS, &mut |covered| covered.failing.is_none());
+    assert_eq!(verdict(&cut), (End::Stopped, vec!["NeverMade".into()]));
+}
+
 /// Violations and whether the search was complete.
 fn verdict(outcome: &Outcome) -> (End, Vec<String>) {
     let mut violations: Vec<String> = outcome.violations.iter().map(|(v, _)| format!("{v:?}")).collect();

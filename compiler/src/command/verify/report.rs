@@ -167,6 +167,9 @@ impl Report<'_> {
             None => out += "complete           yes\n",
             Some(why) => {
                 let _ = writeln!(out, "complete           no: {why}");
+                if let Some(failing) = covered.failing {
+                    let _ = writeln!(out, "checked            {}", checked(failing));
+                }
             }
         }
         out
@@ -202,9 +205,19 @@ impl Report<'_> {
             "stops": covered.stops,
             "stopped_states": covered.stopped,
             "depth": covered.depth,
+            "failing_scans": covered.failing,
             "time_s": covered.time.as_secs_f64(),
             "memory_bytes": covered.memory,
         })
+    }
+}
+
+/// What a search that was cut has checked.
+fn checked(failing: usize) -> String {
+    match failing {
+        0 => "all sequences without faults".into(),
+        1 => "all sequences with faults in at most one scan".into(),
+        _ => format!("all sequences with faults in at most {failing} scans"),
     }
 }
 
