@@ -172,7 +172,8 @@ impl<'a> Search<'a> {
                 return (None, complete);
             }
             // No state is reached in no scan and with a fault.
-            last = std::mem::replace(&mut level, vec![0..0]);
+            last = std::mem::take(&mut level);
+            level.push(0..0);
         }
     }
 

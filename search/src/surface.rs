@@ -9,6 +9,9 @@ const SINK: f64 = 0.01;
 /// A place no farther from a slot is that slot, m.
 const AT_SLOT: f64 = 0.01;
 
+/// What the state holds of an input that is false.
+const NOT_SEEN: i32 = 1;
+
 /// Where an item comes to lie.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Landing {
@@ -116,9 +119,9 @@ fn slot_at(place: &Place, origin: Point, point: Point) -> Option<usize> {
 
 /// The item that a gripper finds with its tool here, no farther than `near` from where it is gripped.
 pub fn found(model: &Model, values: &Values, state: &[u8], tool: Point, near: f64) -> Option<Found> {
-    let meets = |p: Point, kind: usize| {
+    let gap = |p: Point, kind: usize| {
         let gap = [p[0] - tool[0], p[1] - tool[1], p[2] + model.grasps[kind] - tool[2]];
-        gap.iter().map(|c| c * c).sum::<f64>() <= near * near
+        gap.iter().map(|c| c * c).sum::<f64>()
     };
     for (machine, plant) in model.machines.iter().enumerate() {
         for (number, place) in plant.places.iter().enumerate() {
@@ -128,7 +131,7 @@ pub fn found(model: &Model, values: &Values, state: &[u8], tool: Point, near: f6
                 let kind = if place.by_kind { slot } else { held as usize - usize::from(held > 0) };
                 let Some(offset) = place.slots.get(slot).filter(|_| held > 0) else { continue };
                 let at = [0, 1, 2].map(|axis| origin[axis] + offset[axis]);
-                if meets(at, kind) && !is_driving(model, state, machine) {
+                if gap(at, kind) <= near * near && !is_driving(model, state, machine) {
                     return Some(Found { kind, at: Landing::Slot { machine, place: number, slot } });
                 }
             }
@@ -137,11 +140,15 @@ pub fn found(model: &Model, values: &Values, state: &[u8], tool: Point, near: f6
             continue;
         };
         for (number, zone) in lane.zones.iter().enumerate() {
-            for (kind, at) in zone.found.iter().enumerate() {
-                let is_seen = zone.sees[kind].is_none_or(|input| model.inputs[input].var.load(state) != 1);
-                if is_seen && meets(*at, kind) {
-                    return Some(Found { kind, at: Landing::Zone { machine, zone: number } });
-                }
+            let is_open = |kind: &usize| {
+                zone.sees[*kind].is_none_or(|input| model.inputs[input].var.load(state) != NOT_SEEN)
+            };
+            let met = (0..zone.found.len()).filter(|kind| gap(zone.found[*kind], *kind) <= near * near);
+            let kind = met
+                .filter(is_open)
+                .min_by(|a, b| gap(zone.found[*a], *a).total_cmp(&gap(zone.found[*b], *b)));
+            if let Some(kind) = kind {
+                return Some(Found { kind, at: Landing::Zone { machine, zone: number } });
             }
         }
     }

@@ -1,14 +1,14 @@
 //! The automaton of one instance.
 
 use super::expression::Stored;
-use super::live::live;
+use super::live::{self, Sight, live};
 use super::memory::Memory;
 use super::plant::{Plant, Signal};
 use super::{Asked, Skipped};
 use crate::executor::Executor;
 use crate::ir::{self, Automaton, Expr, InterfaceId, Place, RoleId, Scalar, System, UpdateKind, Value};
 use crate::reads::{Reads, Whose, is_fixed};
-use autogen_search::plant::Machine;
+use autogen_search::plant::{Action, Machine};
 use autogen_search::program::{
     Bounds, Clause, Command, Int, Key, Operator, State, Target, Transition, Update, bit,
 };
@@ -19,6 +19,9 @@ use std::sync::Arc;
 
 /// Where values stand: each element, and how much less the state holds.
 pub type Vars = (Vec<Var>, i32);
+
+/// An input of which nothing is known.
+const OPEN: i32 = 0;
 
 /// What all instances share.
 pub struct Line<'a> {
@@ -34,6 +37,8 @@ pub struct Line<'a> {
     pub plants: Vec<Plant>,
     /// Of each instance the places of the outputs that it reads, by their ports.
     pub outputs: Vec<Vec<Option<Vars>>>,
+    /// Of each instance what is seen over its conveyor and stays so while this is at rest.
+    pub seen: Vec<Vec<Var>>,
     /// The first state.
     pub initial: &'a [u8],
 }
@@ -171,7 +176,7 @@ impl<'a> Instance<'a> {
     ) -> autogen_search::program::Instance {
         let (state, times_come) = self.line.states[self.number];
         let automaton = self.automaton;
-        let live = live(automaton, asked);
+        let live = live(automaton, &self.sight(), asked);
         let states =
             automaton.states.iter().zip(&live).map(|(state, live)| self.state(state, live)).collect();
         let properties = self.properties(asked, memory, skipped);
@@ -185,7 +190,19 @@ impl<'a> Instance<'a> {
         }
     }
 
-    fn state(&mut self, state: &ir::State, live: &BTreeSet<usize>) -> State {
+    fn sight(&mut self) -> Sight {
+        let (head, wiring) =
+            (&self.line.plants[self.number].machine.head, &self.line.plant.machines[self.number].wiring);
+        let commands = head.iter().flat_map(|head| &head.commands).zip(&wiring.commands);
+        let moves =
+            commands.filter(|(asked, _)| asked.action == Action::Run).map(|(_, command)| command.number);
+        let moves = moves.collect();
+        let ports = 0..self.automaton.device.ports.len();
+        let is_free = |port: &usize| matches!(self.port(*port), Stored::Signal(Signal::Free(_)));
+        Sight { ports: ports.filter(is_free).collect(), moves }
+    }
+
+    fn state(&mut self, state: &ir::State, live: &BTreeSet<live::Memory>) -> State {
         let automaton = self.automaton;
         let guards = Reads::of_guards(automaton, state);
         let mut times: Vec<i32> = guards.timers.iter().filter_map(|time| self.fixed(time)).collect();
@@ -206,9 +223,11 @@ impl<'a> Instance<'a> {
         }
         let transitions = state.transitions.iter().map(|transition| self.transition(transition)).collect();
         let locals = self.line.locals[self.number].iter().enumerate();
-        let dead = locals.filter(|(local, _)| !live.contains(local)).flat_map(|(_, (vars, _))| vars);
-        let dead = dead.map(|var| (*var, var.load(self.line.initial))).collect();
-        let is_answer_dead = !live.contains(&automaton.locals.len());
+        let dead = locals.filter(|(local, _)| !live.contains(&live::Memory::Local(*local)));
+        let dead = dead.flat_map(|(_, (vars, _))| vars).map(|var| (*var, var.load(self.line.initial)));
+        let seen = self.line.seen[self.number].iter().filter(|_| !live.contains(&live::Memory::Seen));
+        let dead = dead.chain(seen.map(|var| (*var, OPEN))).collect();
+        let is_answer_dead = !live.contains(&live::Memory::Answer);
         State { transitions, reads, times, dead, is_answer_dead }
     }
 

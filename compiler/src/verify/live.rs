@@ -2,18 +2,37 @@
 
 use super::properties::{read_by, searched};
 use super::{Asked, Remembered};
-use crate::ir::{Automaton, Clause, Domain, Expr, ExprKind, Place, Update, UpdateKind};
+use crate::ir::{Automaton, Clause, Domain, Expr, ExprKind, Place, Transition, Update, UpdateKind};
 use std::collections::BTreeSet;
 
-/// Locals by their numbers; behind them the answer of the last command.
-type Set = BTreeSet<usize>;
+/// What an automaton remembers, and what its device does for it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Memory {
+    Local(usize),
+    /// To the last command.
+    Answer,
+    /// What is seen over a conveyor, which stays as it is until the conveyor moves.
+    Seen,
+}
 
-/// For each state what may be read before it is written; the number of the locals stands for the answer.
-pub fn live(automaton: &Automaton, asked: &Asked) -> Vec<Set> {
+type Set = BTreeSet<Memory>;
+
+/// The ports of an automaton that tell what lies on its conveyor, and the commands that move this.
+#[derive(Debug)]
+pub struct Sight {
+    /// Numbers of ports.
+    pub ports: Vec<usize>,
+    /// Numbers of commands, as on the bus.
+    pub moves: Vec<i32>,
+}
+
+/// For each state what may be read before it is written.
+pub fn live(automaton: &Automaton, sight: &Sight, asked: &Asked) -> Vec<Set> {
+    let uses = Uses { automaton, sight };
     let mut always = Set::new();
-    searched(automaton, asked).flat_map(read_by).for_each(|read| expr(automaton, read, &mut always));
+    searched(automaton, asked).flat_map(read_by).for_each(|read| uses.expr(read, &mut always));
     if asked.remembered == Remembered::Whole {
-        always.extend(0..=automaton.locals.len());
+        always.extend((0..automaton.locals.len()).map(Memory::Local).chain([Memory::Answer, Memory::Seen]));
     }
     let mut live = vec![always; automaton.states.len()];
     loop {
@@ -21,10 +40,9 @@ pub fn live(automaton: &Automaton, asked: &Asked) -> Vec<Set> {
         for (number, state) in automaton.states.iter().enumerate() {
             let mut found = live[number].clone();
             for transition in &state.transitions {
-                let mut after = live[transition.target.map_or(number, |target| target.0)].clone();
-                transition.updates.iter().rev().for_each(|update| before(automaton, update, &mut after));
-                transition.clauses.iter().for_each(|clause| self::clause(automaton, clause, &mut after));
-                found.extend(after);
+                let mut before = live[transition.target.map_or(number, |target| target.0)].clone();
+                uses.transition(transition, &mut before);
+                found.extend(before);
             }
             has_changed |= found.len() > live[number].len();
             live[number] = found;
@@ -35,70 +53,90 @@ pub fn live(automaton: &Automaton, asked: &Asked) -> Vec<Set> {
     }
 }
 
-/// What is live before an update, from what is live after it.
-fn before(automaton: &Automaton, update: &Update, live: &mut Set) {
-    match &update.kind {
-        UpdateKind::Assign { target, value, .. } => {
-            if let Place::Local { local, index: None } = &target.place {
-                live.remove(local);
-            }
-            target.place.parts().into_iter().for_each(|part| expr(automaton, part, live));
-            expr(automaton, value, live);
-        }
-        UpdateKind::Fill { target, value, .. } => {
-            if let Place::Local { local, .. } = &target.place {
-                live.remove(local);
-            }
-            target.place.parts().into_iter().for_each(|part| expr(automaton, part, live));
-            expr(automaton, value, live);
-        }
-        UpdateKind::Copy { target, source, .. } => {
-            if let Place::Local { local, .. } = &target.place {
-                live.remove(local);
-            }
-            target.place.parts().into_iter().for_each(|part| expr(automaton, part, live));
-            place(automaton, source, live);
-        }
-        UpdateKind::Command { arguments, .. } => {
-            live.remove(&automaton.locals.len());
-            arguments.iter().for_each(|argument| expr(automaton, &argument.value, live));
-        }
-    }
+/// What expressions and updates read and write.
+struct Uses<'a> {
+    automaton: &'a Automaton,
+    sight: &'a Sight,
 }
 
-fn clause(automaton: &Automaton, clause: &Clause, live: &mut Set) {
-    match clause {
-        Clause::Condition(condition) => expr(automaton, condition, live),
-        Clause::Bind(binder) => {
-            if let Domain::Range(low, high) = &binder.domain {
-                expr(automaton, low, live);
-                expr(automaton, high, live);
+impl Uses<'_> {
+    /// What is live before a transition, from what is live after it.
+    fn transition(&self, transition: &Transition, live: &mut Set) {
+        transition.updates.iter().rev().for_each(|update| self.update(update, live));
+        transition.clauses.iter().for_each(|clause| self.clause(clause, live));
+    }
+
+    /// What is live before an update, from what is live after it.
+    fn update(&self, update: &Update, live: &mut Set) {
+        match &update.kind {
+            UpdateKind::Assign { target, value, .. } => {
+                if let Place::Local { local, index: None } = &target.place {
+                    live.remove(&Memory::Local(*local));
+                }
+                target.place.parts().into_iter().for_each(|part| self.expr(part, live));
+                self.expr(value, live);
             }
-            binder.condition.iter().chain(&binder.key).for_each(|part| expr(automaton, part, live));
+            UpdateKind::Fill { target, value, .. } => {
+                if let Place::Local { local, .. } = &target.place {
+                    live.remove(&Memory::Local(*local));
+                }
+                target.place.parts().into_iter().for_each(|part| self.expr(part, live));
+                self.expr(value, live);
+            }
+            UpdateKind::Copy { target, source, .. } => {
+                if let Place::Local { local, .. } = &target.place {
+                    live.remove(&Memory::Local(*local));
+                }
+                target.place.parts().into_iter().for_each(|part| self.expr(part, live));
+                self.place(source, live);
+            }
+            UpdateKind::Command { verb, arguments } => {
+                live.remove(&Memory::Answer);
+                if self.sight.moves.contains(verb) {
+                    live.remove(&Memory::Seen);
+                }
+                arguments.iter().for_each(|argument| self.expr(&argument.value, live));
+            }
         }
     }
-}
 
-fn expr(automaton: &Automaton, of: &Expr, live: &mut Set) {
-    match &of.kind {
-        ExprKind::Done | ExprKind::Failed => {
-            live.insert(automaton.locals.len());
+    fn clause(&self, clause: &Clause, live: &mut Set) {
+        match clause {
+            Clause::Condition(condition) => self.expr(condition, live),
+            Clause::Bind(binder) => {
+                if let Domain::Range(low, high) = &binder.domain {
+                    self.expr(low, live);
+                    self.expr(high, live);
+                }
+                binder.condition.iter().chain(&binder.key).for_each(|part| self.expr(part, live));
+            }
         }
-        ExprKind::Define(define) => expr(automaton, &automaton.defines[*define].value, live),
-        ExprKind::Read(read) => place(automaton, read, live),
-        _ => of.parts().into_iter().for_each(|part| expr(automaton, part, live)),
     }
-}
 
-fn place(automaton: &Automaton, read: &Place, live: &mut Set) {
-    match read {
-        Place::Local { local, .. } => {
-            live.insert(*local);
+    fn expr(&self, of: &Expr, live: &mut Set) {
+        match &of.kind {
+            ExprKind::Done | ExprKind::Failed => {
+                live.insert(Memory::Answer);
+            }
+            ExprKind::Define(define) => self.expr(&self.automaton.defines[*define].value, live),
+            ExprKind::Read(read) => self.place(read, live),
+            _ => of.parts().into_iter().for_each(|part| self.expr(part, live)),
         }
-        Place::Port { port, .. } if automaton.device.ports[*port].name == "error" => {
-            live.insert(automaton.locals.len());
-        }
-        Place::Port { .. } | Place::Cell { .. } | Place::Parameter { .. } | Place::Shown { .. } => {}
     }
-    read.parts().into_iter().for_each(|part| expr(automaton, part, live));
+
+    fn place(&self, read: &Place, live: &mut Set) {
+        match read {
+            Place::Local { local, .. } => {
+                live.insert(Memory::Local(*local));
+            }
+            Place::Port { port, .. } if self.automaton.device.ports[*port].name == "error" => {
+                live.insert(Memory::Answer);
+            }
+            Place::Port { port, .. } if self.sight.ports.contains(port) => {
+                live.insert(Memory::Seen);
+            }
+            Place::Port { .. } | Place::Cell { .. } | Place::Parameter { .. } | Place::Shown { .. } => {}
+        }
+        read.parts().into_iter().for_each(|part| self.expr(part, live));
+    }
 }

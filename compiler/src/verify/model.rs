@@ -48,6 +48,7 @@ pub fn model(project: &Project, asked: &Asked) -> Result<Searched, Vec<Diagnosti
         cells: Vec::new(),
         plants: Vec::new(),
         outputs: Vec::new(),
+        seen: Vec::new(),
         initial: &[],
     };
     whole.cells = vec![Vec::new(); system.model.interfaces.len()];
@@ -134,6 +135,8 @@ pub fn model(project: &Project, asked: &Asked) -> Result<Searched, Vec<Diagnosti
         made: memory.number(0, format!("(order {} made)", number + 1), 1, 0),
     });
     let orders: Vec<Order> = orders.collect();
+    let stays = |number| changing.inputs.iter().filter(move |input| input.stays == Some(number));
+    whole.seen = (0..system.instances.len()).map(|n| stays(n).map(|input| input.var).collect()).collect();
     let initial = memory.initial.clone();
     whole.initial = &initial;
     let (mut refused, mut skipped) = (Vec::new(), Vec::new());

@@ -332,9 +332,9 @@ fn zone(
     let least = |of: fn(&Point) -> f64| corners.iter().map(of).fold(f64::INFINITY, f64::min);
     let most = |of: fn(&Point) -> f64| corners.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
     // Items come from where places are greater, and are found as soon as they lie wholly in the field.
-    let found = line.kinds.iter().map(|kind| {
+    let found = line.kinds.iter().enumerate().map(|(number, kind)| {
         let own = (kind.size[0].max(kind.size[1]) / 2.0).max(field.part_half);
-        coordinates(corner((field.half - own).max(0.0), 0.0))
+        coordinates(corner((field.half - own - BESIDE * number as f64).max(0.0), 0.0))
     });
     let machine = &line.machines[number];
     let is_seen = machine.wiring.inputs.iter().any(
@@ -361,6 +361,10 @@ fn zone(
         found: found.collect(),
     })
 }
+
+/// Items of two kinds do not lie at the same place of a field: one of the next kind lies so far behind, m. Less than what
+/// matters to a gripper.
+const BESIDE: f64 = 1e-4;
 
 /// What a panel shows that nobody touches: modes are not searched.
 fn at_rest(primitive: &Primitive) -> Signal {
