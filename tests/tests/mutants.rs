@@ -136,7 +136,7 @@ fn of_mutant(lines: &[Line], originals: &[Model], name: &str, text: &str) -> Res
         }
         changed.push(model);
     }
-    let is_equal = |(a, b): (&Model, &Model)| matches!(compare(a, b, &BOUNDS), Comparison::Equal { .. });
+    let is_equal = |(a, b): (&Model, &Model)| compare(a, b, &BOUNDS) == Comparison::Equal;
     match is_full_campaign() && originals.iter().zip(&changed).take(COMPARED).all(is_equal) {
         true => Result::Equal,
         false => Result::Missed,
