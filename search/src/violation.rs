@@ -21,7 +21,8 @@ pub enum Violation {
     NeverMade,
     /// All orders are made, and from here the line cannot come to rest any more, although nothing has failed.
     NeverRests,
-    /// Nothing has failed, orders are to be made, and the line does nothing until a time of this instance has passed.
+    /// The device of this instance has not failed, orders are to be made, and the line does nothing until a time of the instance
+    /// has passed.
     WaitsForTime { instance: usize },
     /// A machine is given the command again that is under way.
     Repeats { machine: usize },

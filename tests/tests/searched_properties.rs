@@ -6,7 +6,7 @@ use autogen_search::explore::{Bounds, End, Outcome, explore};
 use autogen_search::model::{Model, Reductions};
 use autogen_search::plant::Faults;
 use autogen_search::successor::Orders;
-use autogen_tests::{Texts, root};
+use autogen_tests::{Texts, fixtures, text};
 use std::fmt::Write;
 
 const BOUNDS: Bounds = Bounds {
@@ -20,21 +20,14 @@ const BOUNDS: Bounds = Bounds {
 
 /// A line by its type: the first line of the text has its layout.
 fn line(name: &str) -> Texts {
-    let path = root().join(format!("tests/fixtures/verify/properties/{name}.aut"));
-    let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    let text = text(&format!("tests/fixtures/verify/properties/{name}.aut"));
     let (layout, _) = text.split_once('\n').expect("a layout");
     let layout = layout.strip_prefix("// ").expect("a layout in a comment").to_string();
     Texts { layout, specs: vec![text], ..Texts::default() }
 }
 
 fn names() -> Vec<String> {
-    let folder = root().join("tests/fixtures/verify/properties");
-    let entries = std::fs::read_dir(folder).expect("the folder of the lines");
-    let files = entries.map(|entry| entry.expect("an entry").file_name().into_string().expect("a name"));
-    let mut names: Vec<String> =
-        files.filter_map(|name| name.strip_suffix(".aut").map(String::from)).collect();
-    names.sort();
-    names
+    fixtures("verify/properties", "aut").into_iter().map(|(name, _)| name).collect()
 }
 
 /// What is found, with its executions.

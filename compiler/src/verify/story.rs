@@ -61,7 +61,7 @@ impl Teller<'_> {
                 "all orders are made, and the line cannot come to rest although nothing has failed".into()
             }
             Violation::WaitsForTime { instance } => format!(
-                "nothing has failed, and the whole line does nothing until a time of {} has passed",
+                "the whole line does nothing until a time of {} has passed, whose device has not failed",
                 name(instance)
             ),
             Violation::Repeats { machine } => {
