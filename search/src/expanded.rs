@@ -118,7 +118,7 @@ impl Expanded {
                         steps.push(Step::Unknown { number: number as u32, is_plain });
                     }
                 }
-                Err(Violation::Stop) => {
+                Err(Violation::Stop { .. }) => {
                     after.stops += 1;
                     if successor.is_plain {
                         steps.push(Step::Stop);

@@ -201,18 +201,19 @@ impl<'a> Expander<'a> {
         let first = self.before.clone();
         let mut found = None;
         for _ in 0..MOST_STOPS {
+            // What the operator does may change inputs of devices.
+            self.model.inputs.iter().for_each(|input| input.var.store(&mut self.work, 0));
             self.before.clone_from(&self.work);
             self.choices.clear();
             let result = self.begin().run(&order, u64::MAX);
-            // What the operator does may change inputs of devices.
             if let Err(Violation::Fault { instance, fault }) = result
                 && self.choices.is_empty()
                 && !self.model.sensed[fault]
             {
                 found = Some(Violation::FaultBehindStop { instance, fault });
             }
-            // A signal that changes by itself may end it.
-            if result != Err(Violation::Stop) || !self.choices.is_empty() {
+            let goes_on = |fault: usize| self.model.sensed[fault] || !self.choices.is_empty();
+            if !matches!(result, Err(Violation::Stop { fault }) if !goes_on(fault)) {
                 break;
             }
             if self.work == self.before {
@@ -245,9 +246,9 @@ impl<'a> Expander<'a> {
             let mut result = scan.run(&order, touched);
             let restless = scan.restless;
             self.order = order;
-            if result == Err(Violation::Stop) {
+            if let Err(stop @ Violation::Stop { .. }) = result {
                 let stopped = self.work.clone();
-                result = Err(self.behind_stop(&stopped).unwrap_or(Violation::Stop));
+                result = Err(self.behind_stop(&stopped).unwrap_or(stop));
             }
             emit(Successor {
                 state: &self.work,

@@ -11,8 +11,9 @@ pub enum Violation {
     MachineStops { instance: usize, fault: usize },
     /// From here the goal of a property, which is waited for, cannot come any more.
     NeverFollowed { instance: usize, fault: usize },
-    /// None: the line stops as its types say, until an operator has come. What follows is not searched.
-    Stop,
+    /// None: the line stops as its types say, until an operator has come. What follows is not searched. Index into the
+    /// faults of the model.
+    Stop { fault: usize },
     /// The same, and once an operator has come it stops again in the next scan, each time, while no device does anything.
     StopsAgain,
     /// The same, and the scan in which it goes on once an operator has come ends in a fault.

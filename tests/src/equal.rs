@@ -174,6 +174,7 @@ fn kind(violation: &Violation) -> String {
         Violation::Fault { instance, .. } => format!("fault of {instance}"),
         Violation::Warning { instance, .. } => format!("warning of {instance}"),
         Violation::MachineStops { instance, .. } => format!("stop of {instance}"),
+        Violation::Stop { .. } => "stop for an operator".to_string(),
         other => format!("{other:?}"),
     }
 }

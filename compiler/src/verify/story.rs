@@ -44,7 +44,7 @@ impl Teller<'_> {
                 let place = self.place(self.project.system.model.faults[fault].place);
                 format!("from here `{text}` of {} cannot be fulfilled any more ({place})", name(instance))
             }
-            Violation::Stop => "the line stops until an operator comes".into(),
+            Violation::Stop { .. } => "the line stops until an operator comes".into(),
             Violation::StopsAgain => {
                 "the line stops until an operator comes, and stops again in the next scan each time".into()
             }
