@@ -20,10 +20,13 @@ const BOUNDS: Bounds = Bounds {
 
 /// A line by its type: the first line of the text has its layout.
 fn line(name: &str) -> Texts {
-    let text = text(&format!("tests/fixtures/verify/properties/{name}.aut"));
+    of_text(&text(&format!("tests/fixtures/verify/properties/{name}.aut")))
+}
+
+fn of_text(text: &str) -> Texts {
     let (layout, _) = text.split_once('\n').expect("a layout");
     let layout = layout.strip_prefix("// ").expect("a layout in a comment").to_string();
-    Texts { layout, specs: vec![text], ..Texts::default() }
+    Texts { layout, specs: vec![text.to_string()], ..Texts::default() }
 }
 
 fn names() -> Vec<String> {
@@ -58,6 +61,24 @@ fn promises_that_are_kept_and_promises_that_are_broken() {
         let breaks = name.starts_with("not_") || name.starts_with("never_");
         assert_eq!(text.lines().count() > 1, breaks, "{name}:\n{text}");
         insta::assert_snapshot!(format!("searched_{name}"), text);
+    }
+}
+
+/// The message that a file expects stands behind `//~`, in the line to which it points.
+#[test]
+fn lines_that_cannot_be_searched_are_refused() {
+    for (name, text) in fixtures("verify/refused", "aut") {
+        let outcome = of_text(&text).compile();
+        let project = outcome.project.as_ref().expect("a right line");
+        let Err(found) = model(project, &Asked::with(Faults::All)) else { panic!("{name} is searched") };
+        let told =
+            found.iter().map(|d| (outcome.sources.position(d.place).0, format!("{} {}", d.code, d.message)));
+        let told: Vec<(usize, String)> = told.collect();
+        let expected = text
+            .lines()
+            .enumerate()
+            .filter_map(|(number, line)| Some((number + 1, line.split_once("//~ ")?.1.to_string())));
+        assert_eq!(told, expected.collect::<Vec<_>>(), "{name}");
     }
 }
 
