@@ -97,6 +97,8 @@ struct Search<'a> {
     known: HashSet<Violation>,
     /// Of each kind the first.
     remarked: Vec<Found>,
+    /// Bytes that are kept to be used again.
+    again: usize,
     covered: Covered,
 }
 
@@ -153,7 +155,8 @@ impl Search<'_> {
 
     fn measure(&mut self, begin: Instant) {
         self.covered.time = begin.elapsed();
-        self.covered.memory = self.store.size() + 8 * self.restless.capacity() + self.edges.size();
+        self.covered.memory =
+            self.store.size() + 8 * self.restless.capacity() + self.edges.size() + self.again;
         self.covered.states = self.store.len();
     }
 
@@ -187,6 +190,7 @@ pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -
         found: Vec::new(),
         known: HashSet::new(),
         remarked: Vec::new(),
+        again: 0,
         covered: Covered::default(),
     };
     search.store.add(&model.initial, 0);
@@ -227,6 +231,7 @@ pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -
         if first.values.count() != expanders[0].values.count() {
             expanders.iter_mut().for_each(|expander| expander.values.clone_from(&first.values));
         }
+        search.again = spare.iter().map(Expanded::size).chain(expanders.iter().map(Expander::size)).sum();
         search.measure(begin);
         if let Some(end) = search.end(watch) {
             break end;

@@ -135,6 +135,11 @@ impl<'a> Expander<'a> {
         restless
     }
 
+    /// Bytes of memory that it keeps to be used again.
+    pub(crate) fn size(&self) -> usize {
+        self.spare.iter().chain(&self.levels).map(Vec::capacity).sum()
+    }
+
     /// Whether the goal of a property is waited for in a state.
     pub fn is_waiting(&mut self, state: &[u8], program: &Instance, whenever: &Whenever) -> bool {
         self.choices.clear();
