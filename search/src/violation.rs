@@ -27,7 +27,7 @@ pub enum Violation {
     WaitsForTime { instance: usize },
     /// A machine is given the command again that is under way.
     Repeats { machine: usize },
-    /// An arm sets out with its gripper on and empty, and not straight down to grip.
+    /// An arm sets out with its gripper still on and empty, and not straight down to grip.
     OnAndEmpty { arm: usize },
     /// An arm is to grip at a place at which nothing lies.
     NothingThere { arm: usize, machine: usize, slot: usize },

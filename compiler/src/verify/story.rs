@@ -68,7 +68,7 @@ impl Teller<'_> {
                 format!("{} gives the command again that is under way", name(machine))
             }
             Violation::OnAndEmpty { arm } => {
-                format!("{} sets out with its gripper on and empty", name(arm))
+                format!("{} sets out with its gripper still on and empty", name(arm))
             }
             Violation::NothingThere { arm, machine, slot } => {
                 format!(
