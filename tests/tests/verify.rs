@@ -10,7 +10,7 @@ use autogen_search::plant::{Faults, Watch};
 use autogen_search::successor::Orders;
 use autogen_search::violation::Violation;
 use autogen_tests::searched::Common;
-use autogen_tests::{Texts, is_full_campaign, own_line};
+use autogen_tests::{Texts, is_full_campaign, own_line, scenes};
 use runtime_sim::line::{Answer, IoDelay, Refusal, Slip};
 use runtime_sim::random::Random;
 use runtime_sim::run::{Stepping, run};
@@ -116,6 +116,15 @@ fn a_rack_with_one_part_is_proved() {
     let outcome = search(&model_of(&project, Faults::All), &Bounds { answers: Some(1), ..BOUNDS });
     assert_eq!(verdict(&outcome), (End::Complete, Vec::new()));
     assert!(outcome.remarks.is_empty(), "{:?}", outcome.remarks[0].0);
+}
+
+/// Its boxes come on a conveyor without commands.
+#[test]
+fn orders_for_items_that_are_not_known_are_left_open() {
+    let (_, texts) = scenes().into_iter().find(|(name, _)| name == "palletizer").expect("a scene");
+    let outcome = search(&model_of(&texts.project(), Faults::All), &Bounds { answers: Some(1), ..BOUNDS });
+    assert_eq!(verdict(&outcome), (End::Complete, Vec::new()));
+    assert!(outcome.are_orders_open && outcome.remarks.is_empty());
 }
 
 #[test]

@@ -269,6 +269,16 @@ pub fn plant(
     Plant { inputs: signals.collect(), machine: found, outputs: levels }
 }
 
+/// Whether items may be somewhere that is not searched: on a conveyor without commands, or at such a place.
+pub fn hides_items(machine: &Machine) -> bool {
+    let is_commanded = |part: usize| machine.wiring.commands.iter().any(|command| command.part == part);
+    machine.parts.iter().enumerate().any(|(number, part)| match &part.primitive {
+        Primitive::Lane(_) => !is_commanded(number),
+        Primitive::Place(place) => !is_known(machine, place),
+        _ => false,
+    })
+}
+
 /// What lies on a cylinder, a positioner or a vehicle on a track is nowhere to be found.
 fn is_known(machine: &Machine, place: &runtime_sim::part::place::Place) -> bool {
     machine.strokes_under(place).is_none() && !machine.is_on_track(place)
