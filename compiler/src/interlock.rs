@@ -1,4 +1,4 @@
-//! Machines whose ways cross while no lock of their types keeps them apart.
+//! Machines whose paths cross while no lock of their types keeps them apart.
 
 mod few;
 mod lock;
@@ -17,7 +17,7 @@ use stay::{Range, Stays};
 use std::cell::OnceCell;
 use std::collections::BTreeMap;
 
-/// Crossing ways of two machines of which the volume is told.
+/// Crossing paths of two machines of which the volume is told.
 const MOST_CROSSINGS: usize = 100;
 
 /// A machine that moves through the layout.
@@ -85,8 +85,8 @@ fn crossing<'m>(project: &Project, given: &Given, [a, b]: [&'m Mover; 2]) -> Opt
 }
 
 fn within(whole: &BoundingBox, stays: &Stays) -> Option<(BoundingBox, Span)> {
-    let near = stays.all.iter().filter(|stay| !stay.way.bounds.is_apart(whole));
-    let common = near.map(|stay| (stay.way.bounds.common(whole), stay.place));
+    let near = stays.all.iter().filter(|stay| !stay.path.bounds.is_apart(whole));
+    let common = near.map(|stay| (stay.path.bounds.common(whole), stay.place));
     common.reduce(|(all, place), (next, _)| (all.with(&next), place))
 }
 
@@ -97,9 +97,9 @@ fn both([a, b]: [&Moving; 2], stays: &Stays, others: &Stays) -> Option<Crossing>
     let is_free = stays.without_common_lock(others);
     let mut found: Option<Crossing> = None;
     let mut count = 0;
-    for stay in stays.all.iter().filter(|stay| !stay.way.bounds.is_apart(&others.bounds)) {
+    for stay in stays.all.iter().filter(|stay| !stay.path.bounds.is_apart(&others.bounds)) {
         for other in others.all.iter().filter(|other| is_free[stay.locks][other.locks]) {
-            if let Some(common) = a.common(&stay.way, (b, &other.way)) {
+            if let Some(common) = a.common(&stay.path, (b, &other.path)) {
                 let crossing = found.get_or_insert(Crossing {
                     common,
                     places: [stay.place, other.place],

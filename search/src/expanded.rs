@@ -80,6 +80,14 @@ impl Expanded {
         remarked.clear();
     }
 
+    /// Bytes of memory that it takes.
+    pub fn size(&self) -> usize {
+        size_of::<After>() * self.states.capacity()
+            + size_of::<Step>() * self.steps.capacity()
+            + size_of::<u64>() * self.restless.capacity()
+            + self.unknown.size()
+    }
+
     pub fn steps(&self, state: usize) -> &[Step] {
         let begin = state.checked_sub(1).map_or(0, |before| self.states[before].end);
         &self.steps[begin..self.states[state].end]
@@ -126,7 +134,7 @@ impl Expanded {
                         steps.push(Step::Unknown { number: number as u32, is_plain });
                     }
                 }
-                Err(Violation::Stop) => {
+                Err(Violation::Stop { .. }) => {
                     after.stops += 1;
                     if successor.is_plain {
                         steps.push(Step::Stop);

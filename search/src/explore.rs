@@ -72,6 +72,8 @@ pub struct Outcome {
     pub violations: Vec<(Violation, Execution)>,
     /// What is hardly meant, and the shortest execution to it. Only if the search is complete and found no violation.
     pub remarks: Vec<(Violation, Execution)>,
+    /// No sequence makes the orders, and they may need items that the search does not know.
+    pub are_orders_open: bool,
     /// All states that were reached.
     pub reached: Store,
     /// Points and reals by their numbers in these states.
@@ -118,6 +120,8 @@ struct Search<'a> {
     known: HashSet<Violation>,
     /// Of each kind the first.
     remarked: Vec<Found>,
+    /// Bytes that are kept to be used again.
+    again: usize,
     covered: Covered,
 }
 
@@ -140,6 +144,7 @@ impl<'a> Search<'a> {
             found: Vec::new(),
             known: HashSet::new(),
             remarked: Vec::new(),
+            again: 0,
             covered: Covered::default(),
         }
     }
@@ -206,6 +211,8 @@ impl<'a> Search<'a> {
                     }
                 }
             }
+            let again = runs.iter().map(Expanded::size).chain(self.expanders.iter().map(Expander::size));
+            self.again = again.sum();
             self.spare = runs;
             if self.first.values.count() != self.expanders[0].values.count() {
                 let values = &self.first.values;
@@ -276,7 +283,8 @@ impl<'a> Search<'a> {
 
     fn measure(&mut self) {
         self.covered.time = self.begin.elapsed();
-        self.covered.memory = self.store.size() + 8 * self.restless.capacity() + self.edges.size();
+        self.covered.memory =
+            self.store.size() + 8 * self.restless.capacity() + self.edges.size() + self.again;
         self.covered.states = self.store.len();
     }
 
@@ -309,11 +317,14 @@ pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -
     let mut violations: Vec<(Violation, Execution)> =
         found.into_iter().map(|found| told(&mut first, found)).collect();
     let mut remarks = Vec::new();
+    let mut are_orders_open = false;
     if end != End::Violated && reached.states > 0 {
         let calm = Model { faults: Faults::None, ..model.clone() };
         edges.forget_after(&reached.edges);
         let mut possible = Possible::new(&calm, &store, reached.states, &edges, &first.values, bounds);
-        let never = possible.never_made().map(|state| (Violation::NeverMade, state));
+        let never = possible.never_made();
+        are_orders_open = never == Some(0) && model.hides_items;
+        let never = never.filter(|_| !are_orders_open).map(|state| (Violation::NeverMade, state));
         let mut never: Vec<(Violation, usize)> = never.into_iter().collect();
         if violations.len() + never.len() < bounds.violations {
             never.extend(possible.never_followed());
@@ -323,7 +334,8 @@ pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -
         }
         violations.truncate(bounds.violations);
         if violations.is_empty() && end == End::Complete {
-            for (remark, state) in possible.remarks() {
+            let of_orders = if are_orders_open { Vec::new() } else { possible.remarks() };
+            for (remark, state) in of_orders {
                 remarks.push((remark, story::to_state(&store, &mut first, state)));
             }
             remarks.extend(remarked.into_iter().map(|found| told(&mut first, found)));
@@ -333,5 +345,5 @@ pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -
         covered.stopped = (0..store.len()).filter(|state| model.any_stands(store.state(*state))).count();
     }
     covered.time = begin.elapsed();
-    Outcome { covered, end, violations, remarks, reached: store, values: first.values }
+    Outcome { covered, end, violations, remarks, are_orders_open, reached: store, values: first.values }
 }

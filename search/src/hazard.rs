@@ -8,7 +8,7 @@ use crate::violation::Violation;
 
 /// A place where its machine stands: at a stop, if a vehicle carries it. A point is at it if it is over it, and at a
 /// field over a conveyor if it is so low that items on it would be touched.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Site {
     number: usize,
     machine: usize,
@@ -53,8 +53,7 @@ impl Scan<'_> {
     /// What a command that has just been given makes dangerous.
     pub(crate) fn hazards(&mut self) -> Result<(), Violation> {
         let model = self.model;
-        let mut at: [(Site, usize); 64] = [(Site::default(), 0); 64];
-        let mut count = 0;
+        let mut at: Vec<(Site, usize)> = Vec::new();
         for (machine, plant) in model.machines.iter().enumerate() {
             let Some(arm) = &plant.arm else { continue };
             for number in self.places_of(arm) {
@@ -63,15 +62,10 @@ impl Scan<'_> {
                     let found = sites_at(self, number);
                     self.values.note_sites(number, found);
                 }
-                for site in self.values.sites_of(number) {
-                    if count < at.len() {
-                        at[count] = (*site, machine);
-                        count += 1;
-                    }
-                }
+                at.extend(self.values.sites_of(number).iter().map(|site| (*site, machine)));
             }
         }
-        for (index, (site, arm)) in at[..count].iter().enumerate() {
+        for (index, (site, arm)) in at.iter().enumerate() {
             let Site { number, machine, stop, is_lane } = *site;
             let plant = &model.machines[machine];
             if is_lane {

@@ -21,6 +21,8 @@ pub struct Model {
     pub cylinders: Vec<Cylinder>,
     pub processes: Vec<Process>,
     pub orders: Vec<Order>,
+    /// Items may be where the search does not know them.
+    pub hides_items: bool,
     /// Heights of the kinds, m.
     pub heights: Vec<f64>,
     /// Heights over their undersides at which tools grip them, m.

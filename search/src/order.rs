@@ -210,8 +210,8 @@ impl Expander<'_> {
             self.noted.clear();
             self.remarked.clear();
             let mut result = self.on(&mut end, |scan| scan.finish(touched));
-            if result == Err(Violation::Stop) {
-                result = Err(self.behind_stop(&end.bytes).unwrap_or(Violation::Stop));
+            if let Err(stop @ Violation::Stop { .. }) = result {
+                result = Err(self.behind_stop(&end.bytes).unwrap_or(stop));
             }
             emit(Successor {
                 state: &end.bytes,

@@ -156,7 +156,7 @@ impl<'a> Possible<'a> {
             }
             let mut leads_to_stop = false;
             expander.expand(store.state(state), u64::MAX, &mut |successor| {
-                leads_to_stop |= successor.result == Err(Violation::Stop);
+                leads_to_stop |= matches!(successor.result, Err(Violation::Stop { .. }));
                 let to = successor.result.is_ok().then(|| store.find(successor.state)).flatten();
                 if let Some(to) = to.filter(|to| *to != state) {
                     all.push((state as u32, to as u32));

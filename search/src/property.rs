@@ -13,6 +13,8 @@ pub struct Property {
     pub effect: Effect,
     /// Instances whose cells it reads, a bit each.
     pub reads: u64,
+    /// It reads what may change in scans in which nothing else does.
+    pub asks_inputs: bool,
 }
 
 #[derive(Clone, Debug)]
@@ -86,12 +88,12 @@ impl Scan<'_> {
             for property in &program.properties {
                 let is_due = (touched | self.fired) & bit(instance) != 0
                     || self.written & property.reads != 0
-                    || property.check.is_due_always();
+                    || property.is_due_always();
                 if is_due && self.is_violated(program, &property.check, stands) {
                     let fault = property.fault;
                     match property.effect {
                         Effect::Fault => return Err(Violation::Fault { instance, fault }),
-                        Effect::AsksOperator => return Err(Violation::Stop),
+                        Effect::AsksOperator => return Err(Violation::Stop { fault }),
                         Effect::StopsMachine => {
                             self.noted.push(Violation::MachineStops { instance, fault });
                             if let Some(stopped) = program.stopped {
@@ -205,13 +207,14 @@ impl Scan<'_> {
     }
 }
 
-impl Check {
-    /// Whether it reads what changes in scans in which nothing else does.
+impl Property {
+    /// Whether it is checked, or remembers anything, in scans in which nothing else changes too.
     fn is_due_always(&self) -> bool {
-        match self {
-            Self::Always(_) => false,
-            Self::Keep(keep) => keep.memory.is_some(),
-            Self::Whenever(whenever) => !whenever.is_told,
-        }
+        self.asks_inputs
+            || match &self.check {
+                Check::Always(_) => false,
+                Check::Keep(keep) => keep.memory.is_some(),
+                Check::Whenever(whenever) => !whenever.is_told,
+            }
     }
 }

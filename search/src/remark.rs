@@ -2,12 +2,14 @@
 
 use crate::event::{self, What};
 use crate::model::Model;
-use crate::plant::{Action, Arm, Asked, motion, status};
+use crate::plant::{Action, Arm, Asked, Faults, motion, status};
 use crate::possible::{Possible, Stops};
 use crate::program::bit;
 use crate::scan::Scan;
+use crate::successor::Expander;
 use crate::surface;
 use crate::violation::Violation;
+use std::collections::HashMap;
 
 impl Possible<'_> {
     /// Of each kind the first state, and what it is; of lines with orders alone.
@@ -17,22 +19,51 @@ impl Possible<'_> {
             return Vec::new();
         }
         let never_rests = self.never_rests().map(|state| (Violation::NeverRests, state));
-        let calm = self.calm();
         self.expander.answers = 1;
-        let mut waits = None;
-        for number in (0..self.states).filter(|number| calm[*number]) {
+        never_rests.into_iter().chain(self.waits_for_time()).collect()
+    }
+
+    /// The first state in which the whole line waits for a time of an instance whose device has not failed.
+    fn waits_for_time(&mut self) -> Option<(Violation, usize)> {
+        let model = self.expander.model;
+        let mut unfailed: HashMap<usize, Vec<bool>> = HashMap::new();
+        for number in 0..self.states {
             let state = self.store.state(number);
             let Some(instance) = self.timer(state).filter(|_| !model.is_made(state)) else { continue };
             let mut stays = true;
             self.expander.expand(state, u64::MAX, &mut |successor| {
                 stays &= !successor.events.is_empty() || successor.state == state;
             });
-            if stays {
-                waits = Some((Violation::WaitsForTime { instance }, number));
-                break;
+            if stays && unfailed.entry(instance).or_insert_with(|| self.without_failure_of(instance))[number]
+            {
+                return Some((Violation::WaitsForTime { instance }, number));
             }
         }
-        never_rests.into_iter().chain(waits).collect()
+        None
+    }
+
+    /// States that are reached although a device does not fail, whatever others do.
+    fn without_failure_of(&self, machine: usize) -> Vec<bool> {
+        let Self { store, expander, .. } = self;
+        let model = Model { faults: Faults::All, ..expander.model.clone() };
+        let mut expander = Expander::new(&model, 1, expander.orders);
+        expander.values.clone_from(&self.expander.values);
+        let mut reached = vec![false; store.len()];
+        reached[0] = true;
+        let mut waiting = vec![0];
+        while let Some(number) = waiting.pop() {
+            let state = store.state(number);
+            expander.expand(state, u64::MAX, &mut |successor| {
+                let fails = successor.events.iter().any(|event| {
+                    event.machine == machine && event::is_fault(&model, &self.expander.values, state, event)
+                });
+                let to = (!fails && successor.result.is_ok()).then(|| store.find(successor.state)).flatten();
+                if let Some(to) = to.filter(|to| !std::mem::replace(&mut reached[*to], true)) {
+                    waiting.push(to);
+                }
+            });
+        }
+        reached
     }
 
     /// The first state with all orders made from which the line cannot come to rest.
@@ -102,9 +133,10 @@ impl Scan<'_> {
         }
         let first = if arm.via.load(state) == 0 { goal } else { via };
         let is_straight = (0..2).all(|axis| (first[axis] - tool[axis]).abs() <= STRAIGHT);
-        let is_on = arm.closes.is_some_and(|level| level.is_on(state));
+        // One that is switched on for this motion is meant to be.
+        let stays_on = arm.closes.is_some_and(|level| level.is_on(self.before) && level.is_on(state));
         let goes_down = is_straight && first[2] < tool[2];
-        if is_on && is_empty && arm.shown.load(state) == 0 && !goes_down {
+        if stays_on && is_empty && arm.shown.load(state) == 0 && !goes_down {
             return Some(Violation::OnAndEmpty { arm: machine });
         }
         if !asked.is_planned && !is_straight {

@@ -169,6 +169,11 @@ impl<'a> Expander<'a> {
         restless
     }
 
+    /// Bytes of memory that it keeps to be used again.
+    pub(crate) fn size(&self) -> usize {
+        self.spare.iter().chain(&self.levels).map(Vec::capacity).sum()
+    }
+
     /// Whether the goal of a property is waited for in a state.
     pub fn is_waiting(&mut self, state: &[u8], program: &Instance, whenever: &Whenever) -> bool {
         self.choices.clear();
@@ -241,18 +246,19 @@ impl<'a> Expander<'a> {
         let first = self.before.clone();
         let mut found = None;
         for _ in 0..MOST_STOPS {
+            // What the operator does may change inputs of devices.
+            self.model.inputs.iter().for_each(|input| input.var.store(&mut self.work, 0));
             self.before.clone_from(&self.work);
             self.choices.clear();
             let result = self.begin().run(&order, u64::MAX);
-            // What the operator does may change inputs of devices.
             if let Err(Violation::Fault { instance, fault }) = result
                 && self.choices.is_empty()
                 && !self.model.sensed[fault]
             {
                 found = Some(Violation::FaultBehindStop { instance, fault });
             }
-            // A signal that changes by itself may end it.
-            if result != Err(Violation::Stop) || !self.choices.is_empty() {
+            let goes_on = |fault: usize| self.model.sensed[fault] || !self.choices.is_empty();
+            if !matches!(result, Err(Violation::Stop { fault }) if !goes_on(fault)) {
                 break;
             }
             if self.work == self.before {
@@ -285,9 +291,9 @@ impl<'a> Expander<'a> {
             let mut result = scan.run(&order, touched);
             let restless = scan.restless;
             self.order = order;
-            if result == Err(Violation::Stop) {
+            if let Err(stop @ Violation::Stop { .. }) = result {
                 let stopped = self.work.clone();
-                result = Err(self.behind_stop(&stopped).unwrap_or(Violation::Stop));
+                result = Err(self.behind_stop(&stopped).unwrap_or(stop));
             }
             emit(Successor {
                 state: &self.work,

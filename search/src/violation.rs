@@ -11,8 +11,9 @@ pub enum Violation {
     MachineStops { instance: usize, fault: usize },
     /// From here the goal of a property, which is waited for, cannot come any more.
     NeverFollowed { instance: usize, fault: usize },
-    /// None: the line stops as its types say, until an operator has come. What follows is not searched.
-    Stop,
+    /// None: the line stops as its types say, until an operator has come. What follows is not searched. Index into the
+    /// faults of the model.
+    Stop { fault: usize },
     /// The same, and once an operator has come it stops again in the next scan, each time, while no device does anything.
     StopsAgain,
     /// The same, and the scan in which it goes on once an operator has come ends in a fault.
@@ -21,11 +22,12 @@ pub enum Violation {
     NeverMade,
     /// All orders are made, and from here the line cannot come to rest any more, although nothing has failed.
     NeverRests,
-    /// Nothing has failed, orders are to be made, and the line does nothing until a time of this instance has passed.
+    /// The device of this instance has not failed, orders are to be made, and the line does nothing until a time of the instance
+    /// has passed.
     WaitsForTime { instance: usize },
     /// A machine is given the command again that is under way.
     Repeats { machine: usize },
-    /// An arm sets out with its gripper on and empty, and not straight down to grip.
+    /// An arm sets out with its gripper still on and empty, and not straight down to grip.
     OnAndEmpty { arm: usize },
     /// An arm is to grip at a place at which nothing lies.
     NothingThere { arm: usize, machine: usize, slot: usize },

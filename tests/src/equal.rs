@@ -9,15 +9,12 @@ use autogen_search::store::Store;
 use autogen_search::successor::Expander;
 use autogen_search::value::{Values, Var};
 use autogen_search::violation::Violation;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::time::Instant;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Comparison {
-    /// In all of so many pairs of states.
-    Equal {
-        pairs: usize,
-    },
+    Equal,
     Unequal,
     /// No difference within the bounds.
     Undecided,
@@ -33,95 +30,114 @@ type Seen = (Vec<String>, Result<(), String>, Vec<String>, Vec<u64>);
 /// they do to these. Left out are the times of automata, which no device knows, and commands that ask for what is so already.
 pub fn compare(a: &Model, b: &Model, bounds: &Bounds) -> Comparison {
     let begin = Instant::now();
-    let answers = bounds.answers.unwrap_or(usize::MAX);
-    let [mut of_a, mut of_b] = [a, b].map(|model| Expander::new(model, answers, bounds.orders));
-    let [common_of_a, common_of_b] = [(a, b), (b, a)].map(|(model, other)| Common::new(model, other));
-    let both = |a: &[u8], b: &[u8]| [a, b].concat();
-    let length = a.initial.len();
-    let mut pairs = Store::new(length + b.initial.len());
-    pairs.add(&both(&a.initial, &b.initial), 0);
-    let mut next = 0;
-    while next < pairs.len() {
-        let pair = pairs.state(next).to_vec();
-        let (left, right) = pair.split_at(length);
-        let (after_a, after_b) =
-            (successors(&mut of_a, &common_of_a, left), successors(&mut of_b, &common_of_b, right));
-        if after_a.len() != after_b.len() {
-            return Comparison::Unequal;
-        }
-        for ((seen, of_a), (also, of_b)) in after_a.into_iter().zip(after_b) {
-            if seen != also {
-                return Comparison::Unequal;
-            }
-            // Several states that look alike are paired by the values that both models have: any pairing that holds is a proof.
-            if seen.1.is_ok() {
-                for (number, state) in of_a.iter().enumerate() {
-                    pairs.add(&both(&state.1, partner(&of_b, number, state)), next);
-                }
-                for (number, state) in of_b.iter().enumerate() {
-                    pairs.add(&both(partner(&of_a, number, state), &state.1), next);
-                }
-            }
-        }
-        let is_late = next % 64 == 0 && bounds.time.is_some_and(|time| begin.elapsed() > time);
-        if is_late || pairs.size() > bounds.memory {
+    let mut both = Transitions::default();
+    for (model, other) in [(a, b), (b, a)] {
+        if !both.explore(model, other, bounds, begin) {
             return Comparison::Undecided;
         }
-        next += 1;
     }
-    Comparison::Equal { pairs: pairs.len() }
+    // The first state of the first model is the first one of all.
+    if both.are_bisimilar(0, both.first_of_last) { Comparison::Equal } else { Comparison::Unequal }
 }
 
-/// A state, behind the values of what both models have.
-type After = (Vec<i32>, Vec<u8>);
-
-/// The one with the same values; else the one of this number, or the last one.
-fn partner<'a>(states: &'a [After], number: usize, state: &After) -> &'a [u8] {
-    let same = states.iter().find(|other| other.0 == state.0);
-    let (_, bytes) = same.unwrap_or(&states[number.min(states.len() - 1)]);
-    bytes
+/// What is seen of transitions, and where they lead, for the states of several models one after the other.
+#[derive(Default)]
+struct Transitions {
+    /// Numbers of what is seen.
+    seen: HashMap<Seen, u32>,
+    /// Of each state; a transition that ends in a violation leads nowhere.
+    of: Vec<Vec<(u32, Option<u32>)>>,
+    /// The first state of the last model.
+    first_of_last: usize,
 }
 
-/// What both models have, in the order of the names.
-struct Common {
-    variables: Vec<Var>,
-    /// Those of them that change by themselves.
-    signals: Vec<Var>,
-}
-
-impl Common {
-    fn new(model: &Model, other: &Model) -> Self {
-        let names: BTreeSet<&str> = other.variables.iter().map(|variable| variable.name.as_str()).collect();
-        let named = model.variables.iter().map(|variable| (variable.name.as_str(), variable.var));
-        let common: BTreeMap<&str, Var> = named.filter(|(name, _)| names.contains(name)).collect();
-        let is_signal = |var: &Var| model.inputs.iter().any(|input| input.var == *var);
-        let variables: Vec<Var> = common.into_values().collect();
-        Self { signals: variables.iter().copied().filter(is_signal).collect(), variables }
+impl Transitions {
+    /// Adds all states of a model. Signals that the other one does not have are not seen. False if the bounds end it.
+    fn explore(&mut self, model: &Model, other: &Model, bounds: &Bounds, begin: Instant) -> bool {
+        let mut expander = Expander::new(model, bounds.answers.unwrap_or(usize::MAX), bounds.orders);
+        let signals = common_signals(model, other);
+        let mut store = Store::new(model.initial.len());
+        store.add(&model.initial, 0);
+        self.first_of_last = self.of.len();
+        let mut next = 0;
+        while next < store.len() {
+            let mut found = BTreeSet::new();
+            for (seen, state) in successors(&mut expander, &signals, store.state(next)) {
+                let to = state.map(|state| (self.first_of_last + store.add(&state, next).0) as u32);
+                let count = self.seen.len() as u32;
+                found.insert((*self.seen.entry(seen).or_insert(count), to));
+            }
+            self.of.push(found.into_iter().collect());
+            let is_late = next % 64 == 0 && bounds.time.is_some_and(|time| begin.elapsed() > time);
+            if is_late || store.size() > bounds.memory {
+                return false;
+            }
+            next += 1;
+        }
+        true
     }
 
-    fn values(&self, state: &[u8]) -> Vec<i32> {
-        self.variables.iter().map(|var| var.load(state)).collect()
+    /// By classes of states: each is split as long as states in it lead to different classes.
+    fn are_bisimilar(&self, a: usize, b: usize) -> bool {
+        let mut class = vec![0_u32; self.of.len()];
+        let mut count = 1;
+        loop {
+            let mut classes = HashMap::new();
+            let split: Vec<u32> = self
+                .of
+                .iter()
+                .zip(&class)
+                .map(|(transitions, own)| {
+                    let to = |to: &Option<u32>| to.map(|to| class[to as usize]);
+                    let leads: BTreeSet<_> =
+                        transitions.iter().map(|(seen, state)| (*seen, to(state))).collect();
+                    let number = classes.len() as u32;
+                    *classes.entry((*own, leads)).or_insert(number)
+                })
+                .collect();
+            class = split;
+            if class[a] != class[b] {
+                return false;
+            }
+            if classes.len() == count {
+                return true;
+            }
+            count = classes.len();
+        }
     }
 }
 
-fn successors(expander: &mut Expander, common: &Common, state: &[u8]) -> BTreeMap<Seen, Vec<After>> {
+/// Values that change by themselves in both models, in the order of their names.
+fn common_signals(model: &Model, other: &Model) -> Vec<Var> {
+    let names: BTreeSet<&str> = other.variables.iter().map(|variable| variable.name.as_str()).collect();
+    let is_signal = |var: Var| model.inputs.iter().any(|input| input.var == var);
+    let common = model.variables.iter().filter(|v| names.contains(v.name.as_str()) && is_signal(v.var));
+    common
+        .map(|variable| (variable.name.as_str(), variable.var))
+        .collect::<BTreeMap<_, _>>()
+        .into_values()
+        .collect()
+}
+
+/// Behind a violation there is no state.
+fn successors(expander: &mut Expander, signals: &[Var], state: &[u8]) -> Vec<(Seen, Option<Vec<u8>>)> {
     let mut all = Vec::new();
     let model = expander.model;
     expander.expand(state, u64::MAX, &mut |successor| {
         let result = successor.result.as_ref().copied().map_err(kind);
         let noted = successor.noted.iter().map(kind).collect::<Vec<_>>();
-        let events = successor.events.iter().copied().filter(|event| !is_hidden(model, state, event));
-        all.push((events.collect::<Vec<_>>(), result, noted, successor.state.to_vec()));
+        let events = successor.events.iter().filter(|event| !is_hidden(model, state, event));
+        let events = events.map(|Event { machine, what }| format!("{machine} {what:?}")).collect();
+        all.push((events, result, noted, successor.state.to_vec()));
     });
-    let mut found: BTreeMap<Seen, BTreeSet<After>> = BTreeMap::new();
-    for (events, result, noted, state) in all {
-        // Behind a violation there is nothing.
-        let plant =
-            if result.is_ok() { plant(model, &common.signals, &expander.values, &state) } else { Vec::new() };
-        let events = events.iter().map(|Event { machine, what }| format!("{machine} {what:?}")).collect();
-        found.entry((events, result, noted, plant)).or_default().insert((common.values(&state), state));
-    }
-    found.into_iter().map(|(seen, states)| (seen, states.into_iter().collect())).collect()
+    let found = all.into_iter().map(|(events, result, noted, state)| match result {
+        Ok(()) => {
+            let plant = plant(model, signals, &expander.values, &state);
+            ((events, result, noted, plant), Some(state))
+        }
+        Err(_) => ((events, result, noted, Vec::new()), None),
+    });
+    found.collect()
 }
 
 fn is_hidden(model: &Model, state: &[u8], event: &Event) -> bool {
@@ -158,6 +174,7 @@ fn kind(violation: &Violation) -> String {
         Violation::Fault { instance, .. } => format!("fault of {instance}"),
         Violation::Warning { instance, .. } => format!("warning of {instance}"),
         Violation::MachineStops { instance, .. } => format!("stop of {instance}"),
+        Violation::Stop { .. } => "stop for an operator".to_string(),
         other => format!("{other:?}"),
     }
 }

@@ -14,6 +14,7 @@ pub mod mutants;
 pub mod replay;
 pub mod sdf;
 pub mod searched;
+pub mod small_lines;
 pub mod st;
 pub mod trace;
 pub mod wired;
@@ -41,6 +42,20 @@ pub fn is_full_campaign() -> bool {
 /// A file of the project by its path from the project's folder.
 pub fn text(path: &str) -> String {
     std::fs::read_to_string(root().join(path)).unwrap_or_else(|e| panic!("{path}: {e}"))
+}
+
+/// Files of one kind in a folder of fixtures, in the order of their names: name without its ending, and text.
+pub fn fixtures(folder: &str, ending: &str) -> Vec<(String, String)> {
+    let path = root().join("tests/fixtures").join(folder);
+    let entries = std::fs::read_dir(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    let mut paths: Vec<PathBuf> = entries.map(|entry| entry.expect("an entry").path()).collect();
+    paths.retain(|path| path.extension().is_some_and(|found| found == ending));
+    paths.sort();
+    let read = |path: &PathBuf| {
+        let name = path.file_stem().and_then(|name| name.to_str()).expect("a name");
+        (name.to_string(), std::fs::read_to_string(path).unwrap_or_else(|e| panic!("{name}: {e}")))
+    };
+    paths.iter().map(read).collect()
 }
 
 /// The trees of the library's devices, for a check without the rest of the library.

@@ -148,7 +148,7 @@ fn a_path_leads_to_each_place_that_is_reached_and_to_no_other_one() {
         for _ in 0..2000 {
             let mut drawn = |low: f64, high: f64| low + random.fraction() * (high - low);
             let goal = Point::new(drawn(-5.0, 5.0), drawn(-4.0, 6.0), drawn(0.0, 2.0));
-            let leads = arm.way(&[(goal, Facing::Down)]).is_some();
+            let leads = arm.path(&[(goal, Facing::Down)]).is_some();
             assert_eq!(arm.reaches(goal, Facing::Down), leads, "{goal:?}");
             reached += usize::from(leads);
         }

@@ -1,6 +1,5 @@
 //! Mistakes in the library's types are found: by `check`, or by a search of one of some small lines.
 
-use autogen::library;
 use autogen::verify::{Asked, model};
 use autogen_search::explore::{Bounds, explore};
 use autogen_search::model::Model;
@@ -8,63 +7,10 @@ use autogen_search::plant::Faults;
 use autogen_search::successor::Orders;
 use autogen_tests::equal::{Comparison, compare};
 use autogen_tests::mutants::mutants;
-use autogen_tests::{Texts, is_full_campaign, on_all_processors, own_line};
+use autogen_tests::small_lines::{self, Line};
+use autogen_tests::{Texts, is_full_campaign, on_all_processors};
 use std::collections::BTreeSet;
 use std::time::{Duration, Instant};
-
-const KINDS: &str = r#"[{"name": "battery", "height": 0.053}, {"name": "pump", "height": 0.11}]"#;
-const ONE_PART: &str = r#"[{"station": "as1", "parts": {"battery": 1}}]"#;
-const TWO_PARTS: &str = r#"[{"station": "as1", "parts": {"battery": 1, "pump": 1}}]"#;
-const TWO_ORDERS: &str =
-    r#"[{"station": "as1", "parts": {"battery": 1}}, {"station": "as1", "parts": {"pump": 1}}]"#;
-
-/// A line to be searched: its texts, without those of the type that has the mistake.
-struct Line {
-    name: &'static str,
-    texts: Texts,
-    faults: Faults,
-}
-
-fn line(name: &'static str, layout: &str, orders: &str, faults: Faults) -> Line {
-    let scenario = format!(r#"{{"kinds": {KINDS}, "orders": {orders}}}"#);
-    let texts = Texts { layout: layout.into(), scenario: Some(scenario), ..own_line("buffer") };
-    Line { name, texts, faults }
-}
-
-/// The layout of the buffer without an object, or with another one in its place.
-fn replaced(layout: &str, name: &str, by: &str) -> String {
-    let end_of = |begin: usize| begin + layout[begin..].find("\n    },\n").expect("an end") + 8;
-    let at = layout.find(&format!(r#""name": "{name}""#)).expect("an object");
-    let begin = layout[..at].rfind("    {\n").expect("its beginning");
-    format!("{}{by}{}", &layout[..begin], &layout[end_of(begin)..])
-}
-
-/// Lines of which each shows some mistakes; with the quickest first.
-fn lines() -> Vec<Line> {
-    let table = own_line("buffer").layout;
-    let only = replaced(&table, "agv1", "");
-    // Without the table items go by the vehicle.
-    let vehicle = replaced(&table, "buffer", "");
-    // A second arm on the other side of the table, with a belt of its own.
-    let second = r#"    {
-      "name": "conveyor_belt2", "type": "conveyor", "pose": [-3.826924, 0, 0], "orient": "y", "orient_range": [-5, 5]
-    },
-    {
-      "name": "kitting2", "type": "kitting", "pose": [-3.1, 0, 1.127], "rail_dim": "y", "rail_range": [-4.8, 4.8],
-      "takes_from": ["conveyor_belt2"]
-    },
-"#;
-    let twins = replaced(&table, "agv1", second);
-    vec![
-        line("table, two parts", &table, TWO_PARTS, Faults::None),
-        line("vehicle, two parts", &vehicle, TWO_PARTS, Faults::None),
-        line("vehicle, two orders", &vehicle, TWO_ORDERS, Faults::None),
-        line("table, one part, faults", &table, ONE_PART, Faults::All),
-        line("vehicle, one part, faults", &vehicle, ONE_PART, Faults::All),
-        line("table alone, two parts", &only, TWO_PARTS, Faults::None),
-        line("two arms at the table", &twins, TWO_PARTS, Faults::None),
-    ]
-}
 
 /// The lines of these that are small enough to be compared.
 const COMPARED: usize = 6;
@@ -111,11 +57,7 @@ fn of_mutant(lines: &[Line], originals: &[Model], name: &str, text: &str) -> Res
     let begin = processor_time();
     let mut changed = Vec::new();
     for (number, line) in lines.iter().enumerate() {
-        let mut texts = line.texts.clone();
-        match name {
-            "buffer" => texts.specs[0] = text.to_string(),
-            _ => texts.specs.push(text.to_string()),
-        }
+        let texts = line.with(name, text);
         if changed.is_empty() {
             let outcome = texts.compile();
             if outcome.project.is_none() {
@@ -136,7 +78,7 @@ fn of_mutant(lines: &[Line], originals: &[Model], name: &str, text: &str) -> Res
         }
         changed.push(model);
     }
-    let is_equal = |(a, b): (&Model, &Model)| matches!(compare(a, b, &BOUNDS), Comparison::Equal { .. });
+    let is_equal = |(a, b): (&Model, &Model)| compare(a, b, &BOUNDS) == Comparison::Equal;
     match is_full_campaign() && originals.iter().zip(&changed).take(COMPARED).all(is_equal) {
         true => Result::Equal,
         false => Result::Missed,
@@ -145,16 +87,10 @@ fn of_mutant(lines: &[Line], originals: &[Model], name: &str, text: &str) -> Res
 
 #[test]
 fn mistakes_are_found() {
-    let names = ["agv", "conveyor", "gantry", "kitting", "station"];
-    let library = names.map(|name| {
-        let file = library::FILES.iter().find(|(file, _)| *file == format!("library/{name}.aut"));
-        (name, file.expect("a type of the library").1.to_string())
-    });
-    let mut lines = lines();
-    let own = ("buffer", lines[0].texts.specs[0].clone());
+    let mut lines = small_lines::all();
     let mut all = Vec::new();
-    for (name, text) in library.into_iter().chain([own]) {
-        all.extend(mutants(&text).into_iter().map(|mutant| (name, mutant)));
+    for name in ["agv", "conveyor", "gantry", "kitting", "station", "buffer"] {
+        all.extend(mutants(&lines[0].text_of(name)).into_iter().map(|mutant| (name, mutant)));
     }
     assert!(all.len() >= 100, "{} mutants", all.len());
     let is_long = is_full_campaign();
@@ -201,6 +137,7 @@ fn mistakes_are_found() {
         "{} mutants, {refused} refused, {equal} equal, {caught} of the others found, each within {longest:.1?} of a processor",
         all.len()
     );
-    let least = if is_long { 240 } else { 30 };
-    assert!(caught >= least, "{caught} of {} mutants are found", all.len() - refused);
+    let unequal = all.len() - refused - equal;
+    let least = if is_long { unequal * 95 / 100 } else { 30 };
+    assert!(caught >= least, "{caught} of {unequal} mutants are found");
 }

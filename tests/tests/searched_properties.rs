@@ -6,7 +6,7 @@ use autogen_search::explore::{Bounds, End, Outcome, explore};
 use autogen_search::model::{Model, Reductions};
 use autogen_search::plant::Faults;
 use autogen_search::successor::Orders;
-use autogen_tests::{Texts, root};
+use autogen_tests::{Texts, fixtures, text};
 use std::fmt::Write;
 
 const BOUNDS: Bounds = Bounds {
@@ -20,21 +20,17 @@ const BOUNDS: Bounds = Bounds {
 
 /// A line by its type: the first line of the text has its layout.
 fn line(name: &str) -> Texts {
-    let path = root().join(format!("tests/fixtures/verify/properties/{name}.aut"));
-    let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    of_text(&text(&format!("tests/fixtures/verify/properties/{name}.aut")))
+}
+
+fn of_text(text: &str) -> Texts {
     let (layout, _) = text.split_once('\n').expect("a layout");
     let layout = layout.strip_prefix("// ").expect("a layout in a comment").to_string();
-    Texts { layout, specs: vec![text], ..Texts::default() }
+    Texts { layout, specs: vec![text.to_string()], ..Texts::default() }
 }
 
 fn names() -> Vec<String> {
-    let folder = root().join("tests/fixtures/verify/properties");
-    let entries = std::fs::read_dir(folder).expect("the folder of the lines");
-    let files = entries.map(|entry| entry.expect("an entry").file_name().into_string().expect("a name"));
-    let mut names: Vec<String> =
-        files.filter_map(|name| name.strip_suffix(".aut").map(String::from)).collect();
-    names.sort();
-    names
+    fixtures("verify/properties", "aut").into_iter().map(|(name, _)| name).collect()
 }
 
 /// What is found, with its executions.
@@ -65,6 +61,24 @@ fn promises_that_are_kept_and_promises_that_are_broken() {
         let breaks = name.starts_with("not_") || name.starts_with("never_");
         assert_eq!(text.lines().count() > 1, breaks, "{name}:\n{text}");
         insta::assert_snapshot!(format!("searched_{name}"), text);
+    }
+}
+
+/// The message that a file expects stands behind `//~`, in the line to which it points.
+#[test]
+fn lines_that_cannot_be_searched_are_refused() {
+    for (name, text) in fixtures("verify/refused", "aut") {
+        let outcome = of_text(&text).compile();
+        let project = outcome.project.as_ref().expect("a right line");
+        let Err(found) = model(project, &Asked::with(Faults::All)) else { panic!("{name} is searched") };
+        let told =
+            found.iter().map(|d| (outcome.sources.position(d.place).0, format!("{} {}", d.code, d.message)));
+        let told: Vec<(usize, String)> = told.collect();
+        let expected = text
+            .lines()
+            .enumerate()
+            .filter_map(|(number, line)| Some((number + 1, line.split_once("//~ ")?.1.to_string())));
+        assert_eq!(told, expected.collect::<Vec<_>>(), "{name}");
     }
 }
 

@@ -119,7 +119,7 @@ fn compare(
             match found.iter().position(is_meant) {
                 Some(i) => {
                     let diagnostic = found.remove(i);
-                    let told = [&diagnostic.notes[..], &[diagnostic.help.clone()]].concat();
+                    let told = [&diagnostic.notes[..], std::slice::from_ref(&diagnostic.help)].concat();
                     if diagnostic.help.is_empty() || !told.iter().any(|told| told.contains(&help)) {
                         wrong.push(format!("{}:{line}: {code} says {told:?}", path.display()));
                     }

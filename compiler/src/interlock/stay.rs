@@ -6,7 +6,7 @@ use super::region::{Bound, Given, Region, Regions, rows_of_local};
 use super::stage::{Corner, Corners, Places, Stage};
 use crate::ir::{Asking, Automaton, Expr, ExprKind, Place, Scalar, StateId, System, Transition, UpdateKind};
 use crate::source::Span;
-use runtime_sim::collision::{BoundingBox, Moving, Way};
+use runtime_sim::collision::{BoundingBox, Moving, Path};
 use runtime_sim::device::Direction;
 use runtime_sim::kinematics::facing::Facing;
 use runtime_sim::line::Line;
@@ -20,12 +20,12 @@ use std::rc::Rc;
 
 /// Choices of the machines that one works with.
 const MOST_BOUND: usize = 64;
-/// Ways of one machine.
-const MOST_WAYS: usize = 4000;
+/// Paths of one machine.
+const MOST_PATHS: usize = 4000;
 
-/// A way, or a place where the machine stands.
+/// A path, or a place where the machine stands.
 pub struct Stay {
-    pub way: Rc<Way>,
+    pub path: Rc<Path>,
     /// The set of instances of which it has a lock all the while, by its number.
     pub locks: usize,
     /// The transition with the command.
@@ -153,7 +153,7 @@ pub fn range(given: &Given, instance: usize, moving: &Moving) -> Range {
                 motion.named.iter().filter_map(|local| lender(system, instance, bound, *local)).collect()
             };
             let here = lent(motion, &bound);
-            let (on_the_way, at_the_goal) = (&holders(going) | &here, &holders(there) | &here);
+            let (on_the_path, at_the_goal) = (&holders(going) | &here, &holders(there) | &here);
             if stood.insert((Rc::as_ptr(&stages), at_the_goal.clone())) {
                 found.add(&[&stages[stages.len() - 1]], &at_the_goal, place);
             }
@@ -165,7 +165,7 @@ pub fn range(given: &Given, instance: usize, moving: &Moving) -> Range {
                     None => (Some(at_rest.clone()), BTreeSet::new()),
                     Some(origin) => (goals(*origin, &before), lent(&motions[*origin], &before)),
                 };
-                let held = &on_the_way | &there;
+                let held = &on_the_path | &there;
                 if gone.insert((begin.as_ref().map(Rc::as_ptr), Rc::as_ptr(&stages), held.clone())) {
                     let begin = begin.as_ref().and_then(|stages| stages.last());
                     let passed: Vec<&Stage> = begin.into_iter().chain(stages.iter()).collect();
@@ -174,7 +174,7 @@ pub fn range(given: &Given, instance: usize, moving: &Moving) -> Range {
             }
         }
     }
-    let bounds = found.stays.iter().fold(BoundingBox::NOTHING, |all, stay| all.with(&stay.way.bounds));
+    let bounds = found.stays.iter().fold(BoundingBox::NOTHING, |all, stay| all.with(&stay.path.bounds));
     Range::Stays(Stays { all: found.stays, bounds, locks: found.sets.all })
 }
 
@@ -184,16 +184,16 @@ struct Found<'a> {
     moving: &'a Moving,
     stays: Vec<Stay>,
     /// By the numbers of the corners.
-    paths: HashMap<Vec<usize>, Path>,
+    paths: HashMap<Vec<usize>, Known>,
     /// The numbers of the present one.
     key: Vec<usize>,
     sets: Sets,
 }
 
 /// Of one machine, past some corners.
-struct Path {
+struct Known {
     /// None: not all of them are reached.
-    way: Option<Rc<Way>>,
+    path: Option<Rc<Path>>,
     /// With which it goes there, by their numbers.
     locks: BTreeSet<usize>,
 }
@@ -239,16 +239,16 @@ impl Holder {
 }
 
 impl Found<'_> {
-    /// The ways from region to region: for each choice of one of each stage, between corners that lie alike, and between
+    /// The paths from region to region: for each choice of one of each stage, between corners that lie alike, and between
     /// those that lie opposite.
     fn add(&mut self, stages: &[&Stage], holders: &BTreeSet<Holder>, place: Span) {
-        if self.stays.len() >= MOST_WAYS {
+        if self.stays.len() >= MOST_PATHS {
             return;
         }
         let locks = self.sets.number(self.system, self.instance, holders);
         let choices: usize = stages.iter().map(|stage| stage.regions.len()).product();
         let numbers: &[usize] = if choices == 1 { &[0, 1, 2, 3, 4, 5, 6, 7] } else { &[0, 7] };
-        let mut path: Vec<(Corner, Facing)> = Vec::with_capacity(stages.len());
+        let mut corners: Vec<(Corner, Facing)> = Vec::with_capacity(stages.len());
         for choice in 0..choices {
             let regions = chosen(stages, choice);
             // Of places that are known exactly all corners are one.
@@ -260,31 +260,32 @@ impl Found<'_> {
                     if std::mem::replace(&mut known[pair], true) {
                         continue;
                     }
-                    path.clear();
-                    path.extend(regions.iter().zip(stages).enumerate().map(|(i, (region, stage))| {
+                    corners.clear();
+                    corners.extend(regions.iter().zip(stages).enumerate().map(|(i, (region, stage))| {
                         (region.corners[if i == 0 { first } else { number }], stage.facing)
                     }));
-                    self.way(&path, locks, place);
+                    self.path(&corners, locks, place);
                 }
             }
         }
     }
 
-    fn way(&mut self, path: &[(Corner, Facing)], locks: usize, place: Span) {
-        if self.stays.len() >= MOST_WAYS || !path.iter().all(|(corner, _)| corner.is_reached) {
+    fn path(&mut self, corners: &[(Corner, Facing)], locks: usize, place: Span) {
+        if self.stays.len() >= MOST_PATHS || !corners.iter().all(|(corner, _)| corner.is_reached) {
             return;
         }
         self.key.clear();
-        self.key.extend(path.iter().map(|(corner, _)| corner.number));
+        self.key.extend(corners.iter().map(|(corner, _)| corner.number));
         if !self.paths.contains_key(&self.key) {
-            let goals: Vec<(Point, Facing)> = path.iter().map(|(at, facing)| (at.point, *facing)).collect();
-            let way = self.moving.way(&goals).map(Rc::new);
-            self.paths.insert(self.key.clone(), Path { way, locks: BTreeSet::new() });
+            let goals: Vec<(Point, Facing)> =
+                corners.iter().map(|(at, facing)| (at.point, *facing)).collect();
+            let path = self.moving.path(&goals).map(Rc::new);
+            self.paths.insert(self.key.clone(), Known { path, locks: BTreeSet::new() });
         }
-        let path = self.paths.get_mut(&self.key);
-        let Some(Path { way: Some(way), locks: known }) = path else { return };
-        if known.insert(locks) {
-            self.stays.push(Stay { way: way.clone(), locks, place });
+        let known = self.paths.get_mut(&self.key);
+        let Some(Known { path: Some(path), locks: held }) = known else { return };
+        if held.insert(locks) {
+            self.stays.push(Stay { path: path.clone(), locks, place });
         }
     }
 }

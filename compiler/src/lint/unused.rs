@@ -3,7 +3,7 @@
 use crate::diagnostic::Diagnostic;
 use crate::ir::{
     Automaton, Binder, Clause, Domain, Expr, ExprKind, InterfaceId, Model, Parameter, Place, Property,
-    TextPart, UpdateKind,
+    TextPart, UpdateKind, Value,
 };
 use crate::source::{FileId, Span};
 use crate::spec::ast;
@@ -140,9 +140,9 @@ impl Uses {
     fn update(&mut self, automaton: &Automaton, update: &UpdateKind) {
         match update {
             UpdateKind::Assign { target, value, .. } | UpdateKind::Fill { target, value, .. } => {
-                let is_first = match (&target.place, &value.kind) {
-                    (Place::Local { local, .. }, ExprKind::Constant(value)) => {
-                        *value == automaton.locals[*local].initial
+                let is_first = match &target.place {
+                    Place::Local { local, .. } => {
+                        constant(automaton, value) == Some(automaton.locals[*local].initial)
                     }
                     _ => false,
                 };
@@ -186,6 +186,15 @@ impl Uses {
     fn write(&mut self, place: &Place) {
         self.written.extend(variable(place));
         place.parts().into_iter().for_each(|part| self.expr(part));
+    }
+}
+
+/// The value of a constant, through definitions too.
+fn constant(automaton: &Automaton, expr: &Expr) -> Option<Value> {
+    match &expr.kind {
+        ExprKind::Constant(value) => Some(*value),
+        ExprKind::Define(define) => constant(automaton, &automaton.defines[*define].value),
+        _ => None,
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::automaton::{Instance, Line, Vars};
 use super::memory::{Kept, Memory, kept};
-use super::plant::{Known, plant};
+use super::plant::{Known, hides_items, plant};
 use super::properties::{can_stop, read_by, searched};
 use super::strokes::Changing;
 use super::{Asked, Skipped};
@@ -28,12 +28,8 @@ pub struct Searched {
 /// A line as it is searched; or why it cannot be.
 pub fn model(project: &Project, asked: &Asked) -> Result<Searched, Vec<Diagnostic>> {
     let Project { system, plant: line, .. } = project;
-    let unknown = system.instances.iter().enumerate().filter_map(|(number, instance)| {
-        let (why, help) = not_searched(&line.machines[number])?;
-        let message = format!("`{}` cannot be searched: {why}", instance.name);
-        Some(Diagnostic::new("E1001", system.automaton_of(number).place, message).help(help))
-    });
-    let unknown: Vec<Diagnostic> = unknown.collect();
+    let unknown = (0..system.instances.len()).filter(|number| works_sideways(&line.machines[*number]));
+    let unknown: Vec<Diagnostic> = unknown.map(|number| sideways(system, number)).collect();
     if !unknown.is_empty() {
         return Err(unknown);
     }
@@ -165,6 +161,7 @@ pub fn model(project: &Project, asked: &Asked) -> Result<Searched, Vec<Diagnosti
         cylinders: changing.cylinders,
         processes: changing.processes,
         orders,
+        hides_items: line.machines.iter().any(hides_items),
         heights: line.kinds.iter().map(|kind| kind.height).collect(),
         grasps: line.kinds.iter().map(|kind| kind.grasp).collect(),
         sensed: sensed(system),
@@ -194,18 +191,6 @@ fn sensed(system: &System) -> Vec<bool> {
     sensed
 }
 
-/// What the search would take for something else, and the help.
-fn not_searched(machine: &Machine) -> Option<(&'static str, &'static str)> {
-    if works_sideways(machine) {
-        return Some(("a tool comes from the side", "verify lines whose tools point down"));
-    }
-    let rides = machine.places().any(|place| machine.is_on_track(place));
-    rides.then_some((
-        "items ride on a vehicle on a track",
-        "verify lines whose loads are on a `route`, or that have no place on a track",
-    ))
-}
-
 fn works_sideways(machine: &Machine) -> bool {
     let is_facing = |command: &Command| {
         let schema = machine.parts[command.part].schema();
@@ -213,6 +198,13 @@ fn works_sideways(machine: &Machine) -> bool {
     };
     machine.wiring.commands.iter().any(is_facing)
         || machine.places().any(|place| place.facing != Facing::Down)
+}
+
+fn sideways(system: &System, number: usize) -> Diagnostic {
+    let name = &system.instances[number].name;
+    let message = format!("`{name}` cannot be searched: a tool comes from the side");
+    Diagnostic::new("E1001", system.automaton_of(number).place, message)
+        .help("verify lines whose tools point down")
 }
 
 fn unbounded(system: &System, number: usize, port: &str) -> Diagnostic {

@@ -12,7 +12,7 @@ use autogen_search::plant::{
 };
 use autogen_search::stroke::position;
 use autogen_search::value::Var;
-use runtime_sim::device::{Direction, Stop, error};
+use runtime_sim::device::{Direction, PortType, Stop, error};
 use runtime_sim::line::Line;
 use runtime_sim::machine::Machine;
 use runtime_sim::part::Primitive;
@@ -202,8 +202,7 @@ pub fn plant(
                 found.lane =
                     Some(Lane { motion: memory.number(number, name("(motion)"), 3, motion::STANDS), zones });
             }
-            // What lies on a cylinder or a positioner is nowhere to be found.
-            Primitive::Place(place) if machine.strokes_under(place).is_none() => {
+            Primitive::Place(place) if is_known(machine, place) => {
                 let count = if place.by_kind { line.kinds.len() } else { place.slots.len() };
                 let asked = line.scenario.orders.iter().flat_map(|order| &order.parts);
                 let more = asked.copied().max().unwrap_or(0) as usize + 1;
@@ -225,7 +224,7 @@ pub fn plant(
             Primitive::Orders(orders) => {
                 let is_place = |part: &&usize| {
                     matches!(&machine.parts[**part].primitive, Primitive::Place(place)
-                        if machine.strokes_under(place).is_none())
+                        if is_known(machine, place))
                 };
                 let before: Vec<usize> = (0..orders.place).collect();
                 let place = before.iter().filter(is_place).count();
@@ -258,13 +257,31 @@ pub fn plant(
             _ => {}
         }
     }
-    let signals = machine.wiring.inputs.iter().map(|input| match input.source {
+    let inputs = ports.iter().filter(|port| port.direction == Direction::Input);
+    let signals = machine.wiring.inputs.iter().zip(inputs).map(|(input, port)| match input.source {
         Source::Ready => Signal::Fixed(1),
         Source::Error => Signal::Error,
         Source::Got | Source::Ack => Signal::Unbounded,
-        Source::Signal { part, signal } => self::signal(line, number, part, signal, &found, memory, changing),
+        Source::Signal { part, signal } => {
+            self::signal(line, number, Shown { part, signal, ty: port.ty }, &found, memory, changing)
+        }
     });
     Plant { inputs: signals.collect(), machine: found, outputs: levels }
+}
+
+/// Whether items may be somewhere that is not searched: on a conveyor without commands, or at such a place.
+pub fn hides_items(machine: &Machine) -> bool {
+    let is_commanded = |part: usize| machine.wiring.commands.iter().any(|command| command.part == part);
+    machine.parts.iter().enumerate().any(|(number, part)| match &part.primitive {
+        Primitive::Lane(_) => !is_commanded(number),
+        Primitive::Place(place) => !is_known(machine, place),
+        _ => false,
+    })
+}
+
+/// What lies on a cylinder, a positioner or a vehicle on a track is nowhere to be found.
+fn is_known(machine: &Machine, place: &runtime_sim::part::place::Place) -> bool {
+    machine.strokes_under(place).is_none() && !machine.is_on_track(place)
 }
 
 /// What is published of a truth while its machine is stopped; none: what the automaton wrote last.
@@ -375,17 +392,23 @@ fn at_rest(primitive: &Primitive) -> Signal {
     }
 }
 
+/// A signal of a part, and the type of the port that shows it.
+struct Shown {
+    part: usize,
+    signal: usize,
+    ty: PortType,
+}
+
 /// How an input behaves that shows this signal.
 fn signal(
     line: &Line,
     number: usize,
-    part: usize,
-    signal: usize,
+    shown: Shown,
     found: &autogen_search::plant::Machine,
     memory: &mut Memory,
     changing: &mut Changing,
 ) -> Signal {
-    use runtime_sim::device::PortType;
+    let Shown { part, signal, ty } = shown;
     let machine = &line.machines[number];
     let zone_of = || {
         // The fields of the lane, in the order of the parts.
@@ -430,7 +453,7 @@ fn signal(
         return at_rest(&machine.parts[part].primitive);
     }
     let schema = &machine.parts[part].schema().signals[signal];
-    let (low, values) = match schema.ty {
+    let (low, values) = match ty {
         PortType::Bool => (0, 2),
         PortType::Int { lo, hi } if i64::from(hi) - i64::from(lo) < 255 => (lo, (hi - lo) as u32 + 1),
         _ => return Signal::Unbounded,

@@ -88,7 +88,8 @@ impl Instance<'_> {
                 _ => Effect::Fault,
             };
             let reads = read_by(property).into_iter().fold(0, |bits, expr| bits | self.cells_of(expr));
-            found.push(Property { check, fault: property.site.0, effect, reads });
+            let asks_inputs = self.asks_inputs;
+            found.push(Property { check, fault: property.site.0, effect, reads, asks_inputs });
         }
         found
     }

@@ -44,7 +44,7 @@ impl Teller<'_> {
                 let place = self.place(self.project.system.model.faults[fault].place);
                 format!("from here `{text}` of {} cannot be fulfilled any more ({place})", name(instance))
             }
-            Violation::Stop => "the line stops until an operator comes".into(),
+            Violation::Stop { .. } => "the line stops until an operator comes".into(),
             Violation::StopsAgain => {
                 "the line stops until an operator comes, and stops again in the next scan each time".into()
             }
@@ -61,14 +61,14 @@ impl Teller<'_> {
                 "all orders are made, and the line cannot come to rest although nothing has failed".into()
             }
             Violation::WaitsForTime { instance } => format!(
-                "nothing has failed, and the whole line does nothing until a time of {} has passed",
+                "the whole line does nothing until a time of {} has passed, whose device has not failed",
                 name(instance)
             ),
             Violation::Repeats { machine } => {
                 format!("{} gives the command again that is under way", name(machine))
             }
             Violation::OnAndEmpty { arm } => {
-                format!("{} sets out with its gripper on and empty", name(arm))
+                format!("{} sets out with its gripper still on and empty", name(arm))
             }
             Violation::NothingThere { arm, machine, slot } => {
                 format!(

@@ -15,9 +15,9 @@ mod free;
 mod group;
 mod movement;
 mod pair;
+mod paths;
 mod standing;
 mod sweep;
-mod ways;
 
 pub(crate) use group::Swept;
 
@@ -29,9 +29,9 @@ pub(crate) mod reach {
 
 pub use bounds::BoundingBox;
 pub use check::{CollisionCheck, Contact};
+pub use paths::{Moving, Path};
 pub use standing::{Overlap, overlaps};
 pub use sweep::Sweep;
-pub use ways::{Moving, Way};
 
 /// Solids may go so far into one another, m.
 pub const SKIN: f64 = 0.001;

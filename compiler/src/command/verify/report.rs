@@ -112,6 +112,12 @@ impl Report<'_> {
         if !never.is_empty() {
             bounds.push(format!("no state was reached with: {}", never.join("; ")));
         }
+        if self.outcome.are_orders_open {
+            bounds.push(
+                "whether orders can be made is not decided: items on conveyors without commands, cylinders, positioners and tracks are not known"
+                    .into(),
+            );
+        }
         if plant.scenario.orders.is_empty() {
             bounds.push("nothing is ordered: whether orders can be made is not checked".into());
         }

@@ -1,4 +1,4 @@
-//! What moves of a machine on its ways, whenever it goes there: for questions that no run answers.
+//! What moves of a machine on its paths, whenever it goes there: for questions that no run answers.
 
 use super::body::{Piece, Placed};
 use super::bounds::{BoundingBox, Chain};
@@ -11,7 +11,7 @@ use crate::point::Point;
 use crate::solid::{Link, Solid};
 use std::cell::OnceCell;
 
-/// From one place on a way to the next one no link goes much farther, m.
+/// From one place on a path to the next one no link goes much farther, m.
 const STEP: f64 = 0.08;
 const MOST_STEPS: f64 = 40.0;
 
@@ -24,9 +24,9 @@ pub struct Moving {
     whole: BoundingBox,
 }
 
-/// What a machine takes up on a way, at places that are near to one another.
+/// What a machine takes up on a path, at places that are near to one another.
 #[derive(Clone, Debug)]
-pub struct Way {
+pub struct Path {
     poses: Poses,
     pub bounds: BoundingBox,
     places: OnceCell<Vec<Taken>>,
@@ -81,7 +81,7 @@ impl Moving {
 
     /// From goal to goal, each with the direction of the tool: all joints of an arm together, or a vehicle straight on. An
     /// arm under a torso only at the goals, and straight up or down between them. None if one is out of reach, or if there are none.
-    pub fn way(&self, goals: &[(Point, Facing)]) -> Option<Way> {
+    pub fn path(&self, goals: &[(Point, Facing)]) -> Option<Path> {
         let poses = match &self.arm {
             Some(arm) => Poses::Joints(joints(arm, goals)?),
             None => Poses::Points(points(goals)),
@@ -90,7 +90,7 @@ impl Moving {
         self.each(&poses, |pieces| {
             bounds = bounds.into_iter().chain(pieces.map(|placed| placed.bounds())).reduce(|a, b| a.with(&b));
         });
-        Some(Way { poses, bounds: bounds?, places: OnceCell::new() })
+        Some(Path { poses, bounds: bounds?, places: OnceCell::new() })
     }
 
     /// Its bodies at each place.
@@ -116,12 +116,13 @@ impl Moving {
     }
 
     /// Contains places where bodies of both are, whenever each of them is there; none if there are none.
-    pub fn common(&self, way: &Way, (other, beside): (&Moving, &Way)) -> Option<BoundingBox> {
-        if way.bounds.is_apart(&beside.bounds) {
+    pub fn common(&self, path: &Path, (other, beside): (&Moving, &Path)) -> Option<BoundingBox> {
+        if path.bounds.is_apart(&beside.bounds) {
             return None;
         }
         let mut all: Option<BoundingBox> = None;
-        for (bounds, pieces) in self.places(way).iter().filter(|(bounds, _)| !bounds.is_apart(&beside.bounds))
+        for (bounds, pieces) in
+            self.places(path).iter().filter(|(bounds, _)| !bounds.is_apart(&beside.bounds))
         {
             for (near, others) in other.places(beside).iter().filter(|(near, _)| !near.is_apart(bounds)) {
                 for piece in pieces.iter().filter(|piece| !piece.bounds().is_apart(near)) {
@@ -138,10 +139,10 @@ impl Moving {
         all
     }
 
-    fn places<'w>(&self, way: &'w Way) -> &'w [Taken] {
-        way.places.get_or_init(|| {
+    fn places<'p>(&self, path: &'p Path) -> &'p [Taken] {
+        path.places.get_or_init(|| {
             let mut places = Vec::new();
-            self.each(&way.poses, |pieces| {
+            self.each(&path.poses, |pieces| {
                 let taken: Vec<Placed> = pieces.collect();
                 let bounds =
                     taken.iter().map(Placed::bounds).fold(BoundingBox::NOTHING, |all, next| all.with(&next));
