@@ -97,6 +97,11 @@ impl Joints {
         joints
     }
 
+    /// To tell them apart exactly; missing ones are 0.
+    pub fn bits(&self) -> [u64; MOST_JOINTS] {
+        std::array::from_fn(|i| if i < self.count { self.values[i].to_bits() } else { 0 })
+    }
+
     /// The first values as an array; missing ones are 0.
     pub(super) fn array<const N: usize>(&self) -> [f64; N] {
         std::array::from_fn(|i| self.values[i])

@@ -153,8 +153,12 @@ impl Gantry {
 
     /// How the robot stands at these joints, the tool pointing down.
     pub fn stance(&self, joints: &Joints) -> Stance {
+        self.stance_below(joints, self.tool(joints))
+    }
+
+    /// The same, with the tool here at these joints.
+    fn stance_below(&self, joints: &Joints, tool: Point) -> Stance {
         let [x, y, turn, ..] = *joints;
-        let tool = self.tool(joints);
         let (s, c) = libm::sincos(turn);
         let ahead = (tool.y - y) * c - (tool.x - x) * s;
         Stance { turn, beyond: ahead - SHOULDER, wrist: Wrist::of_angle(joints[7]) }
@@ -168,8 +172,9 @@ impl Gantry {
         planar::comfortable(beyond, dz, [wrist; 2])?;
         let angles = angles(planar::links(beyond, dz, wrist));
         // Joints that go on and on without a jump are those of the formula, and whole turns.
-        let present = self.stance(from);
-        let present_dz = planar::wrist_height(self.tool(from), self.shoulder);
+        let tool = self.tool(from);
+        let present = self.stance_below(from, tool);
+        let present_dz = planar::wrist_height(tool, self.shoulder);
         let known = angles_at(&present, present_dz);
         Some(std::array::from_fn(|i| match i {
             0 => torso.x,
