@@ -166,13 +166,23 @@ impl Gantry {
 
     /// Joints at this stance with the torso's axis here and the tool at this height, as [`Self::solve_stance`] has
     /// them; none if the reach forbids it.
-    pub fn standing_at(&self, torso: Point, height: f64, stance: &Stance, from: &Joints) -> Option<Joints> {
+    fn standing_at(&self, torso: Point, height: f64, stance: &Stance, from: &Joints) -> Option<Joints> {
+        self.standing_near(torso, height, stance, (from, self.tool(from)))
+    }
+
+    /// The same near joints at which the tool is there.
+    pub fn standing_near(
+        &self,
+        torso: Point,
+        height: f64,
+        stance: &Stance,
+        (from, tool): (&Joints, Point),
+    ) -> Option<Joints> {
         let Stance { turn, beyond, wrist } = *stance;
         let dz = planar::wrist_height(Point { z: height, ..torso }, self.shoulder);
         planar::comfortable(beyond, dz, [wrist; 2])?;
         let angles = angles(planar::links(beyond, dz, wrist));
         // Joints that go on and on without a jump are those of the formula, and whole turns.
-        let tool = self.tool(from);
         let present = self.stance_below(from, tool);
         let present_dz = planar::wrist_height(tool, self.shoulder);
         let known = angles_at(&present, present_dz);

@@ -12,6 +12,9 @@ type Bits = [u64; MOST_JOINTS];
 /// Its place on both rails and its turn.
 type Torso = [u64; 3];
 
+/// From torso to torso, and how far it draws back at either end.
+type Trip = ([Torso; 2], [u64; 2]);
+
 /// By all that it depends on.
 #[derive(Debug)]
 pub struct Seen {
@@ -21,8 +24,7 @@ pub struct Seen {
     free: Answers<[Bits; 2], bool>,
     /// From joints, up to a height, with limits of velocity and acceleration.
     lifts: Answers<(Bits, u64, [Bits; 2]), Option<Arc<Lift>>>,
-    /// From torso to torso, and how far it draws back.
-    lines: Answers<([Torso; 2], [u64; 2]), Option<Arc<Line>>>,
+    lines: Answers<Trip, Option<Arc<Line>>>,
 }
 
 /// Twice as many are remembered at most: 150 bytes each.
