@@ -5,6 +5,7 @@
 //! SI units, world frame (z up), unless a name says otherwise.
 
 pub mod account;
+mod answers;
 pub mod carrier;
 pub mod collision;
 pub mod conservation;

@@ -8,7 +8,7 @@ use crate::part::chain::motions::Motions;
 use crate::planner::Planner;
 use crate::point::Point;
 use std::collections::HashMap;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// It changes no result: a run with the memory of another one is the same, and faster. Of other machines, obstacles or
 /// kinds of part it remembers nothing.
@@ -16,8 +16,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 pub struct Memory {
     surroundings: Option<Surroundings>,
     shared: Arc<Mutex<Shared>>,
-    /// Whether a motion is free of contact with what rests.
-    free: HashMap<Fingerprint, bool>,
+    free: Arc<Mutex<Free>>,
     /// What contains an arm on each piece of its path.
     boxes: HashMap<Fingerprint, Arc<[Swept]>>,
 }
@@ -28,7 +27,11 @@ struct Shared {
     surroundings: Option<Surroundings>,
     /// By machine; none for what is no arm.
     motions: Vec<Option<Arc<Motions>>>,
+    free: Arc<Mutex<Free>>,
 }
+
+/// Whether a motion is free of contact with what rests.
+type Free = HashMap<Fingerprint, bool>;
 
 /// All that paths and contacts depend on.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,7 +48,7 @@ impl Surroundings {
     }
 }
 
-/// So many answers are remembered: 24 bytes each.
+/// So many answers are remembered, in all runs at the same time: 24 bytes each.
 const MOST: usize = 1_000_000;
 /// So many motions have their boxes remembered: 9 kB each.
 const MOST_BOXES: usize = 10_000;
@@ -56,22 +59,19 @@ impl Memory {
         let surroundings = Surroundings::of(line);
         if self.surroundings.as_ref() != Some(&surroundings) {
             *self = Self { surroundings: Some(surroundings), shared: self.shared.clone(), ..Self::default() };
+            let free = self.shared(line).free.clone();
+            self.free = free;
         }
     }
 
-    /// Another one that knows the motions of this one, for runs at the same time.
+    /// Another one that knows the motions of this one and their contacts, for runs at the same time.
     pub fn beside(&self) -> Self {
         Self { shared: self.shared.clone(), ..Self::default() }
     }
 
     /// The motions of a machine; none if it is no arm.
     pub(crate) fn motions(&mut self, line: &Line, machine: usize) -> Option<Arc<Motions>> {
-        // Nothing panics while it is locked.
-        let mut shared = self.shared.lock().unwrap_or_else(PoisonError::into_inner);
-        if shared.surroundings != self.surroundings {
-            let motions = vec![None; line.machines.len()];
-            *shared = Shared { surroundings: self.surroundings.clone(), motions };
-        }
+        let mut shared = self.shared(line);
         let known = shared.motions.get_mut(machine)?;
         if known.is_none() {
             let arm = line.machines[machine].arm()?;
@@ -79,6 +79,18 @@ impl Memory {
             *known = Some(Arc::new(Motions::new(arm, &line.machines[machine], planner)));
         }
         known.clone()
+    }
+
+    /// What is known of these surroundings; all else is forgotten.
+    fn shared(&self, line: &Line) -> MutexGuard<'_, Shared> {
+        // Nothing panics while it is locked.
+        let mut shared = self.shared.lock().unwrap_or_else(PoisonError::into_inner);
+        if shared.surroundings != self.surroundings {
+            let motions = vec![None; line.machines.len()];
+            let surroundings = self.surroundings.clone();
+            *shared = Shared { surroundings, motions, free: Arc::default() };
+        }
+        shared
     }
 
     pub(crate) fn boxes(
@@ -93,13 +105,18 @@ impl Memory {
     }
 
     pub(crate) fn is_free(&self, question: Fingerprint) -> Option<bool> {
-        self.free.get(&question).copied()
+        self.free().get(&question).copied()
     }
 
-    pub(crate) fn note_free(&mut self, question: Fingerprint, is_free: bool) {
-        if self.free.len() >= MOST {
-            self.free.clear();
+    pub(crate) fn note_free(&self, question: Fingerprint, is_free: bool) {
+        let mut free = self.free();
+        if free.len() >= MOST {
+            free.clear();
         }
-        self.free.insert(question, is_free);
+        free.insert(question, is_free);
+    }
+
+    fn free(&self) -> MutexGuard<'_, Free> {
+        self.free.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

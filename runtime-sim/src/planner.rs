@@ -12,6 +12,7 @@ mod obstacle;
 mod options;
 mod plane;
 mod scene;
+mod seen;
 mod timing;
 
 use crate::kinematics::arm::{Arm, FINEST_TURN, Joints, LINE_STEP, Limits};
@@ -25,9 +26,10 @@ use options::Options;
 use plane::{Plane, Rectangle};
 
 use scene::Scene;
+use seen::Seen;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
-use std::rc::Rc;
+use std::sync::Arc;
 use timing::{Lift, Timing};
 
 /// What a gantry knows of its surroundings.
@@ -37,6 +39,7 @@ pub struct Planner {
     scene: Scene,
     area: Rectangle,
     plane: Plane,
+    seen: Seen,
 }
 
 /// Where the tool is to be brought.
@@ -90,6 +93,7 @@ impl Candidate {
 }
 
 /// The tool can go straight up from a place.
+#[derive(Clone, Copy, Debug, PartialEq)]
 struct Vertical {
     /// To this height, m.
     top: f64,
@@ -154,7 +158,7 @@ const WRISTS: [Wrist; 2] = [Wrist::Inside, Wrist::Outside];
 /// When the robot is where between the ends of a path.
 struct Plan {
     timing: Timing,
-    line: Rc<Line>,
+    line: Arc<Line>,
     stances: [Stance; 2],
     ends: [Joints; 2],
 }
@@ -188,7 +192,7 @@ impl Planner {
         let arm = line.machines[index].arm()?;
         let [x, y] = arm.gantry()?.rails();
         let area = Rectangle { low: Point::new(x[0], y[0], 0.0), high: Point::new(x[1], y[1], 0.0) };
-        Some(Self { arm, scene, area, plane: Plane::new(blocks, area) })
+        Some(Self { arm, scene, area, plane: Plane::new(blocks, area), seen: Seen::new() })
     }
 
     /// None if no path keeps off all obstacles. With a part on the tool the wrist stays on its side, and the part gets
@@ -258,8 +262,7 @@ impl Planner {
         None
     }
 
-    /// How the tool is lifted to a height, as fast as the limits allow; none if the reach forbids it.
-    fn lift(&self, from: &Joints, top: f64, limits: &Limits) -> Option<Lift> {
+    fn compute_lift(&self, from: &Joints, top: f64, limits: &Limits) -> Option<Lift> {
         let tool = self.arm.tool(from);
         let (mut z, mut last) = (tool.z, *from);
         let mut knots = Vec::new();
@@ -272,8 +275,7 @@ impl Planner {
         Some(Lift::new(motion.rests_at(), |t| self.arm.tool(&motion.at(t)).z))
     }
 
-    /// The line of the torso's axis; none if nothing leads round the obstacles.
-    fn line(&self, from: &Joints, to: &Joints, [back, forth]: [f64; 2]) -> Option<Line> {
+    fn compute_line(&self, from: &Joints, to: &Joints, [back, forth]: [f64; 2]) -> Option<Line> {
         let (start, end) = (self.drawn_back(from, back)?, self.drawn_back(to, forth)?);
         let mut places = vec![axis(from)];
         if back > 0.0 {
@@ -303,7 +305,7 @@ impl Planner {
         [wide, narrow]
     }
 
-    fn is_free_at_place(&self, Candidate { over, at, .. }: &Candidate) -> bool {
+    fn compute_is_free_at_place(&self, Candidate { over, at, .. }: &Candidate) -> bool {
         let near = self.scene.near([over, at].map(axis));
         let gap = |joints, enough| self.scene.gap(&near, joints, Load::None, [enough; 2]);
         gap(at, MARGIN_AT_PLACE) >= MARGIN_AT_PLACE
@@ -353,8 +355,7 @@ impl Planner {
         Some(knots)
     }
 
-    /// The straight line of the tool up to a height, from these joints; none if something is in the way.
-    fn vertical(&self, low: &Joints, top: f64, load: Load) -> Option<Vertical> {
+    fn compute_vertical(&self, low: &Joints, top: f64, load: Load) -> Option<Vertical> {
         let tool = self.arm.tool(low);
         let near = self.scene.near([axis(low)]);
         let gap = if tool.z < top {

@@ -27,7 +27,7 @@ use crate::point::Point;
 use conveyed::Conveyed;
 use conveying::{Among, Conveying, Falls};
 pub use conveying::{By, Gap, Transfer, gaps, transfers};
-use gripping::NextLook;
+use gripping::{Lying, NextLook};
 use std::sync::Arc;
 use trajectory::Trajectory;
 use working::{Shared, Working};
@@ -58,6 +58,7 @@ pub struct Plant {
     scanning: Vec<usize>,
     /// By machine.
     next_looks: Vec<Option<NextLook>>,
+    lying: Option<Lying>,
 }
 
 impl Plant {
@@ -95,6 +96,7 @@ impl Plant {
             grippers: parts(line, |part| matches!(part, Primitive::Grip(_))).collect(),
             scanning,
             next_looks: vec![None; line.machines.len()],
+            lying: None,
         };
         plant.sight();
         plant.write_images();

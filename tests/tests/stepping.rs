@@ -125,6 +125,10 @@ fn events_and_every_scan_are_the_same() {
         if again != events {
             wrong.push(format!("{}: another result with memory", case.name));
         }
+        let beside = execute(&line, Stepping::Events, &mut memory.beside()).expect("a line that can be run");
+        if beside != events {
+            wrong.push(format!("{}: another result beside another run", case.name));
+        }
         wrong.extend(anew(Stepping::Checked).err().map(|text| format!("{}: {text}", case.name)));
         wrong
     });

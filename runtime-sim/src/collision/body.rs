@@ -87,15 +87,16 @@ impl Piece {
     }
 
     pub fn within(&self, frame: &Pose) -> Placed {
+        let ball = self.ball.within(frame);
         let core = match self.core {
             Core::Segment(ends) => Core::Segment(ends.map(|end| frame.point(end))),
             Core::Block(block) => Core::Block(Block {
-                middle: frame.point(block.middle),
+                middle: ball.middle,
                 axes: block.axes.map(|axis| frame.direction(axis)),
                 half: block.half,
             }),
         };
-        Placed { core, radius: self.radius, ball: self.ball.within(frame) }
+        Placed { core, radius: self.radius, ball }
     }
 
     pub fn ball(&self) -> Ball {

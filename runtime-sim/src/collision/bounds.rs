@@ -75,12 +75,16 @@ impl BoundingBox {
 
     /// A distance that nothing within the ball is nearer to it than, m; less than 0 if they meet.
     pub fn gap(&self, ball: &Ball) -> f64 {
+        self.square_gap(ball.middle).sqrt() - ball.radius
+    }
+
+    /// The square of the distance of a point, m2; 0 within.
+    pub fn square_gap(&self, point: Point) -> f64 {
         let outside = |at: f64, low: f64, high: f64| (low - at).max(at - high).max(0.0);
-        let Ball { middle, radius } = *ball;
-        let x = outside(middle.x, self.low.x, self.high.x);
-        let y = outside(middle.y, self.low.y, self.high.y);
-        let z = outside(middle.z, self.low.z, self.high.z);
-        (x * x + y * y + z * z).sqrt() - radius
+        let x = outside(point.x, self.low.x, self.high.x);
+        let y = outside(point.y, self.low.y, self.high.y);
+        let z = outside(point.z, self.low.z, self.high.z);
+        x * x + y * y + z * z
     }
 
     pub fn is_apart(&self, other: &BoundingBox) -> bool {

@@ -47,6 +47,8 @@ pub struct CollisionCheck {
     /// Of the movements of the groups.
     versions: Vec<u64>,
     pairs: Vec<Pair>,
+    /// The earliest end of what is known of the pairs with these versions, seconds from the start of the run.
+    known_until: f64,
     items: Vec<Tracked>,
     /// Of the kinds.
     sizes: Vec<Point>,
@@ -104,6 +106,7 @@ impl CollisionCheck {
             versions: Vec::with_capacity(groups.len()),
             groups,
             pairs,
+            known_until: f64::NEG_INFINITY,
             read: 0,
             contacts: Vec::new(),
             seconds: f64::from(line.scan_ms) / 1000.0,
@@ -134,9 +137,14 @@ impl CollisionCheck {
         for group in &mut self.groups {
             group.follow(plant);
         }
+        let now = plant.now_ms() as f64 / 1000.0;
+        let goes_on = self.groups.iter().map(Group::version).eq(self.versions.iter().copied());
+        if goes_on && self.known_until - now >= self.seconds * (next - scan) as f64 + AT_ONCE {
+            return (next, None);
+        }
         self.versions.clear();
         self.versions.extend(self.groups.iter().map(Group::version));
-        let now = plant.now_ms() as f64 / 1000.0;
+        self.known_until = f64::INFINITY;
         let mut next = next;
         let mut near = Vec::new();
         for index in 0..self.pairs.len() {
@@ -149,14 +157,17 @@ impl CollisionCheck {
                     pair.known = Known { versions, until: f64::NEG_INFINITY };
                     pair.forget_paths();
                 }
+                self.known_until = f64::NEG_INFINITY;
                 near.push(index);
                 continue;
             }
             if pair.known.versions == versions && pair.known.until - now >= end {
+                self.known_until = self.known_until.min(pair.known.until);
                 continue;
             }
             let clear = pair.clear_for(&mut self.groups, index, plant, memory, end);
             pair.known = Known { versions, until: now + clear };
+            self.known_until = self.known_until.min(pair.known.until);
             if clear < end {
                 // One scan less: the time is rounded.
                 let before = (clear / self.seconds) as u64;

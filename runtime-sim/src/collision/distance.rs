@@ -87,32 +87,44 @@ impl Block {
         self.middle + x + y + z
     }
 
-    /// Ends of the twelve edges.
-    fn edges(&self) -> impl Iterator<Item = [Point; 2]> + '_ {
-        const SIDES: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0], [1.0, 1.0]];
-        (0..3).flat_map(move |along| {
-            SIDES.iter().map(move |[a, b]| {
-                [-1.0, 1.0].map(|end| {
-                    let mut signs = [end; 3];
-                    signs[(along + 1) % 3] = *a;
-                    signs[(along + 2) % 3] = *b;
-                    self.corner(signs)
-                })
-            })
+    /// Bit i of the number of a corner says on which side along axis i it is.
+    fn corners(&self) -> [Point; 8] {
+        std::array::from_fn(|number| {
+            self.corner([0, 1, 2].map(|i| if number >> i & 1 == 1 { 1.0 } else { -1.0 }))
         })
+    }
+
+    /// The square of a distance that no point between two of the box's own frame is nearer than.
+    fn square_apart(&self, start: [f64; 3], end: [f64; 3]) -> f64 {
+        let along = |i: usize| {
+            let (low, high) = (start[i].min(end[i]), start[i].max(end[i]));
+            (low - self.half[i]).max(-self.half[i] - high).max(0.0)
+        };
+        let [x, y, z] = [0, 1, 2].map(along);
+        x * x + y * y + z * z
     }
 }
 
+/// The corners at the ends of each edge.
+const EDGES: [[usize; 2]; 12] =
+    [[0, 1], [2, 3], [4, 5], [6, 7], [0, 2], [4, 6], [1, 3], [5, 7], [0, 4], [1, 5], [2, 6], [3, 7]];
+/// What is rounded in a distance, m, and much more.
+const ROUNDED: f64 = 1e-9;
+
 /// Between a segment and a box, 0 if they meet.
 pub fn segment_block(segment: [Point; 2], block: &Block) -> Gap {
-    let (t, _) = nearest_on(segment, block);
+    let (t, _) = nearest_on(segment.map(|point| block.own(point)), block);
+    gap_at(t, segment, block)
+}
+
+/// Between the place `t` on a segment and a box.
+fn gap_at(t: f64, segment: [Point; 2], block: &Block) -> Gap {
     let on_segment = segment[0] + (segment[1] - segment[0]).scaled(t);
     Gap::between([on_segment, block.nearest(on_segment)])
 }
 
-/// Where on the segment, 0 to 1, it is nearest to the box, and how near.
-fn nearest_on(segment: [Point; 2], block: &Block) -> (f64, f64) {
-    let [start, end] = segment.map(|point| block.own(point));
+/// Where on a segment of the box's own frame, 0 to 1, it is nearest to the box, and how near.
+fn nearest_on([start, end]: [[f64; 3]; 2], block: &Block) -> (f64, f64) {
     let offset = [0, 1, 2].map(|i| end[i] - start[i]);
     let at = |t: f64| [0, 1, 2].map(|i| start[i] + t * offset[i]);
     // Half of the slope of the square distance: it grows with t, and is straight between the faces' planes.
@@ -151,26 +163,35 @@ fn nearest_on(segment: [Point; 2], block: &Block) -> (f64, f64) {
 /// Between two boxes, 0 if they meet.
 pub fn block_block(a: &Block, b: &Block) -> Gap {
     // Boxes are nearest on an edge of one of them, and where they meet an edge of one meets the other.
-    let of_a = nearest_edge(a, b);
+    let of_a = nearest_edge(a, b, f64::INFINITY).unwrap_or(Gap::between([a.middle; 2]));
     if of_a.distance <= 0.0 {
         return of_a;
     }
-    of_a.or(nearest_edge(b, a).turned())
+    nearest_edge(b, a, of_a.distance).map_or(of_a, |of_b| of_a.or(of_b.turned()))
 }
 
-/// From the edges of one box to another box.
-fn nearest_edge(of: &Block, to: &Block) -> Gap {
-    let mut nearest: Option<([Point; 2], f64)> = None;
-    for edge in of.edges() {
-        let (_, distance) = nearest_on(edge, to);
-        let is_nearer = nearest.is_none_or(|(_, least)| distance < least || distance.is_nan());
-        if is_nearer {
-            nearest = Some((edge, distance));
+/// From the edges of one box to another box; none if all of them are farther than `enough`.
+fn nearest_edge(of: &Block, to: &Block, enough: f64) -> Option<Gap> {
+    let corners = of.corners();
+    let own = corners.map(|corner| to.own(corner));
+    // What is no number is never left out.
+    let is_known = own.iter().flatten().chain(&to.half).sum::<f64>().is_finite();
+    let mut least = enough;
+    let mut nearest: Option<([usize; 2], f64)> = None;
+    for edge in EDGES {
+        let [start, end] = edge.map(|corner| own[corner]);
+        let most = least.min(enough) + ROUNDED;
+        if is_known && to.square_apart(start, end) > most * most {
+            continue;
+        }
+        let (t, distance) = nearest_on([start, end], to);
+        if nearest.is_none() || distance < least || distance.is_nan() {
+            nearest = Some((edge, t));
+            least = distance;
         }
         if distance <= 0.0 {
             break;
         }
     }
-    let (edge, _) = nearest.unwrap_or(([of.middle; 2], 0.0));
-    segment_block(edge, to)
+    nearest.map(|(edge, t)| gap_at(t, edge.map(|corner| corners[corner]), to))
 }

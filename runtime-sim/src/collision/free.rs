@@ -80,14 +80,12 @@ pub fn is_free(
         return known;
     }
     let stands = |group: usize| standing.is_some_and(|side| [a, b][side] == group);
-    let near = if a == b {
-        vec![PathPiece { path: [0.0, 1.0], boxes: None }]
-    } else {
-        near_pieces([a, b].map(|group| match stands(group) {
-            true => [groups[group].standing_boxes()].into(),
-            false => groups[group].boxes(plant, memory),
-        }))
-    };
+    let boxes: [Arc<[Swept]>; 2] = [a, b].map(|group| match (a == b, stands(group)) {
+        (true, _) => Arc::default(),
+        (_, true) => [groups[group].standing_boxes()].into(),
+        (_, false) => groups[group].boxes(plant, memory),
+    });
+    let near = near_pieces(&boxes);
     if near.is_empty() {
         memory.note_free(all, true);
         return true;
@@ -132,22 +130,23 @@ pub fn is_free(
 }
 
 /// A piece of a path.
-struct PathPiece {
+struct PathPiece<'a> {
     /// From place to place.
     path: [f64; 2],
     /// Of both groups on it, if they are known.
-    boxes: Option<[Swept; 2]>,
+    boxes: Option<[&'a Swept; 2]>,
 }
 
-impl PathPiece {
+impl PathPiece<'_> {
     /// Whether the boxes of two bodies meet.
     fn may_meet(&self, [i, j]: [usize; 2]) -> bool {
-        self.boxes.as_ref().is_none_or(|[a, b]| !a.bodies[i].is_apart(&b.bodies[j]))
+        self.boxes.is_none_or(|[a, b]| !a.bodies[i].is_apart(&b.bodies[j]))
     }
 }
 
-/// The equal pieces of the path of one of two groups on which its box meets the other's.
-fn near_pieces(boxes: [Arc<[Swept]>; 2]) -> Vec<PathPiece> {
+/// The equal pieces of the path of one of two groups on which its box meets the other's; all of it, where boxes are not
+/// known.
+fn near_pieces(boxes: &[Arc<[Swept]>; 2]) -> Vec<PathPiece<'_>> {
     if boxes.iter().any(|boxes| boxes.is_empty()) {
         return vec![PathPiece { path: [0.0, 1.0], boxes: None }];
     }
@@ -157,7 +156,7 @@ fn near_pieces(boxes: [Arc<[Swept]>; 2]) -> Vec<PathPiece> {
     let near = (0..count).filter(|number| !of(0, *number).all.is_apart(&of(1, *number).all));
     let piece = |number: usize| PathPiece {
         path: [number, number + 1].map(|end| end as f64 / count as f64),
-        boxes: Some([0, 1].map(|group| of(group, number).clone())),
+        boxes: Some([0, 1].map(|group| of(group, number))),
     };
     near.map(piece).collect()
 }

@@ -354,7 +354,8 @@ impl Group {
 
     /// Metres that no point of the body goes more than between two times of the span.
     pub fn path_between(&self, body: &Body, from: f64, to: f64) -> f64 {
-        path(&self.movement, &self.parts, body, [from, to])
+        path_of_parts(&self.parts, body, [from, to])
+            .unwrap_or_else(|| self.movement.path(body, self.movement.span(from, to)))
     }
 
     /// Metres that no point of a body has gone more than by a time, seconds from now, since the start of the run.
@@ -366,9 +367,8 @@ impl Group {
     /// The same of all bodies, by their numbers.
     pub fn paths_to(&self, time: f64) -> Vec<Option<f64>> {
         let span = self.movement.span(0.0, time);
-        let path = |body: &Body| match body.lying().is_some() || matches!(body.anchor, Anchor::Carriage(_)) {
-            true => self.path_between(body, 0.0, time),
-            false => self.movement.path(body, span),
+        let path = |body: &Body| {
+            path_of_parts(&self.parts, body, [0.0, time]).unwrap_or_else(|| self.movement.path(body, span))
         };
         self.bodies.iter().map(|body| body.as_ref().map(|body| body.path + path(body))).collect()
     }
@@ -424,15 +424,13 @@ fn present(pieces: &[Piece], frame: &Pose) -> BoundingBox {
     bounds.fold(BoundingBox::NOTHING, |all, next| all.with(&next))
 }
 
-/// Metres that no point of a body goes more than between two times of the span.
-fn path(movement: &Movement, parts: &Parts, body: &Body, [from, to]: [f64; 2]) -> f64 {
+/// Metres that no point of a body goes more than between two times; none of what moves with its machine.
+fn path_of_parts(parts: &Parts, body: &Body, [from, to]: [f64; 2]) -> Option<f64> {
     if let Anchor::Carriage(part) = body.anchor {
-        let Some(stroking) = parts.stroking(part) else { return 0.0 };
+        let Some(stroking) = parts.stroking(part) else { return Some(0.0) };
         let part = (stroking.out(to) - stroking.out(from)).abs();
-        return stroking.stroke.path(body.ball.middle, body.ball.radius, part);
+        return Some(stroking.stroke.path(body.ball.middle, body.ball.radius, part));
     }
-    match body.lying().and_then(|item| parts.conveyed(item)) {
-        Some(conveyed) => conveyed.speed_within(body.ball.middle.length() + body.ball.radius) * (to - from),
-        None => movement.path(body, movement.span(from, to)),
-    }
+    let conveyed = parts.conveyed(body.lying()?)?;
+    Some(conveyed.speed_within(body.ball.middle.length() + body.ball.radius) * (to - from))
 }

@@ -136,6 +136,16 @@ impl Pair {
         self.forget_paths();
         let mut times = vec![(HALVINGS, [0.0, seconds])];
         while let Some((halvings, [from, to])) = times.pop() {
+            let outer = [0, 1].map(|side| {
+                let all = groups[[a, b][side]].outer_between([from, to], plant, memory);
+                all.map(|all| if clear_standing[side] { all.without_standing() } else { all })
+            });
+            if let [Some(first), Some(second)] = &outer
+                && a != b
+                && first.is_apart(second)
+            {
+                continue;
+            }
             let swept = [0, 1].map(|side| {
                 let all = groups[[a, b][side]].boxes_between([from, to], plant, memory);
                 if clear_standing[side] { all.without_standing() } else { all }

@@ -97,6 +97,11 @@ impl Joints {
         joints
     }
 
+    /// To tell them apart exactly; missing ones are 0.
+    pub fn bits(&self) -> [u64; MOST_JOINTS] {
+        std::array::from_fn(|i| if i < self.count { self.values[i].to_bits() } else { 0 })
+    }
+
     /// The first values as an array; missing ones are 0.
     pub(super) fn array<const N: usize>(&self) -> [f64; N] {
         std::array::from_fn(|i| self.values[i])
@@ -321,8 +326,7 @@ impl Arm {
 
     /// The direction of a part on the tool, seen from above, rad.
     pub fn direction(&self, joints: &Joints) -> f64 {
-        let along = self.tool_pose(joints).axis(0);
-        libm::atan2(along.y, along.x)
+        direction_of(&self.tool_pose(joints))
     }
 
     /// The same joints but for the last one, which gives a part on the tool this direction. For an arm that keeps the
@@ -339,9 +343,14 @@ impl Arm {
 
     /// The same place of the tool, and a part on it with the direction that it has at `from`.
     fn with_direction_of(&self, from: &Joints, joints: Joints) -> Joints {
+        self.with_direction(from, self.direction(from), joints)
+    }
+
+    /// The same, with that direction.
+    fn with_direction(&self, from: &Joints, direction: f64, joints: Joints) -> Joints {
         let last = joints.len() - 1;
         // The last joint's axis points down.
-        let angle = joints[last] + self.direction(&joints) - self.direction(from);
+        let angle = joints[last] + self.direction(&joints) - direction;
         // As far as the torso turns, the last joint turns too.
         let turned = if self.has_torso() { joints[TORSO] - from[TORSO] } else { 0.0 };
         let kept = nearest_equivalent(angle, from[last] + turned);
@@ -371,8 +380,9 @@ impl Arm {
     /// Joints at this stance with the torso's axis here and the tool at this height, near `from`; a part keeps its
     /// direction, whatever the limits of the last joint. None where the reach forbids it, and for a robot without a torso.
     pub fn standing_at(&self, torso: Point, height: f64, stance: &Stance, from: &Joints) -> Option<Joints> {
-        let joints = self.gantry()?.standing_at(torso, height, stance, &from.array())?;
-        Some(self.with_direction_of(from, Joints::new(&joints)))
+        let pose = self.tool_pose(from);
+        let joints = self.gantry()?.standing_near(torso, height, stance, (&from.array(), pose.position))?;
+        Some(self.with_direction(from, direction_of(&pose), Joints::new(&joints)))
     }
 
     /// Joints for a place of the tool with rails, torso and the direction of the wrist as they are; none where the
@@ -417,6 +427,12 @@ impl Arm {
     pub fn limits(&self) -> Limits {
         self.limits
     }
+}
+
+/// The direction of a part on a tool, seen from above, rad.
+fn direction_of(tool: &Pose) -> f64 {
+    let along = tool.axis(0);
+    libm::atan2(along.y, along.x)
 }
 
 /// An arm of six joints on one level axis, its base on the carriage at `mount`; none on other axes.

@@ -153,8 +153,12 @@ impl Gantry {
 
     /// How the robot stands at these joints, the tool pointing down.
     pub fn stance(&self, joints: &Joints) -> Stance {
+        self.stance_below(joints, self.tool(joints))
+    }
+
+    /// The same, with the tool here at these joints.
+    fn stance_below(&self, joints: &Joints, tool: Point) -> Stance {
         let [x, y, turn, ..] = *joints;
-        let tool = self.tool(joints);
         let (s, c) = libm::sincos(turn);
         let ahead = (tool.y - y) * c - (tool.x - x) * s;
         Stance { turn, beyond: ahead - SHOULDER, wrist: Wrist::of_angle(joints[7]) }
@@ -162,14 +166,25 @@ impl Gantry {
 
     /// Joints at this stance with the torso's axis here and the tool at this height, as [`Self::solve_stance`] has
     /// them; none if the reach forbids it.
-    pub fn standing_at(&self, torso: Point, height: f64, stance: &Stance, from: &Joints) -> Option<Joints> {
+    fn standing_at(&self, torso: Point, height: f64, stance: &Stance, from: &Joints) -> Option<Joints> {
+        self.standing_near(torso, height, stance, (from, self.tool(from)))
+    }
+
+    /// The same near joints at which the tool is there.
+    pub fn standing_near(
+        &self,
+        torso: Point,
+        height: f64,
+        stance: &Stance,
+        (from, tool): (&Joints, Point),
+    ) -> Option<Joints> {
         let Stance { turn, beyond, wrist } = *stance;
         let dz = planar::wrist_height(Point { z: height, ..torso }, self.shoulder);
         planar::comfortable(beyond, dz, [wrist; 2])?;
         let angles = angles(planar::links(beyond, dz, wrist));
         // Joints that go on and on without a jump are those of the formula, and whole turns.
-        let present = self.stance(from);
-        let present_dz = planar::wrist_height(self.tool(from), self.shoulder);
+        let present = self.stance_below(from, tool);
+        let present_dz = planar::wrist_height(tool, self.shoulder);
         let known = angles_at(&present, present_dz);
         Some(std::array::from_fn(|i| match i {
             0 => torso.x,

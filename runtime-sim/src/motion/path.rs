@@ -53,7 +53,7 @@ pub struct Section {
 }
 
 /// How far something goes at most along a path.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Travel {
     sections: Vec<Section>,
     /// Up to the end of each of them.

@@ -123,6 +123,10 @@ impl Running for Serving {
         self.complete = value[0] != 0.0;
     }
 
+    fn serves(&self) -> bool {
+        true
+    }
+
     fn serve(&mut self, world: &mut World) {
         match self.table {
             Table::Open { order, refused } if !world.desk.made[order] => {

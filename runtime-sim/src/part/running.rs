@@ -236,6 +236,11 @@ pub trait Running: std::fmt::Debug + Send + Sync {
         None
     }
 
+    /// Whether it takes away items that are ordered.
+    fn serves(&self) -> bool {
+        false
+    }
+
     fn serve(&mut self, _world: &mut World) {}
 
     /// What others have served is taken away here.

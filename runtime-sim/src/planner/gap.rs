@@ -2,12 +2,13 @@
 
 use super::member::{Located, Member};
 use super::obstacle::Cluster;
-use crate::collision::reach::{Chain, Radii};
+use crate::collision::reach::{Ball, Chain, Radii};
 use crate::kinematics::arm::{Arm, Frames, Joints, MOST_JOINTS};
+use crate::point::Point;
 use std::cell::OnceCell;
 
 /// What hangs on the gripper.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Load {
     None,
     Largest,
@@ -43,11 +44,16 @@ pub struct Nearby<'s> {
 pub struct Standing<'a> {
     links: &'a Links,
     frames: Frames,
-    located: [OnceCell<Located<'a>>; MOST_JOINTS + 1],
+    /// By member.
+    balls: [Ball; MOST_JOINTS + 1],
+    /// Those that are near something.
+    located: [OnceCell<Located>; MOST_JOINTS + 1],
 }
 
 /// Number of the joint that turns the torso.
 pub const TORSO: usize = 2;
+/// What is rounded in a square, as a part of it.
+const ROUNDED: f64 = 1e-12;
 /// Links with so many joints between them or more may meet.
 const FREE: usize = 3;
 
@@ -72,13 +78,18 @@ impl Links {
     }
 
     /// All of them but the load, where they are.
-    pub fn located(&self, frames: &Frames) -> Vec<Located<'_>> {
+    pub fn located(&self, frames: &Frames) -> Vec<Located> {
         let links = &self.members[..self.members.len() - 1];
         links.iter().map(|member| Located::new(member, frames)).collect()
     }
 
     pub fn at(&self, joints: &Joints) -> Standing<'_> {
-        Standing { links: self, frames: self.arm.frames(joints), located: Default::default() }
+        let frames = self.arm.frames(joints);
+        let mut balls = [Ball { middle: Point::default(), radius: 0.0 }; MOST_JOINTS + 1];
+        for (ball, member) in balls.iter_mut().zip(&self.members) {
+            *ball = member.ball.within(&frames[member.link]);
+        }
+        Standing { links: self, frames, balls, located: Default::default() }
     }
 
     /// All that may meet, with or without a load.
@@ -107,42 +118,50 @@ impl Standing<'_> {
 
     /// Between the two, m; where it is no shorter than `enough` it is this or something shorter that is not either.
     pub fn distance(&self, pair: &Pair, near: &Nearby, enough: f64) -> f64 {
-        let member = self.located(pair.member);
-        match pair.other {
-            Some(other) => between(member, self.located(other), enough),
-            None if member.link() < TORSO => from_all(member, &near.high, enough),
-            None => from_all(member, &near.all, enough),
+        let Some(other) = pair.other else {
+            let travels = self.links.members[pair.member].link < TORSO;
+            return self.gap_to_obstacles(pair.member, if travels { &near.high } else { &near.all }, enough);
+        };
+        let apart = self.balls[pair.member].gap(&self.balls[other]);
+        if apart >= enough {
+            return apart;
         }
+        between(self.located(pair.member), self.located(other), enough)
     }
 
-    fn located(&self, member: usize) -> &Located<'_> {
+    /// The distance of a link from obstacles.
+    fn gap_to_obstacles(&self, member: usize, obstacles: &[&Cluster], enough: f64) -> f64 {
+        let ball = &self.balls[member];
+        let mut least = f64::INFINITY;
+        // Of what is far away only the nearest counts, so one root is enough.
+        let mut far_square = f64::INFINITY;
+        for cluster in obstacles {
+            let square = cluster.square_gap(ball.middle);
+            let enough_here = enough.min(least);
+            let needed = enough_here + ball.radius;
+            if square > needed * needed * (1.0 + ROUNDED) || square.sqrt() - ball.radius >= enough_here {
+                far_square = far_square.min(square);
+                continue;
+            }
+            for other in &cluster.all {
+                let enough = enough.min(least);
+                let apart = other.apart(ball);
+                least = least.min(if apart >= enough {
+                    apart
+                } else {
+                    self.located(member).gap_to(other, enough)
+                });
+            }
+        }
+        least.min(far_square.sqrt() - ball.radius)
+    }
+
+    fn located(&self, member: usize) -> &Located {
         self.located[member].get_or_init(|| Located::new(&self.links.members[member], &self.frames))
     }
 }
 
 /// The distance of two links, or one that is no longer and no shorter than `enough`, m.
 fn between(a: &Located, b: &Located, enough: f64) -> f64 {
-    let apart = a.ball.gap(&b.ball);
-    if apart >= enough {
-        return apart;
-    }
-    b.pieces().iter().fold(f64::INFINITY, |least, piece| least.min(a.gap(piece, enough.min(least))))
-}
-
-/// The same from obstacles.
-fn from_all(member: &Located, obstacles: &[&Cluster], enough: f64) -> f64 {
-    let mut least = f64::INFINITY;
-    for cluster in obstacles {
-        let apart = cluster.apart(&member.ball);
-        if apart >= enough.min(least) {
-            least = least.min(apart);
-            continue;
-        }
-        for other in &cluster.all {
-            let enough = enough.min(least);
-            let apart = other.apart(&member.ball);
-            least = least.min(if apart >= enough { apart } else { member.gap_to(other, enough) });
-        }
-    }
-    least
+    b.pieces.iter().fold(f64::INFINITY, |least, piece| least.min(a.gap(piece, enough.min(least))))
 }

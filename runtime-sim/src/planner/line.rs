@@ -3,7 +3,7 @@
 use crate::point::Point;
 
 /// Straight pieces, and parabolas over the corners.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Line {
     /// Places on it, near one another over corners.
     places: Vec<Point>,

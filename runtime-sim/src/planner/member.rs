@@ -5,7 +5,6 @@ use crate::collision::body::{Ball, Piece, Placed};
 use crate::kinematics::pose::Pose;
 use crate::machine::Machine;
 use crate::solid::Link;
-use std::cell::OnceCell;
 
 /// A link of the robot with all that is fixed to it.
 #[derive(Clone, Debug)]
@@ -32,31 +31,19 @@ impl Member {
 }
 
 /// A link where it is.
-pub struct Located<'a> {
-    member: &'a Member,
-    frame: Pose,
-    pub ball: Ball,
-    /// Known when something is near.
-    pieces: OnceCell<Vec<Placed>>,
+pub struct Located {
+    pub pieces: Vec<Placed>,
 }
 
-impl<'a> Located<'a> {
-    pub fn new(member: &'a Member, frames: &[Pose]) -> Self {
-        let frame = frames[member.link];
-        Self { member, frame, ball: member.ball.within(&frame), pieces: OnceCell::new() }
-    }
-
-    pub fn link(&self) -> usize {
-        self.member.link
-    }
-
-    pub fn pieces(&self) -> &[Placed] {
-        self.pieces.get_or_init(|| self.member.pieces.iter().map(|p| p.within(&self.frame)).collect())
+impl Located {
+    pub fn new(member: &Member, frames: &[Pose]) -> Self {
+        let frame = &frames[member.link];
+        Self { pieces: member.pieces.iter().map(|piece| piece.within(frame)).collect() }
     }
 
     /// The distance from an obstacle, or one that is no longer and no shorter than `enough`, m.
     pub fn gap_to(&self, other: &Obstruction, enough: f64) -> f64 {
-        self.pieces().iter().fold(f64::INFINITY, |least, piece| {
+        self.pieces.iter().fold(f64::INFINITY, |least, piece| {
             let enough = enough.min(least);
             let apart = other.apart(&piece.ball);
             least.min(if apart >= enough { apart } else { gap(piece, &other.placed, enough) })
@@ -66,7 +53,7 @@ impl<'a> Located<'a> {
     /// The same from something else.
     pub fn gap(&self, other: &Placed, enough: f64) -> f64 {
         let gap = |least: f64, piece| least.min(gap(piece, other, enough.min(least)));
-        self.pieces().iter().fold(f64::INFINITY, gap)
+        self.pieces.iter().fold(f64::INFINITY, gap)
     }
 }
 

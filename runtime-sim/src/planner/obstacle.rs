@@ -41,9 +41,9 @@ impl Cluster {
         Some(Self { all, bounds })
     }
 
-    /// A distance that nothing within the ball is nearer to any of them than, m.
-    pub fn apart(&self, ball: &Ball) -> f64 {
-        self.bounds.gap(ball)
+    /// The square of a distance that none of them is nearer to a point than, m2.
+    pub fn square_gap(&self, point: Point) -> f64 {
+        self.bounds.square_gap(point)
     }
 }
 

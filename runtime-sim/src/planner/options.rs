@@ -5,7 +5,7 @@ use super::timing::{Lift, Timing};
 use super::{CLEARS, Candidate, Effort, Planner, TURNINGS, Task, Turning, axis};
 use crate::kinematics::gantry::Stance;
 use std::collections::{BTreeMap, BTreeSet};
-use std::rc::Rc;
+use std::sync::Arc;
 
 /// One of the paths: by numbers of the candidate, of how far the robot draws back, and of the rise.
 #[derive(Clone, Copy)]
@@ -36,10 +36,10 @@ pub struct Options<'a> {
     choices: Vec<Choice>,
     /// By time, as the bits of a number that is not negative.
     queue: BTreeSet<(u64, usize, Length)>,
-    lines: BTreeMap<(usize, usize), Option<Rc<Line>>>,
-    first_lifts: Vec<Option<Rc<Lift>>>,
+    lines: BTreeMap<(usize, usize), Option<Arc<Line>>>,
+    first_lifts: Vec<Option<Arc<Lift>>>,
     /// By how far the tool is beyond the shoulder, as bits, and by rise: the turn of the torso does not matter.
-    last_lifts: BTreeMap<(u64, usize), Option<Rc<Lift>>>,
+    last_lifts: BTreeMap<(u64, usize), Option<Arc<Lift>>>,
 }
 
 impl<'a> Options<'a> {
@@ -52,8 +52,7 @@ impl<'a> Options<'a> {
         effort: &'a Effort,
     ) -> Self {
         let rises = task.rises.iter();
-        let first_lifts =
-            rises.map(|rise| planner.lift(task.from, rise.top, task.limits).map(Rc::new)).collect();
+        let first_lifts = rises.map(|rise| planner.lift(task.from, rise.top, task.limits)).collect();
         let mut options = Self {
             planner,
             task,
@@ -89,7 +88,7 @@ impl<'a> Options<'a> {
     }
 
     /// The next one in time, with the line of the torso's axis.
-    pub fn next(&mut self) -> Option<(Choice, Timing, Rc<Line>)> {
+    pub fn next(&mut self) -> Option<(Choice, Timing, Arc<Line>)> {
         loop {
             let (_, number, length) = self.queue.pop_first()?;
             let choice = self.choices[number];
@@ -111,17 +110,18 @@ impl<'a> Options<'a> {
         let fall = self
             .last_lifts
             .entry((stance.beyond.to_bits(), rise))
-            .or_insert_with(|| planner.lift(&end, task.rises[rise].top, task.limits).map(Rc::new))
+            .or_insert_with(|| planner.lift(&end, task.rises[rise].top, task.limits))
             .clone()?;
         Some(Timing::new(length, [self.first, stance], [&lift, &fall], clear, turning, task.limits))
     }
 
-    fn line(&mut self, choice: &Choice) -> Option<Rc<Line>> {
+    fn line(&mut self, choice: &Choice) -> Option<Arc<Line>> {
         let (planner, task, candidates) = (self.planner, self.task, self.candidates);
         let back = self.effort.backs[choice.back];
-        let known = self.lines.entry((choice.candidate, choice.back)).or_insert_with(|| {
-            planner.line(task.from, &candidates[choice.candidate].over, back).map(Rc::new)
-        });
+        let known = self
+            .lines
+            .entry((choice.candidate, choice.back))
+            .or_insert_with(|| planner.line(task.from, &candidates[choice.candidate].over, back));
         known.clone()
     }
 

@@ -3,14 +3,14 @@
 use super::Turning;
 use crate::kinematics::arm::Limits;
 use crate::kinematics::gantry::Stance;
-use std::rc::Rc;
+use std::sync::Arc;
 
 /// Up, over and down, each from rest to rest and as much at once as is allowed. The times are a proposal: the limits of
 /// all joints are kept by the motion along the path that comes of it.
 #[derive(Clone, Debug)]
 pub struct Timing {
-    rise: Rc<Lift>,
-    fall: Rc<Lift>,
+    rise: Arc<Lift>,
+    fall: Arc<Lift>,
     over: Trapezoid,
     turn: Trapezoid,
     fall_begin: f64,
@@ -19,7 +19,7 @@ pub struct Timing {
 }
 
 /// How the tool goes straight up from rest to rest.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Lift {
     /// Heights of the tool every [`TICK`] seconds, m.
     heights: Vec<f64>,
@@ -112,7 +112,7 @@ impl Timing {
     pub fn new(
         length: f64,
         [first, last]: [&Stance; 2],
-        [rise, fall]: [&Rc<Lift>; 2],
+        [rise, fall]: [&Arc<Lift>; 2],
         clear: f64,
         turning: Turning,
         limits: &Limits,

@@ -50,13 +50,32 @@ pub(super) struct NextLook {
     ms: f64,
 }
 
+/// Where items lie, as long as nothing of this changes.
+#[derive(Clone, Debug)]
+pub(super) struct Lying {
+    /// Of each machine.
+    speeds: Vec<f64>,
+    /// Events of items.
+    logged: usize,
+    /// Where those are gripped that rest.
+    at_rest: Vec<Point>,
+    /// Those on machines that move.
+    moving: Vec<usize>,
+}
+
 impl Plant {
     /// When a gripper next looks and could find an item, ms; infinity: never, as everything moves now.
     pub(super) fn next_look(&mut self, now_ms: u64) -> f64 {
         if self.machines.iter().all(|machine| machine.looks().next().is_none()) {
+            // What moves now is not seen to.
+            self.lying = None;
             return f64::INFINITY;
         }
         let speeds: Vec<f64> = self.machines.iter().map(|machine| machine.speed(now_ms)).collect();
+        let logged = self.items.log().len();
+        if self.lying.as_ref().is_some_and(|known| known.logged != logged || known.speeds != speeds) {
+            self.lying = None;
+        }
         let mut next_ms = f64::INFINITY;
         for machine in 0..self.machines.len() {
             next_ms = next_ms.min(self.next_look_of(machine, &speeds, now_ms));
@@ -80,14 +99,19 @@ impl Plant {
         {
             return known.ms;
         }
-        let of_one = |looks: Looks| self.next_look_with(machine, looks, speeds, now_ms);
+        let lying = match self.lying.take() {
+            Some(lying) => lying,
+            None => self.lying(speeds),
+        };
+        let of_one = |looks: Looks| self.next_look_with(machine, looks, &lying, now_ms);
         let ms = all.iter().copied().map(of_one).fold(f64::INFINITY, f64::min);
+        self.lying = Some(lying);
         let next = NextLook { looks: all, motion, speeds: speeds.to_vec(), logged, ms };
         self.next_looks[machine] = (!has_found).then_some(next);
         ms
     }
 
-    fn next_look_with(&self, machine: usize, looks: Looks, speeds: &[f64], now_ms: u64) -> f64 {
+    fn next_look_with(&self, machine: usize, looks: Looks, lying: &Lying, now_ms: u64) -> f64 {
         let working = &self.machines[machine];
         let mut look = (now_ms / looks.period_ms + 1) * looks.period_ms;
         if looks.has_found {
@@ -96,7 +120,7 @@ impl Plant {
         let Some(tool) = working.see(&self.items, &self.desk).tool(looks.chain) else { return f64::INFINITY };
         let near = looks.near + ROUNDED;
         let now = now_ms as f64 / 1000.0;
-        let mut nearest = self.nearest(tool.position, speeds);
+        let mut nearest = self.nearest(tool.position, lying);
         let mut from = now;
         for _ in 0..MOST_LOOKS {
             if working.tool_goes(looks.chain, from, f64::MAX) == 0.0 {
@@ -108,7 +132,7 @@ impl Plant {
             let at = (look.div_ceil(self.scan_ms) * self.scan_ms) as f64 / 1000.0;
             if nearest.after(at - now) - working.tool_goes(looks.chain, from, at) <= near {
                 if let Some(tool) = working.tool_at(looks.chain, at) {
-                    nearest = self.nearest(tool, speeds);
+                    nearest = self.nearest(tool, lying);
                     from = at;
                 }
                 if nearest.after(at - now) - working.tool_goes(looks.chain, from, at) <= near {
@@ -120,21 +144,28 @@ impl Plant {
         look as f64
     }
 
-    /// How far a place is from where items are gripped now, of those that are not; with the speed of each machine.
-    fn nearest(&self, place: Point, speeds: &[f64]) -> Nearest {
-        let mut distances = vec![f64::INFINITY; speeds.len()];
-        let mut at_rest = f64::INFINITY;
+    /// Of all items that are not gripped, with the speed of each machine.
+    fn lying(&self, speeds: &[f64]) -> Lying {
+        let (mut at_rest, mut moving) = (Vec::new(), Vec::new());
         for index in self.items.placed() {
             let carrier = self.items.all()[index].carrier;
-            if matches!(carrier, Carrier::Grip { .. }) {
-                continue;
+            match carrier.machine() {
+                _ if matches!(carrier, Carrier::Grip { .. }) => {}
+                Some(machine) if speeds[machine] > 0.0 => moving.push(index),
+                _ => at_rest.extend(self.grip_point(index)),
             }
-            let Some(grip) = self.grip_point(index) else { continue };
-            let (least, leap) = match carrier.machine() {
-                Some(machine) if speeds[machine] > 0.0 => (&mut distances[machine], self.leap(index)),
-                _ => (&mut at_rest, 0.0),
-            };
-            *least = least.min((grip - place).length() - leap);
+        }
+        Lying { speeds: speeds.to_vec(), logged: self.items.log().len(), at_rest, moving }
+    }
+
+    /// How far a place is from where items are gripped now, of those that are not.
+    fn nearest(&self, place: Point, Lying { speeds, at_rest, moving, .. }: &Lying) -> Nearest {
+        let at_rest = at_rest.iter().map(|grip| (*grip - place).length()).fold(f64::INFINITY, f64::min);
+        let mut distances = vec![f64::INFINITY; speeds.len()];
+        for index in moving {
+            let machine = self.items.all()[*index].carrier.machine();
+            let (Some(machine), Some(grip)) = (machine, self.grip_point(*index)) else { continue };
+            distances[machine] = distances[machine].min((grip - place).length() - self.leap(*index));
         }
         let moving = distances.into_iter().zip(speeds.iter().copied());
         Nearest { at_rest, moving: moving.filter(|(distance, _)| distance.is_finite()).collect() }

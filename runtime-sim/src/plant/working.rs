@@ -38,6 +38,8 @@ pub struct Working {
     commanded: Vec<usize>,
     /// Those, and the parts that jam.
     halting: Vec<usize>,
+    /// The parts that serve.
+    serving: Vec<usize>,
     faults: Faults,
 }
 
@@ -88,11 +90,14 @@ impl Working {
         let start = |(part, made): (usize, &Arc<Part>)| {
             made.primitive.start(&mut Start { line, machine: index, part, desk, items, memory })
         };
-        let parts = machine.parts.iter().enumerate().map(start);
+        let parts: Vec<Option<Box<dyn Running>>> =
+            machine.parts.iter().enumerate().map(start).collect::<Result<_, _>>()?;
+        let serves = |part: &usize| parts[*part].as_ref().is_some_and(|part| part.serves());
         Ok(Self {
             index,
             pose: machine.pose,
-            parts: parts.collect::<Result<_, _>>()?,
+            serving: (0..parts.len()).filter(serves).collect(),
+            parts,
             head: Head::new(&machine.wiring, kinds, refusals, answers.collect()),
             inputs: ranges(machine.wiring.inputs.iter().map(|input| input.size.words(kinds))),
             outputs: ranges(machine.wiring.outputs.iter().map(|output| output.size.words(kinds))),
@@ -374,15 +379,15 @@ impl Working {
     }
 
     pub fn serve(&mut self, shared: &mut Shared) {
-        (0..self.parts.len()).for_each(|part| {
-            self.with(part, shared, |part, world| part.serve(world));
-        });
+        for number in 0..self.serving.len() {
+            self.with(self.serving[number], shared, |part, world| part.serve(world));
+        }
     }
 
     pub fn withdraw(&mut self, shared: &mut Shared) {
-        (0..self.parts.len()).for_each(|part| {
-            self.with(part, shared, |part, world| part.withdraw(world));
-        });
+        for number in 0..self.serving.len() {
+            self.with(self.serving[number], shared, |part, world| part.withdraw(world));
+        }
     }
 
     pub fn write(&self, image: &mut [f64], items: &Items, desk: &Desk) {

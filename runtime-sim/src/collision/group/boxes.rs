@@ -9,6 +9,7 @@ use crate::memory::Memory;
 use crate::motion::Motion;
 use crate::part::lane::CentreLine;
 use crate::plant::Plant;
+use std::ops::RangeInclusive;
 use std::sync::Arc;
 
 /// Boxes that do not meet are farther apart than this, m: than what is in contact, and than what joints can differ by
@@ -27,14 +28,14 @@ pub struct Swept {
     /// Without what stands in the world.
     moving: BoundingBox,
     /// By the numbers of the bodies.
-    stands: Vec<bool>,
+    stands: Arc<[bool]>,
     /// By the numbers of the bodies; that of nothing where there is none.
     pub bodies: Vec<BoundingBox>,
 }
 
 impl Swept {
-    fn new(bodies: Vec<BoundingBox>, stands: Vec<bool>) -> Self {
-        let moving = bodies.iter().zip(&stands).filter(|(_, stands)| !**stands).map(|(body, _)| body);
+    fn new(bodies: Vec<BoundingBox>, stands: Arc<[bool]>) -> Self {
+        let moving = bodies.iter().zip(&*stands).filter(|(_, stands)| !**stands).map(|(body, _)| body);
         Self {
             all: bodies.iter().fold(BoundingBox::NOTHING, |all, next| all.with(next)),
             moving: moving.fold(BoundingBox::NOTHING, |all, next| all.with(next)),
@@ -43,18 +44,22 @@ impl Swept {
         }
     }
 
-    fn with(&self, other: &Self) -> Self {
-        Self {
-            all: self.all.with(&other.all),
-            moving: self.moving.with(&other.moving),
-            bodies: self.bodies.iter().zip(&other.bodies).map(|(one, other)| one.with(other)).collect(),
-            stands: self.stands.clone(),
+    fn with(mut self, other: &Self) -> Self {
+        self.all = self.all.with(&other.all);
+        self.moving = self.moving.with(&other.moving);
+        for (one, other) in self.bodies.iter_mut().zip(&other.bodies) {
+            *one = one.with(other);
         }
+        self
+    }
+
+    fn outer(&self) -> Outer {
+        Outer { all: self.all, moving: self.moving }
     }
 
     /// What stands in the world is left out.
     pub fn without_standing(mut self) -> Self {
-        for (body, stands) in self.bodies.iter_mut().zip(&self.stands) {
+        for (body, stands) in self.bodies.iter_mut().zip(&*self.stands) {
             if *stands {
                 *body = BoundingBox::NOTHING;
             }
@@ -64,7 +69,7 @@ impl Swept {
 
     /// Whether no body of one can come near one of the other; what stands in the world stays as it is.
     pub fn is_apart(&self, other: &Self) -> bool {
-        if self.moving.is_apart(&other.all) && self.all.is_apart(&other.moving) {
+        if self.outer().is_apart(&other.outer()) {
             return true;
         }
         let near = |group: &Self, all: &BoundingBox| -> Vec<usize> {
@@ -76,6 +81,30 @@ impl Swept {
                 self.stands[own] && other.stands[*body] || self.bodies[own].is_apart(&other.bodies[*body])
             })
         })
+    }
+}
+
+/// What contains a group for a time, without a look at its bodies.
+#[derive(Clone, Copy)]
+pub struct Outer {
+    all: BoundingBox,
+    /// Without what stands in the world.
+    moving: BoundingBox,
+}
+
+impl Outer {
+    fn with(&self, other: &Self) -> Self {
+        Self { all: self.all.with(&other.all), moving: self.moving.with(&other.moving) }
+    }
+
+    /// What stands in the world is left out.
+    pub fn without_standing(&self) -> Self {
+        Self { all: self.moving, ..*self }
+    }
+
+    /// Whether the two cannot come near one another; what stands in the world stays as it is.
+    pub fn is_apart(&self, other: &Self) -> bool {
+        self.moving.is_apart(&other.all) && self.all.is_apart(&other.moving)
     }
 }
 
@@ -115,7 +144,7 @@ impl Group {
     }
 
     /// Whether each body stands in the world.
-    fn stands(&self) -> Vec<bool> {
+    fn stands(&self) -> Arc<[bool]> {
         let stands = |body: &Option<Body>| body.as_ref().is_none_or(|body| body.anchor == Anchor::World);
         self.bodies.iter().map(stands).collect()
     }
@@ -176,14 +205,31 @@ impl Group {
         (0..PIECES).map(piece).collect()
     }
 
+    /// Of the path of an arm, those on which it is between two times.
+    fn pieces_between(&self, [from, to]: [f64; 2]) -> RangeInclusive<usize> {
+        let [from, to] = self.movement.span(from, to);
+        let at = |place: f64| ((place * PIECES as f64) as usize).min(PIECES - 1);
+        at(from.min(to))..=at(from.max(to))
+    }
+
+    /// What contains all of it between two times; none if only its bodies say that.
+    pub fn outer_between(&mut self, times: [f64; 2], plant: &Plant, memory: &mut Memory) -> Option<Outer> {
+        let pieces = match &self.movement {
+            Movement::Swings { .. } => self.pieces_between(times),
+            Movement::Still if !self.moves_parts() => 0..=0,
+            Movement::Still | Movement::Rides { .. } | Movement::Slides { .. } => return None,
+        };
+        let boxes = self.boxes(plant, memory);
+        boxes[pieces].iter().map(Swept::outer).reduce(|all, next| all.with(&next))
+    }
+
     /// What contains it between two times, seconds from now.
     pub fn boxes_between(&mut self, [from, to]: [f64; 2], plant: &Plant, memory: &mut Memory) -> Swept {
         match &self.movement {
             Movement::Swings { .. } => {
-                let [from, to] = self.movement.span(from, to);
+                let pieces = self.pieces_between([from, to]);
                 let boxes = self.boxes(plant, memory);
-                let at = |place: f64| ((place * PIECES as f64) as usize).min(boxes.len() - 1);
-                let mut pieces = boxes[at(from.min(to))..=at(from.max(to))].iter();
+                let mut pieces = boxes[pieces].iter();
                 let first = pieces.next().cloned().unwrap_or_else(|| self.each(|_| BoundingBox::NOTHING));
                 pieces.fold(first, |all, next| all.with(next))
             }

@@ -1,7 +1,7 @@
 //! Whether a group goes on as it did: each movement has a version.
 
 use super::super::movement::Movement;
-use super::{Group, path};
+use super::{Group, path_of_parts};
 use crate::motion::Travel;
 use crate::plant::Plant;
 use crate::plant::trajectory::Trajectory;
@@ -20,8 +20,11 @@ impl Group {
         let passed = (now_ms - self.now_ms) / 1000.0;
         self.now_ms = now_ms;
         if self.moves() && passed > 0.0 {
+            let times = [0.0, passed];
+            let span = self.movement.span(0.0, passed);
             for body in self.bodies.iter_mut().flatten() {
-                body.path += path(&self.movement, &self.parts, body, [0.0, passed]);
+                body.path +=
+                    path_of_parts(&self.parts, body, times).unwrap_or_else(|| self.movement.path(body, span));
             }
         }
         let trajectory = plant.trajectory(index).since(now_ms);

@@ -1,14 +1,14 @@
 //! The motions of an arm: what was asked for before is not computed again.
 
 use super::drive::Target;
+use crate::answers::Answers;
 use crate::collision::reach::{Ball, Chain, Radii};
 use crate::kinematics::arm::{Arm, Joints, Limits};
 use crate::machine::Machine;
 use crate::motion::{Knot, Motion, Travel};
 use crate::planner::{End, Load, Planner, Transfer};
 use crate::point::Point;
-use std::collections::HashMap;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::Arc;
 
 /// All motions of one machine, in all runs of the same line.
 #[derive(Debug)]
@@ -18,36 +18,11 @@ pub struct Motions {
     planner: Option<Planner>,
     /// How far the tool goes at most for a metre or a radian of each joint, m.
     radii: Radii,
-    known: Mutex<Known>,
-}
-
-/// The motions of late: what nobody asked for is forgotten when [`MOST`] others at least have come.
-#[derive(Debug, Default)]
-struct Known {
-    recent: HashMap<Question, Option<Planned>>,
-    older: HashMap<Question, Option<Planned>>,
-}
-
-impl Known {
-    fn get(&mut self, question: &Question) -> Option<Option<Planned>> {
-        if let Some(planned) = self.recent.get(question) {
-            return Some(planned.clone());
-        }
-        let (question, planned) = self.older.remove_entry(question)?;
-        self.insert(question, planned.clone());
-        Some(planned)
-    }
-
-    fn insert(&mut self, question: Question, planned: Option<Planned>) {
-        if self.recent.len() >= MOST {
-            self.older = std::mem::take(&mut self.recent);
-        }
-        self.recent.insert(question, planned);
-    }
+    known: Answers<Question, Option<Planned>>,
 }
 
 /// A motion from rest to rest, and how far the tool goes at most along it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Planned {
     pub motion: Motion,
     pub tool: Arc<Travel>,
@@ -105,7 +80,7 @@ impl Motions {
     pub fn new(arm: Arm, machine: &Machine, planner: Option<Planner>) -> Self {
         let chain = Chain::new(&arm, machine);
         let radii = chain.radii(chain.last(), &Ball { middle: Point::default(), radius: 0.0 });
-        Self { arm, planner, radii, known: Mutex::default() }
+        Self { arm, planner, radii, known: Answers::new(MOST) }
     }
 
     pub fn arm(&self) -> &Arm {
@@ -122,23 +97,12 @@ impl Motions {
         begin: f64,
     ) -> Option<Planned> {
         let question = Question::new([from, directed], target, limits);
-        let known = self.known().get(&question);
-        let planned = known.unwrap_or_else(|| {
-            let motion = self.computed([from, directed], target, limits);
-            let planned = motion.map(|motion| {
-                let tool = Arc::new(motion.travel(&self.radii));
-                Planned { motion, tool }
-            });
-            self.known().insert(question, planned.clone());
-            planned
+        let planned = self.known.get(question, || {
+            let motion = self.computed([from, directed], target, limits)?;
+            let tool = Arc::new(motion.travel(&self.radii));
+            Some(Planned { motion, tool })
         });
         planned.map(|Planned { motion, tool }| Planned { motion: motion.begun(begin), tool })
-    }
-
-    /// Another run may look while one computes.
-    fn known(&self) -> MutexGuard<'_, Known> {
-        // Nothing panics while it is locked.
-        self.known.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     fn computed(
