@@ -186,6 +186,14 @@ fn a_search_that_is_cut_has_checked_all_with_few_faults() {
     assert_eq!(verdict(&cut), (End::Stopped, vec!["NeverMade".into()]));
 }
 
+/// Both may be seen on the conveyor at the same time.
+#[test]
+fn kinds_of_equal_height_are_told_apart() {
+    let scenario = ONE_PART.replace("0.11", "0.053").replace(r#""battery": 1"#, r#""pump": 1"#);
+    let outcome = search(&model_of(&buffer(&scenario).project(), Faults::All), &BOUNDS);
+    assert_eq!(verdict(&outcome), (End::Complete, Vec::new()));
+}
+
 /// Violations and whether the search was complete.
 fn verdict(outcome: &Outcome) -> (End, Vec<String>) {
     let mut violations: Vec<String> = outcome.violations.iter().map(|(v, _)| format!("{v:?}")).collect();
