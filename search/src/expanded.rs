@@ -9,8 +9,10 @@ use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-/// States that one processor takes at a time.
+/// States that one processor takes at a time, at most; fewer where there are few, so that none waits long for the others.
 const RUN: usize = 32;
+/// The same at least.
+const SHORT: usize = 4;
 
 /// What follows some states, the first of which is `first`.
 pub(crate) struct Expanded {
@@ -163,6 +165,7 @@ pub(crate) fn expand(
     spare: Vec<Expanded>,
 ) -> Vec<Expanded> {
     let next = AtomicUsize::new(states.start);
+    let length = (states.len() / (8 * expanders.len().max(1))).clamp(SHORT, RUN);
     let spare = Mutex::new(spare);
     let take = |first: usize| {
         let run = spare.lock().unwrap_or_else(PoisonError::into_inner).pop();
@@ -174,12 +177,12 @@ pub(crate) fn expand(
         let count = expander.values.count();
         let mut runs = Vec::new();
         loop {
-            let first = next.fetch_add(RUN, Ordering::Relaxed);
+            let first = next.fetch_add(length, Ordering::Relaxed);
             if first >= states.end {
                 return runs;
             }
             let mut run = take(first);
-            let last = states.end.min(first + RUN);
+            let last = states.end.min(first + length);
             for (state, restless) in (first..last).zip(&restless[first..last]) {
                 run.expand(expander, part, store, state, *restless);
                 // Their numbers are given in the order of the states.
@@ -189,7 +192,7 @@ pub(crate) fn expand(
         }
     };
     let Some((own, others)) =
-        expanders.split_first_mut().filter(|(_, others)| !others.is_empty() && states.len() > RUN)
+        expanders.split_first_mut().filter(|(_, others)| !others.is_empty() && states.len() > SHORT)
     else {
         return expanders.first_mut().map(work).unwrap_or_default();
     };
