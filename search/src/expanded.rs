@@ -2,6 +2,7 @@
 //! the same time, and be added to the store in their order, as if one had been expanded after the other.
 
 use crate::event::Event;
+use crate::reached::Reached;
 use crate::store::Store;
 use crate::successor::{Expander, Part};
 use crate::violation::Violation;
@@ -100,14 +101,16 @@ impl Expanded {
         &mut self,
         expander: &mut Expander,
         part: Part,
-        store: &Store,
+        store: &Reached,
         state: usize,
         restless: u64,
     ) {
         let Self { states, steps, unknown, restless: of_unknown, remarked, .. } = self;
         let count = expander.values.count();
         let mut after = After { end: 0, transitions: 0, stops: 0, has_new_values: false };
-        expander.expand_part(part, store.state(state), restless, &mut |successor| {
+        let before = store.state(state);
+        let mut beside = store.beside(state);
+        expander.expand_part(part, &before, restless, &mut |successor| {
             after.transitions += 1;
             for remark in successor.remarked {
                 if !remarked.contains(remark) {
@@ -122,7 +125,7 @@ impl Expanded {
             match successor.result {
                 Ok(()) => {
                     let is_plain = successor.is_plain;
-                    if let Some(known) = store.find(successor.state) {
+                    if let Some(known) = store.find_beside(successor.state, &mut beside) {
                         if is_plain && known != state {
                             steps.push(Step::Known { state: known as u32, is_plain });
                         }
@@ -159,7 +162,7 @@ impl Expanded {
 pub(crate) fn expand(
     expanders: &mut [Expander],
     part: Part,
-    store: &Store,
+    store: &Reached,
     restless: &[u64],
     states: Range<usize>,
     spare: Vec<Expanded>,

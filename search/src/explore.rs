@@ -7,7 +7,7 @@ use crate::expanded::{self, Expanded, Step};
 use crate::model::Model;
 use crate::plant::Faults;
 use crate::possible::{Edges, Mark, Possible};
-use crate::store::Store;
+use crate::reached::Reached;
 use crate::story::{self, Execution};
 use crate::successor::{Expander, Orders, Part};
 use crate::value::Values;
@@ -43,7 +43,8 @@ pub struct Covered {
     pub stopped: usize,
     /// Scans from the start to the farthest state that has been checked.
     pub depth: usize,
-    /// All sequences were checked in which devices fail before at most so many scans; none: not even those without faults.
+    /// Of a search that is cut: all sequences were checked in which devices fail before at most so many scans; none: not even
+    /// those without faults.
     pub failing: Option<usize>,
     /// Bytes of memory.
     pub memory: usize,
@@ -75,7 +76,7 @@ pub struct Outcome {
     /// No sequence makes the orders, and they may need items that the search does not know.
     pub are_orders_open: bool,
     /// All states that were reached.
-    pub reached: Store,
+    pub reached: Reached,
     /// Points and reals by their numbers in these states.
     pub values: Values,
 }
@@ -88,7 +89,7 @@ const MOST: usize = 1 << 16;
 
 /// The states that hold all sequences with so many faults, and what leads from one to another.
 #[derive(Default)]
-struct Reached {
+struct Checked {
     states: usize,
     edges: Mark,
 }
@@ -109,10 +110,10 @@ struct Search<'a> {
     first: Expander<'a>,
     /// One for each processor.
     expanders: Vec<Expander<'a>>,
-    /// States that are expanded before what was found is put together.
-    batch: usize,
+    /// States that are expanded before what was found is put together: without faults, and with faults.
+    batches: [usize; 2],
     spare: Vec<Expanded>,
-    store: Store,
+    store: Reached,
     /// Of each state: instances that may do something even if no device does.
     restless: Vec<u64>,
     edges: Edges,
@@ -128,7 +129,7 @@ struct Search<'a> {
 impl<'a> Search<'a> {
     fn new(model: &'a Model, bounds: &'a Bounds, watch: &'a mut dyn FnMut(&Covered) -> bool) -> Self {
         let expander = || Expander::new(model, bounds.answers.unwrap_or(usize::MAX), bounds.orders);
-        let mut store = Store::new(model.initial.len());
+        let mut store = Reached::new(model.initial.len());
         store.add(&model.initial, 0);
         Self {
             bounds,
@@ -136,7 +137,7 @@ impl<'a> Search<'a> {
             watch,
             first: expander(),
             expanders: (0..bounds.jobs.max(1)).map(|_| expander()).collect(),
-            batch: LEAST,
+            batches: [LEAST; 2],
             spare: Vec::new(),
             store,
             restless: vec![u64::MAX],
@@ -151,8 +152,8 @@ impl<'a> Search<'a> {
 
     /// Why it has to end, if it is not complete; and how many states, with which edges, hold all sequences of
     /// [`Covered::failing`].
-    fn search(&mut self, faults: Faults) -> (Option<End>, Reached) {
-        let mut complete = Reached::default();
+    fn search(&mut self, faults: Faults) -> (Option<End>, Checked) {
+        let mut complete = Checked::default();
         // Of each depth the states that devices fail in the fewest scans to reach, and those with one less.
         let (mut level, mut last) = (vec![0..1], Vec::new());
         loop {
@@ -171,12 +172,12 @@ impl<'a> Search<'a> {
                     level.push(next..self.store.len());
                 }
             }
-            complete = Reached { states: self.store.len(), edges: self.edges.mark() };
+            complete = Checked { states: self.store.len(), edges: self.edges.mark() };
             self.covered.failing = Some(self.covered.failing.map_or(0, |failing| failing + 1));
             if faults == Faults::None || level.iter().all(Range::is_empty) {
                 return (None, complete);
             }
-            // No state is reached in no scan and with a fault.
+            // A first scan comes before any fault.
             last = std::mem::take(&mut level);
             level.push(0..0);
         }
@@ -187,7 +188,9 @@ impl<'a> Search<'a> {
         let mut next = states.start;
         while next < states.end {
             let batch_begins = Instant::now();
-            let batch = next..states.end.min(next + self.batch);
+            let size = *self.batch(part);
+            let batch = next..states.end.min(next + size);
+            let is_full = batch.len() == size;
             let spare = std::mem::take(&mut self.spare);
             let Self { expanders, store, restless, .. } = self;
             let runs = expanded::expand(expanders, part, store, restless, batch, spare);
@@ -222,13 +225,18 @@ impl<'a> Search<'a> {
             if let Some(end) = self.end() {
                 return Some(end);
             }
+            let size = self.batch(part);
             match batch_begins.elapsed() {
-                time if time < BATCH / 2 => self.batch = (self.batch * 2).min(MOST),
-                time if time > BATCH * 2 => self.batch = (self.batch / 2).max(LEAST),
+                time if time < BATCH / 2 && is_full => *size = (*size * 2).min(MOST),
+                time if time > BATCH * 2 => *size = (*size / 2).max(LEAST),
                 _ => {}
             }
         }
         None
+    }
+
+    fn batch(&mut self, part: Part) -> &mut usize {
+        &mut self.batches[usize::from(part == Part::Failing)]
     }
 
     /// Takes over what follows a state.
@@ -306,7 +314,7 @@ impl<'a> Search<'a> {
 /// number of processors, but for where a limit of time or memory cuts it.
 pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -> bool) -> Outcome {
     let mut search = Search::new(model, bounds, watch);
-    let (cut, reached) = search.search(model.faults);
+    let (cut, checked) = search.search(model.faults);
     let end = cut.unwrap_or(End::Complete);
     search.measure();
     let Search { begin, mut first, store, mut edges, found, remarked, mut covered, .. } = search;
@@ -318,15 +326,15 @@ pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -
         found.into_iter().map(|found| told(&mut first, found)).collect();
     let mut remarks = Vec::new();
     let mut are_orders_open = false;
-    if end != End::Violated && reached.states > 0 {
+    if end != End::Violated && checked.states > 0 {
         let calm = Model { faults: Faults::None, ..model.clone() };
-        edges.forget_after(&reached.edges);
-        let mut possible = Possible::new(&calm, &store, reached.states, &edges, &first.values, bounds);
-        let never = possible.never_made();
-        are_orders_open = never == Some(0) && model.hides_items;
-        let never = never.filter(|_| !are_orders_open).map(|state| (Violation::NeverMade, state));
+        edges.forget_after(&checked.edges);
+        let mut possible = Possible::new(&calm, &store, checked.states, &edges, &first.values, bounds);
+        are_orders_open = model.hides_items && possible.is_never_made_from_the_start();
+        let never = if are_orders_open { None } else { possible.never_made() };
+        let never = never.map(|state| (Violation::NeverMade, state));
         let mut never: Vec<(Violation, usize)> = never.into_iter().collect();
-        if violations.len() + never.len() < bounds.violations {
+        if violations.len() + never.len() < bounds.violations && !model.hides_items {
             never.extend(possible.never_followed());
         }
         for (violation, state) in never {
@@ -342,7 +350,8 @@ pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -
         }
     }
     if end == End::Complete {
-        covered.stopped = (0..store.len()).filter(|state| model.any_stands(store.state(*state))).count();
+        covered.failing = None;
+        covered.stopped = (0..store.len()).filter(|state| model.any_stands(&store.state(*state))).count();
     }
     covered.time = begin.elapsed();
     Outcome { covered, end, violations, remarks, are_orders_open, reached: store, values: first.values }

@@ -17,6 +17,7 @@ mod possible;
 pub mod program;
 pub mod promela;
 pub mod property;
+pub mod reached;
 mod remark;
 mod scan;
 pub mod store;

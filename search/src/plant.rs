@@ -198,6 +198,13 @@ pub struct Input {
     pub machine: usize,
 }
 
+/// What the state holds of an input that tells whether an item is there.
+pub mod sight {
+    pub const OPEN: i32 = 0;
+    pub const NOT_SEEN: i32 = 1;
+    pub const SEEN: i32 = 2;
+}
+
 /// What is asked for.
 #[derive(Clone, Debug)]
 pub struct Order {

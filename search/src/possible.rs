@@ -4,7 +4,7 @@
 use crate::explore::Bounds;
 use crate::model::{Model, Reductions};
 use crate::property::Check;
-use crate::store::Store;
+use crate::reached::Reached;
 use crate::successor::Expander;
 use crate::value::Values;
 use crate::violation::Violation;
@@ -66,7 +66,7 @@ impl Edges {
 
 /// What is to be possible, from every state that was reached, if nothing fails any more.
 pub(crate) struct Possible<'a> {
-    pub(crate) store: &'a Store,
+    pub(crate) store: &'a Reached,
     /// Those of the store that are asked about.
     pub(crate) states: usize,
     edges: &'a Edges,
@@ -78,7 +78,7 @@ impl<'a> Possible<'a> {
     /// fails.
     pub fn new(
         calm: &'a Model,
-        store: &'a Store,
+        store: &'a Reached,
         states: usize,
         edges: &'a Edges,
         values: &Values,
@@ -97,12 +97,22 @@ impl<'a> Possible<'a> {
             return None;
         }
         let is_there = |state: &[u8]| model.is_made(state) || model.any_stands(state);
-        let can: Vec<bool> = (0..self.states).map(|state| is_there(self.store.state(state))).collect();
+        let can: Vec<bool> = (0..self.states).map(|state| is_there(&self.store.state(state))).collect();
         let calm = self.calm();
         self.reach(can.clone(), &calm, Stops::AreNoWay).or_else(|| {
             let all = vec![true; self.states];
             self.reach(can, &all, Stops::AreWays)
         })
+    }
+
+    /// Whether nothing leads to the orders, not even a stop for an operator.
+    pub fn is_never_made_from_the_start(&mut self) -> bool {
+        let model = self.expander.model;
+        let is_there = |state: &[u8]| model.is_made(state) || model.any_stands(state);
+        let can = (0..self.states).map(|state| is_there(&self.store.state(state))).collect();
+        let mut first = vec![false; self.states];
+        first[0] = true;
+        !model.orders.is_empty() && self.reach(can, &first, Stops::AreWays).is_some()
     }
 
     /// Of each property the first state in which its goal is waited for and cannot come any more, if there is one.
@@ -116,7 +126,7 @@ impl<'a> Possible<'a> {
                 let Check::Whenever(whenever) = &property.check else { continue };
                 let mut can = Vec::with_capacity(self.states);
                 for number in 0..self.states {
-                    let state = self.store.state(number);
+                    let state = &self.store.state(number);
                     can.push(!self.expander.is_waiting(state, program, whenever) || ends(state));
                 }
                 if let Some(state) = self.reach(can, &all, Stops::AreWays) {
@@ -155,7 +165,7 @@ impl<'a> Possible<'a> {
                 continue;
             }
             let mut leads_to_stop = false;
-            expander.expand(store.state(state), u64::MAX, &mut |successor| {
+            expander.expand(&store.state(state), u64::MAX, &mut |successor| {
                 leads_to_stop |= matches!(successor.result, Err(Violation::Stop { .. }));
                 let to = successor.result.is_ok().then(|| store.find(successor.state)).flatten();
                 if let Some(to) = to.filter(|to| *to != state) {

@@ -173,6 +173,8 @@ pub struct State {
     pub times: Vec<i32>,
     /// What is of no use here, and what it holds then.
     pub dead: Vec<(Var, i32)>,
+    /// Inputs of which it is of no use here that they are true: a gripper finds what is seen where nothing is known too.
+    pub unread: Vec<Var>,
     /// The answer to the last command is of no use here.
     pub is_answer_dead: bool,
 }

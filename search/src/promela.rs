@@ -3,7 +3,7 @@
 
 use crate::event;
 use crate::model::Model;
-use crate::plant::{Action, Faults, Machine, motion, status};
+use crate::plant::{Action, Faults, Machine, motion, sight, status};
 use crate::program::{Clause, Command, Domain, Int, Operator, PointValue, Target, Transition, Update};
 use crate::value::{Values, Var};
 use std::collections::HashMap;
@@ -223,6 +223,10 @@ impl Printer<'_> {
             }
             for (var, value) in &program.states[target].dead {
                 let _ = write!(text, " {} = {value};", self.name(*var));
+            }
+            for var in &program.states[target].unread {
+                let name = self.name(*var);
+                let _ = write!(text, " {name} = ({name} == {} -> {} : {name});", sight::SEEN, sight::OPEN);
             }
             self.line(text);
         }

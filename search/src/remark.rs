@@ -28,7 +28,7 @@ impl Possible<'_> {
         let model = self.expander.model;
         let mut unfailed: HashMap<usize, Vec<bool>> = HashMap::new();
         for number in 0..self.states {
-            let state = self.store.state(number);
+            let state = &self.store.state(number);
             let Some(instance) = self.timer(state).filter(|_| !model.is_made(state)) else { continue };
             let mut stays = true;
             self.expander.expand(state, u64::MAX, &mut |successor| {
@@ -52,7 +52,7 @@ impl Possible<'_> {
         reached[0] = true;
         let mut waiting = vec![0];
         while let Some(number) = waiting.pop() {
-            let state = store.state(number);
+            let state = &store.state(number);
             expander.expand(state, u64::MAX, &mut |successor| {
                 let fails = successor.events.iter().any(|event| {
                     event.machine == machine && event::is_fault(&model, &self.expander.values, state, event)
@@ -71,9 +71,9 @@ impl Possible<'_> {
         let model = self.expander.model;
         let calm = self.calm();
         let states = || (0..self.states).map(|state| self.store.state(state));
-        let can = states().map(|state| rests(model, state)).collect();
+        let can = states().map(|state| rests(model, &state)).collect();
         let asked: Vec<bool> =
-            states().zip(&calm).map(|(state, calm)| *calm && model.is_made(state)).collect();
+            states().zip(&calm).map(|(state, calm)| *calm && model.is_made(&state)).collect();
         self.reach(can, &asked, Stops::AreNoWay)
     }
 

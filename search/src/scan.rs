@@ -2,7 +2,7 @@
 
 use crate::choice::Choices;
 use crate::model::{Model, Reductions};
-use crate::plant::status;
+use crate::plant::{sight, status};
 use crate::program::{Bounds, Clause, Command, Domain, Int, Key, Target, Transition, Update, bit};
 use crate::value::Values;
 use crate::violation::Violation;
@@ -130,6 +130,11 @@ impl Scan<'_> {
                 times.store(self.bytes, 0);
             }
             program.states[target].dead.iter().for_each(|(var, value)| var.store(self.bytes, *value));
+            for input in &program.states[target].unread {
+                if input.load(self.bytes) == sight::SEEN {
+                    input.store(self.bytes, sight::OPEN);
+                }
+            }
         }
         Ok(())
     }

@@ -1,8 +1,8 @@
 //! An execution: what happened from the start.
 
 use crate::event::Event;
+use crate::reached::Reached;
 use crate::scan::Told;
-use crate::store::Store;
 use crate::successor::Expander;
 use crate::violation::Violation;
 
@@ -23,7 +23,7 @@ pub struct Happened {
 }
 
 /// The states from the first one to this one.
-fn states(store: &Store, to: usize) -> Vec<usize> {
+fn states(store: &Reached, to: usize) -> Vec<usize> {
     let mut states = vec![to];
     let mut state = to;
     while state != 0 {
@@ -34,10 +34,10 @@ fn states(store: &Store, to: usize) -> Vec<usize> {
     states
 }
 
-pub(crate) fn to_state(store: &Store, expander: &mut Expander, to: usize) -> Execution {
+pub(crate) fn to_state(store: &Reached, expander: &mut Expander, to: usize) -> Execution {
     let mut execution = Execution::default();
     for pair in states(store, to).windows(2) {
-        let (before, after) = (store.state(pair[0]).to_vec(), store.state(pair[1]).to_vec());
+        let (before, after) = (store.state(pair[0]), store.state(pair[1]));
         let last =
             expander.shortest(&before, |successor| successor.result.is_ok() && successor.state == after);
         execution.scans.extend(last);
@@ -46,14 +46,14 @@ pub(crate) fn to_state(store: &Store, expander: &mut Expander, to: usize) -> Exe
 }
 
 pub(crate) fn to_violation(
-    store: &Store,
+    store: &Reached,
     expander: &mut Expander,
     from: usize,
     violation: &Violation,
     events: &[Event],
 ) -> Execution {
     let mut execution = to_state(store, expander, from);
-    let before = store.state(from).to_vec();
+    let before = store.state(from);
     let last = expander.shortest(&before, |successor| {
         successor.events == events
             && (successor.noted.contains(violation)
@@ -65,17 +65,19 @@ pub(crate) fn to_violation(
 }
 
 impl Expander<'_> {
-    /// The successor with the fewest events among those that are wanted.
+    /// The successor with the fewest faults, and the fewest events, among those that are wanted.
     fn shortest(
         &mut self,
         before: &[u8],
         wanted: impl Fn(&crate::successor::Successor) -> bool,
     ) -> Option<Happened> {
         let mut best: Option<Happened> = None;
+        let mut least = (usize::MAX, usize::MAX);
         self.tell = true;
         self.expand(before, u64::MAX, &mut |successor| {
-            let is_better = best.as_ref().is_none_or(|best| successor.events.len() < best.events.len());
-            if is_better && wanted(&successor) {
+            let events = (successor.faults, successor.events.len());
+            if events < least && wanted(&successor) {
+                least = events;
                 best = Some(Happened {
                     before: before.to_vec(),
                     events: successor.events.to_vec(),

@@ -58,7 +58,7 @@ pub struct Expander<'a> {
     pub(crate) chosen: Vec<Event>,
     restless: u64,
     /// How many of the chosen events are faults.
-    faults: usize,
+    pub(crate) faults: usize,
     part: Part,
     /// Whether successors are to say what has fired.
     pub tell: bool,
@@ -79,6 +79,8 @@ pub struct Successor<'a> {
     pub result: Result<(), Violation>,
     /// At most one device did something, and it was no fault.
     pub is_plain: bool,
+    /// How many of the events are faults.
+    pub faults: usize,
     /// Violations after which the line continues.
     pub noted: &'a [Violation],
     /// What is hardly meant.
@@ -299,6 +301,7 @@ impl<'a> Expander<'a> {
                 state: &self.work,
                 events: &self.chosen,
                 is_plain: self.is_plain(),
+                faults: self.faults,
                 result,
                 noted: &self.noted,
                 remarked: &self.remarked,

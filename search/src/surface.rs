@@ -1,16 +1,13 @@
 //! Where things are: what lies under a tool, and what it would grip.
 
 use crate::model::Model;
-use crate::plant::{Place, Zone, motion, phase, status};
+use crate::plant::{Place, Zone, motion, phase, sight, status};
 use crate::value::{Point, Values};
 
 /// An item that is let go at most so far below a surface lies on it, m: as in the simulator.
 const SINK: f64 = 0.01;
 /// A place no farther from a slot is that slot, m.
 const AT_SLOT: f64 = 0.01;
-
-/// What the state holds of an input that is false.
-const NOT_SEEN: i32 = 1;
 
 /// Where an item comes to lie.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -141,7 +138,7 @@ pub fn found(model: &Model, values: &Values, state: &[u8], tool: Point, near: f6
         };
         for (number, zone) in lane.zones.iter().enumerate() {
             let is_open = |kind: &usize| {
-                zone.sees[*kind].is_none_or(|input| model.inputs[input].var.load(state) != NOT_SEEN)
+                zone.sees[*kind].is_none_or(|input| model.inputs[input].var.load(state) != sight::NOT_SEEN)
             };
             let met = (0..zone.found.len()).filter(|kind| gap(zone.found[*kind], *kind) <= near * near);
             let kind = met

@@ -4,7 +4,7 @@
 use autogen::ir::KeptBy;
 use autogen::lower::Project;
 use autogen_search::model::{Form, Model, Variable};
-use autogen_search::store::Store;
+use autogen_search::reached::Reached;
 use std::collections::{HashMap, HashSet};
 
 /// The common values of states.
@@ -76,8 +76,8 @@ impl<'a> Common<'a> {
         values
     }
 
-    pub fn of_all(&self, store: &Store) -> HashSet<Vec<i32>> {
-        (0..store.len()).map(|state| self.of_state(store.state(state))).collect()
+    pub fn of_all(&self, store: &Reached) -> HashSet<Vec<i32>> {
+        (0..store.len()).map(|state| self.of_state(&store.state(state))).collect()
     }
 
     /// In what a scan differs from the state that it is most like.

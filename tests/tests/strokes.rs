@@ -61,7 +61,7 @@ fn stays_within(name: &str, texts: &Texts, delays: &[IoDelay]) -> usize {
         values.extend(switches.iter().map(|switch| i32::from(switch.var.load(state) == switch.is)));
         values
     };
-    let reached = (0..outcome.reached.len()).map(|state| of_state(outcome.reached.state(state)));
+    let reached = (0..outcome.reached.len()).map(|state| of_state(&outcome.reached.state(state)));
     let reached: HashSet<Vec<i32>> = reached.collect();
     let (mut scans, mut met) = (0, HashSet::new());
     for io_delay in delays {

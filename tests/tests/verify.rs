@@ -286,7 +286,7 @@ fn few_answers_reach_a_part_of_the_states() {
     let model = model_of(&buffer(ONE_PART).project(), Faults::None);
     let all = search(&model, &BOUNDS);
     let one = search(&model, &Bounds { answers: Some(1), ..BOUNDS });
-    assert!((0..one.reached.len()).all(|state| all.reached.find(one.reached.state(state)).is_some()));
+    assert!((0..one.reached.len()).all(|state| all.reached.find(&one.reached.state(state)).is_some()));
     assert!(one.reached.len() <= all.reached.len());
 }
 

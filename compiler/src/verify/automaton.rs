@@ -1,7 +1,7 @@
 //! The automaton of one instance.
 
 use super::expression::Stored;
-use super::live::{self, Sight, live};
+use super::live::{Remembers, Sight, live};
 use super::memory::Memory;
 use super::plant::{Plant, Signal};
 use super::{Asked, Skipped};
@@ -19,9 +19,6 @@ use std::sync::Arc;
 
 /// Where values stand: each element, and how much less the state holds.
 pub type Vars = (Vec<Var>, i32);
-
-/// An input of which nothing is known.
-const OPEN: i32 = 0;
 
 /// What all instances share.
 pub struct Line<'a> {
@@ -202,7 +199,7 @@ impl<'a> Instance<'a> {
         Sight { ports: ports.filter(is_free).collect(), moves }
     }
 
-    fn state(&mut self, state: &ir::State, live: &BTreeSet<live::Memory>) -> State {
+    fn state(&mut self, state: &ir::State, live: &BTreeSet<Remembers>) -> State {
         let automaton = self.automaton;
         let guards = Reads::of_guards(automaton, state);
         let mut times: Vec<i32> = guards.timers.iter().filter_map(|time| self.fixed(time)).collect();
@@ -223,12 +220,13 @@ impl<'a> Instance<'a> {
         }
         let transitions = state.transitions.iter().map(|transition| self.transition(transition)).collect();
         let locals = self.line.locals[self.number].iter().enumerate();
-        let dead = locals.filter(|(local, _)| !live.contains(&live::Memory::Local(*local)));
-        let dead = dead.flat_map(|(_, (vars, _))| vars).map(|var| (*var, var.load(self.line.initial)));
-        let seen = self.line.seen[self.number].iter().filter(|_| !live.contains(&live::Memory::Seen));
-        let dead = dead.chain(seen.map(|var| (*var, OPEN))).collect();
-        let is_answer_dead = !live.contains(&live::Memory::Answer);
-        State { transitions, reads, times, dead, is_answer_dead }
+        let dead = locals.filter(|(local, _)| !live.contains(&Remembers::Local(*local)));
+        let dead = dead.flat_map(|(_, (vars, _))| vars);
+        let dead = dead.map(|var| (*var, var.load(self.line.initial))).collect();
+        let seen = self.line.seen[self.number].iter().filter(|_| !live.contains(&Remembers::Seen));
+        let unread = seen.copied().collect();
+        let is_answer_dead = !live.contains(&Remembers::Answer);
+        State { transitions, reads, times, dead, unread, is_answer_dead }
     }
 
     fn transition(&mut self, transition: &ir::Transition) -> Transition {

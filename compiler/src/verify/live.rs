@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 
 /// What an automaton remembers, and what its device does for it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Memory {
+pub enum Remembers {
     Local(usize),
     /// To the last command.
     Answer,
@@ -15,7 +15,7 @@ pub enum Memory {
     Seen,
 }
 
-type Set = BTreeSet<Memory>;
+type Set = BTreeSet<Remembers>;
 
 /// The ports of an automaton that tell what lies on its conveyor, and the commands that move this.
 #[derive(Debug)]
@@ -32,7 +32,9 @@ pub fn live(automaton: &Automaton, sight: &Sight, asked: &Asked) -> Vec<Set> {
     let mut always = Set::new();
     searched(automaton, asked).flat_map(read_by).for_each(|read| uses.expr(read, &mut always));
     if asked.remembered == Remembered::Whole {
-        always.extend((0..automaton.locals.len()).map(Memory::Local).chain([Memory::Answer, Memory::Seen]));
+        always.extend(
+            (0..automaton.locals.len()).map(Remembers::Local).chain([Remembers::Answer, Remembers::Seen]),
+        );
     }
     let mut live = vec![always; automaton.states.len()];
     loop {
@@ -71,29 +73,29 @@ impl Uses<'_> {
         match &update.kind {
             UpdateKind::Assign { target, value, .. } => {
                 if let Place::Local { local, index: None } = &target.place {
-                    live.remove(&Memory::Local(*local));
+                    live.remove(&Remembers::Local(*local));
                 }
                 target.place.parts().into_iter().for_each(|part| self.expr(part, live));
                 self.expr(value, live);
             }
             UpdateKind::Fill { target, value, .. } => {
                 if let Place::Local { local, .. } = &target.place {
-                    live.remove(&Memory::Local(*local));
+                    live.remove(&Remembers::Local(*local));
                 }
                 target.place.parts().into_iter().for_each(|part| self.expr(part, live));
                 self.expr(value, live);
             }
             UpdateKind::Copy { target, source, .. } => {
                 if let Place::Local { local, .. } = &target.place {
-                    live.remove(&Memory::Local(*local));
+                    live.remove(&Remembers::Local(*local));
                 }
                 target.place.parts().into_iter().for_each(|part| self.expr(part, live));
                 self.place(source, live);
             }
             UpdateKind::Command { verb, arguments } => {
-                live.remove(&Memory::Answer);
+                live.remove(&Remembers::Answer);
                 if self.sight.moves.contains(verb) {
-                    live.remove(&Memory::Seen);
+                    live.remove(&Remembers::Seen);
                 }
                 arguments.iter().for_each(|argument| self.expr(&argument.value, live));
             }
@@ -116,7 +118,7 @@ impl Uses<'_> {
     fn expr(&self, of: &Expr, live: &mut Set) {
         match &of.kind {
             ExprKind::Done | ExprKind::Failed => {
-                live.insert(Memory::Answer);
+                live.insert(Remembers::Answer);
             }
             ExprKind::Define(define) => self.expr(&self.automaton.defines[*define].value, live),
             ExprKind::Read(read) => self.place(read, live),
@@ -127,13 +129,13 @@ impl Uses<'_> {
     fn place(&self, read: &Place, live: &mut Set) {
         match read {
             Place::Local { local, .. } => {
-                live.insert(Memory::Local(*local));
+                live.insert(Remembers::Local(*local));
             }
             Place::Port { port, .. } if self.automaton.device.ports[*port].name == "error" => {
-                live.insert(Memory::Answer);
+                live.insert(Remembers::Answer);
             }
             Place::Port { port, .. } if self.sight.ports.contains(port) => {
-                live.insert(Memory::Seen);
+                live.insert(Remembers::Seen);
             }
             Place::Port { .. } | Place::Cell { .. } | Place::Parameter { .. } | Place::Shown { .. } => {}
         }

@@ -351,7 +351,7 @@ fn zone(
     // Items come from where places are greater, and are found as soon as they lie wholly in the field.
     let found = line.kinds.iter().enumerate().map(|(number, kind)| {
         let own = (kind.size[0].max(kind.size[1]) / 2.0).max(field.part_half);
-        coordinates(corner((field.half - own - BESIDE * number as f64).max(0.0), 0.0))
+        coordinates(corner((field.half - own).max(0.0) - BESIDE * number as f64, 0.0))
     });
     let machine = &line.machines[number];
     let is_seen = machine.wiring.inputs.iter().any(

@@ -88,10 +88,12 @@ impl Report<'_> {
         }
         let has_obligations = self.teller.model.instances.iter().flat_map(|instance| &instance.properties);
         if has_obligations.into_iter().any(|property| matches!(property.check, Check::Whenever(_))) {
-            bounds.push(
+            bounds.push(if self.teller.model.hides_items {
+                "what a `whenever` waits for is not checked: items on conveyors without commands, cylinders, positioners and tracks are not known".into()
+            } else {
                 "what a `whenever` waits for can always still come, after any number of scans; whether it comes in time is not decided"
-                    .into(),
-            );
+                    .into()
+            });
         }
         match self.options.warnings {
             Warnings::None => bounds.push("properties that only warn are not searched".into()),
@@ -135,7 +137,7 @@ impl Report<'_> {
             let states = &system.automaton_of(number).states;
             let mut entered = vec![false; states.len()];
             for state in 0..reached.len() {
-                entered[instance.state.load(reached.state(state)) as usize] = true;
+                entered[instance.state.load(&reached.state(state)) as usize] = true;
             }
             let never = states.iter().zip(entered).filter(|(_, entered)| !entered);
             let names: Vec<&str> = never.map(|(state, _)| state.name.as_str()).collect();

@@ -1,0 +1,140 @@
+//! All states that were reached, in pieces: most states differ from others in few of them.
+
+use crate::store::Store;
+
+/// Each state is stored as it is, as the numbers of its pieces.
+pub struct Reached {
+    length: usize,
+    /// The values of each piece.
+    pieces: Vec<Store>,
+    codes: Store,
+}
+
+/// Bytes of a piece; the last one may be shorter.
+const PIECE: usize = 32;
+/// Bytes of the number of a value.
+const NUMBER: usize = 3;
+/// A piece has fewer values than this.
+const MOST: usize = 1 << (8 * NUMBER);
+
+/// A state and its code, beside which others are looked up: most of their pieces are the same.
+pub(crate) struct Beside {
+    state: Vec<u8>,
+    code: Vec<u8>,
+    /// Of the state that is looked up.
+    other: Vec<u8>,
+}
+
+impl Reached {
+    /// For states of so many bytes, a multiple of 8.
+    pub fn new(length: usize) -> Self {
+        let lengths = (0..length).step_by(PIECE).map(|begin| PIECE.min(length - begin));
+        let pieces: Vec<Store> = lengths.map(Store::new).collect();
+        let codes = Store::new((NUMBER * pieces.len()).next_multiple_of(8));
+        Self { length, pieces, codes }
+    }
+
+    #[allow(clippy::len_without_is_empty)] // The first state is always there.
+    pub fn len(&self) -> usize {
+        self.codes.len()
+    }
+
+    /// Bytes of a state.
+    pub(crate) fn length(&self) -> usize {
+        self.length
+    }
+
+    pub fn state(&self, number: usize) -> Vec<u8> {
+        let numbers = self.codes.state(number).chunks_exact(NUMBER);
+        let values = self.pieces.iter().zip(numbers).map(|(piece, number)| piece.state(value(number)));
+        values.flatten().copied().collect()
+    }
+
+    pub fn parent(&self, number: usize) -> usize {
+        self.codes.parent(number)
+    }
+
+    pub(crate) fn beside(&self, number: usize) -> Beside {
+        let code = self.codes.state(number).to_vec();
+        Beside { state: self.state(number), other: code.clone(), code }
+    }
+
+    /// Bytes of memory that it takes.
+    pub fn size(&self) -> usize {
+        self.codes.size() + self.pieces.iter().map(Store::size).sum::<usize>()
+    }
+
+    /// Whether it can take no more: numbers of states have 32 bits, those of the values of a piece 24.
+    pub fn is_full(&self) -> bool {
+        self.codes.is_full() || self.pieces.iter().any(|piece| piece.len() >= MOST)
+    }
+
+    pub fn find(&self, state: &[u8]) -> Option<usize> {
+        let mut code = vec![0; self.codes.length()];
+        for ((piece, bytes), number) in
+            self.pieces.iter().zip(state.chunks(PIECE)).zip(code.chunks_exact_mut(NUMBER))
+        {
+            number.copy_from_slice(&piece.find(bytes)?.to_le_bytes()[..NUMBER]);
+        }
+        self.codes.find(&code)
+    }
+
+    /// The same, quicker where it has most pieces in common with the other one.
+    pub(crate) fn find_beside(&self, state: &[u8], beside: &mut Beside) -> Option<usize> {
+        beside.other.copy_from_slice(&beside.code);
+        let pieces = self.pieces.iter().zip(state.chunks(PIECE)).zip(beside.state.chunks(PIECE));
+        for (((piece, bytes), same), number) in pieces.zip(beside.other.chunks_exact_mut(NUMBER)) {
+            if bytes != same {
+                number.copy_from_slice(&piece.find(bytes)?.to_le_bytes()[..NUMBER]);
+            }
+        }
+        self.codes.find(&beside.other)
+    }
+
+    /// The number of the state, and whether it is new.
+    pub fn add(&mut self, state: &[u8], parent: usize) -> (usize, bool) {
+        let mut code = vec![0; self.codes.length()];
+        for ((piece, bytes), number) in
+            self.pieces.iter_mut().zip(state.chunks(PIECE)).zip(code.chunks_exact_mut(NUMBER))
+        {
+            number.copy_from_slice(&piece.add(bytes, 0).0.to_le_bytes()[..NUMBER]);
+        }
+        self.codes.add(&code, parent)
+    }
+}
+
+fn value(number: &[u8]) -> usize {
+    number.iter().rev().fold(0, |value, byte| value << 8 | usize::from(*byte))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of two pieces, the second one shorter.
+    fn state(number: u64) -> Vec<u8> {
+        let mut state = vec![0; 40];
+        state[..8].copy_from_slice(&(number % 100).to_le_bytes());
+        state[32..].copy_from_slice(&(number / 100).to_le_bytes());
+        state
+    }
+
+    #[test]
+    fn every_state_is_stored_once_and_as_it_is() {
+        let mut reached = Reached::new(40);
+        for round in 0..2 {
+            for number in 0..50_000 {
+                assert_eq!(reached.add(&state(number), 7), (number as usize, round == 0));
+            }
+        }
+        assert_eq!(reached.len(), 50_000);
+        let mut beside = reached.beside(4711);
+        assert_eq!((reached.parent(4711), &beside.state), (7, &state(4711)));
+        for (number, expected) in
+            [(4711, Some(4711)), (4712, Some(4712)), (49_999, Some(49_999)), (50_000, None)]
+        {
+            assert_eq!(reached.find(&state(number)), expected);
+            assert_eq!(reached.find_beside(&state(number), &mut beside), expected);
+        }
+    }
+}
