@@ -149,8 +149,9 @@ fn endings(
         } else if found_at_goal(model, values, state, arm).is_some() {
             add(Ending::WithItem);
         }
+        let is_there = |found: Option<surface::Found>| found.is_some_and(|found| !found.is_forgotten);
         if arm.holds.load(state) == 0
-            && (model.faults == Faults::All || found_at_goal(model, values, state, arm).is_none())
+            && (model.faults == Faults::All || !is_there(found_at_goal(model, values, state, arm)))
         {
             add(Ending::InVain);
         }
@@ -182,9 +183,23 @@ pub(crate) fn is_fault(model: &Model, values: &Values, state: &[u8], event: &Eve
         (What::Ends(Ending::Refused(_)), Some(head), _) => {
             is_reached(values, state, plant, &head.commands[head.command.load(state) as usize])
         }
-        (What::Ends(Ending::InVain), _, Some(arm)) => found_at_goal(model, values, state, arm).is_some(),
+        (What::Ends(Ending::InVain), _, Some(arm)) => {
+            found_at_goal(model, values, state, arm).is_some_and(|found| !found.is_forgotten)
+        }
         _ => false,
     }
+}
+
+/// Whether an event depends on what is forgotten: it may be that it cannot happen.
+pub(crate) fn is_guess(model: &Model, values: &Values, state: &[u8], event: &Event) -> bool {
+    let plant = &model.machines[event.machine];
+    let Some(arm) = &plant.arm else { return false };
+    let found = match event.what {
+        What::Ends(Ending::InVain | Ending::WithItem) => found_at_goal(model, values, state, arm),
+        What::Takes => takes(model, values, state, plant, arm),
+        _ => None,
+    };
+    found.is_some_and(|found| found.is_forgotten)
 }
 
 fn is_closed(arm: &Arm, state: &[u8]) -> bool {

@@ -97,9 +97,9 @@ impl<'a> Finder<'a> {
             self.write(instance.state);
             instance.times_come.into_iter().for_each(|times| self.write(times));
             instance.states[target].dead.iter().for_each(|(var, _)| self.write(*var));
-            instance.states[target].unread.iter().for_each(|var| {
-                self.read(*var);
-                self.write(*var);
+            instance.states[target].unread.iter().for_each(|unread| {
+                self.read(unread.input);
+                self.write(unread.input);
             });
         }
     }

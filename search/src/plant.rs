@@ -203,6 +203,8 @@ pub mod sight {
     pub const OPEN: i32 = 0;
     pub const NOT_SEEN: i32 = 1;
     pub const SEEN: i32 = 2;
+    /// It was seen, or was not: nobody can tell any more which.
+    pub const FORGOTTEN: i32 = 3;
 }
 
 /// What is asked for.

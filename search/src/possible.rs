@@ -166,6 +166,9 @@ impl<'a> Possible<'a> {
             }
             let mut leads_to_stop = false;
             expander.expand(&store.state(state), u64::MAX, &mut |successor| {
+                if successor.guesses > 0 {
+                    return;
+                }
                 leads_to_stop |= matches!(successor.result, Err(Violation::Stop { .. }));
                 let to = successor.result.is_ok().then(|| store.find(successor.state)).flatten();
                 if let Some(to) = to.filter(|to| *to != state) {

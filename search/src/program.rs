@@ -1,5 +1,6 @@
 //! Automata of one line, each by itself: every name is a place in the state, a table or a number.
 
+use crate::plant::sight;
 use crate::property::Property;
 use crate::value::{Point, Var};
 use std::sync::Arc;
@@ -173,10 +174,28 @@ pub struct State {
     pub times: Vec<i32>,
     /// What is of no use here, and what it holds then.
     pub dead: Vec<(Var, i32)>,
-    /// Inputs of which it is of no use here that they are true: a gripper finds what is seen where nothing is known too.
-    pub unread: Vec<Var>,
+    /// What a sensor tells over a conveyor at rest, and nobody reads here before it moves.
+    pub unread: Vec<Unread>,
     /// The answer to the last command is of no use here.
     pub is_answer_dead: bool,
+}
+
+/// What the state holds of an input, one of [`crate::plant::sight`], instead of what was told.
+#[derive(Clone, Copy, Debug)]
+pub struct Unread {
+    pub input: Var,
+    pub seen: i32,
+    pub not_seen: i32,
+}
+
+impl Unread {
+    pub fn instead(&self, held: i32) -> i32 {
+        match held {
+            sight::SEEN => self.seen,
+            sight::NOT_SEEN => self.not_seen,
+            other => other,
+        }
+    }
 }
 
 #[derive(Clone, Debug)]

@@ -4,7 +4,9 @@
 use crate::event;
 use crate::model::Model;
 use crate::plant::{Action, Faults, Machine, motion, sight, status};
-use crate::program::{Clause, Command, Domain, Int, Operator, PointValue, Target, Transition, Update};
+use crate::program::{
+    Clause, Command, Domain, Int, Operator, PointValue, Target, Transition, Unread, Update,
+};
 use crate::value::{Values, Var};
 use std::collections::HashMap;
 use std::fmt::Write;
@@ -224,9 +226,13 @@ impl Printer<'_> {
             for (var, value) in &program.states[target].dead {
                 let _ = write!(text, " {} = {value};", self.name(*var));
             }
-            for var in &program.states[target].unread {
-                let name = self.name(*var);
-                let _ = write!(text, " {name} = ({name} == {} -> {} : {name});", sight::SEEN, sight::OPEN);
+            for Unread { input, seen, not_seen } in &program.states[target].unread {
+                let name = self.name(*input);
+                let (is_seen, is_not) = (sight::SEEN, sight::NOT_SEEN);
+                let _ = write!(
+                    text,
+                    " {name} = ({name} == {is_seen} -> {seen} : ({name} == {is_not} -> {not_seen} : {name}));"
+                );
             }
             self.line(text);
         }

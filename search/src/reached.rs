@@ -45,9 +45,11 @@ impl Reached {
     }
 
     pub fn state(&self, number: usize) -> Vec<u8> {
-        let numbers = self.codes.state(number).chunks_exact(NUMBER);
-        let values = self.pieces.iter().zip(numbers).map(|(piece, number)| piece.state(value(number)));
-        values.flatten().copied().collect()
+        let mut state = Vec::with_capacity(self.length);
+        for (piece, number) in self.pieces.iter().zip(self.codes.state(number).chunks_exact(NUMBER)) {
+            state.extend_from_slice(piece.state(value(number)));
+        }
+        state
     }
 
     pub fn parent(&self, number: usize) -> usize {

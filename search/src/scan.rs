@@ -2,7 +2,7 @@
 
 use crate::choice::Choices;
 use crate::model::{Model, Reductions};
-use crate::plant::{sight, status};
+use crate::plant::status;
 use crate::program::{Bounds, Clause, Command, Domain, Int, Key, Target, Transition, Update, bit};
 use crate::value::Values;
 use crate::violation::Violation;
@@ -130,10 +130,9 @@ impl Scan<'_> {
                 times.store(self.bytes, 0);
             }
             program.states[target].dead.iter().for_each(|(var, value)| var.store(self.bytes, *value));
-            for input in &program.states[target].unread {
-                if input.load(self.bytes) == sight::SEEN {
-                    input.store(self.bytes, sight::OPEN);
-                }
+            for unread in &program.states[target].unread {
+                let held = unread.input.load(self.bytes);
+                unread.input.store(self.bytes, unread.instead(held));
             }
         }
         Ok(())
@@ -303,7 +302,7 @@ impl Scan<'_> {
     pub(crate) fn input(&mut self, number: usize) -> i32 {
         let input = &self.model.inputs[number];
         let held = input.var.load(self.bytes);
-        if held != 0 {
+        if (1..=input.values as i32).contains(&held) {
             return held - 1 + input.low;
         }
         let value = self.choices.take(input.values) as i32;

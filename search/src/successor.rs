@@ -59,6 +59,8 @@ pub struct Expander<'a> {
     restless: u64,
     /// How many of the chosen events are faults.
     pub(crate) faults: usize,
+    /// How many depend on what is forgotten.
+    pub(crate) guesses: usize,
     part: Part,
     /// Whether successors are to say what has fired.
     pub tell: bool,
@@ -70,6 +72,7 @@ pub struct Expander<'a> {
 struct Choice {
     event: Event,
     is_fault: bool,
+    is_guess: bool,
 }
 
 /// What follows a state.
@@ -79,8 +82,9 @@ pub struct Successor<'a> {
     pub result: Result<(), Violation>,
     /// At most one device did something, and it was no fault.
     pub is_plain: bool,
-    /// How many of the events are faults.
+    /// How many of the events are faults, and how many may not be able to happen.
     pub faults: usize,
+    pub guesses: usize,
     /// Violations after which the line continues.
     pub noted: &'a [Violation],
     /// What is hardly meant.
@@ -113,6 +117,7 @@ impl<'a> Expander<'a> {
             chosen: Vec::new(),
             restless: 0,
             faults: 0,
+            guesses: 0,
             part: Part::All,
             tell: false,
             told: Told::default(),
@@ -144,7 +149,8 @@ impl<'a> Expander<'a> {
             options[used].clear();
             options[used].extend(events.iter().filter_map(|event| {
                 let is_fault = event::is_fault(self.model, &self.values, state, event);
-                (part != Part::Calm || !is_fault).then_some(Choice { event: *event, is_fault })
+                let is_guess = event::is_guess(self.model, &self.values, state, event);
+                (part != Part::Calm || !is_fault).then_some(Choice { event: *event, is_fault, is_guess })
             }));
             used += usize::from(!options[used].is_empty());
         }
@@ -203,9 +209,9 @@ impl<'a> Expander<'a> {
         }
     }
 
-    /// Whether at most one device did something, and it was no fault.
+    /// Whether at most one device did something, and it was no fault, and certainly could happen.
     pub(crate) fn is_plain(&self) -> bool {
-        self.chosen.len() <= 1 && self.faults == 0
+        self.chosen.len() <= 1 && self.faults == 0 && self.guesses == 0
     }
 
     fn answer(
@@ -226,14 +232,16 @@ impl<'a> Expander<'a> {
             return;
         };
         self.answer(rest, level, touched, emit);
-        for Choice { event, is_fault } in choices {
+        for Choice { event, is_fault, is_guess } in choices {
             let (before, after) = self.levels.split_at_mut(level + 1);
             after[0].copy_from_slice(&before[level]);
             event::apply(self.model, &mut self.values, &mut after[0], *event);
             self.chosen.push(*event);
             self.faults += usize::from(*is_fault);
+            self.guesses += usize::from(*is_guess);
             self.answer(rest, level + 1, touched | bit(event.machine), emit);
             self.faults -= usize::from(*is_fault);
+            self.guesses -= usize::from(*is_guess);
             self.chosen.pop();
         }
     }
@@ -302,6 +310,7 @@ impl<'a> Expander<'a> {
                 events: &self.chosen,
                 is_plain: self.is_plain(),
                 faults: self.faults,
+                guesses: self.guesses,
                 result,
                 noted: &self.noted,
                 remarked: &self.remarked,

@@ -27,6 +27,8 @@ pub enum Landing {
 pub struct Found {
     pub kind: usize,
     pub at: Landing,
+    /// Whether it lies there was known, and is forgotten.
+    pub is_forgotten: bool,
 }
 
 /// The origin of a place, in the state; of one that is carried, at the stop where its vehicle is or was.
@@ -129,7 +131,11 @@ pub fn found(model: &Model, values: &Values, state: &[u8], tool: Point, near: f6
                 let Some(offset) = place.slots.get(slot).filter(|_| held > 0) else { continue };
                 let at = [0, 1, 2].map(|axis| origin[axis] + offset[axis]);
                 if gap(at, kind) <= near * near && !is_driving(model, state, machine) {
-                    return Some(Found { kind, at: Landing::Slot { machine, place: number, slot } });
+                    return Some(Found {
+                        kind,
+                        at: Landing::Slot { machine, place: number, slot },
+                        is_forgotten: false,
+                    });
                 }
             }
         }
@@ -137,15 +143,16 @@ pub fn found(model: &Model, values: &Values, state: &[u8], tool: Point, near: f6
             continue;
         };
         for (number, zone) in lane.zones.iter().enumerate() {
-            let is_open = |kind: &usize| {
-                zone.sees[*kind].is_none_or(|input| model.inputs[input].var.load(state) != sight::NOT_SEEN)
+            let told = |kind: usize| {
+                zone.sees[kind].map_or(sight::OPEN, |input| model.inputs[input].var.load(state))
             };
             let met = (0..zone.found.len()).filter(|kind| gap(zone.found[*kind], *kind) <= near * near);
             let kind = met
-                .filter(is_open)
+                .filter(|kind| told(*kind) != sight::NOT_SEEN)
                 .min_by(|a, b| gap(zone.found[*a], *a).total_cmp(&gap(zone.found[*b], *b)));
             if let Some(kind) = kind {
-                return Some(Found { kind, at: Landing::Zone { machine, zone: number } });
+                let is_forgotten = told(kind) == sight::FORGOTTEN;
+                return Some(Found { kind, at: Landing::Zone { machine, zone: number }, is_forgotten });
             }
         }
     }

@@ -215,6 +215,7 @@ fn forgetting_what_is_of_no_use_changes_no_verdict() {
         let mut whole = model.clone();
         for state in whole.instances.iter_mut().flat_map(|instance| &mut instance.states) {
             state.dead.clear();
+            state.unread.clear();
             state.is_answer_dead = false;
         }
         let bounds = Bounds { answers: Some(1), violations: 100, ..BOUNDS };

@@ -8,9 +8,9 @@ use super::{Asked, Skipped};
 use crate::executor::Executor;
 use crate::ir::{self, Automaton, Expr, InterfaceId, Place, RoleId, Scalar, System, UpdateKind, Value};
 use crate::reads::{Reads, Whose, is_fixed};
-use autogen_search::plant::{Action, Machine};
+use autogen_search::plant::{Action, Machine, sight};
 use autogen_search::program::{
-    Bounds, Clause, Command, Int, Key, Operator, State, Target, Transition, Update, bit,
+    Bounds, Clause, Command, Int, Key, Operator, State, Target, Transition, Unread, Update, bit,
 };
 use autogen_search::value::Var;
 use runtime_sim::device::Direction;
@@ -194,9 +194,15 @@ impl<'a> Instance<'a> {
         let moves =
             commands.filter(|(asked, _)| asked.action == Action::Run).map(|(_, command)| command.number);
         let moves = moves.collect();
-        let ports = 0..self.automaton.device.ports.len();
-        let is_free = |port: &usize| matches!(self.port(*port), Stored::Signal(Signal::Free(_)));
-        Sight { ports: ports.filter(is_free).collect(), moves }
+        let mut sight = Sight { seen: Vec::new(), found: Vec::new(), moves };
+        for port in 0..self.automaton.device.ports.len() {
+            match self.port(port) {
+                Stored::Signal(Signal::Free(_)) => sight.seen.push(port),
+                Stored::Signal(Signal::Found(_)) => sight.found.push(port),
+                _ => {}
+            }
+        }
+        sight
     }
 
     fn state(&mut self, state: &ir::State, live: &BTreeSet<Remembers>) -> State {
@@ -224,7 +230,13 @@ impl<'a> Instance<'a> {
         let dead = dead.flat_map(|(_, (vars, _))| vars);
         let dead = dead.map(|var| (*var, var.load(self.line.initial))).collect();
         let seen = self.line.seen[self.number].iter().filter(|_| !live.contains(&Remembers::Seen));
-        let unread = seen.copied().collect();
+        // Where no place of an item was told since the conveyor stands, no arm goes to one.
+        let (seen_is, not_seen_is) = match live.contains(&Remembers::Found) {
+            true => (sight::OPEN, sight::NOT_SEEN),
+            false => (sight::FORGOTTEN, sight::FORGOTTEN),
+        };
+        let unread =
+            seen.map(|input| Unread { input: *input, seen: seen_is, not_seen: not_seen_is }).collect();
         let is_answer_dead = !live.contains(&Remembers::Answer);
         State { transitions, reads, times, dead, unread, is_answer_dead }
     }

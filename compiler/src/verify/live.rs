@@ -13,6 +13,8 @@ pub enum Remembers {
     Answer,
     /// What is seen over a conveyor, which stays as it is until the conveyor moves.
     Seen,
+    /// Where an item was found there, since it has stood.
+    Found,
 }
 
 type Set = BTreeSet<Remembers>;
@@ -21,7 +23,8 @@ type Set = BTreeSet<Remembers>;
 #[derive(Debug)]
 pub struct Sight {
     /// Numbers of ports.
-    pub ports: Vec<usize>,
+    pub seen: Vec<usize>,
+    pub found: Vec<usize>,
     /// Numbers of commands, as on the bus.
     pub moves: Vec<i32>,
 }
@@ -37,6 +40,9 @@ pub fn live(automaton: &Automaton, sight: &Sight, asked: &Asked) -> Vec<Set> {
         );
     }
     let mut live = vec![always; automaton.states.len()];
+    for (live, told) in live.iter_mut().zip(uses.told()) {
+        live.extend(told.then_some(Remembers::Found));
+    }
     loop {
         let mut has_changed = false;
         for (number, state) in automaton.states.iter().enumerate() {
@@ -44,6 +50,7 @@ pub fn live(automaton: &Automaton, sight: &Sight, asked: &Asked) -> Vec<Set> {
             for transition in &state.transitions {
                 let mut before = live[transition.target.map_or(number, |target| target.0)].clone();
                 uses.transition(transition, &mut before);
+                before.remove(&Remembers::Found);
                 found.extend(before);
             }
             has_changed |= found.len() > live[number].len();
@@ -62,6 +69,39 @@ struct Uses<'a> {
 }
 
 impl Uses<'_> {
+    /// Of each state whether it may be entered after an item was found on the conveyor, and before this has moved.
+    fn told(&self) -> Vec<bool> {
+        let states = &self.automaton.states;
+        let mut told = vec![false; states.len()];
+        loop {
+            let mut has_changed = false;
+            for (number, state) in states.iter().enumerate() {
+                for transition in &state.transitions {
+                    let target = transition.target.map_or(number, |target| target.0);
+                    let is_told = self.finds(transition) || told[number] && !self.moves(transition);
+                    has_changed |= is_told && !told[target];
+                    told[target] |= is_told;
+                }
+            }
+            if !has_changed {
+                return told;
+            }
+        }
+    }
+
+    fn finds(&self, transition: &Transition) -> bool {
+        let mut read = Set::new();
+        self.transition(transition, &mut read);
+        read.contains(&Remembers::Found)
+    }
+
+    fn moves(&self, transition: &Transition) -> bool {
+        transition.updates.iter().any(|update| match &update.kind {
+            UpdateKind::Command { verb, .. } => self.sight.moves.contains(verb),
+            _ => false,
+        })
+    }
+
     /// What is live before a transition, from what is live after it.
     fn transition(&self, transition: &Transition, live: &mut Set) {
         transition.updates.iter().rev().for_each(|update| self.update(update, live));
@@ -134,8 +174,11 @@ impl Uses<'_> {
             Place::Port { port, .. } if self.automaton.device.ports[*port].name == "error" => {
                 live.insert(Remembers::Answer);
             }
-            Place::Port { port, .. } if self.sight.ports.contains(port) => {
+            Place::Port { port, .. } if self.sight.seen.contains(port) => {
                 live.insert(Remembers::Seen);
+            }
+            Place::Port { port, .. } if self.sight.found.contains(port) => {
+                live.insert(Remembers::Found);
             }
             Place::Port { .. } | Place::Cell { .. } | Place::Parameter { .. } | Place::Shown { .. } => {}
         }

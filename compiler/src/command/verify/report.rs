@@ -5,7 +5,6 @@ use autogen::verify::Skipped;
 use autogen::verify::replay::Replay;
 use autogen::verify::story::Teller;
 use autogen_search::explore::{End, Outcome};
-use autogen_search::program::Instance;
 use autogen_search::property::Check;
 use autogen_search::story::Execution;
 use autogen_search::violation::Violation;
@@ -131,19 +130,22 @@ impl Report<'_> {
         if self.outcome.end != End::Complete {
             return Vec::new();
         }
-        let system = &self.teller.project.system;
-        let reached = &self.outcome.reached;
-        let of_instance = |(number, instance): (usize, &Instance)| {
-            let states = &system.automaton_of(number).states;
-            let mut entered = vec![false; states.len()];
-            for state in 0..reached.len() {
-                entered[instance.state.load(&reached.state(state)) as usize] = true;
+        let (system, reached) = (&self.teller.project.system, &self.outcome.reached);
+        let instances = &self.teller.model.instances;
+        let states = |number: usize| &system.automaton_of(number).states;
+        let mut entered: Vec<Vec<bool>> =
+            (0..instances.len()).map(|number| vec![false; states(number).len()]).collect();
+        for state in (0..reached.len()).map(|state| reached.state(state)) {
+            for (instance, entered) in instances.iter().zip(&mut entered) {
+                entered[instance.state.load(&state) as usize] = true;
             }
-            let never = states.iter().zip(entered).filter(|(_, entered)| !entered);
+        }
+        let of_instance = |(number, entered): (usize, Vec<bool>)| {
+            let never = states(number).iter().zip(entered).filter(|(_, entered)| !entered);
             let names: Vec<&str> = never.map(|(state, _)| state.name.as_str()).collect();
             (!names.is_empty()).then(|| format!("{} in {}", system.instances[number].name, names.join(", ")))
         };
-        self.teller.model.instances.iter().enumerate().filter_map(of_instance).collect()
+        entered.into_iter().enumerate().filter_map(of_instance).collect()
     }
 
     pub fn text(&self) -> String {
