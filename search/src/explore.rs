@@ -155,7 +155,7 @@ impl<'a> Search<'a> {
     fn search(&mut self, faults: Faults) -> (Option<End>, Checked) {
         let mut complete = Checked::default();
         // Of each depth the states that devices fail in the fewest scans to reach, and those with one less.
-        let (mut level, mut last) = (vec![0..1], Vec::new());
+        let (mut level, mut last): (Vec<_>, Vec<_>) = (std::iter::once(0..1).collect(), Vec::new());
         loop {
             let mut depth = 0;
             while depth < level.len().max(last.len()) {
