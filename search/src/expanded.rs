@@ -109,7 +109,7 @@ impl Expanded {
         let count = expander.values.count();
         let mut after = After { end: 0, transitions: 0, stops: 0, has_new_values: false };
         let before = store.state(state);
-        let mut beside = store.beside(state);
+        let mut beside = store.beside(state, &before);
         expander.expand_part(part, &before, restless, &mut |successor| {
             after.transitions += 1;
             for remark in successor.remarked {
@@ -124,7 +124,7 @@ impl Expanded {
             successor.noted.iter().for_each(&mut find);
             match successor.result {
                 Ok(()) => {
-                    let is_plain = successor.is_plain;
+                    let is_plain = successor.is_plain();
                     if let Some(known) = store.find_beside(successor.state, &mut beside) {
                         if is_plain && known != state {
                             steps.push(Step::Known { state: known as u32, is_plain });
@@ -141,7 +141,7 @@ impl Expanded {
                 }
                 Err(Violation::Stop { .. }) => {
                     after.stops += 1;
-                    if successor.is_plain {
+                    if successor.is_plain() {
                         steps.push(Step::Stop);
                     }
                 }

@@ -171,7 +171,6 @@ impl Expander<'_> {
         emit(Successor {
             state: &midway.bytes,
             events: &self.chosen,
-            is_plain: self.is_plain(),
             faults: self.faults,
             guesses: self.guesses,
             result: Err(violation),
@@ -218,7 +217,6 @@ impl Expander<'_> {
             emit(Successor {
                 state: &end.bytes,
                 events: &self.chosen,
-                is_plain: self.is_plain(),
                 faults: self.faults,
                 guesses: self.guesses,
                 result,

@@ -96,8 +96,7 @@ impl<'a> Possible<'a> {
         if model.orders.is_empty() {
             return None;
         }
-        let is_there = |state: &[u8]| model.is_made(state) || model.any_stands(state);
-        let can: Vec<bool> = (0..self.states).map(|state| is_there(&self.store.state(state))).collect();
+        let can = self.made();
         let calm = self.calm();
         self.reach(can.clone(), &calm, Stops::AreNoWay).or_else(|| {
             let all = vec![true; self.states];
@@ -105,11 +104,17 @@ impl<'a> Possible<'a> {
         })
     }
 
+    /// Of each state whether all orders are made in it, or an operator has to come.
+    fn made(&self) -> Vec<bool> {
+        let model = self.expander.model;
+        let states = (0..self.states).map(|state| self.store.state(state));
+        states.map(|state| model.is_made(&state) || model.any_stands(&state)).collect()
+    }
+
     /// Whether nothing leads to the orders, not even a stop for an operator.
     pub fn is_never_made_from_the_start(&mut self) -> bool {
         let model = self.expander.model;
-        let is_there = |state: &[u8]| model.is_made(state) || model.any_stands(state);
-        let can = (0..self.states).map(|state| is_there(&self.store.state(state))).collect();
+        let can = self.made();
         let mut first = vec![false; self.states];
         first[0] = true;
         !model.orders.is_empty() && self.reach(can, &first, Stops::AreWays).is_some()

@@ -18,8 +18,8 @@ const NUMBER: usize = 3;
 const MOST: usize = 1 << (8 * NUMBER);
 
 /// A state and its code, beside which others are looked up: most of their pieces are the same.
-pub(crate) struct Beside {
-    state: Vec<u8>,
+pub(crate) struct Beside<'a> {
+    state: &'a [u8],
     code: Vec<u8>,
     /// Of the state that is looked up.
     other: Vec<u8>,
@@ -56,9 +56,10 @@ impl Reached {
         self.codes.parent(number)
     }
 
-    pub(crate) fn beside(&self, number: usize) -> Beside {
+    /// Of the state of this number, which is `state`.
+    pub(crate) fn beside<'a>(&self, number: usize, state: &'a [u8]) -> Beside<'a> {
         let code = self.codes.state(number).to_vec();
-        Beside { state: self.state(number), other: code.clone(), code }
+        Beside { state, other: code.clone(), code }
     }
 
     /// Bytes of memory that it takes.
@@ -130,8 +131,9 @@ mod tests {
             }
         }
         assert_eq!(reached.len(), 50_000);
-        let mut beside = reached.beside(4711);
-        assert_eq!((reached.parent(4711), &beside.state), (7, &state(4711)));
+        let found = reached.state(4711);
+        assert_eq!((reached.parent(4711), &found), (7, &state(4711)));
+        let mut beside = reached.beside(4711, &found);
         for (number, expected) in
             [(4711, Some(4711)), (4712, Some(4712)), (49_999, Some(49_999)), (50_000, None)]
         {

@@ -80,8 +80,6 @@ pub struct Successor<'a> {
     pub state: &'a [u8],
     pub events: &'a [Event],
     pub result: Result<(), Violation>,
-    /// At most one device did something, and it was no fault.
-    pub is_plain: bool,
     /// How many of the events are faults, and how many may not be able to happen.
     pub faults: usize,
     pub guesses: usize,
@@ -93,6 +91,13 @@ pub struct Successor<'a> {
     pub restless: u64,
     /// What is told of it, if that was asked for.
     pub told: &'a Told,
+}
+
+impl Successor<'_> {
+    /// Whether at most one device did something, and it was no fault, and certainly could happen.
+    pub fn is_plain(&self) -> bool {
+        self.events.len() <= 1 && self.faults == 0 && self.guesses == 0
+    }
 }
 
 impl<'a> Expander<'a> {
@@ -209,11 +214,6 @@ impl<'a> Expander<'a> {
         }
     }
 
-    /// Whether at most one device did something, and it was no fault, and certainly could happen.
-    pub(crate) fn is_plain(&self) -> bool {
-        self.chosen.len() <= 1 && self.faults == 0 && self.guesses == 0
-    }
-
     fn answer(
         &mut self,
         options: &[Vec<Choice>],
@@ -308,7 +308,6 @@ impl<'a> Expander<'a> {
             emit(Successor {
                 state: &self.work,
                 events: &self.chosen,
-                is_plain: self.is_plain(),
                 faults: self.faults,
                 guesses: self.guesses,
                 result,

@@ -1,7 +1,7 @@
 //! The automaton of one instance.
 
 use super::expression::Stored;
-use super::live::{Remembers, Sight, live};
+use super::live::{Remembers, Sight, live, told};
 use super::memory::Memory;
 use super::plant::{Plant, Signal};
 use super::{Asked, Skipped};
@@ -173,9 +173,16 @@ impl<'a> Instance<'a> {
     ) -> autogen_search::program::Instance {
         let (state, times_come) = self.line.states[self.number];
         let automaton = self.automaton;
-        let live = live(automaton, &self.sight(), asked);
-        let states =
-            automaton.states.iter().zip(&live).map(|(state, live)| self.state(state, live)).collect();
+        let sight = self.sight();
+        let live = live(automaton, &sight, asked);
+        // What is held instead of a sight that nobody reads. Where no place of an item was told since the conveyor stands, no
+        // arm goes to one.
+        let unread = told(automaton, &sight).into_iter().map(|is_told| match is_told {
+            true => [sight::OPEN, sight::NOT_SEEN],
+            false => [sight::FORGOTTEN; 2],
+        });
+        let states = automaton.states.iter().zip(live.iter().zip(unread));
+        let states = states.map(|(state, (live, unread))| self.state(state, live, unread)).collect();
         let properties = self.properties(asked, memory, skipped);
         autogen_search::program::Instance {
             state,
@@ -205,7 +212,12 @@ impl<'a> Instance<'a> {
         sight
     }
 
-    fn state(&mut self, state: &ir::State, live: &BTreeSet<Remembers>) -> State {
+    fn state(
+        &mut self,
+        state: &ir::State,
+        live: &BTreeSet<Remembers>,
+        [seen_is, not_seen]: [i32; 2],
+    ) -> State {
         let automaton = self.automaton;
         let guards = Reads::of_guards(automaton, state);
         let mut times: Vec<i32> = guards.timers.iter().filter_map(|time| self.fixed(time)).collect();
@@ -230,13 +242,7 @@ impl<'a> Instance<'a> {
         let dead = dead.flat_map(|(_, (vars, _))| vars);
         let dead = dead.map(|var| (*var, var.load(self.line.initial))).collect();
         let seen = self.line.seen[self.number].iter().filter(|_| !live.contains(&Remembers::Seen));
-        // Where no place of an item was told since the conveyor stands, no arm goes to one.
-        let (seen_is, not_seen_is) = match live.contains(&Remembers::Found) {
-            true => (sight::OPEN, sight::NOT_SEEN),
-            false => (sight::FORGOTTEN, sight::FORGOTTEN),
-        };
-        let unread =
-            seen.map(|input| Unread { input: *input, seen: seen_is, not_seen: not_seen_is }).collect();
+        let unread = seen.map(|input| Unread { input: *input, seen: seen_is, not_seen }).collect();
         let is_answer_dead = !live.contains(&Remembers::Answer);
         State { transitions, reads, times, dead, unread, is_answer_dead }
     }

@@ -13,7 +13,7 @@ pub enum Remembers {
     Answer,
     /// What is seen over a conveyor, which stays as it is until the conveyor moves.
     Seen,
-    /// Where an item was found there, since it has stood.
+    /// Where an item was found there.
     Found,
 }
 
@@ -40,9 +40,6 @@ pub fn live(automaton: &Automaton, sight: &Sight, asked: &Asked) -> Vec<Set> {
         );
     }
     let mut live = vec![always; automaton.states.len()];
-    for (live, told) in live.iter_mut().zip(uses.told()) {
-        live.extend(told.then_some(Remembers::Found));
-    }
     loop {
         let mut has_changed = false;
         for (number, state) in automaton.states.iter().enumerate() {
@@ -50,7 +47,6 @@ pub fn live(automaton: &Automaton, sight: &Sight, asked: &Asked) -> Vec<Set> {
             for transition in &state.transitions {
                 let mut before = live[transition.target.map_or(number, |target| target.0)].clone();
                 uses.transition(transition, &mut before);
-                before.remove(&Remembers::Found);
                 found.extend(before);
             }
             has_changed |= found.len() > live[number].len();
@@ -62,6 +58,26 @@ pub fn live(automaton: &Automaton, sight: &Sight, asked: &Asked) -> Vec<Set> {
     }
 }
 
+/// Of each state whether it may be entered after an item was found on the conveyor, and before this has moved.
+pub fn told(automaton: &Automaton, sight: &Sight) -> Vec<bool> {
+    let uses = Uses { automaton, sight };
+    let mut told = vec![false; automaton.states.len()];
+    loop {
+        let mut has_changed = false;
+        for (number, state) in automaton.states.iter().enumerate() {
+            for transition in &state.transitions {
+                let target = transition.target.map_or(number, |target| target.0);
+                let is_told = uses.finds(transition) || told[number] && !uses.moves(transition);
+                has_changed |= is_told && !told[target];
+                told[target] |= is_told;
+            }
+        }
+        if !has_changed {
+            return told;
+        }
+    }
+}
+
 /// What expressions and updates read and write.
 struct Uses<'a> {
     automaton: &'a Automaton,
@@ -69,26 +85,6 @@ struct Uses<'a> {
 }
 
 impl Uses<'_> {
-    /// Of each state whether it may be entered after an item was found on the conveyor, and before this has moved.
-    fn told(&self) -> Vec<bool> {
-        let states = &self.automaton.states;
-        let mut told = vec![false; states.len()];
-        loop {
-            let mut has_changed = false;
-            for (number, state) in states.iter().enumerate() {
-                for transition in &state.transitions {
-                    let target = transition.target.map_or(number, |target| target.0);
-                    let is_told = self.finds(transition) || told[number] && !self.moves(transition);
-                    has_changed |= is_told && !told[target];
-                    told[target] |= is_told;
-                }
-            }
-            if !has_changed {
-                return told;
-            }
-        }
-    }
-
     fn finds(&self, transition: &Transition) -> bool {
         let mut read = Set::new();
         self.transition(transition, &mut read);

@@ -88,7 +88,7 @@ impl Report<'_> {
         let has_obligations = self.teller.model.instances.iter().flat_map(|instance| &instance.properties);
         if has_obligations.into_iter().any(|property| matches!(property.check, Check::Whenever(_))) {
             bounds.push(if self.teller.model.hides_items {
-                "what a `whenever` waits for is not checked: items on conveyors without commands, cylinders, positioners and tracks are not known".into()
+                format!("what a `whenever` waits for is not checked: {HIDDEN}")
             } else {
                 "what a `whenever` waits for can always still come, after any number of scans; whether it comes in time is not decided"
                     .into()
@@ -114,10 +114,7 @@ impl Report<'_> {
             bounds.push(format!("no state was reached with: {}", never.join("; ")));
         }
         if self.outcome.are_orders_open {
-            bounds.push(
-                "whether orders can be made is not decided: items on conveyors without commands, cylinders, positioners and tracks are not known"
-                    .into(),
-            );
+            bounds.push(format!("whether orders can be made is not decided: {HIDDEN}"));
         }
         if plant.scenario.orders.is_empty() {
             bounds.push("nothing is ordered: whether orders can be made is not checked".into());
@@ -221,6 +218,9 @@ impl Report<'_> {
         })
     }
 }
+
+/// Why something is left open.
+const HIDDEN: &str = "items on conveyors without commands, cylinders, positioners and tracks are not known";
 
 /// What a search that was cut has checked.
 fn checked(failing: usize) -> String {
