@@ -128,7 +128,7 @@ impl Plant {
 
     /// The first scan, not before the next one, at whose start something may have happened, if no output changes:
     /// until then all that moves continues along its path, and nothing else changes. None: nothing ever will.
-    pub(crate) fn next_change(&mut self) -> Option<u64> {
+    pub fn next_change(&mut self) -> Option<u64> {
         let now_ms = self.now_ms();
         let look_ms = self.next_look(now_ms);
         let mut next_ms = self.conveying.next_ms().min(look_ms);
@@ -146,7 +146,7 @@ impl Plant {
 
     /// The second part of [`Self::advance`]: everything moves on to the start of a later scan, before which nothing
     /// happens ([`Self::next_change`]).
-    pub(crate) fn proceed_to(&mut self, scan: u64) {
+    pub fn proceed_to(&mut self, scan: u64) {
         self.items.scan = scan;
         let logged = self.items.log().len();
         while let Some(falls) =
@@ -178,7 +178,7 @@ impl Plant {
 
     /// The first part of [`Self::advance`]: latches commands and levels, and lets go what is to be let go,
     /// before anything moves.
-    pub(crate) fn obey(&mut self, outputs: &[Vec<f64>]) {
+    pub fn obey(&mut self, outputs: &[Vec<f64>]) {
         self.items.scan = self.scan + 1;
         for (index, outputs) in outputs.iter().enumerate().take(self.machines.len()) {
             if !self.has_to_obey(index, outputs) {
@@ -338,6 +338,11 @@ impl Plant {
     /// How a machine moves from now on.
     pub(crate) fn trajectory(&self, machine: usize) -> Trajectory {
         self.machines.get(machine).map_or(Trajectory::Rests, |machine| machine.trajectory(self.now_ms()))
+    }
+
+    /// The scan that starts.
+    pub fn scan(&self) -> u64 {
+        self.scan
     }
 
     /// Time from the start of the run.

@@ -128,12 +128,15 @@ pub fn point(image: &[f64], at: usize) -> Point {
 /// The plant alone, driven by hand.
 pub struct Rig {
     pub plant: Plant,
+    /// The same, in which idle machines are left out.
+    from_event_to_event: Plant,
     pub outputs: Vec<Vec<f64>>,
 }
 
 impl Rig {
     pub fn new(line: &Line) -> Self {
-        Self { plant: Plant::new(line).unwrap(), outputs: plant::outputs(line) }
+        let plant = Plant::new(line).unwrap();
+        Self { from_event_to_event: plant.clone(), plant, outputs: plant::outputs(line) }
     }
 
     pub fn command(&mut self, machine: usize, verb: f64, goal: Option<Point>) {
@@ -143,6 +146,12 @@ impl Rig {
     pub fn step(&mut self, scans: usize) {
         for _ in 0..scans {
             self.plant.advance(&self.outputs);
+            let other = &mut self.from_event_to_event;
+            other.obey(&self.outputs);
+            other.next_change();
+            other.proceed_to(self.plant.scan());
+            assert_eq!(other.images(), self.plant.images());
+            assert_eq!(other.items().log(), self.plant.items().log());
         }
     }
 
