@@ -22,9 +22,10 @@ mod retained;
 mod system;
 mod value;
 
+pub use crate::spec::ast::Operator;
 pub use asking::Asking;
 pub use element::{Element, Group, Named};
-pub use expression::{Expr, ExprKind, Operator, Place};
+pub use expression::{Expr, ExprKind, Place};
 pub use modes::{Action, ByHand, Modes};
 pub use property::{Entry, Kept, Property, PropertyKind, Severity};
 pub use retained::Retained;
