@@ -130,13 +130,15 @@ pub struct Rig {
     pub plant: Plant,
     /// The same, in which idle machines are left out.
     from_event_to_event: Plant,
+    /// The outputs of the last scan: in the next one more may follow from them than the plant says.
+    obeyed: Vec<Vec<f64>>,
     pub outputs: Vec<Vec<f64>>,
 }
 
 impl Rig {
     pub fn new(line: &Line) -> Self {
         let plant = Plant::new(line).unwrap();
-        Self { from_event_to_event: plant.clone(), plant, outputs: plant::outputs(line) }
+        Self { from_event_to_event: plant.clone(), plant, outputs: plant::outputs(line), obeyed: Vec::new() }
     }
 
     pub fn command(&mut self, machine: usize, verb: f64, goal: Option<Point>) {
@@ -148,8 +150,12 @@ impl Rig {
             self.plant.advance(&self.outputs);
             let other = &mut self.from_event_to_event;
             other.obey(&self.outputs);
-            other.next_change();
+            let (logged, next) = (other.items().log().len(), other.next_change());
             other.proceed_to(self.plant.scan());
+            if self.obeyed == self.outputs && next.is_none_or(|next| next > other.scan()) {
+                assert_eq!(other.items().log()[logged..], [], "before scan {next:?}");
+            }
+            self.obeyed.clone_from(&self.outputs);
             assert_eq!(other.images(), self.plant.images());
             assert_eq!(other.items().log(), self.plant.items().log());
         }
