@@ -4,7 +4,7 @@ use super::super::options::{StepOrders, VerifyOptions, Warnings};
 use autogen::verify::Skipped;
 use autogen::verify::replay::Replay;
 use autogen::verify::story::Teller;
-use autogen_search::explore::{End, Outcome};
+use autogen_search::explore::{Decided, End, Outcome};
 use autogen_search::property::Check;
 use autogen_search::story::Execution;
 use autogen_search::violation::Violation;
@@ -30,10 +30,10 @@ pub struct Shown<'a> {
 
 impl Report<'_> {
     fn verdict(&self) -> &'static str {
-        match (self.outcome.violations.is_empty(), self.outcome.end) {
+        match (self.outcome.violations.is_empty(), self.outcome.is_proved()) {
             (false, _) => "violated",
-            (true, End::Complete) => "proved within these bounds",
-            (true, _) => "undecided",
+            (true, true) => "proved within these bounds",
+            (true, false) => "undecided",
         }
     }
 
@@ -87,11 +87,10 @@ impl Report<'_> {
         }
         let has_obligations = self.teller.model.instances.iter().flat_map(|instance| &instance.properties);
         if has_obligations.into_iter().any(|property| matches!(property.check, Check::Whenever(_))) {
-            bounds.push(if self.teller.model.hides_items {
-                format!("what a `whenever` waits for is not checked: {HIDDEN}")
-            } else {
-                "what a `whenever` waits for can always still come, after any number of scans; whether it comes in time is not decided"
-                    .into()
+            bounds.push(match self.undecided(self.outcome.obligations) {
+                Some(why) => format!("whether what a `whenever` waits for can come is not decided: {why}"),
+                None => "what a `whenever` waits for can always still come, after any number of scans; whether it comes in time is not decided"
+                    .into(),
             });
         }
         match self.options.warnings {
@@ -113,13 +112,30 @@ impl Report<'_> {
         if !never.is_empty() {
             bounds.push(format!("no state was reached with: {}", never.join("; ")));
         }
-        if self.outcome.are_orders_open {
-            bounds.push(format!("whether orders can be made is not decided: {HIDDEN}"));
-        }
         if plant.scenario.orders.is_empty() {
             bounds.push("nothing is ordered: whether orders can be made is not checked".into());
+        } else if let Some(why) = self.undecided(self.outcome.orders) {
+            bounds.push(format!("whether orders can be made is not decided: {why}"));
         }
         bounds
+    }
+
+    /// Why a question is not decided, if it is not.
+    fn undecided(&self, question: Decided) -> Option<&'static str> {
+        match question {
+            Decided::Yes => None,
+            Decided::ItemsAreHidden => Some(HIDDEN),
+            Decided::NotReached if !self.outcome.violations.is_empty() => {
+                Some("the search ended with the violation")
+            }
+            Decided::NotReached => Some(self.cut().unwrap_or("the limit was reached before")),
+        }
+    }
+
+    /// Nothing, if nothing is ordered.
+    fn are_orders_decided(&self) -> Option<bool> {
+        let has_orders = !self.teller.project.plant.scenario.orders.is_empty();
+        has_orders.then_some(self.outcome.orders == Decided::Yes)
     }
 
     /// Machines with the states that they have in no reached state of a complete search.
@@ -213,6 +229,7 @@ impl Report<'_> {
             "stopped_states": covered.stopped,
             "depth": covered.depth,
             "failing_scans": covered.failing,
+            "orders_decided": self.are_orders_decided(),
             "time_s": covered.time.as_secs_f64(),
             "memory_bytes": covered.memory,
         })
