@@ -191,6 +191,23 @@ impl<'a> Possible<'a> {
         calm
     }
 
+    /// States from which a machine comes into another state of its automaton at once, or in which an operator has to come.
+    pub(crate) fn go_on(&self) -> Vec<bool> {
+        let model = self.expander.model;
+        let of_automata = |state: u32| {
+            let bytes = self.store.state(state as usize);
+            model.instances.iter().map(|instance| instance.state.load(&bytes)).collect::<Vec<_>>()
+        };
+        let mut go_on: Vec<bool> =
+            (0..self.states).map(|state| model.any_stands(&self.store.state(state))).collect();
+        for (from, to) in &self.edges.list {
+            if !go_on[*from as usize] {
+                go_on[*from as usize] = of_automata(*from) != of_automata(*to);
+            }
+        }
+        go_on
+    }
+
     /// The first of the states `asked` that does not lead to one that can.
     pub(crate) fn reach(
         &mut self,

@@ -13,15 +13,27 @@ use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
 impl Possible<'_> {
-    /// Of each kind the first state, and what it is; of lines with orders alone.
+    /// Of each kind the first state, and what it is.
     pub fn remarks(&mut self) -> Result<Vec<(Violation, usize)>, UsedUp> {
         let model = self.expander.model;
         if model.orders.is_empty() {
-            return Ok(Vec::new());
+            let stand = self.comes_to_a_stand()?.map(|state| (Violation::ComesToAStand, state));
+            return Ok(stand.into_iter().collect());
         }
         let never_rests = self.never_rests()?.map(|state| (Violation::NeverRests, state));
         self.expander.answers = 1;
         Ok(never_rests.into_iter().chain(self.waits_for_time()?).collect())
+    }
+
+    /// The first state, with no failure before it, from which no machine ever comes into another state of its automaton; none
+    /// if items are not known that could come.
+    fn comes_to_a_stand(&mut self) -> Result<Option<usize>, UsedUp> {
+        if self.expander.model.hides_items {
+            return Ok(None);
+        }
+        let goes_on = self.go_on();
+        let calm = self.calm();
+        self.reach(goes_on, &calm, Stops::AreGoals)
     }
 
     /// The first state in which the whole line waits for a time of an instance whose device has not failed.

@@ -60,6 +60,9 @@ impl Teller<'_> {
             Violation::NeverRests => {
                 "all orders are made, and the line cannot come to rest although nothing has failed".into()
             }
+            Violation::ComesToAStand => {
+                "the line comes to a stand for ever, although nothing has failed: each machine waits".into()
+            }
             Violation::WaitsForTime { instance } => format!(
                 "the whole line does nothing until a time of {} has passed, whose device has not failed",
                 name(instance)

@@ -8,7 +8,8 @@ use autogen_search::explore::{Decided, End, Outcome};
 use autogen_search::property::Check;
 use autogen_search::story::Execution;
 use autogen_search::violation::Violation;
-use serde_json::{Value, json};
+use runtime_sim::line::Goal;
+use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
 pub struct Report<'a> {
@@ -110,7 +111,10 @@ impl Report<'_> {
         }
         let never = self.never_entered();
         if !never.is_empty() {
-            bounds.push(format!("no state was reached with: {}", never.join("; ")));
+            bounds.push(format!("no state was reached with: {}", named(&never)));
+        }
+        if let Goal::Collected(_) = plant.scenario.goal {
+            bounds.push("whether the goal of items can be reached is not checked".into());
         }
         if plant.scenario.orders.is_empty() {
             bounds.push("nothing is ordered: whether orders can be made is not checked".into());
@@ -139,7 +143,7 @@ impl Report<'_> {
     }
 
     /// Machines with the states that they have in no reached state of a complete search.
-    fn never_entered(&self) -> Vec<String> {
+    fn never_entered(&self) -> Vec<(&str, Vec<&str>)> {
         if self.outcome.end != End::Complete {
             return Vec::new();
         }
@@ -156,9 +160,20 @@ impl Report<'_> {
         let of_instance = |(number, entered): (usize, Vec<bool>)| {
             let never = states(number).iter().zip(entered).filter(|(_, entered)| !entered);
             let names: Vec<&str> = never.map(|(state, _)| state.name.as_str()).collect();
-            (!names.is_empty()).then(|| format!("{} in {}", system.instances[number].name, names.join(", ")))
+            (!names.is_empty()).then(|| (system.instances[number].name.as_str(), names))
         };
         entered.into_iter().enumerate().filter_map(of_instance).collect()
+    }
+
+    /// What a proof says nothing of.
+    fn exempt(&self) -> String {
+        let never: usize = self.never_entered().iter().map(|(_, states)| states.len()).sum();
+        let system = &self.teller.project.system;
+        let all: usize = (0..system.instances.len()).map(|it| system.automaton_of(it).states.len()).sum();
+        match never {
+            0 => String::new(),
+            _ => format!("; {never} of {all} states of the machines were never reached"),
+        }
     }
 
     pub fn text(&self) -> String {
@@ -173,7 +188,7 @@ impl Report<'_> {
             let _ = writeln!(out, "noticed: {}\n", self.teller.title(remark));
             let _ = writeln!(out, "{}", self.teller.tell(execution));
         }
-        let _ = writeln!(out, "{}\n", self.verdict());
+        let _ = writeln!(out, "{}{}\n", self.verdict(), self.exempt());
         for bound in self.bounds() {
             let _ = writeln!(out, "  {bound}");
         }
@@ -217,10 +232,16 @@ impl Report<'_> {
                 })
             })
             .collect();
+        let never: Map<String, Value> = self
+            .never_entered()
+            .iter()
+            .map(|(machine, states)| (machine.to_string(), json!(states)))
+            .collect();
         json!({
             "verdict": self.verdict(),
             "complete": self.cut().is_none(),
             "bounds": self.bounds(),
+            "never_reached": never,
             "violations": violations,
             "remarks": remarks,
             "states": covered.states,
@@ -238,6 +259,11 @@ impl Report<'_> {
 
 /// Why something is left open.
 const HIDDEN: &str = "items on conveyors without commands, cylinders, positioners and tracks are not known";
+
+fn named(never: &[(&str, Vec<&str>)]) -> String {
+    let machines = never.iter().map(|(machine, states)| format!("{machine} in {}", states.join(", ")));
+    machines.collect::<Vec<_>>().join("; ")
+}
 
 /// What a search that was cut has checked.
 fn checked(failing: usize) -> String {
