@@ -44,7 +44,7 @@ pub struct Model {
 /// What the search leaves out because it changes no verdict.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reductions {
-    /// Steps of instances that would do nothing, and of orders of steps all that differ in these alone; ways to an end, if
+    /// Steps of instances that would do nothing, and of orders of steps all that differ in these alone; paths to an end, if
     /// there is one on which one device does something at a time.
     On,
     /// Nothing: to compare the search with itself.
