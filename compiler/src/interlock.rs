@@ -1,6 +1,7 @@
 //! Machines whose paths cross while no lock of their types keeps them apart.
 
 mod few;
+mod holder;
 mod lock;
 mod region;
 mod stage;

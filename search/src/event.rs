@@ -236,7 +236,10 @@ fn takes(model: &Model, values: &Values, state: &[u8], plant: &Machine, arm: &Ar
     let Asked { action, awaits, .. } = &head.commands[head.command.load(state) as usize];
     match (is_under_way, action, awaits) {
         (true, Action::Motion, Some(_)) => None,
-        (true, Action::Motion, None) => found_at_goal(model, values, state, arm),
+        // What is not known to lie at the goal is taken when the tool is there.
+        (true, Action::Motion, None) => {
+            found_at_goal(model, values, state, arm).filter(|found| found.at != Landing::Elsewhere)
+        }
         _ => surface::found(model, values, state, values.point(arm.tool.load(state)), arm.near),
     }
 }

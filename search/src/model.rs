@@ -23,6 +23,8 @@ pub struct Model {
     pub orders: Vec<Order>,
     /// Items may be where the search does not know them.
     pub hides_items: bool,
+    /// One of these places is carried, by a cylinder, a positioner or a vehicle on a track.
+    pub carries_hidden_items: bool,
     /// Heights of the kinds, m.
     pub heights: Vec<f64>,
     /// Heights over their undersides at which tools grip them, m.
@@ -42,7 +44,7 @@ pub struct Model {
 /// What the search leaves out because it changes no verdict.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reductions {
-    /// Steps of instances that would do nothing, and of orders of steps all that differ in these alone; ways to an end, if
+    /// Steps of instances that would do nothing, and of orders of steps all that differ in these alone; paths to an end, if
     /// there is one on which one device does something at a time.
     On,
     /// Nothing: to compare the search with itself.

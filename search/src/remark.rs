@@ -157,7 +157,7 @@ impl Scan<'_> {
         // One that is switched on for this motion is meant to be.
         let stays_on = arm.closes.is_some_and(|level| level.is_on(self.before) && level.is_on(state));
         let goes_down = is_straight && first[2] < tool[2];
-        if stays_on && is_empty && arm.shown.load(state) == 0 && !goes_down {
+        if stays_on && is_empty && !goes_down {
             return Some(Violation::OnAndEmpty { arm: machine });
         }
         if !asked.is_planned && !is_straight {

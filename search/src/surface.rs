@@ -27,7 +27,7 @@ pub enum Landing {
 pub struct Found {
     pub kind: usize,
     pub at: Landing,
-    /// Whether it lies there was known, and is forgotten.
+    /// Whether it lies there is not known.
     pub is_forgotten: bool,
 }
 
@@ -156,7 +156,16 @@ pub fn found(model: &Model, values: &Values, state: &[u8], tool: Point, near: f6
             }
         }
     }
-    None
+    carried(model, values, state, tool)
+}
+
+/// An item on a place that is carried, where the search knows of none: it may be where no place is known. Of which kind it is, is
+/// known if there is one alone.
+fn carried(model: &Model, values: &Values, state: &[u8], tool: Point) -> Option<Found> {
+    let may_be = model.carries_hidden_items
+        && model.grasps.len() == 1
+        && landing(model, values, state, tool, 0) == Landing::Elsewhere;
+    may_be.then_some(Found { kind: 0, at: Landing::Elsewhere, is_forgotten: true })
 }
 
 /// An empty slot, of a machine that stands, at which an item of some kind would be gripped with the tool here.

@@ -128,6 +128,24 @@ fn orders_for_items_that_are_not_known_are_left_open() {
     assert!(outcome.remarks.is_empty());
 }
 
+/// Boxes come to the deck of a car on a track from a conveyor without commands.
+#[test]
+fn an_item_may_be_on_a_place_that_is_carried() {
+    let (_, texts) = scenes().into_iter().find(|(name, _)| name == "transfer_car").expect("a scene");
+    let project = texts.project();
+    let model = model_of(&project, Faults::All);
+    let outcome = search(&model, &BOUNDS);
+    assert_eq!(verdict(&outcome), (End::Complete, Vec::new()));
+    for (number, program) in model.instances.iter().enumerate() {
+        for (state, text) in project.system.automaton_of(number).states.iter().enumerate() {
+            let mut states = 0..outcome.reached.len();
+            let is_reached =
+                states.any(|of| program.state.load(&outcome.reached.state(of)) as usize == state);
+            assert!(is_reached, "{}", text.name);
+        }
+    }
+}
+
 #[test]
 fn a_fault_is_found_and_its_course_is_the_shortest() {
     let project =

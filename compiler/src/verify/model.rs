@@ -2,7 +2,7 @@
 
 use super::automaton::{Instance, Line, Vars};
 use super::memory::{Kept, Memory, kept};
-use super::plant::{Known, hides_items, plant};
+use super::plant::{Known, carries_hidden_items, hides_items, plant};
 use super::properties::{can_stop, read_by, searched};
 use super::strokes::Changing;
 use super::{Asked, Skipped};
@@ -162,6 +162,7 @@ pub fn model(project: &Project, asked: &Asked) -> Result<Searched, Vec<Diagnosti
         processes: changing.processes,
         orders,
         hides_items: line.machines.iter().any(hides_items),
+        carries_hidden_items: line.machines.iter().any(carries_hidden_items),
         heights: line.kinds.iter().map(|kind| kind.height).collect(),
         grasps: line.kinds.iter().map(|kind| kind.grasp).collect(),
         sensed: sensed(system),

@@ -279,6 +279,11 @@ pub fn hides_items(machine: &Machine) -> bool {
     })
 }
 
+/// Whether one of the places at which items are not searched is carried.
+pub fn carries_hidden_items(machine: &Machine) -> bool {
+    machine.places().any(|place| !is_known(machine, place))
+}
+
 /// What lies on a cylinder, a positioner or a vehicle on a track is nowhere to be found.
 fn is_known(machine: &Machine, place: &runtime_sim::part::place::Place) -> bool {
     machine.strokes_under(place).is_none() && !machine.is_on_track(place)
