@@ -94,3 +94,12 @@ fn what_may_be_a_kind_is_not_told_while_the_kinds_are_not_known() {
     let told = cut.told("cut", &[]);
     assert!(!told.is_empty() && told.iter().all(|told| told.contains("scenario.json")), "{told:#?}");
 }
+
+#[test]
+fn an_arm_that_loads_and_unloads_is_told_to_name_the_place_in_both() {
+    let lists = ",\n     \"takes_from\": [\"infeed\", \"mill\"], \"hands_to\": [\"mill\", \"outfeed\"]";
+    only(
+        &Cell::new().layout(lists, "").told("both", &[]),
+        &["E0504", "name \\\"mill\\\" in both", "\\\"takes_from\\\": [\\\"mill\\\", ...]"],
+    );
+}
