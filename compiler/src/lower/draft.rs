@@ -1,7 +1,7 @@
 //! A line without its values, so that it is read and checked once for many of them.
 
 use super::setting::{self, Setting};
-use super::{Project, Verdict, bind, collected, modes, overlap, plant, restart, role, short};
+use super::{Project, Verdict, bind, collected, kinds, modes, overlap, plant, restart, role, short};
 use crate::check::{self, Checked};
 use crate::device::panel;
 use crate::diagnostic::{self, Diagnostic};
@@ -124,6 +124,11 @@ impl Draft {
         let mut used = check::used(files, &names);
         if layout.panel == Panel::Machines {
             panel::add(&mut used);
+        }
+        if !scenario.is_built_in(sources) {
+            let automata = checked.model().automata.iter().filter(|a| names.contains(&a.name));
+            let devices = automata.map(|automaton| automaton.device.name.as_str()).collect();
+            self.diagnostics.extend(kinds::unknown(&used, &devices, &scenario.names_of_kinds()));
         }
         match check::check(sources, &used, Some(&scenario.names_of_kinds())) {
             Ok(checked) => {

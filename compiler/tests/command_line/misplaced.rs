@@ -103,3 +103,17 @@ fn an_arm_that_loads_and_unloads_is_told_to_name_the_place_in_both() {
         &["E0504", "name \\\"mill\\\" in both", "\\\"takes_from\\\": [\\\"mill\\\", ...]"],
     );
 }
+
+#[test]
+fn a_kind_that_a_process_makes_is_one_of_the_scenario() {
+    let makes = |pair: &str| Cell::new().automata("makes: [blank, bracket]", &format!("makes: [{pair}]"));
+    only(&makes("blank, braket").told("makes", &[]), &["E0710", "tending.aut", "is `bracket` meant?"]);
+    // Another line has such kinds.
+    assert_eq!(makes("blank, bracket, wood, box").told("makes_of_others", &[]), [""; 0]);
+    // No process makes a bracket.
+    only(&makes("wood, bracket").told("makes_none", &[]), &["E0410", "let a process make it"]);
+    let cell =
+        Cell::new().scenario("\"supply\": {\"items\": [\"blank\"]", "\"supply\": {\"items\": [\"rod\"]");
+    let cell = cell.scenario("\"kinds\": [", "\"kinds\": [{\"name\": \"rod\", \"height\": 0.02},");
+    only(&cell.told("makes_of_nothing", &[]), &["E0410", "mill makes it of a `blank`"]);
+}
