@@ -117,3 +117,17 @@ fn a_kind_that_a_process_makes_is_one_of_the_scenario() {
     let cell = cell.scenario("\"kinds\": [", "\"kinds\": [{\"name\": \"rod\", \"height\": 0.02},");
     only(&cell.told("makes_of_nothing", &[]), &["E0410", "mill makes it of a `blank`"]);
 }
+
+#[test]
+fn keys_of_the_device_and_parameters_are_told_apart() {
+    let is_key = ["`cut` is a key of the device `mill`"];
+    let told = Cell::new().told("set", &["mill.cut=2"]);
+    only(&told, &[&["E0511"], &is_key[..]].concat());
+    let inside = Cell::new().layout("\"cut\": 90", "\"cut\": 90, \"parameters\": {\"cut\": 90}");
+    only(&inside.told("inside", &[]), &[&["E0501"], &is_key[..]].concat());
+    let beside = Cell::new().layout("\"type\": \"tender\"", "\"type\": \"tender\", \"height\": 0.03");
+    only(
+        &beside.told("beside", &[]),
+        &["E0111", "`height` is a parameter of `Tender`", "\\\"parameters\\\": {\\\"height\\\": 0.03}"],
+    );
+}
