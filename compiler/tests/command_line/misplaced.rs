@@ -131,3 +131,12 @@ fn keys_of_the_device_and_parameters_are_told_apart() {
         &["E0111", "`height` is a parameter of `Tender`", "\\\"parameters\\\": {\\\"height\\\": 0.03}"],
     );
 }
+
+#[test]
+fn a_misspelt_pose_is_where_it_is_written() {
+    let pose = Cell::new().layout("\"mill\", \"pose\"", "\"mill\", \"poze\"");
+    let told = pose.told("pose", &[]);
+    only(&told, &["E0112", "\\\"pose\\\" or \\\"at\\\" is required", "\"column\":38"]);
+    let none = Cell::new().layout(", \"pose\": [1.50, 0, 0, 90]", "");
+    only(&none.told("no_pose", &[]), &["E0112", "\"column\":5", "add \\\"pose\\\": ... or \\\"at\\\": ..."]);
+}
