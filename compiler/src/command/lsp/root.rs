@@ -97,8 +97,10 @@ fn one(path: &Path, check: impl Fn(&Sources, FileId) -> Vec<Diagnostic>) -> Foun
     }
 }
 
-/// The texts of the library, then those of a folder, and the kinds of part of its scenario.
-fn texts(folder: &Path) -> Result<(Sources, Vec<FileId>, Option<Vec<String>>), String> {
+/// The texts of the library, then those of a folder, and the kinds of part of its scenario if they can be read.
+type OfFolder = (Sources, Vec<FileId>, Option<Vec<String>>);
+
+fn texts(folder: &Path) -> Result<OfFolder, String> {
     let mut sources = Sources::default();
     let mut files = of_library(&mut sources);
     for path in named::automata(folder).map_err(|why| why.to_string())? {
