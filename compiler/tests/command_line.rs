@@ -29,6 +29,8 @@ mod interrupt;
 mod interrupted_write;
 #[path = "../../tests/src/machines.rs"]
 mod machines;
+#[path = "command_line/misplaced.rs"]
+mod misplaced;
 #[path = "command_line/parts.rs"]
 mod parts;
 #[path = "command_line/replications.rs"]

@@ -135,7 +135,7 @@ fn specs(name: &str, text: &str) -> (Specs, FileId) {
         library::FILES.iter().map(|(name, text)| sources.add(*name, *text)).collect();
     let file = sources.add(name, text);
     files.push(file);
-    (Specs::new(sources, &files, None, vec!["battery".into(), "pump".into()]), file)
+    (Specs::new(sources, &files, None, Some(vec!["battery".into(), "pump".into()])), file)
 }
 
 /// Line and word of each name in an automaton, interface or enumeration that means nothing.

@@ -30,7 +30,7 @@ pub fn panelled(files: &[(String, String)], panel: Panel) -> (System, Sources) {
         device::panel::add(&mut trees);
     }
     let kinds = ["bolt", "nut", "washer"].map(String::from);
-    let mut model = match check(&sources, &trees, &kinds) {
+    let mut model = match check(&sources, &trees, Some(&kinds)) {
         Ok(checked) if diagnostics.is_empty() => checked.into_model(),
         Ok(_) => panic!("{}", crate::plain(&sources, &diagnostics)),
         Err(found) => {

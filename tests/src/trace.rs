@@ -144,7 +144,7 @@ fn panelled(spec_text: &str, kinds: &[String], panel: Panel) -> Result<(Sources,
     if panel == Panel::Machines {
         device::panel::add(&mut trees);
     }
-    let checked = check::check(&sources, &trees, kinds).map_err(|d| plain(&sources, &d))?;
+    let checked = check::check(&sources, &trees, Some(kinds)).map_err(|d| plain(&sources, &d))?;
     let mut model = checked.into_model();
     restart::add(&mut model);
     if panel == Panel::Machines {

@@ -20,7 +20,7 @@ fn layouts(specs: &[String]) -> Value {
     let trees: Vec<_> =
         files.into_iter().map(|file| (file, parser::parse(file, &sources.file(file).text).0)).collect();
     let kinds = ["battery", "sensor", "regulator", "pump"].map(String::from);
-    let checked = check(&sources, &trees, &kinds).unwrap_or_else(|found| panic!("{found:#?}"));
+    let checked = check(&sources, &trees, Some(&kinds)).unwrap_or_else(|found| panic!("{found:#?}"));
     schema::layout(checked.model(), false)
 }
 

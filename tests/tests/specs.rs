@@ -19,7 +19,7 @@ fn read(sources: &mut Sources, name: &str, text: &str) -> Result<Vec<Diagnostic>
     let (tree, found) = spec::parser::parse(file, text);
     let mut trees = devices(sources);
     trees.push((file, tree));
-    let checked = check::check(sources, &trees, &["part".to_string()]);
+    let checked = check::check(sources, &trees, Some(&["part".to_string()]));
     if !found.is_empty() {
         return Err(found);
     }

@@ -23,6 +23,7 @@ pub use used::used;
 use crate::device::{self, Device};
 use crate::diagnostic::{Diagnostic, collect, suggestion};
 use crate::ir::{self, Rule};
+use crate::scenario::ANY;
 use crate::source::{FileId, Sources, Span};
 use crate::spec::ast;
 use names::{Names, Space};
@@ -46,14 +47,15 @@ impl Checked {
 }
 
 /// Checks all types of the files. A type of a later file replaces one of the same name of an earlier file.
-/// `kinds` are the kinds of part, from the scenario; at least one.
+/// `kinds` are the kinds of part, from the scenario, at least one. `None`: they could not be read, so a name that
+/// nobody declares may be one of them. It is not reported, but there is no model: nothing may be wrong then.
 pub fn check(
     sources: &Sources,
     files: &[(FileId, ast::File)],
-    kinds: &[String],
+    kinds: Option<&[String]>,
 ) -> Result<Checked, Vec<Diagnostic>> {
     let mut checker = checked(sources, files, kinds, None);
-    if checker.diagnostics.is_empty() {
+    if checker.diagnostics.is_empty() && !checker.has_taken {
         Ok(Checked { model: checker.model })
     } else {
         crate::diagnostic::sort(&mut checker.diagnostics);
@@ -62,14 +64,14 @@ pub fn check(
 }
 
 /// What the names of the files mean, as far as [`check`] understands them: of files with errors too.
-pub fn names(sources: &Sources, files: &[(FileId, ast::File)], kinds: &[String]) -> Names {
+pub fn names(sources: &Sources, files: &[(FileId, ast::File)], kinds: Option<&[String]>) -> Names {
     checked(sources, files, kinds, Some(Names::default())).names.unwrap_or_default()
 }
 
 fn checked<'a>(
     sources: &'a Sources,
     files: &[(FileId, ast::File)],
-    kinds: &[String],
+    kinds: Option<&[String]>,
     names: Option<Names>,
 ) -> Checker<'a> {
     let mut diagnostics = Vec::new();
@@ -78,7 +80,9 @@ fn checked<'a>(
         sources,
         diagnostics,
         declarations,
-        model: empty_model(kinds),
+        model: empty_model(kinds.unwrap_or(&[ANY.into()])),
+        lacks_kinds: kinds.is_none(),
+        has_taken: false,
         broken: BTreeSet::new(),
         devices: Vec::new(),
         refused: Vec::new(),
@@ -193,6 +197,10 @@ struct Checker<'a> {
     diagnostics: Vec<Diagnostic>,
     declarations: Declarations,
     model: ir::Model,
+    /// The members of `Kind` could not be read; one stands for them in the model.
+    lacks_kinds: bool,
+    /// A name was taken for a kind, so the model is not whole.
+    has_taken: bool,
     /// Members of interfaces whose declarations have errors; something stands for them in the model.
     broken: BTreeSet<(ir::InterfaceId, String)>,
     /// Devices by name, in the order of their declarations; none for one with errors.
@@ -204,6 +212,13 @@ struct Checker<'a> {
 }
 
 impl Checker<'_> {
+    /// Whether a name that is not known may be a member of this enumeration; then nothing is reported.
+    fn takes_for_kind(&mut self, id: ir::EnumId) -> bool {
+        let may_be_kind = self.lacks_kinds && self.model.enums[id.0].name == "Kind";
+        self.has_taken |= may_be_kind;
+        may_be_kind
+    }
+
     fn report(&mut self, diagnostic: Diagnostic) {
         collect(&mut self.diagnostics, diagnostic);
     }

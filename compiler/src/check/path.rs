@@ -102,10 +102,12 @@ impl Context<'_, '_> {
                 found.push((ir::EnumId(id), ordinal));
             }
         }
-        if let Some(Scalar::Enum(id)) = expected
-            && let Some(fit) = found.iter().find(|(e, _)| *e == id)
-        {
-            found = vec![*fit];
+        if let Some(Scalar::Enum(id)) = expected {
+            match found.iter().find(|(e, _)| *e == id) {
+                Some(fit) => found = vec![*fit],
+                None if self.checker.takes_for_kind(id) => return None,
+                None => {}
+            }
         }
         match found.as_slice() {
             [(id, ordinal)] => {
@@ -140,7 +142,7 @@ impl Context<'_, '_> {
     }
 
     fn unknown_name(&mut self, name: &str, span: Span) {
-        if self.lacks_names || self.broken.contains(name) {
+        if self.lacks_names || self.broken.contains(name) || self.checker.takes_for_kind(ir::EnumId(0)) {
             return;
         }
         let mut known: Vec<String> = self.symbols.keys().cloned().collect();
@@ -173,8 +175,12 @@ impl Context<'_, '_> {
             && !self.variables.iter().any(|(n, _, _)| n == name)
             && let Some(id) = self.checker.enum_named(name)
         {
+            let ordinal = self.checker.model.enums[id.0].members.iter().position(|m| *m == member.value);
+            if ordinal.is_none() && self.checker.takes_for_kind(id) {
+                return None;
+            }
             let members = &self.checker.model.enums[id.0].members;
-            let Some(ordinal) = members.iter().position(|m| *m == member.value) else {
+            let Some(ordinal) = ordinal else {
                 let help = suggestion(&member.value, members.iter().map(String::as_str))
                     .map_or(format!("its members are {}", members.join(", ")), |n| {
                         format!("is `{n}` meant?")

@@ -192,6 +192,7 @@ impl Checker<'_> {
                         self.uses(expr.span, Space::OfType, &of, name);
                         Value::Int(ordinal as i32)
                     }
+                    None if self.takes_for_kind(id) => return None,
                     None => return self.not_constant(ty, expr),
                 }
             }

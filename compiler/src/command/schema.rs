@@ -55,7 +55,7 @@ fn layout(options: &SchemaOptions) -> Result<Value, Status> {
     }
     let are_known = kinds.is_some();
     let kinds = kinds.unwrap_or_else(|| vec!["part".to_string()]);
-    match check(&sources, &trees, &kinds) {
+    match check(&sources, &trees, Some(&kinds)) {
         Ok(checked) => Ok(schema::layout(checked.model(), are_known)),
         Err(found) => Err(wrong(&sources, &found)),
     }

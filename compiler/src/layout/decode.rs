@@ -217,18 +217,29 @@ impl Decoder {
     ) -> Option<&'a Json> {
         let found = find(members, key);
         if found.is_none() {
-            let opening = Span { end: place.start + 1, ..place };
-            let help = match suggestion(key, members.iter().map(|member| member.key.value.as_str())) {
-                Some(written) => format!("write \"{key}\" instead of \"{written}\""),
-                None => format!("add \"{key}\": ..."),
-            };
-            self.report(
-                Diagnostic::new("E0112", opening, format!("{what} has no key \"{key}\""))
-                    .note(format!("\"{key}\" is required"))
-                    .help(help),
-            );
+            self.missing(members, &[key], place, what);
         }
         found
+    }
+
+    /// None of these keys is there, of which one is required; a key that is one of them but for its spelling is the place.
+    pub fn missing(&mut self, members: &[Member], keys: &[&str], place: Span, what: &str) {
+        let written = members.iter().map(|member| member.key.value.as_str());
+        let near = keys.iter().find_map(|key| Some((*key, suggestion(key, written.clone())?)));
+        let misspelt = near.and_then(|(_, near)| members.iter().find(|member| member.key.value == near));
+        let place = misspelt.map_or(Span { end: place.start + 1, ..place }, |member| member.key.span);
+        let quoted =
+            |behind: &str| -> Vec<String> { keys.iter().map(|key| format!("\"{key}\"{behind}")).collect() };
+        let help = match near {
+            Some((key, written)) => format!("write \"{key}\" instead of \"{written}\""),
+            None => format!("add {}", quoted(": ...").join(" or ")),
+        };
+        let keys = quoted("").join(" or ");
+        self.report(
+            Diagnostic::new("E0112", place, format!("{what} has no key {keys}"))
+                .note(format!("{keys} is required"))
+                .help(help),
+        );
     }
 
     /// The keys of a whole file, which may name its schema for an editor; the help for a key that stands elsewhere.

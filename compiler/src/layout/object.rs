@@ -116,9 +116,10 @@ impl Decoder {
                 self.report(Diagnostic::new("E0148", at.span, message).help("leave out one of the two"));
                 (None, None)
             }
-            (None, _) => {
-                let pose = self.required(members, "pose", json.span, &described);
-                (None, pose.and_then(|j| Some((j.span, self.pose(j)?))))
+            (None, Some(pose)) => (None, self.pose(pose).map(|read| (pose.span, read))),
+            (None, None) => {
+                self.missing(members, &["pose", "at"], json.span, &described);
+                (None, None)
             }
         };
         let parameters = find(members, "parameters").and_then(|j| self.object(j, "parameters"));

@@ -3,7 +3,8 @@
 use crate::device::Placed;
 use crate::diagnostic::{Diagnostic, MOST, collect, suggestion};
 use crate::ir::{Automaton, Model};
-use crate::layout::{self, Layout, Number, Object, Part};
+use crate::layout::decode::readable;
+use crate::layout::{self, Layout, Number, Object, Part, json};
 use runtime_sim::line::Obstacle;
 use std::collections::HashMap;
 
@@ -27,7 +28,8 @@ pub fn bind<'a>(layout: &'a Layout, model: &Model, diagnostics: &mut Vec<Diagnos
         automata.get(automaton_name(&object.kind.value).as_str()).map(|automaton| automaton.device.clone())
     };
     let (frames, found) = layout::at::frames(&layout.objects, &layout.routes, device);
-    found.into_iter().for_each(|d| collect(diagnostics, d));
+    let of_parameters = |d| of_parameters(d, layout, &automata);
+    found.into_iter().for_each(|d| collect(diagnostics, of_parameters(d)));
     for (object, pose) in layout.objects.iter().zip(frames) {
         let name = automaton_name(&object.kind.value);
         match automata.get(name.as_str()) {
@@ -36,7 +38,9 @@ pub fn bind<'a>(layout: &'a Layout, model: &Model, diagnostics: &mut Vec<Diagnos
                     Some(Ok((placed, numbers))) => {
                         bound.robots.push(Robot { object, automaton: name, placed, numbers });
                     }
-                    Some(Err(found)) => found.into_iter().for_each(|d| collect(diagnostics, d)),
+                    Some(Err(found)) => {
+                        found.into_iter().for_each(|d| collect(diagnostics, of_parameters(d)));
+                    }
                     None => {}
                 }
             }
@@ -52,6 +56,35 @@ pub fn bind<'a>(layout: &'a Layout, model: &Model, diagnostics: &mut Vec<Diagnos
         }
     }
     bound
+}
+
+/// The same, and if it is of a key that is a parameter of the automaton, where that belongs.
+fn of_parameters(
+    diagnostic: Diagnostic,
+    layout: &Layout,
+    automata: &HashMap<&str, &Automaton>,
+) -> Diagnostic {
+    if diagnostic.code != "E0111" {
+        return diagnostic;
+    }
+    let key = layout.objects.iter().find_map(|object| {
+        let member = object.members.iter().find(|member| member.key.span == diagnostic.place)?;
+        let automaton = automata.get(automaton_name(&object.kind.value).as_str())?;
+        let mut parameters = automaton.parameters.iter().filter(|parameter| parameter.is_settable());
+        parameters.any(|parameter| parameter.name == member.key.value).then_some((member, automaton))
+    });
+    let Some((member, automaton)) = key else { return diagnostic };
+    let name = &member.key.value;
+    let value = match &member.value.value {
+        json::Value::Number(number) => readable(*number),
+        json::Value::Bool(truth) => truth.to_string(),
+        json::Value::Text(text) => format!("\"{text}\""),
+        _ => "...".into(),
+    };
+    diagnostic.help(format!(
+        "`{name}` is a parameter of `{}`: write `\"parameters\": {{\"{name}\": {value}}}`",
+        automaton.name
+    ))
 }
 
 fn without_automaton(object: &Object, name: &str, model: &Model) -> Diagnostic {

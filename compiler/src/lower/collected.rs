@@ -194,9 +194,23 @@ fn diagnostic(
     let passed = machines.filter(|(number, _)| reached.contains(&(Spot::Machine(*number), kind)));
     let passed: Vec<&str> = passed.map(|(_, machine)| machine.name.as_str()).collect();
     if passed.is_empty() {
-        return diagnostic
-            .note(format!("no source brings a `{name}`"))
-            .help(format!("add `{name}` to `items` of `supply`, or take it out of the goal"));
+        let makers = line.machines.iter().enumerate().flat_map(|(number, machine)| {
+            let from = line.kinds.iter().enumerate();
+            let from = from.filter(move |(from, _)| made_of(line, number, *from).any(|to| to == kind));
+            from.map(|(_, from)| format!("{} makes it of a `{}`", machine.name, from.name))
+        });
+        let makers: Vec<String> = makers.collect();
+        let diagnostic = diagnostic.note(format!("no source brings a `{name}`"));
+        return if makers.is_empty() {
+            diagnostic.note(format!("no process makes a `{name}`")).help(format!(
+                "add `{name}` to `items` of `supply`, let a process make it (`makes: [KIND, {name}]`), or take it out \
+                 of the goal"
+            ))
+        } else {
+            diagnostic.note(makers.join(", ")).help(format!(
+                "let such a kind get there, add `{name}` to `items` of `supply`, or take it out of the goal"
+            ))
+        };
     }
     diagnostic.note(format!("machines that a `{name}` can get to: {}", listing(&passed))).help(
         "let a conveyor begin where the one before it ends, or name a sink after these machines in the goal",

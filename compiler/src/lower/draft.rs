@@ -1,7 +1,7 @@
 //! A line without its values, so that it is read and checked once for many of them.
 
 use super::setting::{self, Setting};
-use super::{Project, Verdict, bind, collected, modes, overlap, plant, restart, role, short};
+use super::{Project, Verdict, bind, collected, kinds, modes, overlap, plant, restart, role, short};
 use crate::check::{self, Checked};
 use crate::device::panel;
 use crate::diagnostic::{self, Diagnostic};
@@ -62,6 +62,9 @@ impl Draft {
     /// `settings` are all that will ever be made: each has to concern somebody and something.
     pub fn new(sources: &Sources, texts: Texts, settings: &[Setting]) -> Self {
         let (layout, mut diagnostics) = texts.layout;
+        // One with errors may name a scenario where it cannot be read.
+        let names_scenario = layout.as_ref().is_some_and(|layout| layout.scenario.is_some());
+        let may_name_another = !names_scenario && !diagnostics.is_empty();
         let mut files = Vec::new();
         let mut syntax_is_right = true;
         let mut left = parser::MOST_TOKENS;
@@ -73,9 +76,13 @@ impl Draft {
         }
         let (scenario, found) = scenario::parse(sources, texts.scenario);
         diagnostics.extend(found);
-        let kinds = scenario.as_ref().map_or_else(|| vec!["part".into()], kinds);
+        let kinds = match &scenario {
+            _ if may_name_another => None,
+            Some(read) => Some(read.names_of_kinds()),
+            None => scenario::kinds(sources, texts.scenario),
+        };
         // What could not be read is missed by what was read: what follows from that would only confuse.
-        let checked = syntax_is_right.then(|| check::check(sources, &files, &kinds));
+        let checked = syntax_is_right.then(|| check::check(sources, &files, kinds.as_deref()));
         let checked = checked.and_then(|checked| checked.map_err(|found| diagnostics.extend(found)).ok());
         let listed = scenario.as_ref().filter(|s| s.orders.number == Number::Listed);
         let orders = listed.map(|s| s.orders.list.len());
@@ -118,7 +125,12 @@ impl Draft {
         if layout.panel == Panel::Machines {
             panel::add(&mut used);
         }
-        match check::check(sources, &used, &kinds(scenario)) {
+        if !scenario.is_built_in(sources) {
+            let automata = checked.model().automata.iter().filter(|a| names.contains(&a.name));
+            let devices = automata.map(|automaton| automaton.device.name.as_str()).collect();
+            self.diagnostics.extend(kinds::unknown(&used, &devices, &scenario.names_of_kinds()));
+        }
+        match check::check(sources, &used, Some(&scenario.names_of_kinds())) {
             Ok(checked) => {
                 let mut model = checked.into_model();
                 restart::add(&mut model);
@@ -240,8 +252,4 @@ impl Parts {
         found.project =
             Some(Project { name: name.clone(), system, plant, edges, may_touch: may_touch.clone() });
     }
-}
-
-fn kinds(scenario: &Scenario) -> Vec<String> {
-    scenario.kinds.iter().map(|k| k.name.value.clone()).collect()
 }

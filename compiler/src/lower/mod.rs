@@ -4,6 +4,7 @@
 pub(crate) mod bind;
 mod collected;
 mod draft;
+mod kinds;
 pub mod modes;
 mod overlap;
 mod parameter;

@@ -1,7 +1,7 @@
 //! Values of parameters: from the layout, the command line, the type's default, or the device.
 
 use super::role::Line;
-use super::setting::Setting;
+use super::setting::{Setting, key_of_device};
 use crate::diagnostic::{Diagnostic, MOST, collect, suggestion};
 use crate::ir::{Extent, Parameter, ParameterSource, Scalar, Type, Value};
 use crate::layout::json::{self, Json};
@@ -29,7 +29,10 @@ impl Line<'_> {
         let all: HashSet<&str> = known.iter().map(String::as_str).collect();
         for (name, _) in &self.robots[robot].object.parameters {
             if !all.contains(name.value.as_str()) && self.diagnostics.len() < MOST {
+                let device = &self.automaton(robot).device;
+                let is_key = device.parameters.iter().any(|parameter| parameter.name == name.value);
                 let help = match suggestion(&name.value, known.iter().map(String::as_str)) {
+                    _ if is_key => key_of_device(&name.value, &device.name),
                     Some(near) => format!("is \"{near}\" meant?"),
                     None if known.is_empty() => "its automaton has no parameters: remove it".into(),
                     None => format!("its parameters are {}", known.join(", ")),

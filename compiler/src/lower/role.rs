@@ -425,8 +425,11 @@ impl<'a> Line<'a> {
                     )
                     .other(place.span, "accepts and offers within reach of the same arm")
                     .help(format!(
-                        "restrict one of the two: \"takes_from\": [...] or \"hands_to\": [...] in `{}`",
-                        arm.name
+                        "if `{arm}` should do both, as at a mill, name \"{place}\" in both: \"takes_from\": [\"{place}\", ...] \
+                         and \"hands_to\": [\"{place}\", ...] in `{arm}`; if not, leave it out of one of them, and \
+                         name there all others that it is for",
+                        arm = arm.name,
+                        place = place.name
                     )),
                 );
             }

@@ -96,6 +96,13 @@ fn check_of_supply(setting: &Setting) -> Option<Diagnostic> {
     None
 }
 
+/// What to write instead of a parameter of the automaton that is a key of the device.
+pub fn key_of_device(name: &str, device: &str) -> String {
+    format!(
+        "`{name}` is a key of the device `{device}`: write it beside \"type\" in the layout, `\"{name}\": ...`"
+    )
+}
+
 /// Each setting has to concern somebody and something.
 pub fn check(settings: &[Setting], bound: &Bound, model: &Model, diagnostics: &mut Vec<Diagnostic>) {
     for setting in settings {
@@ -128,10 +135,16 @@ pub fn check(settings: &[Setting], bound: &Bound, model: &Model, diagnostics: &m
             .map(|p| p.name.as_str())
             .collect();
         if !parameters.contains(&setting.parameter.as_str()) {
-            let help = match suggestion(&setting.parameter, parameters.iter().copied()) {
-                Some(near) => format!("is `{near}` meant?"),
-                None if parameters.is_empty() => "its automaton has no parameters".into(),
-                None => format!("its parameters are {}", parameters.join(", ")),
+            let mut devices = (model.automata.iter())
+                .filter(|a| meant.iter().any(|r| r.automaton == a.name))
+                .map(|a| &a.device);
+            let key_of = devices.find(|d| d.parameters.iter().any(|p| p.name == setting.parameter));
+            let near = suggestion(&setting.parameter, parameters.iter().copied());
+            let help = match (key_of, near) {
+                (Some(device), _) => key_of_device(&setting.parameter, &device.name),
+                (None, Some(near)) => format!("is `{near}` meant?"),
+                (None, None) if parameters.is_empty() => "its automaton has no parameters".into(),
+                (None, None) => format!("its parameters are {}", parameters.join(", ")),
             };
             diagnostics.push(
                 Diagnostic::new(

@@ -121,10 +121,13 @@ fn meaning(specs: &Specs, sources: &Sources) -> Result<Vec<Number>, String> {
     if let Some(first) = unread.first() {
         return Err(first.message.clone());
     }
-    if let Err(found) = check::check(sources, &trees, &specs.kinds) {
-        return Err(found.first().map_or_else(String::new, |first| first.message.clone()));
+    if let Err(found) = check::check(sources, &trees, specs.kinds.as_deref()) {
+        return Err(found.first().map_or_else(
+            || "the kinds of part cannot be read: correct the scenario first".into(),
+            |first| first.message.clone(),
+        ));
     }
-    Ok(check::names(sources, &trees, &specs.kinds).uses().map(|(_, number)| number).collect())
+    Ok(check::names(sources, &trees, specs.kinds.as_deref()).uses().map(|(_, number)| number).collect())
 }
 
 fn is_of_library(specs: &Specs, file: FileId) -> bool {

@@ -14,15 +14,20 @@ pub struct Specs {
     pub files: Vec<(FileId, ast::File)>,
     pub layout: Option<Layout>,
     pub names: Names,
-    /// Of the scenario.
-    pub kinds: Vec<String>,
+    /// Of the scenario; `None`: they could not be read.
+    pub kinds: Option<Vec<String>>,
 }
 
 impl Specs {
     /// What can be read of the files, and meant by them.
-    pub fn new(sources: Sources, files: &[FileId], layout: Option<Layout>, kinds: Vec<String>) -> Self {
+    pub fn new(
+        sources: Sources,
+        files: &[FileId],
+        layout: Option<Layout>,
+        kinds: Option<Vec<String>>,
+    ) -> Self {
         let files = trees(&sources, files).0;
-        let mut names = check::names(&sources, &files, &kinds);
+        let mut names = check::names(&sources, &files, kinds.as_deref());
         if let Some(layout) = &layout {
             uses_of_layout(&sources, layout, &mut names);
         }

@@ -8,7 +8,8 @@ mod supply;
 pub use faults::{
     Answer, Element, Faults, Jam, PartName, Pause, Reading, Refusal, Signal, Slip, SlowCycle, Stuck, Words,
 };
-pub use read::parse;
+pub use read::kinds::ANY;
+pub use read::{kinds, parse};
 pub use resolve::{Input, Line, MachinePart, Panel, resolve};
 
 use crate::source::{FileId, Sources, Span, Spanned};
@@ -112,6 +113,10 @@ impl Scenario {
     /// The same without orders: what the built-in scenario is in a layout in which nothing is made.
     pub fn without_orders(&self) -> Self {
         Self { orders: Orders::none(self.orders.span), ..self.clone() }
+    }
+
+    pub fn names_of_kinds(&self) -> Vec<String> {
+        self.kinds.iter().map(|kind| kind.name.value.clone()).collect()
     }
 
     /// Whether it is the built-in one.

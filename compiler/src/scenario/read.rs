@@ -12,6 +12,7 @@ use crate::diagnostic::{Diagnostic, sort};
 use crate::layout::decode::{Decoder, find};
 use crate::layout::json::{self, Json, Member};
 use crate::source::{FileId, Sources};
+use std::collections::BTreeSet;
 
 pub const KEYS: [&str; 7] = ["kinds", "orders", "supply", "time_limit_s", "faults", "operator", "goal"];
 pub const LONGEST_S: f64 = 1e6;
@@ -27,6 +28,25 @@ pub fn parse(sources: &Sources, file: FileId) -> (Option<Scenario>, Vec<Diagnost
     let scenario = json.and_then(|json| decoder.scenario(&json));
     sort(&mut decoder.diagnostics);
     (scenario.filter(|_| decoder.diagnostics.is_empty()), decoder.diagnostics)
+}
+
+/// The names of the kinds of part, whatever else is wrong with the scenario. `None`: they cannot be read, or the key
+/// `kinds` is not there although the scenario has errors, so that it may be misspelt.
+pub fn kinds(sources: &Sources, file: FileId) -> Option<Vec<String>> {
+    if let (Some(scenario), _) = parse(sources, file) {
+        return Some(scenario.names_of_kinds());
+    }
+    let (json, diagnostics) = json::parse(&sources.file(file).text, file);
+    if !diagnostics.is_empty() {
+        return None;
+    }
+    let mut decoder = Decoder { diagnostics };
+    let json = json?;
+    let list = find(decoder.object(&json, "a scenario")?, "kinds")?;
+    let kinds = decoder.kinds(list)?;
+    let names: BTreeSet<&str> = kinds.iter().map(|kind| kind.name.value.as_str()).collect();
+    let is_whole = names.len() == decoder.list(list, "kinds")?.len();
+    is_whole.then(|| kinds.into_iter().map(|kind| kind.name.value).collect())
 }
 
 impl Decoder {

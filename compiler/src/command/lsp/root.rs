@@ -97,8 +97,10 @@ fn one(path: &Path, check: impl Fn(&Sources, FileId) -> Vec<Diagnostic>) -> Foun
     }
 }
 
-/// The texts of the library, then those of a folder, and the kinds of part of its scenario.
-fn texts(folder: &Path) -> Result<(Sources, Vec<FileId>, Vec<String>), String> {
+/// The texts of the library, then those of a folder, and the kinds of part of its scenario if they can be read.
+type OfFolder = (Sources, Vec<FileId>, Option<Vec<String>>);
+
+fn texts(folder: &Path) -> Result<OfFolder, String> {
     let mut sources = Sources::default();
     let mut files = of_library(&mut sources);
     for path in named::automata(folder).map_err(|why| why.to_string())? {
@@ -107,7 +109,7 @@ fn texts(folder: &Path) -> Result<(Sources, Vec<FileId>, Vec<String>), String> {
     }
     let own = load::add(&mut sources, &folder.join(layouts::SCENARIO)).ok();
     let file = own.unwrap_or_else(|| sources.add(scenario::BUILT_IN, scenario::DEFAULT));
-    let kinds = kinds(&sources, file);
+    let kinds = scenario::kinds(&sources, file);
     Ok((sources, files, kinds))
 }
 
@@ -117,7 +119,7 @@ pub fn specs(root: &Root) -> Option<Specs> {
         Root::Layout(path) => {
             let mut sources = Sources::default();
             let texts = load::texts(&mut sources, path, &[], None).ok()?;
-            let kinds = kinds(&sources, texts.scenario);
+            let kinds = scenario::kinds(&sources, texts.scenario);
             Some(Specs::new(sources, &texts.specs, texts.layout.0, kinds))
         }
         Root::Folder(path) => {
@@ -150,10 +152,10 @@ pub fn line(root: &Root) -> Option<json::Line> {
     let (mut trees, _) = trees(&sources, &specs);
     let automata = trees.iter().flat_map(|(_, file)| &file.automata);
     let declared = automata.map(|automaton| automaton.name.value.clone()).collect();
-    let some = if kinds.is_empty() { vec!["part".into()] } else { kinds.clone() };
-    let checked = check::check(&sources, &trees, &some).or_else(|_| {
+    let known = (!kinds.is_empty()).then_some(kinds.as_slice());
+    let checked = check::check(&sources, &trees, known).or_else(|_| {
         trees.truncate(library::FILES.len());
-        check::check(&sources, &trees, &some)
+        check::check(&sources, &trees, known)
     });
     let model = checked.ok()?.into_model();
     Some(json::Line { model, declared, kinds, things: json::things(&tree) })
@@ -180,13 +182,6 @@ fn texts_named(sources: &mut Sources, path: &Path, layout: &json::Node) -> Optio
     load::texts_of(sources, path, file, &[], None).ok()
 }
 
-fn kinds(sources: &Sources, scenario: FileId) -> Vec<String> {
-    match scenario::parse(sources, scenario).0 {
-        Some(scenario) => scenario.kinds.iter().map(|kind| kind.name.value.clone()).collect(),
-        None => vec!["part".into()],
-    }
-}
-
 fn folder(path: &Path) -> Found {
     let (sources, files, kinds) = match texts(path) {
         Ok(texts) => texts,
@@ -194,7 +189,7 @@ fn folder(path: &Path) -> Found {
     };
     let (trees, mut diagnostics) = trees(&sources, &files);
     if diagnostics.is_empty() {
-        diagnostics = match check::check(&sources, &trees, &kinds) {
+        diagnostics = match check::check(&sources, &trees, kinds.as_deref()) {
             Ok(checked) => lint::warnings(checked.model(), &trees, Panel::Line),
             Err(found) => found,
         };

@@ -20,10 +20,13 @@ const MASS: f64 = 0.1;
 /// Most kinds of part that a line has; a briefcase of the library has a place for each.
 pub const MOST_KINDS: usize = 16;
 
+/// The only kind of a line in which nobody tells kinds apart.
+pub const ANY: &str = "part";
+
 /// Of a line in which nobody tells kinds apart.
 pub fn any(span: Span) -> Kind {
     Kind {
-        name: Spanned { value: "part".into(), span },
+        name: Spanned { value: ANY.into(), span },
         height: SIZE[0],
         grasp: SIZE[0],
         size: SIZE,

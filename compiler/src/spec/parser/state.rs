@@ -8,6 +8,10 @@ use crate::spec::lexer::Token;
 /// Clauses of one guard; they are nested loops.
 const MOST_CLAUSES: usize = 32;
 
+/// What to write instead of an `else` of a transition.
+const OTHERWISE: &str =
+    "only a sequence has an `else`: write another transition for the other case, `when not ... -> State {}`";
+
 impl Parser {
     pub(super) fn parse_any(&mut self) -> Option<ast::AnyState> {
         self.next();
@@ -71,6 +75,11 @@ impl Parser {
                     "close the state before the next one",
                 );
                 return transitions;
+            }
+            if self.at_word("else") {
+                self.error("E0204", "a transition has no `else`".into(), OTHERWISE);
+                self.otherwise();
+                continue;
             }
             if !self.at_word("when") {
                 let found = self.found();
@@ -146,8 +155,13 @@ impl Parser {
             && !self.at_sign("{")
             && !self.at_sign(";")
         {
-            let help = format!("write `{{}}` after `{}`", target.value);
-            self.error("E0205", "`{` is missing before the updates".into(), help);
+            if self.at_word("else") {
+                let help = format!("write `{{}}` or `;` after `{}`; {OTHERWISE}", target.value);
+                self.error("E0205", "`{` is missing before the updates".into(), help);
+                self.otherwise();
+            } else {
+                self.without_updates(target);
+            }
             let span = start.to(self.last_span());
             return Some(ast::Transition {
                 span,
@@ -160,6 +174,24 @@ impl Parser {
         let updates =
             if target.is_some() && self.maybe_sign(";") { Vec::new() } else { self.parse_updates() };
         Some(ast::Transition { span: start.to(self.last_span()), clauses, guard, target, updates })
+    }
+
+    fn without_updates(&mut self, target: &ast::Name) {
+        let help = format!("write `{{}}` or `;` after `{}`", target.value);
+        self.error("E0205", "`{` is missing before the updates".into(), help);
+    }
+
+    /// Skips an `else` that is not allowed, with its state and its updates.
+    fn otherwise(&mut self) {
+        self.next();
+        if self.word().is_some() && !self.at_state() {
+            self.next();
+        }
+        if self.at_sign("{") {
+            self.parse_updates();
+        } else {
+            self.maybe_sign(";");
+        }
     }
 
     fn clause(&mut self) -> Option<ast::Clause> {
@@ -285,7 +317,14 @@ impl Parser {
 
     fn outcome(&mut self, span: Span) -> Option<ast::Outcome> {
         let target = self.expect_name("the next state")?;
-        let updates = if self.maybe_sign(";") { Vec::new() } else { self.parse_updates() };
+        let updates = if self.maybe_sign(";") {
+            Vec::new()
+        } else if self.at_word("else") || self.at_sign("}") || self.at_state() {
+            self.without_updates(&target);
+            Vec::new()
+        } else {
+            self.parse_updates()
+        };
         Some(ast::Outcome { span: span.to(target.span), target, updates })
     }
 
