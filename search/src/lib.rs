@@ -14,6 +14,7 @@ pub mod model;
 mod order;
 pub mod plant;
 mod possible;
+mod practice;
 pub mod program;
 pub mod promela;
 pub mod property;
@@ -25,6 +26,7 @@ pub mod story;
 pub mod stroke;
 pub mod successor;
 mod surface;
+pub mod unread;
 pub mod value;
 pub mod violation;
 
