@@ -8,7 +8,6 @@ mod step;
 
 use crate::device::Port;
 use crate::ir::{Element, FaultId, Scalar, System, Type, Value, VariableId};
-pub(crate) use evaluate::less;
 pub use properties::Alarm;
 use runtime_sim::device::{Direction, PortType, Stop};
 use runtime_sim::scan::{Controllers, SystemInputs, SystemOutputs};

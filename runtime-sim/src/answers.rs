@@ -29,9 +29,18 @@ impl<Q: Eq + Hash, A: Clone + PartialEq> Answers<Q, A> {
         Self { most, known: Mutex::new(known) }
     }
 
+    /// An answer that is known.
+    pub fn known(&self, question: &Q) -> Option<A> {
+        self.lock().get(question, self.most).map(|(answer, _)| answer)
+    }
+
+    pub fn note(&self, question: Q, answer: A) {
+        self.lock().insert(question, answer, self.most);
+    }
+
     /// The answer to a question: `compute` may depend on nothing else.
     pub fn get(&self, question: Q, compute: impl FnOnce() -> A) -> A {
-        let known = self.known().get(&question, self.most);
+        let known = self.lock().get(&question, self.most);
         if let Some((answer, given)) = known {
             if cfg!(debug_assertions) && given % CHECKED == 0 {
                 assert!(compute() == answer, "what is remembered depends on more than it is asked by");
@@ -39,12 +48,12 @@ impl<Q: Eq + Hash, A: Clone + PartialEq> Answers<Q, A> {
             return answer;
         }
         let answer = compute();
-        self.known().insert(question, answer.clone(), self.most);
+        self.note(question, answer.clone());
         answer
     }
 
     /// Another run may look while one computes.
-    fn known(&self) -> MutexGuard<'_, Known<Q, A>> {
+    fn lock(&self) -> MutexGuard<'_, Known<Q, A>> {
         // Nothing panics while it is locked.
         self.known.lock().unwrap_or_else(PoisonError::into_inner)
     }

@@ -1,5 +1,6 @@
 //! What runs of the same machines have in common: motions that were computed, and what was found free of contact.
 
+use crate::answers::Answers;
 use crate::collision::Swept;
 use crate::fingerprint::Fingerprint;
 use crate::line::{Kind, Line, Obstacle};
@@ -7,7 +8,6 @@ use crate::part::Part;
 use crate::part::chain::motions::Motions;
 use crate::planner::Planner;
 use crate::point::Point;
-use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// It changes no result: a run with the memory of another one is the same, and faster. Of other machines, obstacles or
@@ -16,9 +16,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 pub struct Memory {
     surroundings: Option<Surroundings>,
     shared: Arc<Mutex<Shared>>,
-    free: Arc<Mutex<Free>>,
-    /// What contains an arm on each piece of its path.
-    boxes: HashMap<Fingerprint, Arc<[Swept]>>,
+    contacts: Arc<Contacts>,
 }
 
 /// What several memories have in common.
@@ -27,11 +25,23 @@ struct Shared {
     surroundings: Option<Surroundings>,
     /// By machine; none for what is no arm.
     motions: Vec<Option<Arc<Motions>>>,
-    free: Arc<Mutex<Free>>,
+    contacts: Arc<Contacts>,
 }
 
-/// Whether a motion is free of contact with what rests.
-type Free = HashMap<Fingerprint, bool>;
+/// What was found about motions and places, by their fingerprints.
+#[derive(Debug)]
+struct Contacts {
+    /// Whether a motion is free of contact with what rests, or two that rest are.
+    free: Answers<Fingerprint, bool>,
+    /// What contains an arm on each piece of its path.
+    boxes: Answers<Fingerprint, Arc<[Swept]>>,
+}
+
+impl Default for Contacts {
+    fn default() -> Self {
+        Self { free: Answers::new(MOST), boxes: Answers::new(MOST_BOXES) }
+    }
+}
 
 /// All that paths and contacts depend on.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,10 +58,10 @@ impl Surroundings {
     }
 }
 
-/// So many answers are remembered, in all runs at the same time: 24 bytes each.
-const MOST: usize = 1_000_000;
-/// So many motions have their boxes remembered: 9 kB each.
-const MOST_BOXES: usize = 10_000;
+/// So many answers of late are remembered, and as many older ones, in all runs at the same time: 24 bytes each.
+const MOST: usize = 500_000;
+/// So many motions have their boxes remembered, and as many older ones: 9 kB each.
+const MOST_BOXES: usize = 5_000;
 
 impl Memory {
     /// Forgets what is about other machines.
@@ -59,8 +69,8 @@ impl Memory {
         let surroundings = Surroundings::of(line);
         if self.surroundings.as_ref() != Some(&surroundings) {
             *self = Self { surroundings: Some(surroundings), shared: self.shared.clone(), ..Self::default() };
-            let free = self.shared(line).free.clone();
-            self.free = free;
+            let contacts = self.shared(line).contacts.clone();
+            self.contacts = contacts;
         }
     }
 
@@ -88,35 +98,24 @@ impl Memory {
         if shared.surroundings != self.surroundings {
             let motions = vec![None; line.machines.len()];
             let surroundings = self.surroundings.clone();
-            *shared = Shared { surroundings, motions, free: Arc::default() };
+            *shared = Shared { surroundings, motions, contacts: Arc::default() };
         }
         shared
     }
 
-    pub(crate) fn boxes(
-        &mut self,
-        motion: Fingerprint,
-        compute: impl FnOnce() -> Arc<[Swept]>,
-    ) -> Arc<[Swept]> {
-        if self.boxes.len() >= MOST_BOXES {
-            self.boxes.clear();
-        }
-        self.boxes.entry(motion).or_insert_with(compute).clone()
+    pub(crate) fn boxes(&self, motion: Fingerprint, compute: impl FnOnce() -> Arc<[Swept]>) -> Arc<[Swept]> {
+        self.contacts.boxes.known(&motion).unwrap_or_else(|| {
+            let boxes = compute();
+            self.contacts.boxes.note(motion, boxes.clone());
+            boxes
+        })
     }
 
     pub(crate) fn is_free(&self, question: Fingerprint) -> Option<bool> {
-        self.free().get(&question).copied()
+        self.contacts.free.known(&question)
     }
 
     pub(crate) fn note_free(&self, question: Fingerprint, is_free: bool) {
-        let mut free = self.free();
-        if free.len() >= MOST {
-            free.clear();
-        }
-        free.insert(question, is_free);
-    }
-
-    fn free(&self) -> MutexGuard<'_, Free> {
-        self.free.lock().unwrap_or_else(PoisonError::into_inner)
+        self.contacts.free.note(question, is_free);
     }
 }

@@ -7,6 +7,7 @@ mod delay;
 pub(crate) mod fall;
 mod faults;
 mod gripping;
+mod idle;
 mod sight;
 pub mod trajectory;
 mod working;
@@ -59,6 +60,8 @@ pub struct Plant {
     /// By machine.
     next_looks: Vec<Option<NextLook>>,
     lying: Option<Lying>,
+    /// Events of items and orders that have woken whom they concern.
+    heard: usize,
 }
 
 impl Plant {
@@ -97,6 +100,7 @@ impl Plant {
             scanning,
             next_looks: vec![None; line.machines.len()],
             lying: None,
+            heard: 0,
         };
         plant.sight();
         plant.write_images();
@@ -124,12 +128,15 @@ impl Plant {
 
     /// The first scan, not before the next one, at whose start something may have happened, if no output changes:
     /// until then all that moves continues along its path, and nothing else changes. None: nothing ever will.
-    pub(crate) fn next_change(&mut self) -> Option<u64> {
+    pub fn next_change(&mut self) -> Option<u64> {
         let now_ms = self.now_ms();
         let look_ms = self.next_look(now_ms);
-        let next = self.machines.iter().map(|machine| machine.next_change(&self.items, &self.desk, now_ms));
+        let mut next_ms = self.conveying.next_ms().min(look_ms);
+        for machine in 0..self.machines.len() {
+            next_ms = next_ms.min(self.next_change_of(machine));
+        }
         let sights = self.scanning.iter().map(|machine| self.next_sight(*machine));
-        let next_ms = next.chain(sights).fold(self.conveying.next_ms().min(look_ms), f64::min);
+        let next_ms = sights.fold(next_ms, f64::min);
         // What is rounded may be early.
         let scan = ((next_ms - EARLY_MS) / self.scan_ms as f64).ceil() as u64;
         let next = next_ms.is_finite().then(|| scan.max(self.scan + 1));
@@ -139,7 +146,7 @@ impl Plant {
 
     /// The second part of [`Self::advance`]: everything moves on to the start of a later scan, before which nothing
     /// happens ([`Self::next_change`]).
-    pub(crate) fn proceed_to(&mut self, scan: u64) {
+    pub fn proceed_to(&mut self, scan: u64) {
         self.items.scan = scan;
         let logged = self.items.log().len();
         while let Some(falls) =
@@ -147,16 +154,22 @@ impl Plant {
         {
             self.fall(falls);
         }
+        self.wake_concerned(self.now_ms());
+        let next_ms = scan * self.scan_ms;
         let (machines, mut shared) = self.split(scan);
-        machines.iter_mut().for_each(|machine| machine.advance(&mut shared));
+        working(machines).for_each(|machine| machine.advance(&mut shared));
         self.slip(scan);
         self.grip(scan);
+        self.wake_concerned(next_ms);
         let (machines, mut shared) = self.split(scan);
-        for machine in machines.iter_mut() {
+        for machine in working(machines) {
             machine.settle(&mut shared);
             machine.serve(&mut shared);
         }
-        machines.iter_mut().for_each(|machine| machine.withdraw(&mut shared));
+        self.wake_concerned(next_ms);
+        let (machines, mut shared) = self.split(scan);
+        working(machines).for_each(|machine| machine.withdraw(&mut shared));
+        self.wake_concerned(next_ms);
         self.scan = scan;
         self.has_handed = self.items.log().len() > logged;
         self.sight();
@@ -165,9 +178,12 @@ impl Plant {
 
     /// The first part of [`Self::advance`]: latches commands and levels, and lets go what is to be let go,
     /// before anything moves.
-    pub(crate) fn obey(&mut self, outputs: &[Vec<f64>]) {
+    pub fn obey(&mut self, outputs: &[Vec<f64>]) {
         self.items.scan = self.scan + 1;
         for (index, outputs) in outputs.iter().enumerate().take(self.machines.len()) {
+            if !self.has_to_obey(index, outputs) {
+                continue;
+            }
             let (machines, mut shared) = self.split(self.scan + 1);
             machines[index].obey(outputs, &mut shared);
             while let Some(item) = self.machines[index].let_go() {
@@ -178,6 +194,7 @@ impl Plant {
         while let Some(falls) = self.convey(|conveying, among, _| conveying.look(among, now_ms)) {
             self.fall(falls);
         }
+        self.wake_concerned(now_ms);
     }
 
     fn convey<T>(&mut self, work: impl FnOnce(&mut Conveying, &mut Among, u64) -> T) -> T {
@@ -232,7 +249,14 @@ impl Plant {
     }
 
     fn write_images(&mut self) {
+        if cfg!(debug_assertions) {
+            let idle = (0..self.machines.len()).filter(|machine| self.is_idle(*machine));
+            idle.for_each(|machine| self.check_idle(machine));
+        }
         for (machine, image) in self.machines.iter().zip(&mut self.images) {
+            if machine.is_idle() {
+                continue;
+            }
             machine.write(image, &self.items, &self.desk);
             machine.faults().stick(self.scan, image);
         }
@@ -316,6 +340,11 @@ impl Plant {
         self.machines.get(machine).map_or(Trajectory::Rests, |machine| machine.trajectory(self.now_ms()))
     }
 
+    /// The scan that starts.
+    pub fn scan(&self) -> u64 {
+        self.scan
+    }
+
     /// Time from the start of the run.
     pub fn now_ms(&self) -> u64 {
         self.scan * self.scan_ms
@@ -345,6 +374,11 @@ impl Plant {
         self.trajectory(machine).since(self.now_ms() as f64) != Trajectory::Rests
             || self.machines.get(machine).is_some_and(|working| working.flows(self.now_ms()))
     }
+}
+
+/// Those that are not idle.
+fn working(machines: &mut [Working]) -> impl Iterator<Item = &mut Working> {
+    machines.iter_mut().filter(|machine| !machine.is_idle())
 }
 
 /// An image of zeros for the outputs of each machine.

@@ -11,6 +11,7 @@ use crate::machine::Machine;
 use crate::monitor;
 use crate::plant::Plant;
 use crate::shortage::point_text;
+use std::collections::BTreeMap;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
@@ -30,6 +31,8 @@ pub struct Report {
     pub seconds_per_order: Option<f64>,
     /// How many items of a goal the sinks have, and how many they should have; `None` without such a goal.
     pub collected: Option<[u64; 2]>,
+    /// What the sinks have collected: sink, kind and number of items, such as `good.box`, `cover`, 10.
+    pub sinks: Vec<(String, String, u64)>,
     /// Of orders without end those that have opened.
     pub order_times: Vec<OrderTimes>,
     /// Those that were raised, in layout order.
@@ -165,6 +168,7 @@ impl Report {
             orders: if is_endless { orders_done } else { line.scenario.orders.len() },
             seconds_per_order: (orders_done > 0).then(|| simulated_s / orders_done as f64),
             collected: collected(line, plant),
+            sinks: sinks(line, plant),
             order_times,
             machines: line
                 .machines
@@ -202,6 +206,15 @@ impl Report {
             if let Some([collected, asked]) = self.collected {
                 json.put_int("items_collected", collected);
                 json.put_int("items_asked", asked);
+            }
+            if !self.sinks.is_empty() {
+                json.put_object("sinks", |json| {
+                    for of_sink in self.sinks.chunk_by(|(a, ..), (b, ..)| a == b) {
+                        json.put_object(&of_sink[0].0, |json| {
+                            of_sink.iter().for_each(|(_, kind, count)| json.put_int(kind, *count));
+                        });
+                    }
+                });
             }
             json.put_list("order_times", &self.order_times, |json, times| {
                 json.put_int("order", times.number as u64);
@@ -277,6 +290,21 @@ fn collected(line: &Line, plant: &Plant) -> Option<[u64; 2]> {
         }
     }
     Some(sums)
+}
+
+/// Numbers of items by sink and kind, none of which is 0, in layout order.
+fn sinks(line: &Line, plant: &Plant) -> Vec<(String, String, u64)> {
+    let mut counts: BTreeMap<[usize; 3], u64> = BTreeMap::new();
+    for item in plant.items().all() {
+        if let Carrier::Sink { machine, part } = item.carrier {
+            *counts.entry([machine, part, item.kind]).or_default() += 1;
+        }
+    }
+    let named = counts.into_iter().map(|([machine, part, kind], count)| {
+        let Machine { name, parts, .. } = &line.machines[machine];
+        (format!("{name}.{}", parts[part].name), line.kinds[kind].name.clone(), count)
+    });
+    named.collect()
 }
 
 /// The alarms that a trace has as raised.

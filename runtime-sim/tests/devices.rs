@@ -403,6 +403,18 @@ fn a_part_put_back_on_the_belt_travels_on() {
 }
 
 #[test]
+fn a_gripper_that_waits_takes_what_comes_to_it() {
+    let at = Rig::new(&line()).bring(BATTERY);
+    let mut rig = Rig::new(&line());
+    rig.go(KITTING, MOVE, grip_point(at, BATTERY));
+    rig.outputs[KITTING][output::GRIP] = 1.0;
+    rig.step(300);
+    assert!(near(rig.bring(BATTERY), at));
+    rig.step(100);
+    assert_eq!(rig.image(KITTING)[input::ATTACHED], 1.0);
+}
+
+#[test]
 fn a_slip_loses_the_part_it_names() {
     let mut line = line();
     line.scenario.slips = vec![Slip { machine: KITTING, pick: 2, after_s: 0.3 }];

@@ -21,7 +21,7 @@ pub enum What {
     Loses(From),
     /// The gripper takes the item that is there.
     Takes,
-    /// It becomes known that the gripper is empty.
+    /// It becomes known whether an item hangs on the gripper.
     Shows,
     /// The next order opens.
     Opens,
@@ -49,6 +49,8 @@ pub enum Ending {
     Well,
     /// Well, and an item hangs on the gripper.
     WithItem,
+    /// The same, and the controller does not see the item yet.
+    WithItemUnseen,
     /// What is awaited did not come.
     InVain,
     /// In this error, before anything has moved.
@@ -90,7 +92,9 @@ pub(crate) fn events(model: &Model, values: &Values, state: &[u8], source: usize
     let mut add = |what| out.push(Event { machine, what });
     if source % 2 == 1 {
         let program = &model.instances[machine];
-        if let Some(times) = program.times_come.filter(|_| !model.stands(state, machine)) {
+        let may_come = !model.stands(state, machine)
+            && (model.faults == Faults::All || !is_item_unseen(model, state, machine));
+        if let Some(times) = program.times_come.filter(|_| may_come) {
             let number = program.state.load(state) as usize;
             if (times.load(state) as usize) < program.states[number].times.len() {
                 add(What::TimeComes);
@@ -108,7 +112,7 @@ pub(crate) fn events(model: &Model, values: &Values, state: &[u8], source: usize
     }
     if let Some(arm) = &plant.arm {
         let holds = arm.holds.load(state);
-        if holds == 0 && arm.shown.load(state) != 0 {
+        if (holds != 0) != (arm.shown.load(state) != 0) {
             add(What::Shows);
         }
         if holds != 0 && has_faults {
@@ -148,6 +152,7 @@ fn endings(
             add(Ending::Well);
         } else if found_at_goal(model, values, state, arm).is_some() {
             add(Ending::WithItem);
+            add(Ending::WithItemUnseen);
         }
         let is_there = |found: Option<surface::Found>| found.is_some_and(|found| !found.is_forgotten);
         if arm.holds.load(state) == 0
@@ -180,6 +185,8 @@ pub(crate) fn is_fault(model: &Model, values: &Values, state: &[u8], event: &Eve
     let plant = &model.machines[event.machine];
     match (event.what, &plant.head, &plant.arm) {
         (What::Loses(_), ..) => true,
+        // A bus is later than the machine waits.
+        (What::TimeComes, ..) => is_item_unseen(model, state, event.machine),
         (What::Ends(Ending::Refused(_)), Some(head), _) => {
             is_reached(values, state, plant, &head.commands[head.command.load(state) as usize])
         }
@@ -190,12 +197,20 @@ pub(crate) fn is_fault(model: &Model, values: &Values, state: &[u8], event: &Eve
     }
 }
 
+/// Whether an item hangs on the gripper, and the controller does not see it yet.
+fn is_item_unseen(model: &Model, state: &[u8], machine: usize) -> bool {
+    let arm = model.machines[machine].arm.as_ref();
+    arm.is_some_and(|arm| arm.holds.load(state) != 0 && arm.shown.load(state) == 0)
+}
+
 /// Whether an event depends on what is forgotten: it may be that it cannot happen.
 pub(crate) fn is_guess(model: &Model, values: &Values, state: &[u8], event: &Event) -> bool {
     let plant = &model.machines[event.machine];
     let Some(arm) = &plant.arm else { return false };
     let found = match event.what {
-        What::Ends(Ending::InVain | Ending::WithItem) => found_at_goal(model, values, state, arm),
+        What::Ends(Ending::InVain | Ending::WithItem | Ending::WithItemUnseen) => {
+            found_at_goal(model, values, state, arm)
+        }
         What::Takes => takes(model, values, state, plant, arm),
         _ => None,
     };
@@ -307,7 +322,8 @@ pub(crate) fn apply(model: &Model, values: &mut Values, state: &mut [u8], event:
         }
         What::Shows => {
             if let Some(arm) = &plant.arm {
-                arm.shown.store(state, 0);
+                let shown = i32::from(arm.holds.load(state) != 0);
+                arm.shown.store(state, shown);
             }
         }
         What::Opens => open(model, state, plant),
@@ -326,13 +342,13 @@ fn end(model: &Model, values: &Values, state: &mut [u8], plant: &Machine, ending
     let Some(head) = &plant.head else { return };
     let asked = &head.commands[head.command.load(state) as usize];
     let error = match ending {
-        Ending::Well | Ending::WithItem => 0,
+        Ending::Well | Ending::WithItem | Ending::WithItemUnseen => 0,
         Ending::InVain => asked.awaits.map_or(0, |awaits| awaits.error),
         Ending::Refused(error) => error,
     };
     let has_moved = !matches!(ending, Ending::Refused(_));
     if let Some(arm) = &plant.arm {
-        if ending == Ending::WithItem
+        if matches!(ending, Ending::WithItem | Ending::WithItemUnseen)
             && let Some(found) = found_at_goal(model, values, state, arm)
         {
             take(model, state, arm, found);
@@ -343,8 +359,8 @@ fn end(model: &Model, values: &Values, state: &mut [u8], plant: &Machine, ending
         }
         arm.via.store(state, 0);
         arm.goal.store(state, 0);
-        let shown = i32::from(arm.holds.load(state) != 0);
-        arm.shown.store(state, shown);
+        let is_shown = arm.holds.load(state) != 0 && ending != Ending::WithItemUnseen;
+        arm.shown.store(state, i32::from(is_shown));
     }
     if let Some(route) = &plant.route {
         if has_moved {

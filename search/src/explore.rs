@@ -6,7 +6,7 @@ use crate::event::Event;
 use crate::expanded::{self, Expanded, Step};
 use crate::model::Model;
 use crate::plant::Faults;
-use crate::possible::{Edges, Mark, Possible};
+use crate::possible::{Allowance, Edges, Mark, Possible};
 use crate::practice::{self, Random, Rehearsal};
 use crate::reached::Reached;
 use crate::story::{self, Execution};
@@ -68,6 +68,16 @@ pub enum End {
     TooManyValues,
 }
 
+/// Whether a question is decided.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Decided {
+    Yes,
+    /// No: the answer may depend on items that the search does not know.
+    ItemsAreHidden,
+    /// No: the search ended before.
+    NotReached,
+}
+
 pub struct Outcome {
     pub covered: Covered,
     pub end: End,
@@ -75,14 +85,43 @@ pub struct Outcome {
     pub violations: Vec<(Violation, Execution)>,
     /// What is hardly meant, and the shortest execution to it. Only if the search is complete and found no violation.
     pub remarks: Vec<(Violation, Execution)>,
-    /// No sequence makes the orders, and they may need items that the search does not know.
-    pub are_orders_open: bool,
+    /// Whether it is decided that the orders can always still be made, in the sequences that were checked completely.
+    pub orders: Decided,
+    /// The same of what is waited for.
+    pub obligations: Decided,
     /// All states that were reached.
     pub reached: Reached,
     /// Points and reals by their numbers in these states.
     pub values: Values,
     /// Where nothing is read of what is forgotten: another search may begin with that.
     pub unread: Unread,
+}
+
+impl Outcome {
+    /// Whether everything was checked, as far as the search knows of it, and nothing found.
+    pub fn is_proved(&self) -> bool {
+        let is_reached = [self.orders, self.obligations].into_iter().all(|it| it != Decided::NotReached);
+        self.violations.is_empty() && self.end == End::Complete && is_reached
+    }
+}
+
+/// What is possible is checked with what the limits have left, and in any case for so long, for a fifth of the time of the
+/// search, and with a fifth of the memory.
+const LEAST_CHECK: Duration = Duration::from_secs(1);
+
+impl Allowance {
+    fn after(end: End, covered: &Covered, bounds: &Bounds) -> Self {
+        let left = match end {
+            // Whoever has stopped it waits.
+            End::Stopped => Some(Duration::ZERO),
+            _ => bounds.time.map(|time| time.saturating_sub(covered.time)),
+        };
+        let time = left.map(|left| left.max(covered.time / 5).max(LEAST_CHECK));
+        Self {
+            until: time.and_then(|time| Instant::now().checked_add(time)),
+            memory: bounds.memory.saturating_sub(covered.memory).max(bounds.memory / 5),
+        }
+    }
 }
 
 /// States are expanded for so long before what was found is put together.
@@ -365,9 +404,10 @@ fn attempt(
     watch: &mut dyn FnMut(&Covered) -> bool,
 ) -> Result<Outcome, (usize, Vec<Rehearsal>)> {
     let mut search = Search::new(model, bounds, begin, watch);
-    let (cut, checked) = search.search(model.faults);
+    let (mut cut, checked) = search.search(model.faults);
     if !search.needed.is_empty() {
-        if search.end().is_none() {
+        cut = search.end();
+        if cut.is_none() {
             return Err((search.store.len(), search.rehearsals()));
         }
         search.found.truncate(search.certain);
@@ -382,25 +422,25 @@ fn attempt(
     let mut violations: Vec<(Violation, Execution)> =
         found.into_iter().map(|found| told(&mut first, found)).collect();
     let mut remarks = Vec::new();
-    let mut are_orders_open = false;
+    let (mut orders, mut obligations) = (Decided::NotReached, Decided::NotReached);
     if end != End::Violated && checked.states > 0 {
         let calm = Model { faults: Faults::None, ..model.clone() };
         edges.forget_after(&checked.edges);
-        let mut possible = Possible::new(&calm, &store, checked.states, &edges, &first.values, bounds);
-        are_orders_open = model.hides_items && possible.is_never_made_from_the_start();
-        let never = if are_orders_open { None } else { possible.never_made() };
-        let never = never.map(|state| (Violation::NeverMade, state));
-        let mut never: Vec<(Violation, usize)> = never.into_iter().collect();
-        if violations.len() + never.len() < bounds.violations && !model.hides_items {
-            never.extend(possible.never_followed());
+        let allowance = Allowance::after(end, &covered, bounds);
+        let mut possible =
+            Possible::new(&calm, &store, checked.states, &edges, &first.values, bounds, allowance);
+        let mut never = Vec::new();
+        orders = possible.orders(&mut never);
+        if violations.len() + never.len() < bounds.violations {
+            obligations = possible.obligations(&mut never);
         }
         for (violation, state) in never {
             violations.push((violation, story::to_state(&store, &mut first, state)));
         }
         violations.truncate(bounds.violations);
         if violations.is_empty() && end == End::Complete {
-            let of_orders = if are_orders_open { Vec::new() } else { possible.remarks() };
-            for (remark, state) in of_orders {
+            let of_orders = if orders == Decided::Yes { possible.remarks().ok() } else { None };
+            for (remark, state) in of_orders.into_iter().flatten() {
                 remarks.push((remark, story::to_state(&store, &mut first, state)));
             }
             remarks.extend(remarked.into_iter().map(|found| told(&mut first, found)));
@@ -416,5 +456,5 @@ fn attempt(
     }
     covered.time = begin.elapsed();
     let (values, unread) = (first.values, model.unread.clone());
-    Ok(Outcome { covered, end, violations, remarks, are_orders_open, reached: store, values, unread })
+    Ok(Outcome { covered, end, violations, remarks, orders, obligations, reached: store, values, unread })
 }

@@ -1,16 +1,17 @@
 //! Whether the orders can always still be made, and what is waited for can always still come: from every state that was
-//! reached there is a way to one in which it is so, on which no device fails any more.
+//! reached there is a path to one in which it is so, on which no device fails any more.
 
-use crate::explore::Bounds;
+use crate::explore::{Bounds, Decided};
 use crate::model::{Model, Reductions};
 use crate::property::Check;
 use crate::reached::Reached;
 use crate::successor::Expander;
 use crate::value::Values;
 use crate::violation::Violation;
+use std::time::Instant;
 
-/// Ways on by which at most one device did something, and nothing failed. If they lead to the orders, these can be made; if
-/// they do not, all ways on which nothing fails are checked.
+/// Transitions before which at most one device did something, and nothing failed. If paths of them lead to the orders, these
+/// can be made; if they do not, all paths on which nothing fails are checked.
 #[derive(Default)]
 pub(crate) struct Edges {
     list: Vec<(u32, u32)>,
@@ -60,7 +61,26 @@ impl Edges {
 
     /// Bytes of memory that they take, and that sorting them will take.
     pub fn size(&self) -> usize {
-        12 * self.list.capacity()
+        BYTES_OF_EDGE * self.list.capacity()
+    }
+}
+
+/// For how long, and with how much memory beside that of the search, it is checked what is possible.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Allowance {
+    pub until: Option<Instant>,
+    /// Bytes.
+    pub memory: usize,
+}
+
+/// The allowance did not suffice.
+#[derive(Debug)]
+pub(crate) struct UsedUp;
+
+impl Allowance {
+    pub fn check(&self, memory: usize) -> Result<(), UsedUp> {
+        let is_late = self.until.is_some_and(|until| Instant::now() > until);
+        if is_late || memory > self.memory { Err(UsedUp) } else { Ok(()) }
     }
 }
 
@@ -71,6 +91,7 @@ pub(crate) struct Possible<'a> {
     pub(crate) states: usize,
     edges: &'a Edges,
     pub(crate) expander: Expander<'a>,
+    pub(crate) allowance: Allowance,
 }
 
 impl<'a> Possible<'a> {
@@ -83,25 +104,47 @@ impl<'a> Possible<'a> {
         edges: &'a Edges,
         values: &Values,
         bounds: &Bounds,
+        allowance: Allowance,
     ) -> Self {
         let mut expander = Expander::new(calm, bounds.answers.unwrap_or(usize::MAX), bounds.orders);
         expander.values.clone_from(values);
-        Self { store, states, edges, expander }
+        Self { store, states, edges, expander, allowance }
+    }
+
+    /// Whether the orders can be made; adds the first state from which they cannot.
+    pub fn orders(&mut self, found: &mut Vec<(Violation, usize)>) -> Decided {
+        let mut decide = || -> Result<Decided, UsedUp> {
+            if self.expander.model.hides_items && self.is_never_made_from_the_start()? {
+                return Ok(Decided::ItemsAreHidden);
+            }
+            found.extend(self.never_made()?.map(|state| (Violation::NeverMade, state)));
+            Ok(Decided::Yes)
+        };
+        decide().unwrap_or(Decided::NotReached)
+    }
+
+    /// Whether what is waited for can come; adds of each property the first state in which it cannot any more.
+    pub fn obligations(&mut self, found: &mut Vec<(Violation, usize)>) -> Decided {
+        if self.expander.model.hides_items {
+            return Decided::ItemsAreHidden;
+        }
+        self.never_followed(found).map_or(Decided::NotReached, |()| Decided::Yes)
     }
 
     /// The first state from which the orders cannot be made, nor does an operator come who was called because something
     /// has failed. If nothing has failed, none is called for.
-    pub fn never_made(&mut self) -> Option<usize> {
+    fn never_made(&mut self) -> Result<Option<usize>, UsedUp> {
         let model = self.expander.model;
         if model.orders.is_empty() {
-            return None;
+            return Ok(None);
         }
         let can = self.made();
         let calm = self.calm();
-        self.reach(can.clone(), &calm, Stops::AreNoWay).or_else(|| {
-            let all = vec![true; self.states];
-            self.reach(can, &all, Stops::AreWays)
-        })
+        if let Some(state) = self.reach(can.clone(), &calm, Stops::AreNoGoal)? {
+            return Ok(Some(state));
+        }
+        let all = vec![true; self.states];
+        self.reach(can, &all, Stops::AreGoals)
     }
 
     /// Of each state whether all orders are made in it, or an operator has to come.
@@ -112,20 +155,18 @@ impl<'a> Possible<'a> {
     }
 
     /// Whether nothing leads to the orders, not even a stop for an operator.
-    pub fn is_never_made_from_the_start(&mut self) -> bool {
+    fn is_never_made_from_the_start(&mut self) -> Result<bool, UsedUp> {
         let model = self.expander.model;
         let can = self.made();
         let mut first = vec![false; self.states];
         first[0] = true;
-        !model.orders.is_empty() && self.reach(can, &first, Stops::AreWays).is_some()
+        Ok(!model.orders.is_empty() && self.reach(can, &first, Stops::AreGoals)?.is_some())
     }
 
-    /// Of each property the first state in which its goal is waited for and cannot come any more, if there is one.
-    pub fn never_followed(&mut self) -> Vec<(Violation, usize)> {
+    fn never_followed(&mut self, found: &mut Vec<(Violation, usize)>) -> Result<(), UsedUp> {
         let model = self.expander.model;
         let ends = |state: &[u8]| !model.orders.is_empty() && model.is_made(state) || model.any_stands(state);
         let all = vec![true; self.states];
-        let mut found = Vec::new();
         for (instance, program) in model.instances.iter().enumerate() {
             for property in &program.properties {
                 let Check::Whenever(whenever) = &property.check else { continue };
@@ -134,41 +175,64 @@ impl<'a> Possible<'a> {
                     let state = &self.store.state(number);
                     can.push(!self.expander.is_waiting(state, program, whenever) || ends(state));
                 }
-                if let Some(state) = self.reach(can, &all, Stops::AreWays) {
+                if let Some(state) = self.reach(can, &all, Stops::AreGoals)? {
                     found.push((Violation::NeverFollowed { instance, fault: property.fault }, state));
                 }
             }
         }
-        found
+        Ok(())
     }
 
-    /// States to which the ways lead from the first one.
+    /// States to which the transitions lead from the first one.
     pub(crate) fn calm(&self) -> Vec<bool> {
-        let backwards: Vec<(u32, u32)> = self.edges.list.iter().map(|(from, to)| (*to, *from)).collect();
         let mut calm = vec![false; self.states];
         calm[0] = true;
-        spread(&mut calm, &backwards);
+        spread(&mut calm, self.edges.list.iter().map(|(from, to)| (*to, *from)));
         calm
     }
 
+    /// States from which a machine comes into another state of its automaton at once, or in which an operator has to come.
+    pub(crate) fn go_on(&self) -> Vec<bool> {
+        let model = self.expander.model;
+        let of_automata = |state: u32| {
+            let bytes = self.store.state(state as usize);
+            model.instances.iter().map(|instance| instance.state.load(&bytes)).collect::<Vec<_>>()
+        };
+        let mut go_on: Vec<bool> =
+            (0..self.states).map(|state| model.any_stands(&self.store.state(state))).collect();
+        for (from, to) in &self.edges.list {
+            if !go_on[*from as usize] {
+                go_on[*from as usize] = of_automata(*from) != of_automata(*to);
+            }
+        }
+        go_on
+    }
+
     /// The first of the states `asked` that does not lead to one that can.
-    pub(crate) fn reach(&mut self, mut can: Vec<bool>, asked: &[bool], stops: Stops) -> Option<usize> {
-        let Self { store, states, edges, expander } = self;
+    pub(crate) fn reach(
+        &mut self,
+        mut can: Vec<bool>,
+        asked: &[bool],
+        stops: Stops,
+    ) -> Result<Option<usize>, UsedUp> {
+        let Self { store, states, edges, expander, allowance } = self;
         let fails = |can: &[bool]| can.iter().zip(asked).position(|(can, asked)| *asked && !can);
-        fails(&can)?;
         edges.out.iter().for_each(|state| can[*state as usize] = true);
-        if stops == Stops::AreWays {
+        if stops == Stops::AreGoals {
             edges.stops.iter().for_each(|state| can[*state as usize] = true);
         }
-        if expander.model.reductions == Reductions::On {
-            spread(&mut can, &edges.list);
-            fails(&can)?;
+        if fails(&can).is_some() && expander.model.reductions == Reductions::On {
+            spread(&mut can, edges.list.iter().copied());
+        }
+        if fails(&can).is_none() {
+            return Ok(None);
         }
         let mut all = Vec::new();
         for state in 0..*states {
             if can[state] || !asked[state] {
                 continue;
             }
+            allowance.check(BYTES_OF_EDGE * all.capacity())?;
             let mut leads_to_stop = false;
             expander.expand(&store.state(state), u64::MAX, &mut |successor| {
                 if successor.guesses > 0 {
@@ -180,33 +244,36 @@ impl<'a> Possible<'a> {
                     all.push((state as u32, to as u32));
                 }
             });
-            can[state] = leads_to_stop && stops == Stops::AreWays;
+            can[state] = leads_to_stop && stops == Stops::AreGoals;
             all.dedup();
         }
-        spread(&mut can, &all);
-        fails(&can)
+        spread(&mut can, all.iter().copied());
+        Ok(fails(&can))
     }
 }
+
+/// Bytes of memory that an edge takes, and that sorting it takes.
+const BYTES_OF_EDGE: usize = 12;
 
 /// Whether a stop for an operator counts as what was wanted.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Stops {
-    AreWays,
-    AreNoWay,
+    AreGoals,
+    AreNoGoal,
 }
 
 /// Whatever leads to a state that can, can too.
-fn spread(can: &mut [bool], edges: &[(u32, u32)]) {
+fn spread(can: &mut [bool], edges: impl Iterator<Item = (u32, u32)> + Clone) {
     let mut begins = vec![0_u32; can.len() + 1];
-    edges.iter().for_each(|(_, to)| begins[*to as usize + 1] += 1);
+    edges.clone().for_each(|(_, to)| begins[to as usize + 1] += 1);
     for state in 0..can.len() {
         begins[state + 1] += begins[state];
     }
-    let mut before = vec![0_u32; edges.len()];
+    let mut before = vec![0_u32; begins[can.len()] as usize];
     let mut filled = begins.clone();
     for (from, to) in edges {
-        let place = &mut filled[*to as usize];
-        before[*place as usize] = *from;
+        let place = &mut filled[to as usize];
+        before[*place as usize] = from;
         *place += 1;
     }
     let mut waiting: Vec<usize> = (0..can.len()).filter(|state| can[*state]).collect();

@@ -3,48 +3,68 @@
 use crate::event::{self, What};
 use crate::model::Model;
 use crate::plant::{Action, Arm, Asked, Faults, motion, status};
-use crate::possible::{Possible, Stops};
+use crate::possible::{Possible, Stops, UsedUp};
 use crate::program::bit;
 use crate::scan::Scan;
 use crate::successor::Expander;
 use crate::surface;
 use crate::violation::Violation;
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 
 impl Possible<'_> {
-    /// Of each kind the first state, and what it is; of lines with orders alone.
-    pub fn remarks(&mut self) -> Vec<(Violation, usize)> {
+    /// Of each kind the first state, and what it is.
+    pub fn remarks(&mut self) -> Result<Vec<(Violation, usize)>, UsedUp> {
         let model = self.expander.model;
         if model.orders.is_empty() {
-            return Vec::new();
+            let stand = self.comes_to_a_stand()?.map(|state| (Violation::ComesToAStand, state));
+            return Ok(stand.into_iter().collect());
         }
-        let never_rests = self.never_rests().map(|state| (Violation::NeverRests, state));
+        let never_rests = self.never_rests()?.map(|state| (Violation::NeverRests, state));
         self.expander.answers = 1;
-        never_rests.into_iter().chain(self.waits_for_time()).collect()
+        Ok(never_rests.into_iter().chain(self.waits_for_time()?).collect())
+    }
+
+    /// The first state, with no failure before it, from which no machine ever comes into another state of its automaton; none
+    /// if items are not known that could come.
+    fn comes_to_a_stand(&mut self) -> Result<Option<usize>, UsedUp> {
+        if self.expander.model.hides_items {
+            return Ok(None);
+        }
+        let goes_on = self.go_on();
+        let calm = self.calm();
+        self.reach(goes_on, &calm, Stops::AreGoals)
     }
 
     /// The first state in which the whole line waits for a time of an instance whose device has not failed.
-    fn waits_for_time(&mut self) -> Option<(Violation, usize)> {
+    fn waits_for_time(&mut self) -> Result<Option<(Violation, usize)>, UsedUp> {
         let model = self.expander.model;
         let mut unfailed: HashMap<usize, Vec<bool>> = HashMap::new();
         for number in 0..self.states {
             let state = &self.store.state(number);
             let Some(instance) = self.timer(state).filter(|_| !model.is_made(state)) else { continue };
+            self.allowance.check(0)?;
             let mut stays = true;
             self.expander.expand(state, u64::MAX, &mut |successor| {
                 stays &= !successor.events.is_empty() || successor.state == state;
             });
-            if stays && unfailed.entry(instance).or_insert_with(|| self.without_failure_of(instance))[number]
-            {
-                return Some((Violation::WaitsForTime { instance }, number));
+            if !stays {
+                continue;
+            }
+            let unfailed = match unfailed.entry(instance) {
+                Entry::Occupied(known) => known.into_mut(),
+                Entry::Vacant(unknown) => unknown.insert(self.without_failure_of(instance)?),
+            };
+            if unfailed[number] {
+                return Ok(Some((Violation::WaitsForTime { instance }, number)));
             }
         }
-        None
+        Ok(None)
     }
 
     /// States that are reached although a device does not fail, whatever others do.
-    fn without_failure_of(&self, machine: usize) -> Vec<bool> {
-        let Self { store, expander, .. } = self;
+    fn without_failure_of(&self, machine: usize) -> Result<Vec<bool>, UsedUp> {
+        let Self { store, expander, allowance, .. } = self;
         let model = Model { faults: Faults::All, ..expander.model.clone() };
         let mut expander = Expander::new(&model, 1, expander.orders);
         expander.values.clone_from(&self.expander.values);
@@ -52,6 +72,7 @@ impl Possible<'_> {
         reached[0] = true;
         let mut waiting = vec![0];
         while let Some(number) = waiting.pop() {
+            allowance.check(0)?;
             let state = &store.state(number);
             expander.expand(state, u64::MAX, &mut |successor| {
                 let fails = successor.events.iter().any(|event| {
@@ -63,18 +84,18 @@ impl Possible<'_> {
                 }
             });
         }
-        reached
+        Ok(reached)
     }
 
     /// The first state with all orders made from which the line cannot come to rest.
-    fn never_rests(&mut self) -> Option<usize> {
+    fn never_rests(&mut self) -> Result<Option<usize>, UsedUp> {
         let model = self.expander.model;
         let calm = self.calm();
         let states = || (0..self.states).map(|state| self.store.state(state));
         let can = states().map(|state| rests(model, &state)).collect();
         let asked: Vec<bool> =
             states().zip(&calm).map(|(state, calm)| *calm && model.is_made(&state)).collect();
-        self.reach(can, &asked, Stops::AreNoWay)
+        self.reach(can, &asked, Stops::AreNoGoal)
     }
 
     /// The instance whose time is the only thing that can come.

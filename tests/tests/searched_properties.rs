@@ -64,6 +64,23 @@ fn promises_that_are_kept_and_promises_that_are_broken() {
     }
 }
 
+/// What a file expects to be noticed stands behind `//~`.
+#[test]
+fn what_is_hardly_meant_is_noticed() {
+    for (name, text) in fixtures("verify/noticed", "aut") {
+        let outcome = of_text(&text).compile();
+        let project = outcome.project.as_ref().expect("a right line");
+        let Searched { model, .. } =
+            model(project, &Asked::with(Faults::All)).expect("a line that can be searched");
+        let teller = Teller { project, model: &model, sources: &outcome.sources };
+        let found = explore(&model, &BOUNDS, &mut |_| true);
+        assert!(found.is_proved(), "{name}");
+        let told: Vec<String> = found.remarks.iter().map(|(remark, _)| teller.title(remark)).collect();
+        let expected: Vec<&str> = text.lines().filter_map(|line| line.strip_prefix("//~ ")).collect();
+        assert_eq!(told, expected, "{name}");
+    }
+}
+
 /// The message that a file expects stands behind `//~`, in the line to which it points.
 #[test]
 fn lines_that_cannot_be_searched_are_refused() {

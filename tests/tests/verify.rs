@@ -4,7 +4,7 @@ use autogen::executor::Executor;
 use autogen::library;
 use autogen::lower::Project;
 use autogen::verify::{Asked, model, replay::replay};
-use autogen_search::explore::{Bounds, End, Outcome, explore};
+use autogen_search::explore::{Bounds, Decided, End, Outcome, explore};
 use autogen_search::model::{Form, Model, Reductions, Variable};
 use autogen_search::plant::{Faults, Watch};
 use autogen_search::successor::Orders;
@@ -12,7 +12,7 @@ use autogen_search::unread::Unread;
 use autogen_search::value::Var;
 use autogen_search::violation::Violation;
 use autogen_tests::searched::Common;
-use autogen_tests::{Texts, is_full_campaign, own_line, scenes};
+use autogen_tests::{Texts, ariac, is_full_campaign, own_line, scenes};
 use runtime_sim::line::{Answer, IoDelay, Refusal, Slip};
 use runtime_sim::random::Random;
 use runtime_sim::run::{Stepping, run};
@@ -127,7 +127,8 @@ fn orders_for_items_that_are_not_known_are_left_open() {
     let (_, texts) = scenes().into_iter().find(|(name, _)| name == "palletizer").expect("a scene");
     let outcome = search(&model_of(&texts.project(), Faults::All), &Bounds { answers: Some(1), ..BOUNDS });
     assert_eq!(verdict(&outcome), (End::Complete, Vec::new()));
-    assert!(outcome.are_orders_open && outcome.remarks.is_empty());
+    assert_eq!((outcome.orders, outcome.obligations), (Decided::ItemsAreHidden, Decided::ItemsAreHidden));
+    assert!(outcome.remarks.is_empty());
 }
 
 #[test]
@@ -187,6 +188,24 @@ fn a_search_that_is_cut_has_checked_all_with_few_faults() {
         model_of(&changed("when taken -> Ready", "when taken and missed -> Ready").project(), Faults::All);
     let cut = explore(&model, &BOUNDS, &mut |covered| covered.failing.is_none());
     assert_eq!(verdict(&cut), (End::Stopped, vec!["NeverMade".into()]));
+}
+
+/// Without reductions all paths to the orders are kept, which takes more memory than there is left.
+#[test]
+fn a_limit_of_memory_holds_for_what_comes_after_the_search() {
+    let model =
+        model_of(&Texts { scenario: Some(ONE_PART.into()), ..ariac("default") }.project(), Faults::None);
+    let plain = Model { reductions: Reductions::Off, ..model };
+    let mut most = 0;
+    let whole = explore(&plain, &BOUNDS, &mut |covered| {
+        most = most.max(covered.memory);
+        true
+    });
+    assert!(whole.is_proved() && whole.orders == Decided::Yes);
+    let memory = most + most / 4;
+    let cut = search(&plain, &Bounds { memory, ..BOUNDS });
+    assert_eq!((verdict(&cut), cut.orders), ((End::Complete, Vec::new()), Decided::NotReached));
+    assert!(!cut.is_proved());
 }
 
 /// Both may be seen on the conveyor at the same time.

@@ -3,7 +3,7 @@
 use super::copies::{Copies, copies};
 use super::options::{Addresses, BuildCommandOptions, BuildOptions, Format};
 use super::output::{self, Output, Refusal};
-use super::{differences, io_error, load, print, read};
+use super::{differences, dropped, io_error, load, print, read};
 use crate::Status;
 use autogen::backend::{Files, dot, plan, rust, sdf, st};
 use autogen::diagnostic::Diagnostic;
@@ -145,6 +145,13 @@ pub fn open(options: &BuildOptions, built: &Built) -> Result<Output, Refusal> {
 
 /// Writes what was built.
 pub fn write(options: &BuildOptions, built: &Built, output: &Output) -> Result<(), Refusal> {
+    let commands = [output.last_command(), built.about["command"].as_str().map(String::from)];
+    if let [Some(last), Some(now)] = commands
+        && options.input.format == Format::Text
+        && !options.input.quiet
+    {
+        dropped::notes(&last, &now).iter().for_each(|note| complain!("note: {note}"));
+    }
     output.write(&built.files, built.about.clone(), options.overwrite())
 }
 

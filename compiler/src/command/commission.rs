@@ -306,6 +306,14 @@ fn text(report: &Value, wall: f64, output: &Output) -> String {
     if is_ordered || !items.is_empty() {
         out += &format!("items              {} ({})\n", items.len(), places.join(", "));
     }
+    if !is_ordered && let Some(sinks) = report["sinks"].as_object() {
+        let counts = |kinds: &Value| -> Vec<String> {
+            let kinds = kinds.as_object().into_iter().flatten();
+            kinds.map(|(kind, count)| format!("{count} {kind}")).collect()
+        };
+        let sinks = sinks.iter().map(|(sink, kinds)| format!("{} in {sink}", counts(kinds).join(", ")));
+        out += &format!("collected          {}\n", sinks.collect::<Vec<_>>().join("; "));
+    }
     out += &alarm::text(report);
     out += &format!("written to         {}\n", output.folder().display());
     if let Some(waits) = report["waits"].as_array() {

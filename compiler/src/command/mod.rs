@@ -26,6 +26,7 @@ pub mod controllers;
 mod copies;
 pub mod diff;
 pub mod differences;
+mod dropped;
 pub mod explain;
 pub mod fault;
 pub mod fmt;

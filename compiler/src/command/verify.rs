@@ -10,7 +10,7 @@ use super::{load, print};
 use crate::Status;
 use autogen::lower::compile;
 use autogen::verify::{self, Asked, Remembered, Searched, Warnings, replay, scenario};
-use autogen_search::explore::{Bounds, Covered, End, Outcome, explore};
+use autogen_search::explore::{Bounds, Covered, Outcome, explore};
 use autogen_search::model::Model;
 use autogen_search::plant::Faults;
 use report::{Report, Shown};
@@ -113,10 +113,10 @@ pub fn run(options: &VerifyOptions) -> Status {
         Format::Json => say!("{}", report.json()),
         Format::Text => say_part!("{}", report.text()),
     }
-    match (found.violations.is_empty(), found.end) {
+    match (found.violations.is_empty(), found.is_proved()) {
         (false, _) => Status::NotReached,
-        (true, End::Complete) => Status::Done,
-        (true, _) => Status::Undecided,
+        (true, true) => Status::Done,
+        (true, false) => Status::Undecided,
     }
 }
 
@@ -153,7 +153,7 @@ fn search(
         jobs: options.jobs.or_else(|| available_parallelism().ok()).map_or(1, NonZeroUsize::get),
     };
     let mut outcome = explore(model, &bounds, &mut watch);
-    if options.answers.is_none() && outcome.end == End::Complete && outcome.violations.is_empty() {
+    if options.answers.is_none() && outcome.is_proved() {
         bounds.answers = None;
         bounds.time = Some(time.saturating_sub(begin.elapsed()));
         let model = Model { unread: outcome.unread, ..model.clone() };

@@ -1,7 +1,7 @@
 //! Values of expressions.
 
 use super::Executor;
-use crate::ir::{Domain, Expr, ExprKind, Operator, Place, Value, VariableId};
+use crate::ir::{Domain, Expr, ExprKind, Operator, Place, Value, VariableId, less};
 
 impl Executor<'_> {
     /// Whether a condition holds for an instance, in its state of now.
@@ -160,15 +160,8 @@ impl Executor<'_> {
             _ => {}
         }
         let (a, b) = (self.value(robot, left), self.value(robot, right));
-        match operator {
-            Operator::Equal => Value::Bool(a == b),
-            Operator::NotEqual => Value::Bool(a != b),
-            Operator::Less => Value::Bool(less(a, b)),
-            Operator::Greater => Value::Bool(less(b, a)),
-            Operator::LessEqual => Value::Bool(less(a, b) || a == b),
-            Operator::GreaterEqual => Value::Bool(less(b, a) || a == b),
-            _ => arithmetic(operator, a, b),
-        }
+        let value = operator.apply(a, b);
+        value.unwrap_or_else(|| unreachable!("checked operands are {a:?} {operator:?} {b:?}"))
     }
 
     pub(super) fn read(&mut self, robot: usize, place: &Place) -> Value {
@@ -237,37 +230,5 @@ impl Executor<'_> {
             Some(Value::Int(i)) => i,
             _ => 0,
         }
-    }
-}
-
-/// Order of numbers; nothing is less than NaN, and NaN less than nothing.
-pub(crate) fn less(a: Value, b: Value) -> bool {
-    match (a, b) {
-        (Value::Int(a), Value::Int(b)) => a < b,
-        (Value::Real(a), Value::Real(b)) => a < b,
-        _ => false,
-    }
-}
-
-fn arithmetic(operator: Operator, a: Value, b: Value) -> Value {
-    match (a, b) {
-        (Value::Int(a), Value::Int(b)) => Value::Int(match operator {
-            Operator::Add => a + b,
-            Operator::Subtract => a - b,
-            Operator::Multiply => a * b,
-            Operator::Divide => a / b,
-            _ => a % b,
-        }),
-        (Value::Real(a), Value::Real(b)) => Value::Real(match operator {
-            Operator::Add => a + b,
-            Operator::Subtract => a - b,
-            Operator::Multiply => a * b,
-            _ => a / b,
-        }),
-        (Value::Point(a), Value::Point(b)) => Value::Point(match operator {
-            Operator::Add => [a[0] + b[0], a[1] + b[1], a[2] + b[2]],
-            _ => [a[0] - b[0], a[1] - b[1], a[2] - b[2]],
-        }),
-        (a, b) => unreachable!("checked operands are {a:?} and {b:?}"),
     }
 }

@@ -1,8 +1,7 @@
 //! One step of one instance.
 
-use super::evaluate::less;
 use super::{Element, Entry, Executor};
-use crate::ir::{Binder, Clause, FaultId, Place, Scalar, Type, Update, UpdateKind, Value};
+use crate::ir::{Binder, Clause, FaultId, Place, Scalar, Type, Update, UpdateKind, Value, less};
 use runtime_sim::device::LAST_COMMAND;
 
 impl Executor<'_> {

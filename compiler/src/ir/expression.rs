@@ -1,6 +1,6 @@
 //! Expressions, and the places that they read.
 
-use super::{Domain, InterfaceId, RelationId, RoleId, Scalar, StateId, Value, VariableId};
+use super::{Domain, InterfaceId, Operator, RelationId, RoleId, Scalar, StateId, Value, VariableId};
 
 /// Where a value is kept.
 #[derive(Clone, Debug, PartialEq)]
@@ -101,23 +101,6 @@ pub enum ExprKind {
     Members(RoleId),
     IsMember(Box<Expr>, RoleId),
     Reaches(RelationId, Box<Expr>, Box<Expr>),
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Operator {
-    Or,
-    And,
-    Equal,
-    NotEqual,
-    Less,
-    LessEqual,
-    Greater,
-    GreaterEqual,
-    Add,
-    Subtract,
-    Multiply,
-    Divide,
-    Modulo,
 }
 
 impl Expr {

@@ -1,9 +1,8 @@
 //! Values with which conditions hold: each is assumed where it is first read, one after the other of some candidates.
 
-use crate::executor::less;
 use crate::ir::{
     Automaton, Clause, Domain, Element, Expr, ExprKind, InterfaceId, Operator, Place, Scalar, StateId,
-    System, Transition, Value, VariableId,
+    System, Transition, Value, VariableId, less,
 };
 use std::collections::{BTreeSet, HashMap};
 
@@ -288,7 +287,7 @@ impl<'a> Assumed<'a> {
             },
             ExprKind::Binary(Operator::And, a, b) => Value::Bool(self.holds(a)? && self.holds(b)?),
             ExprKind::Binary(Operator::Or, a, b) => Value::Bool(self.holds(a)? || self.holds(b)?),
-            ExprKind::Binary(operator, a, b) => binary(*operator, self.value(a)?, self.value(b)?)?,
+            ExprKind::Binary(operator, a, b) => operator.apply(self.value(a)?, self.value(b)?)?,
             ExprKind::Min(a, b) | ExprKind::Max(a, b) => {
                 let (a, b) = (self.value(a)?, self.value(b)?);
                 let is_first = less(a, b) == matches!(expr.kind, ExprKind::Min(..));
@@ -339,7 +338,7 @@ impl<'a> Assumed<'a> {
             ExprKind::Sum { variable, domain, body } => {
                 let mut sum = if expr.ty == Scalar::Real { Value::Real(0.0) } else { Value::Int(0) };
                 for value in self.domain(domain)? {
-                    sum = binary(Operator::Add, sum, self.bound(*variable, value, body)?)?;
+                    sum = Operator::Add.apply(sum, self.bound(*variable, value, body)?)?;
                 }
                 sum
             }
@@ -413,38 +412,6 @@ impl<'a> Assumed<'a> {
         };
         (index < count).then_some(index)
     }
-}
-
-/// None where it has no value.
-fn binary(operator: Operator, a: Value, b: Value) -> Option<Value> {
-    Some(match operator {
-        Operator::Equal => Value::Bool(a == b),
-        Operator::NotEqual => Value::Bool(a != b),
-        Operator::Less => Value::Bool(less(a, b)),
-        Operator::Greater => Value::Bool(less(b, a)),
-        Operator::LessEqual => Value::Bool(less(a, b) || a == b),
-        Operator::GreaterEqual => Value::Bool(less(b, a) || a == b),
-        _ => match (a, b) {
-            (Value::Int(a), Value::Int(b)) => Value::Int(match operator {
-                Operator::Add => a.checked_add(b)?,
-                Operator::Subtract => a.checked_sub(b)?,
-                Operator::Multiply => a.checked_mul(b)?,
-                Operator::Divide => a.checked_div(b)?,
-                _ => a.checked_rem(b)?,
-            }),
-            (Value::Real(a), Value::Real(b)) => Value::Real(match operator {
-                Operator::Add => a + b,
-                Operator::Subtract => a - b,
-                Operator::Multiply => a * b,
-                _ => a / b,
-            }),
-            (Value::Point(a), Value::Point(b)) => Value::Point([0, 1, 2].map(|axis| match operator {
-                Operator::Add => a[axis] + b[axis],
-                _ => a[axis] - b[axis],
-            })),
-            _ => return None,
-        },
-    })
 }
 
 /// Numbers that stand in expressions, through definitions.

@@ -140,7 +140,7 @@ impl<'a> Director<'a> {
                 if let What::Ends(ending) = event.what {
                     let then = command_at(model, machine, &happened.before);
                     let error = match ending {
-                        Ending::Well | Ending::WithItem => None,
+                        Ending::Well | Ending::WithItem | Ending::WithItemUnseen => None,
                         Ending::InVain => then,
                         Ending::Refused(error) => Some(error),
                     };

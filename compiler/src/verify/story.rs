@@ -60,6 +60,9 @@ impl Teller<'_> {
             Violation::NeverRests => {
                 "all orders are made, and the line cannot come to rest although nothing has failed".into()
             }
+            Violation::ComesToAStand => {
+                "the line comes to a stand for ever, although nothing has failed: each machine waits".into()
+            }
             Violation::WaitsForTime { instance } => format!(
                 "the whole line does nothing until a time of {} has passed, whose device has not failed",
                 name(instance)
@@ -207,6 +210,9 @@ impl Teller<'_> {
                             "{name} answers: `{verb}` has ended successfully, and an item hangs on the gripper"
                         )
                     }
+                    Ending::WithItemUnseen => format!(
+                        "{name} answers: `{verb}` has ended successfully; the signal of its gripper comes later"
+                    ),
                     Ending::InVain => format!("{name} answers: `{verb}` has ended without success"),
                     Ending::Refused(error) => {
                         format!("{name} answers: `{verb}` has ended in error {error}, nothing has moved")
@@ -226,7 +232,11 @@ impl Teller<'_> {
                 format!("{name} loses the {item} {place}")
             }
             What::Takes => format!("{name} takes the item that is there"),
-            What::Shows => format!("{name} answers: nothing hangs on the gripper"),
+            What::Shows => {
+                let holds = plant.arm.as_ref().is_some_and(|arm| arm.holds.load(&happened.before) != 0);
+                let what = if holds { "an item" } else { "nothing" };
+                format!("{name} answers: {what} hangs on the gripper")
+            }
             What::Opens => format!("{name}: the next order opens"),
             What::IsGone => {
                 let order = plant.desk.as_ref().map_or(0, |desk| desk.order.load(&happened.before));

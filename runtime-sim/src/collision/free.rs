@@ -1,4 +1,5 @@
-//! Whether the whole motion of a machine keeps off another one that rests, or off the machine itself.
+//! Whether the whole motion of a machine keeps off another one that rests, or off the machine itself; and whether two keep
+//! off one another where they rest.
 //!
 //! Time has no part in this, only places on the path. The answer is remembered for the machine without its items and
 //! for each item: where an item comes or goes, all else is known.
@@ -25,7 +26,7 @@ const SHORT: f64 = 0.03;
 /// What decides whether two groups stay apart.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Question {
-    /// A motion, and the place of what rests.
+    /// A motion, and the place of what rests; or both places.
     machines: Fingerprint,
     /// The same with all items.
     all: Fingerprint,
@@ -34,17 +35,14 @@ pub struct Question {
 }
 
 impl Question {
-    /// Of two groups as one of them moves and the other one rests, or of one that moves alone; none if both move or
-    /// both rest.
+    /// Of two groups of which one rests at least, or of one alone; none if both move.
     pub fn of(groups: &mut [Group], pair: usize, [a, b]: [usize; 2], plant: &Plant) -> Option<Self> {
-        let both = if a == b {
-            groups[a].moving(plant)?
-        } else {
-            match (groups[a].resting(plant), groups[b].resting(plant)) {
-                (None, Some(rests)) => groups[a].moving(plant)?.and(rests),
-                (Some(rests), None) => rests.and(groups[b].moving(plant)?),
-                _ => return None,
-            }
+        let both = match (groups[a].resting(plant), groups[b].resting(plant)) {
+            (None, None) if a == b => groups[a].moving(plant)?,
+            (None, None) => return None,
+            (None, Some(rests)) => groups[a].moving(plant)?.and(rests),
+            (Some(rests), None) => rests.and(groups[b].moving(plant)?),
+            (Some(first), Some(second)) => first.and(second).with(AT_REST),
         };
         let machines = both.with(pair as u64);
         let all = machines.and(groups[a].borne(plant)).and(groups[b].borne(plant));
@@ -65,8 +63,9 @@ impl Question {
     }
 }
 
-/// Tells questions apart.
+/// Tell questions apart.
 const STANDING: u64 = 1 << 32;
+const AT_REST: u64 = 1 << 33;
 
 /// Whether two stay apart for the whole motion of one of them; false if that is not known.
 pub fn is_free(
@@ -127,6 +126,11 @@ pub fn is_free(
     }
     memory.note_free(all, found.is_ok());
     found.is_ok()
+}
+
+/// The two were looked at where they rest, and are free of contact, farther apart than the grain of a [`Fingerprint`].
+pub fn note_free(memory: &Memory, question: Question) {
+    memory.note_free(question.all, true);
 }
 
 /// A piece of a path.

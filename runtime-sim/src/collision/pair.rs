@@ -2,7 +2,7 @@
 
 use super::body::Placed;
 use super::distance::Gap;
-use super::free::{Question, can_meet, is_free};
+use super::free::{Question, can_meet, is_free, note_free};
 use super::group::{Anchor, Body, Group, Swept};
 use super::{SKIN, TOLERANCE};
 use crate::memory::Memory;
@@ -119,7 +119,8 @@ impl Pair {
                 return f64::INFINITY;
             }
         }
-        if let Some(question) = Question::of(groups, number, [a, b], plant)
+        let question = Question::of(groups, number, [a, b], plant);
+        if let Some(question) = question
             && is_free(groups, [a, b], plant, memory, question)
         {
             return f64::INFINITY;
@@ -169,6 +170,9 @@ impl Pair {
             }
         }
         self.forget_paths();
+        if let Some(question) = question.filter(|_| rest) {
+            note_free(memory, question);
+        }
         all_clear
     }
 

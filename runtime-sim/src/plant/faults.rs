@@ -19,6 +19,10 @@ impl Faults {
         Self { sensors, jams }
     }
 
+    pub fn exist(&self) -> bool {
+        self.all().next().is_some()
+    }
+
     fn all(&self) -> impl Iterator<Item = &During> {
         let jams = self.jams.iter().map(|jam| &jam.during);
         self.sensors.iter().map(|stuck| &stuck.during).chain(jams)

@@ -3,6 +3,7 @@
 use super::command::{Answer, Asked, Head};
 use super::fall::SINK;
 use super::faults::Faults;
+use super::idle::Idle;
 use crate::carrier::Carrier;
 use crate::device::error;
 use crate::item::Items;
@@ -41,6 +42,7 @@ pub struct Working {
     /// The parts that serve.
     serving: Vec<usize>,
     faults: Faults,
+    pub(super) idle: Idle,
 }
 
 /// What all machines share.
@@ -95,6 +97,7 @@ impl Working {
         let serves = |part: &usize| parts[*part].as_ref().is_some_and(|part| part.serves());
         Ok(Self {
             index,
+            idle: Idle::new(&parts, faults.exist()),
             pose: machine.pose,
             serving: (0..parts.len()).filter(serves).collect(),
             parts,
@@ -298,8 +301,8 @@ impl Working {
 
     /// Whether one of its surfaces moves, or a number that it shows changes all the while.
     pub fn flows(&self, now_ms: u64) -> bool {
-        self.running().any(|part| part.flows() || part.lane().is_some_and(Moving::is_moving))
-            || self.strokes(now_ms)
+        let flows = |part: &dyn Running| part.flows() || part.lane().is_some_and(Moving::is_moving);
+        !self.is_idle() && (self.running().any(flows) || self.strokes(now_ms))
     }
 
     /// Whether something moves what is on it along a stroke.
@@ -311,11 +314,15 @@ impl Working {
 
     /// All grippers that look for an item.
     pub fn looks(&self) -> impl Iterator<Item = Looks> {
-        self.running().filter_map(|part| part.looks())
+        let running = self.running().filter(|_| !self.is_idle());
+        running.filter_map(|part| part.looks())
     }
 
     /// The highest speed of what its parts carry along, m/s; infinity for what moves along a stroke.
     pub fn speed(&self, now_ms: u64) -> f64 {
+        if self.is_idle() {
+            return 0.0;
+        }
         if self.strokes(now_ms) {
             return f64::INFINITY;
         }
@@ -336,6 +343,9 @@ impl Working {
 
     /// An item that slips by the end of the scan.
     pub fn slip(&mut self, next_ms: u64) -> Option<usize> {
+        if self.is_idle() {
+            return None;
+        }
         self.parts.iter_mut().flatten().find_map(|part| part.slip(next_ms))
     }
 
@@ -467,6 +477,9 @@ impl Working {
     }
 
     pub fn trajectory(&self, now_ms: u64) -> Trajectory {
+        if self.is_idle() {
+            return Trajectory::Rests;
+        }
         let mut trajectories = self.running().map(|part| part.trajectory(now_ms));
         trajectories.find(|trajectory| *trajectory != Trajectory::Rests).unwrap_or(Trajectory::Rests)
     }
@@ -481,6 +494,9 @@ impl Working {
 
     /// Something will change even if no output does.
     pub fn is_busy(&self, items: &Items, desk: &Desk, scan: u64, now_ms: u64) -> bool {
+        if self.is_idle() {
+            return false;
+        }
         let see = self.see(items, desk);
         let is_jammed =
             |head: &Head| head.acting().is_some_and(|command| self.faults.is_jammed(command.part, scan));

@@ -128,12 +128,17 @@ pub fn point(image: &[f64], at: usize) -> Point {
 /// The plant alone, driven by hand.
 pub struct Rig {
     pub plant: Plant,
+    /// The same, in which idle machines are left out.
+    from_event_to_event: Plant,
+    /// The outputs of the last scan: in the next one more may follow from them than the plant says.
+    obeyed: Vec<Vec<f64>>,
     pub outputs: Vec<Vec<f64>>,
 }
 
 impl Rig {
     pub fn new(line: &Line) -> Self {
-        Self { plant: Plant::new(line).unwrap(), outputs: plant::outputs(line) }
+        let plant = Plant::new(line).unwrap();
+        Self { from_event_to_event: plant.clone(), plant, outputs: plant::outputs(line), obeyed: Vec::new() }
     }
 
     pub fn command(&mut self, machine: usize, verb: f64, goal: Option<Point>) {
@@ -143,6 +148,16 @@ impl Rig {
     pub fn step(&mut self, scans: usize) {
         for _ in 0..scans {
             self.plant.advance(&self.outputs);
+            let other = &mut self.from_event_to_event;
+            other.obey(&self.outputs);
+            let (logged, next) = (other.items().log().len(), other.next_change());
+            other.proceed_to(self.plant.scan());
+            if self.obeyed == self.outputs && next.is_none_or(|next| next > other.scan()) {
+                assert_eq!(other.items().log()[logged..], [], "before scan {next:?}");
+            }
+            self.obeyed.clone_from(&self.outputs);
+            assert_eq!(other.images(), self.plant.images());
+            assert_eq!(other.items().log(), self.plant.items().log());
         }
     }
 

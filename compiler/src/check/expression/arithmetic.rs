@@ -75,7 +75,7 @@ impl Context<'_, '_> {
         }
         let right = self.typed(right, Scalar::Bool);
         self.facts = before;
-        Some(binary(lowered(operator), Scalar::Bool, left?, right?))
+        Some(binary(operator, Scalar::Bool, left?, right?))
     }
 
     /// Both operands in one type: whole numbers become reals, members of enumerations are found by the other side.
@@ -139,7 +139,7 @@ impl Context<'_, '_> {
             );
             return None;
         }
-        Some(binary(lowered(operator), Scalar::Bool, a, b))
+        Some(binary(operator, Scalar::Bool, a, b))
     }
 
     fn arithmetic(
@@ -152,20 +152,19 @@ impl Context<'_, '_> {
     ) -> Option<Expr> {
         let hint = if expected == Some(Scalar::Real) { expected } else { None };
         let (a, b) = self.pair(left, right, hint)?;
-        let lowered = lowered(operator);
         match (a.ty, b.ty, operator) {
             (Scalar::Int { .. }, Scalar::Int { .. }, _) => {
                 self.whole_arithmetic(operator, a, b, right.span, span)
             }
             (Scalar::Real, Scalar::Real, Operator::Add | Operator::Subtract | Operator::Multiply) => {
-                Some(binary(lowered, Scalar::Real, a, b))
+                Some(binary(operator, Scalar::Real, a, b))
             }
             (Scalar::Real, Scalar::Real, Operator::Divide) => {
                 self.prove_divisor(&b, right.span)?;
-                Some(binary(lowered, Scalar::Real, a, b))
+                Some(binary(operator, Scalar::Real, a, b))
             }
             (Scalar::Point, Scalar::Point, Operator::Add | Operator::Subtract) => {
-                Some(binary(lowered, Scalar::Point, a, b))
+                Some(binary(operator, Scalar::Point, a, b))
             }
             (Scalar::Time, Scalar::Int { lo, .. }, Operator::Multiply) => self.time_product(a, b, lo, span),
             (Scalar::Int { lo, .. }, Scalar::Time, Operator::Multiply) => self.time_product(b, a, lo, span),
@@ -288,24 +287,6 @@ impl Context<'_, '_> {
             }
         };
         let ty = self.fitting(result.lo as i64, result.hi as i64, span)?;
-        Some(binary(lowered(operator), ty, a, b))
-    }
-}
-
-fn lowered(operator: Operator) -> ir::Operator {
-    match operator {
-        Operator::Or => ir::Operator::Or,
-        Operator::And => ir::Operator::And,
-        Operator::Equal => ir::Operator::Equal,
-        Operator::NotEqual => ir::Operator::NotEqual,
-        Operator::Less => ir::Operator::Less,
-        Operator::LessEqual => ir::Operator::LessEqual,
-        Operator::Greater => ir::Operator::Greater,
-        Operator::GreaterEqual => ir::Operator::GreaterEqual,
-        Operator::Add => ir::Operator::Add,
-        Operator::Subtract => ir::Operator::Subtract,
-        Operator::Multiply => ir::Operator::Multiply,
-        Operator::Divide => ir::Operator::Divide,
-        Operator::Modulo => ir::Operator::Modulo,
+        Some(binary(operator, ty, a, b))
     }
 }

@@ -78,6 +78,11 @@ impl Output {
         &self.folder
     }
 
+    /// The command that built what is there; none if there is nothing.
+    pub fn last_command(&self) -> Option<String> {
+        Some(Manifest::read(&self.folder).about.get("command")?.as_str()?.into())
+    }
+
     /// Writes the files and a manifest of them, with `about` first in it, and removes those of the last time that
     /// are no more. Results stay only where nothing else changes: they are those of other controllers.
     pub fn write(

@@ -4,11 +4,12 @@ use super::super::options::{StepOrders, VerifyOptions, Warnings};
 use autogen::verify::Skipped;
 use autogen::verify::replay::Replay;
 use autogen::verify::story::Teller;
-use autogen_search::explore::{End, Outcome};
+use autogen_search::explore::{Decided, End, Outcome};
 use autogen_search::property::Check;
 use autogen_search::story::Execution;
 use autogen_search::violation::Violation;
-use serde_json::{Value, json};
+use runtime_sim::line::Goal;
+use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
 pub struct Report<'a> {
@@ -30,10 +31,10 @@ pub struct Shown<'a> {
 
 impl Report<'_> {
     fn verdict(&self) -> &'static str {
-        match (self.outcome.violations.is_empty(), self.outcome.end) {
+        match (self.outcome.violations.is_empty(), self.outcome.is_proved()) {
             (false, _) => "violated",
-            (true, End::Complete) => "proved within these bounds",
-            (true, _) => "undecided",
+            (true, true) => "proved within these bounds",
+            (true, false) => "undecided",
         }
     }
 
@@ -87,11 +88,10 @@ impl Report<'_> {
         }
         let has_obligations = self.teller.model.instances.iter().flat_map(|instance| &instance.properties);
         if has_obligations.into_iter().any(|property| matches!(property.check, Check::Whenever(_))) {
-            bounds.push(if self.teller.model.hides_items {
-                format!("what a `whenever` waits for is not checked: {HIDDEN}")
-            } else {
-                "what a `whenever` waits for can always still come, after any number of scans; whether it comes in time is not decided"
-                    .into()
+            bounds.push(match self.undecided(self.outcome.obligations) {
+                Some(why) => format!("whether what a `whenever` waits for can come is not decided: {why}"),
+                None => "what a `whenever` waits for can always still come, after any number of scans; whether it comes in time is not decided"
+                    .into(),
             });
         }
         match self.options.warnings {
@@ -111,19 +111,39 @@ impl Report<'_> {
         }
         let never = self.never_entered();
         if !never.is_empty() {
-            bounds.push(format!("no state was reached with: {}", never.join("; ")));
+            bounds.push(format!("no state was reached with: {}", named(&never)));
         }
-        if self.outcome.are_orders_open {
-            bounds.push(format!("whether orders can be made is not decided: {HIDDEN}"));
+        if let Goal::Collected(_) = plant.scenario.goal {
+            bounds.push("whether the goal of items can be reached is not checked".into());
         }
         if plant.scenario.orders.is_empty() {
             bounds.push("nothing is ordered: whether orders can be made is not checked".into());
+        } else if let Some(why) = self.undecided(self.outcome.orders) {
+            bounds.push(format!("whether orders can be made is not decided: {why}"));
         }
         bounds
     }
 
+    /// Why a question is not decided, if it is not.
+    fn undecided(&self, question: Decided) -> Option<&'static str> {
+        match question {
+            Decided::Yes => None,
+            Decided::ItemsAreHidden => Some(HIDDEN),
+            Decided::NotReached if !self.outcome.violations.is_empty() => {
+                Some("the search ended with the violation")
+            }
+            Decided::NotReached => Some(self.cut().unwrap_or("the limit was reached before")),
+        }
+    }
+
+    /// Nothing, if nothing is ordered.
+    fn are_orders_decided(&self) -> Option<bool> {
+        let has_orders = !self.teller.project.plant.scenario.orders.is_empty();
+        has_orders.then_some(self.outcome.orders == Decided::Yes)
+    }
+
     /// Machines with the states that they have in no reached state of a complete search.
-    fn never_entered(&self) -> Vec<String> {
+    fn never_entered(&self) -> Vec<(&str, Vec<&str>)> {
         if self.outcome.end != End::Complete {
             return Vec::new();
         }
@@ -140,9 +160,20 @@ impl Report<'_> {
         let of_instance = |(number, entered): (usize, Vec<bool>)| {
             let never = states(number).iter().zip(entered).filter(|(_, entered)| !entered);
             let names: Vec<&str> = never.map(|(state, _)| state.name.as_str()).collect();
-            (!names.is_empty()).then(|| format!("{} in {}", system.instances[number].name, names.join(", ")))
+            (!names.is_empty()).then(|| (system.instances[number].name.as_str(), names))
         };
         entered.into_iter().enumerate().filter_map(of_instance).collect()
+    }
+
+    /// What a proof says nothing of.
+    fn exempt(&self) -> String {
+        let never: usize = self.never_entered().iter().map(|(_, states)| states.len()).sum();
+        let system = &self.teller.project.system;
+        let all: usize = (0..system.instances.len()).map(|it| system.automaton_of(it).states.len()).sum();
+        match never {
+            0 => String::new(),
+            _ => format!("; {never} of {all} states of the machines were never reached"),
+        }
     }
 
     pub fn text(&self) -> String {
@@ -157,7 +188,7 @@ impl Report<'_> {
             let _ = writeln!(out, "noticed: {}\n", self.teller.title(remark));
             let _ = writeln!(out, "{}", self.teller.tell(execution));
         }
-        let _ = writeln!(out, "{}\n", self.verdict());
+        let _ = writeln!(out, "{}{}\n", self.verdict(), self.exempt());
         for bound in self.bounds() {
             let _ = writeln!(out, "  {bound}");
         }
@@ -201,10 +232,16 @@ impl Report<'_> {
                 })
             })
             .collect();
+        let never: Map<String, Value> = self
+            .never_entered()
+            .iter()
+            .map(|(machine, states)| (machine.to_string(), json!(states)))
+            .collect();
         json!({
             "verdict": self.verdict(),
             "complete": self.cut().is_none(),
             "bounds": self.bounds(),
+            "never_reached": never,
             "violations": violations,
             "remarks": remarks,
             "states": covered.states,
@@ -213,6 +250,7 @@ impl Report<'_> {
             "stopped_states": covered.stopped,
             "depth": covered.depth,
             "failing_scans": covered.failing,
+            "orders_decided": self.are_orders_decided(),
             "time_s": covered.time.as_secs_f64(),
             "memory_bytes": covered.memory,
         })
@@ -221,6 +259,11 @@ impl Report<'_> {
 
 /// Why something is left open.
 const HIDDEN: &str = "items on conveyors without commands, cylinders, positioners and tracks are not known";
+
+fn named(never: &[(&str, Vec<&str>)]) -> String {
+    let machines = never.iter().map(|(machine, states)| format!("{machine} in {}", states.join(", ")));
+    machines.collect::<Vec<_>>().join("; ")
+}
 
 /// What a search that was cut has checked.
 fn checked(failing: usize) -> String {

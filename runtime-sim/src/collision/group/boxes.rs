@@ -5,6 +5,7 @@ use super::super::bounds::BoundingBox;
 use super::super::movement::Movement;
 use super::super::{TOLERANCE, UNCERTAIN};
 use super::{Anchor, Body, Group, Kind, present};
+use crate::kinematics::arm::Frames;
 use crate::memory::Memory;
 use crate::motion::Motion;
 use crate::part::lane::CentreLine;
@@ -72,14 +73,10 @@ impl Swept {
         if self.outer().is_apart(&other.outer()) {
             return true;
         }
-        let near = |group: &Self, all: &BoundingBox| -> Vec<usize> {
-            (0..group.bodies.len()).filter(|body| !group.bodies[*body].is_apart(all)).collect()
-        };
-        let others = near(other, &self.all);
-        near(self, &other.all).into_iter().all(|own| {
-            others.iter().all(|body| {
-                self.stands[own] && other.stands[*body] || self.bodies[own].is_apart(&other.bodies[*body])
-            })
+        let near = self.bodies.iter().zip(&*self.stands).filter(|(own, _)| !own.is_apart(&other.all));
+        near.into_iter().all(|(own, stands)| {
+            let mut others = other.bodies.iter().zip(&*other.stands);
+            others.all(|(body, also)| *stands && *also || own.is_apart(body))
         })
     }
 }
@@ -183,24 +180,20 @@ impl Group {
     fn swept(&self, motion: &Motion) -> Arc<[Swept]> {
         let Kind::Arm { arm, .. } = &self.kind else { return Arc::default() };
         let half = 0.5 / (PIECES * PLACES) as f64;
+        let stands = self.stands();
         let piece = |piece: usize| {
-            let nothing = self.each(|_| BoundingBox::NOTHING);
-            (0..PLACES).fold(nothing, |all, place| {
+            let mut bodies = vec![BoundingBox::NOTHING; self.bodies.len()];
+            for place in 0..PLACES {
                 let middle = (2 * (piece * PLACES + place) + 1) as f64 * half;
                 let frames = arm.frames(&motion.along(middle));
-                let here = self.each(|body| {
-                    let Anchor::Link(link) = body.anchor else { return body.bounds };
-                    let gone = body.travel.to(middle);
-                    let reach =
-                        (gone - body.travel.to(middle - half)).max(body.travel.to(middle + half) - gone);
-                    if body.ball.radius > LONG {
-                        return present(&body.pieces, &frames[link]).wider(reach);
+                let places = [middle - half, middle, middle + half];
+                for (all, body) in bodies.iter_mut().zip(&self.bodies) {
+                    if let Some(body) = body {
+                        *all = all.with(&along(body, &frames, places));
                     }
-                    let Ball { middle, radius } = body.ball.within(&frames[link]);
-                    BoundingBox::around(&Ball { middle, radius: radius + reach + NEAR })
-                });
-                all.with(&here)
-            })
+                }
+            }
+            Swept::new(bodies, stands.clone())
         };
         (0..PIECES).map(piece).collect()
     }
@@ -275,4 +268,17 @@ impl Group {
             }),
         }
     }
+}
+
+/// What contains a body of an arm between the first and the last of these places on its path; the frames are those of the
+/// middle one.
+fn along(body: &Body, frames: &Frames, [from, middle, to]: [f64; 3]) -> BoundingBox {
+    let Anchor::Link(link) = body.anchor else { return body.bounds };
+    let gone = body.travel.to(middle);
+    let reach = (gone - body.travel.to(from)).max(body.travel.to(to) - gone);
+    if body.ball.radius > LONG {
+        return present(&body.pieces, &frames[link]).wider(reach);
+    }
+    let Ball { middle, radius } = body.ball.within(&frames[link]);
+    BoundingBox::around(&Ball { middle, radius: radius + reach + NEAR })
 }

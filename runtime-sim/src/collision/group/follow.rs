@@ -19,6 +19,9 @@ impl Group {
         let now_ms = plant.now_ms() as f64;
         let passed = (now_ms - self.now_ms) / 1000.0;
         self.now_ms = now_ms;
+        if plant.is_idle(index) {
+            return;
+        }
         if self.moves() && passed > 0.0 {
             let times = [0.0, passed];
             let span = self.movement.span(0.0, passed);

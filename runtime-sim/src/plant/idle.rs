@@ -1,0 +1,132 @@
+//! Machines that are idle: nothing of them changes until one of their outputs, an item on them, or an order does. Until
+//! then they are left out of what is done with all machines.
+
+use super::Plant;
+use super::working::{Shared, Working};
+use crate::event::Event;
+use crate::part::Running;
+use crate::plant::trajectory::Trajectory;
+
+/// For how long nothing of a machine has changed.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Idle {
+    /// Others move its parts or look for them, or it has faults.
+    never: bool,
+    /// The outputs that it obeyed last.
+    outputs: Vec<f64>,
+    /// How often in a row nothing of it had changed, nor was going to.
+    quiet: u32,
+    /// When its parts were advanced last, ms.
+    advanced_ms: u64,
+}
+
+/// Up to the first of these times it may have moved; who looked at it then has seen how it stands at the second one.
+const QUIET: u32 = 2;
+
+impl Idle {
+    pub fn new(parts: &[Option<Box<dyn Running>>], has_faults: bool) -> Self {
+        let mut running = parts.iter().flatten();
+        let never = has_faults || running.any(|part| part.lane().is_some() || part.scanner().is_some());
+        Self { never, ..Self::default() }
+    }
+}
+
+impl Working {
+    pub(super) fn is_idle(&self) -> bool {
+        self.idle.quiet >= QUIET
+    }
+
+    /// Whether these are the outputs that it obeyed last; it remembers them.
+    fn has_obeyed(&mut self, outputs: &[f64]) -> bool {
+        let known = &mut self.idle.outputs;
+        let is_same = known.len() == outputs.len()
+            && known.iter().zip(outputs).all(|(last, word)| last.to_bits() == word.to_bits());
+        if !is_same {
+            known.clear();
+            known.extend(outputs);
+        }
+        is_same
+    }
+
+    /// Something of it changes at this time, ms, to which all that is not idle was advanced.
+    fn wake(&mut self, shared: &mut Shared, now_ms: u64) {
+        if self.is_idle() {
+            let since_ms = self.idle.advanced_ms;
+            (shared.now_ms, shared.dt_ms) = (since_ms, now_ms - since_ms);
+            self.advance(shared);
+        }
+        self.idle.quiet = 0;
+    }
+}
+
+impl Plant {
+    /// What concerns a machine wakes it: events since the last time. All that is not idle was advanced to this time, ms.
+    pub(super) fn wake_concerned(&mut self, now_ms: u64) {
+        for event in self.heard..self.items.log().len() {
+            match self.items.log()[event] {
+                Event::Item { from, to, .. } => {
+                    for machine in [from, to].into_iter().filter_map(|carrier| carrier.machine()) {
+                        self.wake(machine, now_ms);
+                    }
+                }
+                Event::Kind { item, .. } => {
+                    if let Some(machine) = self.items.all()[item].carrier.machine() {
+                        self.wake(machine, now_ms);
+                    }
+                }
+                Event::Order { .. } => {
+                    (0..self.machines.len()).for_each(|machine| self.wake(machine, now_ms))
+                }
+            }
+        }
+        self.heard = self.items.log().len();
+    }
+
+    fn wake(&mut self, machine: usize, now_ms: u64) {
+        let (machines, mut shared) = self.split(self.scan + 1);
+        machines[machine].wake(&mut shared, now_ms);
+    }
+
+    /// Whether a machine has to look at its outputs: it is not idle, or they are others than before.
+    pub(super) fn has_to_obey(&mut self, machine: usize, outputs: &[f64]) -> bool {
+        let is_same = self.machines[machine].has_obeyed(outputs);
+        if !is_same {
+            self.wake(machine, self.now_ms());
+        }
+        !(is_same && self.machines[machine].is_idle())
+    }
+
+    /// When a machine does something next, as [`Working::next_change`]. If it never does, and nothing of it has changed
+    /// since it was asked last, it is idle.
+    pub(super) fn next_change_of(&mut self, machine: usize) -> f64 {
+        let now_ms = self.now_ms();
+        let working = &self.machines[machine];
+        if working.is_idle() {
+            return f64::INFINITY;
+        }
+        let next_ms = working.next_change(&self.items, &self.desk, now_ms);
+        let is_quiet = !working.idle.never
+            && next_ms.is_infinite()
+            && working.trajectory(now_ms).since(now_ms as f64) == Trajectory::Rests
+            && !working.flows(now_ms)
+            && working.looks().next().is_none()
+            && !working.is_busy(&self.items, &self.desk, self.scan, now_ms);
+        let idle = &mut self.machines[machine].idle;
+        idle.quiet = if is_quiet { idle.quiet + 1 } else { 0 };
+        idle.advanced_ms = now_ms;
+        next_ms
+    }
+
+    /// Nothing of it moves, nor has since it was looked at last.
+    pub(crate) fn is_idle(&self, machine: usize) -> bool {
+        self.machines.get(machine).is_some_and(Working::is_idle)
+    }
+
+    /// The inputs of an idle machine are as they were.
+    pub(super) fn check_idle(&self, machine: usize) {
+        let mut image = self.images[machine].clone();
+        self.machines[machine].write(&mut image, &self.items, &self.desk);
+        let bits = |image: &[f64]| image.iter().map(|word| word.to_bits()).collect::<Vec<_>>();
+        debug_assert_eq!(bits(&image), bits(&self.images[machine]), "machine {machine} is not idle");
+    }
+}
