@@ -12,10 +12,10 @@ impl Scan<'_> {
     pub(crate) fn int(&mut self, expr: &Int) -> i32 {
         match expr {
             Int::Constant(value) => *value,
-            Int::Load(var, low) => var.load(self.bytes) + low,
+            Int::Load(var, low) => self.load(*var) + low,
             Int::Element(elements, index) => {
                 let index = self.int(index) as usize;
-                elements.vars[index].load(self.bytes) + elements.low
+                self.load(elements.vars[index]) + elements.low
             }
             Int::Variable(variable) => self.variables[*variable],
             Int::Table(table, index) => table[self.int(index) as usize],
@@ -116,10 +116,14 @@ impl Scan<'_> {
     pub(crate) fn real(&mut self, expr: &Real) -> f64 {
         match expr {
             Real::Constant(value) => *value,
-            Real::Load(var) => self.values.real(var.load(self.bytes)),
+            Real::Load(var) => {
+                let number = self.load(*var);
+                self.values.real(number)
+            }
             Real::Element(vars, index) => {
                 let index = self.int(index) as usize;
-                self.values.real(vars[index].load(self.bytes))
+                let number = self.load(vars[index]);
+                self.values.real(number)
             }
             Real::Table(table, index) => table[self.int(index) as usize],
             Real::OfInt(a) => f64::from(self.int(a)),
@@ -159,10 +163,14 @@ impl Scan<'_> {
     pub(crate) fn point(&mut self, expr: &PointValue) -> Point {
         match expr {
             PointValue::Constant(point) => *point,
-            PointValue::Load(var) => self.values.point(var.load(self.bytes)),
+            PointValue::Load(var) => {
+                let number = self.load(*var);
+                self.values.point(number)
+            }
             PointValue::Element(vars, index) => {
                 let index = self.int(index) as usize;
-                self.values.point(vars[index].load(self.bytes))
+                let number = self.load(vars[index]);
+                self.values.point(number)
             }
             PointValue::Table(table, index) => table[self.int(index) as usize],
             PointValue::Make(parts) => [self.real(&parts[0]), self.real(&parts[1]), self.real(&parts[2])],

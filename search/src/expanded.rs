@@ -5,6 +5,7 @@ use crate::event::Event;
 use crate::reached::Reached;
 use crate::store::Store;
 use crate::successor::{Expander, Part};
+use crate::unread::Needed;
 use crate::violation::Violation;
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -56,6 +57,8 @@ pub(crate) enum Step {
     /// To a stop, without a fault.
     Stop,
     Found(Box<(Violation, Vec<Event>)>),
+    /// This must not be forgotten: what comes after it is not certain.
+    Needs(Needed),
     /// What is hardly meant.
     Remarked(Box<(Violation, Vec<Event>)>),
 }
@@ -109,6 +112,7 @@ impl Expanded {
         let count = expander.values.count();
         let mut after = After { end: 0, transitions: 0, stops: 0, has_new_values: false };
         let before = store.state(state);
+        let begin = steps.len();
         let mut beside = store.beside(state, &before);
         expander.expand_part(part, &before, restless, &mut |successor| {
             after.transitions += 1;
@@ -151,6 +155,9 @@ impl Expanded {
                 }
             }
         });
+        if let Some(needed) = expander.needed.take() {
+            steps.insert(begin, Step::Needs(needed));
+        }
         after.has_new_values = expander.values.count() != count;
         after.end = steps.len();
         states.push(after);

@@ -8,8 +8,10 @@ use crate::model::Model;
 use crate::plant::Faults;
 use crate::possible::{Allowance, Edges, Mark, Possible};
 use crate::reached::Reached;
+use crate::refinement::{self, Random, Refinement};
 use crate::story::{self, Execution};
 use crate::successor::{Expander, Orders, Part};
+use crate::unread::{Needed, Unread};
 use crate::value::Values;
 use crate::violation::Violation;
 use std::collections::HashSet;
@@ -91,6 +93,8 @@ pub struct Outcome {
     pub reached: Reached,
     /// Points and reals by their numbers in these states.
     pub values: Values,
+    /// Where nothing is read of what is forgotten: another search may begin with that.
+    pub unread: Unread,
 }
 
 impl Outcome {
@@ -160,19 +164,28 @@ struct Search<'a> {
     known: HashSet<Violation>,
     /// Of each kind the first.
     remarked: Vec<Found>,
+    /// What is forgotten and has to be known, and the states where that turned out.
+    needed: Vec<(Needed, usize)>,
+    /// How many violations were found before that.
+    certain: usize,
     /// Bytes that are kept to be used again.
     again: usize,
     covered: Covered,
 }
 
 impl<'a> Search<'a> {
-    fn new(model: &'a Model, bounds: &'a Bounds, watch: &'a mut dyn FnMut(&Covered) -> bool) -> Self {
+    fn new(
+        model: &'a Model,
+        bounds: &'a Bounds,
+        begin: Instant,
+        watch: &'a mut dyn FnMut(&Covered) -> bool,
+    ) -> Self {
         let expander = || Expander::new(model, bounds.answers.unwrap_or(usize::MAX), bounds.orders);
         let mut store = Reached::new(model.initial.len());
         store.add(&model.initial, 0);
         Self {
             bounds,
-            begin: Instant::now(),
+            begin,
             watch,
             first: expander(),
             expanders: (0..bounds.jobs.max(1)).map(|_| expander()).collect(),
@@ -184,6 +197,8 @@ impl<'a> Search<'a> {
             found: Vec::new(),
             known: HashSet::new(),
             remarked: Vec::new(),
+            needed: Vec::new(),
+            certain: 0,
             again: 0,
             covered: Covered::default(),
         }
@@ -245,7 +260,7 @@ impl<'a> Search<'a> {
                         self.add(run, state, &mut numbers);
                     }
                     next += 1;
-                    if self.found.len() >= self.bounds.violations {
+                    if self.needed.is_empty() && self.found.len() >= self.bounds.violations {
                         return Some(End::Violated);
                     }
                     if self.first.values.is_full() {
@@ -271,7 +286,7 @@ impl<'a> Search<'a> {
                 _ => {}
             }
         }
-        None
+        (!self.needed.is_empty()).then_some(End::Stopped)
     }
 
     fn batch(&mut self, part: Part) -> &mut usize {
@@ -304,6 +319,12 @@ impl<'a> Search<'a> {
                 Step::Out => self.edges.lead_out(from),
                 Step::Stop => self.edges.lead_to_stop(from),
                 Step::Found(found) => self.find(from, found),
+                Step::Needs(needed) => {
+                    if self.needed.is_empty() {
+                        self.certain = self.found.len();
+                    }
+                    self.needed.push((*needed, from));
+                }
                 Step::Remarked(found) => self.remark(from, found),
             }
         }
@@ -326,6 +347,14 @@ impl<'a> Search<'a> {
         if !self.remarked.iter().any(is_known) {
             self.remarked.push(Found { violation: remark.clone(), from, events: events.clone() });
         }
+    }
+
+    /// The first execution to everything of its kind that has to be known.
+    fn refinements(&mut self) -> Vec<Refinement> {
+        let Self { needed, store, first, .. } = self;
+        let mut found = HashSet::new();
+        needed.retain(|(needed, _)| found.insert(first.model.unread.like(*needed)));
+        needed.iter().map(|(needed, state)| Refinement::new(*needed, store, first, *state)).collect()
     }
 
     fn measure(&mut self) {
@@ -352,8 +381,37 @@ impl<'a> Search<'a> {
 /// `watch` is told how far it is, some times a second, and says whether to continue. The outcome does not depend on the
 /// number of processors, but for where a limit of time or memory cuts it.
 pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -> bool) -> Outcome {
-    let mut search = Search::new(model, bounds, watch);
-    let (cut, checked) = search.search(model.faults);
+    let begin = Instant::now();
+    let mut model = model.clone();
+    let mut random = Random::default();
+    refinement::at_random(&mut model, &mut random, 0);
+    loop {
+        match attempt(&model, bounds, begin, watch) {
+            Ok(outcome) => return outcome,
+            Err((states, refinements)) => {
+                refinement::along(&mut model, bounds, &refinements);
+                refinement::at_random(&mut model, &mut random, states);
+            }
+        }
+    }
+}
+
+/// The search with what is forgotten now; or what must not be.
+fn attempt(
+    model: &Model,
+    bounds: &Bounds,
+    begin: Instant,
+    watch: &mut dyn FnMut(&Covered) -> bool,
+) -> Result<Outcome, (usize, Vec<Refinement>)> {
+    let mut search = Search::new(model, bounds, begin, watch);
+    let (mut cut, checked) = search.search(model.faults);
+    if !search.needed.is_empty() {
+        cut = search.end();
+        if cut.is_none() {
+            return Err((search.store.len(), search.refinements()));
+        }
+        search.found.truncate(search.certain);
+    }
     let end = cut.unwrap_or(End::Complete);
     search.measure();
     let Search { begin, mut first, store, mut edges, found, remarked, mut covered, .. } = search;
@@ -387,11 +445,16 @@ pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -
             }
             remarks.extend(remarked.into_iter().map(|found| told(&mut first, found)));
         }
+        // All of these scans were searched; if one had not been, nothing could be concluded.
+        if let Some(needed) = possible.expander.needed.take() {
+            return Err((store.len(), vec![Refinement::of(needed)]));
+        }
     }
     if end == End::Complete {
         covered.failing = None;
         covered.stopped = (0..store.len()).filter(|state| model.any_stands(&store.state(*state))).count();
     }
     covered.time = begin.elapsed();
-    Outcome { covered, end, violations, remarks, orders, obligations, reached: store, values: first.values }
+    let (values, unread) = (first.values, model.unread.clone());
+    Ok(Outcome { covered, end, violations, remarks, orders, obligations, reached: store, values, unread })
 }

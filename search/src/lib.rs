@@ -18,6 +18,7 @@ pub mod program;
 pub mod promela;
 pub mod property;
 pub mod reached;
+mod refinement;
 mod remark;
 mod scan;
 pub mod store;
@@ -25,6 +26,7 @@ pub mod story;
 pub mod stroke;
 pub mod successor;
 mod surface;
+pub mod unread;
 pub mod value;
 pub mod violation;
 

@@ -3,6 +3,7 @@
 use crate::plant::{Faults, Input, Machine, Order, Watch};
 use crate::program::Instance;
 use crate::stroke::{Cylinder, Process};
+use crate::unread::Unread;
 use crate::value::{Point, Values, Var};
 use std::fmt;
 use std::sync::Arc;
@@ -34,6 +35,8 @@ pub struct Model {
     pub faults: Faults,
     pub watch: Watch,
     pub reductions: Reductions,
+    /// What is forgotten because nobody reads it; nothing, to compare the search with itself.
+    pub unread: Unread,
     pub reach: Reach,
     /// Those of the first state.
     pub values: Values,

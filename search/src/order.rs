@@ -27,11 +27,14 @@ struct Marks {
     restless: u64,
     given: u64,
     repeated: u64,
+    forgotten: u128,
 }
 
 impl Midway {
     fn is_like(&self, other: &Self) -> bool {
-        let key = |Midway { marks, .. }: &Self| (marks.stepped, marks.due, marks.written, marks.has_failed);
+        let key = |Midway { marks, .. }: &Self| {
+            (marks.stepped, marks.due, marks.written, marks.has_failed, marks.forgotten)
+        };
         key(self) == key(other) && self.bytes == other.bytes
     }
 }
@@ -44,7 +47,8 @@ impl Expander<'_> {
         let due = if self.model.reductions == Reductions::Off { all } else { touched & all };
         let mut bytes = self.spare.pop().unwrap_or_default();
         bytes.clone_from(&self.levels[level]);
-        let begin = Midway { bytes, marks: Marks { due, ..Marks::default() }, told: Told::default() };
+        let marks = Marks { due, forgotten: self.forgotten, ..Marks::default() };
+        let begin = Midway { bytes, marks, told: Told::default() };
         let mut ends = vec![self.copy(&begin)];
         let (mut left, mut next, mut reached) = (all, Vec::new(), Vec::new());
         while begin.marks.due & left != 0 {
@@ -212,7 +216,7 @@ impl Expander<'_> {
             self.remarked.clear();
             let mut result = self.on(&mut end, |scan| scan.finish(touched));
             if let Err(stop @ Violation::Stop { .. }) = result {
-                result = Err(self.behind_stop(&end.bytes).unwrap_or(stop));
+                result = Err(self.behind_stop(&end.bytes, end.marks.forgotten).unwrap_or(stop));
             }
             emit(Successor {
                 state: &end.bytes,
@@ -250,13 +254,17 @@ impl Expander<'_> {
             given: marks.given,
             repeated: marks.repeated,
             restless: marks.restless,
+            forgotten: marks.forgotten,
+            forgotten_before: self.forgotten_before,
+            looks_back: false,
+            needed: &mut self.needed,
             noted: &mut self.noted,
             remarked: &mut self.remarked,
             story: self.tell.then_some(told),
         };
         let result = work(&mut scan);
-        let Scan { written, fired, given, repeated, restless, .. } = scan;
-        *marks = Marks { written, fired, given, repeated, restless, ..*marks };
+        let Scan { written, fired, given, repeated, restless, forgotten, .. } = scan;
+        *marks = Marks { written, fired, given, repeated, restless, forgotten, ..*marks };
         result
     }
 }

@@ -131,14 +131,14 @@ impl Scan<'_> {
         if program.state.load(self.before) == 0 || !self.holds(&keep.condition) {
             return false;
         }
-        std::mem::swap(&mut self.bytes, &mut self.before);
+        self.swap();
         let held = self.holds(&keep.condition);
-        std::mem::swap(&mut self.bytes, &mut self.before);
+        self.swap();
         held && keep.values.iter().any(|value| {
             let now = self.read(value);
-            std::mem::swap(&mut self.bytes, &mut self.before);
+            self.swap();
             let before = self.read(value);
-            std::mem::swap(&mut self.bytes, &mut self.before);
+            self.swap();
             now != before
         })
     }
@@ -168,9 +168,9 @@ impl Scan<'_> {
         if !whenever.is_told {
             return whenever.waits.load(self.bytes) != 0;
         }
-        std::mem::swap(&mut self.bytes, &mut self.before);
+        self.swap();
         let waited = self.is_waiting(program, whenever);
-        std::mem::swap(&mut self.bytes, &mut self.before);
+        self.swap();
         waited
     }
 
@@ -184,6 +184,13 @@ impl Scan<'_> {
         }
         // In the beginning nothing has been checked.
         program.state.load(self.bytes) != 0 && !self.holds(&whenever.goal) && self.holds(&whenever.trigger)
+    }
+
+    /// Expressions read the state before the scan, or again the other one.
+    fn swap(&mut self) {
+        std::mem::swap(&mut self.bytes, &mut self.before);
+        std::mem::swap(&mut self.forgotten, &mut self.forgotten_before);
+        self.looks_back = !self.looks_back;
     }
 
     fn read(&mut self, value: &Value) -> Read {

@@ -4,7 +4,8 @@ use crate::choice::Choices;
 use crate::model::{Model, Reductions};
 use crate::plant::status;
 use crate::program::{Bounds, Clause, Command, Domain, Int, Key, Target, Transition, Update, bit};
-use crate::value::Values;
+use crate::unread::Needed;
+use crate::value::{Values, Var};
 use crate::violation::Violation;
 
 /// A scan under way on the bytes of a state.
@@ -26,6 +27,13 @@ pub struct Scan<'a> {
     pub(crate) repeated: u64,
     /// Instances that may do something in the next scan even if no device does.
     pub(crate) restless: u64,
+    /// What of the state is forgotten, and of the state before.
+    pub(crate) forgotten: u128,
+    pub(crate) forgotten_before: u128,
+    /// Both states are interchanged.
+    pub(crate) looks_back: bool,
+    /// What is forgotten and has to be known, if there is any.
+    pub(crate) needed: &'a mut Option<Needed>,
     /// Violations after which the line continues.
     pub(crate) noted: &'a mut Vec<Violation>,
     /// What is hardly meant.
@@ -68,6 +76,7 @@ impl Scan<'_> {
         let model = self.model;
         self.properties(touched)?;
         self.act(touched)?;
+        self.forget();
         self.restless |= self.fired;
         for (instance, program) in model.instances.iter().enumerate() {
             let state = program.state.load(self.bytes) as usize;
@@ -271,10 +280,40 @@ impl Scan<'_> {
         }
         let index = self.int(&target.index) as usize;
         let var = target.vars[index];
-        if var.load(self.bytes) != value {
+        let forgotten = self.model.unread.part(self.forgotten, var);
+        if var.load(self.bytes) != value || forgotten != 0 {
             var.store(self.bytes, value);
             self.written |= 1 << self.model.owners[var.at as usize];
+            self.forgotten &= !forgotten;
         }
+    }
+
+    /// What an expression reads.
+    #[inline]
+    pub(crate) fn load(&mut self, var: Var) -> i32 {
+        let forgotten = self.model.unread.part(self.forgotten, var);
+        if forgotten != 0 && self.needed.is_none() {
+            let before: &[u8] = if self.looks_back { self.bytes } else { self.before };
+            *self.needed = Some(self.model.unread.needed(&self.model.instances, forgotten, before));
+        }
+        var.load(self.bytes)
+    }
+
+    /// Forgets what nobody reads in the state that is reached. Something of its owner was written, so all who read from it
+    /// are asked again.
+    fn forget(&mut self) {
+        let Model { unread, instances, .. } = self.model;
+        let changed = self.fired | self.written;
+        let known = self.forgotten & !unread.owned(changed);
+        let forgotten = known | unread.in_state(instances, self.bytes, changed);
+        let again = self.forgotten & !forgotten;
+        if again != 0 && self.needed.is_none() {
+            *self.needed = Some(unread.needed(instances, again, self.before));
+        }
+        for cell in unread.of(forgotten & !self.forgotten) {
+            cell.var.store(self.bytes, cell.instead);
+        }
+        self.forgotten = forgotten;
     }
 
     fn command(&mut self, instance: usize, command: &Command) -> Result<(), Fault> {

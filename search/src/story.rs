@@ -23,7 +23,7 @@ pub struct Happened {
 }
 
 /// The states from the first one to this one.
-fn states(store: &Reached, to: usize) -> Vec<usize> {
+pub(crate) fn states(store: &Reached, to: usize) -> Vec<usize> {
     let mut states = vec![to];
     let mut state = to;
     while state != 0 {

@@ -7,6 +7,7 @@ use crate::model::Model;
 use crate::program::{Instance, bit};
 use crate::property::Whenever;
 use crate::scan::{Scan, Told};
+use crate::unread::Needed;
 use crate::value::Values;
 use crate::violation::Violation;
 
@@ -65,6 +66,11 @@ pub struct Expander<'a> {
     /// Whether successors are to say what has fired.
     pub tell: bool,
     pub(crate) told: Told,
+    /// What is forgotten in the state that is worked on, and in the one before.
+    pub(crate) forgotten: u128,
+    pub(crate) forgotten_before: u128,
+    /// What was forgotten and has to be known, since this was last asked.
+    pub(crate) needed: Option<Needed>,
 }
 
 /// What a device may do.
@@ -126,6 +132,9 @@ impl<'a> Expander<'a> {
             part: Part::All,
             tell: false,
             told: Told::default(),
+            forgotten: 0,
+            forgotten_before: 0,
+            needed: None,
         }
     }
 
@@ -139,6 +148,8 @@ impl<'a> Expander<'a> {
     pub fn expand_part(&mut self, part: Part, state: &[u8], restless: u64, emit: &mut impl FnMut(Successor)) {
         self.part = part;
         self.before.copy_from_slice(state);
+        self.forgotten = self.model.unread.in_state(&self.model.instances, state, u64::MAX);
+        self.forgotten_before = self.forgotten;
         self.restless = self.restless_in(state, restless);
         let sources = event::sources(self.model);
         let mut options: Vec<Vec<Choice>> = std::mem::take(&mut self.options);
@@ -191,6 +202,7 @@ impl<'a> Expander<'a> {
     pub fn is_waiting(&mut self, state: &[u8], program: &Instance, whenever: &Whenever) -> bool {
         self.choices.clear();
         self.work.copy_from_slice(state);
+        self.forgotten = self.model.unread.in_state(&self.model.instances, state, u64::MAX);
         self.begin().is_waiting(program, whenever)
     }
 
@@ -208,6 +220,10 @@ impl<'a> Expander<'a> {
             given: 0,
             repeated: 0,
             restless: 0,
+            forgotten: self.forgotten,
+            forgotten_before: self.forgotten_before,
+            looks_back: false,
+            needed: &mut self.needed,
             noted: &mut self.noted,
             remarked: &mut self.remarked,
             story: self.tell.then_some(&mut self.told),
@@ -248,19 +264,24 @@ impl<'a> Expander<'a> {
 
     /// What is wrong once an operator has come, for whom the line has stopped in this state, while no device does anything:
     /// it stops again in each scan, or in a fault.
-    pub(crate) fn behind_stop(&mut self, stopped: &[u8]) -> Option<Violation> {
+    pub(crate) fn behind_stop(&mut self, stopped: &[u8], forgotten: u128) -> Option<Violation> {
         let work = std::mem::replace(&mut self.work, stopped.to_vec());
         let (choices, told) = (std::mem::take(&mut self.choices), self.told.clone());
         let (noted, remarked) = (self.noted.len(), self.remarked.len());
         let order = std::mem::take(&mut self.order);
         let first = self.before.clone();
+        let first_forgotten = (self.forgotten, self.forgotten_before);
+        self.forgotten = forgotten;
         let mut found = None;
         for _ in 0..MOST_STOPS {
             // What the operator does may change inputs of devices.
             self.model.inputs.iter().for_each(|input| input.var.store(&mut self.work, 0));
             self.before.clone_from(&self.work);
+            self.forgotten_before = self.forgotten;
             self.choices.clear();
-            let result = self.begin().run(&order, u64::MAX);
+            let mut scan = self.begin();
+            let result = scan.run(&order, u64::MAX);
+            self.forgotten = scan.forgotten;
             if let Err(Violation::Fault { instance, fault }) = result
                 && self.choices.is_empty()
                 && !self.model.sensed[fault]
@@ -277,6 +298,7 @@ impl<'a> Expander<'a> {
             }
         }
         self.before = first;
+        (self.forgotten, self.forgotten_before) = first_forgotten;
         self.noted.truncate(noted);
         self.remarked.truncate(remarked);
         self.order = order;
@@ -299,11 +321,11 @@ impl<'a> Expander<'a> {
             let order = std::mem::take(&mut self.order);
             let mut scan = self.begin();
             let mut result = scan.run(&order, touched);
-            let restless = scan.restless;
+            let (restless, forgotten) = (scan.restless, scan.forgotten);
             self.order = order;
             if let Err(stop @ Violation::Stop { .. }) = result {
                 let stopped = self.work.clone();
-                result = Err(self.behind_stop(&stopped).unwrap_or(stop));
+                result = Err(self.behind_stop(&stopped, forgotten).unwrap_or(stop));
             }
             emit(Successor {
                 state: &self.work,

@@ -5,15 +5,18 @@ use autogen::library;
 use autogen::lower::Project;
 use autogen::verify::{Asked, model, replay::replay};
 use autogen_search::explore::{Bounds, Decided, End, Outcome, explore};
-use autogen_search::model::{Model, Reductions};
+use autogen_search::model::{Form, Model, Reductions, Variable};
 use autogen_search::plant::{Faults, Watch};
 use autogen_search::successor::Orders;
+use autogen_search::unread::Unread;
+use autogen_search::value::Var;
 use autogen_search::violation::Violation;
 use autogen_tests::searched::Common;
 use autogen_tests::{Texts, ariac, is_full_campaign, own_line, scenes};
 use runtime_sim::line::{Answer, IoDelay, Refusal, Slip};
 use runtime_sim::random::Random;
 use runtime_sim::run::{Stepping, run};
+use std::collections::BTreeSet;
 
 const ONE_PART: &str = r#"{
     "kinds": [{"name": "battery", "height": 0.053}, {"name": "pump", "height": 0.11}],
@@ -249,7 +252,7 @@ fn forgetting_what_is_of_no_use_changes_no_verdict() {
     let mut saved = 0;
     for (texts, faults) in lines {
         let model = model_of(&texts.project(), faults);
-        let mut whole = model.clone();
+        let mut whole = Model { unread: Unread::default(), ..model.clone() };
         for state in whole.instances.iter_mut().flat_map(|instance| &mut instance.states) {
             state.dead.clear();
             state.unread.clear();
@@ -260,6 +263,47 @@ fn forgetting_what_is_of_no_use_changes_no_verdict() {
         assert_eq!(verdict(&less), verdict(&more));
         saved += more.covered.states - less.covered.states;
     }
+    println!("{saved} states fewer");
+}
+
+/// What is left of the states of a search without these values.
+fn states_without(model: &Model, unread: &[Var], outcome: &Outcome) -> BTreeSet<Vec<[u64; 3]>> {
+    let kept: Vec<_> = model.variables.iter().filter(|variable| !unread.contains(&variable.var)).collect();
+    let value = |state: &[u8], variable: &Variable| match variable.form {
+        Form::Point => outcome.values.point(variable.var.load(state)).map(f64::to_bits),
+        Form::Real => [outcome.values.real(variable.var.load(state)).to_bits(), 0, 0],
+        Form::Int(_) => [variable.var.load(state) as u64, 0, 0],
+    };
+    let states = (0..outcome.reached.len()).map(|state| outcome.reached.state(state));
+    states.map(|state| kept.iter().map(|variable| value(&state, variable)).collect()).collect()
+}
+
+/// All else is as it would be if everything was remembered, in right lines and in wrong ones.
+#[test]
+fn what_nobody_reads_leaves_all_else_as_it_is() {
+    let lines = [
+        (buffer(ONE_PART), Faults::All),
+        (buffer(TWO_PARTS), Faults::None),
+        (changed("held := true;", ""), Faults::None),
+        (changed("offer := false;", ""), Faults::None),
+        (changed("slot[next] := Free;", ""), Faults::None),
+        (changed("open := true;", ""), Faults::None),
+    ];
+    let mut saved = 0;
+    for (number, (texts, faults)) in lines.into_iter().enumerate() {
+        let model = model_of(&texts.project(), faults);
+        let whole = Model { unread: Unread::default(), ..model.clone() };
+        let unread: Vec<Var> = model.unread.vars().collect();
+        assert!(!unread.is_empty());
+        for orders in [Orders::One, Orders::All].into_iter().take(if number == 0 { 2 } else { 1 }) {
+            let bounds = Bounds { answers: Some(1), violations: 100, orders, ..BOUNDS };
+            let (less, more) = (search(&model, &bounds), search(&whole, &bounds));
+            assert_eq!(verdict(&less), verdict(&more));
+            assert_eq!(states_without(&model, &unread, &less), states_without(&model, &unread, &more));
+            saved += more.reached.len() - less.reached.len();
+        }
+    }
+    assert!(saved > 0);
     println!("{saved} states fewer");
 }
 
@@ -339,6 +383,7 @@ fn simulated_runs_stay_within_the_states() {
         let project = texts.project();
         let mut model = model_of(&project, Faults::All);
         model.watch = Watch::Faults;
+        model.unread = Unread::default();
         let outcome = search(&model, &Bounds { memory: 2_000_000_000, ..BOUNDS });
         assert_eq!(outcome.end, End::Complete);
         let common = Common::new(&project, &model);

@@ -156,7 +156,8 @@ fn search(
     if options.answers.is_none() && outcome.is_proved() {
         bounds.answers = None;
         bounds.time = Some(time.saturating_sub(begin.elapsed()));
-        outcome = explore(model, &bounds, &mut watch);
+        let model = Model { unread: outcome.unread, ..model.clone() };
+        outcome = explore(&model, &bounds, &mut watch);
     }
     if is_shown {
         print::err_styled("\r\x1b[K");

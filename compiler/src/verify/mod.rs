@@ -13,6 +13,7 @@ pub mod replay;
 pub mod scenario;
 pub mod story;
 mod strokes;
+mod unread;
 
 pub use asked::{Asked, Remembered, Warnings};
 pub use model::{Searched, model};

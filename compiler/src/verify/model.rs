@@ -5,12 +5,14 @@ use super::memory::{Kept, Memory, kept};
 use super::plant::{Known, carries_hidden_items, hides_items, plant};
 use super::properties::{can_stop, read_by, searched};
 use super::strokes::Changing;
-use super::{Asked, Skipped};
+use super::unread::unread;
+use super::{Asked, Remembered, Skipped};
 use crate::diagnostic::Diagnostic;
 use crate::ir::{Asking, Automaton, Expr, ExprKind, KeptBy, Place, Scalar, System, Type, UpdateKind, Value};
 use crate::lower::Project;
 use autogen_search::model::{Model, Reach, Reductions};
 use autogen_search::plant::{Order, Watch};
+use autogen_search::unread::Unread;
 use runtime_sim::device::{Direction, PortType};
 use runtime_sim::kinematics::facing::Facing;
 use runtime_sim::machine::Machine;
@@ -142,11 +144,15 @@ pub fn model(project: &Project, asked: &Asked) -> Result<Searched, Vec<Diagnosti
         refused.extend(instance.refused.into_iter().map(|port| (number, port)));
         program
     });
-    let instances = instances.collect();
+    let instances: Vec<_> = instances.collect();
     if !refused.is_empty() {
         return Err(refused.into_iter().map(|(number, port)| unbounded(system, number, &port)).collect());
     }
     memory.end();
+    let unread = match asked.remembered {
+        Remembered::Least => unread(&whole, asked, &instances, memory.initial.len()),
+        Remembered::Whole => Unread::default(),
+    };
     let arms: Vec<_> = line.machines.iter().map(|machine| machine.arm()).collect();
     let reach = Reach(Arc::new(move |machine: usize, [x, y, z]: [f64; 3]| {
         arms[machine].as_ref().is_some_and(|arm| arm.solve(Point { x, y, z }, &arm.start()).is_some())
@@ -169,6 +175,7 @@ pub fn model(project: &Project, asked: &Asked) -> Result<Searched, Vec<Diagnosti
         faults: asked.faults,
         watch: Watch::Everything,
         reductions: Reductions::On,
+        unread,
         reach,
         values,
         variables,

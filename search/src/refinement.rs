@@ -1,0 +1,130 @@
+//! Refinement of what is forgotten: values that have to be known are kept. Single executions show most of them with little
+//! effort; a search that comes upon one begins anew.
+
+use crate::explore::Bounds;
+use crate::model::Model;
+use crate::reached::Reached;
+use crate::story;
+use crate::successor::{Expander, Orders};
+use crate::unread::Needed;
+
+/// An execution at random has so many scans at most.
+const SCANS: usize = 300;
+/// So many of them, one after another, show nothing new in the end; more where a search of many states had to end.
+const FRUITLESS: usize = 50;
+/// For so many states one more.
+const STATES: usize = 500;
+/// The same at most.
+const MANY: usize = 1000;
+/// One of so many scans may be chosen among those before which devices fail.
+const FAILING: u64 = 4;
+
+/// Keeps what is asked for in executions at random, after a search of so many states.
+pub(crate) fn at_random(model: &mut Model, random: &mut Random, states: usize) {
+    let mut fruitless = 0;
+    while fruitless < (states / STATES).clamp(FRUITLESS, MANY) && !model.unread.is_empty() {
+        let mut expander = Expander::new(model, 1, Orders::One);
+        let mut state = model.initial.clone();
+        let mut next = vec![0; state.len()];
+        for _ in 0..SCANS {
+            let may_fail = random.below(FAILING) == 0;
+            let mut seen = 0;
+            expander.expand(&state, u64::MAX, &mut |successor| {
+                let is_open = successor.result.is_ok() && (may_fail || successor.faults == 0);
+                if is_open && successor.state != state {
+                    seen += 1;
+                    if random.below(seen) == 0 {
+                        next.copy_from_slice(successor.state);
+                    }
+                }
+            });
+            if seen == 0 || expander.needed.is_some() {
+                break;
+            }
+            std::mem::swap(&mut state, &mut next);
+        }
+        fruitless += 1;
+        if let Some(needed) = expander.needed {
+            model.unread.keep(&[needed]);
+            fruitless = 0;
+        }
+    }
+}
+
+/// An execution to a state in which it turned out what has to be known.
+pub(crate) struct Refinement {
+    needed: Needed,
+    /// Of each scan which one it is of all that may follow.
+    scans: Vec<usize>,
+}
+
+impl Refinement {
+    pub fn of(needed: Needed) -> Self {
+        Self { needed, scans: Vec::new() }
+    }
+
+    pub fn new(needed: Needed, store: &Reached, expander: &mut Expander, to: usize) -> Self {
+        let mut scans = Vec::new();
+        for pair in story::states(store, to).windows(2) {
+            let (before, after) = (store.state(pair[0]), store.state(pair[1]));
+            let (mut number, mut found) = (0, None);
+            expander.expand(&before, u64::MAX, &mut |successor| {
+                if found.is_none() && successor.result.is_ok() && successor.state == after {
+                    found = Some(number);
+                }
+                number += 1;
+            });
+            scans.extend(found);
+        }
+        Self { needed, scans }
+    }
+}
+
+/// Keeps what was asked for; and what else is asked for on the way there, once that is known.
+pub(crate) fn along(model: &mut Model, bounds: &Bounds, refinements: &[Refinement]) {
+    let needed: Vec<Needed> = refinements.iter().map(|refinement| refinement.needed).collect();
+    model.unread.keep(&needed);
+    for refinement in refinements {
+        while let Some(needed) = asked_for(model, bounds, &refinement.scans) {
+            model.unread.keep(&[needed]);
+        }
+    }
+}
+
+fn asked_for(model: &Model, bounds: &Bounds, scans: &[usize]) -> Option<Needed> {
+    let mut expander = Expander::new(model, bounds.answers.unwrap_or(usize::MAX), bounds.orders);
+    let mut state = model.initial.clone();
+    for scan in scans.iter().copied().map(Some).chain([None]) {
+        let mut next = None;
+        let mut number = 0;
+        expander.expand(&state, u64::MAX, &mut |successor| {
+            if Some(number) == scan {
+                next = Some(successor.state.to_vec());
+            }
+            number += 1;
+        });
+        if expander.needed.is_some() {
+            return expander.needed;
+        }
+        state = next?;
+    }
+    None
+}
+
+/// Numbers by xorshift.
+pub(crate) struct Random(u64);
+
+impl Default for Random {
+    fn default() -> Self {
+        Self(1)
+    }
+}
+
+impl Random {
+    fn below(&mut self, bound: u64) -> u64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        self.0 % bound
+    }
+}
