@@ -98,6 +98,16 @@ pub struct Outcome {
 }
 
 impl Outcome {
+    /// If it is cut: an attempt before it has checked all sequences with faults in so many scans.
+    fn or_checked(mut self, failing: Option<usize>) -> Self {
+        let is_cut = !matches!(self.end, End::Complete | End::Violated);
+        if is_cut && self.covered.failing < failing {
+            self.covered.failing = failing;
+            (self.orders, self.obligations) = (Decided::NotReached, Decided::NotReached);
+        }
+        self
+    }
+
     /// Whether everything was checked, as far as the search knows of it, and nothing found.
     pub fn is_proved(&self) -> bool {
         let is_reached = [self.orders, self.obligations].into_iter().all(|it| it != Decided::NotReached);
@@ -384,13 +394,23 @@ pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -
     let begin = Instant::now();
     let mut model = model.clone();
     let mut random = Random::default();
-    refinement::at_random(&mut model, &mut random, 0);
+    let mut covered = Covered::default();
     loop {
+        let states = covered.states;
+        let mut goes_on = || {
+            covered.time = begin.elapsed();
+            bounds.time.is_none_or(|time| covered.time <= time) && watch(&covered)
+        };
+        refinement::at_random(&mut model, &mut random, states, &mut goes_on);
         match attempt(&model, bounds, begin, watch) {
-            Ok(outcome) => return outcome,
-            Err((states, refinements)) => {
-                refinement::along(&mut model, bounds, &refinements);
-                refinement::at_random(&mut model, &mut random, states);
+            Ok(outcome) => return outcome.or_checked(covered.failing),
+            Err((again, refinements)) => {
+                covered = Covered { failing: covered.failing.max(again.failing), ..again };
+                let mut goes_on = || {
+                    covered.time = begin.elapsed();
+                    bounds.time.is_none_or(|time| covered.time <= time) && watch(&covered)
+                };
+                refinement::along(&mut model, bounds, &refinements, &mut goes_on);
             }
         }
     }
@@ -402,13 +422,13 @@ fn attempt(
     bounds: &Bounds,
     begin: Instant,
     watch: &mut dyn FnMut(&Covered) -> bool,
-) -> Result<Outcome, (usize, Vec<Refinement>)> {
+) -> Result<Outcome, (Covered, Vec<Refinement>)> {
     let mut search = Search::new(model, bounds, begin, watch);
     let (mut cut, checked) = search.search(model.faults);
     if !search.needed.is_empty() {
         cut = search.end();
         if cut.is_none() {
-            return Err((search.store.len(), search.refinements()));
+            return Err((search.covered, search.refinements()));
         }
         search.found.truncate(search.certain);
     }
@@ -447,7 +467,7 @@ fn attempt(
         }
         // All of these scans were searched; if one had not been, nothing could be concluded.
         if let Some(needed) = possible.expander.needed.take() {
-            return Err((store.len(), vec![Refinement::of(needed)]));
+            return Err((covered, vec![Refinement::of(needed)]));
         }
     }
     if end == End::Complete {

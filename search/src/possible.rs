@@ -191,18 +191,22 @@ impl<'a> Possible<'a> {
         calm
     }
 
-    /// States from which a machine comes into another state of its automaton at once, or in which an operator has to come.
+    /// States in which something happens at once but that inputs change by themselves, or an operator has to come.
     pub(crate) fn go_on(&self) -> Vec<bool> {
         let model = self.expander.model;
-        let of_automata = |state: u32| {
-            let bytes = self.store.state(state as usize);
-            model.instances.iter().map(|instance| instance.state.load(&bytes)).collect::<Vec<_>>()
+        let mut counts = vec![true; self.store.length()];
+        for input in &model.inputs {
+            counts[input.var.at as usize..][..usize::from(input.var.width)].fill(false);
+        }
+        let differs = |from: u32, to: u32| {
+            let [from, to] = [from, to].map(|state| self.store.state(state as usize));
+            from.iter().zip(&to).zip(&counts).any(|((before, after), counts)| *counts && before != after)
         };
         let mut go_on: Vec<bool> =
             (0..self.states).map(|state| model.any_stands(&self.store.state(state))).collect();
         for (from, to) in &self.edges.list {
             if !go_on[*from as usize] {
-                go_on[*from as usize] = of_automata(*from) != of_automata(*to);
+                go_on[*from as usize] = differs(*from, *to);
             }
         }
         go_on

@@ -19,10 +19,15 @@ const MANY: usize = 1000;
 /// One of so many scans may be chosen among those before which devices fail.
 const FAILING: u64 = 4;
 
-/// Keeps what is asked for in executions at random, after a search of so many states.
-pub(crate) fn at_random(model: &mut Model, random: &mut Random, states: usize) {
+/// Keeps what is asked for in executions at random, after a search of so many states; until it `goes_on` no more.
+pub(crate) fn at_random(
+    model: &mut Model,
+    random: &mut Random,
+    states: usize,
+    goes_on: &mut dyn FnMut() -> bool,
+) {
     let mut fruitless = 0;
-    while fruitless < (states / STATES).clamp(FRUITLESS, MANY) && !model.unread.is_empty() {
+    while fruitless < (states / STATES).clamp(FRUITLESS, MANY) && !model.unread.is_empty() && goes_on() {
         let mut expander = Expander::new(model, 1, Orders::One);
         let mut state = model.initial.clone();
         let mut next = vec![0; state.len()];
@@ -80,12 +85,19 @@ impl Refinement {
     }
 }
 
-/// Keeps what was asked for; and what else is asked for on the way there, once that is known.
-pub(crate) fn along(model: &mut Model, bounds: &Bounds, refinements: &[Refinement]) {
+/// Keeps what was asked for; and what else is asked for on the path there, once that is known, until it `goes_on` no more.
+pub(crate) fn along(
+    model: &mut Model,
+    bounds: &Bounds,
+    refinements: &[Refinement],
+    goes_on: &mut dyn FnMut() -> bool,
+) {
     let needed: Vec<Needed> = refinements.iter().map(|refinement| refinement.needed).collect();
     model.unread.keep(&needed);
     for refinement in refinements {
-        while let Some(needed) = asked_for(model, bounds, &refinement.scans) {
+        while goes_on()
+            && let Some(needed) = asked_for(model, bounds, &refinement.scans)
+        {
             model.unread.keep(&[needed]);
         }
     }

@@ -25,8 +25,8 @@ impl Possible<'_> {
         Ok(never_rests.into_iter().chain(self.waits_for_time()?).collect())
     }
 
-    /// The first state, with no failure before it, from which no machine ever comes into another state of its automaton; none
-    /// if items are not known that could come.
+    /// The first state, with no failure before it, from which nothing ever changes but inputs by themselves; none if items are
+    /// not known that could come.
     fn comes_to_a_stand(&mut self) -> Result<Option<usize>, UsedUp> {
         if self.expander.model.hides_items {
             return Ok(None);

@@ -10,7 +10,7 @@ use autogen_tests::replay::run as start;
 use autogen_tests::workspace::Workspace;
 use autogen_tests::{LAYOUTS, Texts, ariac, is_full_campaign, on_all_processors, own_line};
 use runtime_sim::device::error::NO_PART;
-use runtime_sim::line::{Answer, IoDelay, Line, Pause, Refusal, Slip};
+use runtime_sim::line::{Answer, During, IoDelay, Line, Pause, Refusal, Slip, Stuck};
 use runtime_sim::machine::Machine;
 use runtime_sim::random::Random;
 use runtime_sim::run::{Seen, Stepping, run as simulate};
@@ -71,6 +71,10 @@ fn disturbed() -> Vec<Job> {
         line.scenario.pauses = (1..20).map(|i| Pause { at_scan: i * 1700, scans: 100 + i * 10 }).collect();
     }));
     jobs.push(job("nothing gripped", orders(ariac("default"), 2), nothing_gripped));
+    for device in ["rail_arm", "gantry"] {
+        // Within the time for which the arm waits, and after it.
+        jobs.extend([5, 100].map(|scans| shown_late(device, scans)));
+    }
     for line in ["default", "buffer", "shared_agv"] {
         let texts = || match line {
             "default" => orders(ariac(line), 2),
@@ -98,6 +102,36 @@ fn nothing_gripped(line: &mut Line) {
         let answer = |command| Answer { machine, command, late_s: 0.0, error: Some(NO_PART) };
         line.scenario.answers = (3..9).step_by(2).map(answer).collect();
     }
+}
+
+/// Where `attached` stands in the inputs of an arm.
+const ATTACHED: usize = 4;
+
+/// The states in which an arm goes on with a part.
+const HOLDING: [&str; 2] = ["Lifting", "Carrying"];
+
+/// The first part that an arm grips is shown so many scans later.
+fn shown_late(device: &str, scans: u64) -> Job {
+    let name = format!("first grip of each {device} shown {scans} scans late");
+    let mut job = job(name, orders(ariac("default"), 2), |_| ());
+    let line = job.project.plant.clone();
+    for machine in all(&line, device) {
+        let system = &job.project.system;
+        let (begin, states) = (system.traces()[machine], &system.automaton_of(machine).states);
+        let mut shown = None;
+        let observer = &mut |seen: &Seen| {
+            if HOLDING.contains(&&*states[seen.trace[begin] as usize].name) {
+                shown.get_or_insert(seen.scan);
+            }
+        };
+        simulate(&line, &mut Executor::new(system), Stepping::Events, observer)
+            .expect("a line that can be run");
+        let at_scan = shown.expect("a part is gripped") - 10;
+        let during = During { at_scan, scans: Some(10 + scans) };
+        let stuck = Stuck { machine, word: ATTACHED, words: 1, value: 0.0, during };
+        job.project.plant.scenario.sensors.push(stuck);
+    }
+    job
 }
 
 /// The first command of the machines of one kind is refused, and one in so many of the others.

@@ -261,7 +261,7 @@ fn a_command_that_power_broke_off_is_not_taken_for_the_one_that_was_refused_befo
     assert_eq!(names[refused - 1..=coming], ["Missed", "Refused", "Waiting", "Picking"]);
     project.plant.scenario.power_offs = vec![Pause { at_scan: at_first[coming].0 + 100, scans: 200 }];
     let names: Vec<String> = states(&project, machine).into_iter().map(|(_, name)| name).collect();
-    assert_eq!(names[coming..coming + 4], ["Picking", "Picking.1", "Missed", "Waiting"]);
+    assert_eq!(names[coming..coming + 4], ["Picking", "Fetching", "Missed", "Waiting"]);
 }
 
 /// A part falls at some moment of its transport: all orders are made, or the line stops and says what somebody has to

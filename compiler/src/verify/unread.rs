@@ -47,7 +47,11 @@ pub fn unread(line: &Line, asked: &Asked, instances: &[Instance], length: usize)
                 kinds.push(key);
             }
             for (element, var) in vars.iter().enumerate() {
-                let token = with.and_then(|(vars, values)| Some(Tell { var: *vars.get(element)?, values }));
+                let token = with.and_then(|(tokens, values)| {
+                    // One token may be that of all elements.
+                    let var = tokens.get(element).or(tokens.first())?;
+                    Some(Tell { var: *var, values })
+                });
                 let cell = Cell { var: *var, owner, kind: number, token, instead: var.load(line.initial) };
                 if vars.len() == 1 { single.push(cell) } else { elements.push(cell) }
             }
