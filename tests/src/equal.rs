@@ -7,6 +7,7 @@ use autogen_search::model::Model;
 use autogen_search::plant::{Action, Arm, Machine, motion, status};
 use autogen_search::store::Store;
 use autogen_search::successor::Expander;
+use autogen_search::unread::Unread;
 use autogen_search::value::{Values, Var};
 use autogen_search::violation::Violation;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -54,6 +55,8 @@ struct Transitions {
 impl Transitions {
     /// Adds all states of a model. Signals that the other one does not have are not seen. False if the bounds end it.
     fn explore(&mut self, model: &Model, other: &Model, bounds: &Bounds, begin: Instant) -> bool {
+        // Which values nobody reads a search finds out; here they all count.
+        let model = &Model { unread: Unread::default(), ..model.clone() };
         let mut expander = Expander::new(model, bounds.answers.unwrap_or(usize::MAX), bounds.orders);
         let signals = common_signals(model, other);
         let mut store = Store::new(model.initial.len());
