@@ -397,23 +397,30 @@ pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -
     let mut covered = Covered::default();
     loop {
         let states = covered.states;
-        let mut goes_on = || {
-            covered.time = begin.elapsed();
-            bounds.time.is_none_or(|time| covered.time <= time) && watch(&covered)
-        };
-        refinement::at_random(&mut model, &mut random, states, &mut goes_on);
+        refinement::at_random(&mut model, &mut random, states, &mut || {
+            goes_on(&mut covered, begin, bounds, watch)
+        });
         match attempt(&model, bounds, begin, watch) {
             Ok(outcome) => return outcome.or_checked(covered.failing),
             Err((again, refinements)) => {
                 covered = Covered { failing: covered.failing.max(again.failing), ..again };
-                let mut goes_on = || {
-                    covered.time = begin.elapsed();
-                    bounds.time.is_none_or(|time| covered.time <= time) && watch(&covered)
-                };
-                refinement::along(&mut model, bounds, &refinements, &mut goes_on);
+                refinement::along(&mut model, bounds, &refinements, &mut || {
+                    goes_on(&mut covered, begin, bounds, watch)
+                });
             }
         }
     }
+}
+
+/// Whether there is time left, and whoever watches wants more.
+fn goes_on(
+    covered: &mut Covered,
+    begin: Instant,
+    bounds: &Bounds,
+    watch: &mut dyn FnMut(&Covered) -> bool,
+) -> bool {
+    covered.time = begin.elapsed();
+    bounds.time.is_none_or(|time| covered.time <= time) && watch(covered)
 }
 
 /// The search with what is forgotten now; or what must not be.

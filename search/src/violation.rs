@@ -22,7 +22,7 @@ pub enum Violation {
     NeverMade,
     /// All orders are made, and from here the line cannot come to rest any more, although nothing has failed.
     NeverRests,
-    /// Nothing is ordered, and from here nothing ever happens again, although nothing has failed.
+    /// Nothing is ordered, and from here nothing ever changes but inputs by themselves, although nothing has failed.
     ComesToAStand,
     /// The device of this instance has not failed, orders are to be made, and the line does nothing until a time of the instance
     /// has passed.

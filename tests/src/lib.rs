@@ -1,5 +1,6 @@
 //! What the tests of the whole share.
 
+pub mod bounds;
 pub mod browser;
 pub mod constructs;
 pub mod coverage;

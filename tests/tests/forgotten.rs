@@ -5,18 +5,10 @@ use autogen::library;
 use autogen::verify::{Asked, model};
 use autogen_search::explore::{Bounds, Outcome, explore};
 use autogen_search::plant::Faults;
-use autogen_search::successor::Orders;
 use autogen_search::violation::Violation;
-use autogen_tests::{Texts, own_line};
+use autogen_tests::{Texts, bounds, own_line};
 
-const BOUNDS: Bounds = Bounds {
-    answers: Some(1),
-    orders: Orders::One,
-    time: None,
-    memory: 1_000_000_000,
-    violations: 1,
-    jobs: 1,
-};
+const BOUNDS: Bounds = Bounds { answers: Some(1), ..bounds::BOUNDS };
 
 const TWO_PARTS: &str = r#"{
     "kinds": [{"name": "battery", "height": 0.053}, {"name": "pump", "height": 0.11}],

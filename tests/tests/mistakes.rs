@@ -2,18 +2,10 @@
 /// in a small line, as a violation or as something hardly meant.
 use autogen::verify::{Asked, model};
 use autogen_search::explore::{Bounds, End, explore};
-use autogen_search::successor::Orders;
-use autogen_tests::{fixtures, small_lines};
+use autogen_tests::{bounds, fixtures, small_lines};
 use serde_json::Value;
 
-const BOUNDS: Bounds = Bounds {
-    answers: Some(1),
-    orders: Orders::One,
-    time: None,
-    memory: 1_000_000_000,
-    violations: 1,
-    jobs: 1,
-};
+const BOUNDS: Bounds = Bounds { answers: Some(1), ..bounds::BOUNDS };
 
 /// Names of what is found.
 fn found(mistake: &Value) -> Vec<String> {

@@ -3,18 +3,11 @@
 use autogen::verify::{Asked, model};
 use autogen_search::explore::{Bounds, End, explore};
 use autogen_search::plant::Faults;
-use autogen_search::successor::Orders;
 use autogen_search::violation::Violation;
 use autogen_tests::Texts;
+use autogen_tests::bounds;
 
-const BOUNDS: Bounds = Bounds {
-    answers: None,
-    orders: Orders::One,
-    time: None,
-    memory: 1_000_000_000,
-    violations: 100,
-    jobs: 1,
-};
+const BOUNDS: Bounds = Bounds { violations: 100, ..bounds::BOUNDS };
 
 const NOTHING_ORDERED: &str = r#"{"kinds": [{"name": "battery", "height": 0.053}], "orders": []}"#;
 

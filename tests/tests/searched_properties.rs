@@ -6,17 +6,10 @@ use autogen_search::explore::{Bounds, End, Outcome, explore};
 use autogen_search::model::{Model, Reductions};
 use autogen_search::plant::Faults;
 use autogen_search::successor::Orders;
-use autogen_tests::{Texts, fixtures, text};
+use autogen_tests::{Texts, bounds, fixtures, text};
 use std::fmt::Write;
 
-const BOUNDS: Bounds = Bounds {
-    answers: None,
-    orders: Orders::One,
-    time: None,
-    memory: 1_000_000_000,
-    violations: 100,
-    jobs: 1,
-};
+const BOUNDS: Bounds = Bounds { violations: 100, ..bounds::BOUNDS };
 
 /// A line by its type: the first line of the text has its layout.
 fn line(name: &str) -> Texts {

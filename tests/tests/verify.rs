@@ -11,6 +11,7 @@ use autogen_search::successor::Orders;
 use autogen_search::unread::Unread;
 use autogen_search::value::Var;
 use autogen_search::violation::Violation;
+use autogen_tests::bounds::BOUNDS;
 use autogen_tests::searched::Common;
 use autogen_tests::{Texts, ariac, is_full_campaign, own_line, scenes};
 use runtime_sim::line::{Answer, IoDelay, Refusal, Slip};
@@ -28,9 +29,6 @@ const TWO_PARTS: &str = r#"{
     "orders": [{"station": "as1", "parts": {"battery": 1, "pump": 1}}],
     "supply": {"surplus": [4, 1]}
 }"#;
-
-const BOUNDS: Bounds =
-    Bounds { answers: None, orders: Orders::One, time: None, memory: 1_000_000_000, violations: 1, jobs: 1 };
 
 fn buffer(scenario: &str) -> Texts {
     Texts { scenario: Some(scenario.into()), ..own_line("buffer") }
@@ -266,6 +264,18 @@ fn forgetting_what_is_of_no_use_changes_no_verdict() {
     println!("{saved} states fewer");
 }
 
+/// Lines without mistakes, and some with one.
+fn right_and_wrong() -> [(Texts, Faults); 6] {
+    [
+        (buffer(ONE_PART), Faults::All),
+        (buffer(TWO_PARTS), Faults::None),
+        (changed("held := true;", ""), Faults::None),
+        (changed("offer := false;", ""), Faults::None),
+        (changed("slot[next] := Free;", ""), Faults::None),
+        (changed("open := true;", ""), Faults::None),
+    ]
+}
+
 /// What is left of the states of a search without these values.
 fn states_without(model: &Model, unread: &[Var], outcome: &Outcome) -> BTreeSet<Vec<[u64; 3]>> {
     let kept: Vec<_> = model.variables.iter().filter(|variable| !unread.contains(&variable.var)).collect();
@@ -281,16 +291,8 @@ fn states_without(model: &Model, unread: &[Var], outcome: &Outcome) -> BTreeSet<
 /// All else is as it would be if everything was remembered, in right lines and in wrong ones.
 #[test]
 fn what_nobody_reads_leaves_all_else_as_it_is() {
-    let lines = [
-        (buffer(ONE_PART), Faults::All),
-        (buffer(TWO_PARTS), Faults::None),
-        (changed("held := true;", ""), Faults::None),
-        (changed("offer := false;", ""), Faults::None),
-        (changed("slot[next] := Free;", ""), Faults::None),
-        (changed("open := true;", ""), Faults::None),
-    ];
     let mut saved = 0;
-    for (number, (texts, faults)) in lines.into_iter().enumerate() {
+    for (number, (texts, faults)) in right_and_wrong().into_iter().enumerate() {
         let model = model_of(&texts.project(), faults);
         let whole = Model { unread: Unread::default(), ..model.clone() };
         let unread: Vec<Var> = model.unread.vars().collect();
@@ -311,16 +313,8 @@ fn what_nobody_reads_leaves_all_else_as_it_is() {
 /// the short form compares them on smaller lines, `searched_properties.rs`.
 #[test]
 fn leaving_out_what_does_nothing_changes_no_verdict() {
-    let lines = [
-        (buffer(ONE_PART), Faults::All),
-        (buffer(TWO_PARTS), Faults::None),
-        (changed("held := true;", ""), Faults::None),
-        (changed("offer := false;", ""), Faults::None),
-        (changed("slot[next] := Free;", ""), Faults::None),
-        (changed("open := true;", ""), Faults::None),
-    ];
     let mut found = 0;
-    for (texts, faults) in lines {
+    for (texts, faults) in right_and_wrong() {
         let model = model_of(&texts.project(), faults);
         let plain = Model { reductions: Reductions::Off, ..model.clone() };
         let count = if is_full_campaign() { 2 } else { 1 };

@@ -107,8 +107,16 @@ pub fn run(options: &VerifyOptions) -> Status {
             return Status::WrongCommand;
         }
     }
-    let report =
-        Report { options, teller: &teller, outcome: &found, answers, shown: &shown, skipped: &skipped };
+    let never = report::never_entered(&teller, &found);
+    let report = Report {
+        options,
+        teller: &teller,
+        outcome: &found,
+        answers,
+        shown: &shown,
+        skipped: &skipped,
+        never,
+    };
     match options.input.format {
         Format::Json => say!("{}", report.json()),
         Format::Text => say_part!("{}", report.text()),

@@ -21,6 +21,8 @@ pub struct Report<'a> {
     pub shown: &'a [Shown<'a>],
     /// Properties that were left out.
     pub skipped: &'a [Skipped],
+    /// What [`never_entered`] says.
+    pub never: Vec<(&'a str, Vec<&'a str>)>,
 }
 
 pub struct Shown<'a> {
@@ -109,9 +111,8 @@ impl Report<'_> {
                 self.teller.skipped(skipped)
             ));
         }
-        let never = self.never_entered();
-        if !never.is_empty() {
-            bounds.push(format!("no state was reached with: {}", named(&never)));
+        if !self.never.is_empty() {
+            bounds.push(format!("no state was reached with: {}", named(&self.never)));
         }
         if let Goal::Collected(_) = plant.scenario.goal {
             bounds.push("whether the goal of items can be reached is not checked".into());
@@ -142,32 +143,9 @@ impl Report<'_> {
         has_orders.then_some(self.outcome.orders == Decided::Yes)
     }
 
-    /// Machines with the states that they have in no reached state of a complete search.
-    fn never_entered(&self) -> Vec<(&str, Vec<&str>)> {
-        if self.outcome.end != End::Complete {
-            return Vec::new();
-        }
-        let (system, reached) = (&self.teller.project.system, &self.outcome.reached);
-        let instances = &self.teller.model.instances;
-        let states = |number: usize| &system.automaton_of(number).states;
-        let mut entered: Vec<Vec<bool>> =
-            (0..instances.len()).map(|number| vec![false; states(number).len()]).collect();
-        for state in (0..reached.len()).map(|state| reached.state(state)) {
-            for (instance, entered) in instances.iter().zip(&mut entered) {
-                entered[instance.state.load(&state) as usize] = true;
-            }
-        }
-        let of_instance = |(number, entered): (usize, Vec<bool>)| {
-            let never = states(number).iter().zip(entered).filter(|(_, entered)| !entered);
-            let names: Vec<&str> = never.map(|(state, _)| state.name.as_str()).collect();
-            (!names.is_empty()).then(|| (system.instances[number].name.as_str(), names))
-        };
-        entered.into_iter().enumerate().filter_map(of_instance).collect()
-    }
-
     /// What a proof says nothing of.
     fn exempt(&self) -> String {
-        let never: usize = self.never_entered().iter().map(|(_, states)| states.len()).sum();
+        let never: usize = self.never.iter().map(|(_, states)| states.len()).sum();
         let system = &self.teller.project.system;
         let all: usize = (0..system.instances.len()).map(|it| system.automaton_of(it).states.len()).sum();
         match never {
@@ -232,11 +210,8 @@ impl Report<'_> {
                 })
             })
             .collect();
-        let never: Map<String, Value> = self
-            .never_entered()
-            .iter()
-            .map(|(machine, states)| (machine.to_string(), json!(states)))
-            .collect();
+        let never: Map<String, Value> =
+            self.never.iter().map(|(machine, states)| (machine.to_string(), json!(states))).collect();
         json!({
             "verdict": self.verdict(),
             "complete": self.cut().is_none(),
@@ -259,6 +234,28 @@ impl Report<'_> {
 
 /// Why something is left open.
 const HIDDEN: &str = "items on conveyors without commands, cylinders, positioners and tracks are not known";
+
+/// Machines with the states that they have in no reached state of a complete search.
+pub fn never_entered<'a>(teller: &Teller<'a>, outcome: &Outcome) -> Vec<(&'a str, Vec<&'a str>)> {
+    if outcome.end != End::Complete {
+        return Vec::new();
+    }
+    let (system, instances) = (&teller.project.system, &teller.model.instances);
+    let states = |number: usize| &system.automaton_of(number).states;
+    let mut entered: Vec<Vec<bool>> =
+        (0..instances.len()).map(|number| vec![false; states(number).len()]).collect();
+    for state in (0..outcome.reached.len()).map(|state| outcome.reached.state(state)) {
+        for (instance, entered) in instances.iter().zip(&mut entered) {
+            entered[instance.state.load(&state) as usize] = true;
+        }
+    }
+    let of_instance = |(number, entered): (usize, Vec<bool>)| {
+        let never = states(number).iter().zip(entered).filter(|(_, entered)| !entered);
+        let names: Vec<&str> = never.map(|(state, _)| state.name.as_str()).collect();
+        (!names.is_empty()).then(|| (system.instances[number].name.as_str(), names))
+    };
+    entered.into_iter().enumerate().filter_map(of_instance).collect()
+}
 
 fn named(never: &[(&str, Vec<&str>)]) -> String {
     let machines = never.iter().map(|(machine, states)| format!("{machine} in {}", states.join(", ")));
