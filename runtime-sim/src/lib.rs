@@ -15,6 +15,7 @@ mod fingerprint;
 pub mod frame;
 pub mod hash;
 pub mod history;
+mod image;
 pub mod io_trace;
 pub mod item;
 mod json;

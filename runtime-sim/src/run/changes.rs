@@ -1,8 +1,10 @@
 //! What has changed in the controllers since the last scan that was executed.
 
 use crate::hash::Hash;
+use crate::image::are_same;
 use crate::line::Line;
 use crate::machine::Machine;
+use std::ops::Range;
 
 /// The last trace and the last outputs, and a hash of all changes with their scans. Times in states, and those for which
 /// properties wait, are no part of it, so a scan in which nothing happens does not change it.
@@ -11,8 +13,8 @@ pub struct Changes {
     hash: Hash,
     words: Vec<f64>,
     times: Vec<Time>,
-    /// Whether each word of the trace is one of them, as far as the last.
-    is_time: Vec<bool>,
+    /// Where the words of the trace are that are no times, as far as the last time.
+    others: Vec<Range<usize>>,
     /// Milliseconds that pass in a scan while the system runs.
     scan_ms: f64,
 }
@@ -36,9 +38,8 @@ impl Changes {
             monitor.counters.iter().map(|counter| Time { word: counter.word, stopped: monitor.stopped })
         });
         let times: Vec<Time> = stays.chain(counters).collect();
-        let mut is_time = vec![false; times.iter().map(|time| time.word + 1).max().unwrap_or(0)];
-        times.iter().for_each(|time| is_time[time.word] = true);
-        Self { times, is_time, scan_ms: f64::from(line.scan_ms), ..Self::default() }
+        let others = between(times.iter().map(|time| time.word).collect());
+        Self { times, others, scan_ms: f64::from(line.scan_ms), ..Self::default() }
     }
 
     /// Takes the trace and the outputs of a scan, and says whether anything has changed since the last one that was
@@ -47,7 +48,7 @@ impl Changes {
         if self.words.is_empty() {
             self.words.extend(trace.iter().chain(outputs.iter().flatten()));
             for (index, word) in self.words.iter().enumerate() {
-                if self.is_time.get(index) != Some(&true) {
+                if self.times.iter().all(|time| time.word != index) {
                     self.hash.change(scan, index, *word);
                 }
             }
@@ -55,12 +56,22 @@ impl Changes {
         }
         // Whether a time stood still is said by the last trace.
         let mut changed = self.take_times(running as f64 * self.scan_ms, trace);
-        let mut first = 0;
-        for words in [trace].into_iter().chain(outputs.iter().map(Vec::as_slice)) {
+        self.times.iter().for_each(|time| self.words[time.word] = trace[time.word]);
+        for number in 0..=self.others.len() {
+            let range = self.others.get(number).cloned().unwrap_or(self.behind()..trace.len());
+            changed |= self.take_words(scan, range.start, &trace[range]);
+        }
+        let mut first = trace.len();
+        for words in outputs {
             changed |= self.take_words(scan, first, words);
             first += words.len();
         }
         changed
+    }
+
+    /// Behind the last time.
+    fn behind(&self) -> usize {
+        self.others.last().map_or(0, |last| last.end + 1)
     }
 
     /// Whether a time has not just gone on.
@@ -77,21 +88,19 @@ impl Changes {
         self.times.iter().any(went_otherwise)
     }
 
-    /// Whether one of these words has changed that is no time; the first of them has this number.
+    /// Whether one of these words has changed, of which none is a time; the first of them has this number.
     fn take_words(&mut self, scan: u64, first: usize, words: &[f64]) -> bool {
-        let mut changed = false;
         let known = &mut self.words[first..first + words.len()];
+        if are_same(known, words) {
+            return false;
+        }
         for (offset, (last, word)) in known.iter_mut().zip(words).enumerate() {
-            if last.to_bits() == word.to_bits() {
-                continue;
-            }
-            *last = *word;
-            if self.is_time.get(first + offset) != Some(&true) {
-                changed = true;
+            if last.to_bits() != word.to_bits() {
+                *last = *word;
                 self.hash.change(scan, first + offset, *word);
             }
         }
-        changed
+        true
     }
 
     /// Time in its state of the machine whose stay is at this place of the trace, ms.
@@ -106,5 +115,61 @@ impl Changes {
 
     pub fn hash(&self) -> u64 {
         self.hash.value()
+    }
+}
+
+/// What is before each of these places, from the one before it on.
+fn between(mut places: Vec<usize>) -> Vec<Range<usize>> {
+    places.sort_unstable();
+    places.dedup();
+    let begins = [0].into_iter().chain(places.iter().map(|place| place + 1));
+    begins.zip(&places).map(|(begin, end)| begin..*end).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// With times at these places.
+    fn changes(words: &[usize]) -> Changes {
+        let times: Vec<Time> = words.iter().map(|word| Time { word: *word, stopped: None }).collect();
+        Changes { others: between(words.to_vec()), times, scan_ms: 10.0, ..Changes::default() }
+    }
+
+    #[test]
+    fn all_words_but_times_are_taken_in_order() {
+        let traces = [
+            [1.0, 0.0, 2.0, 0.0, 3.0, 4.0],
+            [1.0, 10.0, 2.5, 10.0, 3.0, 4.5],
+            [7.0, 20.0, 2.5, 20.0, 3.0, 4.5],
+        ];
+        let outputs = [[vec![5.0], vec![6.0, 7.0]], [vec![5.0], vec![6.0, 7.5]], [vec![5.0], vec![6.0, 7.5]]];
+        for times in [vec![1, 3], vec![3, 1], vec![0, 1], vec![1, 3, 4, 5], Vec::new()] {
+            let mut changes = changes(&times);
+            let mut hash = Hash::default();
+            let mut known: Vec<f64> = Vec::new();
+            for (scan, (trace, outputs)) in traces.iter().zip(&outputs).enumerate() {
+                changes.take(scan as u64, 1, trace, outputs);
+                let words: Vec<f64> = trace.iter().chain(outputs.iter().flatten()).copied().collect();
+                for (place, word) in words.iter().enumerate() {
+                    if !times.contains(&place) && known.get(place) != Some(word) {
+                        hash.change(scan as u64, place, *word);
+                    }
+                }
+                known = words;
+                assert_eq!(changes.hash(), hash.value(), "scan {scan}, times {times:?}");
+                assert_eq!(changes.trace(), known);
+            }
+        }
+    }
+
+    #[test]
+    fn a_time_that_goes_on_is_no_change() {
+        let mut changes = changes(&[1]);
+        let outputs = [vec![5.0]];
+        assert!(changes.take(0, 1, &[1.0, 0.0], &outputs));
+        assert!(!changes.take(3, 3, &[1.0, 30.0], &outputs));
+        assert!(changes.take(4, 1, &[1.0, 0.0], &outputs));
+        assert!(changes.take(5, 1, &[2.0, 10.0], &outputs));
     }
 }
