@@ -1,7 +1,7 @@
 //! What runs of the same machines have in common: motions that were computed, and what was found free of contact.
 
 use crate::answers::Answers;
-use crate::collision::Swept;
+use crate::collision::Boxes;
 use crate::fingerprint::Fingerprint;
 use crate::line::{Kind, Line, Obstacle};
 use crate::part::Part;
@@ -34,12 +34,14 @@ struct Contacts {
     /// Whether a motion is free of contact with what rests, or two that rest are.
     free: Answers<Fingerprint, bool>,
     /// What contains an arm on each piece of its path.
-    boxes: Answers<Fingerprint, Arc<[Swept]>>,
+    boxes: Answers<Fingerprint, Arc<Boxes>>,
+    /// For how long two that move stay apart, s.
+    clear: Answers<Fingerprint, f64>,
 }
 
 impl Default for Contacts {
     fn default() -> Self {
-        Self { free: Answers::new(MOST), boxes: Answers::new(MOST_BOXES) }
+        Self { free: Answers::new(MOST), boxes: Answers::new(MOST_BOXES), clear: Answers::new(MOST_CLEAR) }
     }
 }
 
@@ -62,6 +64,8 @@ impl Surroundings {
 const MOST: usize = 500_000;
 /// So many motions have their boxes remembered, and as many older ones: 9 kB each.
 const MOST_BOXES: usize = 5_000;
+/// So many answers about two that move are remembered, and as many older ones: 24 bytes each.
+const MOST_CLEAR: usize = 100_000;
 
 impl Memory {
     /// Forgets what is about other machines.
@@ -103,12 +107,21 @@ impl Memory {
         shared
     }
 
-    pub(crate) fn boxes(&self, motion: Fingerprint, compute: impl FnOnce() -> Arc<[Swept]>) -> Arc<[Swept]> {
+    pub(crate) fn boxes(&self, motion: Fingerprint, compute: impl FnOnce() -> Arc<Boxes>) -> Arc<Boxes> {
         self.contacts.boxes.known(&motion).unwrap_or_else(|| {
             let boxes = compute();
             self.contacts.boxes.note(motion, boxes.clone());
             boxes
         })
+    }
+
+    /// For how long two stay apart that move like this, s; none if that is not known.
+    pub(crate) fn clear(&self, motions: Fingerprint) -> Option<f64> {
+        self.contacts.clear.known(&motions)
+    }
+
+    pub(crate) fn note_clear(&self, motions: Fingerprint, seconds: f64) {
+        self.contacts.clear.note(motions, seconds);
     }
 
     pub(crate) fn is_free(&self, question: Fingerprint) -> Option<bool> {

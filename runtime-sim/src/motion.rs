@@ -5,6 +5,7 @@
 //! `top` = min v/change, `gain` = min a/change over the joints; an undisturbed motion takes
 //! 1/top + top/gain if top^2 >= gain, otherwise 2/sqrt(gain).
 
+mod law;
 mod path;
 mod pieces;
 mod profile;

@@ -3,6 +3,7 @@
 mod command;
 pub(crate) mod conveyed;
 mod conveying;
+mod course;
 mod delay;
 pub(crate) mod fall;
 mod faults;
@@ -57,8 +58,14 @@ pub struct Plant {
     grippers: Vec<(usize, usize)>,
     /// Machines with scanners.
     scanning: Vec<usize>,
+    /// Machines with faults.
+    faulty: Vec<usize>,
     /// By machine.
     next_looks: Vec<Option<NextLook>>,
+    /// The courses of the machines when it was last asked for, and the next look.
+    next_look: (u64, f64),
+    /// The courses of the machines with lanes when it was last looked how these go on.
+    conveyed_on: u64,
     lying: Option<Lying>,
     /// Events of items and orders that have woken whom they concern.
     heard: usize,
@@ -81,6 +88,7 @@ impl Plant {
             .map(|index| Working::new(line, index, &desk, &mut items, memory))
             .collect::<Result<Vec<_>, _>>()?;
         let images = machines.iter().map(|machine| vec![0.0; machine.input_words()]).collect();
+        let faulty = (0..machines.len()).filter(|machine| machines[*machine].faults().exist()).collect();
         let scanners = parts(line, |part| matches!(part, Primitive::Scanner(_)));
         let mut scanning: Vec<usize> = scanners.map(|(machine, _)| machine).collect();
         scanning.dedup();
@@ -98,7 +106,10 @@ impl Plant {
             has_handed: false,
             grippers: parts(line, |part| matches!(part, Primitive::Grip(_))).collect(),
             scanning,
+            faulty,
             next_looks: vec![None; line.machines.len()],
+            next_look: (0, f64::NEG_INFINITY),
+            conveyed_on: 0,
             lying: None,
             heard: 0,
         };
@@ -140,7 +151,8 @@ impl Plant {
         // What is rounded may be early.
         let scan = ((next_ms - EARLY_MS) / self.scan_ms as f64).ceil() as u64;
         let next = next_ms.is_finite().then(|| scan.max(self.scan + 1));
-        let faults = self.machines.iter().map(|machine| machine.faults().next_change(self.scan));
+        let faulty = self.faulty.iter().map(|machine| self.machines[*machine].faults());
+        let faults = faulty.map(|faults| faults.next_change(self.scan));
         faults.chain([next, self.has_handed.then_some(self.scan + 1)]).flatten().min()
     }
 
@@ -157,6 +169,7 @@ impl Plant {
         self.wake_concerned(self.now_ms());
         let next_ms = scan * self.scan_ms;
         let (machines, mut shared) = self.split(scan);
+        machines.iter_mut().for_each(|machine| machine.course.go_on_to(next_ms as f64));
         working(machines).for_each(|machine| machine.advance(&mut shared));
         self.slip(scan);
         self.grip(scan);
@@ -191,8 +204,11 @@ impl Plant {
             }
         }
         let now_ms = self.now_ms();
-        while let Some(falls) = self.convey(|conveying, among, _| conveying.look(among, now_ms)) {
-            self.fall(falls);
+        let courses = self.conveying.machines().map(|machine| self.machines[machine].course.number()).sum();
+        if std::mem::replace(&mut self.conveyed_on, courses) != courses {
+            while let Some(falls) = self.convey(|conveying, among, _| conveying.look(among, now_ms)) {
+                self.fall(falls);
+            }
         }
         self.wake_concerned(now_ms);
     }
@@ -250,11 +266,11 @@ impl Plant {
 
     fn write_images(&mut self) {
         if cfg!(debug_assertions) {
-            let idle = (0..self.machines.len()).filter(|machine| self.is_idle(*machine));
-            idle.for_each(|machine| self.check_idle(machine));
+            let still = (0..self.machines.len()).filter(|machine| self.machines[*machine].is_still());
+            still.for_each(|machine| self.check_still(machine));
         }
         for (machine, image) in self.machines.iter().zip(&mut self.images) {
-            if machine.is_idle() {
+            if machine.is_still() {
                 continue;
             }
             machine.write(image, &self.items, &self.desk);
@@ -364,7 +380,7 @@ impl Plant {
     /// a moving lane that bears items or will, a fault that ends.
     pub fn is_busy(&self) -> bool {
         let now_ms = self.now_ms();
-        self.machines.iter().any(|machine| machine.faults().is_passing(self.scan))
+        self.faulty.iter().any(|machine| self.machines[*machine].faults().is_passing(self.scan))
             || self.machines.iter().any(|machine| machine.is_busy(&self.items, &self.desk, self.scan, now_ms))
             || self.conveying.is_busy(&self.machines)
     }

@@ -3,9 +3,10 @@
 use autogen::executor::Executor;
 use autogen::lower::Project;
 use autogen_tests::{Texts, root, text};
+use runtime_sim::memory::Memory;
 use runtime_sim::plant::Plant;
 use runtime_sim::report::Report;
-use runtime_sim::run::{Stepping, run};
+use runtime_sim::run::{Stepping, run, run_again};
 use serde_json::{Value, json};
 
 const FOLDER: &str = "tests/fixtures/collision";
@@ -136,4 +137,26 @@ fn samples_would_step_over_the_thin_wall() {
     });
     assert!(before > 0 && behind > 0);
     assert_eq!(report.collisions.len(), 1);
+}
+
+/// Whether an arm and a vehicle meet depends on the time between their motions, which are the same in all runs.
+#[test]
+fn two_motions_are_remembered_with_the_time_between_them() {
+    let mut fixture = parsed("arm_in_the_vehicles_way.json");
+    let mut memory = Memory::default();
+    let (mut meet, mut pass) = (0, 0);
+    for pause in (0..=9000).step_by(300) {
+        fixture["robots"][0]["parameters"]["pause"] = json!(f64::from(pause) / 1000.0);
+        let project = project(&fixture);
+        let run_with = |memory: &mut Memory| {
+            let mut executor = Executor::new(&project.system);
+            run_again(&project.plant, &mut executor, Stepping::Events, memory, &mut |_| {})
+                .expect("a line that can be run")
+        };
+        let anew = run_with(&mut Memory::default());
+        println!("{pause} ms: {}", anew.reason);
+        assert_eq!(run_with(&mut memory), anew, "{pause} ms");
+        if anew.collisions.is_empty() { pass += 1 } else { meet += 1 }
+    }
+    assert!(meet >= 3 && pass >= 3, "{meet} meet, {pass} pass by");
 }

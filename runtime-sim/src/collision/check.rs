@@ -1,10 +1,11 @@
 //! The collision check of a run.
 //!
 //! Of each pair of machines it is looked up once, for the motions of both, how long they stay apart: by boxes, by what
-//! is remembered of a motion beside something that rests, or by conservative advancement. This holds until one of the
-//! two moves in another way or bears something else. Conservative advancement: at a time the distance of two bodies says
-//! how far they may go before they can meet at the earliest, so how much later it is looked at again. So nothing is
-//! stepped over, however thin. What comes so near that it could be in contact is checked scan by scan.
+//! is remembered of a motion beside something that rests or of two motions with the time between them, or by conservative
+//! advancement. This holds until one of the two moves in another way or bears something else; until then neither is
+//! looked at, nor where it is. Conservative advancement: at a time the distance of two bodies says how far they may go
+//! before they can meet at the earliest, so how much later it is looked at again. So nothing is stepped over, however thin.
+//! What comes so near that it could be in contact is checked scan by scan.
 
 use super::TOLERANCE;
 use super::body::Piece;
@@ -47,7 +48,11 @@ pub struct CollisionCheck {
     /// Of the movements of the groups.
     versions: Vec<u64>,
     pairs: Vec<Pair>,
-    /// The earliest end of what is known of the pairs with these versions, seconds from the start of the run.
+    /// Of each group the numbers of its pairs.
+    pairs_of: Vec<Vec<usize>>,
+    /// Pairs of which it is not known that they never meet as they go on: all others need not be looked at.
+    due: Vec<usize>,
+    /// The earliest end of what is known of them, seconds from the start of the run.
     known_until: f64,
     items: Vec<Tracked>,
     /// Of the kinds.
@@ -89,6 +94,10 @@ impl CollisionCheck {
                 }
             }
         }
+        let pairs_of = |group: usize| {
+            let all = pairs.iter().enumerate();
+            all.filter(|(_, pair)| pair.groups.contains(&group)).map(|(number, _)| number).collect()
+        };
         let size = |kind: &line::Kind| Point::new(kind.size[0], kind.size[1], kind.height);
         let sizes: Vec<Point> = line.kinds.iter().map(size).collect();
         let kinds = line.scenario.supply.iter().flat_map(|supply| supply.items.iter());
@@ -103,7 +112,9 @@ impl CollisionCheck {
         Self {
             items: items.collect(),
             sizes,
-            versions: Vec::with_capacity(groups.len()),
+            versions: vec![0; groups.len()],
+            pairs_of: (0..groups.len()).map(pairs_of).collect(),
+            due: (0..pairs.len()).collect(),
             groups,
             pairs,
             known_until: f64::NEG_INFINITY,
@@ -134,20 +145,23 @@ impl CollisionCheck {
         next: u64,
     ) -> (u64, Option<&Contact>) {
         self.follow_items(plant);
-        for group in &mut self.groups {
-            group.follow(plant);
+        if self.touches() {
+            for group in &mut self.groups {
+                group.count_path(plant);
+                group.catch_up(plant);
+            }
         }
+        let changed = self.follow_groups(plant);
         let now = plant.now_ms() as f64 / 1000.0;
-        let goes_on = self.groups.iter().map(Group::version).eq(self.versions.iter().copied());
-        if goes_on && self.known_until - now >= self.seconds * (next - scan) as f64 + AT_ONCE {
+        if !changed && self.known_until - now >= self.seconds * (next - scan) as f64 + AT_ONCE {
             return (next, None);
         }
-        self.versions.clear();
-        self.versions.extend(self.groups.iter().map(Group::version));
-        self.known_until = f64::INFINITY;
+        self.due.sort_unstable();
+        self.due.dedup();
+        let due = std::mem::take(&mut self.due);
         let mut next = next;
         let mut near = Vec::new();
-        for index in 0..self.pairs.len() {
+        for &index in &due {
             // What comes into contact at the very end is found in this span, however it is rounded.
             let end = self.seconds * (next - scan) as f64 + AT_ONCE;
             let pair = &mut self.pairs[index];
@@ -157,17 +171,14 @@ impl CollisionCheck {
                     pair.known = Known { versions, until: f64::NEG_INFINITY };
                     pair.forget_paths();
                 }
-                self.known_until = f64::NEG_INFINITY;
                 near.push(index);
                 continue;
             }
             if pair.known.versions == versions && pair.known.until - now >= end {
-                self.known_until = self.known_until.min(pair.known.until);
                 continue;
             }
             let clear = pair.clear_for(&mut self.groups, index, plant, memory, end);
             pair.known = Known { versions, until: now + clear };
-            self.known_until = self.known_until.min(pair.known.until);
             if clear < end {
                 // One scan less: the time is rounded.
                 let before = (clear / self.seconds) as u64;
@@ -177,11 +188,34 @@ impl CollisionCheck {
                 near.push(index);
             }
         }
+        self.know(due);
         if next > scan + 1 {
             return (next, None);
         }
         let found = self.search(near, plant);
         (next, self.note_all(found, plant))
+    }
+
+    /// How groups continue; whether one does not go on as it did. The pairs of these are due.
+    fn follow_groups(&mut self, plant: &Plant) -> bool {
+        let mut changed = false;
+        for (number, (group, version)) in self.groups.iter_mut().zip(&mut self.versions).enumerate() {
+            group.follow(plant);
+            if std::mem::replace(version, group.version()) != group.version() {
+                self.due.extend(&self.pairs_of[number]);
+                changed = true;
+            }
+        }
+        changed
+    }
+
+    /// These have been looked at: those that may meet as they go on are due again.
+    fn know(&mut self, mut looked_at: Vec<usize>) {
+        let until = |pair: &Pair| if pair.touches() { f64::NEG_INFINITY } else { pair.known.until };
+        looked_at.retain(|index| until(&self.pairs[*index]) < f64::INFINITY);
+        let all = looked_at.iter().map(|index| until(&self.pairs[*index]));
+        self.known_until = all.fold(f64::INFINITY, f64::min);
+        self.due = looked_at;
     }
 
     /// Which of these pairs come into contact in the scan that begins, by time.
@@ -194,6 +228,7 @@ impl CollisionCheck {
                 from: 0.0,
                 to: self.seconds,
                 contact: TOLERANCE,
+                apart: TOLERANCE,
                 swept: None,
             };
             if let Some(touch) = self.pairs[index].look(&mut span) {

@@ -5,7 +5,7 @@
 //! for each item: where an item comes or goes, all else is known.
 
 use super::body::{Ball, Placed};
-use super::group::{Anchor, Body, Group, Swept};
+use super::group::{Anchor, Body, Boxes, Group, Swept};
 use super::{TOLERANCE, UNCERTAIN};
 use crate::fingerprint::Fingerprint;
 use crate::kinematics::pose::Pose;
@@ -79,9 +79,9 @@ pub fn is_free(
         return known;
     }
     let stands = |group: usize| standing.is_some_and(|side| [a, b][side] == group);
-    let boxes: [Arc<[Swept]>; 2] = [a, b].map(|group| match (a == b, stands(group)) {
-        (true, _) => Arc::default(),
-        (_, true) => [groups[group].standing_boxes()].into(),
+    let boxes: [Arc<Boxes>; 2] = [a, b].map(|group| match (a == b, stands(group)) {
+        (true, _) => Arc::new(Boxes::unknown()),
+        (_, true) => Arc::new(Boxes::of(groups[group].standing_boxes())),
         (_, false) => groups[group].boxes(plant, memory),
     });
     let near = near_pieces(&boxes);
@@ -150,7 +150,8 @@ impl PathPiece<'_> {
 
 /// The equal pieces of the path of one of two groups on which its box meets the other's; all of it, where boxes are not
 /// known.
-fn near_pieces(boxes: &[Arc<[Swept]>; 2]) -> Vec<PathPiece<'_>> {
+fn near_pieces(boxes: &[Arc<Boxes>; 2]) -> Vec<PathPiece<'_>> {
+    let boxes = [0, 1].map(|group| &boxes[group].pieces);
     if boxes.iter().any(|boxes| boxes.is_empty()) {
         return vec![PathPiece { path: [0.0, 1.0], boxes: None }];
     }
@@ -306,8 +307,8 @@ impl<'a> Path<'a> {
     fn travel(&self, side: usize, body: usize, places: [f64; 3], sections: Option<[usize; 3]>) -> f64 {
         let group = &self.groups[self.numbers[side]];
         let Some(body) = self.body(side, body) else { return 0.0 };
-        if let Some(sections) = sections {
-            return from_middle(&body.travel, places, sections);
+        if let (Some(sections), Some(motion)) = (sections, group.motion()) {
+            return from_middle(body.travel(motion), places, sections);
         }
         let [from, middle, to] = places;
         group.path_along(body, [from, middle]).max(group.path_along(body, [middle, to]))

@@ -14,14 +14,15 @@ use crate::kinematics::arm::{Arm, Frames, Joints};
 use crate::kinematics::pose::Pose;
 use crate::line::{Line, Obstacle};
 use crate::machine::Machine;
-use crate::motion::Travel;
+use crate::motion::{Motion, Travel};
 use crate::plant::Plant;
 use crate::plant::trajectory::Trajectory;
 use crate::point::Point;
 use crate::solid::{Link, Solid};
 use boxes::NEAR;
-pub use boxes::Swept;
+pub use boxes::{Boxes, Swept};
 use parts::Parts;
+use std::cell::OnceCell;
 use std::sync::Arc;
 
 /// Solids that keep their places to one another.
@@ -37,8 +38,8 @@ pub struct Body {
     radii: Option<Radii>,
     /// Metres that no point of it has gone more than since the start of the run.
     pub path: f64,
-    /// Along the path of an arm, metres that no point of it goes more than.
-    pub travel: Travel,
+    /// Along the path of the arm that is under way, once somebody has asked.
+    travel: OnceCell<Travel>,
     /// Of an item: of its size, of how it is turned, and of how it hangs.
     item: Option<Fingerprint>,
 }
@@ -71,7 +72,8 @@ pub struct Group {
     is_fixed: bool,
     /// Another one if it does not go on as before, or bears something else.
     version: u64,
-    /// Of the last look at the plant.
+    /// The course of the machine at the last look at the plant, and when that was.
+    course: u64,
     now_ms: f64,
     trajectory: Trajectory,
     movement: Movement,
@@ -87,10 +89,8 @@ pub struct Group {
     resting: Option<Fingerprint>,
     /// Of all items, and of where they are on the machine.
     borne: Option<Fingerprint>,
-    /// What contains it on each of [`PIECES`] of the path of an arm, or all the while. Empty until somebody asks.
-    boxes: Arc<[Swept]>,
-    /// What contains it all the while. None until somebody asks.
-    whole: Option<Arc<Swept>>,
+    /// None until somebody asks.
+    boxes: Option<Arc<Boxes>>,
 }
 
 #[derive(Clone, Debug)]
@@ -102,6 +102,13 @@ pub enum Kind {
 }
 
 impl Body {
+    /// Along the path of this motion of the arm, metres that no point of it goes more than; those of a body that no joint
+    /// moves are none.
+    pub fn travel(&self, motion: &Motion) -> &Travel {
+        self.travel
+            .get_or_init(|| self.radii.as_ref().map_or_else(Travel::default, |radii| motion.travel(radii)))
+    }
+
     /// The item that lies on the machine, if it is one.
     fn lying(&self) -> Option<usize> {
         match self.anchor {
@@ -139,6 +146,7 @@ impl Group {
             is_fixed,
             bodies: Vec::new(),
             version: 0,
+            course: 0,
             now_ms: 0.0,
             trajectory: Trajectory::Rests,
             movement: Movement::Still,
@@ -148,8 +156,7 @@ impl Group {
             moving: None,
             resting: None,
             borne: None,
-            boxes: Arc::default(),
-            whole: None,
+            boxes: None,
         };
         for solids in solids.chunk_by(|a, b| a.link == b.link) {
             let anchor = match solids[0].link {
@@ -181,8 +188,7 @@ impl Group {
             }
             _ => (None, still(&ball)),
         };
-        let travel = self.travel(radii.as_ref());
-        Body { anchor, pieces, ball, bounds, travel, radii, path: 0.0, item: None }
+        Body { anchor, pieces, ball, bounds, travel: OnceCell::new(), radii, path: 0.0, item: None }
     }
 
     /// Adds an item that comes to lie or to hang here; the number of its body.
@@ -281,12 +287,20 @@ impl Group {
         Some(motion.travel(&between))
     }
 
+    /// The motion of an arm that is under way.
+    pub fn motion(&self) -> Option<&Motion> {
+        match &self.movement {
+            Movement::Swings { motion, .. } => Some(motion),
+            Movement::Still | Movement::Slides { .. } | Movement::Rides { .. } => None,
+        }
+    }
+
     /// Where these places are among the sections of the path of an arm, which are the same for all of its bodies; none if
     /// it is no arm that moves.
     pub fn sections(&self, places: [f64; 3]) -> Option<[usize; 3]> {
-        let Movement::Swings { .. } = &self.movement else { return None };
+        let Movement::Swings { motion, .. } = &self.movement else { return None };
         let body = self.bodies.iter().flatten().find(|body| body.radii.is_some())?;
-        Some(places.map(|place| body.travel.section(place)))
+        Some(places.map(|place| body.travel(motion).section(place)))
     }
 
     /// Metres that no point of the body goes more than between two places on the whole path.
@@ -341,14 +355,6 @@ impl Group {
         match self.kind {
             Kind::Obstacle => None,
             Kind::Machine { index, .. } | Kind::Arm { index, .. } => Some(index),
-        }
-    }
-
-    /// Of a body with these radii on the path of the arm.
-    fn travel(&self, radii: Option<&Radii>) -> Travel {
-        match (&self.movement, radii) {
-            (Movement::Swings { motion, .. }, Some(radii)) => motion.travel(radii),
-            _ => Travel::default(),
         }
     }
 

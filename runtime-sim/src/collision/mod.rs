@@ -19,7 +19,7 @@ mod paths;
 mod standing;
 mod sweep;
 
-pub(crate) use group::Swept;
+pub(crate) use group::Boxes;
 
 /// How far the joints of an arm can carry what is fixed to it.
 pub(crate) mod reach {
@@ -39,5 +39,6 @@ pub const SKIN: f64 = 0.001;
 pub const TOLERANCE: f64 = 5e-5;
 
 /// What joints and places that are the same to a micrometre and a microradian can differ by at any point of two arms, m:
-/// the sum of the radii of the joints of each is less than 12 m.
+/// the sum of the radii of the joints of each is less than 12 m. It also holds what a microsecond makes, of what is not
+/// faster than 10 m/s.
 const UNCERTAIN: f64 = 5e-5;

@@ -101,7 +101,10 @@ impl Movement {
             (Self::Rides { ride, .. }, _) => {
                 ride.path(body.ball.middle.length() + body.ball.radius, from, to)
             }
-            (Self::Swings { .. }, _) => body.travel.to(to) - body.travel.to(from),
+            (Self::Swings { motion, .. }, _) => {
+                let travel = body.travel(motion);
+                travel.to(to) - travel.to(from)
+            }
         }
     }
 

@@ -4,7 +4,7 @@ use super::body::Placed;
 use super::distance::Gap;
 use super::free::{Question, can_meet, is_free, note_free};
 use super::group::{Anchor, Body, Group, Swept};
-use super::{SKIN, TOLERANCE};
+use super::{SKIN, TOLERANCE, UNCERTAIN};
 use crate::memory::Memory;
 use crate::plant::Plant;
 use crate::point::Point;
@@ -60,6 +60,8 @@ pub struct Span<'a> {
     pub to: f64,
     /// Bodies that are no farther apart than this meet, m.
     pub contact: f64,
+    /// Those that do not meet stay so far apart at least, m.
+    pub apart: f64,
     /// What contains the bodies of the first group and those of the second; none if that is not known.
     pub swept: Option<[&'a Swept; 2]>,
 }
@@ -88,6 +90,9 @@ const FAR: f64 = 0.1;
 const HALVINGS: u32 = 4;
 /// What may come into contact is looked for so far ahead, s.
 const AHEAD: f64 = 20.0;
+/// What is looked at ahead stays so far apart, m: then it does not come into contact either where its places differ by
+/// the grain of a [`Fingerprint`](crate::fingerprint::Fingerprint).
+const FREE: f64 = TOLERANCE + UNCERTAIN;
 /// No search takes shorter steps, s: whatever moves goes less than a thousandth of the tolerance.
 const SHORTEST_STEP: f64 = 1e-9;
 
@@ -114,11 +119,12 @@ impl Pair {
         let [a, b] = self.groups;
         let rest = ![a, b].into_iter().any(|group| groups[group].moves());
         if a != b {
-            let [first, second] = [a, b].map(|group| groups[group].whole(plant, memory));
-            if first.is_apart(&second) {
+            let [first, second] = [a, b].map(|group| groups[group].boxes(plant, memory));
+            if first.whole.is_apart(&second.whole) {
                 return f64::INFINITY;
             }
         }
+        [a, b].into_iter().for_each(|group| groups[group].catch_up(plant));
         let question = Question::of(groups, number, [a, b], plant);
         if let Some(question) = question
             && is_free(groups, [a, b], plant, memory, question)
@@ -134,7 +140,15 @@ impl Pair {
         let ends = [a, b].map(|group| groups[group].rests_after());
         let seconds = if rest { asked } else { ends.into_iter().fold(AHEAD, f64::min).max(asked) };
         let all_clear = if rest { f64::INFINITY } else { seconds };
+        let laws = [a, b].map(|group| if rest { None } else { groups[group].law(plant) });
+        let motions = match laws {
+            [Some(a), Some(b)] => Some(a.and(b).with(number as u64).near(seconds)),
+            _ => None,
+        };
         self.forget_paths();
+        if let Some(clear) = motions.and_then(|motions| memory.clear(motions)) {
+            return clear;
+        }
         let mut times = vec![(HALVINGS, [0.0, seconds])];
         while let Some((halvings, [from, to])) = times.pop() {
             let outer = [0, 1].map(|side| {
@@ -161,15 +175,22 @@ impl Pair {
                 continue;
             }
             let swept = (a != b).then_some([first, second]);
-            let touch = self.look(&mut Span { groups, plant, from, to, contact: 2.0 * TOLERANCE, swept });
+            let contact = if rest { FREE } else { FREE + TOLERANCE };
+            let touch = self.look(&mut Span { groups, plant, from, to, contact, apart: FREE, swept });
             // When they come into contact is found scan by scan.
             self.touching.clear();
             if let Some(touch) = touch {
                 self.forget_paths();
+                if let Some(motions) = motions {
+                    memory.note_clear(motions, touch.time);
+                }
                 return touch.time;
             }
         }
         self.forget_paths();
+        if let Some(motions) = motions {
+            memory.note_clear(motions, all_clear);
+        }
         if let Some(question) = question.filter(|_| rest) {
             note_free(memory, question);
         }
@@ -287,7 +308,7 @@ impl Span<'_> {
             {
                 return Search::Meet(self.touch(two, time, &gap, pieces));
             }
-            let free = distance - TOLERANCE;
+            let free = distance - self.apart;
             if free >= left {
                 return Search::Clear(free - left);
             }

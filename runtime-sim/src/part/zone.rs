@@ -65,21 +65,25 @@ impl Seeing {
         Self { zone: zone.clone(), farthest: kinds.iter().map(|kind| zone.half - half(kind)).collect() }
     }
 
-    /// Of each kind that lies wholly in the field, where its foremost item is along the lane, and where it rests.
-    fn foremost(&self, see: &See) -> Vec<Option<(f64, Point)>> {
-        let mut foremost = vec![None; self.farthest.len()];
-        let Some(moving) = see.lane(self.zone.lane) else { return foremost };
-        let Some(middle) = self.middle(moving) else { return foremost };
-        for number in see.borne_by(self.zone.lane) {
-            let item = &see.items.all()[number];
-            let Some(along) = moving.place_of(number, &item.carrier) else { continue };
-            if (along - middle).abs() > self.farthest[item.kind] {
-                continue;
-            }
-            if foremost[item.kind].is_none_or(|(other, _)| along < other)
-                && let Some(place) = see.place(self.zone.lane, number)
-            {
-                foremost[item.kind] = Some((along, place));
+    /// All items that lie wholly in the field, and where they are along the lane.
+    fn seen<'a>(&'a self, see: &'a See<'a>) -> impl Iterator<Item = (usize, f64)> + 'a {
+        let lane = see.lane(self.zone.lane).and_then(|moving| Some((moving, self.middle(moving)?)));
+        lane.into_iter().flat_map(move |(moving, middle)| {
+            see.borne_by(self.zone.lane).filter_map(move |number| {
+                let item = &see.items.all()[number];
+                let along = moving.place_of(number, &item.carrier)?;
+                ((along - middle).abs() <= self.farthest[item.kind]).then_some((number, along))
+            })
+        })
+    }
+
+    /// Of each kind the foremost one.
+    fn foremost(&self, see: &See) -> Vec<Option<(usize, f64)>> {
+        let mut foremost: Vec<Option<(usize, f64)>> = vec![None; self.farthest.len()];
+        for (number, along) in self.seen(see) {
+            let of_kind = &mut foremost[see.items.all()[number].kind];
+            if of_kind.is_none_or(|(_, other)| along < other) {
+                *of_kind = Some((number, along));
             }
         }
         foremost
@@ -112,13 +116,14 @@ impl Running for Seeing {
 
     fn signal(&self, signal: usize, see: &See, out: &mut [f64]) {
         out.fill(0.0);
-        for (kind, place) in self.foremost(see).into_iter().enumerate() {
-            match (signal, place) {
-                (_, None) => {}
-                (0, Some(_)) => out[kind] = 1.0,
-                (_, Some((_, Point { x, y, z }))) => {
-                    out[3 * kind..3 * kind + 3].copy_from_slice(&[x, y, z]);
-                }
+        if signal == 0 {
+            self.seen(see).for_each(|(number, _)| out[see.items.all()[number].kind] = 1.0);
+            return;
+        }
+        for (kind, foremost) in self.foremost(see).into_iter().enumerate() {
+            let place = foremost.and_then(|(number, _)| see.place(self.zone.lane, number));
+            if let Some(Point { x, y, z }) = place {
+                out[3 * kind..3 * kind + 3].copy_from_slice(&[x, y, z]);
             }
         }
     }

@@ -1,5 +1,6 @@
 //! How an item on a conveyor continues.
 
+use crate::fingerprint::Fingerprint;
 use crate::frame::Frame;
 use crate::part::lane::CentreLine;
 use crate::part::stroke::{Stroke, Stroking};
@@ -75,6 +76,18 @@ impl Conveyed {
             false => own,
         };
         lies + carried
+    }
+
+    /// Of how it goes on, with where it is; none if what it lies on is carried.
+    pub fn law(&self) -> Option<Fingerprint> {
+        if self.carried.is_some() {
+            return None;
+        }
+        let [begin, end] = [self.centre_line.begin(), self.centre_line.end()];
+        let places = [begin, (begin + end) / 2.0, end, self.place];
+        let points = places.into_iter().map(|place| self.centre_line.point(place, self.across));
+        let numbers = points.flat_map(|Point { x, y, z }| [x, y, z]).chain([self.speed, self.stops_at]);
+        Some(numbers.fold(Fingerprint::default(), Fingerprint::near))
     }
 
     /// Whether the other one is the same after so many seconds.
@@ -166,6 +179,31 @@ impl Conveyed {
         match self.centre_line {
             CentreLine::Arc { radius, .. } => 1.0 + self.across.abs() / radius.abs(),
             CentreLine::Axis { .. } | CentreLine::Line { .. } => 1.0,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_law_tells_apart_what_goes_on_otherwise() {
+        let surface = Point::new(1.0, 2.0, 0.9);
+        let along = |along| CentreLine::Axis { along, range: [-3.0, 3.0], surface };
+        let conveyed =
+            Conveyed { speed: 0.2, place: 1.0, across: 0.1, stops_at: -1.0, ..Conveyed::standing(surface) };
+        let conveyed = Conveyed { centre_line: along(Axis::X), ..conveyed };
+        let others = [
+            Conveyed { speed: 0.3, ..conveyed },
+            Conveyed { place: 1.001, ..conveyed },
+            Conveyed { across: 0.2, ..conveyed },
+            Conveyed { stops_at: f64::NEG_INFINITY, ..conveyed },
+            Conveyed { centre_line: along(Axis::Y), ..conveyed },
+        ];
+        assert_eq!(conveyed.law(), Conveyed { place: 1.0 + 1e-9, ..conveyed }.law());
+        for other in others {
+            assert_ne!(conveyed.law(), other.law(), "{other:?}");
         }
     }
 }

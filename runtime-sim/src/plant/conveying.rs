@@ -74,6 +74,11 @@ impl Conveying {
         Self { speeds: vec![f64::NAN; tracks.len()], tracks, next_ms: f64::INFINITY }
     }
 
+    /// Those that have lanes, once for each lane.
+    pub fn machines(&self) -> impl Iterator<Item = usize> {
+        self.tracks.iter().map(|track| track.machine)
+    }
+
     /// Whether one of two lanes leads onto the other; each by the numbers of its machine and of its part.
     pub fn are_joined(&self, lanes: [(usize, usize); 2]) -> bool {
         let track = |lane| self.tracks.iter().position(|track| (track.machine, track.part) == lane);
@@ -149,6 +154,7 @@ impl Conveying {
     fn refresh(&mut self, among: &mut Among, ms: f64) -> Option<Falls> {
         for track in &self.tracks {
             track.adopt(among, ms);
+            among.machines[track.machine].begin_course();
         }
         tracks::join(&mut self.tracks, ms);
         let mut falls = None;

@@ -63,10 +63,45 @@ pub(super) struct Lying {
     moving: Vec<usize>,
 }
 
+/// The least number of which this holds, which also holds of all that are greater; `most` if there is none below.
+fn first(most: u32, holds: impl Fn(u32) -> bool) -> u32 {
+    // It does not hold of what is below.
+    let (mut below, mut step) = (0, 1);
+    loop {
+        let number = (below + step - 1).min(most);
+        if number == most || holds(number) {
+            break bisected(below, number, holds);
+        }
+        below = number + 1;
+        step *= 2;
+    }
+}
+
+/// The same of those from `low` to `high`, which is the last that it could be.
+fn bisected(mut low: u32, mut high: u32, holds: impl Fn(u32) -> bool) -> u32 {
+    while low < high {
+        let middle = low + (high - low) / 2;
+        if holds(middle) {
+            high = middle;
+        } else {
+            low = middle + 1;
+        }
+    }
+    low
+}
+
 impl Plant {
     /// When a gripper next looks and could find an item, ms; infinity: never, as everything moves now.
     pub(super) fn next_look(&mut self, now_ms: u64) -> f64 {
-        if self.machines.iter().all(|machine| machine.looks().next().is_none()) {
+        let courses = self.courses();
+        if self.next_look.0 != courses || self.next_look.1 <= now_ms as f64 {
+            self.next_look = (courses, self.find_next_look(now_ms));
+        }
+        self.next_look.1
+    }
+
+    fn find_next_look(&mut self, now_ms: u64) -> f64 {
+        if self.grippers.iter().all(|(machine, _)| self.machines[*machine].looks().next().is_none()) {
             // What moves now is not seen to.
             self.lying = None;
             return f64::INFINITY;
@@ -77,7 +112,8 @@ impl Plant {
             self.lying = None;
         }
         let mut next_ms = f64::INFINITY;
-        for machine in 0..self.machines.len() {
+        for number in 0..self.grippers.len() {
+            let (machine, _) = self.grippers[number];
             next_ms = next_ms.min(self.next_look_of(machine, &speeds, now_ms));
         }
         next_ms
@@ -122,24 +158,35 @@ impl Plant {
         let now = now_ms as f64 / 1000.0;
         let mut nearest = self.nearest(tool.position, lying);
         let mut from = now;
-        for _ in 0..MOST_LOOKS {
+        let mut left = MOST_LOOKS;
+        // A look is done at the end of its scan.
+        let time_of = |look: u64| (look.div_ceil(self.scan_ms) * self.scan_ms) as f64 / 1000.0;
+        while left > 0 {
             if working.tool_goes(looks.chain, from, f64::MAX) == 0.0 {
                 let soonest_ms = 1000.0 * (now + nearest.until(near)) - self.scan_ms as f64;
                 let periods = (soonest_ms / looks.period_ms as f64).floor();
                 return (periods * looks.period_ms as f64).max(look as f64);
             }
-            // A look is done at the end of its scan.
-            let at = (look.div_ceil(self.scan_ms) * self.scan_ms) as f64 / 1000.0;
-            if nearest.after(at - now) - working.tool_goes(looks.chain, from, at) <= near {
-                if let Some(tool) = working.tool_at(looks.chain, at) {
-                    nearest = self.nearest(tool, lying);
-                    from = at;
-                }
-                if nearest.after(at - now) - working.tool_goes(looks.chain, from, at) <= near {
-                    break;
-                }
+            // What it may meet by then, it may meet later.
+            let may_meet = |count: u32| {
+                let at = time_of(look + u64::from(count) * looks.period_ms);
+                nearest.after(at - now) - working.tool_goes(looks.chain, from, at) <= near
+            };
+            let passed = first(left, may_meet);
+            look += u64::from(passed) * looks.period_ms;
+            left -= passed;
+            let at = time_of(look);
+            if left == 0 {
+                break;
+            }
+            let Some(tool) = working.tool_at(looks.chain, at) else { break };
+            nearest = self.nearest(tool, lying);
+            from = at;
+            if nearest.after(at - now) <= near {
+                break;
             }
             look += looks.period_ms;
+            left -= 1;
         }
         look as f64
     }
@@ -160,7 +207,14 @@ impl Plant {
 
     /// How far a place is from where items are gripped now, of those that are not.
     fn nearest(&self, place: Point, Lying { speeds, at_rest, moving, .. }: &Lying) -> Nearest {
-        let at_rest = at_rest.iter().map(|grip| (*grip - place).length()).fold(f64::INFINITY, f64::min);
+        let square = |grip: &Point| {
+            let gap = *grip - place;
+            gap.dot(gap)
+        };
+        let at_rest = at_rest.iter().map(square).fold(f64::INFINITY, f64::min).sqrt();
+        if moving.is_empty() {
+            return Nearest { at_rest, moving: Vec::new() };
+        }
         let mut distances = vec![f64::INFINITY; speeds.len()];
         for index in moving {
             let machine = self.items.all()[*index].carrier.machine();
@@ -240,5 +294,19 @@ impl Plant {
             }
         }
         nearest.map(|(_, item)| item)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_number_is_found_without_a_look_at_each() {
+        for most in 0..40 {
+            for from in 0..45 {
+                assert_eq!(first(most, |number| number >= from), from.min(most), "{from} of {most}");
+            }
+        }
     }
 }

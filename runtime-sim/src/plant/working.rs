@@ -3,6 +3,7 @@
 mod parts;
 
 use super::command::{Answer, Asked, Head};
+use super::course::Course;
 use super::fall::SINK;
 use super::faults::Faults;
 use super::idle::Idle;
@@ -43,6 +44,7 @@ pub struct Working {
     serving: Vec<usize>,
     faults: Faults,
     pub(super) idle: Idle,
+    pub(super) course: Course,
 }
 
 /// What all machines share.
@@ -98,6 +100,7 @@ impl Working {
         Ok(Self {
             index,
             idle: Idle::new(&parts, faults.exist()),
+            course: Course::default(),
             pose: machine.pose,
             serving: (0..parts.len()).filter(serves).collect(),
             parts,
@@ -154,6 +157,7 @@ impl Working {
     }
 
     fn end(&mut self, error: i32, ends_ms: u64) {
+        self.begin_course();
         if let Some(head) = &mut self.head {
             head.end(error, ends_ms);
         }
@@ -246,7 +250,10 @@ impl Working {
             }
             match progress {
                 Progress::Going => {}
-                Progress::Reached => head.reach(shared.next_ms()),
+                Progress::Reached => {
+                    head.reach(shared.next_ms());
+                    self.begin_course();
+                }
                 Progress::Failed(error) => {
                     self.abandon(shared.next_ms());
                     self.end(error, shared.next_ms());

@@ -81,6 +81,31 @@ impl Swept {
     }
 }
 
+/// What contains a group on each piece of its path, or all the while, and as long as it goes on like this.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Boxes {
+    pub pieces: Vec<Swept>,
+    pub whole: Swept,
+}
+
+impl Boxes {
+    /// One piece at least.
+    fn new(pieces: Vec<Swept>) -> Self {
+        let (first, others) = pieces.split_first().unwrap_or_else(|| unreachable!("a path has a piece"));
+        Self { whole: others.iter().fold(first.clone(), |all, next| all.with(next)), pieces }
+    }
+
+    /// Of what is not looked at.
+    pub fn unknown() -> Self {
+        let nothing = Swept::new(Vec::new(), Arc::default());
+        Self { pieces: Vec::new(), whole: nothing }
+    }
+
+    pub fn of(swept: Swept) -> Self {
+        Self::new(vec![swept])
+    }
+}
+
 /// What contains a group for a time, without a look at its bodies.
 #[derive(Clone, Copy)]
 pub struct Outer {
@@ -106,38 +131,26 @@ impl Outer {
 }
 
 impl Group {
-    /// What contains it as long as it goes on like this.
-    pub fn whole(&mut self, plant: &Plant, memory: &mut Memory) -> Arc<Swept> {
-        if let Some(whole) = &self.whole {
-            return whole.clone();
-        }
-        let boxes = self.boxes(plant, memory);
-        let mut pieces = boxes.iter();
-        let first = pieces.next().cloned().unwrap_or_else(|| self.each(|_| BoundingBox::NOTHING));
-        let whole = Arc::new(pieces.fold(first, |all, next| all.with(next)));
-        self.whole = Some(whole.clone());
-        whole
-    }
-
     /// What contains it on each piece of its path, or all the while.
-    pub fn boxes(&mut self, plant: &Plant, memory: &mut Memory) -> Arc<[Swept]> {
-        if self.boxes.is_empty() {
-            let moving = self.moving(plant).zip(self.machine());
-            self.boxes = match (&self.movement, moving) {
-                (Movement::Swings { motion, .. }, Some((moving, machine))) => {
-                    let key = moving.with(machine as u64).and(self.numbered(plant));
-                    memory.boxes(key, || self.swept(motion))
-                }
-                (Movement::Swings { motion, .. }, None) => self.swept(motion),
-                // All that it can ever be in.
-                (Movement::Slides { .. } | Movement::Rides { .. }, _) => {
-                    [self.each(|body| body.bounds)].into()
-                }
-                (Movement::Still, _) if self.moves_parts() => [self.each(|body| body.bounds)].into(),
-                (Movement::Still, _) => [self.present(plant)].into(),
-            };
+    pub fn boxes(&mut self, plant: &Plant, memory: &mut Memory) -> Arc<Boxes> {
+        if let Some(boxes) = &self.boxes {
+            return boxes.clone();
         }
-        self.boxes.clone()
+        let moving = self.moving(plant).zip(self.machine());
+        let boxes = match (&self.movement, moving) {
+            (Movement::Swings { motion, .. }, Some((moving, machine))) => {
+                let key = moving.with(machine as u64).and(self.numbered(plant));
+                memory.boxes(key, || Arc::new(self.swept(motion)))
+            }
+            (Movement::Swings { motion, .. }, None) => Arc::new(self.swept(motion)),
+            // All that it can ever be in.
+            (Movement::Slides { .. } | Movement::Rides { .. }, _) => {
+                Arc::new(Boxes::of(self.each(|body| body.bounds)))
+            }
+            (Movement::Still, _) if self.moves_parts() => Arc::new(Boxes::of(self.each(|body| body.bounds))),
+            (Movement::Still, _) => Arc::new(Boxes::of(self.present(plant))),
+        };
+        self.boxes.insert(boxes).clone()
     }
 
     /// Whether each body stands in the world.
@@ -177,8 +190,8 @@ impl Group {
     }
 
     /// On each piece of a path.
-    fn swept(&self, motion: &Motion) -> Arc<[Swept]> {
-        let Kind::Arm { arm, .. } = &self.kind else { return Arc::default() };
+    fn swept(&self, motion: &Motion) -> Boxes {
+        let Kind::Arm { arm, .. } = &self.kind else { return Boxes::of(self.each(|body| body.bounds)) };
         let half = 0.5 / (PIECES * PLACES) as f64;
         let stands = self.stands();
         let piece = |piece: usize| {
@@ -189,13 +202,13 @@ impl Group {
                 let places = [middle - half, middle, middle + half];
                 for (all, body) in bodies.iter_mut().zip(&self.bodies) {
                     if let Some(body) = body {
-                        *all = all.with(&along(body, &frames, places));
+                        *all = all.with(&along(body, motion, &frames, places));
                     }
                 }
             }
             Swept::new(bodies, stands.clone())
         };
-        (0..PIECES).map(piece).collect()
+        Boxes::new((0..PIECES).map(piece).collect())
     }
 
     /// Of the path of an arm, those on which it is between two times.
@@ -213,7 +226,7 @@ impl Group {
             Movement::Still | Movement::Rides { .. } | Movement::Slides { .. } => return None,
         };
         let boxes = self.boxes(plant, memory);
-        boxes[pieces].iter().map(Swept::outer).reduce(|all, next| all.with(&next))
+        boxes.pieces[pieces].iter().map(Swept::outer).reduce(|all, next| all.with(&next))
     }
 
     /// What contains it between two times, seconds from now.
@@ -222,7 +235,7 @@ impl Group {
             Movement::Swings { .. } => {
                 let pieces = self.pieces_between([from, to]);
                 let boxes = self.boxes(plant, memory);
-                let mut pieces = boxes[pieces].iter();
+                let mut pieces = boxes.pieces[pieces].iter();
                 let first = pieces.next().cloned().unwrap_or_else(|| self.each(|_| BoundingBox::NOTHING));
                 pieces.fold(first, |all, next| all.with(next))
             }
@@ -238,7 +251,7 @@ impl Group {
                     boxes.fold(BoundingBox::NOTHING, |all, next| all.with(&next))
                 })
             }
-            Movement::Still if !self.moves_parts() => self.boxes(plant, memory)[0].clone(),
+            Movement::Still if !self.moves_parts() => self.boxes(plant, memory).whole.clone(),
             Movement::Slides { .. } | Movement::Still => {
                 let mut bodies = vec![BoundingBox::NOTHING; self.bodies.len()];
                 for (number, all) in bodies.iter_mut().enumerate() {
@@ -272,10 +285,11 @@ impl Group {
 
 /// What contains a body of an arm between the first and the last of these places on its path; the frames are those of the
 /// middle one.
-fn along(body: &Body, frames: &Frames, [from, middle, to]: [f64; 3]) -> BoundingBox {
+fn along(body: &Body, motion: &Motion, frames: &Frames, [from, middle, to]: [f64; 3]) -> BoundingBox {
     let Anchor::Link(link) = body.anchor else { return body.bounds };
-    let gone = body.travel.to(middle);
-    let reach = (gone - body.travel.to(from)).max(body.travel.to(to) - gone);
+    let travel = body.travel(motion);
+    let gone = travel.to(middle);
+    let reach = (gone - travel.to(from)).max(travel.to(to) - gone);
     if body.ball.radius > LONG {
         return present(&body.pieces, &frames[link]).wider(reach);
     }

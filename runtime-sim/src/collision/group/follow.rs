@@ -2,10 +2,9 @@
 
 use super::super::movement::Movement;
 use super::{Group, path_of_parts};
-use crate::motion::Travel;
 use crate::plant::Plant;
 use crate::plant::trajectory::Trajectory;
-use std::sync::Arc;
+use std::cell::OnceCell;
 
 impl Group {
     /// Which of its movements this is.
@@ -13,22 +12,34 @@ impl Group {
         self.version
     }
 
-    /// Looks up how it is going to move from now on, and how far it has gone at most.
+    /// Looks up how it is going to move from now on, unless it goes on as it did.
     pub fn follow(&mut self, plant: &Plant) {
         let Some(index) = self.machine().filter(|_| !self.is_fixed) else { return };
+        let course = plant.course(index);
+        if std::mem::replace(&mut self.course, course) != course {
+            self.look(index, plant);
+        } else if cfg!(debug_assertions) && !plant.is_idle(index) {
+            let mut again = self.clone();
+            again.look(index, plant);
+            debug_assert_eq!(again.version, self.version, "{} does not go on as it did", self.name);
+        }
+    }
+
+    /// Looks up where it is on its path by now.
+    pub fn catch_up(&mut self, plant: &Plant) {
+        if let Some(index) = self.machine().filter(|_| !self.is_fixed)
+            && self.now_ms != plant.now_ms() as f64
+        {
+            self.look(index, plant);
+        }
+    }
+
+    fn look(&mut self, index: usize, plant: &Plant) {
         let now_ms = plant.now_ms() as f64;
         let passed = (now_ms - self.now_ms) / 1000.0;
         self.now_ms = now_ms;
         if plant.is_idle(index) {
             return;
-        }
-        if self.moves() && passed > 0.0 {
-            let times = [0.0, passed];
-            let span = self.movement.span(0.0, passed);
-            for body in self.bodies.iter_mut().flatten() {
-                body.path +=
-                    path_of_parts(&self.parts, body, times).unwrap_or_else(|| self.movement.path(body, span));
-            }
         }
         let trajectory = plant.trajectory(index).since(now_ms);
         if trajectory == Trajectory::Rests && self.movement.rests_after() <= passed {
@@ -40,6 +51,19 @@ impl Group {
             self.movement = Movement::new(&self.trajectory, now_ms);
         }
         self.follow_parts(index, plant, passed);
+    }
+
+    /// Counts how far it has gone at most since it was looked at.
+    pub fn count_path(&mut self, plant: &Plant) {
+        let passed = (plant.now_ms() as f64 - self.now_ms) / 1000.0;
+        if self.moves() && passed > 0.0 {
+            let times = [0.0, passed];
+            let span = self.movement.span(0.0, passed);
+            for body in self.bodies.iter_mut().flatten() {
+                body.path +=
+                    path_of_parts(&self.parts, body, times).unwrap_or_else(|| self.movement.path(body, span));
+            }
+        }
     }
 
     /// It has come to rest where it was going to.
@@ -58,11 +82,7 @@ impl Group {
             return;
         }
         self.forget();
-        if let Movement::Swings { motion, .. } = &self.movement {
-            for body in self.bodies.iter_mut().flatten() {
-                body.travel = body.radii.as_ref().map_or_else(Travel::default, |radii| motion.travel(radii));
-            }
-        }
+        self.bodies.iter_mut().flatten().for_each(|body| body.travel = OnceCell::new());
     }
 
     /// How the items on its conveyors and its cylinders continue.
@@ -97,7 +117,6 @@ impl Group {
         self.resting = None;
         self.borne = None;
         self.along = None;
-        self.boxes = Arc::default();
-        self.whole = None;
+        self.boxes = None;
     }
 }

@@ -1,6 +1,7 @@
 //! What moves on a machine: items on its conveyors, and cylinders.
 
 use super::{Anchor, Body};
+use crate::fingerprint::Fingerprint;
 use crate::part::stroke::Stroking;
 use crate::plant::Plant;
 use crate::plant::conveyed::Conveyed;
@@ -35,6 +36,15 @@ impl Parts {
         let items = self.conveyed.iter().filter(|(_, conveyed)| conveyed.moves());
         let items = items.map(|(_, conveyed)| conveyed.rests_after());
         items.chain(self.strokes().map(Stroking::rests_after)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Of how they continue; none if a cylinder moves or carries one of them.
+    pub fn law(&self) -> Option<Fingerprint> {
+        if self.strokes().any(Stroking::moves) {
+            return None;
+        }
+        let mut laws = self.conveyed.iter().map(|(_, conveyed)| conveyed.law());
+        laws.try_fold(Fingerprint::default(), |all, law| Some(all.and(law?)))
     }
 
     /// Looks again, so many seconds after the last time; whether all of them have continued as they were going to.

@@ -34,23 +34,39 @@ impl Group {
             return None;
         }
         if self.resting.is_none() {
-            let place = match &self.kind {
-                Kind::Obstacle => Fingerprint::default(),
-                Kind::Machine { index, .. } => {
-                    let place = near(Fingerprint::default(), plant.position(*index).unwrap_or_default());
-                    plant.vehicle(*index).map_or(place, |vehicle| place.near(vehicle.yaw))
-                }
-                Kind::Arm { index, .. } => {
-                    let joints = plant.joints(*index);
-                    joints
-                        .iter()
-                        .flat_map(|joints| joints.iter())
-                        .fold(Fingerprint::default(), |print, joint| print.near(*joint))
-                }
-            };
-            self.resting = Some(self.with_strokes(place));
+            self.resting = Some(self.with_strokes(self.place(plant)));
         }
         self.resting
+    }
+
+    /// Of where it is now.
+    fn place(&self, plant: &Plant) -> Fingerprint {
+        match &self.kind {
+            Kind::Obstacle => Fingerprint::default(),
+            Kind::Machine { index, .. } => {
+                let place = near(Fingerprint::default(), plant.position(*index).unwrap_or_default());
+                plant.vehicle(*index).map_or(place, |vehicle| place.near(vehicle.yaw))
+            }
+            Kind::Arm { index, .. } => {
+                let joints = plant.joints(*index);
+                let joints = joints.iter().flat_map(|joints| joints.iter());
+                joints.fold(Fingerprint::default(), |print, joint| print.near(*joint))
+            }
+        }
+    }
+
+    /// Of all that it does from now on until something new is asked of it; none of what nobody asks about again.
+    pub fn law(&mut self, plant: &Plant) -> Option<Fingerprint> {
+        let movement = match &self.movement {
+            Movement::Still => self.place(plant),
+            Movement::Rides { .. } => return None,
+            Movement::Slides { velocity, from, until } => {
+                let place = near(near(Fingerprint::default(), self.position(plant)), *velocity);
+                place.near(*from).near(*until)
+            }
+            Movement::Swings { motion, begin } => motion.law(*begin),
+        };
+        Some(self.with_strokes(movement).and(self.parts.law()?).and(self.borne(plant)))
     }
 
     /// And of where its cylinders and positioners are.

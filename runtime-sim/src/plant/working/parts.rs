@@ -41,8 +41,10 @@ impl Working {
 
     /// What the scanner that a part is sees.
     pub fn tell(&mut self, part: usize, sees: bool) {
-        if let Some(scanning) = self.parts[part].as_mut().and_then(|running| running.scanner_mut()) {
-            scanning.sees = sees;
+        if let Some(scanning) = self.parts[part].as_mut().and_then(|running| running.scanner_mut())
+            && std::mem::replace(&mut scanning.sees, sees) != sees
+        {
+            self.begin_course();
         }
     }
 
