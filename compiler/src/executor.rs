@@ -106,14 +106,32 @@ impl<'a> Executor<'a> {
             .iter()
             .map(|a| a.states.iter().map(|s| vec![0; s.transitions.len()]).collect())
             .collect();
+        Self { cells, fired, ..Self::of_robots(system, robots) }
+    }
+
+    /// For expressions that read nothing but what the layout fixes: instances have neither cells nor ports nor locals.
+    pub fn without_values(system: &'a System) -> Self {
+        let robots = system.instances.iter().map(|instance| Robot {
+            state: 0,
+            elapsed: 0,
+            locals: Vec::new(),
+            ports: Vec::new(),
+            variables: vec![Value::Int(0); system.model.automaton(instance.automaton).variables.len()],
+            alarms: Vec::new(),
+            stopped: false,
+        });
+        Self::of_robots(system, robots.collect())
+    }
+
+    fn of_robots(system: &'a System, robots: Vec<Robot>) -> Self {
         Self {
             system,
             robots,
-            cells,
+            cells: Vec::new(),
             status: Status::NEW,
             permit: false,
             scan: 0,
-            fired,
+            fired: Vec::new(),
             journal: None,
             only: None,
         }

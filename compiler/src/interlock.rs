@@ -120,11 +120,11 @@ fn both([a, b]: [&Moving; 2], stays: &Stays, others: &Stays) -> Option<Crossing>
 /// Whether the second one is a member of a role of the first: what they share is the matter of their handover.
 fn works_with(project: &Project, a: &Mover, b: &Mover) -> bool {
     let system = &project.system;
-    let automaton = system.automaton_of(a.instance);
-    let roles = automaton.roles.iter().zip(&system.instances[a.instance].roles);
-    roles
-        .into_iter()
-        .any(|(role, rows)| rows.iter().any(|row| system.members[role.interface.0][*row] == b.instance))
+    let mut roles = system.automaton_of(a.instance).roles.iter().zip(&system.instances[a.instance].roles);
+    roles.any(|(role, rows)| {
+        let own = system.automaton_of(b.instance).implementing(role.interface);
+        own.is_some_and(|own| rows.contains(&system.instances[b.instance].rows[own]))
+    })
 }
 
 fn diagnostic(

@@ -13,7 +13,7 @@ mod robot;
 mod sensor;
 mod shape;
 
-use super::Files;
+use super::{Files, Part, Sink, Text, part};
 use crate::naming;
 use askama::Template;
 use model::Model;
@@ -23,6 +23,7 @@ use runtime_sim::machine::Machine;
 use runtime_sim::part::Primitive;
 use runtime_sim::point::Point;
 use runtime_sim::solid;
+use std::fmt::Formatter;
 
 /// Ambient and diffuse colour of an obstacle, and of a machine of no material.
 const OBSTACLE: &str = "0.75 0.75 0.75 1";
@@ -32,10 +33,11 @@ const BORDER: f64 = 5.0;
 
 #[derive(Template)]
 #[template(path = "sdf/world.sdf")]
-struct World {
+struct World<'a> {
     name: String,
     floor: Floor,
-    models: Vec<Model>,
+    /// Each on lines of its own.
+    models: Part<'a>,
 }
 
 struct Floor {
@@ -45,19 +47,26 @@ struct Floor {
 
 /// The files of the folder `world/`; `name` is the layout's.
 pub fn files(name: &str, line: &Line) -> Files {
-    let machines = line.machines.iter().flat_map(|machine| {
-        let name = naming::sdf(&machine.name);
-        let cameras = sensor::over_stops(machine);
-        [Some(self::machine(name, machine)), cameras].into_iter().flatten()
+    let mut files = Files::new();
+    write(name, line, &mut files);
+    files
+}
+
+/// Writes the files of the folder `world/`.
+pub fn write(name: &str, line: &Line, files: &mut dyn Sink) {
+    let machines = || line.machines.iter().flat_map(models);
+    let models = part(|f| {
+        let mut models = machines().chain(line.obstacles.iter().filter_map(obstacle));
+        models.try_for_each(|model| write!(f, "\n{model}"))
     });
-    let world = World {
-        name: naming::sdf(name),
-        floor: floor(line),
-        models: machines.chain(line.obstacles.iter().filter_map(obstacle)).collect(),
-    };
-    // Writing to memory does not fail.
-    let text = world.render().unwrap_or_default();
-    Files::from([("factory.sdf".into(), text + "\n")])
+    let world = World { name: naming::sdf(name), floor: floor(line), models };
+    files.file("factory.sdf", &Text(|f: &mut Formatter| writeln!(f, "{world}")));
+}
+
+/// A machine, and the cameras over its stops.
+fn models(machine: &Machine) -> impl Iterator<Item = Model> {
+    let own = self::machine(naming::sdf(&machine.name), machine);
+    [Some(own), sensor::over_stops(machine)].into_iter().flatten()
 }
 
 fn machine(name: String, machine: &Machine) -> Model {

@@ -47,14 +47,14 @@ mod walk;
 mod watchdog;
 mod xml;
 
-use super::Files;
+use super::{Files, Folder, Sink};
 use crate::io_map::{IoMap, Point};
 use crate::ir::{AutomatonId, System};
 use crate::naming::st::Scope;
 use crate::source::Sources;
 use crate::translation::Translations;
 use context::Shared;
-use globals::Globals;
+use globals::{Globals, Index};
 use image::Image;
 use program::Blocks;
 use runtime_sim::io_trace::Columns;
@@ -73,29 +73,46 @@ pub fn files(system: &System, sources: &Sources) -> Files {
 /// The files of the folder `plc/`, with the addresses of a map for [`points`] of the same system. And the columns
 /// of an I/O trace, named as the globals of `portable/main.st`; the state of a robot as `robot.state`.
 pub fn mapped(system: &System, sources: &Sources, map: &IoMap) -> (Files, Columns) {
-    with_line(system, sources, map, |made| {
-        let mut files = made.texts_without_types();
-        files.extend(made.codesys(&made.by_type()));
-        files.extend(made.siemens());
-        (files, made.columns())
-    })
+    let mut files = Files::new();
+    let columns = write(system, sources, map, Flavours::WithoutPlcopen, &mut files);
+    (files, columns)
 }
 
 /// The text of [`mapped`] as PLCopen XML, in the two flavours that tools import; files of the folder `plc/`.
 pub fn plcopen(system: &System, sources: &Sources, map: &IoMap) -> Files {
-    with_line(system, sources, map, |made| made.plcopen(&made.by_type()))
+    with_line(system, sources, map, |made| {
+        let mut files = Files::new();
+        made.plcopen(&mut files);
+        made.codesys_xml(&made.structured(Enumerated::ByType), &mut files);
+        files
+    })
 }
 
-/// [`mapped`] and [`plcopen`], for which the line is made once.
-pub fn mapped_with_plcopen(system: &System, sources: &Sources, map: &IoMap) -> (Files, Columns) {
-    with_line(system, sources, map, |made| {
-        let mut files = made.texts_without_types();
-        let by_type = made.by_type();
-        files.extend(made.codesys(&by_type));
-        files.extend(made.plcopen(&by_type));
-        drop(by_type);
-        files.extend(made.siemens());
-        (files, made.columns())
+/// In what the program is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Flavours {
+    All,
+    WithoutPlcopen,
+}
+
+/// Writes the files of the folder `plc/`, and returns the columns of [`mapped`].
+pub fn write(
+    system: &System,
+    sources: &Sources,
+    map: &IoMap,
+    flavours: Flavours,
+    files: &mut dyn Sink,
+) -> Columns {
+    with_line(system, sources, map, |mut made| {
+        made.texts_without_types(files);
+        if flavours == Flavours::All {
+            made.plcopen(files);
+        }
+        // With structures, values stand where they are declared; these statements are as many as all values.
+        made.line.layout.body = Vec::new();
+        made.codesys(flavours, files);
+        made.siemens(files);
+        made.columns()
     })
 }
 
@@ -104,57 +121,60 @@ pub fn mapped_with_plcopen(system: &System, sources: &Sources, map: &IoMap) -> (
 struct Made<'a> {
     shared: Shared<'a>,
     map: &'a IoMap,
-    line: &'a Line,
+    line: Line,
     /// The names of MAIN.
     program: &'a Scope,
 }
 
-fn with_line<T>(system: &System, sources: &Sources, map: &IoMap, write: impl FnOnce(&Made) -> T) -> T {
+fn with_line<T>(system: &System, sources: &Sources, map: &IoMap, write: impl FnOnce(Made) -> T) -> T {
     let names = names::names(system);
     let mut program = names.program.inner();
     let image = image::image(system, &names, map, &mut program);
     let shared = Shared { system, sources, names: &names };
-    write(&Made { shared, map, line: &line(shared, &image), program: &program })
+    write(Made { shared, map, line: line(shared, &image), program: &program })
 }
 
 impl Made<'_> {
-    fn by_type(&self) -> Line {
-        structured(self.shared, self.line, Enumerated::ByType, &mut self.program.clone())
+    fn structured(&self, enumerated: Enumerated) -> Line {
+        structured(self.shared, &self.line, enumerated, &mut self.program.clone())
     }
 
-    fn texts_without_types(&self) -> Files {
+    fn texts_without_types(&self, files: &mut dyn Sink) {
         let (shared, names) = (self.shared, self.shared.names);
-        let mut files = Files::new();
-        files.insert("portable/main.st".into(), text::portable(shared, self.line));
-        files.insert("io.csv".into(), table::io(shared, self.map));
-        files.insert("alarms.csv".into(), alarms::table(shared, &mut screen::as_written));
-        files.insert("states.csv".into(), states::table(shared, &mut screen::as_written));
-        files.extend(screen::files(shared, &Translations::default()));
-        files.insert("bounds.txt".into(), figures::report(shared, self.line));
+        files.file("portable/main.st", &text::portable(shared, &self.line));
+        files.file("io.csv", &table::io(shared, self.map));
+        files.file("alarms.csv", &alarms::table(shared, &mut screen::as_written));
+        files.file("states.csv", &states::table(shared, &mut screen::as_written));
+        for (name, text) in screen::files(shared, &Translations::default()) {
+            files.file(&name, &text);
+        }
+        files.file("bounds.txt", &figures::report(shared, &self.line));
         let raw = self.program.renamed().iter().map(|renamed| ("globals".to_string(), renamed.clone()));
         let renamed: Vec<_> = names.renamed.iter().cloned().chain(raw).collect();
         if !renamed.is_empty() {
-            files.insert("names.csv".into(), table::renamed(&renamed));
+            files.file("names.csv", &table::renamed(&renamed));
         }
-        files
     }
 
-    fn codesys(&self, by_type: &Line) -> Files {
-        let files = text::codesys(self.shared, by_type).into_iter();
-        files.map(|(name, text)| (format!("codesys/{name}"), text)).collect()
+    fn plcopen(&self, files: &mut dyn Sink) {
+        files.file("portable/project.xml", &xml::plcopen(self.shared, &self.line));
     }
 
-    fn siemens(&self) -> Files {
-        let line = structured(self.shared, self.line, Enumerated::ByNumber, &mut self.program.clone());
-        let files = siemens::files(self.shared, &line).into_iter();
-        files.map(|(name, text)| (format!("siemens/{name}"), text)).collect()
+    fn codesys(&self, flavours: Flavours, files: &mut dyn Sink) {
+        let line = self.structured(Enumerated::ByType);
+        text::codesys(self.shared, &line, &mut Folder { name: "codesys", sink: files });
+        if flavours == Flavours::All {
+            self.codesys_xml(&line, files);
+        }
     }
 
-    fn plcopen(&self, by_type: &Line) -> Files {
-        Files::from([
-            ("portable/project.xml".into(), xml::plcopen(self.shared, self.line)),
-            ("codesys/project.xml".into(), xml::codesys(self.shared, by_type)),
-        ])
+    fn codesys_xml(&self, by_type: &Line, files: &mut dyn Sink) {
+        files.file("codesys/project.xml", &xml::codesys(self.shared, by_type));
+    }
+
+    fn siemens(&self, files: &mut dyn Sink) {
+        let by_number = self.structured(Enumerated::ByNumber);
+        siemens::files(self.shared, &by_number, &mut Folder { name: "siemens", sink: files });
     }
 
     fn columns(&self) -> Columns {
@@ -203,12 +223,13 @@ impl Line {
 
 fn line(shared: Shared, image: &Image) -> Line {
     let mut globals = Globals::new(shared, image);
+    let index = Index::new(&globals);
     let blocks: Vec<Option<Blocks>> = (0..shared.system.model.automata.len())
         .map(AutomatonId)
         .map(|id| {
             (!shared.instances(id).is_empty()).then(|| Blocks {
-                steps: block::steps(shared, id, &globals),
-                properties: property::block(shared, id, &globals),
+                steps: block::steps(shared, id, &index),
+                properties: property::block(shared, id, &index),
             })
         })
         .collect();

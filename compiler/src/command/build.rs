@@ -5,7 +5,7 @@ use super::options::{Addresses, BuildCommandOptions, BuildOptions, Format};
 use super::output::{self, Output, Refusal};
 use super::{differences, dropped, io_error, load, print, read};
 use crate::Status;
-use autogen::backend::{Files, dot, plan, rust, sdf, st};
+use autogen::backend::{Files, Folder, Sink, dot, plan, rust, sdf, st};
 use autogen::diagnostic::Diagnostic;
 use autogen::io_map::{self, Conversion, Counting, IoMap, Point};
 use autogen::ir::System;
@@ -16,9 +16,9 @@ use autogen::simulator;
 use autogen::source::{FileId, Sources};
 use autogen::translation::{self, Translations};
 use autogen::version;
-use runtime_sim::io_trace::Columns;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeSet;
+use std::fs;
 use std::path::{Component, Path, PathBuf};
 
 /// A line that was compiled.
@@ -26,10 +26,15 @@ pub struct Built {
     pub project: Project,
     /// Under the names that the output shows.
     pub sources: Sources,
-    pub files: Files,
     /// What the manifest says before the list of files.
     pub about: Map<String, Value>,
     pub folder: PathBuf,
+    map: IoMap,
+    translations: Option<Translations>,
+    copies: Files,
+    flavours: st::Flavours,
+    /// With reference blocks for drives.
+    drives: Files,
 }
 
 pub fn run(options: &BuildCommandOptions) -> Status {
@@ -39,20 +44,20 @@ pub fn run(options: &BuildCommandOptions) -> Status {
     }
     let done = build(options).and_then(|built| {
         let output = open(options, &built).map_err(|refusal| refused(options, &refusal))?;
-        write(options, &built, &output).map_err(|refusal| refused(options, &refusal))?;
-        Ok(built)
+        let make = |files: &mut dyn Sink| built.write(files);
+        let names = write(options, &built, make, &output).map_err(|refusal| refused(options, &refusal))?;
+        Ok((built.folder, names))
     });
     match done {
-        Ok(built) => {
+        Ok((folder, names)) => {
             if options.input.format == Format::Json {
-                let names: Vec<&String> = built.files.keys().collect();
                 say!(
                     "{}",
-                    json!({ "feasible": true, "folder": built.folder.display().to_string(), "files": names, "diagnostics": [] })
+                    json!({ "feasible": true, "folder": folder.display().to_string(), "files": names, "diagnostics": [] })
                 );
             } else if !options.input.quiet {
-                say!("{} files written to {}", built.files.len() + 1, built.folder.display());
-                if let Some(bounds) = built.files.get("plc/bounds.txt") {
+                say!("{} files written to {}", names.len() + 1, folder.display());
+                if let Ok(bounds) = fs::read_to_string(folder.join("plc/bounds.txt")) {
                     say_part!("\n{bounds}");
                 }
             }
@@ -103,22 +108,41 @@ pub fn build(options: &BuildOptions) -> Result<Built, Status> {
     let Copies { files: copies, command } = copies(options, &with_texts);
     // The same input gives the same bytes, from whatever folder it is compiled.
     let sources = shown(&sources, &options.input.layout);
-    let plc = match options.no_plcopen {
-        true => st::mapped(&project.system, &sources, &map),
-        false => st::mapped_with_plcopen(&project.system, &sources, &map),
-    };
-    let mut files = files(&project, &sources, plc);
-    files.extend(copies);
-    if options.drives {
-        put(&mut files, "plc", st::drives());
-    }
-    if let Some(translations) = &translations {
-        put(&mut files, "plc", st::translated(&project.system, &sources, translations));
-    }
     // Other words on a screen make no other program.
     let about = about(&project, &shown(&with_texts, &options.input.layout), sources.hash(), &command);
     let folder = options.output.clone().unwrap_or_else(|| Path::new("out").join(&project.name));
-    Ok(Built { project, sources, files, about, folder })
+    let flavours = if options.no_plcopen { st::Flavours::WithoutPlcopen } else { st::Flavours::All };
+    let drives = if options.drives { st::drives() } else { Files::new() };
+    Ok(Built { project, sources, about, folder, map, translations, copies, flavours, drives })
+}
+
+impl Built {
+    /// Gives all files of the output folder.
+    pub fn write(&self, files: &mut dyn Sink) {
+        let Self { project, sources, .. } = self;
+        let system = &project.system;
+        put(files, &self.copies);
+        put(&mut Folder { name: "rust", sink: files }, &files_of_rust(system, sources));
+        let mut plc = Folder { name: "plc", sink: files };
+        let columns = st::write(system, sources, &self.map, self.flavours, &mut plc);
+        put(&mut plc, &self.drives);
+        if let Some(translations) = &self.translations {
+            put(&mut plc, &st::translated(system, sources, translations));
+        }
+        put(&mut Folder { name: "graph", sink: files }, &dot::files(system, &project.edges));
+        files.file("graph/plan.svg", &plan::svg(&project.plant, &project.edges));
+        sdf::write(&project.name, &project.plant, &mut Folder { name: "world", sink: files });
+        files.file("rust/commissioning/data/line.txt", &project.plant.to_text());
+        files.file("rust/commissioning/data/parameters.txt", &rust::parameters_text(system));
+        files.file(COLUMNS, &columns.to_text());
+    }
+}
+
+/// The columns of an I/O trace.
+pub const COLUMNS: &str = "rust/commissioning/data/columns.txt";
+
+fn put(files: &mut dyn Sink, more: &Files) {
+    more.iter().for_each(|(name, text)| files.file(name, text));
 }
 
 /// A folder that nobody has named may have come with the layout: it must not lead anywhere else.
@@ -143,8 +167,13 @@ pub fn open(options: &BuildOptions, built: &Built) -> Result<Output, Refusal> {
     })
 }
 
-/// Writes what was built.
-pub fn write(options: &BuildOptions, built: &Built, output: &Output) -> Result<(), Refusal> {
+/// Writes the files of what was built, and returns their names.
+pub fn write(
+    options: &BuildOptions,
+    built: &Built,
+    make: impl FnOnce(&mut dyn Sink),
+    output: &Output,
+) -> Result<Vec<String>, Refusal> {
     let commands = [output.last_command(), built.about["command"].as_str().map(String::from)];
     if let [Some(last), Some(now)] = commands
         && options.input.format == Format::Text
@@ -152,7 +181,7 @@ pub fn write(options: &BuildOptions, built: &Built, output: &Output) -> Result<(
     {
         dropped::notes(&last, &now).iter().for_each(|note| complain!("note: {note}"));
     }
-    output.write(&built.files, built.about.clone(), options.overwrite())
+    output.write(make, built.about.clone(), options.overwrite())
 }
 
 /// The addresses that the table gives, if there is one.
@@ -238,25 +267,6 @@ fn report_missing(translations: &Translations, texts: &[String]) {
     for text in &translations.strangers {
         say!("note: no text of this line: {}", plain::line(text));
     }
-}
-
-/// Adds files in a folder.
-fn put(files: &mut Files, folder: &str, more: Files) {
-    files.extend(more.into_iter().map(|(name, text)| (format!("{folder}/{name}"), text)));
-}
-
-/// With the files of the folder `plc/`, and the columns of an I/O trace.
-fn files(project: &Project, sources: &Sources, (texts, columns): (Files, Columns)) -> Files {
-    let mut files = Files::new();
-    put(&mut files, "rust", files_of_rust(&project.system, sources));
-    put(&mut files, "plc", texts);
-    put(&mut files, "graph", dot::files(&project.system, &project.edges));
-    files.insert("graph/plan.svg".into(), plan::svg(&project.plant, &project.edges));
-    put(&mut files, "world", sdf::files(&project.name, &project.plant));
-    files.insert("rust/commissioning/data/line.txt".into(), project.plant.to_text());
-    files.insert("rust/commissioning/data/parameters.txt".into(), rust::parameters_text(&project.system));
-    files.insert("rust/commissioning/data/columns.txt".into(), columns.to_text());
-    files
 }
 
 /// The Cargo workspace that links the controllers with the simulator, without the data that it runs.

@@ -20,10 +20,13 @@ pub fn run(options: &CheckOptions) -> Status {
     }
     let notes = outcome.project.as_ref().filter(|_| *notes).map(|project| overlap::notes(&project.system));
     show(options, &outcome, &notes.unwrap_or_default());
-    match outcome.project {
+    let status = match outcome.project {
         Some(_) if outcome.warnings.is_empty() || *deny != Some(Denied::Warnings) => Status::Done,
         Some(_) | None => Status::WrongInput,
-    }
+    };
+    // The process ends: to give back each value of a long line takes longer than to print all of it.
+    std::mem::forget(outcome);
+    status
 }
 
 fn show(options: &InputOptions, outcome: &Outcome, notes: &[Diagnostic]) {

@@ -15,7 +15,7 @@ use super::trajectories::Request;
 use super::why;
 use crate::Status;
 use autogen::backend::rust::parameters_text;
-use autogen::backend::{Files, report as page};
+use autogen::backend::{Files, Sink, report as page};
 use runtime_sim::line::{Goal, IoDelay};
 use runtime_sim::run::{Recorded, Seen, Stepping, record, run as simulate};
 use serde_json::{Value, json};
@@ -73,16 +73,19 @@ fn commission(options: &CommissionOptions) -> Result<Status, End> {
         trajectories: Request::new(options)?,
     };
     let built = build::build(&options.build).map_err(End::Said)?;
-    are_free(options, &built)?;
+    let mut built_files = Files::new();
+    built.write(&mut built_files);
+    are_free(options, &built, &built_files)?;
     files.trajectories.check(&built.project.plant)?;
     let refused = |refusal| End::Said(build::refused(&options.build, &refusal));
     // Until the results are written, so that they are those of what is in the folder.
     let output = build::open(&options.build, &built).map_err(refused)?;
-    build::write(&options.build, &built, &output).map_err(refused)?;
+    let make = |files: &mut dyn Sink| built_files.iter().for_each(|(name, text)| files.file(name, text));
+    build::write(&options.build, &built, make, &output).map_err(refused)?;
     let names = if options.no_report { &OF_A_RUN[..1] } else { &OF_A_RUN[..] };
     output.may_write_results(names, overwrite).map_err(refused)?;
 
-    let (mut report, recorded) = report(options, &built, delay.clone(), files)?;
+    let (mut report, recorded) = report(options, &built, &built_files, delay.clone(), files)?;
     fault::name(&mut report, &built.project.system, &built.sources);
     contact::name_reasons(&mut report, &built.project.may_touch);
     if let Some(waits) = why::at_the_end(&built.project, delay, &report)? {
@@ -141,6 +144,7 @@ pub fn io_delay(text: &str) -> Option<IoDelay> {
 fn report(
     options: &CommissionOptions,
     built: &Built,
+    built_files: &Files,
     delay: IoDelay,
     files: Requested,
 ) -> Result<(Value, Option<Recorded>), String> {
@@ -149,13 +153,13 @@ fn report(
     let notice = if is_quiet { Notice::None } else { Notice::Compiling };
     let system = &built.project.system;
     let of_rust = |(path, text): (&String, &String)| Some((path.strip_prefix("rust/")?.into(), text.clone()));
-    let library = controllers::compiled_from(built.files.iter().filter_map(of_rust).collect(), notice)?;
+    let library = controllers::compiled_from(built_files.iter().filter_map(of_rust).collect(), notice)?;
     let mut line = built.project.plant.clone();
     line.io_delay = delay;
     let mut controllers = library.controllers(&line, &parameters_text(system))?;
 
     let Requested { io_trace, hashes, trajectories } = files;
-    let columns = &built.files["rust/commissioning/data/columns.txt"];
+    let columns = &built_files[build::COLUMNS];
     let mut io_trace = io_trace.map(|file| IoTrace::new(columns, file)).transpose()?;
     let mut hash_list = String::new();
     // A row or a line for each scan wants every scan.
@@ -240,8 +244,8 @@ fn are_different(options: &CommissionOptions) -> Result<(), String> {
 }
 
 /// No file is named that was read or that the build writes.
-fn are_free(options: &CommissionOptions, built: &Built) -> Result<(), String> {
-    let own = built.files.keys().map(String::as_str).chain([output::MANIFEST]).chain(OF_A_RUN);
+fn are_free(options: &CommissionOptions, built: &Built, built_files: &Files) -> Result<(), String> {
+    let own = built_files.keys().map(String::as_str).chain([output::MANIFEST]).chain(OF_A_RUN);
     let own: Vec<PathBuf> = own.map(|name| place(&built.folder.join(name))).collect();
     let inputs = read::files();
     for path in named(options) {

@@ -2,7 +2,7 @@
 
 use super::build::{self, Built};
 use super::options::{BuildOptions, Format};
-use super::output::{self, Difference, Kind};
+use super::output::{self, Comparison, Difference, Kind};
 use super::{diff, read};
 use crate::Status;
 use serde_json::json;
@@ -14,14 +14,14 @@ const MOST_NAMED: usize = 50;
 
 pub fn run(options: &BuildOptions, built: &Built) -> Status {
     let found = build::is_where_it_seems(options, built)
-        .and_then(|()| output::differences(&built.folder, &built.files, built.about.clone()));
-    let found = match found {
+        .and_then(|()| output::compare(&built.folder, |files| built.write(files), built.about.clone()));
+    let Comparison { files, differences: found } = match found {
         Ok(found) => found,
         Err(refusal) => return build::refused(options, &refusal),
     };
     match options.input.format {
         Format::Json => say_json(built, &found),
-        Format::Text => say_text(options, built, &found),
+        Format::Text => say_text(options, built, files, &found),
     }
     if found.is_empty() { Status::Done } else { Status::WrongInput }
 }
@@ -42,11 +42,11 @@ fn say_json(built: &Built, found: &[Difference]) {
     );
 }
 
-fn say_text(options: &BuildOptions, built: &Built, found: &[Difference]) {
+fn say_text(options: &BuildOptions, built: &Built, files: usize, found: &[Difference]) {
     let folder = built.folder.display();
     if found.is_empty() {
         if !options.input.quiet {
-            say!("{} files in {folder} are the same as would be written now", built.files.len() + 1);
+            say!("{} files in {folder} are the same as would be written now", files);
         }
         return;
     }

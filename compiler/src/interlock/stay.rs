@@ -226,6 +226,9 @@ impl Found<'_> {
         let numbers: &[usize] = if choices == 1 { &[0, 1, 2, 3, 4, 5, 6, 7] } else { &[0, 7] };
         let mut corners: Vec<(Corner, Facing)> = Vec::with_capacity(stages.len());
         for choice in 0..choices {
+            if self.stays.len() >= MOST_PATHS {
+                return;
+            }
             let regions = chosen(stages, choice);
             // Of places that are known exactly all corners are one.
             let mut known = [false; 64];

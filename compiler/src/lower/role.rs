@@ -488,9 +488,9 @@ impl<'a> Line<'a> {
     }
 
     fn requirements(&mut self, system: &System) {
-        let mut executor = Executor::new(system);
+        let mut executor = Executor::without_values(system);
         for robot in 0..self.robots.len() {
-            for require in &self.automaton(robot).requires.clone() {
+            for require in &system.automaton_of(robot).requires {
                 if !executor.holds(robot, &require.condition) {
                     let text = require.text.iter().map(|part| match part {
                         TextPart::Words(words) => words.clone(),

@@ -221,7 +221,7 @@ impl Context<'_> {
     fn values(&self, domain: &Domain) -> String {
         match domain {
             Domain::Enum(id) => format!("{}::ALL", self.names.enums[id.0].ty),
-            Domain::Range(low, high) => format!("{}..={}", self.expr(low), self.expr(high)),
+            Domain::Range(low, high) => self.range(low, high),
             Domain::Role(role) => format!("self.parameters.{}", self.own().roles[role.0]),
         }
     }

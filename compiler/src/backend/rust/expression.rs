@@ -179,7 +179,24 @@ impl Context<'_> {
         match domain {
             Domain::Role(role) => format!("self.parameters.{}.iter()", self.own().roles[role.0]),
             Domain::Enum(id) => format!("{}::ALL.into_iter()", self.names.enums[id.0].ty),
-            Domain::Range(low, high) => format!("({}..={})", self.expr(low), self.expr(high)),
+            Domain::Range(low, high) => format!("({})", self.range(low, high)),
+        }
+    }
+
+    /// Both bounds are in it. `0..capacity - 1` of a specification is `0..capacity`: without its last value a range is
+    /// counted with fewer instructions.
+    pub fn range(&self, low: &Expr, high: &Expr) -> String {
+        let before = match &high.kind {
+            ExprKind::Binary(Operator::Subtract, before, one)
+                if one.kind == ExprKind::Constant(Value::Int(1)) =>
+            {
+                Some(before)
+            }
+            _ => None,
+        };
+        match before {
+            Some(before) => format!("{}..{}", self.expr(low), self.expr(before)),
+            None => format!("{}..={}", self.expr(low), self.expr(high)),
         }
     }
 

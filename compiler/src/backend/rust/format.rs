@@ -30,7 +30,7 @@ pub fn module(text: &str, importable: &Importable) -> String {
 pub fn laid_out(text: &str, importable: &Importable) -> String {
     let importable_names: HashSet<&str> =
         importable.iter().flat_map(|(_, names)| names).map(String::as_str).collect();
-    let used: HashSet<&str> = words(text).filter(|word| importable_names.contains(word)).collect();
+    let used: HashSet<&str> = names(text).filter(|word| importable_names.contains(word)).collect();
     let (head, rest) = with_imports(text, |name| used.contains(name), importable);
     format!("{}\n{}\n", print(&head), rest.trim())
 }
@@ -53,11 +53,12 @@ fn with_imports(text: &str, is_used: impl Fn(&str) -> bool, importable: &Importa
     (format!("{}\n{}", head.join("\n"), imports.join("\n")), rest.join("\n"))
 }
 
-/// All words of code, without those of comments and texts. A text has no escapes.
-fn words(text: &str) -> impl Iterator<Item = &str> {
+/// All names of code, without what is in comments and texts. A text has no escapes.
+fn names(text: &str) -> impl Iterator<Item = &str> {
     let code = text.lines().filter(|line| !line.trim_start().starts_with("//"));
     let code = code.flat_map(|line| line.split('"').step_by(2));
-    code.flat_map(|part| part.split(|c: char| !c.is_ascii_alphanumeric() && c != '_'))
+    let words = code.flat_map(|part| part.split(|c: char| !c.is_ascii_alphanumeric() && c != '_'));
+    words.filter(|word| word.starts_with(|c: char| !c.is_ascii_digit()))
 }
 
 /// Lays out a file that is complete.

@@ -5,7 +5,7 @@ use super::context::{Lowering, Shared};
 use super::dead;
 use super::declaration::{Basic, Unit, Variable, constants};
 use super::expression::limited;
-use super::globals::{Globals, about, array_names, elements, meaning};
+use super::globals::{Index, about, array_names, elements, meaning};
 use super::modes;
 use super::names::ELEMENT;
 use super::property;
@@ -14,7 +14,7 @@ use super::role::Members;
 use super::value::{NO_SUCH_STATE, first_value};
 use crate::ir::{Automaton, AutomatonId, Extent, KeptBy, RoleId, Scalar, Value};
 use runtime_sim::device::{Direction, PortType};
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashSet};
 
 /// Where a variable of a block comes from.
 #[derive(Clone, Debug)]
@@ -65,7 +65,8 @@ pub struct Block {
     pub arguments: Vec<(String, Origin)>,
 }
 
-pub fn steps(shared: Shared, id: AutomatonId, globals: &Globals) -> Block {
+pub fn steps(shared: Shared, id: AutomatonId, index: &Index) -> Block {
+    let globals = index.globals;
     let mut lowering = Lowering::new(shared, id);
     let branches = lowering.branches();
     let automaton = lowering.automaton();
@@ -125,7 +126,7 @@ pub fn steps(shared: Shared, id: AutomatonId, globals: &Globals) -> Block {
             comments,
             inputs,
             outputs,
-            externals: externals(globals, &used),
+            externals: externals(index, &used),
             variables,
             references: Vec::new(),
             instances: Vec::new(),
@@ -184,8 +185,8 @@ pub fn kept_values(kept: &[&Candidate]) -> Vec<Stmt> {
     body
 }
 
-pub fn externals(globals: &Globals, used: &BTreeSet<String>) -> Vec<Variable> {
-    globals.all().filter(|v| used.contains(&v.name)).map(Variable::external).collect()
+pub fn externals(globals: &Index, used: &HashSet<String>) -> Vec<Variable> {
+    globals.among(used).map(Variable::external).collect()
 }
 
 /// Everything that a block of the type may be given or keep.
@@ -297,7 +298,7 @@ pub fn locals(
     shared: Shared,
     id: AutomatonId,
     temporaries: &[Variable],
-    used: &BTreeSet<String>,
+    used: &HashSet<String>,
 ) -> Vec<Variable> {
     let automaton = shared.system.model.automaton(id);
     let own = &shared.names.automata[id.0];
@@ -323,14 +324,14 @@ pub fn locals(
     all
 }
 
-fn inputs(candidates: Vec<Candidate>, used: &BTreeSet<String>) -> (Vec<Variable>, Vec<(String, Origin)>) {
+fn inputs(candidates: Vec<Candidate>, used: &HashSet<String>) -> (Vec<Variable>, Vec<(String, Origin)>) {
     let candidates = candidates.into_iter().filter(|c| !matches!(c.origin, Origin::Kept)).collect();
     inputs_and_kept(candidates, used)
 }
 
 pub fn inputs_and_kept(
     candidates: Vec<Candidate>,
-    used: &BTreeSet<String>,
+    used: &HashSet<String>,
 ) -> (Vec<Variable>, Vec<(String, Origin)>) {
     candidates
         .into_iter()
@@ -375,16 +376,9 @@ pub fn argument(shared: Shared, robot: usize, input: &str, origin: &Origin) -> E
                 _ => value,
             }
         }
-        Origin::AlarmEntry => Ex::Int(entries_before(shared, robot) as i32),
+        Origin::AlarmEntry => Ex::Int(shared.names.alarms_before[robot] as i32),
         Origin::Kept => Ex::Field(names.instance.clone(), input.into()),
     }
-}
-
-/// Entries of the table of alarms before those of a robot.
-fn entries_before(shared: Shared, robot: usize) -> usize {
-    let system = shared.system;
-    let counts: Vec<usize> = system.model.automata.iter().map(|a| a.alarms().count()).collect();
-    system.instances[..robot].iter().map(|instance| counts[instance.automaton.0]).sum()
 }
 
 /// The time in the state, of the block of the steps.

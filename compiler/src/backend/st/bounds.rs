@@ -1,6 +1,6 @@
 //! The greatest number of statements that a scan can execute.
 
-use super::code::{Ex, Stmt, functions};
+use super::code::{Ex, Stmt};
 use super::functions::statements;
 
 /// The most statements that these execute, those of called functions included.
@@ -44,7 +44,9 @@ fn one(statement: &Stmt) -> u64 {
 }
 
 fn called(ex: &Ex) -> u64 {
-    functions(&[Stmt::Assign(Ex::Bool(true), ex.clone())]).into_iter().map(statements).sum()
+    let mut called = Vec::new();
+    ex.functions(&mut called);
+    called.into_iter().map(statements).sum()
 }
 
 /// Statements as they are written.

@@ -1,6 +1,6 @@
 //! Statements and expressions of Structured Text, as values: they are printed, counted and searched.
 
-use std::collections::BTreeSet;
+use std::collections::HashSet;
 use std::rc::Rc;
 
 #[derive(Clone, Debug, PartialEq)]
@@ -155,14 +155,12 @@ pub fn times(a: Ex, factor: i32) -> Ex {
 
 impl Ex {
     /// Names that are read: variables, instances of blocks.
-    pub fn names(&self, found: &mut BTreeSet<String>) {
+    pub fn names(&self, found: &mut HashSet<String>) {
         match self {
             Ex::Bool(_) | Ex::Int(_) | Ex::Real(_) | Ex::Member(_) => {}
-            Ex::Name(name) | Ex::Field(name, _) => {
-                found.insert(name.clone());
-            }
+            Ex::Name(name) | Ex::Field(name, _) => add(name, found),
             Ex::Element(name, index) => {
-                found.insert(name.clone());
+                add(name, found);
                 index.names(found);
             }
             Ex::Not(a) | Ex::Minus(a) | Ex::Part(a, _) => a.names(found),
@@ -200,6 +198,12 @@ impl Ex {
                 arguments.iter().for_each(|(_, a)| a.functions(found));
             }
         }
+    }
+}
+
+fn add(name: &str, found: &mut HashSet<String>) {
+    if !found.contains(name) {
+        found.insert(name.into());
     }
 }
 
@@ -249,8 +253,8 @@ pub fn expressions<'a>(statements: &'a [Stmt], visit: &mut impl FnMut(&'a Ex)) {
 }
 
 /// All names that statements read or write.
-pub fn names(statements: &[Stmt]) -> BTreeSet<String> {
-    let mut found = BTreeSet::new();
+pub fn names(statements: &[Stmt]) -> HashSet<String> {
+    let mut found = HashSet::new();
     expressions(statements, &mut |e| e.names(&mut found));
     found
 }
@@ -262,8 +266,8 @@ pub fn functions(statements: &[Stmt]) -> Vec<&'static str> {
 }
 
 /// Variables and arrays to which statements assign.
-pub fn written(statements: &[Stmt]) -> BTreeSet<String> {
-    let mut found = BTreeSet::new();
+pub fn written(statements: &[Stmt]) -> HashSet<String> {
+    let mut found = HashSet::new();
     for statement in statements {
         match statement {
             Stmt::Assign(Ex::Name(name) | Ex::Element(name, _), _) => {

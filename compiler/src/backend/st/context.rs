@@ -7,7 +7,7 @@ use super::role::{self, Members};
 use crate::ir::{Automaton, AutomatonId, EnumId, RoleId, System, Value};
 use crate::naming::st::Scope;
 use crate::source::{Sources, Span};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, HashSet};
 use std::ops::Deref;
 
 #[derive(Clone, Copy)]
@@ -36,7 +36,7 @@ pub struct Lowering<'a> {
     /// Computations of defines, which come before the statement or guard that reads them.
     pub hoisted: Vec<Stmt>,
     /// Defines whose variables hold their present value, with all names that were read for it.
-    pub known: BTreeMap<usize, BTreeSet<String>>,
+    pub known: BTreeMap<usize, HashSet<String>>,
     scope: Scope,
     /// By what they are for and their number among those in use at once.
     given: BTreeMap<(String, Basic, usize), String>,

@@ -3,12 +3,12 @@
 //! A guard may name a value without looking at it, and a quantifier may be decided before its loop.
 
 use super::code::{Ex, Stmt, expressions};
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashSet};
 
 /// Without assignments to those of the variables that nothing reads, their own assignments apart.
 pub fn without_unread(mut statements: Vec<Stmt>, variables: &BTreeSet<String>) -> Vec<Stmt> {
     loop {
-        let mut read = BTreeSet::new();
+        let mut read = HashSet::new();
         reads(&statements, &mut read);
         let unread: BTreeSet<&String> = variables.iter().filter(|name| !read.contains(*name)).collect();
         let Some(fewer) = without(&statements, &unread) else { return statements };
@@ -17,11 +17,11 @@ pub fn without_unread(mut statements: Vec<Stmt>, variables: &BTreeSet<String>) -
 }
 
 /// Variables that are read, but for the one that the reading assignment sets.
-fn reads(statements: &[Stmt], found: &mut BTreeSet<String>) {
+fn reads(statements: &[Stmt], found: &mut HashSet<String>) {
     for statement in statements {
         match statement {
             Stmt::Assign(target, value) => {
-                let mut names = BTreeSet::new();
+                let mut names = HashSet::new();
                 value.names(&mut names);
                 match target {
                     Ex::Name(name) => drop(names.remove(name)),

@@ -5,6 +5,7 @@ use super::code::{Ex, Stmt};
 use super::print::{Dialect, comment};
 use crate::io_map::Raw;
 use crate::ir::{Scalar, Value};
+use std::fmt::{self, Formatter, Write};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Basic {
@@ -205,16 +206,21 @@ impl Variable {
     }
 
     /// The declaration, with its comments.
-    pub fn line(&self, dialect: Dialect, ty: &str) -> String {
-        let initial =
-            self.initial.as_ref().map(|e| format!(" := {}", dialect.initial(e))).unwrap_or_default();
-        let address = self.address.as_ref().map(|at| format!(" AT {at}")).unwrap_or_default();
-        let mut text = format!("    {}{address} : {ty}{initial};", self.name);
-        for (i, line) in self.comments.iter().enumerate() {
-            text +=
-                &if i == 0 { format!(" {}", comment(line)) } else { format!("\n        {}", comment(line)) };
+    pub fn line(&self, dialect: Dialect, to: &mut impl Write) -> fmt::Result {
+        write!(to, "    {}", self.name)?;
+        if let Some(at) = &self.address {
+            write!(to, " AT {at}")?;
         }
-        text + "\n"
+        write!(to, " : {}", self.ty(dialect))?;
+        if let Some(initial) = &self.initial {
+            to.write_str(" := ")?;
+            dialect.initial(initial, to)?;
+        }
+        to.write_char(';')?;
+        for (i, line) in self.comments.iter().enumerate() {
+            write!(to, "{}{}", if i == 0 { " " } else { "\n        " }, comment(line))?;
+        }
+        to.write_char('\n')
     }
 }
 
@@ -242,29 +248,22 @@ impl Unit {
     }
 
     /// All sections of declarations.
-    pub fn declarations(&self, dialect: Dialect) -> String {
-        let line = |v: &Variable| v.line(dialect, &v.ty(dialect));
-        let section = |keyword: &str, variables: &[Variable]| sections(keyword, variables, line);
-        let instance = |i: &Instance| {
-            let about =
-                if i.comment.is_empty() { String::new() } else { format!(" {}", comment(&i.comment)) };
-            format!("    {} : {};{about}\n", i.name, i.block)
+    pub fn declarations(&self, dialect: Dialect, to: &mut Formatter) -> fmt::Result {
+        let line = |v: &Variable, f: &mut Formatter| v.line(dialect, f);
+        let instance =
+            |i: &Instance, f: &mut Formatter| writeln!(f, "    {} : {};{}", i.name, i.block, i.about());
+        let instances = |is_retained: bool| {
+            self.instances.iter().filter(move |i| i.is_retained_in(dialect) == is_retained)
         };
-        let instances = |keyword: &str, is_retained: bool| {
-            let some = self.instances.iter().filter(|i| i.is_retained_in(dialect) == is_retained);
-            block(keyword, some.map(instance).collect())
-        };
-        let externals = match dialect {
-            Dialect::Portable => section("VAR_EXTERNAL", &self.externals),
-            Dialect::Codesys | Dialect::Siemens => String::new(),
-        };
-        section("VAR_INPUT", &self.inputs)
-            + &section("VAR_OUTPUT", &self.outputs(dialect))
-            + &section("VAR_IN_OUT", &self.references)
-            + &externals
-            + &section("VAR", &self.variables)
-            + &instances("VAR", false)
-            + &instances("VAR RETAIN", true)
+        sections("VAR_INPUT", &self.inputs, line, to)?;
+        sections("VAR_OUTPUT", &self.outputs(dialect), line, to)?;
+        sections("VAR_IN_OUT", &self.references, line, to)?;
+        if dialect == Dialect::Portable {
+            sections("VAR_EXTERNAL", &self.externals, line, to)?;
+        }
+        sections("VAR", &self.variables, line, to)?;
+        block("VAR", instances(false), instance, to)?;
+        block("VAR RETAIN", instances(true), instance, to)
     }
 
     /// STruC++ takes no outputs that are retained: in the portable text the whole instance is.
@@ -275,34 +274,52 @@ impl Unit {
 }
 
 impl Instance {
+    /// What stands behind its declaration.
+    pub fn about(&self) -> String {
+        if self.comment.is_empty() { String::new() } else { format!(" {}", comment(&self.comment)) }
+    }
+
     /// Whether this is said where it is declared, or its block says what is.
     pub fn is_retained_in(&self, dialect: Dialect) -> bool {
         self.is_retained && dialect == Dialect::Portable
     }
 }
 
-fn block(keyword: &str, lines: Vec<String>) -> String {
-    if lines.is_empty() { String::new() } else { format!("{keyword}\n{}END_VAR\n", lines.concat()) }
+/// A section, if there is something in it.
+pub fn block<T>(
+    keyword: &str,
+    all: impl Iterator<Item = T>,
+    line: impl Fn(T, &mut Formatter) -> fmt::Result,
+    to: &mut Formatter,
+) -> fmt::Result {
+    let mut all = all.peekable();
+    if all.peek().is_none() {
+        return Ok(());
+    }
+    writeln!(to, "{keyword}")?;
+    all.try_for_each(|each| line(each, to))?;
+    to.write_str("END_VAR\n")
 }
 
 /// Those that are retained in a section of their own.
 pub fn sections<'a>(
     keyword: &str,
     variables: impl IntoIterator<Item = &'a Variable> + Clone,
-    line: impl Fn(&Variable) -> String,
-) -> String {
-    let of = |is_retained: bool| {
-        let some = variables.clone().into_iter().filter(move |v| v.is_retained == is_retained);
-        some.map(&line).collect::<Vec<_>>()
-    };
-    block(keyword, of(false)) + &block(&format!("{keyword} RETAIN"), of(true))
+    line: impl Fn(&Variable, &mut Formatter) -> fmt::Result,
+    to: &mut Formatter,
+) -> fmt::Result {
+    for (is_retained, keyword) in [(false, keyword.to_string()), (true, format!("{keyword} RETAIN"))] {
+        let some = variables.clone().into_iter().filter(|v| v.is_retained == is_retained);
+        block(&keyword, some, &line, to)?;
+    }
+    Ok(())
 }
 
 /// Declarations of globals.
-pub fn globals(variables: &[&Variable], dialect: Dialect) -> String {
-    let line = |v: &Variable| v.line(dialect, &v.ty(dialect));
-    let lists = lists_of_globals(variables, dialect);
-    lists.iter().map(|list| sections("VAR_GLOBAL", list.iter().copied(), line)).collect()
+pub fn globals(variables: &[&Variable], dialect: Dialect, to: &mut Formatter) -> fmt::Result {
+    let line = |v: &Variable, f: &mut Formatter| v.line(dialect, f);
+    let mut lists = lists_of_globals(variables, dialect).into_iter();
+    lists.try_for_each(|list| sections("VAR_GLOBAL", list, line, to))
 }
 
 /// The globals as they are declared together. matiec retains the first variable of a list only, so in the portable

@@ -17,7 +17,7 @@ use super::version;
 use super::watchdog;
 use crate::ir::{AutomatonId, Extent, InterfaceId, RoleId, Scalar, Type};
 use runtime_sim::device::Direction;
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{HashMap, HashSet};
 
 /// A global array and what its elements are at power-up.
 pub struct Table {
@@ -70,8 +70,7 @@ impl Globals {
     /// Without the cells and parameters that nothing reads or writes.
     pub fn retain(&mut self, is_used: impl Fn(&str) -> bool) {
         self.cells.retain(|table| is_used(&table.variable.name));
-        let parameters = std::mem::take(&mut self.parameters).into_iter();
-        (self.parameters, self.unread) = parameters.partition(|table| is_used(&table.variable.name));
+        self.unread = self.parameters.extract_if(.., |table| !is_used(&table.variable.name)).collect();
     }
 
     /// The globals as lists that have a name.
@@ -120,6 +119,7 @@ impl Globals {
 
 /// The globals in their order, to be found by their names.
 pub struct Index<'a> {
+    pub globals: &'a Globals,
     all: Vec<&'a Variable>,
     numbers: HashMap<&'a str, usize>,
 }
@@ -128,11 +128,11 @@ impl<'a> Index<'a> {
     pub fn new(globals: &'a Globals) -> Self {
         let all: Vec<&Variable> = globals.all().collect();
         let numbers = all.iter().enumerate().map(|(number, variable)| (variable.name.as_str(), number));
-        Self { numbers: numbers.collect(), all }
+        Self { globals, numbers: numbers.collect(), all }
     }
 
     /// Those that are among these.
-    pub fn among(&self, names: &BTreeSet<String>) -> impl Iterator<Item = &'a Variable> {
+    pub fn among(&self, names: &HashSet<String>) -> impl Iterator<Item = &'a Variable> {
         let mut numbers: Vec<usize> =
             names.iter().filter_map(|name| self.numbers.get(name.as_str()).copied()).collect();
         numbers.sort_unstable();

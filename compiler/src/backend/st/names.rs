@@ -104,6 +104,8 @@ pub struct Names {
     pub relations: Vec<String>,
     pub automata: Vec<AutomatonNames>,
     pub robots: Vec<RobotNames>,
+    /// The entries of the table of alarms before those of each robot.
+    pub alarms_before: Vec<usize>,
     /// The names of MAIN, for raw variables.
     pub program: Scope,
     /// What could not stay as it was, with the unit in which it stands.
@@ -238,7 +240,19 @@ pub fn names(system: &System) -> Names {
     };
     renamed.extend(log("globals", &global));
     renamed.extend(log("MAIN", &program));
-    Names { enums, commands, interfaces, relations, automata, robots, program, renamed }
+    let alarms_before = alarms_before(system);
+    Names { enums, commands, interfaces, relations, automata, robots, alarms_before, program, renamed }
+}
+
+fn alarms_before(system: &System) -> Vec<usize> {
+    let counts: Vec<usize> = system.model.automata.iter().map(|a| a.alarms().count()).collect();
+    let mut sum = 0;
+    let mut before = |instance: &Instance| {
+        let before = sum;
+        sum += counts[instance.automaton.0];
+        before
+    };
+    system.instances.iter().map(&mut before).collect()
 }
 
 fn enum_names(source: &Enum, global: &mut Scope, renamed: &mut Vec<(String, Renamed)>) -> EnumNames {

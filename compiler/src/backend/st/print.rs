@@ -2,6 +2,8 @@
 
 use super::code::{self, Arm, Ex, Member, Stmt};
 use crate::plain;
+use std::borrow::Borrow;
+use std::fmt::{self, Write};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dialect {
@@ -28,12 +30,14 @@ pub fn harmless(text: &str) -> String {
     if text.contains('*') { text.replace("(*", "( *").replace("*)", "* )") } else { text }
 }
 
-pub fn real(value: f64) -> String {
-    let text = format!("{value:?}");
-    match text.split_once('e') {
-        None => text,
-        Some((digits, power)) if digits.contains('.') => format!("{digits}E{power}"),
-        Some((digits, power)) => format!("{digits}.0E{power}"),
+/// Adds a number with a point.
+fn real(value: f64, text: &mut String) {
+    let begin = text.len();
+    // Writing to memory does not fail.
+    let _ = write!(text, "{value:?}");
+    if let Some(power) = text[begin..].find('e').map(|at| begin + at) {
+        let point = if text[begin..power].contains('.') { "" } else { ".0" };
+        text.replace_range(power..=power, &format!("{point}E"));
     }
 }
 
@@ -71,14 +75,14 @@ impl Dialect {
             Ex::Bool(true) => *text += "TRUE",
             Ex::Bool(false) => *text += "FALSE",
             Ex::Int(i32::MIN) => *text += "-2147483647 - 1",
-            Ex::Int(i) => *text += &i.to_string(),
+            Ex::Int(i) => _ = write!(text, "{i}"),
             Ex::Real(r) => match factors(*r) {
                 Some((rest, power)) => self.write(&code::binary("*", Ex::Real(rest), Ex::Real(power)), text),
                 None => {
                     if self == Dialect::Siemens {
                         *text += "LREAL#";
                     }
-                    *text += &real(*r);
+                    real(*r, text);
                 }
             },
             Ex::Member(member) => *text += &self.member(member),
@@ -100,7 +104,7 @@ impl Dialect {
                 self.write(of, text);
                 self.write_all("[", indices, "]", text);
             }
-            Ex::List(values) => text.extend(["[", &self.list(values).join(", "), "]"]),
+            Ex::List(values) => text.extend(["[", &self.list(values).collect::<Vec<_>>().join(", "), "]"]),
             Ex::Fields(fields) => {
                 for (i, (name, value)) in fields.iter().enumerate() {
                     text.extend([if i == 0 { "(" } else { ", " }, name, " := "]);
@@ -155,41 +159,44 @@ impl Dialect {
     }
 
     /// The value in a declaration: that of a long array on several lines.
-    pub fn initial(self, value: &Ex) -> String {
-        let Ex::List(values) = value else { return self.expression(value) };
-        let mut text = String::from("[");
+    pub fn initial(self, value: &Ex, to: &mut impl Write) -> fmt::Result {
+        let Ex::List(values) = value else { return to.write_str(&self.expression(value)) };
+        let room = WIDTH / 2 - "[\n        ".len();
+        let mut length = 0;
+        let is_short = self.list(values).all(|part| {
+            length += part.len() + ", ".len();
+            length <= room + ", ".len()
+        });
+        if is_short {
+            return to.write_str(&self.expression(value));
+        }
+        to.write_char('[')?;
         let mut width = WIDTH;
-        for (i, part) in self.list(values).into_iter().enumerate() {
+        for (i, part) in self.list(values).enumerate() {
             if i > 0 {
-                text.push(',');
+                to.write_char(',')?;
             }
             if width + part.len() + 2 > WIDTH - 8 {
-                text += "\n        ";
+                to.write_str("\n        ")?;
                 width = 0;
             } else {
-                text.push(' ');
+                to.write_char(' ')?;
             }
             width += part.len() + 2;
-            text += &part;
+            to.write_str(&part)?;
         }
-        if text.len() <= WIDTH / 2 {
-            text = text.replace("\n        ", "");
-        }
-        text + "]"
+        to.write_char(']')
     }
 
     /// Values side by side; those that are alike by their number.
-    fn list(self, values: &[Ex]) -> Vec<String> {
-        let mut texts = Vec::new();
-        for alike in values.chunk_by(|a, b| a == b) {
+    fn list(self, values: &[Ex]) -> impl Iterator<Item = String> {
+        values.chunk_by(|a, b| a == b).flat_map(move |alike| {
             let text = self.expression(&alike[0]);
-            if alike.len() > 2 {
-                texts.push(format!("{}({text})", alike.len()));
-            } else {
-                texts.extend(std::iter::repeat_n(text, alike.len()));
+            match alike.len() > 2 {
+                true => std::iter::repeat_n(format!("{}({text})", alike.len()), 1),
+                false => std::iter::repeat_n(text, alike.len()),
             }
-        }
-        texts
+        })
     }
 
     /// Those of the program begin with `F_`.
@@ -234,10 +241,20 @@ impl Dialect {
         }
     }
 
-    pub fn statements(self, statements: &[Stmt], depth: usize) -> String {
+    /// Writes statements one by one.
+    pub fn statements<S: Borrow<Stmt>>(
+        self,
+        statements: impl IntoIterator<Item = S>,
+        depth: usize,
+        to: &mut impl Write,
+    ) -> fmt::Result {
         let mut printer = Printer { dialect: self, text: String::new() };
-        printer.block(statements, depth);
-        printer.text
+        for statement in statements {
+            printer.statement(statement.borrow(), depth);
+            to.write_str(&printer.text)?;
+            printer.text.clear();
+        }
+        Ok(())
     }
 }
 
@@ -297,16 +314,23 @@ impl Printer {
         match statement {
             Stmt::Comment(text) => self.comment(depth, text),
             Stmt::Assign(target, assigned) => {
-                let value = match assigned {
+                let begin = self.text.len();
+                self.indent(depth);
+                self.dialect.write(target, &mut self.text);
+                self.text += " := ";
+                match assigned {
                     // The comment of a member stands behind the statement.
                     Ex::Member(m) if self.dialect == Dialect::Portable || m.qualified.is_none() => {
-                        format!("{}; {}", m.value, comment(&m.note))
+                        let _ = write!(self.text, "{}; {}", m.value, comment(&m.note));
                     }
-                    _ => self.dialect.expression(assigned) + ";",
-                };
-                let text = format!("{} := {value}", self.dialect.expression(target));
+                    _ => {
+                        self.dialect.write(assigned, &mut self.text);
+                        self.text.push(';');
+                    }
+                }
                 match assigned {
-                    Ex::Call(function, arguments) if 4 * depth + text.len() > WIDTH => {
+                    Ex::Call(function, arguments) if self.text.len() - begin > WIDTH => {
+                        self.text.truncate(begin);
                         let begin = format!(
                             "{} := {}",
                             self.dialect.expression(target),
@@ -315,7 +339,7 @@ impl Printer {
                         let arguments = arguments.iter().map(|(name, value)| (*name, value));
                         self.call(&begin, arguments, depth);
                     }
-                    _ => self.line(depth, &text),
+                    _ => self.text.push('\n'),
                 }
             }
             Stmt::If(arms, otherwise) => {

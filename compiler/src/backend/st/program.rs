@@ -87,6 +87,7 @@ pub fn program(shared: Shared, blocks: &[Option<Blocks>], globals: &Globals, ima
     body.extend(alarm::counted(shared));
     body.push(assign("init_done", Ex::Bool(true)));
     body.extend(restart::end(shared));
+    body.shrink_to_fit();
     let used = code::names(&body);
     Unit {
         name: "MAIN".into(),

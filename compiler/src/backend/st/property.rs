@@ -9,7 +9,7 @@ use super::context::{Lowering, Phase, Shared};
 use super::dead;
 use super::declaration::{Basic, Unit, Variable};
 use super::expression::guarded;
-use super::globals::Globals;
+use super::globals::Index;
 use super::modes::{self, BEGUN_ANEW};
 use crate::ir::{AutomatonId, Expr, KeptBy, Property, PropertyKind, Scalar, Severity};
 
@@ -24,7 +24,7 @@ pub const ENTRY: &str = "alarm_entry";
 pub const STOPPED: &str = "robot_stopped";
 pub const LOCAL: [&str; 4] = [VIOLATED, HOLDS, WAS_STOPPED, ENTRY];
 
-pub fn block(shared: Shared, id: AutomatonId, globals: &Globals) -> Option<Block> {
+pub fn block(shared: Shared, id: AutomatonId, globals: &Index) -> Option<Block> {
     let mut lowering = Lowering::new(shared, id);
     let automaton = lowering.automaton();
     if automaton.properties.is_empty() && automaton.modes.is_none() {

@@ -7,14 +7,14 @@
 use super::Line;
 use super::code::{Arm, Ex, Member, Stmt, expressions};
 use super::context::Shared;
-use super::declaration::{Unit, Variable};
+use super::declaration::{self, Instance, Unit, Variable};
 use super::print::{Dialect, comment, harmless};
 use super::structured::Structure;
 use super::text::{made_from, render};
-use crate::backend::Files;
+use crate::backend::{Part, Sink, Text, part};
 use askama::Template;
 use std::collections::{BTreeMap, BTreeSet, HashSet};
-use std::fmt::Write;
+use std::fmt::{self, Formatter, Write};
 
 /// The data block of what all blocks share.
 const SHARED: &str = "Line";
@@ -65,10 +65,10 @@ struct Header {
 
 #[derive(Template)]
 #[template(path = "plc/siemens/data_block.scl", escape = "none")]
-struct DataBlock {
-    sections: String,
+struct DataBlock<'a> {
+    sections: Part<'a>,
     /// The values of arrays and structures, as assignments.
-    values: String,
+    values: Part<'a>,
     /// Some of its variables are: each section says so.
     is_retained: bool,
 }
@@ -93,41 +93,51 @@ struct FunctionText {
 
 #[derive(Template)]
 #[template(path = "plc/siemens/block.scl", escape = "none")]
-struct Block {
-    name: String,
+struct Block<'a> {
+    name: &'a str,
     comments: Vec<String>,
-    made_from: String,
-    sections: String,
-    body: String,
+    made_from: &'a str,
+    sections: Part<'a>,
+    body: Part<'a>,
 }
 
 /// `main.scl`, and how it is called.
-pub fn files(shared: Shared, line: &Line) -> Files {
-    let mut parts = vec![render(&Header { made_from: made_from(shared) })];
+pub fn files(shared: Shared, line: &Line, files: &mut dyn Sink) {
+    files.file("main.scl", &Text(|f: &mut Formatter| main(shared, line, f)));
     let at_addresses: Vec<&str> =
         line.globals.all().filter(|v| v.address.is_some()).map(|v| v.name.as_str()).collect();
-    let is_retained = line.globals.all().any(|variable| variable.is_retained);
-    parts.extend(line.structures.iter().map(structure));
-    let (values, declared): (Vec<_>, Vec<_>) = line.globals.all().map(without_values).unzip();
-    parts.push(render(&DataBlock {
-        sections: sections("VAR", &declared),
-        values: values.concat(),
-        is_retained,
-    }));
-    parts.extend(line.functions.iter().map(|function| function_text(function.text)));
-    let names: HashSet<&str> = line.globals.all().map(|variable| variable.name.as_str()).collect();
-    let is_global = |name: &str| names.contains(name);
-    parts.extend(line.units().map(|unit| block(shared, unit, &is_global)));
-    let instance = include_str!("../../../../templates/plc/siemens/instance.scl");
-    // What its blocks retain, they say.
-    parts.push(if is_retained { instance.replace("NON_RETAIN\n", "") } else { instance.into() });
     let task = include_str!("../../../../templates/plc/siemens/task.txt");
     let scan_ms = shared.system.scan_ms;
     let task = task
         .replace("SCAN_US", &(i64::from(scan_ms) * 1000).to_string())
         .replace("SCAN_MS", &scan_ms.to_string())
         .replace("AT_ADDRESSES", &connected(&at_addresses));
-    Files::from([("main.scl".into(), parts.join("\n")), ("TASK.txt".into(), task)])
+    files.file("TASK.txt", &task);
+}
+
+fn main(shared: Shared, line: &Line, to: &mut Formatter) -> fmt::Result {
+    let made_from = made_from(shared);
+    writeln!(to, "{}", Header { made_from: made_from.clone() })?;
+    line.structures.iter().try_for_each(|of_line| write!(to, "\n{}", structure(of_line)))?;
+    let is_retained = line.globals.all().any(|variable| variable.is_retained);
+    let data = DataBlock {
+        sections: part(|f| {
+            let all: Vec<&Variable> = line.globals.all().collect();
+            declaration::sections("VAR", all, |variable, f| declared(&without_values(variable), f), f)
+        }),
+        values: part(|f| line.globals.all().try_for_each(|variable| values(variable, f))),
+        is_retained,
+    };
+    write!(to, "\n{data}\n")?;
+    line.functions.iter().try_for_each(|function| write!(to, "\n{}", function_text(function.text)))?;
+    let names: HashSet<&str> = line.globals.all().map(|variable| variable.name.as_str()).collect();
+    line.units().try_for_each(|unit| block(unit, &made_from, &|name| names.contains(name), to))?;
+    let instance = include_str!("../../../../templates/plc/siemens/instance.scl");
+    // What its blocks retain, they say.
+    match is_retained {
+        true => write!(to, "\n{}", instance.replace("NON_RETAIN\n", "")),
+        false => write!(to, "\n{instance}"),
+    }
 }
 
 /// Which variables the points of the table of addresses have.
@@ -144,17 +154,19 @@ fn connected(names: &[&str]) -> String {
     )
 }
 
-fn sections(keyword: &str, variables: &[Variable]) -> String {
-    super::declaration::sections(keyword, variables, |variable| {
-        let quoted = Variable { name: quoted(&variable.name), ..variable.clone() };
-        quoted.line(DIALECT, &quoted.ty(DIALECT))
-    })
+fn sections(keyword: &str, variables: &[Variable], to: &mut Formatter) -> fmt::Result {
+    declaration::sections(keyword, variables, |variable, f| declared(variable, f), to)
+}
+
+fn declared(variable: &Variable, to: &mut impl Write) -> fmt::Result {
+    Variable { name: quoted(&variable.name), ..variable.clone() }.line(DIALECT, to)
 }
 
 fn structure(structure: &Structure) -> String {
     let field = |field: &Variable| {
-        let field = Variable { name: quoted(&field.name), ..field.clone() };
-        let lines = field.line(DIALECT, &field.ty(DIALECT));
+        let mut lines = String::new();
+        // Writing to memory does not fail.
+        let _ = declared(field, &mut lines);
         lines.lines().map(|line| format!("    {line}\n")).collect::<String>()
     };
     render(&StructureText {
@@ -164,53 +176,47 @@ fn structure(structure: &Structure) -> String {
     })
 }
 
-/// The values of arrays and structures as assignments, and the declaration without them and without an address.
-fn without_values(variable: &Variable) -> (String, Variable) {
-    let declared = Variable { address: None, ..variable.without_value() };
-    let mut lines = String::new();
+/// The declaration without an address and without what [`values`] writes.
+fn without_values(variable: &Variable) -> Variable {
+    let initial = variable.initial.as_ref().filter(|initial| !matches!(initial, Ex::List(_) | Ex::Fields(_)));
+    Variable { address: None, initial: initial.cloned(), ..variable.without_value() }
+}
+
+/// The values of arrays and structures as assignments.
+fn values(variable: &Variable, to: &mut Formatter) -> fmt::Result {
     match &variable.initial {
         Some(initial @ (Ex::List(_) | Ex::Fields(_))) => {
-            assign(&mut quoted(&variable.name), initial, variable.each, &mut lines);
-            (lines, declared)
+            assign(&mut quoted(&variable.name), initial, variable.each, to)
         }
-        single => (lines, Variable { initial: single.clone(), ..declared }),
+        _ => Ok(()),
     }
 }
 
 /// `each`: the number of elements in a row of an array of two dimensions.
-fn assign(place: &mut String, value: &Ex, each: Option<usize>, lines: &mut String) {
+fn assign(place: &mut String, value: &Ex, each: Option<usize>, to: &mut Formatter) -> fmt::Result {
     let whole = place.len();
     match value {
-        Ex::List(values) => {
-            for (i, value) in values.iter().enumerate() {
-                // Writing to memory does not fail.
-                let _ = match each {
-                    Some(each) => write!(place, "[{}, {}]", i / each, i % each),
-                    None => write!(place, "[{i}]"),
-                };
-                assign(place, value, None, lines);
-                place.truncate(whole);
+        Ex::List(values) => values.iter().enumerate().try_for_each(|(i, value)| {
+            match each {
+                Some(each) => write!(place, "[{}, {}]", i / each, i % each)?,
+                None => write!(place, "[{i}]")?,
             }
-        }
-        Ex::Fields(fields) => {
-            for (field, value) in fields {
-                place.push('.');
-                *place += &quoted(field);
-                assign(place, value, None, lines);
-                place.truncate(whole);
-            }
-        }
+            assign(place, value, None, to)?;
+            place.truncate(whole);
+            Ok(())
+        }),
+        Ex::Fields(fields) => fields.iter().try_for_each(|(field, value)| {
+            place.push('.');
+            *place += &quoted(field);
+            assign(place, value, None, to)?;
+            place.truncate(whole);
+            Ok(())
+        }),
         // What a data block has without a start value.
-        Ex::Bool(false) | Ex::Int(0) => {}
-        Ex::Real(real) if real.to_bits() == 0 => {}
-        Ex::Member(member) => {
-            let _ = writeln!(lines, "    {place} := {}; {}", member.value, comment(&member.note));
-        }
-        single => {
-            let _ = write!(lines, "    {place} := ");
-            DIALECT.write(single, lines);
-            *lines += ";\n";
-        }
+        Ex::Bool(false) | Ex::Int(0) => Ok(()),
+        Ex::Real(real) if real.to_bits() == 0 => Ok(()),
+        Ex::Member(member) => writeln!(to, "    {place} := {}; {}", member.value, comment(&member.note)),
+        single => writeln!(to, "    {place} := {};", DIALECT.expression(single)),
     }
 }
 
@@ -218,41 +224,33 @@ fn quoted(name: &str) -> String {
     if WORDS.iter().any(|word| word.eq_ignore_ascii_case(name)) { format!("\"{name}\"") } else { name.into() }
 }
 
-fn section(keyword: &str, lines: &str) -> String {
-    if lines.is_empty() { String::new() } else { format!("{keyword}\n{lines}END_VAR\n") }
-}
-
-fn block(shared: Shared, unit: &Unit, is_global: &impl Fn(&str) -> bool) -> String {
+fn block(unit: &Unit, made_from: &str, is_global: &impl Fn(&str) -> bool, to: &mut Formatter) -> fmt::Result {
     let constants = Constants::of(unit);
-    let instances = unit.instances.iter().map(|instance| {
-        let about = if instance.comment.is_empty() {
-            String::new()
-        } else {
-            format!(" {}", comment(&instance.comment))
-        };
-        format!("    {} : \"{}\";{about}\n", quoted(&instance.name), instance.block)
-    });
-    let declared = constants
-        .in_order()
-        .into_iter()
-        .map(|(name, member)| format!("    {name} : DINT := {};\n", member.value));
-    let sections = sections("VAR_INPUT", &unit.inputs)
-        + &sections("VAR_OUTPUT", &unit.outputs)
-        + &sections("VAR_IN_OUT", &unit.references)
-        + &sections("VAR", &unit.variables)
-        + &section("VAR", &instances.collect::<String>())
-        + &section("VAR CONSTANT", &declared.collect::<String>());
+    let instance = |i: &Instance, f: &mut Formatter| {
+        writeln!(f, "    {} : \"{}\";{}", quoted(&i.name), i.block, i.about())
+    };
+    let constant = |(name, member): (&String, &Member), f: &mut Formatter| {
+        writeln!(f, "    {name} : DINT := {};", member.value)
+    };
     let given: BTreeSet<&str> =
         unit.inputs.iter().chain(&unit.references).map(|variable| variable.name.as_str()).collect();
     let is_global = |name: &str| is_global(name) && !given.contains(name);
     let own = Names { is_global: &is_global, constants: &constants };
-    render(&Block {
-        name: if unit.name == "MAIN" { CALLER.into() } else { unit.name.clone() },
+    let text = Block {
+        name: if unit.name == "MAIN" { CALLER } else { &unit.name },
         comments: unit.comments.iter().map(|line| harmless(line.trim())).collect(),
-        made_from: made_from(shared),
-        sections,
-        body: DIALECT.statements(&own.statements(&unit.body), 1),
-    })
+        made_from,
+        sections: part(|f| {
+            sections("VAR_INPUT", &unit.inputs, f)?;
+            sections("VAR_OUTPUT", &unit.outputs, f)?;
+            sections("VAR_IN_OUT", &unit.references, f)?;
+            sections("VAR", &unit.variables, f)?;
+            declaration::block("VAR", unit.instances.iter(), instance, f)?;
+            declaration::block("VAR CONSTANT", constants.in_order().into_iter(), constant, f)
+        }),
+        body: part(|f| DIALECT.statements(unit.body.iter().map(|statement| own.statement(statement)), 1, f)),
+    };
+    write!(to, "\n{text}\n")
 }
 
 /// The states and members that a block names, as constants of it.

@@ -7,10 +7,11 @@ use super::declaration::{Unit, globals};
 use super::names::EnumNames;
 use super::print::{Dialect, harmless};
 use super::watchdog;
-use crate::backend::Files;
+use crate::backend::{Part, Sink, part};
 use crate::library;
 use crate::source::SourceFile;
 use askama::Template;
+use std::fmt::{self, Write};
 
 #[derive(Template)]
 #[template(path = "plc/header.st")]
@@ -22,38 +23,38 @@ struct Header {
 
 #[derive(Template)]
 #[template(path = "plc/unit.st")]
-struct UnitText {
+struct UnitText<'a> {
     pragmas: String,
     keyword: &'static str,
-    name: String,
+    name: &'a str,
     comments: Vec<String>,
-    made_from: String,
-    declarations: String,
-    body: String,
+    made_from: &'a str,
+    declarations: Part<'a>,
+    body: Part<'a>,
 }
 
 #[derive(Template)]
 #[template(path = "plc/configuration.st")]
-struct Configuration {
-    made_from: String,
-    globals: String,
+struct Configuration<'a> {
+    made_from: &'a str,
+    globals: Part<'a>,
     scan_ms: i32,
 }
 
 /// The whole program as one file.
-pub fn portable(shared: Shared, line: &Line) -> String {
+pub fn portable<'a>(shared: Shared<'a>, line: &'a Line) -> Part<'a> {
     let dialect = Dialect::Portable;
     let first = shared.names.robots.iter().flat_map(|r| r.ports.iter().flatten()).next().cloned();
-    let mut parts = vec![render(&Header { made_from: made_from(shared), example: first })];
-    parts.extend(line.functions.iter().map(|f| f.text.to_string()));
-    parts.extend(line.units().map(|u| unit(shared, u, dialect)));
     let all: Vec<_> = line.globals.all().collect();
-    parts.push(render(&Configuration {
-        made_from: made_from(shared),
-        globals: globals(&all, dialect),
-        scan_ms: shared.system.scan_ms,
-    }));
-    parts.join("\n")
+    let made_from = made_from(shared);
+    part(move |f| {
+        writeln!(f, "{}", Header { made_from: made_from.clone(), example: first.clone() })?;
+        line.functions.iter().try_for_each(|function| write!(f, "\n{}", function.text))?;
+        line.units().try_for_each(|of_line| write!(f, "\n{}", unit(&made_from, of_line, dialect)))?;
+        let globals = part(|f| globals(&all, dialect, f));
+        let scan_ms = shared.system.scan_ms;
+        write!(f, "\n{}\n", Configuration { made_from: &made_from, globals, scan_ms })
+    })
 }
 
 #[derive(Template)]
@@ -67,67 +68,66 @@ struct Enumeration {
 
 #[derive(Template)]
 #[template(path = "plc/structure.st")]
-struct StructureText {
-    made_from: String,
-    name: String,
-    about: String,
-    fields: String,
+struct StructureText<'a> {
+    made_from: &'a str,
+    name: &'a str,
+    about: &'a str,
+    fields: Part<'a>,
 }
 
 #[derive(Template)]
 #[template(path = "plc/global_list.st")]
-struct GlobalList {
-    made_from: String,
+struct GlobalList<'a> {
+    made_from: &'a str,
     pragmas: String,
-    name: String,
-    about: String,
-    globals: String,
+    name: &'a str,
+    about: &'a str,
+    globals: Part<'a>,
 }
 
 /// A file for each object of a project.
-pub fn codesys(shared: Shared, line: &Line) -> Files {
-    let mut files = Files::new();
+pub fn codesys(shared: Shared, line: &Line, files: &mut dyn Sink) {
+    let made_from = made_from(shared);
     for names in enumerations(shared, line) {
         let members: Vec<_> = names.numbered().map(|(m, i)| format!("    {m} := {i}")).collect();
         let name = &names.ty;
         let text = Enumeration {
-            made_from: made_from(shared),
+            made_from: made_from.clone(),
             pragmas: attributes::pragmas(attributes::OF_ENUMERATIONS),
             name: name.clone(),
             members: members.join(",\n"),
         };
-        files.insert(format!("{name}.st"), render(&text));
+        files.file(&format!("{name}.st"), &render(&text));
     }
     for structure in &line.structures {
         let fields = structure.fields.iter();
         let text = StructureText {
-            made_from: made_from(shared),
-            name: structure.name.clone(),
-            about: structure.about.clone(),
-            fields: fields.map(|f| f.line(Dialect::Codesys, &f.ty(Dialect::Codesys))).collect(),
+            made_from: &made_from,
+            name: &structure.name,
+            about: &structure.about,
+            fields: part(move |f| fields.clone().try_for_each(|field| field.line(Dialect::Codesys, f))),
         };
-        files.insert(format!("{}.st", structure.name), render(&text));
+        files.file(&format!("{}.st", structure.name), &render(&text));
     }
     for function in &line.functions {
         let text = format!("(* {}. This is not a safety function. *)\n{}", function.name, function.text);
-        files.insert(format!("{}.st", function.name), text);
+        files.file(&format!("{}.st", function.name), &text);
     }
-    for part in line.units() {
-        files.insert(format!("{}.st", part.name), unit(shared, part, Dialect::Codesys));
+    for of_line in line.units() {
+        files.file(&format!("{}.st", of_line.name), &unit(&made_from, of_line, Dialect::Codesys));
     }
     for list in line.globals.lists() {
         let text = GlobalList {
-            made_from: made_from(shared),
+            made_from: &made_from,
             pragmas: attributes::pragmas(list.attributes),
-            name: list.name.into(),
-            about: list.about.into(),
-            globals: globals(&list.variables, Dialect::Codesys),
+            name: list.name,
+            about: list.about,
+            globals: part(|f| globals(&list.variables, Dialect::Codesys, f)),
         };
-        files.insert(format!("{}.st", list.name), render(&text));
+        files.file(&format!("{}.st", list.name), &text);
     }
     let task = include_str!("../../../../templates/plc/task.txt");
-    files.insert("TASK.txt".into(), task.replace("SCAN_MS", &shared.system.scan_ms.to_string()));
-    files
+    files.file("TASK.txt", &task.replace("SCAN_MS", &shared.system.scan_ms.to_string()));
 }
 
 /// The enumerations of the specification, the states of each type that has robots, and the commands of their devices.
@@ -144,25 +144,25 @@ impl EnumNames {
     }
 }
 
-pub fn unit(shared: Shared, unit: &Unit, dialect: Dialect) -> String {
-    render(&UnitText {
+fn unit<'a>(made_from: &'a str, unit: &'a Unit, dialect: Dialect) -> Part<'a> {
+    let text = UnitText {
         pragmas: attributes::pragmas(unit.attributes(dialect)),
         keyword: if unit.name == "MAIN" { "PROGRAM" } else { "FUNCTION_BLOCK" },
-        name: unit.name.clone(),
+        name: &unit.name,
         comments: unit.comments.iter().map(|line| harmless(line.trim())).collect(),
-        made_from: made_from(shared),
-        declarations: unit.declarations(dialect),
-        body: body(unit, dialect),
-    })
+        made_from,
+        declarations: part(move |f| unit.declarations(dialect, f)),
+        body: part(move |f| body(unit, dialect, f)),
+    };
+    part(move |f| writeln!(f, "{text}"))
 }
 
 /// The statements of a unit.
-pub fn body(unit: &Unit, dialect: Dialect) -> String {
-    let statements = dialect.statements(&unit.body, 0);
-    match (dialect, unit.name == "MAIN") {
-        (Dialect::Codesys, true) => format!("{}{statements}", watchdog::CODESYS),
-        _ => statements,
+pub fn body(unit: &Unit, dialect: Dialect, to: &mut impl Write) -> fmt::Result {
+    if dialect == Dialect::Codesys && unit.name == "MAIN" {
+        to.write_str(watchdog::CODESYS)?;
     }
+    dialect.statements(&unit.body, 0, to)
 }
 
 /// The names of the files that were read, but for the devices that come with the tool, and what was set beside

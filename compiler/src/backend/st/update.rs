@@ -6,7 +6,7 @@ use super::declaration::Basic;
 use super::expression::{Spot, limited};
 use super::names::ELEMENT;
 use crate::ir::{Expr, Extent, FaultId, Place, Scalar, Target, Type, Update, UpdateKind};
-use std::collections::BTreeSet;
+use std::collections::HashSet;
 
 impl Lowering<'_> {
     pub fn updates(&mut self, updates: &[Update]) -> Vec<Stmt> {
@@ -134,7 +134,7 @@ impl Lowering<'_> {
     /// Looks up the row of an array before the loop over its elements, if the loop writes what leads to the row.
     fn keep_row(&mut self, spot: &mut Spot, written: &[String], out: &mut Vec<Stmt>) {
         let Some(row) = &spot.index else { return };
-        let mut read = BTreeSet::new();
+        let mut read = HashSet::new();
         row.names(&mut read);
         if written.iter().any(|name| read.contains(name)) {
             let row = row.clone();
@@ -216,7 +216,7 @@ impl Lowering<'_> {
     /// Coordinates that are not read after they were overwritten.
     fn independent(&mut self, spot: &Spot, values: Vec<Ex>, out: &mut Vec<Stmt>) -> Vec<Ex> {
         let reads_others = values.iter().enumerate().any(|(part, value)| {
-            let mut read = BTreeSet::new();
+            let mut read = HashSet::new();
             value.names(&mut read);
             spot.names.iter().enumerate().any(|(other, n)| other != part && read.contains(n))
         });

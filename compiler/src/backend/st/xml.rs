@@ -7,39 +7,40 @@ use super::context::Shared;
 use super::declaration::{Instance, Unit, Variable, lists_of_globals};
 use super::functions::Function;
 use super::print::Dialect;
-use super::text::{body, enumerations, made_from, render};
+use super::text::{body, enumerations, made_from};
+use crate::backend::{Part, part};
 use crate::{plain, version};
 use askama::Template;
-use std::fmt::Write;
+use std::fmt::{self, Formatter, Write};
 
 #[derive(Template)]
 #[template(path = "plc/plcopen.xml")]
-struct Plcopen {
+struct Plcopen<'a> {
     made_from: String,
     version: &'static str,
     day: &'static str,
-    pous: Vec<Pou>,
+    pous: Vec<Pou<'a>>,
     scan_ms: i32,
-    globals: String,
+    globals: Part<'a>,
 }
 
 #[derive(Template)]
 #[template(path = "plc/codesys.xml")]
-struct Codesys {
+struct Codesys<'a> {
     made_from: String,
     version: &'static str,
     day: &'static str,
     enumerations: Vec<Enumeration>,
-    structures: Vec<StructureXml>,
-    pous: Vec<Pou>,
-    lists: Vec<List>,
+    structures: Vec<StructureXml<'a>>,
+    pous: Vec<Pou<'a>>,
+    lists: Vec<List<'a>>,
 }
 
-struct Pou {
-    name: String,
+struct Pou<'a> {
+    name: &'a str,
     kind: &'static str,
-    interface: String,
-    body: String,
+    interface: Part<'a>,
+    body: Part<'a>,
 }
 
 struct Enumeration {
@@ -48,36 +49,38 @@ struct Enumeration {
     attributes: String,
 }
 
-struct StructureXml {
-    name: String,
-    fields: String,
+struct StructureXml<'a> {
+    name: &'a str,
+    fields: Part<'a>,
 }
 
-struct List {
+struct List<'a> {
     name: &'static str,
-    variables: String,
+    variables: Part<'a>,
     is_retained: bool,
     attributes: String,
 }
 
 /// For Beremiz, OpenPLC and other tools that keep to the standard.
-pub fn plcopen(shared: Shared, line: &Line) -> String {
+pub fn plcopen<'a>(shared: Shared<'a>, line: &'a Line) -> Part<'a> {
     let all: Vec<&Variable> = line.globals.all().collect();
     let lists = lists_of_globals(&all, Dialect::Portable);
-    let of = |v: &Variable| variable(v, Dialect::Portable, 10);
-    let globals = lists.iter().map(|list| sections("globalVars", list.iter().copied(), 8, of)).collect();
-    render(&Plcopen {
+    let of = |v: &Variable, f: &mut Formatter| variable(v, Dialect::Portable, 10, f);
+    let text = Plcopen {
         made_from: escaped(&made_from(shared)),
         version: version::NUMBER,
         day: version::DAY,
         pous: pous(line, Dialect::Portable),
         scan_ms: shared.system.scan_ms,
-        globals,
-    })
+        globals: part(move |f| {
+            lists.iter().try_for_each(|list| sections("globalVars", list.iter().copied(), 8, of, f))
+        }),
+    };
+    part(move |f| writeln!(f, "{text}"))
 }
 
 /// For CODESYS and TwinCAT.
-pub fn codesys(shared: Shared, line: &Line) -> String {
+pub fn codesys<'a>(shared: Shared<'a>, line: &'a Line) -> Part<'a> {
     let value =
         |(member, i): (&String, &i32)| format!("              <value name=\"{member}\" value=\"{i}\"/>\n");
     let enumerations = enumerations(shared, line)
@@ -89,18 +92,20 @@ pub fn codesys(shared: Shared, line: &Line) -> String {
         })
         .collect();
     let structures = line.structures.iter().map(|structure| StructureXml {
-        name: structure.name.clone(),
-        fields: structure.fields.iter().map(|v| variable(v, Dialect::Codesys, 12)).collect(),
+        name: &structure.name,
+        fields: part(move |f| structure.fields.iter().try_for_each(|v| variable(v, Dialect::Codesys, 12, f))),
     });
     let lists = (line.globals.lists().into_iter())
         .map(|list| List {
             name: list.name,
-            variables: list.variables.iter().map(|v| variable(v, Dialect::Codesys, 8)).collect(),
             is_retained: list.is_retained,
             attributes: attributes::additional_data(list.attributes, 8),
+            variables: part(move |f| {
+                list.variables.iter().try_for_each(|v| variable(v, Dialect::Codesys, 8, f))
+            }),
         })
         .collect();
-    render(&Codesys {
+    let text = Codesys {
         made_from: escaped(&made_from(shared)),
         version: version::NUMBER,
         day: version::DAY,
@@ -108,61 +113,63 @@ pub fn codesys(shared: Shared, line: &Line) -> String {
         structures: structures.collect(),
         pous: pous(line, Dialect::Codesys),
         lists,
-    })
+    };
+    part(move |f| writeln!(f, "{text}"))
 }
 
-fn pous(line: &Line, dialect: Dialect) -> Vec<Pou> {
+fn pous(line: &Line, dialect: Dialect) -> Vec<Pou<'_>> {
     let functions = line.functions.iter().map(|f| function(f));
     functions.chain(line.units().map(|unit| pou(unit, dialect))).collect()
 }
 
-fn pou(unit: &Unit, dialect: Dialect) -> Pou {
-    let of = |v: &Variable| variable(v, dialect, 12);
-    let mut interface = String::new();
-    interface += &section("inputVars", 10, unit.inputs.iter().map(of).collect());
-    interface += &sections("outputVars", &unit.outputs(dialect), 10, of);
-    interface += &section("inOutVars", 10, unit.references.iter().map(of).collect());
-    let instance =
-        |i: &Instance| typed(&named(&i.name), &format!("<derived name=\"{}\"/>", i.block), "", "", 12);
-    let instances = |is_retained: bool| {
-        let some = unit.instances.iter().filter(|i| i.is_retained_in(dialect) == is_retained);
-        some.map(instance).collect()
-    };
-    interface += &sections("localVars", &unit.variables, 10, of);
-    interface += &section("localVars", 10, instances(false));
-    interface += &retained("localVars", 10, instances(true));
-    if dialect == Dialect::Portable {
-        interface += &section("externalVars", 10, unit.externals.iter().map(of).collect());
-    }
-    interface += &attributes::additional_data(unit.attributes(dialect), 10);
+fn pou(unit: &Unit, dialect: Dialect) -> Pou<'_> {
     Pou {
-        name: unit.name.clone(),
+        name: &unit.name,
         kind: if unit.name == "MAIN" { "program" } else { "functionBlock" },
-        interface,
-        body: cdata(&body(unit, dialect)),
+        interface: part(move |f| interface(unit, dialect, f)),
+        body: part(move |f| body(unit, dialect, &mut Cdata(f))),
     }
 }
 
+fn interface(unit: &Unit, dialect: Dialect, to: &mut Formatter) -> fmt::Result {
+    let of = |v: &Variable, f: &mut Formatter| variable(v, dialect, 12, f);
+    section("inputVars", 10, unit.inputs.iter(), of, to)?;
+    sections("outputVars", &unit.outputs(dialect), 10, of, to)?;
+    section("inOutVars", 10, unit.references.iter(), of, to)?;
+    let instance = |i: &Instance, f: &mut Formatter| {
+        f.write_str(&typed(&named(&i.name), &format!("<derived name=\"{}\"/>", i.block), 12))
+    };
+    let instances =
+        |is_retained: bool| unit.instances.iter().filter(move |i| i.is_retained_in(dialect) == is_retained);
+    sections("localVars", &unit.variables, 10, of, to)?;
+    section("localVars", 10, instances(false), instance, to)?;
+    retained("localVars", 10, instances(true), instance, to)?;
+    if dialect == Dialect::Portable {
+        section("externalVars", 10, unit.externals.iter(), of, to)?;
+    }
+    to.write_str(&attributes::additional_data(unit.attributes(dialect), 10))
+}
+
 /// A function from its text: its type stands in the first line behind the comment, then come sections.
-fn function(function: &Function) -> Pou {
+fn function(function: &Function) -> Pou<'static> {
     let text = function.text.split_once("FUNCTION ").map_or("", |(_, rest)| rest);
     let mut lines = text.lines();
     let result = lines.next().and_then(|l| l.split(" : ").nth(1)).unwrap_or_default();
     let mut interface = format!("          <returnType><{result}/></returnType>\n");
-    let mut open: Option<(&str, Vec<String>)> = None;
+    let mut open: Option<(&str, String)> = None;
     let mut body = String::new();
     for line in lines {
         match (line, &mut open) {
-            ("VAR_INPUT", _) => open = Some(("inputVars", Vec::new())),
-            ("VAR", _) => open = Some(("localVars", Vec::new())),
+            ("VAR_INPUT", _) => open = Some(("inputVars", String::new())),
+            ("VAR", _) => open = Some(("localVars", String::new())),
             ("END_VAR", Some((name, variables))) => {
-                interface += &section(name, 10, variables.clone());
+                let _ = write!(interface, "          <{name}>\n{variables}          </{name}>\n");
                 open = None;
             }
             ("END_FUNCTION", _) => {}
             (line, Some((_, variables))) => {
                 if let Some((name, ty)) = line.trim().trim_end_matches(';').split_once(" : ") {
-                    variables.push(typed(&named(name), &format!("<{ty}/>"), "", "", 12));
+                    *variables += &typed(&named(name), &format!("<{ty}/>"), 12);
                 }
             }
             (line, None) => {
@@ -170,7 +177,12 @@ fn function(function: &Function) -> Pou {
             }
         }
     }
-    Pou { name: function.name.into(), kind: "function", interface, body: cdata(&body) }
+    Pou {
+        name: function.name,
+        kind: "function",
+        interface: Box::new(interface),
+        body: part(move |f| Cdata(f).write_str(&body)),
+    }
 }
 
 /// Those that are retained in a section of their own.
@@ -178,30 +190,56 @@ fn sections<'a>(
     name: &str,
     variables: impl IntoIterator<Item = &'a Variable> + Clone,
     indent: usize,
-    of: impl Fn(&Variable) -> String,
-) -> String {
-    let lines = |is_retained: bool| {
-        let some = variables.clone().into_iter().filter(move |v| v.is_retained == is_retained);
-        some.map(&of).collect::<Vec<_>>()
+    of: impl Fn(&Variable, &mut Formatter) -> fmt::Result,
+    to: &mut Formatter,
+) -> fmt::Result {
+    let some = |is_retained: bool| {
+        variables.clone().into_iter().filter(move |variable| variable.is_retained == is_retained)
     };
-    section(name, indent, lines(false)) + &retained(name, indent, lines(true))
+    section(name, indent, some(false), &of, to)?;
+    retained(name, indent, some(true), &of, to)
+}
+
+fn section<T>(
+    name: &str,
+    indent: usize,
+    all: impl Iterator<Item = T>,
+    of: impl Fn(T, &mut Formatter) -> fmt::Result,
+    to: &mut Formatter,
+) -> fmt::Result {
+    element(name, "", indent, all, of, to)
 }
 
 /// A section that outlasts a loss of power.
-fn retained(name: &str, indent: usize, variables: Vec<String>) -> String {
-    let section = section(name, indent, variables);
-    section.replacen(&format!("<{name}>"), &format!("<{name} retain=\"true\">"), 1)
+fn retained<T>(
+    name: &str,
+    indent: usize,
+    all: impl Iterator<Item = T>,
+    of: impl Fn(T, &mut Formatter) -> fmt::Result,
+    to: &mut Formatter,
+) -> fmt::Result {
+    element(name, " retain=\"true\"", indent, all, of, to)
 }
 
-fn section(name: &str, indent: usize, variables: Vec<String>) -> String {
-    let indent = " ".repeat(indent);
-    match variables.is_empty() {
-        true => String::new(),
-        false => format!("{indent}<{name}>\n{}{indent}</{name}>\n", variables.concat()),
+/// Nothing if it would be empty.
+fn element<T>(
+    name: &str,
+    attributes: &str,
+    indent: usize,
+    all: impl Iterator<Item = T>,
+    of: impl Fn(T, &mut Formatter) -> fmt::Result,
+    to: &mut Formatter,
+) -> fmt::Result {
+    let mut all = all.peekable();
+    if all.peek().is_none() {
+        return Ok(());
     }
+    writeln!(to, "{:indent$}<{name}{attributes}>", "")?;
+    all.try_for_each(|each| of(each, to))?;
+    writeln!(to, "{:indent$}</{name}>", "")
 }
 
-fn variable(variable: &Variable, dialect: Dialect, indent: usize) -> String {
+fn variable(variable: &Variable, dialect: Dialect, indent: usize, to: &mut Formatter) -> fmt::Result {
     let single = match variable.structure.as_ref().or(variable.enumeration.as_ref()) {
         Some(name) => format!("<derived name=\"{name}\"/>"),
         None => format!("<{}/>", variable.basic.name()),
@@ -215,12 +253,6 @@ fn variable(variable: &Variable, dialect: Dialect, indent: usize) -> String {
             last.iter().map(dimension).collect::<String>()
         ),
     };
-    let mut initial = String::new();
-    if let Some(ex) = &variable.initial {
-        initial += "<initialValue>";
-        value(ex, dialect, &mut initial);
-        initial += "</initialValue>";
-    }
     let about = variable.comments.iter().fold(String::new(), |text, line| match text.as_str() {
         "" => line.clone(),
         text if text.ends_with('.') => format!("{text} {line}"),
@@ -237,33 +269,37 @@ fn variable(variable: &Variable, dialect: Dialect, indent: usize) -> String {
         }
     };
     let address = variable.address.as_ref().map(|at| format!(" address=\"{at}\"")).unwrap_or_default();
-    typed(&(named(&variable.name) + &address), &ty, &initial, &about, indent)
+    write!(to, "{:indent$}<variable name=\"{}\"{address}><type>{ty}</type>", "", variable.name)?;
+    if let Some(ex) = &variable.initial {
+        to.write_str("<initialValue>")?;
+        value(ex, dialect, to)?;
+        to.write_str("</initialValue>")?;
+    }
+    writeln!(to, "{about}</variable>")
 }
 
 /// A value in a declaration.
-fn value(ex: &Ex, dialect: Dialect, text: &mut String) {
+fn value(ex: &Ex, dialect: Dialect, to: &mut Formatter) -> fmt::Result {
     match ex {
         Ex::List(values) => {
-            *text += "<arrayValue>";
+            to.write_str("<arrayValue>")?;
             for ex in values {
-                *text += "<value>";
-                value(ex, dialect, text);
-                *text += "</value>";
+                to.write_str("<value>")?;
+                value(ex, dialect, to)?;
+                to.write_str("</value>")?;
             }
-            *text += "</arrayValue>";
+            to.write_str("</arrayValue>")
         }
         Ex::Fields(fields) => {
-            *text += "<structValue>";
+            to.write_str("<structValue>")?;
             for (name, ex) in fields {
-                let _ = write!(text, "<value member=\"{name}\">");
-                value(ex, dialect, text);
-                *text += "</value>";
+                write!(to, "<value member=\"{name}\">")?;
+                value(ex, dialect, to)?;
+                to.write_str("</value>")?;
             }
-            *text += "</structValue>";
+            to.write_str("</structValue>")
         }
-        single => {
-            let _ = write!(text, "<simpleValue value=\"{}\"/>", escaped(&dialect.expression(single)));
-        }
+        single => write!(to, "<simpleValue value=\"{}\"/>", escaped(&dialect.expression(single))),
     }
 }
 
@@ -271,15 +307,19 @@ fn named(name: &str) -> String {
     format!("name=\"{name}\"")
 }
 
-fn typed(attributes: &str, ty: &str, initial: &str, about: &str, indent: usize) -> String {
-    format!("{}<variable {attributes}><type>{ty}</type>{initial}{about}</variable>\n", " ".repeat(indent))
+fn typed(attributes: &str, ty: &str, indent: usize) -> String {
+    format!("{:indent$}<variable {attributes}><type>{ty}</type></variable>\n", "")
 }
 
 fn escaped(text: &str) -> String {
     plain::xml(&plain::line(text))
 }
 
-/// Text that does not end a CDATA section.
-fn cdata(text: &str) -> String {
-    text.replace("]]>", "]]]]><![CDATA[>")
+/// Text that does not end a CDATA section. What would end it stands within one piece, as a statement does.
+struct Cdata<'a, 'b>(&'a mut Formatter<'b>);
+
+impl Write for Cdata<'_, '_> {
+    fn write_str(&mut self, text: &str) -> fmt::Result {
+        self.0.write_str(&text.replace("]]>", "]]]]><![CDATA[>"))
+    }
 }

@@ -14,14 +14,19 @@ const FILES: &str = "files";
 const SELF: &str = "manifest";
 
 pub fn hash(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().map(|b| format!("{b:02x}")).collect()
+    hex(&Sha256::digest(bytes))
+}
+
+/// A hash as text.
+pub fn hex(digest: &[u8]) -> String {
+    digest.iter().map(|b| format!("{b:02x}")).collect()
 }
 
 /// Hash of all that is still to be read.
 pub fn hash_of(mut file: impl io::Read) -> io::Result<String> {
     let mut digest = Sha256::new();
     io::copy(&mut file, &mut digest)?;
-    Ok(digest.finalize().iter().map(|b| format!("{b:02x}")).collect())
+    Ok(hex(&digest.finalize()))
 }
 
 #[derive(Clone, Debug, Default)]

@@ -42,7 +42,7 @@ pub fn text(path: &Path) -> io::Result<String> {
 }
 
 /// What is no folder where one has to be, and what is no file where one has to be, in order.
-pub fn obstacles<'a>(folder: &Path, names: impl Iterator<Item = &'a String>) -> Vec<PathBuf> {
+pub fn obstacles<'a>(folder: &Path, names: impl Iterator<Item = &'a str>) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for name in names {
         let file = folder.join(name);

@@ -15,6 +15,11 @@ fn files(texts: &[(&str, &str)]) -> Files {
     texts.iter().map(|(name, text)| (name.to_string(), text.to_string())).collect()
 }
 
+fn write(folder: &Path, files: &Files, overwrite: Overwrite) -> Result<Vec<String>, Refusal> {
+    let make = |sink: &mut dyn Sink| files.iter().for_each(|(name, text)| sink.file(name, text));
+    open(folder).write(make, about(), overwrite)
+}
+
 fn about() -> Map<String, Value> {
     Map::from_iter([("tool".to_string(), json!("test"))])
 }
@@ -27,13 +32,13 @@ fn text(path: PathBuf) -> Option<String> {
 fn what_is_the_same_is_not_written_again() {
     let folder = folder("same");
     let all = files(&[("a/b.txt", "1"), ("c.txt", "2")]);
-    open(&folder).write(&all, about(), Overwrite::Own).expect("written");
+    write(&folder, &all, Overwrite::Own).expect("written");
     let written = folder.join("a/b.txt").metadata().and_then(|m| m.modified()).expect("a time");
     let more = files(&[("a/b.txt", "1"), ("c.txt", "3")]);
-    open(&folder).write(&more, about(), Overwrite::Own).expect("written");
+    write(&folder, &more, Overwrite::Own).expect("written");
     assert_eq!(text(folder.join("c.txt")).as_deref(), Some("3"));
     assert_eq!(folder.join("a/b.txt").metadata().and_then(|m| m.modified()).expect("a time"), written);
-    open(&folder).write(&files(&[("c.txt", "3")]), about(), Overwrite::Own).expect("written");
+    write(&folder, &files(&[("c.txt", "3")]), Overwrite::Own).expect("written");
     assert!(!folder.join("a").exists(), "an empty folder goes with its last file");
     fs::remove_dir_all(&folder).expect("a folder");
 }
@@ -45,7 +50,7 @@ fn a_refusal_names_all_and_leaves_no_folder() {
     fs::write(folder.join("a/b.txt"), "mine").expect("a file");
     fs::write(folder.join("c.txt"), "mine").expect("a file");
     let all = files(&[("a/b.txt", "1"), ("c.txt", "2"), ("d.txt", "3")]);
-    let Err(Refusal::NotOurs(found)) = open(&folder).write(&all, about(), Overwrite::Own) else {
+    let Err(Refusal::NotOurs(found)) = write(&folder, &all, Overwrite::Own) else {
         panic!("two files are not ours")
     };
     assert_eq!(found, [folder.join("a/b.txt"), folder.join("c.txt")]);
@@ -66,7 +71,7 @@ fn names_that_lead_out_of_the_folder_are_none() {
 #[test]
 fn a_manifest_knows_whether_it_was_changed() {
     let folder = folder("manifest");
-    open(&folder).write(&files(&[("c.txt", "2")]), about(), Overwrite::Own).expect("written");
+    write(&folder, &files(&[("c.txt", "2")]), Overwrite::Own).expect("written");
     assert!(Manifest::read(&folder).is_whole);
     let path = folder.join(MANIFEST);
     let whole = fs::read_to_string(&path).expect("a manifest");
@@ -78,5 +83,36 @@ fn a_manifest_knows_whether_it_was_changed() {
     }
     fs::write(&path, "{").expect("a file");
     assert!(Manifest::read(&folder).files.is_empty());
+    fs::remove_dir_all(&folder).expect("a folder");
+}
+
+#[test]
+fn a_large_file_is_written_if_any_of_its_bytes_is_another_one() {
+    let folder = folder("large");
+    let large = "0123456789".repeat(250_000);
+    let path = folder.join("a/large.txt");
+    let write = |text: &str| {
+        write(&folder, &files(&[("a/large.txt", text), ("b.txt", "1")]), Overwrite::Own).expect("written");
+        assert!(fs::read_to_string(&path).expect("a file") == text);
+        assert_eq!(fs::read_dir(&folder).expect("a folder").count(), 3, "the manifest, `a` and `b.txt`");
+    };
+    let written = || path.metadata().and_then(|there| there.modified()).expect("a time");
+    write(&large);
+    let first = written();
+    write(&large);
+    assert_eq!(written(), first, "the same is not written again");
+    let changed = |at: usize| format!("{}x{}", &large[..at], &large[at + 1..]);
+    for other in [&large[..2_000_000], &large[..2_499_999], &large, &(large.clone() + "0"), &large[..10]] {
+        write(other);
+        write(&large);
+    }
+    for at in [0, 999_999, 1_000_000, 1_700_000, 2_499_999] {
+        write(&changed(at));
+        write(&large);
+    }
+    fs::write(&path, changed(1_700_000)).expect("a file");
+    let refusal = super::tests::write(&folder, &files(&[("a/large.txt", &large)]), Overwrite::Own);
+    assert!(matches!(refusal, Err(Refusal::NotOurs(found)) if found == [path.clone()]));
+    assert!(fs::read_to_string(&path).expect("a file") == changed(1_700_000), "as it was");
     fs::remove_dir_all(&folder).expect("a folder");
 }

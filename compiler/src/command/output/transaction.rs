@@ -24,26 +24,29 @@ const OLD: &str = "old";
 const NEW: &str = "new";
 
 /// What happens to a file.
-#[derive(Clone, Copy, Debug)]
-pub struct Change<'a> {
-    pub name: &'a str,
+#[derive(Clone, Debug)]
+pub struct Change {
+    pub name: String,
     pub existed: bool,
-    /// `None` removes it.
-    pub text: Option<NewText<'a>>,
+    /// Of the new file; `None` removes it.
+    pub hash: Option<String>,
 }
 
-#[derive(Clone, Copy, Debug)]
-pub struct NewText<'a> {
-    pub text: &'a str,
-    pub hash: &'a str,
+/// The folder of a transaction in which nothing has been done yet. It goes when this is dropped.
+pub fn begin(folder: &Path) -> Temporary {
+    Temporary::new(folder.join(UNFINISHED))
 }
 
-/// Makes all changes, or none.
-pub fn apply(folder: &Path, changes: &[Change]) -> Result<(), Refusal> {
+/// Where a new file waits.
+pub fn waiting(staged: &Temporary, name: &str) -> PathBuf {
+    staged.path().join(NEW).join(name)
+}
+
+/// Makes all changes, or none. The new files wait.
+pub fn apply(folder: &Path, staged: Temporary, changes: &[Change]) -> Result<(), Refusal> {
     if changes.is_empty() {
         return Ok(());
     }
-    let staged = Temporary::new(folder.join(UNFINISHED));
     let done = stage(folder, staged.path(), changes).and_then(|()| {
         let _writing = interrupt::writing();
         exchange(folder, staged.path(), changes)
@@ -57,7 +60,7 @@ pub fn apply(folder: &Path, changes: &[Change]) -> Result<(), Refusal> {
         }
     }
     if done.is_err() {
-        remove_empty(folder, changes.iter().filter(|c| !c.existed).map(|c| c.name));
+        remove_empty(folder, changes.iter().filter(|c| !c.existed).map(|c| c.name.as_str()));
     }
     done
 }
@@ -102,24 +105,21 @@ fn strangers(unfinished: &Path) -> Result<Vec<PathBuf>, Refusal> {
     Ok(found)
 }
 
-/// Puts the new files and the journal on the disk.
+/// Makes sure that the new files are on the disk, and puts the journal there.
 fn stage(folder: &Path, staged: &Path, changes: &[Change]) -> Result<(), Refusal> {
     create(staged)?;
     let mut journal = Vec::new();
-    for Change { name, existed, text } in changes {
-        journal.push(json!({ "name": name, "existed": existed, "hash": text.map(|new| new.hash) }));
+    for Change { name, existed, hash } in changes {
+        journal.push(json!({ "name": name, "existed": existed, "hash": hash }));
         if *existed {
             create_parent(&staged.join(OLD).join(name))?;
         }
-        if let Some(NewText { text, .. }) = text {
-            let path = staged.join(NEW).join(name);
-            create_parent(&path)?;
+        if hash.is_some() {
             create_parent(&folder.join(name))?;
-            fs::write(&path, text).map_err(|e| Refusal::Io(path, e))?;
         }
     }
-    for name in changes.iter().filter(|c| c.text.is_some()).map(|c| c.name) {
-        sync(&staged.join(NEW).join(name))?;
+    for change in changes.iter().filter(|change| change.hash.is_some()) {
+        sync(&staged.join(NEW).join(&change.name))?;
     }
     let journal = format!("{:#}\n", Value::from(journal));
     let path = staged.join(DRAFT);
@@ -131,23 +131,23 @@ fn stage(folder: &Path, staged: &Path, changes: &[Change]) -> Result<(), Refusal
 
 /// Lets old and new files change places. The last step makes it so.
 fn exchange(folder: &Path, staged: &Path, changes: &[Change]) -> Result<(), Refusal> {
-    for Change { name, existed, text } in changes {
+    for Change { name, existed, hash } in changes {
         let place = folder.join(name);
         if *existed {
             rename(&place, &staged.join(OLD).join(name))?;
         }
-        if text.is_some() {
+        if hash.is_some() {
             rename(&staged.join(NEW).join(name), &place)?;
         }
     }
-    for name in changes.iter().map(|c| c.name) {
+    for name in changes.iter().map(|c| &c.name) {
         if let Some(above) = folder.join(name).parent() {
             sync(above)?;
         }
     }
     let journal = staged.join(JOURNAL);
     fs::remove_file(&journal).map_err(|e| Refusal::Io(journal, e))?;
-    remove_empty(folder, changes.iter().filter(|c| c.text.is_none()).map(|c| c.name));
+    remove_empty(folder, changes.iter().filter(|c| c.hash.is_none()).map(|c| c.name.as_str()));
     Ok(())
 }
 
@@ -167,7 +167,8 @@ fn undo(folder: &Path, staged: &Path, inputs: &[PathBuf]) -> Result<(), Refusal>
         return Err(Refusal::Inputs(read));
     }
     let olds: Vec<String> = names.iter().map(|name| format!("{OLD}/{name}")).collect();
-    let found = [obstacles(folder, names.iter()), obstacles(staged, olds.iter())].concat();
+    let [names_of, olds_of] = [&names, &olds].map(|names| names.iter().map(String::as_str));
+    let found = [obstacles(folder, names_of), obstacles(staged, olds_of)].concat();
     if !found.is_empty() {
         return Err(Refusal::InTheWay(found));
     }
@@ -209,12 +210,12 @@ fn create(folder: &Path) -> Result<(), Refusal> {
     fs::create_dir_all(folder).map_err(|e| Refusal::Io(folder.into(), e))
 }
 
-fn create_parent(path: &Path) -> Result<(), Refusal> {
+pub fn create_parent(path: &Path) -> Result<(), Refusal> {
     path.parent().map_or(Ok(()), create)
 }
 
 /// What is written there is on the disk. Elsewhere than on Unix, folders cannot be asked to be.
-fn sync(path: &Path) -> Result<(), Refusal> {
+pub fn sync(path: &Path) -> Result<(), Refusal> {
     if cfg!(not(unix)) && path.is_dir() {
         return Ok(());
     }

@@ -5,7 +5,7 @@ use crate::backend::st::code::{Ex, name};
 use crate::backend::st::context::Shared;
 use crate::backend::st::names::Held;
 use crate::ir::AutomatonId;
-use std::collections::BTreeMap;
+use std::collections::HashMap;
 use std::rc::Rc;
 
 /// The coordinates of a point.
@@ -25,10 +25,10 @@ pub struct Place {
 #[derive(Clone, Default)]
 pub struct Places {
     /// What all units share.
-    shared: Rc<BTreeMap<String, Place>>,
-    own: BTreeMap<String, Place>,
+    shared: Rc<HashMap<String, Place>>,
+    own: HashMap<String, Place>,
     /// What the instances of blocks have.
-    instances: BTreeMap<String, Rc<Places>>,
+    instances: HashMap<String, Rc<Places>>,
 }
 
 impl Places {
@@ -62,7 +62,7 @@ impl Places {
     }
 
     /// With what the instances of the program have.
-    pub fn of_program(&self, instances: BTreeMap<String, Rc<Places>>) -> Self {
+    pub fn of_program(&self, instances: HashMap<String, Rc<Places>>) -> Self {
         Self { instances, ..self.clone() }
     }
 

@@ -9,14 +9,14 @@ use crate::backend::st::declaration::{Basic, Unit, Variable, constants};
 use crate::backend::st::globals::{Table, about};
 use crate::ir::Value;
 use crate::naming::st::Scope;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::rc::Rc;
 
 pub struct Calls<'a> {
     shared: Shared<'a>,
     /// By the name of an instance.
-    blocks: BTreeMap<&'a str, &'a Given>,
-    robots: BTreeMap<&'a str, usize>,
+    blocks: HashMap<&'a str, &'a Given>,
+    robots: HashMap<&'a str, usize>,
     scope: &'a mut Scope,
     /// Points that robots are given, by robot and number of the parameter.
     named: BTreeMap<(usize, usize), String>,
@@ -26,7 +26,7 @@ pub struct Calls<'a> {
 impl<'a> Calls<'a> {
     pub fn new(shared: Shared<'a>, given: &'a [Given], program: &'a Unit, scope: &'a mut Scope) -> Self {
         let of = |block: &str| given.iter().find(|given| given.unit.name == block);
-        let blocks: BTreeMap<&str, &Given> =
+        let blocks: HashMap<&str, &Given> =
             program.instances.iter().filter_map(|i| Some((i.name.as_str(), of(&i.block)?))).collect();
         let robots = shared.names.robots.iter().enumerate();
         let robots = robots.flat_map(|(robot, names)| {
@@ -43,13 +43,14 @@ impl<'a> Calls<'a> {
     }
 
     /// What the instances have.
-    pub fn places(&self) -> BTreeMap<String, Rc<Places>> {
+    pub fn places(&self) -> HashMap<String, Rc<Places>> {
         self.blocks.iter().map(|(name, given)| (name.to_string(), given.places.clone())).collect()
     }
 
     pub fn call(&mut self, instance: &str, arguments: &[(String, Ex)], places: &Places) -> Stmt {
         let given = self.blocks.get(instance).copied();
-        let mut all: Vec<(String, Ex)> = Vec::new();
+        let shared = given.map_or(&[][..], |given| &given.shared);
+        let mut all: Vec<(String, Ex)> = Vec::with_capacity(arguments.len() + shared.len());
         for (argument, value) in arguments {
             let value = places.ex(value);
             match given.and_then(|given| given.places.get(argument)) {
@@ -67,8 +68,7 @@ impl<'a> Calls<'a> {
                 _ => all.push((argument.clone(), value)),
             }
         }
-        let shared = given.iter().flat_map(|given| &given.shared);
-        all.extend(shared.map(|shared| (shared.clone(), name(shared))));
+        all.extend(shared.iter().map(|shared| (shared.clone(), name(shared))));
         Stmt::Call { instance: instance.into(), arguments: all }
     }
 

@@ -18,17 +18,28 @@ pub enum Enumerated {
     ByNumber,
 }
 
-/// The enumeration of a variable: by its unit, empty for what all units share, and its name.
+/// The enumeration of a variable: by its name, behind its unit, which is empty for what all units share.
 #[derive(Default)]
-pub struct Typed(HashMap<String, HashMap<String, String>>);
+pub struct Typed(HashMap<String, Vec<(String, String)>>);
 
 impl Typed {
     pub fn get(&self, unit: &str, variable: &str) -> Option<&String> {
-        self.0.get(unit)?.get(variable)
+        Some(&self.0.get(variable)?.iter().find(|(of, _)| of == unit)?.1)
+    }
+
+    fn has(&self, units: [&str; 2], variable: &str) -> bool {
+        self.0.get(variable).is_some_and(|all| all.iter().any(|(unit, _)| units.contains(&unit.as_str())))
     }
 
     fn insert(&mut self, unit: &str, variable: &str, enumeration: &str) {
-        self.0.entry(unit.into()).or_default().insert(variable.into(), enumeration.into());
+        self.remove(unit, variable);
+        self.0.entry(variable.into()).or_default().push((unit.into(), enumeration.into()));
+    }
+
+    fn remove(&mut self, unit: &str, variable: &str) {
+        if let Some(all) = self.0.get_mut(variable) {
+            all.retain(|(of, _)| of != unit);
+        }
     }
 
     fn add(&mut self, shared: Shared, unit: &str, held: &Held, scalar: Scalar) {
@@ -73,9 +84,7 @@ pub fn typed(shared: Shared, line: &Line, enumerated: Enumerated) -> Typed {
             return typed;
         }
         for (unit, name) in found {
-            if let Some(variables) = typed.0.get_mut(unit) {
-                variables.remove(name);
-            }
+            typed.remove(unit, name);
         }
     }
 }
@@ -153,10 +162,9 @@ impl<'a> Users<'a> {
     fn key(&self, typed: &Typed, place: &'a Ex) -> Option<Key<'a>> {
         let unit = self.unit.name.as_str();
         match place {
-            Ex::Name(name) | Ex::Element(name, _) => {
-                let is_typed = [unit, ""].into_iter().any(|unit| typed.get(unit, name).is_some());
-                is_typed.then(|| (if self.own.contains(name.as_str()) { unit } else { "" }, name.as_str()))
-            }
+            Ex::Name(name) | Ex::Element(name, _) => typed
+                .has([unit, ""], name)
+                .then(|| (if self.own.contains(name.as_str()) { unit } else { "" }, name.as_str())),
             Ex::Field(instance, output) => Some((self.block(instance)?, output)),
             _ => None,
         }
