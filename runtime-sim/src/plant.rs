@@ -3,12 +3,12 @@
 mod command;
 pub(crate) mod conveyed;
 mod conveying;
-mod course;
 mod delay;
 pub(crate) mod fall;
 mod faults;
 mod gripping;
 mod idle;
+mod phase;
 mod sight;
 pub mod trajectory;
 mod working;
@@ -62,9 +62,9 @@ pub struct Plant {
     faulty: Vec<usize>,
     /// By machine.
     next_looks: Vec<Option<NextLook>>,
-    /// The courses of the machines when it was last asked for, and the next look.
+    /// The phases of the machines when it was last asked for, and the next look.
     next_look: (u64, f64),
-    /// The courses of the machines with lanes when it was last looked how these go on.
+    /// The phases of the machines with lanes when it was last looked how these go on.
     conveyed_on: u64,
     lying: Option<Lying>,
     /// Events of items and orders that have woken whom they concern.
@@ -169,7 +169,7 @@ impl Plant {
         self.wake_concerned(self.now_ms());
         let next_ms = scan * self.scan_ms;
         let (machines, mut shared) = self.split(scan);
-        machines.iter_mut().for_each(|machine| machine.course.go_on_to(next_ms as f64));
+        machines.iter_mut().for_each(|machine| machine.phase.go_on_to(next_ms as f64));
         working(machines).for_each(|machine| machine.advance(&mut shared));
         self.slip(scan);
         self.grip(scan);
@@ -204,8 +204,8 @@ impl Plant {
             }
         }
         let now_ms = self.now_ms();
-        let courses = self.conveying.machines().map(|machine| self.machines[machine].course.number()).sum();
-        if std::mem::replace(&mut self.conveyed_on, courses) != courses {
+        let phases = self.conveying.machines().map(|machine| self.machines[machine].phase.number()).sum();
+        if std::mem::replace(&mut self.conveyed_on, phases) != phases {
             while let Some(falls) = self.convey(|conveying, among, _| conveying.look(among, now_ms)) {
                 self.fall(falls);
             }

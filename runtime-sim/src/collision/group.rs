@@ -72,8 +72,8 @@ pub struct Group {
     is_fixed: bool,
     /// Another one if it does not go on as before, or bears something else.
     version: u64,
-    /// The course of the machine at the last look at the plant, and when that was.
-    course: u64,
+    /// The phase of the machine at the last look at the plant, and when that was.
+    phase: u64,
     now_ms: f64,
     trajectory: Trajectory,
     movement: Movement,
@@ -146,7 +146,7 @@ impl Group {
             is_fixed,
             bodies: Vec::new(),
             version: 0,
-            course: 0,
+            phase: 0,
             now_ms: 0.0,
             trajectory: Trajectory::Rests,
             movement: Movement::Still,

@@ -154,7 +154,7 @@ impl Conveying {
     fn refresh(&mut self, among: &mut Among, ms: f64) -> Option<Falls> {
         for track in &self.tracks {
             track.adopt(among, ms);
-            among.machines[track.machine].begin_course();
+            among.machines[track.machine].begin_phase();
         }
         tracks::join(&mut self.tracks, ms);
         let mut falls = None;

@@ -93,9 +93,9 @@ fn bisected(mut low: u32, mut high: u32, holds: impl Fn(u32) -> bool) -> u32 {
 impl Plant {
     /// When a gripper next looks and could find an item, ms; infinity: never, as everything moves now.
     pub(super) fn next_look(&mut self, now_ms: u64) -> f64 {
-        let courses = self.courses();
-        if self.next_look.0 != courses || self.next_look.1 <= now_ms as f64 {
-            self.next_look = (courses, self.find_next_look(now_ms));
+        let phases = self.phases();
+        if self.next_look.0 != phases || self.next_look.1 <= now_ms as f64 {
+            self.next_look = (phases, self.find_next_look(now_ms));
         }
         self.next_look.1
     }

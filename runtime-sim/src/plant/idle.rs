@@ -69,13 +69,13 @@ impl Working {
             (shared.now_ms, shared.dt_ms) = (since_ms, now_ms - since_ms);
             self.advance(shared);
         }
-        self.begin_course();
+        self.begin_phase();
     }
 
     /// It does not go on as it did; it is not idle.
-    pub(super) fn begin_course(&mut self) {
+    pub(super) fn begin_phase(&mut self) {
         self.idle.quiet = 0;
-        self.course.begin();
+        self.phase.begin();
     }
 }
 
@@ -113,7 +113,7 @@ impl Plant {
         if !working.has_obeyed(outputs) || working.faults().exist() {
             self.wake(machine, self.now_ms());
         }
-        !self.machines[machine].course.has_obeyed()
+        !self.machines[machine].phase.has_obeyed()
     }
 
     /// When a machine does something next, as [`Working::next_change`]. If it never does, and nothing of it has changed
@@ -124,7 +124,7 @@ impl Plant {
         if working.is_idle() {
             return f64::INFINITY;
         }
-        if let Some(next_ms) = working.course.next_after(now_ms as f64) {
+        if let Some(next_ms) = working.phase.next_after(now_ms as f64) {
             working.idle.stay(now_ms);
             return next_ms;
         }
@@ -137,7 +137,7 @@ impl Plant {
             && working.looks().next().is_none()
             && !working.is_busy(&self.items, &self.desk, self.scan, now_ms);
         let working = &mut self.machines[machine];
-        working.course.expect(next_ms);
+        working.phase.expect(next_ms);
         working.idle.quiet = if is_quiet { working.idle.quiet + 1 } else { 0 };
         working.idle.advanced_ms = now_ms;
         next_ms

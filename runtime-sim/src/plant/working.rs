@@ -3,10 +3,10 @@
 mod parts;
 
 use super::command::{Answer, Asked, Head};
-use super::course::Course;
 use super::fall::SINK;
 use super::faults::Faults;
 use super::idle::Idle;
+use super::phase::Phase;
 use crate::carrier::Carrier;
 use crate::device::error;
 use crate::item::Items;
@@ -44,7 +44,7 @@ pub struct Working {
     serving: Vec<usize>,
     faults: Faults,
     pub(super) idle: Idle,
-    pub(super) course: Course,
+    pub(super) phase: Phase,
 }
 
 /// What all machines share.
@@ -100,7 +100,7 @@ impl Working {
         Ok(Self {
             index,
             idle: Idle::new(&parts, faults.exist()),
-            course: Course::default(),
+            phase: Phase::default(),
             pose: machine.pose,
             serving: (0..parts.len()).filter(serves).collect(),
             parts,
@@ -157,7 +157,7 @@ impl Working {
     }
 
     fn end(&mut self, error: i32, ends_ms: u64) {
-        self.begin_course();
+        self.begin_phase();
         if let Some(head) = &mut self.head {
             head.end(error, ends_ms);
         }
@@ -252,7 +252,7 @@ impl Working {
                 Progress::Going => {}
                 Progress::Reached => {
                     head.reach(shared.next_ms());
-                    self.begin_course();
+                    self.begin_phase();
                 }
                 Progress::Failed(error) => {
                     self.abandon(shared.next_ms());

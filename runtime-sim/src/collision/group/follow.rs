@@ -15,8 +15,8 @@ impl Group {
     /// Looks up how it is going to move from now on, unless it goes on as it did.
     pub fn follow(&mut self, plant: &Plant) {
         let Some(index) = self.machine().filter(|_| !self.is_fixed) else { return };
-        let course = plant.course(index);
-        if std::mem::replace(&mut self.course, course) != course {
+        let phase = plant.phase(index);
+        if std::mem::replace(&mut self.phase, phase) != phase {
             self.look(index, plant);
         } else if cfg!(debug_assertions) && !plant.is_idle(index) {
             let mut again = self.clone();

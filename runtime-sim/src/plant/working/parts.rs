@@ -44,7 +44,7 @@ impl Working {
         if let Some(scanning) = self.parts[part].as_mut().and_then(|running| running.scanner_mut())
             && std::mem::replace(&mut scanning.sees, sees) != sees
         {
-            self.begin_course();
+            self.begin_phase();
         }
     }
 

@@ -5,7 +5,7 @@ use super::{EARLY_MS, Plant};
 
 /// What a machine does from one event of its own to the next one.
 #[derive(Clone, Debug)]
-pub(super) struct Course {
+pub(super) struct Phase {
     number: u64,
     /// It has not moved on since it began: how it moves is not settled.
     is_new: bool,
@@ -15,14 +15,14 @@ pub(super) struct Course {
     next_ms: f64,
 }
 
-impl Default for Course {
+impl Default for Phase {
     fn default() -> Self {
         Self { number: 1, is_new: true, obeyed: 0, next_ms: f64::NEG_INFINITY }
     }
 }
 
-impl Course {
-    /// Another one for each course of the machine.
+impl Phase {
+    /// Another one for each phase of the machine.
     pub fn number(&self) -> u64 {
         self.number
     }
@@ -54,7 +54,7 @@ impl Course {
         }
     }
 
-    /// Whether the machine has obeyed the same outputs on this course before; now it has.
+    /// Whether the machine has obeyed the same outputs in this phase before; now it has.
     pub fn has_obeyed(&mut self) -> bool {
         std::mem::replace(&mut self.obeyed, self.number) == self.number
     }
@@ -62,13 +62,13 @@ impl Course {
 
 impl Plant {
     /// Changes whenever a machine may not go on as it did.
-    pub(crate) fn course(&self, machine: usize) -> u64 {
-        self.machines.get(machine).map_or(0, |machine| machine.course.number)
+    pub(crate) fn phase(&self, machine: usize) -> u64 {
+        self.machines.get(machine).map_or(0, |machine| machine.phase.number)
     }
 
     /// The same for all machines.
-    pub(super) fn courses(&self) -> u64 {
-        self.machines.iter().map(|machine| machine.course.number).sum()
+    pub(super) fn phases(&self) -> u64 {
+        self.machines.iter().map(|machine| machine.phase.number).sum()
     }
 }
 
@@ -77,49 +77,49 @@ mod tests {
     use super::*;
 
     /// Moved on once, so that how it moves is settled.
-    fn settled() -> Course {
-        let mut course = Course::default();
-        course.go_on_to(10.0);
-        course
+    fn settled() -> Phase {
+        let mut phase = Phase::default();
+        phase.go_on_to(10.0);
+        phase
     }
 
     #[test]
     fn what_has_just_begun_is_asked_again_after_it_has_moved_on() {
-        let mut course = Course::default();
-        course.expect(1000.0);
-        assert_eq!(course.next_after(0.0), None);
-        let begun = course.number();
-        course.go_on_to(10.0);
-        assert!(course.number() > begun);
-        course.expect(1000.0);
-        assert_eq!(course.next_after(10.0), Some(1000.0));
+        let mut phase = Phase::default();
+        phase.expect(1000.0);
+        assert_eq!(phase.next_after(0.0), None);
+        let begun = phase.number();
+        phase.go_on_to(10.0);
+        assert!(phase.number() > begun);
+        phase.expect(1000.0);
+        assert_eq!(phase.next_after(10.0), Some(1000.0));
     }
 
     #[test]
-    fn a_course_ends_when_the_machine_does_something() {
-        let mut course = settled();
-        course.expect(1000.0);
-        let number = course.number();
-        course.go_on_to(999.0);
-        assert_eq!((course.number(), course.next_after(999.0)), (number, Some(1000.0)));
-        course.go_on_to(1000.0);
-        assert!(course.number() > number);
-        assert_eq!(course.next_after(0.0), None);
+    fn a_phase_ends_when_the_machine_does_something() {
+        let mut phase = settled();
+        phase.expect(1000.0);
+        let number = phase.number();
+        phase.go_on_to(999.0);
+        assert_eq!((phase.number(), phase.next_after(999.0)), (number, Some(1000.0)));
+        phase.go_on_to(1000.0);
+        assert!(phase.number() > number);
+        assert_eq!(phase.next_after(0.0), None);
     }
 
     #[test]
     fn of_whom_nobody_asked_nothing_is_known() {
-        let mut course = settled();
-        let number = course.number();
-        course.go_on_to(20.0);
-        assert!(course.number() > number);
+        let mut phase = settled();
+        let number = phase.number();
+        phase.go_on_to(20.0);
+        assert!(phase.number() > number);
     }
 
     #[test]
-    fn outputs_are_obeyed_once_on_each_course() {
-        let mut course = settled();
-        assert_eq!([course.has_obeyed(), course.has_obeyed()], [false, true]);
-        course.begin();
-        assert_eq!([course.has_obeyed(), course.has_obeyed()], [false, true]);
+    fn outputs_are_obeyed_once_in_each_phase() {
+        let mut phase = settled();
+        assert_eq!([phase.has_obeyed(), phase.has_obeyed()], [false, true]);
+        phase.begin();
+        assert_eq!([phase.has_obeyed(), phase.has_obeyed()], [false, true]);
     }
 }
