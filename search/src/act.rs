@@ -105,7 +105,8 @@ impl Scan<'_> {
     }
 
     pub(crate) fn at_stop(&mut self, machine: usize) -> i32 {
-        let Some(route) = &self.model.machines[machine].route else { return -1 };
+        let Machine { head, route: Some(route), .. } = &self.model.machines[machine] else { return -1 };
+        head.iter().for_each(|head| self.observe(head.status));
         let stop = |scan: &Self, number: i32| {
             let at = scan.values.point(number);
             route.stops.iter().position(|stop| *stop == at).map_or(-1, |stop| stop as i32)
@@ -151,7 +152,7 @@ impl Scan<'_> {
     }
 
     /// The answer to a command, once it is of no use.
-    fn forget_answer(&mut self, machine: usize, plant: &Machine) {
+    pub(crate) fn forget_answer(&mut self, machine: usize, plant: &Machine) {
         let program = &self.model.instances[machine];
         let state = program.state.load(self.bytes) as usize;
         if let Some(head) = plant.head.as_ref().filter(|_| program.states[state].is_answer_dead)

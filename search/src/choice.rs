@@ -26,6 +26,17 @@ impl Choices {
         self.next
     }
 
+    /// What has come up so far, to go back there.
+    pub fn mark(&self) -> (usize, usize) {
+        (self.next, self.made.len())
+    }
+
+    /// As if what came up since had not.
+    pub fn go_back(&mut self, (next, made): (usize, usize)) {
+        self.next = next;
+        self.made.truncate(made);
+    }
+
     /// Before the first execution.
     pub fn clear(&mut self) {
         self.made.clear();

@@ -3,8 +3,9 @@
 
 use crate::event::Event;
 use crate::reached::Reached;
+use crate::representative::LEFT_OUT;
 use crate::store::Store;
-use crate::successor::{Expander, Part};
+use crate::successor::{Expander, Part, Successor};
 use crate::unread::Needed;
 use crate::violation::Violation;
 use std::ops::Range;
@@ -38,6 +39,8 @@ pub(crate) struct After {
     pub stops: u64,
     /// Places or reals came up that had no number before.
     pub has_new_values: bool,
+    /// Machines of which answers are postponed in this state.
+    pub postponed: u64,
 }
 
 #[derive(Clone, Debug)]
@@ -99,7 +102,7 @@ impl Expanded {
         &self.steps[begin..self.states[state].end]
     }
 
-    /// Adds what follows the state of this number, as far as it is asked for.
+    /// Adds what follows the state of this number, as far as it is asked for. `postponed`: of each state, if answers are.
     pub fn expand(
         &mut self,
         expander: &mut Expander,
@@ -107,14 +110,26 @@ impl Expanded {
         store: &Reached,
         state: usize,
         restless: u64,
+        postponed: Option<&[u64]>,
     ) {
         let Self { states, steps, unknown, restless: of_unknown, remarked, .. } = self;
+        if postponed.is_some_and(|postponed| postponed[state] == LEFT_OUT) {
+            states.push(After {
+                end: steps.len(),
+                transitions: 0,
+                stops: 0,
+                has_new_values: false,
+                postponed: LEFT_OUT,
+            });
+            return;
+        }
         let count = expander.values.count();
-        let mut after = After { end: 0, transitions: 0, stops: 0, has_new_values: false };
+        let mut after = After { end: 0, transitions: 0, stops: 0, has_new_values: false, postponed: 0 };
+        let mut to = Vec::new();
         let before = store.state(state);
         let begin = steps.len();
         let mut beside = store.beside(state, &before);
-        expander.expand_part(part, &before, restless, &mut |successor| {
+        let mut emit = |successor: Successor| {
             after.transitions += 1;
             for remark in successor.remarked {
                 if !remarked.contains(remark) {
@@ -130,7 +145,9 @@ impl Expanded {
                 Ok(()) => {
                     let is_plain = successor.is_plain();
                     if let Some(known) = store.find_beside(successor.state, &mut beside) {
-                        if is_plain && known != state {
+                        let is_told = postponed.is_some() && !to.contains(&known);
+                        if (is_plain || is_told) && known != state {
+                            to.push(known);
                             steps.push(Step::Known { state: known as u32, is_plain });
                         }
                         return;
@@ -139,7 +156,7 @@ impl Expanded {
                     if is_new {
                         of_unknown.push(successor.restless);
                     }
-                    if is_new || is_plain {
+                    if is_new || is_plain || postponed.is_some() {
                         steps.push(Step::Unknown { number: number as u32, is_plain });
                     }
                 }
@@ -154,7 +171,13 @@ impl Expanded {
                     steps.push(Step::Out);
                 }
             }
-        });
+        };
+        if let Some(postponed) = postponed {
+            after.postponed =
+                expander.expand_postponing(part, &before, restless, postponed[state], &mut emit);
+        } else {
+            expander.expand_part(part, &before, restless, &mut emit);
+        }
         if let Some(needed) = expander.needed.take() {
             steps.insert(begin, Step::Needs(needed));
         }
@@ -171,6 +194,7 @@ pub(crate) fn expand(
     part: Part,
     store: &Reached,
     restless: &[u64],
+    postponed: Option<&[u64]>,
     states: Range<usize>,
     spare: Vec<Expanded>,
 ) -> Vec<Expanded> {
@@ -194,7 +218,7 @@ pub(crate) fn expand(
             let mut run = take(first);
             let last = states.end.min(first + length);
             for (state, restless) in (first..last).zip(&restless[first..last]) {
-                run.expand(expander, part, store, state, *restless);
+                run.expand(expander, part, store, state, *restless, postponed);
                 // Their numbers are given in the order of the states.
                 expander.values.forget_after(count);
             }

@@ -2,118 +2,28 @@
 //! time breadth first. So what is found has as few faults as possible, and is the shortest with so few; and a search that is
 //! cut has checked all that happens with up to so many.
 
+mod arrival;
+mod outcome;
+
+pub use outcome::{Bounds, Covered, Decided, End, Outcome};
+
 use crate::event::Event;
 use crate::expanded::{self, Expanded, Step};
 use crate::model::Model;
 use crate::plant::Faults;
-use crate::possible::{Allowance, Edges, Mark, Possible};
+use crate::possible::{Allowance, AnswersArePostponed, Edges, Mark, Possible};
+use crate::postponed::{Postponing, is_possible};
 use crate::reached::Reached;
 use crate::refinement::{self, Random, Refinement};
+use crate::representative::{LEFT_OUT, Representatives};
 use crate::story::{self, Execution};
-use crate::successor::{Expander, Orders, Part};
-use crate::unread::{Needed, Unread};
-use crate::value::Values;
+use crate::successor::{Expander, Part};
+use crate::unread::Needed;
 use crate::violation::Violation;
 use std::collections::HashSet;
 use std::mem::discriminant;
 use std::ops::Range;
 use std::time::{Duration, Instant};
-
-/// How far to search.
-#[derive(Clone, Copy, Debug)]
-pub struct Bounds {
-    /// Devices that do something in one scan, at most; none: any number.
-    pub answers: Option<usize>,
-    pub orders: Orders,
-    pub time: Option<Duration>,
-    /// Bytes of memory.
-    pub memory: usize,
-    /// It ends with so many different violations.
-    pub violations: usize,
-    /// Processors that work at the same time.
-    pub jobs: usize,
-}
-
-/// How far it has come.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Covered {
-    pub states: usize,
-    pub transitions: u64,
-    /// Of these, how many end in a stop for an operator.
-    pub stops: u64,
-    /// States in which a machine is stopped by itself; 0 if the search is not complete.
-    pub stopped: usize,
-    /// Scans from the start to the farthest state that has been checked.
-    pub depth: usize,
-    /// Of a search that is cut: all sequences were checked in which devices fail before at most so many scans; none: not even
-    /// those without faults.
-    pub failing: Option<usize>,
-    /// Bytes of memory.
-    pub memory: usize,
-    pub time: Duration,
-}
-
-/// Why it ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum End {
-    /// All states were checked.
-    Complete,
-    /// There are as many violations as were wanted.
-    Violated,
-    TimeIsUp,
-    MemoryIsFull,
-    /// Whoever watches wanted no more.
-    Stopped,
-    /// More than 65,536 places or numbers came up.
-    TooManyValues,
-}
-
-/// Whether a question is decided.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Decided {
-    Yes,
-    /// No: the answer may depend on items that the search does not know.
-    ItemsAreHidden,
-    /// No: the search ended before.
-    NotReached,
-}
-
-pub struct Outcome {
-    pub covered: Covered,
-    pub end: End,
-    /// The shortest execution to each.
-    pub violations: Vec<(Violation, Execution)>,
-    /// What is hardly meant, and the shortest execution to it. Only if the search is complete and found no violation.
-    pub remarks: Vec<(Violation, Execution)>,
-    /// Whether it is decided that the orders can always still be made, in the sequences that were checked completely.
-    pub orders: Decided,
-    /// The same of what is waited for.
-    pub obligations: Decided,
-    /// All states that were reached.
-    pub reached: Reached,
-    /// Points and reals by their numbers in these states.
-    pub values: Values,
-    /// Where nothing is read of what is forgotten: another search may begin with that.
-    pub unread: Unread,
-}
-
-impl Outcome {
-    /// If it is cut: an attempt before it has checked all sequences with faults in so many scans.
-    fn or_checked(mut self, failing: Option<usize>) -> Self {
-        let is_cut = !matches!(self.end, End::Complete | End::Violated);
-        if is_cut && self.covered.failing < failing {
-            self.covered.failing = failing;
-            (self.orders, self.obligations) = (Decided::NotReached, Decided::NotReached);
-        }
-        self
-    }
-
-    /// Whether everything was checked, as far as the search knows of it, and nothing found.
-    pub fn is_proved(&self) -> bool {
-        let is_reached = [self.orders, self.obligations].into_iter().all(|it| it != Decided::NotReached);
-        self.violations.is_empty() && self.end == End::Complete && is_reached
-    }
-}
 
 /// What is possible is checked with what the limits have left, and in any case for so long, for a fifth of the time of the
 /// search, and with a fifth of the memory.
@@ -170,6 +80,12 @@ struct Search<'a> {
     /// Of each state: instances that may do something even if no device does.
     restless: Vec<u64>,
     edges: Edges,
+    /// If answers are postponed.
+    representatives: Option<Representatives>,
+    /// States with which devices fail once more in this round.
+    late: Vec<usize>,
+    /// Where this round began.
+    round: usize,
     found: Vec<Found>,
     known: HashSet<Violation>,
     /// Of each kind the first.
@@ -188,9 +104,16 @@ impl<'a> Search<'a> {
         model: &'a Model,
         bounds: &'a Bounds,
         begin: Instant,
+        postpones: bool,
         watch: &'a mut dyn FnMut(&Covered) -> bool,
     ) -> Self {
-        let expander = || Expander::new(model, bounds.answers.unwrap_or(usize::MAX), bounds.orders);
+        let expander = || {
+            let mut expander = Expander::new(model, bounds.answers.unwrap_or(usize::MAX), bounds.orders);
+            if postpones {
+                expander.postponing = Postponing::new(model);
+            }
+            expander
+        };
         let mut store = Reached::new(model.initial.len());
         store.add(&model.initial, 0);
         Self {
@@ -204,6 +127,9 @@ impl<'a> Search<'a> {
             store,
             restless: vec![u64::MAX],
             edges: Edges::default(),
+            representatives: postpones.then(|| Representatives::new(model.machines.len())),
+            late: Vec::new(),
+            round: 0,
             found: Vec::new(),
             known: HashSet::new(),
             remarked: Vec::new(),
@@ -222,13 +148,31 @@ impl<'a> Search<'a> {
         let (mut level, mut last): (Vec<_>, Vec<_>) = (std::iter::once(0..1).collect(), Vec::new());
         loop {
             let mut depth = 0;
-            while depth < level.len().max(last.len()) {
+            self.round = self.store.len();
+            while depth < level.len().max(last.len()) || !self.late.is_empty() {
                 let next = self.store.len();
                 self.covered.depth = self.covered.depth.max(depth);
+                self.leave_out(level.get(depth).cloned().unwrap_or_default());
                 for (part, states) in [(Part::Calm, &level), (Part::Failing, &last)] {
                     let states: Option<Range<usize>> = states.get(depth).cloned();
                     if let Some(end) = states.and_then(|states| self.expand(part, states)) {
                         return (Some(end), complete);
+                    }
+                }
+                if depth >= level.len().max(last.len()) {
+                    level.resize(depth + 1, next..next);
+                    for state in std::mem::take(&mut self.late) {
+                        if let Some(end) = self.expand(Part::Failing, state..state + 1) {
+                            return (Some(end), complete);
+                        }
+                    }
+                }
+                while let Some(state) = self.representatives.as_mut().and_then(|all| all.resumed.pop()) {
+                    if let Some(end) = self.expand(Part::Calm, state..state + 1) {
+                        return (Some(end), complete);
+                    }
+                    if state < self.round {
+                        self.late.push(state);
                     }
                 }
                 depth += 1;
@@ -256,18 +200,21 @@ impl<'a> Search<'a> {
             let batch = next..states.end.min(next + size);
             let is_full = batch.len() == size;
             let spare = std::mem::take(&mut self.spare);
-            let Self { expanders, store, restless, .. } = self;
-            let runs = expanded::expand(expanders, part, store, restless, batch, spare);
+            let Self { expanders, store, restless, representatives, .. } = self;
+            let postponed = representatives.as_ref().map(|all| all.postponed.as_slice());
+            let runs = expanded::expand(expanders, part, store, restless, postponed, batch, spare);
             for run in &runs {
                 let mut numbers = Vec::new();
                 for (state, after) in run.states.iter().enumerate() {
                     if after.has_new_values {
                         // The numbers that it was given are of no use to others.
                         let mut again = Expanded::new(next, self.store.length());
-                        again.expand(&mut self.first, part, &self.store, next, self.restless[next]);
-                        self.add(&again, 0, &mut Vec::new());
+                        let postponed = self.representatives.as_ref().map(|all| all.postponed.as_slice());
+                        let restless = self.restless[next];
+                        again.expand(&mut self.first, part, &self.store, next, restless, postponed);
+                        self.add(part, &again, 0, &mut Vec::new());
                     } else {
-                        self.add(run, state, &mut numbers);
+                        self.add(part, run, state, &mut numbers);
                     }
                     next += 1;
                     if self.needed.is_empty() && self.found.len() >= self.bounds.violations {
@@ -304,27 +251,30 @@ impl<'a> Search<'a> {
     }
 
     /// Takes over what follows a state.
-    fn add(&mut self, expanded: &Expanded, state: usize, numbers: &mut Vec<u32>) {
+    fn add(&mut self, part: Part, expanded: &Expanded, state: usize, numbers: &mut Vec<(usize, u64)>) {
         let from = expanded.first + state;
         let after = expanded.states[state];
         self.covered.transitions += after.transitions;
         self.covered.stops += after.stops;
+        if after.postponed == LEFT_OUT {
+            return;
+        }
+        self.note_expanded(from, after.postponed);
         for step in expanded.steps(state) {
             match step {
-                Step::Known { state, is_plain } => self.lead(from, *state as usize, *is_plain),
+                Step::Known { state, is_plain } => {
+                    self.reach(part, from, after.postponed, (*state as usize, 0), *is_plain)
+                }
                 Step::Unknown { number, is_plain } => {
                     let number = *number as usize;
                     if numbers.len() <= number {
-                        numbers.resize(number + 1, u32::MAX);
+                        numbers.resize(number + 1, (usize::MAX, 0));
                     }
-                    if numbers[number] == u32::MAX {
-                        let (to, is_new) = self.store.add(expanded.unknown.state(number), from);
-                        numbers[number] = to as u32;
-                        if is_new {
-                            self.restless.push(expanded.restless[number]);
-                        }
+                    if !self.still_counts(numbers[number]) {
+                        let restless = expanded.restless[number];
+                        numbers[number] = self.arrive(from, expanded.unknown.state(number), restless);
                     }
-                    self.lead(from, numbers[number] as usize, *is_plain);
+                    self.reach(part, from, after.postponed, numbers[number], *is_plain);
                 }
                 Step::Out => self.edges.lead_out(from),
                 Step::Stop => self.edges.lead_to_stop(from),
@@ -369,8 +319,11 @@ impl<'a> Search<'a> {
 
     fn measure(&mut self) {
         self.covered.time = self.begin.elapsed();
-        self.covered.memory =
-            self.store.size() + 8 * self.restless.capacity() + self.edges.size() + self.again;
+        self.covered.memory = self.store.size()
+            + 8 * self.restless.capacity()
+            + self.edges.size()
+            + self.again
+            + self.representatives.as_ref().map_or(0, Representatives::size);
         self.covered.states = self.store.len();
     }
 
@@ -380,6 +333,8 @@ impl<'a> Search<'a> {
             Some(End::TimeIsUp)
         } else if self.covered.memory > self.bounds.memory || self.store.is_full() {
             Some(End::MemoryIsFull)
+        } else if self.covered.states > self.bounds.states {
+            Some(End::TooManyStates)
         } else if !(self.watch)(&self.covered) {
             Some(End::Stopped)
         } else {
@@ -395,15 +350,17 @@ pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -
     let mut model = model.clone();
     let mut random = Random::default();
     let mut covered = Covered::default();
+    let mut postpones = is_possible(&model, bounds.answers, bounds.orders);
     loop {
         let states = covered.states;
         refinement::at_random(&mut model, &mut random, states, &mut || {
             goes_on(&mut covered, begin, bounds, watch)
         });
-        match attempt(&model, bounds, begin, watch) {
+        match attempt(&model, bounds, begin, postpones, watch) {
             Ok(outcome) => return outcome.or_checked(covered.failing),
             Err((again, refinements)) => {
                 covered = Covered { failing: covered.failing.max(again.failing), ..again };
+                postpones &= !refinements.is_empty();
                 refinement::along(&mut model, bounds, &refinements, &mut || {
                     goes_on(&mut covered, begin, bounds, watch)
                 });
@@ -423,14 +380,15 @@ fn goes_on(
     bounds.time.is_none_or(|time| covered.time <= time) && watch(covered)
 }
 
-/// The search with what is forgotten now; or what must not be.
+/// The search with what is forgotten now; or what must not be. Nothing: no answer must be postponed.
 fn attempt(
     model: &Model,
     bounds: &Bounds,
     begin: Instant,
+    postpones: bool,
     watch: &mut dyn FnMut(&Covered) -> bool,
 ) -> Result<Outcome, (Covered, Vec<Refinement>)> {
-    let mut search = Search::new(model, bounds, begin, watch);
+    let mut search = Search::new(model, bounds, begin, postpones, watch);
     let (mut cut, checked) = search.search(model.faults);
     if !search.needed.is_empty() {
         cut = search.end();
@@ -441,7 +399,9 @@ fn attempt(
     }
     let end = cut.unwrap_or(End::Complete);
     search.measure();
-    let Search { begin, mut first, store, mut edges, found, remarked, mut covered, .. } = search;
+    let Search {
+        begin, mut first, store, mut edges, mut representatives, found, remarked, mut covered, ..
+    } = search;
     let told = |first: &mut Expander, found: Found| {
         let execution = story::to_violation(&store, first, found.from, &found.violation, &found.events);
         (found.violation, execution)
@@ -453,11 +413,19 @@ fn attempt(
     if end != End::Violated && checked.states > 0 {
         let calm = Model { faults: Faults::None, ..model.clone() };
         edges.forget_after(&checked.edges);
+        let left_out = representatives.iter().flat_map(Representatives::left_out);
+        left_out
+            .filter(|(state, other)| (*state).max(*other) < checked.states)
+            .for_each(|(state, other)| edges.add(state, other));
         let allowance = Allowance::after(end, &covered, bounds);
         let mut possible =
             Possible::new(&calm, &store, checked.states, &edges, &first.values, bounds, allowance);
         let mut never = Vec::new();
-        orders = possible.orders(&mut never);
+        possible.bound = representatives.as_mut().map(|all| std::mem::take(&mut all.bound));
+        orders = match possible.orders(&mut never) {
+            Ok(orders) => orders,
+            Err(AnswersArePostponed) => return Err((covered, Vec::new())),
+        };
         if violations.len() + never.len() < bounds.violations {
             obligations = possible.obligations(&mut never);
         }
@@ -466,7 +434,8 @@ fn attempt(
         }
         violations.truncate(bounds.violations);
         if violations.is_empty() && end == End::Complete {
-            let of_orders = if orders == Decided::Yes { possible.remarks().ok() } else { None };
+            let has_all = orders == Decided::Yes && !postpones;
+            let of_orders = if has_all { possible.remarks().ok() } else { None };
             for (remark, state) in of_orders.into_iter().flatten() {
                 remarks.push((remark, story::to_state(&store, &mut first, state)));
             }
@@ -482,6 +451,18 @@ fn attempt(
         covered.stopped = (0..store.len()).filter(|state| model.any_stands(&store.state(*state))).count();
     }
     covered.time = begin.elapsed();
+    let entered = representatives.map_or_else(Vec::new, |all| all.entered.into_iter().collect());
     let (values, unread) = (first.values, model.unread.clone());
-    Ok(Outcome { covered, end, violations, remarks, orders, obligations, reached: store, values, unread })
+    Ok(Outcome {
+        covered,
+        end,
+        violations,
+        remarks,
+        orders,
+        obligations,
+        reached: store,
+        values,
+        unread,
+        entered: entered.into_iter().collect(),
+    })
 }

@@ -47,9 +47,12 @@ pub struct Model {
 /// What the search leaves out because it changes no verdict.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reductions {
+    /// Those of [`Reductions::OfScans`], and with any number of answers in a scan those that nobody needs yet: states that
+    /// differ in these alone.
+    All,
     /// Steps of instances that would do nothing, and of orders of steps all that differ in these alone; paths to an end, if
     /// there is one on which one device does something at a time.
-    On,
+    OfScans,
     /// Nothing: to compare the search with itself.
     Off,
 }

@@ -216,7 +216,7 @@ impl Expander<'_> {
             self.remarked.clear();
             let mut result = self.on(&mut end, |scan| scan.finish(touched));
             if let Err(stop @ Violation::Stop { .. }) = result {
-                result = Err(self.behind_stop(&end.bytes, end.marks.forgotten).unwrap_or(stop));
+                result = Err(self.behind_stop(&end.bytes, end.marks.forgotten).0.unwrap_or(stop));
             }
             emit(Successor {
                 state: &end.bytes,
@@ -258,6 +258,9 @@ impl Expander<'_> {
             forgotten_before: self.forgotten_before,
             looks_back: false,
             needed: &mut self.needed,
+            postponed: (&self.postponed, &self.postponing),
+            observed: 0,
+            stepping: 0,
             noted: &mut self.noted,
             remarked: &mut self.remarked,
             story: self.tell.then_some(told),

@@ -92,6 +92,26 @@ pub(crate) struct Possible<'a> {
     edges: &'a Edges,
     pub(crate) expander: Expander<'a>,
     pub(crate) allowance: Allowance,
+    /// If answers are postponed: states that can for sure only if the other one can too.
+    pub(crate) bound: Option<Vec<(u32, u32)>>,
+}
+
+/// Why it is not decided.
+#[derive(Debug)]
+pub(crate) enum Open {
+    /// The allowance did not suffice.
+    UsedUp,
+    /// States are left out.
+    Postponed,
+}
+
+/// So it cannot be shown that the orders can be made.
+pub(crate) struct AnswersArePostponed;
+
+impl From<UsedUp> for Open {
+    fn from(UsedUp: UsedUp) -> Self {
+        Self::UsedUp
+    }
 }
 
 impl<'a> Possible<'a> {
@@ -108,19 +128,23 @@ impl<'a> Possible<'a> {
     ) -> Self {
         let mut expander = Expander::new(calm, bounds.answers.unwrap_or(usize::MAX), bounds.orders);
         expander.values.clone_from(values);
-        Self { store, states, edges, expander, allowance }
+        Self { store, states, edges, expander, allowance, bound: None }
     }
 
     /// Whether the orders can be made; adds the first state from which they cannot.
-    pub fn orders(&mut self, found: &mut Vec<(Violation, usize)>) -> Decided {
-        let mut decide = || -> Result<Decided, UsedUp> {
+    pub fn orders(&mut self, found: &mut Vec<(Violation, usize)>) -> Result<Decided, AnswersArePostponed> {
+        let mut decide = || -> Result<Decided, Open> {
             if self.expander.model.hides_items && self.is_never_made_from_the_start()? {
                 return Ok(Decided::ItemsAreHidden);
             }
             found.extend(self.never_made()?.map(|state| (Violation::NeverMade, state)));
             Ok(Decided::Yes)
         };
-        decide().unwrap_or(Decided::NotReached)
+        match decide() {
+            Ok(decided) => Ok(decided),
+            Err(Open::UsedUp) => Ok(Decided::NotReached),
+            Err(Open::Postponed) => Err(AnswersArePostponed),
+        }
     }
 
     /// Whether what is waited for can come; adds of each property the first state in which it cannot any more.
@@ -133,7 +157,7 @@ impl<'a> Possible<'a> {
 
     /// The first state from which the orders cannot be made, nor does an operator come who was called because something
     /// has failed. If nothing has failed, none is called for.
-    fn never_made(&mut self) -> Result<Option<usize>, UsedUp> {
+    fn never_made(&mut self) -> Result<Option<usize>, Open> {
         let model = self.expander.model;
         if model.orders.is_empty() {
             return Ok(None);
@@ -155,7 +179,7 @@ impl<'a> Possible<'a> {
     }
 
     /// Whether nothing leads to the orders, not even a stop for an operator.
-    fn is_never_made_from_the_start(&mut self) -> Result<bool, UsedUp> {
+    fn is_never_made_from_the_start(&mut self) -> Result<bool, Open> {
         let model = self.expander.model;
         let can = self.made();
         let mut first = vec![false; self.states];
@@ -163,7 +187,7 @@ impl<'a> Possible<'a> {
         Ok(!model.orders.is_empty() && self.reach(can, &first, Stops::AreGoals)?.is_some())
     }
 
-    fn never_followed(&mut self, found: &mut Vec<(Violation, usize)>) -> Result<(), UsedUp> {
+    fn never_followed(&mut self, found: &mut Vec<(Violation, usize)>) -> Result<(), Open> {
         let model = self.expander.model;
         let ends = |state: &[u8]| !model.orders.is_empty() && model.is_made(state) || model.any_stands(state);
         let all = vec![true; self.states];
@@ -218,14 +242,20 @@ impl<'a> Possible<'a> {
         mut can: Vec<bool>,
         asked: &[bool],
         stops: Stops,
-    ) -> Result<Option<usize>, UsedUp> {
-        let Self { store, states, edges, expander, allowance } = self;
+    ) -> Result<Option<usize>, Open> {
+        let Self { store, states, edges, expander, allowance, bound } = self;
         let fails = |can: &[bool]| can.iter().zip(asked).position(|(can, asked)| *asked && !can);
+        if let Some(bound) = bound {
+            let stops = edges.stops.iter().filter(|_| stops == Stops::AreGoals);
+            edges.out.iter().for_each(|state| can[*state as usize] = true);
+            let all = spread_bound(&can, stops.copied(), &edges.list, bound, *states);
+            return if fails(&all).is_none() { Ok(None) } else { Err(Open::Postponed) };
+        }
         edges.out.iter().for_each(|state| can[*state as usize] = true);
         if stops == Stops::AreGoals {
             edges.stops.iter().for_each(|state| can[*state as usize] = true);
         }
-        if fails(&can).is_some() && expander.model.reductions == Reductions::On {
+        if fails(&can).is_some() && expander.model.reductions != Reductions::Off {
             spread(&mut can, edges.list.iter().copied());
         }
         if fails(&can).is_none() {
@@ -288,4 +318,65 @@ fn spread(can: &mut [bool], edges: impl Iterator<Item = (u32, u32)> + Clone) {
             }
         }
     }
+}
+
+/// The same; a state that is bound to others can only if these can too. `goals`: states that can if they are not bound.
+fn spread_bound(
+    can: &[bool],
+    goals: impl Iterator<Item = u32>,
+    edges: &[(u32, u32)],
+    bound: &[(u32, u32)],
+    states: usize,
+) -> Vec<bool> {
+    let bound: Vec<(u32, u32)> = bound
+        .iter()
+        .copied()
+        .filter(|(from, to)| (*from as usize) < states && (*to as usize) < states)
+        .collect();
+    let mut left = vec![0_u32; states];
+    bound.iter().for_each(|(from, _)| left[*from as usize] += 1);
+    let mut leads = vec![false; states];
+    goals.for_each(|state| leads[state as usize] = true);
+    let (begins, before) = reversed(edges, states);
+    let (bound_begins, bound_before) = reversed(&bound, states);
+    let mut all = can.to_vec();
+    let mut waiting: Vec<usize> = (0..states).filter(|state| all[*state]).collect();
+    waiting.extend((0..states).filter(|state| !all[*state] && leads[*state] && left[*state] == 0));
+    waiting.iter().for_each(|state| all[*state] = true);
+    while let Some(state) = waiting.pop() {
+        let mut reach = |from: usize, leads: bool, left: u32| {
+            if leads && left == 0 && !all[from] {
+                all[from] = true;
+                waiting.push(from);
+            }
+        };
+        for from in &before[begins[state] as usize..begins[state + 1] as usize] {
+            let from = *from as usize;
+            leads[from] = true;
+            reach(from, true, left[from]);
+        }
+        for from in &bound_before[bound_begins[state] as usize..bound_begins[state + 1] as usize] {
+            let from = *from as usize;
+            left[from] -= 1;
+            reach(from, leads[from], left[from]);
+        }
+    }
+    all
+}
+
+/// Of each state where those begin among the second ones that lead to it.
+fn reversed(edges: &[(u32, u32)], states: usize) -> (Vec<u32>, Vec<u32>) {
+    let mut begins = vec![0_u32; states + 1];
+    edges.iter().for_each(|(_, to)| begins[*to as usize + 1] += 1);
+    for state in 0..states {
+        begins[state + 1] += begins[state];
+    }
+    let mut before = vec![0_u32; edges.len()];
+    let mut filled = begins.clone();
+    for (from, to) in edges {
+        let place = &mut filled[*to as usize];
+        before[*place as usize] = *from;
+        *place += 1;
+    }
+    (begins, before)
 }

@@ -3,7 +3,7 @@
 use crate::event::{self, What};
 use crate::model::Model;
 use crate::plant::{Action, Arm, Asked, Faults, motion, status};
-use crate::possible::{Possible, Stops, UsedUp};
+use crate::possible::{Open, Possible, Stops};
 use crate::program::bit;
 use crate::scan::Scan;
 use crate::successor::Expander;
@@ -14,7 +14,7 @@ use std::collections::hash_map::Entry;
 
 impl Possible<'_> {
     /// Of each kind the first state, and what it is.
-    pub fn remarks(&mut self) -> Result<Vec<(Violation, usize)>, UsedUp> {
+    pub fn remarks(&mut self) -> Result<Vec<(Violation, usize)>, Open> {
         let model = self.expander.model;
         if model.orders.is_empty() {
             let stand = self.comes_to_a_stand()?.map(|state| (Violation::ComesToAStand, state));
@@ -27,7 +27,7 @@ impl Possible<'_> {
 
     /// The first state, with no failure before it, from which nothing ever changes but inputs by themselves; none if items are
     /// not known that could come.
-    fn comes_to_a_stand(&mut self) -> Result<Option<usize>, UsedUp> {
+    fn comes_to_a_stand(&mut self) -> Result<Option<usize>, Open> {
         if self.expander.model.hides_items {
             return Ok(None);
         }
@@ -37,7 +37,7 @@ impl Possible<'_> {
     }
 
     /// The first state in which the whole line waits for a time of an instance whose device has not failed.
-    fn waits_for_time(&mut self) -> Result<Option<(Violation, usize)>, UsedUp> {
+    fn waits_for_time(&mut self) -> Result<Option<(Violation, usize)>, Open> {
         let model = self.expander.model;
         let mut unfailed: HashMap<usize, Vec<bool>> = HashMap::new();
         for number in 0..self.states {
@@ -63,7 +63,7 @@ impl Possible<'_> {
     }
 
     /// States that are reached although a device does not fail, whatever others do.
-    fn without_failure_of(&self, machine: usize) -> Result<Vec<bool>, UsedUp> {
+    fn without_failure_of(&self, machine: usize) -> Result<Vec<bool>, Open> {
         let Self { store, expander, allowance, .. } = self;
         let model = Model { faults: Faults::All, ..expander.model.clone() };
         let mut expander = Expander::new(&model, 1, expander.orders);
@@ -88,7 +88,7 @@ impl Possible<'_> {
     }
 
     /// The first state with all orders made from which the line cannot come to rest.
-    fn never_rests(&mut self) -> Result<Option<usize>, UsedUp> {
+    fn never_rests(&mut self) -> Result<Option<usize>, Open> {
         let model = self.expander.model;
         let calm = self.calm();
         let states = || (0..self.states).map(|state| self.store.state(state));

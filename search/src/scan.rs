@@ -3,6 +3,7 @@
 use crate::choice::Choices;
 use crate::model::{Model, Reductions};
 use crate::plant::status;
+use crate::postponed::{Postponed, Postponing};
 use crate::program::{Bounds, Clause, Command, Domain, Int, Key, Target, Transition, Update, bit};
 use crate::unread::Needed;
 use crate::value::{Values, Var};
@@ -34,6 +35,12 @@ pub struct Scan<'a> {
     pub(crate) looks_back: bool,
     /// What is forgotten and has to be known, if there is any.
     pub(crate) needed: &'a mut Option<Needed>,
+    /// Answers that are postponed, and what they change.
+    pub(crate) postponed: (&'a Postponed, &'a Postponing),
+    /// Machines of which somebody needs the answer that is postponed.
+    pub(crate) observed: u64,
+    /// The instance that makes its step, as a bit.
+    pub(crate) stepping: u64,
     /// Violations after which the line continues.
     pub(crate) noted: &'a mut Vec<Violation>,
     /// What is hardly meant.
@@ -87,22 +94,59 @@ impl Scan<'_> {
         Ok(())
     }
 
+    /// The step of one instance, with what comes after it of it alone.
+    pub(crate) fn run_alone(&mut self, instance: usize) -> Result<(), Violation> {
+        self.step_if_due(instance, u64::MAX)?;
+        self.properties(bit(instance))?;
+        self.forget_answer(instance, &self.model.machines[instance]);
+        self.forget();
+        Ok(())
+    }
+
     pub(crate) fn step_if_due(&mut self, instance: usize, touched: u64) -> Result<(), Violation> {
         let program = &self.model.instances[instance];
         if self.model.stands(self.bytes, instance) {
             return Ok(());
         }
         let state = program.state.load(self.bytes) as usize;
+        self.step_if_ended(instance);
         let is_due = touched & bit(instance) != 0 || self.written & program.states[state].reads != 0;
-        if !is_due && self.model.reductions == Reductions::On {
+        if !is_due && self.model.reductions != Reductions::Off {
             return Ok(());
         }
         let made = self.choices.count();
+        self.stepping = bit(instance);
         let result = self.step(instance, state);
+        self.stepping = 0;
         if self.choices.count() != made {
             self.restless |= bit(instance);
         }
         result.map_err(|Fault(fault)| Violation::Fault { instance, fault })
+    }
+
+    /// Whether the instance would do something here if its command had ended.
+    fn step_if_ended(&mut self, instance: usize) {
+        let (postponed, postponing) = self.postponed;
+        let Some(end) = postponed.end(postponing, instance) else { return };
+        let program = &self.model.instances[instance].states[end.state];
+        if self.written & program.reads == 0 {
+            return;
+        }
+        let now = postponing.own(instance, self.bytes);
+        let forgotten = self.forgotten;
+        postponing.replace(instance, self.bytes, &end.after);
+        self.forgotten = self.forgotten & !self.model.unread.owned(bit(instance))
+            | self.model.unread.in_state(&self.model.instances, self.bytes, bit(instance));
+        self.stepping = bit(instance);
+        let begin = self.choices.mark();
+        let fires = program.transitions.iter().any(|transition| self.choose(&transition.clauses));
+        if fires || self.choices.mark() != begin {
+            self.observed |= bit(instance);
+        }
+        self.choices.go_back(begin);
+        self.stepping = 0;
+        self.forgotten = forgotten;
+        postponing.replace(instance, self.bytes, &now);
     }
 
     fn step(&mut self, instance: usize, number: usize) -> Result<(), Fault> {
@@ -296,7 +340,16 @@ impl Scan<'_> {
             let before: &[u8] = if self.looks_back { self.bytes } else { self.before };
             *self.needed = Some(self.model.unread.needed(&self.model.instances, forgotten, before));
         }
+        self.observe(var);
         var.load(self.bytes)
+    }
+
+    /// A value is read.
+    #[inline]
+    pub(crate) fn observe(&mut self, var: Var) {
+        if let Some(machines) = self.postponed.0.watched.get(var.at as usize) {
+            self.observed |= machines & !self.stepping;
+        }
     }
 
     /// Forgets what nobody reads in the state that is reached. Something of its owner was written, so all who read from it

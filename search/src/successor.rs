@@ -4,6 +4,8 @@ use crate::choice::Choices;
 use crate::event::{self, Event};
 use crate::footprint::{Footprint, footprints};
 use crate::model::Model;
+use crate::plant::Faults;
+use crate::postponed::{Postponed, Postponing};
 use crate::program::{Instance, bit};
 use crate::property::Whenever;
 use crate::scan::{Scan, Told};
@@ -53,7 +55,7 @@ pub struct Expander<'a> {
     pub(crate) levels: Vec<Vec<u8>>,
     /// The state that is expanded.
     pub(crate) before: Vec<u8>,
-    work: Vec<u8>,
+    pub(crate) work: Vec<u8>,
     pub(crate) noted: Vec<Violation>,
     pub(crate) remarked: Vec<Violation>,
     pub(crate) chosen: Vec<Event>,
@@ -71,6 +73,10 @@ pub struct Expander<'a> {
     pub(crate) forgotten_before: u128,
     /// What was forgotten and has to be known, since this was last asked.
     pub(crate) needed: Option<Needed>,
+    pub(crate) postponing: Postponing,
+    pub(crate) postponed: Postponed,
+    /// Successors are looked at, and not told.
+    is_silent: bool,
 }
 
 /// What a device may do.
@@ -135,6 +141,9 @@ impl<'a> Expander<'a> {
             forgotten: 0,
             forgotten_before: 0,
             needed: None,
+            postponing: Postponing::default(),
+            postponed: Postponed::default(),
+            is_silent: false,
         }
     }
 
@@ -146,14 +155,49 @@ impl<'a> Expander<'a> {
 
     /// The same for a part of them.
     pub fn expand_part(&mut self, part: Part, state: &[u8], restless: u64, emit: &mut impl FnMut(Successor)) {
-        self.part = part;
+        let mut options = self.begin_expansion(state, restless, |is_fault| part != Part::Calm || !is_fault);
+        self.answers_of(part, &mut options, emit);
+        self.options = options;
+    }
+
+    /// The same, without answers that can be postponed, of these machines; of which machines they are.
+    pub(crate) fn expand_postponing(
+        &mut self,
+        part: Part,
+        state: &[u8],
+        restless: u64,
+        among: u64,
+        emit: &mut impl FnMut(Successor),
+    ) -> u64 {
+        let mut options = self.begin_expansion(state, restless, |_| true);
+        self.postpone(state, self.restless, among);
+        if part == Part::Calm
+            && self.postponed.waiting != 0
+            && self.model.faults == Faults::All
+            && !self.can_stay(state)
+        {
+            self.is_silent = true;
+            self.answers_of(Part::Failing, &mut options, emit);
+            self.is_silent = false;
+        }
+        self.answers_of(part, &mut options, emit);
+        self.options = options;
+        self.end_postponing()
+    }
+
+    /// What each source may do in a state.
+    fn begin_expansion(
+        &mut self,
+        state: &[u8],
+        restless: u64,
+        is_wanted: impl Fn(bool) -> bool,
+    ) -> Vec<Vec<Choice>> {
         self.before.copy_from_slice(state);
         self.forgotten = self.model.unread.in_state(&self.model.instances, state, u64::MAX);
         self.forgotten_before = self.forgotten;
         self.restless = self.restless_in(state, restless);
         let sources = event::sources(self.model);
         let mut options: Vec<Vec<Choice>> = std::mem::take(&mut self.options);
-        options.truncate(sources);
         let mut used = 0;
         let mut events = std::mem::take(&mut self.events);
         for source in 0..sources {
@@ -166,16 +210,51 @@ impl<'a> Expander<'a> {
             options[used].extend(events.iter().filter_map(|event| {
                 let is_fault = event::is_fault(self.model, &self.values, state, event);
                 let is_guess = event::is_guess(self.model, &self.values, state, event);
-                (part != Part::Calm || !is_fault).then_some(Choice { event: *event, is_fault, is_guess })
+                is_wanted(is_fault).then_some(Choice { event: *event, is_fault, is_guess })
             }));
             used += usize::from(!options[used].is_empty());
         }
+        options.truncate(used);
         self.events = events;
         self.levels.resize_with(used + 2, || vec![0; state.len()]);
         self.levels[0].copy_from_slice(state);
         self.chosen.clear();
-        self.answer(&options[..used], 0, 0, emit);
-        self.options = options;
+        options
+    }
+
+    /// All that devices may do before the scan, and again with what turns out not to be postponed.
+    fn answers_of(&mut self, part: Part, options: &mut [Vec<Choice>], emit: &mut impl FnMut(Successor)) {
+        self.part = part;
+        self.answer(options, 0, 0, emit);
+        loop {
+            let needed = self.postponed.observed & (self.postponed.waiting | self.postponed.idle);
+            if needed == 0 {
+                break;
+            }
+            self.postponed.fresh = needed;
+            self.no_longer(needed);
+            self.answer(options, 0, 0, emit);
+            self.postponed.fresh = 0;
+        }
+    }
+
+    /// Whether the state may stay as it is if no device does anything.
+    fn can_stay(&mut self, state: &[u8]) -> bool {
+        if self.restless == 0 {
+            return true;
+        }
+        self.choices.clear();
+        let mut stays = false;
+        loop {
+            self.work.copy_from_slice(state);
+            let order = std::mem::take(&mut self.order);
+            let mut scan = self.begin();
+            stays |= scan.run(&order, u64::MAX).is_ok() && self.work == state;
+            self.order = order;
+            if stays || !self.choices.advance() {
+                return stays;
+            }
+        }
     }
 
     /// Instances that would do something even if no device did.
@@ -207,7 +286,7 @@ impl<'a> Expander<'a> {
     }
 
     /// A scan of the state that is worked on.
-    fn begin(&mut self) -> Scan<'_> {
+    pub(crate) fn begin(&mut self) -> Scan<'_> {
         Scan {
             model: self.model,
             bytes: &mut self.work,
@@ -224,6 +303,9 @@ impl<'a> Expander<'a> {
             forgotten_before: self.forgotten_before,
             looks_back: false,
             needed: &mut self.needed,
+            postponed: (&self.postponed, &self.postponing),
+            observed: 0,
+            stepping: 0,
             noted: &mut self.noted,
             remarked: &mut self.remarked,
             story: self.tell.then_some(&mut self.told),
@@ -242,13 +324,16 @@ impl<'a> Expander<'a> {
             return;
         }
         let Some((choices, rest)) = options.split_first().filter(|_| self.chosen.len() < self.answers) else {
-            if !has_to_fail {
+            if self.is_asked_for(has_to_fail) {
                 self.scan(level, touched | self.restless, emit);
             }
             return;
         };
         self.answer(rest, level, touched, emit);
         for Choice { event, is_fault, is_guess } in choices {
+            if self.part == Part::Calm && *is_fault || self.can_wait(*event) {
+                continue;
+            }
             let (before, after) = self.levels.split_at_mut(level + 1);
             after[0].copy_from_slice(&before[level]);
             event::apply(self.model, &mut self.values, &mut after[0], *event);
@@ -262,9 +347,21 @@ impl<'a> Expander<'a> {
         }
     }
 
+    /// Whether a scan after the events chosen is searched.
+    fn is_asked_for(&self, has_to_fail: bool) -> bool {
+        let fresh = self.postponed.fresh;
+        if fresh == 0 {
+            return !has_to_fail;
+        }
+        // Other events of these machines were searched before, with and without those of others.
+        let is_fresh = |event: &Event| event.machine < 64 && fresh & bit(event.machine) != 0;
+        self.chosen.iter().any(is_fresh) && (!has_to_fail || self.chosen.len() == 1)
+    }
+
     /// What is wrong once an operator has come, for whom the line has stopped in this state, while no device does anything:
     /// it stops again in each scan, or in a fault.
-    pub(crate) fn behind_stop(&mut self, stopped: &[u8], forgotten: u128) -> Option<Violation> {
+    /// The second result is what its scans read of what is postponed.
+    pub(crate) fn behind_stop(&mut self, stopped: &[u8], forgotten: u128) -> (Option<Violation>, u64) {
         let work = std::mem::replace(&mut self.work, stopped.to_vec());
         let (choices, told) = (std::mem::take(&mut self.choices), self.told.clone());
         let (noted, remarked) = (self.noted.len(), self.remarked.len());
@@ -272,7 +369,7 @@ impl<'a> Expander<'a> {
         let first = self.before.clone();
         let first_forgotten = (self.forgotten, self.forgotten_before);
         self.forgotten = forgotten;
-        let mut found = None;
+        let (mut found, mut read) = (None, 0);
         for _ in 0..MOST_STOPS {
             // What the operator does may change inputs of devices.
             self.model.inputs.iter().for_each(|input| input.var.store(&mut self.work, 0));
@@ -281,7 +378,9 @@ impl<'a> Expander<'a> {
             self.choices.clear();
             let mut scan = self.begin();
             let result = scan.run(&order, u64::MAX);
-            self.forgotten = scan.forgotten;
+            let (forgotten, observed) = (scan.forgotten, scan.observed);
+            self.forgotten = forgotten;
+            read |= observed;
             if let Err(Violation::Fault { instance, fault }) = result
                 && self.choices.is_empty()
                 && !self.model.sensed[fault]
@@ -303,7 +402,7 @@ impl<'a> Expander<'a> {
         self.remarked.truncate(remarked);
         self.order = order;
         (self.work, self.choices, self.told) = (work, choices, told);
-        found
+        (found, read)
     }
 
     /// Every outcome of one scan.
@@ -322,10 +421,21 @@ impl<'a> Expander<'a> {
             let mut scan = self.begin();
             let mut result = scan.run(&order, touched);
             let (restless, forgotten) = (scan.restless, scan.forgotten);
+            let (observed, changed) = (scan.observed, scan.written | scan.fired);
             self.order = order;
+            self.observe(observed, changed);
             if let Err(stop @ Violation::Stop { .. }) = result {
                 let stopped = self.work.clone();
-                result = Err(self.behind_stop(&stopped, forgotten).unwrap_or(stop));
+                let (found, read) = self.behind_stop(&stopped, forgotten);
+                self.observe_behind(&stopped, &found, read);
+                self.work = stopped;
+                result = Err(found.unwrap_or(stop));
+            }
+            if self.is_silent {
+                if self.choices.advance() {
+                    continue;
+                }
+                return;
             }
             emit(Successor {
                 state: &self.work,

@@ -12,6 +12,7 @@ pub mod lots;
 pub mod machines;
 pub mod many;
 pub mod mutants;
+pub mod outcome;
 pub mod replay;
 pub mod sdf;
 pub mod searched;

@@ -20,6 +20,7 @@ const BOUNDS: Bounds = Bounds {
     orders: Orders::One,
     time: Some(Duration::from_secs(20)),
     memory: 500_000_000,
+    states: usize::MAX,
     violations: 1,
     jobs: 1,
 };

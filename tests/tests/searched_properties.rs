@@ -113,8 +113,8 @@ fn remembering_everything_changes_no_verdict() {
                 let model = Model { reductions, ..searched.model };
                 explore(&model, &Bounds { orders, ..BOUNDS }, &mut |_| true)
             };
-            let least = search(Remembered::Least, Reductions::On);
-            let whole = search(Remembered::Whole, Reductions::On);
+            let least = search(Remembered::Least, Reductions::All);
+            let whole = search(Remembered::Whole, Reductions::All);
             let plain = search(Remembered::Least, Reductions::Off);
             assert_eq!(verdict(&least), verdict(&plain), "{name}, {faults:?}, {orders:?}");
             assert_eq!(least.covered.states, plain.covered.states, "{name}, {faults:?}, {orders:?}");

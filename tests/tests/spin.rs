@@ -74,8 +74,15 @@ fn line(file: &str, types: &[&str]) -> Texts {
     }
 }
 
-const BOUNDS: Bounds =
-    Bounds { answers: None, orders: Orders::One, time: None, memory: 4_000_000_000, violations: 1, jobs: 1 };
+const BOUNDS: Bounds = Bounds {
+    answers: None,
+    orders: Orders::One,
+    time: None,
+    memory: 4_000_000_000,
+    states: usize::MAX,
+    violations: 1,
+    jobs: 1,
+};
 
 /// What both count, and the seconds that the processor worked for each.
 fn counted_by_both(name: &str, model: &Model) -> (Covered, [f64; 2]) {

@@ -50,8 +50,15 @@ fn stays_within(name: &str, texts: &Texts, delays: &[IoDelay]) -> usize {
     assert!(!model.cylinders.is_empty(), "{name} has no cylinder that its automaton looks at");
     model.watch = Watch::Faults;
     let memory = 1_000_000_000;
-    let bounds =
-        Bounds { answers: None, orders: Orders::One, time: None, memory, violations: usize::MAX, jobs: 1 };
+    let bounds = Bounds {
+        answers: None,
+        orders: Orders::One,
+        time: None,
+        memory,
+        states: usize::MAX,
+        violations: usize::MAX,
+        jobs: 1,
+    };
     let outcome = explore(&model, &bounds, &mut |_| true);
     assert_eq!(outcome.end, End::Complete, "{name}");
     let common = Common::new(&project, &model);

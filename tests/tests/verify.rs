@@ -5,19 +5,19 @@ use autogen::library;
 use autogen::lower::Project;
 use autogen::verify::{Asked, model, replay::replay};
 use autogen_search::explore::{Bounds, Decided, End, Outcome, explore};
-use autogen_search::model::{Form, Model, Reductions, Variable};
+use autogen_search::model::{Model, Reductions, Variable};
 use autogen_search::plant::{Faults, Watch};
 use autogen_search::successor::Orders;
 use autogen_search::unread::Unread;
 use autogen_search::value::Var;
 use autogen_search::violation::Violation;
 use autogen_tests::bounds::BOUNDS;
+use autogen_tests::outcome::{states_of, verdict};
 use autogen_tests::searched::Common;
 use autogen_tests::{Texts, ariac, is_full_campaign, own_line, scenes};
 use runtime_sim::line::{Answer, IoDelay, Refusal, Slip};
 use runtime_sim::random::Random;
 use runtime_sim::run::{Stepping, run};
-use std::collections::BTreeSet;
 
 const ONE_PART: &str = r#"{
     "kinds": [{"name": "battery", "height": 0.053}, {"name": "pump", "height": 0.11}],
@@ -233,12 +233,6 @@ fn kinds_of_equal_height_are_told_apart() {
 }
 
 /// Violations and whether the search was complete.
-fn verdict(outcome: &Outcome) -> (End, Vec<String>) {
-    let mut violations: Vec<String> = outcome.violations.iter().map(|(v, _)| format!("{v:?}")).collect();
-    violations.sort();
-    (outcome.end, violations)
-}
-
 #[test]
 fn forgetting_what_is_of_no_use_changes_no_verdict() {
     let lines = [
@@ -276,18 +270,6 @@ fn right_and_wrong() -> [(Texts, Faults); 6] {
     ]
 }
 
-/// What is left of the states of a search without these values.
-fn states_without(model: &Model, unread: &[Var], outcome: &Outcome) -> BTreeSet<Vec<[u64; 3]>> {
-    let kept: Vec<_> = model.variables.iter().filter(|variable| !unread.contains(&variable.var)).collect();
-    let value = |state: &[u8], variable: &Variable| match variable.form {
-        Form::Point => outcome.values.point(variable.var.load(state)).map(f64::to_bits),
-        Form::Real => [outcome.values.real(variable.var.load(state)).to_bits(), 0, 0],
-        Form::Int(_) => [variable.var.load(state) as u64, 0, 0],
-    };
-    let states = (0..outcome.reached.len()).map(|state| outcome.reached.state(state));
-    states.map(|state| kept.iter().map(|variable| value(&state, variable)).collect()).collect()
-}
-
 /// All else is as it would be if everything was remembered, in right lines and in wrong ones.
 #[test]
 fn what_nobody_reads_leaves_all_else_as_it_is() {
@@ -297,11 +279,12 @@ fn what_nobody_reads_leaves_all_else_as_it_is() {
         let whole = Model { unread: Unread::default(), ..model.clone() };
         let unread: Vec<Var> = model.unread.vars().collect();
         assert!(!unread.is_empty());
+        let is_kept = |variable: &Variable| !unread.contains(&variable.var);
         for orders in [Orders::One, Orders::All].into_iter().take(if number == 0 { 2 } else { 1 }) {
             let bounds = Bounds { answers: Some(1), violations: 100, orders, ..BOUNDS };
             let (less, more) = (search(&model, &bounds), search(&whole, &bounds));
             assert_eq!(verdict(&less), verdict(&more));
-            assert_eq!(states_without(&model, &unread, &less), states_without(&model, &unread, &more));
+            assert_eq!(states_of(&model, &less, is_kept), states_of(&model, &more, is_kept));
             saved += more.reached.len() - less.reached.len();
         }
     }
@@ -333,13 +316,15 @@ fn leaving_out_what_does_nothing_changes_no_verdict() {
 #[test]
 fn processors_change_nothing() {
     let lines = [
-        (buffer(ONE_PART), Faults::All, Orders::One),
-        (changed("held := true;", ""), Faults::None, Orders::One),
-        (changed("slot[next] := Free;", ""), Faults::None, Orders::All),
+        (buffer(ONE_PART), Faults::All, Some(1), Orders::One),
+        (changed("held := true;", ""), Faults::None, Some(1), Orders::One),
+        (changed("slot[next] := Free;", ""), Faults::None, Some(1), Orders::All),
+        (buffer(ONE_PART), Faults::All, None, Orders::One),
+        (Texts { scenario: Some(ONE_PART.into()), ..ariac("default") }, Faults::None, None, Orders::One),
     ];
-    for (texts, faults, orders) in lines {
+    for (texts, faults, answers, orders) in lines {
         let model = model_of(&texts.project(), faults);
-        let bounds = Bounds { answers: Some(1), violations: 3, orders, ..BOUNDS };
+        let bounds = Bounds { answers, violations: 3, orders, ..BOUNDS };
         let one = search(&model, &bounds);
         for jobs in [2, 5] {
             let several = search(&model, &Bounds { jobs, ..bounds });
@@ -359,7 +344,8 @@ fn processors_change_nothing() {
 /// With few answers in a scan there are fewer states, never others.
 #[test]
 fn few_answers_reach_a_part_of_the_states() {
-    let model = model_of(&buffer(ONE_PART).project(), Faults::None);
+    let mut model = model_of(&buffer(ONE_PART).project(), Faults::None);
+    model.reductions = Reductions::OfScans;
     let all = search(&model, &BOUNDS);
     let one = search(&model, &Bounds { answers: Some(1), ..BOUNDS });
     assert!((0..one.reached.len()).all(|state| all.reached.find(&one.reached.state(state)).is_some()));
@@ -378,6 +364,7 @@ fn simulated_runs_stay_within_the_states() {
         let mut model = model_of(&project, Faults::All);
         model.watch = Watch::Faults;
         model.unread = Unread::default();
+        model.reductions = Reductions::OfScans;
         let outcome = search(&model, &Bounds { memory: 2_000_000_000, ..BOUNDS });
         assert_eq!(outcome.end, End::Complete);
         let common = Common::new(&project, &model);

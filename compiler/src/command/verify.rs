@@ -10,11 +10,13 @@ use super::{load, print};
 use crate::Status;
 use autogen::lower::compile;
 use autogen::verify::{self, Asked, Remembered, Searched, Warnings, replay, scenario};
-use autogen_search::explore::{Bounds, Covered, Outcome, explore};
+use autogen_search::explore::{Bounds, Covered, End, Outcome, explore};
 use autogen_search::model::Model;
 use autogen_search::plant::Faults;
+use autogen_search::violation::Violation;
 use report::{Report, Shown};
 use std::io::{self, IsTerminal};
+use std::mem::discriminant;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::thread::available_parallelism;
@@ -23,6 +25,8 @@ use std::time::{Duration, Instant};
 /// Without `--limit`.
 const TIME: Duration = Duration::from_secs(600);
 const MEMORY: usize = 2_000_000_000;
+/// The search with one answer in a scan that comes first ends with so many states.
+const STATES: usize = 200_000;
 /// Different violations of which `--all` tells.
 const MOST: usize = 100;
 /// Instances whose steps are put into every order.
@@ -128,8 +132,7 @@ pub fn run(options: &VerifyOptions) -> Status {
     }
 }
 
-/// Without a number of answers first with one in a scan, which finds most and takes a tenth of the time; then with any
-/// number. The second result is how many of the last search.
+/// Without a number of answers first with one in a scan, which finds most in little time; then with any number. The second result is how many of the last search.
 fn search(
     options: &VerifyOptions,
     model: &Model,
@@ -152,8 +155,10 @@ fn search(
         }
         !stops.asked()
     };
+    let is_first = options.answers.is_none();
     let mut bounds = Bounds {
         answers: options.answers.or(Some(1)),
+        states: if is_first { STATES } else { usize::MAX },
         orders: options.orders.into(),
         time: Some(time),
         memory,
@@ -161,11 +166,22 @@ fn search(
         jobs: options.jobs.or_else(|| available_parallelism().ok()).map_or(1, NonZeroUsize::get),
     };
     let mut outcome = explore(model, &bounds, &mut watch);
-    if options.answers.is_none() && outcome.is_proved() {
+    if is_first && (outcome.is_proved() || outcome.end == End::TooManyStates && outcome.violations.is_empty())
+    {
         bounds.answers = None;
+        bounds.states = usize::MAX;
         bounds.time = Some(time.saturating_sub(begin.elapsed()));
         let model = Model { unread: outcome.unread, ..model.clone() };
+        let noticed = outcome.remarks;
         outcome = explore(&model, &bounds, &mut watch);
+        if outcome.is_proved() {
+            // A search that postpones answers does not look for all of them.
+            let is_new = |remark: &Violation| {
+                outcome.remarks.iter().all(|(known, _)| discriminant(known) != discriminant(remark))
+            };
+            let more: Vec<_> = noticed.into_iter().filter(|(remark, _)| is_new(remark)).collect();
+            outcome.remarks.extend(more);
+        }
     }
     if is_shown {
         print::err_styled("\r\x1b[K");

@@ -174,7 +174,7 @@ pub fn model(project: &Project, asked: &Asked) -> Result<Searched, Vec<Diagnosti
         sensed: sensed(system),
         faults: asked.faults,
         watch: Watch::Everything,
-        reductions: Reductions::On,
+        reductions: Reductions::All,
         unread,
         reach,
         values,

@@ -47,6 +47,7 @@ impl Report<'_> {
             End::Violated => Some("it ended with the violation"),
             End::TimeIsUp => Some("the time limit was reached"),
             End::MemoryIsFull => Some("the memory limit was reached"),
+            End::TooManyStates => Some("there are too many states"),
             End::Stopped => Some("it was interrupted"),
             End::TooManyValues => Some("there are more than 65,536 places or numbers"),
         }
@@ -249,6 +250,7 @@ pub fn never_entered<'a>(teller: &Teller<'a>, outcome: &Outcome) -> Vec<(&'a str
             entered[instance.state.load(&state) as usize] = true;
         }
     }
+    outcome.entered.iter().for_each(|(instance, state)| entered[*instance][*state] = true);
     let of_instance = |(number, entered): (usize, Vec<bool>)| {
         let never = states(number).iter().zip(entered).filter(|(_, entered)| !entered);
         let names: Vec<&str> = never.map(|(state, _)| state.name.as_str()).collect();
