@@ -75,6 +75,7 @@ pub fn files(system: &System, sources: &Sources) -> Files {
 pub fn mapped(system: &System, sources: &Sources, map: &IoMap) -> (Files, Columns) {
     let mut files = Files::new();
     let columns = write(system, sources, map, Flavours::WithoutPlcopen, &mut files);
+    files.extend(translated(system, sources, &Translations::default()));
     (files, columns)
 }
 
@@ -95,7 +96,7 @@ pub enum Flavours {
     WithoutPlcopen,
 }
 
-/// Writes the files of the folder `plc/`, and returns the columns of [`mapped`].
+/// Writes the files of the folder `plc/` but those of [`translated`], and returns the columns of [`mapped`].
 pub fn write(
     system: &System,
     sources: &Sources,
@@ -145,9 +146,6 @@ impl Made<'_> {
         files.file("io.csv", &table::io(shared, self.map));
         files.file("alarms.csv", &alarms::table(shared, &mut screen::as_written));
         files.file("states.csv", &states::table(shared, &mut screen::as_written));
-        for (name, text) in screen::files(shared, &Translations::default()) {
-            files.file(&name, &text);
-        }
         files.file("bounds.txt", &figures::report(shared, &self.line));
         let raw = self.program.renamed().iter().map(|renamed| ("globals".to_string(), renamed.clone()));
         let renamed: Vec<_> = names.renamed.iter().cloned().chain(raw).collect();
@@ -189,7 +187,7 @@ pub fn screen_texts(system: &System, sources: &Sources) -> Vec<String> {
     screen::texts(shared).into_iter().map(|(_, text)| text).collect()
 }
 
-/// The tables of these texts in other languages; files of the folder `plc/`.
+/// The table of these texts, and those of alarms and states in other languages; files of the folder `plc/`.
 pub fn translated(system: &System, sources: &Sources, translations: &Translations) -> Files {
     let names = names::names(system);
     screen::files(Shared { system, sources, names: &names }, translations)

@@ -30,7 +30,7 @@ pub struct Built {
     pub about: Map<String, Value>,
     pub folder: PathBuf,
     map: IoMap,
-    translations: Option<Translations>,
+    translations: Translations,
     copies: Files,
     flavours: st::Flavours,
     /// With reference blocks for drives.
@@ -92,7 +92,7 @@ pub fn build(options: &BuildOptions) -> Result<Built, Status> {
         report_gaps(&map, &st::points(&project.system));
     }
     let (with_texts, translations) = match &options.texts {
-        None => (sources.clone(), None),
+        None => (sources.clone(), Translations::default()),
         Some(path) => {
             let mut with_texts = sources.clone();
             let table = load::add(&mut with_texts, path).map_err(failed)?;
@@ -102,7 +102,7 @@ pub fn build(options: &BuildOptions) -> Result<Built, Status> {
             if options.input.format == Format::Text && !options.input.quiet {
                 report_missing(&translations, &texts);
             }
-            (with_texts, Some(translations))
+            (with_texts, translations)
         }
     };
     let Copies { files: copies, command } = copies(options, &with_texts);
@@ -126,9 +126,7 @@ impl Built {
         let mut plc = Folder { name: "plc", sink: files };
         let columns = st::write(system, sources, &self.map, self.flavours, &mut plc);
         put(&mut plc, &self.drives);
-        if let Some(translations) = &self.translations {
-            put(&mut plc, &st::translated(system, sources, translations));
-        }
+        put(&mut plc, &st::translated(system, sources, &self.translations));
         put(&mut Folder { name: "graph", sink: files }, &dot::files(system, &project.edges));
         files.file("graph/plan.svg", &plan::svg(&project.plant, &project.edges));
         sdf::write(&project.name, &project.plant, &mut Folder { name: "world", sink: files });

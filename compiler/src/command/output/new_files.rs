@@ -151,6 +151,7 @@ impl Staged {
     }
 
     fn add(&mut self, name: String, file: NewFile, is_own: impl Fn(&Present) -> bool) {
+        debug_assert!(!self.hashes.contains_key(&name), "{name} is written twice");
         match file.end().and_then(|hashed| self.compare(&name, hashed, is_own)) {
             Ok(hash) => drop(self.hashes.insert(name, hash)),
             Err(refusal) => self.failed = Some(refusal),
