@@ -19,13 +19,16 @@ const UNKNOWN: u64 = u64::MAX;
 /// Another state counts for this one. It has the bit of no machine.
 pub(crate) const LEFT_OUT: u64 = 1 << 63;
 
+/// Those of a machine.
+type Values = Box<[u8]>;
+
 #[derive(Default)]
 pub(crate) struct Representatives {
     /// Of each state the machines of which answers are postponed in it; all bits: it has not been expanded; or
     /// [`LEFT_OUT`].
     pub postponed: Vec<u64>,
     /// Of each machine, by its values after its command has ended, those before.
-    before: Vec<HashMap<Box<[u8]>, Vec<Box<[u8]>>>>,
+    before: Vec<HashMap<Values, Vec<Values>>>,
     /// States that are left out, with those that count for them, and the machines whose commands have not ended there.
     left_out: HashMap<usize, (usize, u64)>,
     /// States that are not left out any more.
@@ -79,7 +82,7 @@ impl Representatives {
 
     /// The state that counts for this one, and the machines whose commands have not ended in it.
     pub fn find(&self, store: &Reached, expander: &Expander, state: &[u8]) -> Option<(usize, u64)> {
-        let mut ended: Vec<(usize, &[Box<[u8]>])> = Vec::new();
+        let mut ended: Vec<(usize, &[Values])> = Vec::new();
         let mut count = 1;
         for machine in expander.postponing.machines() {
             if let Some(before) = self.before[machine].get(&expander.postponing.own(machine, state)) {

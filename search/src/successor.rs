@@ -320,7 +320,8 @@ impl<'a> Expander<'a> {
         emit: &mut impl FnMut(Successor),
     ) {
         let has_to_fail = self.part == Part::Failing && self.faults == 0;
-        if has_to_fail && !options.iter().flatten().any(|choice| choice.is_fault) {
+        let is_fresh = self.postponed.fresh != 0;
+        if has_to_fail && !is_fresh && !options.iter().flatten().any(|choice| choice.is_fault) {
             return;
         }
         let Some((choices, rest)) = options.split_first().filter(|_| self.chosen.len() < self.answers) else {

@@ -29,8 +29,11 @@ fn search(model: &Model, reductions: Reductions) -> Outcome {
 /// The values of other machines, and those of each vehicle.
 type Halves = (Vec<[u64; 3]>, Vec<Vec<[u64; 3]>>);
 
+/// Of the values of others all that vehicles have beside them.
+type All = BTreeMap<Vec<[u64; 3]>, BTreeSet<Vec<Vec<[u64; 3]>>>>;
+
 /// All states, in halves.
-fn halves(model: &Model, outcome: &Outcome) -> BTreeMap<Vec<[u64; 3]>, BTreeSet<Vec<Vec<[u64; 3]>>>> {
+fn halves(model: &Model, outcome: &Outcome) -> All {
     let owner = |variable: &Variable| usize::from(model.owners[variable.var.at as usize]);
     let vehicles: Vec<usize> =
         (0..model.machines.len()).filter(|number| model.machines[*number].route.is_some()).collect();
@@ -42,7 +45,7 @@ fn halves(model: &Model, outcome: &Outcome) -> BTreeMap<Vec<[u64; 3]>, BTreeSet<
         let of_others = of(&|owner| !vehicles.contains(&owner));
         (of_others, vehicles.iter().map(|vehicle| of(&|owner| owner == *vehicle)).collect())
     };
-    let mut all: BTreeMap<_, BTreeSet<_>> = BTreeMap::new();
+    let mut all = All::new();
     for (others, vehicles) in states_of(model, outcome, |_| true).iter().map(|state| half(state)) {
         all.entry(others).or_default().insert(vehicles);
     }
@@ -138,4 +141,39 @@ fn mutants_do_the_same() {
         lines.iter().filter_map(of_line).count()
     });
     assert!(compared.into_iter().sum::<usize>() >= all.len());
+}
+
+/// The library's types with one place of this one changed.
+fn changed(texts: Texts, name: &str, from: &str, to: &str) -> Texts {
+    let line = Line { name: "", texts, faults: Faults::None };
+    let text = line.text_of(name);
+    assert!(text.contains(from), "{from}");
+    line.with(name, &text.replace(from, to))
+}
+
+/// In some orders of steps a vehicle that has come home sees that a part is on its way that no arm has claimed yet.
+#[test]
+fn what_is_so_within_one_scan_alone_is_seen() {
+    let line = Line { name: "", texts: four_vehicles("less_agv"), faults: Faults::None };
+    let (local, from) = ("    local next:", "        when all_loaded -> Moving");
+    let claimed = "not is_early and (exists s in stations, k in Kind: s.coming[k] > s.aboard[k])";
+    let text = line.text_of("agv");
+    assert!(text.contains(local) && text.contains(from));
+    let text = text
+        .replace(local, &format!("    local is_early: bool := false;\n{local}"))
+        .replace(from, &format!("        when {claimed} {{ is_early := true; }}\n{from}"));
+    let texts = line.with("agv", &text);
+    for order in 1..8 {
+        let texts = Texts { order: Some(order), ..texts.clone() };
+        assert!(compare(&format!("order {order}"), &texts, Faults::None) > Some(0));
+    }
+}
+
+/// An arm whose grip is refused does another thing if all vehicles are at home.
+#[test]
+fn what_is_read_when_devices_fail_is_seen() {
+    let from = "        when failed -> Missing { grip := false; move(grip_point + up(clearance)); }\n    }\n    /// No part";
+    let other = "        when failed and (forall t in trays: t.open) -> Missing { grip := false; move(grip_point + up(tray_clearance)); }\n";
+    let texts = changed(four_vehicles("less_agv"), "kitting", from, &format!("{other}{from}"));
+    assert!(compare("less_agv", &texts, Faults::All).is_some());
 }
