@@ -19,7 +19,7 @@ const ONE_PART: &str = r#"{
 }"#;
 
 /// Lines with more states are not compared.
-const STATES: usize = 50_000;
+const STATES: usize = 20_000;
 
 fn search(model: &Model, reductions: Reductions) -> Outcome {
     let model = Model { reductions, unread: Unread::default(), ..model.clone() };
