@@ -45,18 +45,23 @@ pub(crate) struct After {
 
 #[derive(Clone, Debug)]
 pub(crate) enum Step {
-    /// To a state of the store; `is_plain`: at most one device did something, and it was no fault.
+    /// To a state of the store. `acting`: machines that did something, if answers are postponed; `is_plain`: at most one device
+    /// did something, and it was no fault.
     Known {
         state: u32,
+        acting: u64,
         is_plain: bool,
     },
     /// The same, to one of those that it does not have.
     Unknown {
         number: u32,
+        acting: u64,
         is_plain: bool,
     },
     /// To a violation.
-    Out,
+    Out {
+        acting: u64,
+    },
     /// To a stop, without a fault.
     Stop,
     Found(Box<(Violation, Vec<Event>)>),
@@ -131,6 +136,7 @@ impl Expanded {
         let mut beside = store.beside(state, &before);
         let mut emit = |successor: Successor| {
             after.transitions += 1;
+            let acting = if postponed.is_some() { machines_of(successor.events) } else { 0 };
             for remark in successor.remarked {
                 if !remarked.contains(remark) {
                     remarked.push(remark.clone());
@@ -145,10 +151,11 @@ impl Expanded {
                 Ok(()) => {
                     let is_plain = successor.is_plain();
                     if let Some(known) = store.find_beside(successor.state, &mut beside) {
-                        let is_told = postponed.is_some() && !to.contains(&known);
+                        let tells = |(other, less): &(usize, u64)| *other == known && less & !acting == 0;
+                        let is_told = postponed.is_some() && !to.iter().any(tells);
                         if (is_plain || is_told) && known != state {
-                            to.push(known);
-                            steps.push(Step::Known { state: known as u32, is_plain });
+                            to.push((known, acting));
+                            steps.push(Step::Known { state: known as u32, acting, is_plain });
                         }
                         return;
                     }
@@ -157,7 +164,7 @@ impl Expanded {
                         of_unknown.push(successor.restless);
                     }
                     if is_new || is_plain || postponed.is_some() {
-                        steps.push(Step::Unknown { number: number as u32, is_plain });
+                        steps.push(Step::Unknown { number: number as u32, acting, is_plain });
                     }
                 }
                 Err(Violation::Stop { .. }) => {
@@ -168,7 +175,7 @@ impl Expanded {
                 }
                 Err(violation) => {
                     find(&violation);
-                    steps.push(Step::Out);
+                    steps.push(Step::Out { acting });
                 }
             }
         };
@@ -185,6 +192,11 @@ impl Expanded {
         after.end = steps.len();
         states.push(after);
     }
+}
+
+/// The machines of these events, a bit each, of which there are less than 64.
+pub(crate) fn machines_of(events: &[Event]) -> u64 {
+    events.iter().fold(0, |machines, event| machines | 1_u64 << (event.machine % 64))
 }
 
 /// What follows these states, as far as it is asked for, in runs in their order; each expander works by itself. The memory

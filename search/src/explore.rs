@@ -7,8 +7,10 @@ mod outcome;
 
 pub use outcome::{Bounds, Covered, Decided, End, Outcome};
 
+use outcome::Found;
+
 use crate::event::Event;
-use crate::expanded::{self, Expanded, Step};
+use crate::expanded::{self, Expanded};
 use crate::model::Model;
 use crate::plant::Faults;
 use crate::possible::{Allowance, AnswersArePostponed, Edges, Mark, Possible};
@@ -57,11 +59,18 @@ struct Checked {
     edges: Mark,
 }
 
-struct Found {
+struct Step {
     violation: Violation,
     /// The state before, and what devices did then.
     from: usize,
     events: Vec<Event>,
+}
+
+impl Step {
+    fn told(self, store: &Reached, expander: &mut Expander) -> (Violation, Execution) {
+        let execution = story::to_violation(store, expander, self.from, &self.violation, &self.events);
+        (self.violation, execution)
+    }
 }
 
 /// A search under way.
@@ -86,10 +95,10 @@ struct Search<'a> {
     late: Vec<usize>,
     /// Where this round began.
     round: usize,
-    found: Vec<Found>,
+    found: Vec<Step>,
     known: HashSet<Violation>,
     /// Of each kind the first.
-    remarked: Vec<Found>,
+    remarked: Vec<Step>,
     /// What is forgotten and has to be known, and the states where that turned out.
     needed: Vec<(Needed, usize)>,
     /// How many violations were found before that.
@@ -262,30 +271,32 @@ impl<'a> Search<'a> {
         self.note_expanded(from, after.postponed);
         for step in expanded.steps(state) {
             match step {
-                Step::Known { state, is_plain } => {
-                    self.reach(part, from, after.postponed, (*state as usize, 0), *is_plain)
+                expanded::Step::Known { state, acting, is_plain } => {
+                    self.reach(part, from, after.postponed & !acting, (*state as usize, 0), *is_plain)
                 }
-                Step::Unknown { number, is_plain } => {
-                    let number = *number as usize;
+                expanded::Step::Unknown { number, acting, is_plain } => {
+                    let (number, mask) = (*number as usize, after.postponed & !acting);
                     if numbers.len() <= number {
                         numbers.resize(number + 1, (usize::MAX, 0));
                     }
                     if !self.still_counts(numbers[number]) {
                         let restless = expanded.restless[number];
-                        numbers[number] = self.arrive(from, expanded.unknown.state(number), restless);
+                        numbers[number] = self.arrive(from, mask, expanded.unknown.state(number), restless);
                     }
-                    self.reach(part, from, after.postponed, numbers[number], *is_plain);
+                    self.reach(part, from, mask, numbers[number], *is_plain);
                 }
-                Step::Out => self.edges.lead_out(from),
-                Step::Stop => self.edges.lead_to_stop(from),
-                Step::Found(found) => self.find(from, found),
-                Step::Needs(needed) => {
+                // Not from states for which this one counts, if these machines have done something else there.
+                expanded::Step::Out { acting } if acting & after.postponed != 0 => {}
+                expanded::Step::Out { .. } => self.edges.lead_out(from),
+                expanded::Step::Stop => self.edges.lead_to_stop(from),
+                expanded::Step::Found(found) => self.find(from, found),
+                expanded::Step::Needs(needed) => {
                     if self.needed.is_empty() {
                         self.certain = self.found.len();
                     }
                     self.needed.push((*needed, from));
                 }
-                Step::Remarked(found) => self.remark(from, found),
+                expanded::Step::Remarked(found) => self.remark(from, found),
             }
         }
     }
@@ -298,14 +309,14 @@ impl<'a> Search<'a> {
 
     fn find(&mut self, from: usize, (violation, events): &(Violation, Vec<Event>)) {
         if self.found.len() < self.bounds.violations && self.known.insert(violation.clone()) {
-            self.found.push(Found { violation: violation.clone(), from, events: events.clone() });
+            self.found.push(Step { violation: violation.clone(), from, events: events.clone() });
         }
     }
 
     fn remark(&mut self, from: usize, (remark, events): &(Violation, Vec<Event>)) {
-        let is_known = |known: &Found| discriminant(&known.violation) == discriminant(remark);
+        let is_known = |known: &Step| discriminant(&known.violation) == discriminant(remark);
         if !self.remarked.iter().any(is_known) {
-            self.remarked.push(Found { violation: remark.clone(), from, events: events.clone() });
+            self.remarked.push(Step { violation: remark.clone(), from, events: events.clone() });
         }
     }
 
@@ -351,17 +362,19 @@ pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -
     let mut random = Random::default();
     let mut covered = Covered::default();
     let mut postpones = is_possible(&model, bounds.answers, bounds.orders);
+    let mut found = Found::default();
     loop {
         let states = covered.states;
         refinement::at_random(&mut model, &mut random, states, &mut || {
             goes_on(&mut covered, begin, bounds, watch)
         });
         match attempt(&model, bounds, begin, postpones, watch) {
-            Ok(outcome) => return outcome.or_checked(covered.failing),
-            Err((again, refinements)) => {
-                covered = Covered { failing: covered.failing.max(again.failing), ..again };
-                postpones &= !refinements.is_empty();
-                refinement::along(&mut model, bounds, &refinements, &mut || {
+            Ok(outcome) => return outcome.or_before(covered.failing, found),
+            Err(again) => {
+                covered = Covered { failing: covered.failing.max(again.covered.failing), ..again.covered };
+                found = found.or(again.found);
+                postpones &= !again.refinements.is_empty();
+                refinement::along(&mut model, bounds, &again.refinements, &mut || {
                     goes_on(&mut covered, begin, bounds, watch)
                 });
             }
@@ -380,34 +393,42 @@ fn goes_on(
     bounds.time.is_none_or(|time| covered.time <= time) && watch(covered)
 }
 
-/// The search with what is forgotten now; or what must not be. Nothing: no answer must be postponed.
+/// The search has to begin anew.
+struct Again {
+    covered: Covered,
+    found: Found,
+    /// What must not be forgotten. Nothing: no answer must be postponed.
+    refinements: Vec<Refinement>,
+}
+
+/// The search with what is forgotten now.
 fn attempt(
     model: &Model,
     bounds: &Bounds,
     begin: Instant,
     postpones: bool,
     watch: &mut dyn FnMut(&Covered) -> bool,
-) -> Result<Outcome, (Covered, Vec<Refinement>)> {
+) -> Result<Outcome, Again> {
     let mut search = Search::new(model, bounds, begin, postpones, watch);
     let (mut cut, checked) = search.search(model.faults);
     if !search.needed.is_empty() {
+        search.found.truncate(search.certain);
         cut = search.end();
         if cut.is_none() {
-            return Err((search.covered, search.refinements()));
+            let refinements = search.refinements();
+            let Search { mut first, store, found, covered, .. } = search;
+            let violations = found.into_iter().map(|step| step.told(&store, &mut first)).collect();
+            return Err(Again { covered, found: Found { violations, values: first.values }, refinements });
         }
-        search.found.truncate(search.certain);
     }
     let end = cut.unwrap_or(End::Complete);
     search.measure();
     let Search {
         begin, mut first, store, mut edges, mut representatives, found, remarked, mut covered, ..
     } = search;
-    let told = |first: &mut Expander, found: Found| {
-        let execution = story::to_violation(&store, first, found.from, &found.violation, &found.events);
-        (found.violation, execution)
-    };
     let mut violations: Vec<(Violation, Execution)> =
-        found.into_iter().map(|found| told(&mut first, found)).collect();
+        found.into_iter().map(|step| step.told(&store, &mut first)).collect();
+    let certain = violations.len();
     let mut remarks = Vec::new();
     let (mut orders, mut obligations) = (Decided::NotReached, Decided::NotReached);
     if end != End::Violated && checked.states > 0 {
@@ -424,7 +445,10 @@ fn attempt(
         possible.bound = representatives.as_mut().map(|all| std::mem::take(&mut all.bound));
         orders = match possible.orders(&mut never) {
             Ok(orders) => orders,
-            Err(AnswersArePostponed) => return Err((covered, Vec::new())),
+            Err(AnswersArePostponed) => {
+                let found = Found { violations, values: first.values };
+                return Err(Again { covered, found, refinements: Vec::new() });
+            }
         };
         if violations.len() + never.len() < bounds.violations {
             obligations = possible.obligations(&mut never);
@@ -439,11 +463,13 @@ fn attempt(
             for (remark, state) in of_orders.into_iter().flatten() {
                 remarks.push((remark, story::to_state(&store, &mut first, state)));
             }
-            remarks.extend(remarked.into_iter().map(|found| told(&mut first, found)));
+            remarks.extend(remarked.into_iter().map(|step| step.told(&store, &mut first)));
         }
         // All of these scans were searched; if one had not been, nothing could be concluded.
         if let Some(needed) = possible.expander.needed.take() {
-            return Err((covered, vec![Refinement::of(needed)]));
+            violations.truncate(certain);
+            let found = Found { violations, values: first.values };
+            return Err(Again { covered, found, refinements: vec![Refinement::of(needed)] });
         }
     }
     if end == End::Complete {

@@ -6,11 +6,13 @@
 //! one in which nothing of it has ended counts for the others.
 
 use crate::event::{self, Event, What};
+use crate::expanded::machines_of;
 use crate::model::{Model, Reductions};
-use crate::plant::Machine;
+use crate::plant::{Machine, Watch};
 use crate::program::bit;
 use crate::property::Check;
 use crate::successor::{Expander, Orders};
+use crate::unread::Needed;
 use crate::value::Var;
 use crate::violation::Violation;
 use std::collections::HashMap;
@@ -32,7 +34,8 @@ pub(crate) struct Postponing {
 struct Owned {
     may_be_postponed: bool,
     vars: Vec<Var>,
-    /// Those that others see in the plant.
+    /// Those that others see in the plant, and that an end may change: where it is. Items at its places lie there before and
+    /// after it.
     visible: Vec<Var>,
     bytes: Vec<usize>,
     /// Of each byte of a state whether others own it: all bits.
@@ -48,6 +51,8 @@ pub(crate) struct Alone {
     idle: Vec<What>,
     /// One of these gives a command again.
     gives: bool,
+    /// What is forgotten and had to be known to find this out.
+    needed: Option<Needed>,
 }
 
 #[derive(Clone)]
@@ -102,7 +107,7 @@ impl Postponing {
 impl Owned {
     fn new(model: &Model, machine: usize) -> Self {
         let plant = &model.machines[machine];
-        let Machine { head, arm, route, lane, desk, places } = plant;
+        let Machine { head, arm, route, lane, desk, .. } = plant;
         let has_strokes = model.cylinders.iter().any(|cylinder| cylinder.machine == machine)
             || model.processes.iter().any(|process| process.machine == machine);
         let may_be_postponed =
@@ -114,10 +119,7 @@ impl Owned {
         let all = model.variables.iter().map(|variable| variable.var);
         let is_own = |var: &Var| usize::from(model.owners[var.at as usize]) == machine && !made.contains(var);
         let vars: Vec<Var> = all.filter(is_own).collect();
-        let mut visible: Vec<Var> = route.iter().flat_map(|route| [route.at, route.goal]).collect();
-        visible.extend(places.iter().flat_map(|place| place.items.iter().chain(&place.stray)));
-        visible.extend(model.instances[machine].stopped);
-        visible.extend(model.inputs.iter().filter(|input| input.machine == machine).map(|input| input.var));
+        let visible = route.iter().flat_map(|route| [route.at, route.goal]).collect();
         let begins = |var: &Var| var.at as usize..var.at as usize + usize::from(var.width);
         let bytes: Vec<usize> = vars.iter().flat_map(begins).collect();
         let mut foreign = vec![u64::MAX; model.initial.len()];
@@ -133,6 +135,8 @@ pub(crate) struct Postponed {
     pub waiting: u64,
     /// Machines of which answers that change nothing are left out.
     pub idle: u64,
+    /// Those of them that would give a command again.
+    giving: u64,
     /// What they may do, by the number of the machine.
     alone: Vec<usize>,
     /// Of each byte of a state the machines, as bits, whose postponed answers would change the value that begins there;
@@ -160,15 +164,27 @@ impl Expander<'_> {
     pub(crate) fn alone(&mut self, machine: usize, state: &[u8]) -> usize {
         let own = self.postponing.own(machine, state);
         if let Some(known) = self.postponing.known[machine].get(&own) {
+            self.needed = self.needed.or(self.postponing.alone[*known].needed);
             return *known;
         }
         self.before.copy_from_slice(state);
         self.forgotten = self.model.unread.in_state(&self.model.instances, state, u64::MAX);
         self.forgotten_before = self.forgotten;
-        let alone = self.find_alone(machine, state);
+        let needed = self.needed.take();
+        let count = self.values.count();
+        let mut alone = self.find_alone(machine, state);
+        let has_new_values = self.values.count() != count;
+        if has_new_values {
+            alone = self.find_alone(machine, state);
+        }
+        alone.needed = self.needed.take();
+        self.needed = needed.or(alone.needed);
         let number = self.postponing.alone.len();
         self.postponing.alone.push(alone);
-        self.postponing.known[machine].insert(own, number);
+        // New values may be given other numbers later.
+        if !has_new_values {
+            self.postponing.known[machine].insert(own, number);
+        }
         number
     }
 
@@ -179,24 +195,31 @@ impl Expander<'_> {
 
     fn find_alone(&mut self, machine: usize, state: &[u8]) -> Alone {
         let mut alone = Alone::default();
-        let mut ends = 0;
-        let mut events = Vec::new();
+        let (mut events, mut times) = (Vec::new(), Vec::new());
+        event::events(self.model, &self.values, state, 2 * machine + 1, &mut times);
+        // A time may come before the same scan, or instead.
+        if !times.is_empty() {
+            return alone;
+        }
         event::events(self.model, &self.values, state, 2 * machine, &mut events);
+        // Of those that are no faults.
+        let mut changing = 0;
         for event in events {
-            let Some(gives) = self.tries(machine, state, event) else { continue };
-            if self.work == state {
-                alone.idle.push(event.what);
-                alone.gives |= gives;
-            } else if !event::is_fault(self.model, &self.values, state, &event)
-                && let Some(end) = self.end_in_work(machine, state, event)
-            {
-                ends += 1;
-                alone.end = Some(end);
+            let is_fault = event::is_fault(self.model, &self.values, state, &event);
+            let gives = self.tries(machine, state, event);
+            match gives.filter(|_| self.work == state) {
+                Some(gives) => {
+                    alone.idle.push(event.what);
+                    alone.gives |= gives;
+                }
+                None if !is_fault => {
+                    changing += 1;
+                    alone.end = gives.and_then(|_| self.end_in_work(machine, state, event));
+                }
+                None => {}
             }
         }
-        if ends > 1 {
-            alone.end = None;
-        }
+        alone.end = alone.end.filter(|_| changing == 1);
         alone
     }
 
@@ -252,7 +275,7 @@ impl Expander<'_> {
     /// Begins to postpone the answers of `among` in this state. `restless`: instances that do something anyway.
     pub(crate) fn postpone(&mut self, state: &[u8], restless: u64, among: u64) {
         let machines: Vec<usize> = self.postponing.machines().collect();
-        let (mut waiting, mut idle, mut gives) = (0, 0, false);
+        let (mut waiting, mut idle, mut giving) = (0, 0, 0);
         self.postponed.alone.resize(self.model.machines.len(), 0);
         for machine in machines.into_iter().filter(|machine| restless & bit(*machine) == 0) {
             let number = self.alone(machine, state);
@@ -263,17 +286,12 @@ impl Expander<'_> {
             }
             if !alone.idle.is_empty() {
                 idle |= bit(machine);
-                gives |= alone.gives;
-            }
-        }
-        if gives {
-            self.work.copy_from_slice(state);
-            if self.begin().hazards().is_err() {
-                idle = 0;
+                giving |= if alone.gives { bit(machine) } else { 0 };
             }
         }
         self.postponed.waiting = waiting;
         self.postponed.idle = idle;
+        self.postponed.giving = giving;
         self.postponed.watched.clear();
         self.postponed.watched.resize(state.len(), 0);
         for machine in members(waiting) {
@@ -379,19 +397,19 @@ impl Expander<'_> {
         stays.then_some(others)
     }
 
-    /// After a scan of which the result is worked on: who needs what is postponed of machines that have done nothing in it.
+    /// After a scan of which the result is worked on: who needs what is postponed of machines that have done nothing in it. An
+    /// item that comes to lie at one of their places changes nothing of that.
     pub(crate) fn observe(&mut self, observed: u64, changed: u64) {
-        let acting = self.chosen.iter().fold(0, |acting, event| acting | 1_u64 << (event.machine % 64));
-        let others = (self.postponed.waiting | self.postponed.idle) & !acting;
-        let mut observed = observed & others;
-        for machine in members(others & !observed) {
-            let bytes = &self.postponing.machines[machine].bytes;
-            let has_changed = || bytes.iter().any(|at| self.work[*at] != self.before[*at]);
-            if changed & bit(machine) != 0 || has_changed() {
-                observed |= bit(machine);
-            }
+        let others = (self.postponed.waiting | self.postponed.idle) & !machines_of(&self.chosen);
+        self.postponed.observed |= (observed | changed) & others;
+    }
+
+    /// After a scan without a command of which the result is worked on: with one, it would have been asked what is dangerous.
+    pub(crate) fn observe_hazards(&mut self) {
+        let giving = self.postponed.idle & self.postponed.giving & !machines_of(&self.chosen);
+        if giving != 0 && self.model.watch == Watch::Everything && self.begin().hazards().is_err() {
+            self.postponed.observed |= giving;
         }
-        self.postponed.observed |= observed;
     }
 
     /// After a stop, behind which this was found in scans that have read this: of which machines it would be another thing if

@@ -33,6 +33,9 @@ pub(crate) struct Representatives {
     left_out: HashMap<usize, (usize, u64)>,
     /// States that are not left out any more.
     pub resumed: Vec<usize>,
+    /// Of states that have not been expanded the machines that were postponed unseen in the scan that has led there, if
+    /// they are not all that are postponed in the state before.
+    unseen: HashMap<usize, u64>,
     /// What has to be decided when a state is expanded.
     owed: HashMap<usize, Vec<Owed>>,
     /// States that count for others for sure only if the other one does, in which more has ended.
@@ -46,7 +49,7 @@ pub(crate) struct Representatives {
 pub(crate) struct Owed {
     pub from: usize,
     pub ended: u64,
-    /// Machines of which answers are postponed in the first one.
+    /// Machines of which answers are postponed in the first one, and that did nothing in the scan.
     pub mask: u64,
 }
 
@@ -62,6 +65,7 @@ impl Representatives {
     /// Bytes of memory that it takes.
     pub fn size(&self) -> usize {
         8 * (self.postponed.capacity() + self.bound.capacity())
+            + 24 * self.unseen.capacity()
             + self.owed.values().map(|owed| size_of_val(owed.as_slice()) + 48).sum::<usize>()
     }
 
@@ -143,6 +147,20 @@ impl Representatives {
         self.left_out.iter().map(|(state, (other, _))| (*state, *other))
     }
 
+    /// A state is stored, which a scan has led to from a known one with `mask`.
+    pub fn add(&mut self, from: usize, mask: u64) {
+        if mask != self.postponed[from] {
+            self.unseen.insert(self.postponed.len(), mask);
+        }
+        self.postponed.push(UNKNOWN);
+    }
+
+    /// The first scan that has led to a state, from `parent`.
+    pub fn first(&self, state: usize, parent: usize) -> Owed {
+        let mask = self.unseen.get(&state).copied().unwrap_or(self.postponed[parent]);
+        Owed { from: parent, ended: 0, mask }
+    }
+
     /// Notes what has to be decided once a state is expanded.
     pub fn owe(&mut self, state: usize, owed: Owed) {
         let all = self.owed.entry(state).or_default();
@@ -151,7 +169,17 @@ impl Representatives {
         }
     }
 
-    pub fn owed(&mut self, state: usize) -> Vec<Owed> {
-        self.owed.remove(&state).unwrap_or_default()
+    /// What has to be decided of a state that was reached first from `parent`.
+    pub fn owed(&mut self, state: usize, parent: usize) -> Vec<Owed> {
+        let mut owed = self.owed.remove(&state).unwrap_or_default();
+        owed.push(self.first(state, parent));
+        owed
+    }
+
+    /// The same of a state that is expanded now, and so will not be left out any more.
+    pub fn last_owed(&mut self, state: usize, parent: usize) -> Vec<Owed> {
+        let owed = self.owed(state, parent);
+        self.unseen.remove(&state);
+        owed
     }
 }

@@ -422,9 +422,12 @@ impl<'a> Expander<'a> {
             let mut scan = self.begin();
             let mut result = scan.run(&order, touched);
             let (restless, forgotten) = (scan.restless, scan.forgotten);
-            let (observed, changed) = (scan.observed, scan.written | scan.fired);
+            let (observed, changed, given) = (scan.observed, scan.written | scan.fired, scan.given);
             self.order = order;
             self.observe(observed, changed);
+            if given == 0 && result.is_ok() {
+                self.observe_hazards();
+            }
             if let Err(stop @ Violation::Stop { .. }) = result {
                 let stopped = self.work.clone();
                 let (found, read) = self.behind_stop(&stopped, forgotten);

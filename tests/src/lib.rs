@@ -13,6 +13,7 @@ pub mod machines;
 pub mod many;
 pub mod mutants;
 pub mod outcome;
+pub mod postponing;
 pub mod replay;
 pub mod sdf;
 pub mod searched;

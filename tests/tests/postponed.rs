@@ -1,94 +1,20 @@
 //! A search that postpones answers nobody needs yet, against one that does not.
 
 use autogen::verify::{Asked, model};
-use autogen_search::explore::{Bounds, End, Outcome, explore};
-use autogen_search::model::{Model, Reductions, Variable};
-use autogen_search::plant::{Faults, status};
-use autogen_search::unread::Unread;
+use autogen_search::explore::{Bounds, Decided, End, explore};
+use autogen_search::plant::Faults;
 use autogen_tests::bounds::BOUNDS;
 use autogen_tests::mutants::mutants;
-use autogen_tests::outcome::{states_of, verdict};
+use autogen_tests::outcome::verdict;
+use autogen_tests::postponing::{compare, compare_verdicts};
 use autogen_tests::small_lines::{self, Line};
 use autogen_tests::{Texts, ariac, fixtures, is_full_campaign, on_all_processors};
 use serde_json::Value;
-use std::collections::{BTreeMap, BTreeSet};
 
 const ONE_PART: &str = r#"{
     "kinds": [{"name": "battery", "height": 0.053}],
     "orders": [{"station": "as1", "parts": {"battery": 1}}]
 }"#;
-
-/// Lines with more states are not compared.
-const STATES: usize = 20_000;
-
-fn search(model: &Model, reductions: Reductions) -> Outcome {
-    let model = Model { reductions, unread: Unread::default(), ..model.clone() };
-    explore(&model, &Bounds { states: STATES, violations: 100, ..BOUNDS }, &mut |_| true)
-}
-
-/// The values of other machines, and those of each vehicle.
-type Halves = (Vec<[u64; 3]>, Vec<Vec<[u64; 3]>>);
-
-/// Of the values of others all that vehicles have beside them.
-type All = BTreeMap<Vec<[u64; 3]>, BTreeSet<Vec<Vec<[u64; 3]>>>>;
-
-/// All states, in halves.
-fn halves(model: &Model, outcome: &Outcome) -> All {
-    let owner = |variable: &Variable| usize::from(model.owners[variable.var.at as usize]);
-    let vehicles: Vec<usize> =
-        (0..model.machines.len()).filter(|number| model.machines[*number].route.is_some()).collect();
-    let half = |state: &[[u64; 3]]| -> Halves {
-        let of = |is_kept: &dyn Fn(usize) -> bool| {
-            let all = model.variables.iter().zip(state).filter(|(variable, _)| is_kept(owner(variable)));
-            all.map(|(_, value)| *value).collect()
-        };
-        let of_others = of(&|owner| !vehicles.contains(&owner));
-        (of_others, vehicles.iter().map(|vehicle| of(&|owner| owner == *vehicle)).collect())
-    };
-    let mut all = All::new();
-    for (others, vehicles) in states_of(model, outcome, |_| true).iter().map(|state| half(state)) {
-        all.entry(others).or_default().insert(vehicles);
-    }
-    all
-}
-
-/// For each of a vehicle's values whether its command is under way.
-fn is_under_way(model: &Model) -> impl Fn(&[[u64; 3]]) -> bool {
-    let vehicle = model.machines.iter().position(|machine| machine.route.is_some()).unwrap_or_default();
-    let own = model.variables.iter().filter(move |v| usize::from(model.owners[v.var.at as usize]) == vehicle);
-    let status = model.machines[vehicle].head.as_ref().map(|head| head.status);
-    let at = own.map(|variable| variable.var).position(|var| Some(var) == status).unwrap_or_default();
-    move |values| values[at][0] == status::UNDER_WAY as u64
-}
-
-/// They find the same; and for each state of one there is the same of the other, but that commands of vehicles that have
-/// ended may be under way. How many states fewer one has; none if it is not compared.
-fn compare(name: &str, texts: &Texts, faults: Faults) -> Option<usize> {
-    let model = model(&texts.compile().project?, &Asked::with(faults)).ok()?.model;
-    let more = search(&model, Reductions::OfScans);
-    if more.end == End::TooManyStates {
-        return None;
-    }
-    let less = search(&model, Reductions::All);
-    assert_eq!(verdict(&less), verdict(&more), "{name}");
-    assert_eq!(more.end, End::Complete, "{name}");
-    let is_under_way = is_under_way(&model);
-    let counts_for = |less: &[Vec<[u64; 3]>], more: &[Vec<[u64; 3]>]| {
-        less.iter().zip(more).all(|(less, more)| less == more || is_under_way(less) && !is_under_way(more))
-    };
-    let (of_less, of_more) = (halves(&model, &less), halves(&model, &more));
-    for (others, vehicles) in &of_more {
-        let found = of_less.get(others).unwrap_or_else(|| panic!("{name}: a state of the others is missing"));
-        let missing = vehicles.iter().find(|more| !found.iter().any(|less| counts_for(less, more)));
-        assert_eq!(missing, None, "{name}: for this state no other one counts");
-    }
-    let is_real = |(others, vehicles): (&Vec<[u64; 3]>, &BTreeSet<_>)| {
-        of_more.get(others).is_some_and(|more| vehicles.is_subset(more))
-    };
-    assert!(of_less.iter().all(is_real), "{name}: a state that cannot be reached");
-    println!("{name}: {} of {} states", less.covered.states, more.covered.states);
-    Some(more.covered.states - less.covered.states)
-}
 
 const TWO_PARTS: &str = r#"{
     "kinds": [{"name": "battery", "height": 0.053}, {"name": "pump", "height": 0.12}],
@@ -188,4 +114,90 @@ fn what_is_read_when_devices_fail_is_seen() {
     let other = "        when failed and (forall t in trays: t.open) -> Missing { grip := false; move(grip_point + up(tray_clearance)); }\n";
     let texts = changed(four_vehicles("less_agv"), "kitting", from, &format!("{other}{from}"));
     assert!(compare("less_agv", &texts, Faults::All).is_some());
+}
+
+/// What is beside the machines of a fixture, if that says nothing else.
+const OTHERS: &str = "
+automaton Feed on belt { initial -> Idle {} final state Idle; }
+automaton Bystander on vehicle {
+    initial -> Going { goto(stops[0]); }
+    state Going { when done -> Home {} }
+    final state Home;
+}
+automaton Desk on station {
+    initial -> Idle {}
+    state Idle { when after 1 s -> Sent { complete := true; } }
+    final state Sent;
+}
+automaton Idle on station { initial -> Idle {} final state Idle; }";
+
+/// If the orders cannot be made, nothing is postponed in the end.
+const NO_WAY_OUT: &str = "// no way out";
+
+/// Machines that step in the order of the text, then a station, and a conveyor if it names none. Every state has a way out, because the station
+/// sends away what is wrong, unless the text says that there is none.
+fn line_of(text: &str) -> (Texts, Faults) {
+    let after = |word: &str| text.lines().find_map(|line| line.strip_prefix(word));
+    let types = after("// machines: ").expect("the types of machines").split(", ");
+    let robot = |(number, of): (usize, &str)| {
+        let y = 3 * number;
+        let place = match of {
+            "table" => format!(r#""pose": [0, {y}, 0]"#),
+            "over" => r#""pose": [0.966, 0, 1.127], "rail_dim": "y", "rail_range": [-4.8, 4.8]"#.to_string(),
+            "feed" => r#""pose": [1.693, 0, 0], "orient": "y", "orient_range": [-5, 5]"#.to_string(),
+            _ => format!(r#""pose": [0, {y}, 0], "destinations": [[5, {y}, 0], [10, {y}, 0]]"#),
+        };
+        format!(r#"{{"name": "v{number}", "type": "{of}", {place}}}"#)
+    };
+    let last = if types.clone().any(|of| of == "feed") { None } else { Some("feed") };
+    let robots: Vec<String> = types.chain(last).enumerate().map(robot).collect();
+    let desk = if after(NO_WAY_OUT).is_some() { "idle" } else { "desk" };
+    let layout = format!(
+        r#"{{"robots": [{}, {{"name": "desk", "type": "{desk}", "pose": [-5, 0, 0]}}]}}"#,
+        robots.join(", ")
+    );
+    let scenario = ONE_PART.replace("as1", after("// order: ").unwrap_or("desk"));
+    let specs = vec![OTHERS.to_string(), text.to_string()];
+    let texts = Texts { specs, scenario: Some(scenario), ..Texts::of_layout(layout) };
+    (texts, if after("// faults").is_some() { Faults::All } else { Faults::None })
+}
+
+/// Each needs one of the rules that say what must not be postponed.
+#[test]
+fn small_lines_of_vehicles_do_the_same() {
+    for (name, text) in fixtures("verify/postponed", "aut") {
+        let (texts, faults) = line_of(&text);
+        compare_verdicts(&name, &texts, faults);
+        let saved = compare(&name, &texts, faults);
+        assert!(saved > Some(0) || text.contains(NO_WAY_OUT), "{name}");
+    }
+}
+
+/// At first a few states show a mistake, but not that the orders can be made. All that may happen are too many states.
+#[test]
+fn what_was_found_is_told_if_the_search_begins_anew() {
+    let text = "
+// machines: racer, bystander, bystander, bystander, bystander
+// no way out
+automaton Racer on vehicle {
+    local laps: int 0..5 := 0;
+    invariant laps < 5 else stop machine \"it has gone too far\";
+
+    initial -> Going { goto(stops[1]); }
+    state Going {
+        when done -> Going { laps += 1; goto(stops[1]); }
+        when after 1 s -> Stuck {}
+    }
+    final state Stuck;
+}";
+    let (texts, faults) = line_of(text);
+    let model = model(&texts.project(), &Asked::with(faults)).expect("a line that can be searched").model;
+    let outcome = explore(&model, &Bounds { states: 40, violations: 100, ..BOUNDS }, &mut |_| true);
+    assert_eq!(
+        verdict(&outcome),
+        (End::TooManyStates, vec!["MachineStops { instance: 0, fault: 1 }".to_string()])
+    );
+    assert_eq!((outcome.covered.failing, outcome.orders), (Some(0), Decided::NotReached));
+    let (_, execution) = &outcome.violations[0];
+    assert_eq!(execution.scans.len(), 6);
 }

@@ -2,14 +2,13 @@
 
 use super::Search;
 use crate::postponed::members;
-use crate::program::bit;
 use crate::representative::{Owed, Representatives};
 use crate::successor::Part;
 use std::ops::Range;
 
 impl Search<'_> {
-    /// A scan leads from one state, in which answers of these machines are postponed, to one for which another one counts:
-    /// its number, and the machines whose commands have not ended in it.
+    /// A scan, in which answers of these machines are postponed unseen, leads from one state to one for which another one
+    /// counts: its number, and the machines whose commands have not ended in it.
     pub(super) fn reach(
         &mut self,
         part: Part,
@@ -19,9 +18,10 @@ impl Search<'_> {
         is_plain: bool,
     ) {
         let Some(representatives) = &self.representatives else { return self.lead(from, to, is_plain) };
-        let (to, more) = representatives.of(to);
+        let (counts, more) = representatives.of(to);
+        self.owe(counts, Owed { from, ended: ended | more, mask });
+        let to = self.representatives.as_ref().map_or(to, |all| all.of(to).0);
         self.lead(from, to, is_plain);
-        self.owe(to, Owed { from, ended: ended | more, mask });
         // What was postponed until devices fail.
         if part == Part::Failing && is_plain {
             self.bind(from, to);
@@ -39,7 +39,7 @@ impl Search<'_> {
 
     /// The number of a state that is reached, or of the one that counts for it, and the machines whose commands have not
     /// ended in that.
-    pub(super) fn arrive(&mut self, from: usize, state: &[u8], restless: u64) -> (usize, u64) {
+    pub(super) fn arrive(&mut self, from: usize, mask: u64, state: &[u8], restless: u64) -> (usize, u64) {
         if let Some(representatives) = &self.representatives {
             if let Some(known) = self.store.find(state) {
                 return representatives.of(known);
@@ -51,7 +51,7 @@ impl Search<'_> {
         let (to, is_new) = self.store.add(state, from);
         if is_new {
             self.restless.push(restless);
-            self.representatives.iter_mut().for_each(|all| all.postponed.push(u64::MAX));
+            self.representatives.iter_mut().for_each(|all| all.add(from, mask));
         }
         (to, 0)
     }
@@ -67,9 +67,7 @@ impl Search<'_> {
             let Some((other, ended)) = representatives.find(&self.store, &self.first, &state) else {
                 continue;
             };
-            let from = self.store.parent(number);
-            let mut all = representatives.owed(number);
-            all.push(Owed { from, ended: 0, mask: representatives.postponed[from] });
+            let all = representatives.owed(number, self.store.parent(number));
             representatives.leave_out(number, (other, ended));
             for owed in all {
                 self.owe(other, Owed { ended: owed.ended | ended, ..owed });
@@ -86,10 +84,7 @@ impl Search<'_> {
         if !is_first {
             return;
         }
-        let from = self.store.parent(number);
-        let mut owed = representatives.owed(number);
-        owed.push(Owed { from, ended: 0, mask: representatives.postponed[from] });
-        for owed in owed {
+        for owed in representatives.last_owed(number, self.store.parent(number)) {
             self.settle(number, owed);
         }
     }
@@ -102,8 +97,8 @@ impl Search<'_> {
         if representatives.is_expanded(to) {
             return self.settle(to, owed);
         }
-        let of_parent = representatives.postponed[self.store.parent(to)];
-        if owed.ended != 0 || owed.mask & !of_parent != 0 {
+        let first = representatives.first(to, self.store.parent(to));
+        if owed.ended != 0 || owed.mask & !first.mask != 0 {
             representatives.owe(to, owed);
         }
     }
@@ -117,20 +112,16 @@ impl Search<'_> {
         }
         let state = self.store.state(of);
         if ended & !postponed != 0 {
-            let (to, ended) = self.reach_ended(from, &state, ended);
+            let (to, ended) = self.reach_ended(from, mask, &state, ended);
             self.bind(of, to);
             return self.owe(to, Owed { from, ended, mask });
         }
-        let before = self.store.state(from);
-        let own = |machine: usize, state: &[u8]| self.first.postponing.own(machine, state);
-        let lost = members(mask & !postponed)
-            .filter(|machine| own(*machine, &before) == own(*machine, &state))
-            .fold(0, |lost, machine| lost | bit(machine));
+        let (lost, mask) = (mask & !postponed, mask & postponed);
         let mut some = lost;
         while some != 0 {
-            let (to, more) = self.reach_ended(from, &state, ended | some);
+            let (to, more) = self.reach_ended(from, mask, &state, ended | some);
             self.bind(of, to);
-            self.owe(to, Owed { from, ended: more, mask: mask & !lost });
+            self.owe(to, Owed { from, ended: more, mask });
             some = (some - 1) & lost;
         }
     }
@@ -143,7 +134,7 @@ impl Search<'_> {
     }
 
     /// The state in which the commands of these machines have ended.
-    pub(super) fn reach_ended(&mut self, from: usize, state: &[u8], ended: u64) -> (usize, u64) {
+    pub(super) fn reach_ended(&mut self, from: usize, mask: u64, state: &[u8], ended: u64) -> (usize, u64) {
         let mut state = state.to_vec();
         for machine in members(ended) {
             if let Some(end) = self.first.end_of(machine, &state) {
@@ -160,6 +151,6 @@ impl Search<'_> {
                 representatives.resume(found);
             }
         }
-        self.arrive(from, &state, u64::MAX)
+        self.arrive(from, mask, &state, u64::MAX)
     }
 }

@@ -91,13 +91,30 @@ pub struct Outcome {
     pub entered: Vec<(usize, usize)>,
 }
 
+/// Violations, and points and reals by their numbers in their executions.
+#[derive(Default)]
+pub(super) struct Found {
+    pub violations: Vec<(Violation, Execution)>,
+    pub values: Values,
+}
+
+impl Found {
+    /// Whichever has more.
+    pub fn or(self, other: Self) -> Self {
+        if other.violations.len() > self.violations.len() { other } else { self }
+    }
+}
+
 impl Outcome {
-    /// If it is cut: an attempt before it has checked all sequences with faults in so many scans.
-    pub(super) fn or_checked(mut self, failing: Option<usize>) -> Self {
+    /// If it is cut: attempts before it have checked all sequences with faults in so many scans, and have found this.
+    pub(super) fn or_before(mut self, failing: Option<usize>, found: Found) -> Self {
         let is_cut = !matches!(self.end, End::Complete | End::Violated);
         if is_cut && self.covered.failing < failing {
             self.covered.failing = failing;
             (self.orders, self.obligations) = (Decided::NotReached, Decided::NotReached);
+        }
+        if is_cut && self.violations.len() < found.violations.len() {
+            Found { violations: self.violations, values: self.values } = found;
         }
         self
     }
