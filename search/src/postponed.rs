@@ -1,9 +1,9 @@
 //! Answers that nobody needs yet.
 //!
-//! A vehicle that comes home while nobody looks may as well come home later: just before somebody does. So a search of
-//! sequences with any number of answers in a scan postpones the end of a command after which its machine does nothing more
-//! by itself, until a scan reads a value that this end changes. Of all states that differ only in what has ended unseen, the
-//! one in which nothing of it has ended counts for the others.
+//! A vehicle that reports that it is at home while nobody looks may as well report it later: just before somebody does. So a
+//! search of sequences with any number of answers in a scan postpones the end of a command after which its machine is where
+//! it was, and does nothing more by itself, until a scan reads a value that this end changes. Of all states that differ only in
+//! what has ended unseen, the one in which nothing of it has ended counts for the others.
 
 use crate::event::{self, Event, What};
 use crate::expanded::machines_of;
