@@ -171,9 +171,8 @@ impl Draft {
         self.items
     }
 
-    /// The line with these values, and with its instances in layout order or in one drawn from `order`. Replication 0 is
-    /// that of the scenario; another one adds its number to the seed of the supply.
-    pub fn line(&self, settings: &[Setting], order: Option<u64>, replication: u32) -> Line {
+    /// The line with these values, and with its instances in layout order or in one drawn from `order`.
+    pub fn line(&self, settings: &[Setting], order: Option<u64>) -> Line {
         let mut line = Line {
             diagnostics: self.diagnostics.clone(),
             warnings: Vec::new(),
@@ -181,7 +180,7 @@ impl Draft {
             project: None,
         };
         if let Some(parts) = &self.parts {
-            parts.line(&mut line, settings, order, replication);
+            parts.line(&mut line, settings, order);
             diagnostic::sort(&mut line.diagnostics);
         }
         if !line.diagnostics.is_empty() {
@@ -192,7 +191,7 @@ impl Draft {
 }
 
 impl Parts {
-    fn line(&self, found: &mut Line, settings: &[Setting], order: Option<u64>, replication: u32) {
+    fn line(&self, found: &mut Line, settings: &[Setting], order: Option<u64>) {
         let mut layout = Cow::Borrowed(&self.layout);
         if let Some(seed) = order {
             Random::new(seed).shuffle(&mut layout.to_mut().objects);
@@ -200,7 +199,6 @@ impl Parts {
         let bound = bind::bind(&layout, &self.model, &mut found.diagnostics);
         let mut scenario = self.scenario.clone();
         setting::apply(settings, &bound, &mut scenario, &mut found.diagnostics);
-        let scenario = scenario.replication(replication);
         let mut line = role::Line::new(&layout, bound.robots, self.model.clone(), &scenario);
         if line.is_too_large() {
             found.diagnostics.append(&mut line.diagnostics);
@@ -238,6 +236,7 @@ impl Parts {
             found.diagnostics.append(&mut line.diagnostics);
             return;
         };
+        let drawn = resolved.drawn.clone();
         let plant = plant::line(&system, &line, bound.obstacles, resolved, layout.scan_ms, machines);
         found.diagnostics.extend(overlap::overlaps(&layout, &plant));
         let transfers = transfers(&plant);
@@ -250,6 +249,6 @@ impl Parts {
         found.warnings = lint::of_layout(&layout, &system, &plant);
         let Layout { name, may_touch, .. } = &*layout;
         found.project =
-            Some(Project { name: name.clone(), system, plant, edges, may_touch: may_touch.clone() });
+            Some(Project { name: name.clone(), system, plant, drawn, edges, may_touch: may_touch.clone() });
     }
 }
