@@ -351,16 +351,20 @@ pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -
     let mut random = Random::default();
     let mut covered = Covered::default();
     let mut postpones = is_possible(&model, bounds.answers, bounds.orders);
+    let mut earlier = None;
     loop {
         let states = covered.states;
         refinement::at_random(&mut model, &mut random, states, &mut || {
             goes_on(&mut covered, begin, bounds, watch)
         });
         match attempt(&model, bounds, begin, postpones, watch) {
-            Ok(outcome) => return outcome.or_checked(covered.failing),
-            Err((again, refinements)) => {
+            Ok(outcome) => return outcome.or_checked(covered.failing).or_earlier(earlier),
+            Err(Again { covered: again, refinements, undecided }) => {
                 covered = Covered { failing: covered.failing.max(again.failing), ..again };
-                postpones &= !refinements.is_empty();
+                if let Some(undecided) = undecided {
+                    postpones = false;
+                    earlier = Some(undecided.or_checked(covered.failing));
+                }
                 refinement::along(&mut model, bounds, &refinements, &mut || {
                     goes_on(&mut covered, begin, bounds, watch)
                 });
@@ -380,20 +384,30 @@ fn goes_on(
     bounds.time.is_none_or(|time| covered.time <= time) && watch(covered)
 }
 
-/// The search with what is forgotten now; or what must not be. Nothing: no answer must be postponed.
+/// Why a search begins anew.
+struct Again {
+    covered: Covered,
+    /// What must not be forgotten.
+    refinements: Vec<Refinement>,
+    /// What was found, if only a search that postpones nothing can tell whether the orders can be made.
+    undecided: Option<Box<Outcome>>,
+}
+
+/// The search with what is forgotten now.
 fn attempt(
     model: &Model,
     bounds: &Bounds,
     begin: Instant,
     postpones: bool,
     watch: &mut dyn FnMut(&Covered) -> bool,
-) -> Result<Outcome, (Covered, Vec<Refinement>)> {
+) -> Result<Outcome, Again> {
     let mut search = Search::new(model, bounds, begin, postpones, watch);
     let (mut cut, checked) = search.search(model.faults);
     if !search.needed.is_empty() {
         cut = search.end();
         if cut.is_none() {
-            return Err((search.covered, search.refinements()));
+            let refinements = search.refinements();
+            return Err(Again { covered: search.covered, refinements, undecided: None });
         }
         search.found.truncate(search.certain);
     }
@@ -409,6 +423,7 @@ fn attempt(
     let mut violations: Vec<(Violation, Execution)> =
         found.into_iter().map(|found| told(&mut first, found)).collect();
     let mut remarks = Vec::new();
+    let mut is_decided = true;
     let (mut orders, mut obligations) = (Decided::NotReached, Decided::NotReached);
     if end != End::Violated && checked.states > 0 {
         let calm = Model { faults: Faults::None, ..model.clone() };
@@ -424,7 +439,10 @@ fn attempt(
         possible.bound = representatives.as_mut().map(|all| std::mem::take(&mut all.bound));
         orders = match possible.orders(&mut never) {
             Ok(orders) => orders,
-            Err(AnswersArePostponed) => return Err((covered, Vec::new())),
+            Err(AnswersArePostponed) => {
+                is_decided = false;
+                Decided::NotReached
+            }
         };
         if violations.len() + never.len() < bounds.violations {
             obligations = possible.obligations(&mut never);
@@ -442,8 +460,9 @@ fn attempt(
             remarks.extend(remarked.into_iter().map(|found| told(&mut first, found)));
         }
         // All of these scans were searched; if one had not been, nothing could be concluded.
-        if let Some(needed) = possible.expander.needed.take() {
-            return Err((covered, vec![Refinement::of(needed)]));
+        if !possible.expander.needed.is_empty() {
+            let refinements = possible.expander.needed.drain(..).map(Refinement::of).collect();
+            return Err(Again { covered, refinements, undecided: None });
         }
     }
     if end == End::Complete {
@@ -453,7 +472,7 @@ fn attempt(
     covered.time = begin.elapsed();
     let entered = representatives.map_or_else(Vec::new, |all| all.entered.into_iter().collect());
     let (values, unread) = (first.values, model.unread.clone());
-    Ok(Outcome {
+    let outcome = Outcome {
         covered,
         end,
         violations,
@@ -464,5 +483,9 @@ fn attempt(
         values,
         unread,
         entered: entered.into_iter().collect(),
-    })
+    };
+    match is_decided {
+        true => Ok(outcome),
+        false => Err(Again { covered, refinements: Vec::new(), undecided: Some(Box::new(outcome)) }),
+    }
 }

@@ -102,6 +102,17 @@ impl Outcome {
         self
     }
 
+    /// An earlier attempt says more if this one is cut: all but whether the orders can be made.
+    pub(super) fn or_earlier(self, earlier: Option<Self>) -> Self {
+        let is_cut = !matches!(self.end, End::Complete | End::Violated);
+        match earlier {
+            Some(earlier) if is_cut && self.violations.is_empty() && self.orders == Decided::NotReached => {
+                earlier
+            }
+            _ => self,
+        }
+    }
+
     /// Whether everything was checked, as far as the search knows of it, and nothing found.
     pub fn is_proved(&self) -> bool {
         let is_reached = [self.orders, self.obligations].into_iter().all(|it| it != Decided::NotReached);
