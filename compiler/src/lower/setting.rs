@@ -5,6 +5,7 @@ use super::device_key;
 use crate::diagnostic::{Diagnostic, suggestion};
 use crate::ir::{Automaton, Model};
 use crate::layout::json::{self, Json};
+use crate::layout::object::is_common;
 use crate::layout::{Layout, Object};
 use crate::scenario::Scenario;
 use crate::source::{FileId, Sources, Span};
@@ -169,8 +170,15 @@ pub fn check(settings: &[Setting], machines: &[Machine], diagnostics: &mut Vec<D
                 }
                 None => known,
             };
-            let message = format!("`{}` has no parameter and no key `{}`", setting.target, setting.parameter);
-            diagnostics.push(Diagnostic::new("E0511", setting.span, message).help(help));
+            let message = format!(
+                "`{}` has no parameter and no key of its device `{}`",
+                setting.target, setting.parameter
+            );
+            let diagnostic = Diagnostic::new("E0511", setting.span, message).help(help);
+            diagnostics.push(match is_common(&setting.parameter) {
+                true => diagnostic.note("keys of every object, such as `pose`, stand in the layout alone"),
+                false => diagnostic,
+            });
         }
     }
 }
