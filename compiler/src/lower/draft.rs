@@ -1,7 +1,9 @@
 //! A line without its values, so that it is read and checked once for many of them.
 
 use super::setting::{self, Setting};
-use super::{Project, Verdict, bind, collected, kinds, modes, overlap, plant, restart, role, short};
+use super::{
+    Project, Verdict, bind, collected, device_key, kinds, modes, overlap, plant, restart, role, short,
+};
 use crate::check::{self, Checked};
 use crate::device::panel;
 use crate::diagnostic::{self, Diagnostic};
@@ -13,7 +15,6 @@ use crate::spec::{ast, parser};
 use crate::{connect, lint, scenario};
 use runtime_sim::plant::transfers;
 use runtime_sim::random::Random;
-use std::borrow::Cow;
 use std::collections::BTreeSet;
 
 /// The layout of a line, and its other texts by their numbers in [`Sources`].
@@ -114,13 +115,19 @@ impl Draft {
         scenario: &Scenario,
         settings: &[Setting],
     ) -> Option<Model> {
+        let model = checked.model();
+        let mut found = Vec::new();
+        bind::bind(&device_key::set(layout, settings, model), model, &mut found);
+        // What other values may not have is told of each line.
+        found.retain(|found| !device_key::depends_on_values(found, layout, settings, model));
+        self.diagnostics.extend(found);
         let is_right = self.diagnostics.is_empty();
-        let bound = bind::bind(layout, checked.model(), &mut self.diagnostics);
-        setting::check(settings, &bound, checked.model(), &mut self.diagnostics);
-        if !is_right || bound.robots.len() + bound.obstacles.len() != layout.objects.len() {
+        let machines = setting::machines(layout, model);
+        setting::check(settings, &machines, &mut self.diagnostics);
+        if !is_right {
             return None;
         }
-        let names: BTreeSet<String> = bound.robots.iter().map(|r| r.automaton.clone()).collect();
+        let names: BTreeSet<String> = machines.iter().map(|(_, automaton)| automaton.name.clone()).collect();
         let mut used = check::used(files, &names);
         if layout.panel == Panel::Machines {
             panel::add(&mut used);
@@ -192,13 +199,17 @@ impl Draft {
 
 impl Parts {
     fn line(&self, found: &mut Line, settings: &[Setting], order: Option<u64>) {
-        let mut layout = Cow::Borrowed(&self.layout);
+        let mut layout = device_key::set(&self.layout, settings, &self.model);
         if let Some(seed) = order {
             Random::new(seed).shuffle(&mut layout.to_mut().objects);
         }
         let bound = bind::bind(&layout, &self.model, &mut found.diagnostics);
+        if bound.robots.len() + bound.obstacles.len() != layout.objects.len() {
+            return;
+        }
         let mut scenario = self.scenario.clone();
-        setting::apply(settings, &bound, &mut scenario, &mut found.diagnostics);
+        let machines = setting::machines(&layout, &self.model);
+        setting::apply(settings, &machines, &mut scenario, &mut found.diagnostics);
         let mut line = role::Line::new(&layout, bound.robots, self.model.clone(), &scenario);
         if line.is_too_large() {
             found.diagnostics.append(&mut line.diagnostics);

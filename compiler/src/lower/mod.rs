@@ -3,6 +3,7 @@
 
 pub(crate) mod bind;
 mod collected;
+mod device_key;
 mod draft;
 mod kinds;
 pub mod modes;
