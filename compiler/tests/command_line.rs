@@ -11,6 +11,8 @@ mod copies;
 mod counterexample;
 #[path = "command_line/daily.rs"]
 mod daily;
+#[path = "command_line/device_keys.rs"]
+mod device_keys;
 #[path = "command_line/drives.rs"]
 mod drives;
 #[cfg(unix)]

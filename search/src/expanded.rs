@@ -185,9 +185,7 @@ impl Expanded {
         } else {
             expander.expand_part(part, &before, restless, &mut emit);
         }
-        if let Some(needed) = expander.needed.take() {
-            steps.insert(begin, Step::Needs(needed));
-        }
+        steps.splice(begin..begin, expander.needed.drain(..).map(Step::Needs));
         after.has_new_values = expander.values.count() != count;
         after.end = steps.len();
         states.push(after);

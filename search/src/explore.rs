@@ -5,12 +5,11 @@
 mod arrival;
 mod outcome;
 
+use outcome::{Again, Certain};
 pub use outcome::{Bounds, Covered, Decided, End, Outcome};
 
-use outcome::Found;
-
 use crate::event::Event;
-use crate::expanded::{self, Expanded};
+use crate::expanded::{self, Expanded, Step};
 use crate::model::Model;
 use crate::plant::Faults;
 use crate::possible::{Allowance, AnswersArePostponed, Edges, Mark, Possible};
@@ -59,14 +58,14 @@ struct Checked {
     edges: Mark,
 }
 
-struct Step {
+struct Found {
     violation: Violation,
     /// The state before, and what devices did then.
     from: usize,
     events: Vec<Event>,
 }
 
-impl Step {
+impl Found {
     fn told(self, store: &Reached, expander: &mut Expander) -> (Violation, Execution) {
         let execution = story::to_violation(store, expander, self.from, &self.violation, &self.events);
         (self.violation, execution)
@@ -95,10 +94,10 @@ struct Search<'a> {
     late: Vec<usize>,
     /// Where this round began.
     round: usize,
-    found: Vec<Step>,
+    found: Vec<Found>,
     known: HashSet<Violation>,
     /// Of each kind the first.
-    remarked: Vec<Step>,
+    remarked: Vec<Found>,
     /// What is forgotten and has to be known, and the states where that turned out.
     needed: Vec<(Needed, usize)>,
     /// How many violations were found before that.
@@ -271,10 +270,10 @@ impl<'a> Search<'a> {
         self.note_expanded(from, after.postponed);
         for step in expanded.steps(state) {
             match step {
-                expanded::Step::Known { state, acting, is_plain } => {
+                Step::Known { state, acting, is_plain } => {
                     self.reach(part, from, after.postponed & !acting, (*state as usize, 0), *is_plain)
                 }
-                expanded::Step::Unknown { number, acting, is_plain } => {
+                Step::Unknown { number, acting, is_plain } => {
                     let (number, mask) = (*number as usize, after.postponed & !acting);
                     if numbers.len() <= number {
                         numbers.resize(number + 1, (usize::MAX, 0));
@@ -286,17 +285,17 @@ impl<'a> Search<'a> {
                     self.reach(part, from, mask, numbers[number], *is_plain);
                 }
                 // Not from states for which this one counts, if these machines have done something else there.
-                expanded::Step::Out { acting } if acting & after.postponed != 0 => {}
-                expanded::Step::Out { .. } => self.edges.lead_out(from),
-                expanded::Step::Stop => self.edges.lead_to_stop(from),
-                expanded::Step::Found(found) => self.find(from, found),
-                expanded::Step::Needs(needed) => {
+                Step::Out { acting } if acting & after.postponed != 0 => {}
+                Step::Out { .. } => self.edges.lead_out(from),
+                Step::Stop => self.edges.lead_to_stop(from),
+                Step::Found(found) => self.find(from, found),
+                Step::Needs(needed) => {
                     if self.needed.is_empty() {
                         self.certain = self.found.len();
                     }
                     self.needed.push((*needed, from));
                 }
-                expanded::Step::Remarked(found) => self.remark(from, found),
+                Step::Remarked(found) => self.remark(from, found),
             }
         }
     }
@@ -309,14 +308,14 @@ impl<'a> Search<'a> {
 
     fn find(&mut self, from: usize, (violation, events): &(Violation, Vec<Event>)) {
         if self.found.len() < self.bounds.violations && self.known.insert(violation.clone()) {
-            self.found.push(Step { violation: violation.clone(), from, events: events.clone() });
+            self.found.push(Found { violation: violation.clone(), from, events: events.clone() });
         }
     }
 
     fn remark(&mut self, from: usize, (remark, events): &(Violation, Vec<Event>)) {
-        let is_known = |known: &Step| discriminant(&known.violation) == discriminant(remark);
+        let is_known = |known: &Found| discriminant(&known.violation) == discriminant(remark);
         if !self.remarked.iter().any(is_known) {
-            self.remarked.push(Step { violation: remark.clone(), from, events: events.clone() });
+            self.remarked.push(Found { violation: remark.clone(), from, events: events.clone() });
         }
     }
 
@@ -362,18 +361,21 @@ pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -
     let mut random = Random::default();
     let mut covered = Covered::default();
     let mut postpones = is_possible(&model, bounds.answers, bounds.orders);
-    let mut found = Found::default();
+    let (mut earlier, mut certain) = (None, Certain::default());
     loop {
         let states = covered.states;
         refinement::at_random(&mut model, &mut random, states, &mut || {
             goes_on(&mut covered, begin, bounds, watch)
         });
         match attempt(&model, bounds, begin, postpones, watch) {
-            Ok(outcome) => return outcome.or_before(covered.failing, found),
+            Ok(outcome) => return outcome.or_checked(covered.failing).or_earlier(earlier, certain),
             Err(again) => {
                 covered = Covered { failing: covered.failing.max(again.covered.failing), ..again.covered };
-                found = found.or(again.found);
-                postpones &= !again.refinements.is_empty();
+                certain = certain.or(again.certain);
+                if let Some(undecided) = again.undecided {
+                    postpones = false;
+                    earlier = Some(undecided.or_checked(covered.failing));
+                }
                 refinement::along(&mut model, bounds, &again.refinements, &mut || {
                     goes_on(&mut covered, begin, bounds, watch)
                 });
@@ -393,14 +395,6 @@ fn goes_on(
     bounds.time.is_none_or(|time| covered.time <= time) && watch(covered)
 }
 
-/// The search has to begin anew.
-struct Again {
-    covered: Covered,
-    found: Found,
-    /// What must not be forgotten. Nothing: no answer must be postponed.
-    refinements: Vec<Refinement>,
-}
-
 /// The search with what is forgotten now.
 fn attempt(
     model: &Model,
@@ -408,7 +402,7 @@ fn attempt(
     begin: Instant,
     postpones: bool,
     watch: &mut dyn FnMut(&Covered) -> bool,
-) -> Result<Outcome, Again> {
+) -> Result<Outcome, Box<Again>> {
     let mut search = Search::new(model, bounds, begin, postpones, watch);
     let (mut cut, checked) = search.search(model.faults);
     if !search.needed.is_empty() {
@@ -417,8 +411,9 @@ fn attempt(
         if cut.is_none() {
             let refinements = search.refinements();
             let Search { mut first, store, found, covered, .. } = search;
-            let violations = found.into_iter().map(|step| step.told(&store, &mut first)).collect();
-            return Err(Again { covered, found: Found { violations, values: first.values }, refinements });
+            let violations = found.into_iter().map(|found| found.told(&store, &mut first)).collect();
+            let certain = Certain { violations, values: first.values };
+            return Err(Box::new(Again { covered, certain, refinements, undecided: None }));
         }
     }
     let end = cut.unwrap_or(End::Complete);
@@ -427,9 +422,10 @@ fn attempt(
         begin, mut first, store, mut edges, mut representatives, found, remarked, mut covered, ..
     } = search;
     let mut violations: Vec<(Violation, Execution)> =
-        found.into_iter().map(|step| step.told(&store, &mut first)).collect();
-    let certain = violations.len();
+        found.into_iter().map(|found| found.told(&store, &mut first)).collect();
+    let number = violations.len();
     let mut remarks = Vec::new();
+    let mut is_decided = true;
     let (mut orders, mut obligations) = (Decided::NotReached, Decided::NotReached);
     if end != End::Violated && checked.states > 0 {
         let calm = Model { faults: Faults::None, ..model.clone() };
@@ -446,8 +442,8 @@ fn attempt(
         orders = match possible.orders(&mut never) {
             Ok(orders) => orders,
             Err(AnswersArePostponed) => {
-                let found = Found { violations, values: first.values };
-                return Err(Again { covered, found, refinements: Vec::new() });
+                is_decided = false;
+                Decided::NotReached
             }
         };
         if violations.len() + never.len() < bounds.violations {
@@ -463,13 +459,14 @@ fn attempt(
             for (remark, state) in of_orders.into_iter().flatten() {
                 remarks.push((remark, story::to_state(&store, &mut first, state)));
             }
-            remarks.extend(remarked.into_iter().map(|step| step.told(&store, &mut first)));
+            remarks.extend(remarked.into_iter().map(|found| found.told(&store, &mut first)));
         }
         // All of these scans were searched; if one had not been, nothing could be concluded.
-        if let Some(needed) = possible.expander.needed.take() {
-            violations.truncate(certain);
-            let found = Found { violations, values: first.values };
-            return Err(Again { covered, found, refinements: vec![Refinement::of(needed)] });
+        if !possible.expander.needed.is_empty() {
+            let refinements = possible.expander.needed.drain(..).map(Refinement::of).collect();
+            violations.truncate(number);
+            let certain = Certain { violations, values: first.values };
+            return Err(Box::new(Again { covered, certain, refinements, undecided: None }));
         }
     }
     if end == End::Complete {
@@ -479,7 +476,7 @@ fn attempt(
     covered.time = begin.elapsed();
     let entered = representatives.map_or_else(Vec::new, |all| all.entered.into_iter().collect());
     let (values, unread) = (first.values, model.unread.clone());
-    Ok(Outcome {
+    let outcome = Outcome {
         covered,
         end,
         violations,
@@ -490,5 +487,12 @@ fn attempt(
         values,
         unread,
         entered: entered.into_iter().collect(),
-    })
+    };
+    match is_decided {
+        true => Ok(outcome),
+        false => {
+            let undecided = Some(Box::new(outcome));
+            Err(Box::new(Again { covered, certain: Certain::default(), refinements: Vec::new(), undecided }))
+        }
+    }
 }

@@ -52,7 +52,7 @@ pub(crate) struct Alone {
     /// One of these gives a command again.
     gives: bool,
     /// What is forgotten and had to be known to find this out.
-    needed: Option<Needed>,
+    needed: Vec<Needed>,
 }
 
 #[derive(Clone)]
@@ -164,21 +164,21 @@ impl Expander<'_> {
     pub(crate) fn alone(&mut self, machine: usize, state: &[u8]) -> usize {
         let own = self.postponing.own(machine, state);
         if let Some(known) = self.postponing.known[machine].get(&own) {
-            self.needed = self.needed.or(self.postponing.alone[*known].needed);
+            self.needed.extend_from_slice(&self.postponing.alone[*known].needed);
             return *known;
         }
         self.before.copy_from_slice(state);
         self.forgotten = self.model.unread.in_state(&self.model.instances, state, u64::MAX);
         self.forgotten_before = self.forgotten;
-        let needed = self.needed.take();
+        let needed = std::mem::take(&mut self.needed);
         let count = self.values.count();
         let mut alone = self.find_alone(machine, state);
         let has_new_values = self.values.count() != count;
         if has_new_values {
             alone = self.find_alone(machine, state);
         }
-        alone.needed = self.needed.take();
-        self.needed = needed.or(alone.needed);
+        alone.needed = std::mem::replace(&mut self.needed, needed);
+        self.needed.extend_from_slice(&alone.needed);
         let number = self.postponing.alone.len();
         self.postponing.alone.push(alone);
         // New values may be given other numbers later.

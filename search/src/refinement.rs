@@ -43,14 +43,14 @@ pub(crate) fn at_random(
                     }
                 }
             });
-            if seen == 0 || expander.needed.is_some() {
+            if seen == 0 || !expander.needed.is_empty() {
                 break;
             }
             std::mem::swap(&mut state, &mut next);
         }
         fruitless += 1;
-        if let Some(needed) = expander.needed {
-            model.unread.keep(&[needed]);
+        if !expander.needed.is_empty() {
+            model.unread.keep(&expander.needed);
             fruitless = 0;
         }
     }
@@ -96,14 +96,15 @@ pub(crate) fn along(
     model.unread.keep(&needed);
     for refinement in refinements {
         while goes_on()
-            && let Some(needed) = asked_for(model, bounds, &refinement.scans)
+            && let needed = asked_for(model, bounds, &refinement.scans)
+            && !needed.is_empty()
         {
-            model.unread.keep(&[needed]);
+            model.unread.keep(&needed);
         }
     }
 }
 
-fn asked_for(model: &Model, bounds: &Bounds, scans: &[usize]) -> Option<Needed> {
+fn asked_for(model: &Model, bounds: &Bounds, scans: &[usize]) -> Vec<Needed> {
     let mut expander = Expander::new(model, bounds.answers.unwrap_or(usize::MAX), bounds.orders);
     let mut state = model.initial.clone();
     for scan in scans.iter().copied().map(Some).chain([None]) {
@@ -115,12 +116,13 @@ fn asked_for(model: &Model, bounds: &Bounds, scans: &[usize]) -> Option<Needed> 
             }
             number += 1;
         });
-        if expander.needed.is_some() {
+        if !expander.needed.is_empty() {
             return expander.needed;
         }
-        state = next?;
+        let Some(next) = next else { break };
+        state = next;
     }
-    None
+    Vec::new()
 }
 
 /// Numbers by xorshift.

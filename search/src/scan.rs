@@ -34,7 +34,7 @@ pub struct Scan<'a> {
     /// Both states are interchanged.
     pub(crate) looks_back: bool,
     /// What is forgotten and has to be known, if there is any.
-    pub(crate) needed: &'a mut Option<Needed>,
+    pub(crate) needed: &'a mut Vec<Needed>,
     /// Answers that are postponed, and what they change.
     pub(crate) postponed: (&'a Postponed, &'a Postponing),
     /// Machines of which somebody needs the answer that is postponed.
@@ -336,12 +336,17 @@ impl Scan<'_> {
     #[inline]
     pub(crate) fn load(&mut self, var: Var) -> i32 {
         let forgotten = self.model.unread.part(self.forgotten, var);
-        if forgotten != 0 && self.needed.is_none() {
-            let before: &[u8] = if self.looks_back { self.bytes } else { self.before };
-            *self.needed = Some(self.model.unread.needed(&self.model.instances, forgotten, before));
+        if forgotten != 0 {
+            self.need(forgotten);
         }
         self.observe(var);
         var.load(self.bytes)
+    }
+
+    #[cold]
+    fn need(&mut self, forgotten: u128) {
+        let before: &[u8] = if self.looks_back { self.bytes } else { self.before };
+        self.model.unread.needed(&self.model.instances, forgotten, before, self.needed);
     }
 
     /// A value is read.
@@ -360,8 +365,8 @@ impl Scan<'_> {
         let known = self.forgotten & !unread.owned(changed);
         let forgotten = known | unread.in_state(instances, self.bytes, changed);
         let again = self.forgotten & !forgotten;
-        if again != 0 && self.needed.is_none() {
-            *self.needed = Some(unread.needed(instances, again, self.before));
+        if again != 0 {
+            unread.needed(instances, again, self.before, self.needed);
         }
         for cell in unread.of(forgotten & !self.forgotten) {
             cell.var.store(self.bytes, cell.instead);

@@ -72,7 +72,7 @@ pub struct Expander<'a> {
     pub(crate) forgotten: u128,
     pub(crate) forgotten_before: u128,
     /// What was forgotten and has to be known, since this was last asked.
-    pub(crate) needed: Option<Needed>,
+    pub(crate) needed: Vec<Needed>,
     pub(crate) postponing: Postponing,
     pub(crate) postponed: Postponed,
     /// Successors are looked at, and not told.
@@ -140,7 +140,7 @@ impl<'a> Expander<'a> {
             told: Told::default(),
             forgotten: 0,
             forgotten_before: 0,
-            needed: None,
+            needed: Vec::new(),
             postponing: Postponing::default(),
             postponed: Postponed::default(),
             is_silent: false,

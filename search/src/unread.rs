@@ -159,12 +159,25 @@ impl Unread {
         })
     }
 
-    /// The first of these values has to be known in this state.
-    pub(crate) fn needed(&self, instances: &[Instance], mask: u128, state: &[u8]) -> Needed {
-        let number = mask.trailing_zeros() as usize;
-        let cell = &self.cells[number];
-        let mode = self.owners[cell.owner].mode(&instances[cell.owner], state);
-        Needed { cell: number, mode: cell.token.map_or(mode, |token| token.within(mode, state)) }
+    /// Notes that these values have to be known in this state.
+    pub(crate) fn needed(
+        &self,
+        instances: &[Instance],
+        mut mask: u128,
+        state: &[u8],
+        noted: &mut Vec<Needed>,
+    ) {
+        while mask != 0 && noted.len() < MOST {
+            let number = mask.trailing_zeros() as usize;
+            let cell = &self.cells[number];
+            let mode = self.owners[cell.owner].mode(&instances[cell.owner], state);
+            let needed =
+                Needed { cell: number, mode: cell.token.map_or(mode, |token| token.within(mode, state)) };
+            if !noted.contains(&needed) {
+                noted.push(needed);
+            }
+            mask &= mask - 1;
+        }
     }
 
     /// From now on they are known there, as are all of their kinds; one that was known already, in every mode.

@@ -17,6 +17,7 @@ const Figures = (() => {
     const contacts = (results.collisions || []).length;
     const figures = [
       results.orders ? ['orders made', `${results.orders_done} of ${results.orders}`] : null,
+      results.items_asked === undefined ? null : ['items collected', `${results.items_collected} of ${results.items_asked}`],
       results.seconds_per_order ? ['seconds per order', results.seconds_per_order.toFixed(2)] : null,
       ['simulated', clock(Data.endMs)],
       ['contacts', String(contacts)],

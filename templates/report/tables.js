@@ -23,7 +23,8 @@ const Tables = (() => {
       { name: 'seconds', isNumber: true, show: (o) => seconds(duration(o)), sort: duration },
     ], rows, {
       chosen: (o) => Player.seek((o.made_s === null ? o.opened_s || 0 : o.made_s) * 1000),
-      empty: 'The scenario orders nothing.',
+      empty: Data.results.items_asked === undefined ? 'The scenario has no orders and no goal.'
+        : `The scenario has no orders: its goal is items in sinks. ${Data.results.items_collected} of ${Data.results.items_asked} were collected.`,
     });
   }
 

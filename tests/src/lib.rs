@@ -2,6 +2,7 @@
 
 pub mod bounds;
 pub mod browser;
+pub mod compiled_simulator;
 pub mod constructs;
 pub mod coverage;
 pub mod equal;

@@ -1,8 +1,8 @@
 //! The generated Rust workspace on disk, and what cargo makes of it.
 
+use crate::compiled_simulator;
 use autogen::backend::rust;
 use autogen::ir::System;
-use autogen::simulator;
 use autogen::source::Sources;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -25,10 +25,9 @@ impl Workspace {
         let folder = env::temp_dir().join(format!("autogen-tests-{}", std::process::id())).join(name);
         let _ = fs::remove_dir_all(&folder);
         let workspace = Self { folder };
-        for (path, text) in simulator::SOURCES {
-            workspace.put(&format!("runtime-sim/{path}"), text);
+        for (path, text) in compiled_simulator::sources() {
+            workspace.put(&path, text);
         }
-        workspace.put("runtime-sim/Cargo.toml", simulator::MANIFEST);
         workspace
     }
 
@@ -46,8 +45,12 @@ impl Workspace {
         fs::write(path, text).expect("a file that can be written");
     }
 
-    /// Runs cargo, which has to succeed. All workspaces share a folder of results.
+    /// Runs cargo, which has to succeed. The simulator, the same in all workspaces, is compiled once for all.
     pub fn cargo(&self, arguments: &[&str]) -> Output {
+        let profile = if arguments.contains(&"--release") { "release" } else { "debug" };
+        if matches!(arguments[0], "build" | "test") && !self.target().join(profile).exists() {
+            compiled_simulator::copy(&self.folder, profile);
+        }
         let output = Command::new(env!("CARGO"))
             .args(arguments)
             .current_dir(&self.folder)

@@ -108,6 +108,11 @@ fn the_page_draws_plays_and_zooms_and_shows_the_places_of_the_run() {
                 found["colours"]
             );
         }
+        let asked = &run.results["items_asked"];
+        let of_goal = format!("{} of {asked}", run.results["items_collected"]);
+        for shown in ["ordered", "figures"].map(|key| found[key].as_str().expect("a text")) {
+            assert_eq!(shown.contains(&of_goal), asked.is_u64(), "{name}: {shown}");
+        }
         let (mut compared, mut became) = (0, 0);
         for (ms, drawn) in times.iter().zip(found["drawn"].as_array().expect("a list")) {
             assert_eq!(drawn["shown"].as_f64(), Some(*ms as f64), "{name}");

@@ -1,10 +1,14 @@
 //! The layout from above, as SVG: x to the right, y upwards, with an arrow for each edge.
 
+mod arrow;
+
 use super::footprint::{self, Shape};
 use crate::connect::Edge;
+use arrow::Arrow;
 use runtime_sim::line::Line;
 use runtime_sim::machine::Machine;
 use runtime_sim::part::axis::Motion;
+use runtime_sim::part::lane::{CentreLine, Lane};
 use runtime_sim::point::Point;
 use std::fmt::Write;
 
@@ -31,7 +35,8 @@ pub fn svg(line: &Line, edges: &[Edge]) -> String {
     }
     for edge in edges {
         let (from, to) = (&line.machines[edge.from], &line.machines[edge.to]);
-        drawing.edge(meeting(from, to, true), meeting(to, from, false));
+        let arrow = Arrow::between(meeting(from, to, true), meeting(to, from, false));
+        drawing.edge(&arrow.outside(&outlines(from), &outlines(to)));
     }
     drawing.finish()
 }
@@ -46,15 +51,48 @@ fn meeting(machine: &Machine, other: &Machine, leaves: bool) -> Point {
         let part = (other.pose - from).dot(rail) / rail.dot(rail);
         return from + rail.scaled(part.clamp(0.0, 1.0));
     }
-    match machine.axes()[..] {
-        [axis] => match axis.motion {
-            Motion::Slides { along, range: [low, high] } => {
-                machine.pose.with_coordinate(along, other.pose.coordinate(along).clamp(low, high))
-            }
-            Motion::Turns => machine.pose,
-        },
+    if let [axis] = machine.axes()[..]
+        && let Motion::Slides { along, range: [low, high] } = axis.motion
+    {
+        return machine.pose.with_coordinate(along, other.pose.coordinate(along).clamp(low, high));
+    }
+    if let Some(lane) = machine.lane().filter(|lane| !matches!(lane.centre_line, CentreLine::Axis { .. })) {
+        return nearest(lane, other.pose);
+    }
+    let outlines = outlines(machine);
+    match outlines.first() {
+        Some(first) if !outlines.iter().any(|shape| arrow::contains(shape, machine.pose)) => middle(first),
         _ => machine.pose,
     }
+}
+
+/// The place on a conveyor that is nearest.
+fn nearest(lane: &Lane, other: Point) -> Point {
+    let line = &lane.centre_line;
+    let places = (0..=PLACES).map(|place| line.end() + line.length() * place as f64 / PLACES as f64);
+    let points = places.map(|place| line.point(place, 0.0));
+    let far = |point: &Point| (point.x - other.x).hypot(point.y - other.y);
+    points.min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or(other)
+}
+
+/// Pieces of a conveyor that are compared.
+const PLACES: usize = 32;
+
+fn middle(shape: &Shape) -> Point {
+    match shape {
+        Shape::Rectangle { centre, .. } | Shape::Circle { centre, .. } => *centre,
+        Shape::Line { from, to } => (*from + *to).scaled(0.5),
+        Shape::Polygon(corners) => {
+            let sum = corners.iter().fold(Point::default(), |sum, corner| sum + *corner);
+            sum.scaled(1.0 / corners.len().max(1) as f64)
+        }
+    }
+}
+
+/// What an arrow does not cross: not where a gantry can be, in which everything else is.
+fn outlines(machine: &Machine) -> Vec<Shape> {
+    let shapes = footprint::shapes(machine).into_iter().filter(|(_, class)| *class != "range");
+    shapes.map(|(shape, _)| shape).collect()
 }
 
 struct Drawing {
@@ -125,10 +163,7 @@ impl Drawing {
         );
     }
 
-    fn edge(&mut self, from: Point, to: Point) {
-        // A bow to one side keeps arrows apart from the paths of vehicles.
-        let (dx, dy) = (to.x - from.x, to.y - from.y);
-        let bend = Point::new((from.x + to.x) / 2.0 - 0.12 * dy, (from.y + to.y) / 2.0 + 0.12 * dx, 0.0);
+    fn edge(&mut self, Arrow { from, bend, to }: &Arrow) {
         let _ = writeln!(
             self.body,
             "<path class=\"edge\" d=\"M {:.1} {:.1} Q {:.1} {:.1} {:.1} {:.1}\"/>",

@@ -7,7 +7,7 @@ use crate::source::Span;
 
 /// Operations that one guard, definition or condition may take at most.
 const MOST: u64 = 1_000_000;
-/// Members that a role is taken to have, before a layout is known.
+/// Members that a role without a greatest number is taken to have, before a layout is known.
 const MEMBERS: u64 = 16;
 
 impl Context<'_, '_> {
@@ -29,7 +29,7 @@ impl Context<'_, '_> {
             self.report(
                 Diagnostic::new("E0320", place, "this could take too long for one scan")
                     .label(format!("up to {work} operations, {MOST} are allowed"))
-                    .note(format!("nested ranges multiply; a role counts as {MEMBERS} members"))
+                    .note(format!("nested ranges multiply; a role counts with the most members that it may have, `[]` and `[1..]` as {MEMBERS}"))
                     .help("use shorter ranges, nest fewer of them, or keep a result in a local variable"),
             );
         }
@@ -81,7 +81,7 @@ impl<'a> Work<'a> {
 
     fn size(&self, variable: VariableId, domain: &Domain) -> u64 {
         match domain {
-            Domain::Role(_) => MEMBERS,
+            Domain::Role(id) => self.automaton.roles[id.0].max.map_or(MEMBERS, |max| max as u64),
             Domain::Enum(id) => self.model.enums[id.0].members.len() as u64,
             Domain::Range(..) => match self.automaton.variables[variable.0].ty.scalar {
                 Scalar::Int { lo, hi } => (i64::from(hi) - i64::from(lo)).unsigned_abs() + 1,

@@ -44,12 +44,13 @@ pub fn run(options: &BuildCommandOptions) -> Status {
     }
     let done = build(options).and_then(|built| {
         let output = open(options, &built).map_err(|refusal| refused(options, &refusal))?;
+        let of_a_run = output.of_a_run();
         let make = |files: &mut dyn Sink| built.write(files);
         let names = write(options, &built, make, &output).map_err(|refusal| refused(options, &refusal))?;
-        Ok((built.folder, names))
+        Ok((built.folder, names, dropped::of_a_run(&of_a_run, &output.of_a_run())))
     });
     match done {
-        Ok((folder, names)) => {
+        Ok((folder, names, removed)) => {
             if options.input.format == Format::Json {
                 say!(
                     "{}",
@@ -57,6 +58,9 @@ pub fn run(options: &BuildCommandOptions) -> Status {
                 );
             } else if !options.input.quiet {
                 say!("{} files written to {}", names.len() + 1, folder.display());
+                if let Some(removed) = removed {
+                    say!("{removed}");
+                }
                 if let Ok(bounds) = fs::read_to_string(folder.join("plc/bounds.txt")) {
                     say_part!("\n{bounds}");
                 }

@@ -4,6 +4,7 @@ use super::alarm;
 use super::build::{self, Built};
 use super::contact;
 use super::controllers::{self, Notice};
+use super::dropped;
 use super::fault;
 use super::io_trace::IoTrace;
 use super::options::{CommissionOptions, Format};
@@ -80,6 +81,7 @@ fn commission(options: &CommissionOptions) -> Result<Status, End> {
     let refused = |refusal| End::Said(build::refused(&options.build, &refusal));
     // Until the results are written, so that they are those of what is in the folder.
     let output = build::open(&options.build, &built).map_err(refused)?;
+    let of_last_run = output.of_a_run();
     let make = |files: &mut dyn Sink| built_files.iter().for_each(|(name, text)| files.file(name, text));
     build::write(&options.build, &built, make, &output).map_err(refused)?;
     let names = if options.no_report { &OF_A_RUN[..1] } else { &OF_A_RUN[..] };
@@ -107,6 +109,12 @@ fn commission(options: &CommissionOptions) -> Result<Status, End> {
     let wall = begin.elapsed().as_secs_f64();
     report["wall_s"] = json!((wall * 1000.0).round() / 1000.0);
     show(options, &output, &report, wall);
+    if let Some(removed) = dropped::of_a_run(&of_last_run, &output.of_a_run())
+        && options.build.input.format == Format::Text
+        && !options.build.input.quiet
+    {
+        say!("{removed}");
+    }
     Ok(match report["finished"].as_bool() {
         Some(true) => Status::Done,
         _ if report["reason"].as_str().is_some_and(|r| r.starts_with("bug: ")) => Status::Bug,

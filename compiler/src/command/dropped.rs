@@ -1,4 +1,4 @@
-//! Options that the last build into a folder had and this one has not.
+//! What the last build into a folder, or a run, has left there and this one has not.
 
 /// What each of them puts into the files.
 const OPTIONS: [(&str, &str); 3] = [
@@ -14,6 +14,17 @@ pub fn notes(last: &str, now: &str) -> Vec<String> {
     dropped
         .map(|(option, what)| format!("without `{option}`, {what} are no longer there: `{last}` wrote them"))
         .collect()
+}
+
+/// What of an earlier run was there and is no more.
+pub fn of_a_run(before: &[&str], after: &[&str]) -> Option<String> {
+    let gone: Vec<&str> = before.iter().filter(|name| !after.contains(name)).copied().collect();
+    let belongs = match gone[..] {
+        [] => return None,
+        [_] => "was removed: it does",
+        _ => "were removed: they do",
+    };
+    Some(format!("{} of an earlier run {belongs} not belong to what the folder has now", gone.join(" and ")))
 }
 
 #[cfg(test)]

@@ -78,8 +78,8 @@ pub struct InputOptions {
     /// The scenario, a JSON file; default: `scenario.json` beside the layout, else the built-in one
     #[arg(long, value_name = "FILE")]
     pub scenario: Option<PathBuf>,
-    /// Sets a parameter of a type or of one robot, such as agv.capacity=4
-    #[arg(long = "set", value_name = "NAME.PARAM=VALUE")]
+    /// Sets a parameter or a key of the device, of a type or of one machine, such as agv.capacity=4 or mill.cut=60
+    #[arg(long = "set", value_name = "NAME.KEY=VALUE")]
     pub settings: Vec<String>,
     /// Steps the robots in an order drawn from this seed instead of layout order
     #[arg(long, value_name = "SEED")]
@@ -216,9 +216,9 @@ pub struct SweepOptions {
     /// The scenario, a JSON file; default: `scenario.json` beside each layout, else the built-in one
     #[arg(long, value_name = "FILE")]
     pub scenario: Option<PathBuf>,
-    /// Values of a parameter of a type or of one robot, such as agv.capacity=2,4,8; commas within
-    /// brackets or quotes belong to a value
-    #[arg(long = "set", value_name = "NAME.PARAM=V1,V2,...")]
+    /// Values of a parameter or of a key of the device, of a type or of one machine, such as agv.capacity=2,4,8 or
+    /// mill.cut=30,60; commas within brackets or quotes belong to a value
+    #[arg(long = "set", value_name = "NAME.KEY=V1,V2,...")]
     pub settings: Vec<String>,
     /// Seeds of orders of the steps; without it, layout order
     #[arg(long, value_name = "SEED,...", value_delimiter = ',')]

@@ -74,8 +74,10 @@ fn unmet(object: &Object, placed: &Placed) -> Result<(), Vec<Diagnostic>> {
     let found: Vec<Diagnostic> = unmet
         .into_iter()
         .map(|unmet| {
-            let mut members = object.members.iter();
-            let member = members.find(|member| unmet.parameters.contains(&member.key.value));
+            let members = object.members.iter();
+            let named = members.filter(|member| unmet.parameters.contains(&member.key.value));
+            // A key that the command line gives, if there is one: the layout without it may be right.
+            let member = named.min_by_key(|member| member.value.span.file == object.span.file);
             let place = member.map_or(object.span, |member| member.value.span);
             Diagnostic::new("E0124", place, format!("\"{}\": {}", object.name.value, unmet.text))
                 .other(unmet.place, "required here")

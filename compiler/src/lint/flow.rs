@@ -1,5 +1,6 @@
 //! States and transitions that cannot come.
 
+use super::contradiction;
 use super::implies::{Facts, constant};
 use crate::diagnostic::Diagnostic;
 use crate::ir::{Automaton, Clause, Expr, ExprKind, State, Transition, Value};
@@ -7,6 +8,9 @@ use crate::ir::{Automaton, Clause, Expr, ExprKind, State, Transition, Value};
 pub fn check(automaton: &Automaton, found: &mut Vec<Diagnostic>) {
     for state in &automaton.states {
         for (number, transition) in state.transitions.iter().enumerate() {
+            if contradiction::never_holds(automaton, transition) {
+                continue;
+            }
             if let Some(before) = covering(automaton, state, number) {
                 let message = format!(
                     "`{}` never fires in `{}`: the one before it always does",
@@ -67,7 +71,9 @@ fn reached(automaton: &Automaton) -> Vec<bool> {
         let state = &automaton.states[number];
         let can_fire = |(number, transition): &(usize, &Transition)| {
             let is_false = |condition: &Expr| condition.kind == ExprKind::Constant(Value::Bool(false));
-            !conditions(transition).any(is_false) && covering(automaton, state, *number).is_none()
+            !conditions(transition).any(is_false)
+                && !contradiction::never_holds(automaton, transition)
+                && covering(automaton, state, *number).is_none()
         };
         let firing = state.transitions.iter().enumerate().filter(can_fire);
         open.extend(firing.filter_map(|(_, transition)| transition.target).map(|target| target.0));

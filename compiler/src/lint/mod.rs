@@ -1,6 +1,7 @@
 //! What is no error and hardly meant: warnings, from the texts of the types and from the layout.
 
 mod answer;
+mod contradiction;
 mod failure;
 mod flow;
 mod implies;
@@ -22,6 +23,7 @@ pub fn warnings(model: &Model, files: &[(FileId, ast::File)], panel: Panel) -> V
     let mut found = Vec::new();
     for automaton in &model.automata {
         flow::check(automaton, &mut found);
+        contradiction::check(automaton, &mut found);
         failure::check(automaton, &mut found);
         answer::check(automaton, &mut found);
         overwritten::check(automaton, &mut found);

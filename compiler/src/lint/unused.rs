@@ -28,7 +28,7 @@ pub fn check(model: &Model, files: &[(FileId, ast::File)], found: &mut Vec<Diagn
     let mut all = Uses::default();
     for automaton in &model.automata {
         let mut uses = Uses::default();
-        uses.automaton(automaton);
+        uses.automaton(model, automaton);
         let own = automaton.parameters.iter().enumerate().filter(|(_, parameter)| parameter.is_settable());
         found.extend(
             own.filter(|(number, _)| !uses.has_parameter(automaton, *number)).map(|(_, p)| unread(p)),
@@ -100,14 +100,14 @@ impl Uses {
         Some(Diagnostic::new(code, place?, message).help("remove it, or use it"))
     }
 
-    fn automaton(&mut self, automaton: &Automaton) {
+    fn automaton(&mut self, model: &Model, automaton: &Automaton) {
         automaton.defines.iter().for_each(|define| self.expr(&define.value));
         automaton.properties.iter().flat_map(Property::exprs).for_each(|expr| self.expr(expr));
         for state in &automaton.states {
             state.within.iter().for_each(|(longest, _)| self.expr(longest));
             for transition in &state.transitions {
                 transition.clauses.iter().for_each(|clause| self.clause(clause));
-                transition.updates.iter().for_each(|update| self.update(automaton, &update.kind));
+                transition.updates.iter().for_each(|update| self.update(model, automaton, &update.kind));
             }
         }
     }
@@ -136,17 +136,18 @@ impl Uses {
         }
     }
 
-    /// A local to which its first value is written keeps it.
-    fn update(&mut self, automaton: &Automaton, update: &UpdateKind) {
+    /// A variable to which its first value is written keeps it.
+    fn update(&mut self, model: &Model, automaton: &Automaton, update: &UpdateKind) {
         match update {
             UpdateKind::Assign { target, value, .. } | UpdateKind::Fill { target, value, .. } => {
-                let is_first = match &target.place {
-                    Place::Local { local, .. } => {
-                        constant(automaton, value) == Some(automaton.locals[*local].initial)
+                let first = match &target.place {
+                    Place::Local { local, .. } => Some(automaton.locals[*local].initial),
+                    Place::Cell { interface, cell, .. } => {
+                        Some(model.interfaces[interface.0].cells[*cell].initial)
                     }
-                    _ => false,
+                    _ => None,
                 };
-                match is_first {
+                match first.is_some() && constant(automaton, value) == first {
                     true => target.place.parts().into_iter().for_each(|part| self.expr(part)),
                     false => self.write(&target.place),
                 }

@@ -1,7 +1,9 @@
 //! A line without its values, so that it is read and checked once for many of them.
 
 use super::setting::{self, Setting};
-use super::{Project, Verdict, bind, collected, kinds, modes, overlap, plant, restart, role, short};
+use super::{
+    Project, Verdict, bind, collected, device_key, kinds, modes, overlap, plant, restart, role, short,
+};
 use crate::check::{self, Checked};
 use crate::device::panel;
 use crate::diagnostic::{self, Diagnostic};
@@ -13,7 +15,6 @@ use crate::spec::{ast, parser};
 use crate::{connect, lint, scenario};
 use runtime_sim::plant::transfers;
 use runtime_sim::random::Random;
-use std::borrow::Cow;
 use std::collections::BTreeSet;
 
 /// The layout of a line, and its other texts by their numbers in [`Sources`].
@@ -114,13 +115,19 @@ impl Draft {
         scenario: &Scenario,
         settings: &[Setting],
     ) -> Option<Model> {
+        let model = checked.model();
+        let mut found = Vec::new();
+        bind::bind(&device_key::set(layout, settings, model), model, &mut found);
+        // What other values may not have is told of each line.
+        found.retain(|found| !device_key::depends_on_values(found, layout, settings, model));
+        self.diagnostics.extend(found);
         let is_right = self.diagnostics.is_empty();
-        let bound = bind::bind(layout, checked.model(), &mut self.diagnostics);
-        setting::check(settings, &bound, checked.model(), &mut self.diagnostics);
-        if !is_right || bound.robots.len() + bound.obstacles.len() != layout.objects.len() {
+        let machines = setting::machines(layout, model);
+        setting::check(settings, &machines, &mut self.diagnostics);
+        if !is_right {
             return None;
         }
-        let names: BTreeSet<String> = bound.robots.iter().map(|r| r.automaton.clone()).collect();
+        let names: BTreeSet<String> = machines.iter().map(|(_, automaton)| automaton.name.clone()).collect();
         let mut used = check::used(files, &names);
         if layout.panel == Panel::Machines {
             panel::add(&mut used);
@@ -171,9 +178,8 @@ impl Draft {
         self.items
     }
 
-    /// The line with these values, and with its instances in layout order or in one drawn from `order`. Replication 0 is
-    /// that of the scenario; another one adds its number to the seed of the supply.
-    pub fn line(&self, settings: &[Setting], order: Option<u64>, replication: u32) -> Line {
+    /// The line with these values, and with its instances in layout order or in one drawn from `order`.
+    pub fn line(&self, settings: &[Setting], order: Option<u64>) -> Line {
         let mut line = Line {
             diagnostics: self.diagnostics.clone(),
             warnings: Vec::new(),
@@ -181,7 +187,7 @@ impl Draft {
             project: None,
         };
         if let Some(parts) = &self.parts {
-            parts.line(&mut line, settings, order, replication);
+            parts.line(&mut line, settings, order);
             diagnostic::sort(&mut line.diagnostics);
         }
         if !line.diagnostics.is_empty() {
@@ -192,15 +198,18 @@ impl Draft {
 }
 
 impl Parts {
-    fn line(&self, found: &mut Line, settings: &[Setting], order: Option<u64>, replication: u32) {
-        let mut layout = Cow::Borrowed(&self.layout);
+    fn line(&self, found: &mut Line, settings: &[Setting], order: Option<u64>) {
+        let mut layout = device_key::set(&self.layout, settings, &self.model);
         if let Some(seed) = order {
             Random::new(seed).shuffle(&mut layout.to_mut().objects);
         }
         let bound = bind::bind(&layout, &self.model, &mut found.diagnostics);
+        if bound.robots.len() + bound.obstacles.len() != layout.objects.len() {
+            return;
+        }
         let mut scenario = self.scenario.clone();
-        setting::apply(settings, &bound, &mut scenario, &mut found.diagnostics);
-        let scenario = scenario.replication(replication);
+        let machines = setting::machines(&layout, &self.model);
+        setting::apply(settings, &machines, &mut scenario, &mut found.diagnostics);
         let mut line = role::Line::new(&layout, bound.robots, self.model.clone(), &scenario);
         if line.is_too_large() {
             found.diagnostics.append(&mut line.diagnostics);
@@ -238,6 +247,7 @@ impl Parts {
             found.diagnostics.append(&mut line.diagnostics);
             return;
         };
+        let drawn = resolved.drawn.clone();
         let plant = plant::line(&system, &line, bound.obstacles, resolved, layout.scan_ms, machines);
         found.diagnostics.extend(overlap::overlaps(&layout, &plant));
         let transfers = transfers(&plant);
@@ -250,6 +260,6 @@ impl Parts {
         found.warnings = lint::of_layout(&layout, &system, &plant);
         let Layout { name, may_touch, .. } = &*layout;
         found.project =
-            Some(Project { name: name.clone(), system, plant, edges, may_touch: may_touch.clone() });
+            Some(Project { name: name.clone(), system, plant, drawn, edges, may_touch: may_touch.clone() });
     }
 }

@@ -3,6 +3,7 @@
 
 pub(crate) mod bind;
 mod collected;
+mod device_key;
 mod draft;
 mod kinds;
 pub mod modes;
@@ -20,8 +21,10 @@ pub use setting::Setting;
 
 use crate::diagnostic::Diagnostic;
 use crate::layout::{MayTouch, Reading};
+use crate::scenario::Drawn;
 use crate::source::{FileId, Sources};
 use crate::{connect, ir};
+use runtime_sim::line::Supply;
 use runtime_sim::part::Primitive;
 use runtime_sim::plant::{By, Transfer};
 
@@ -46,10 +49,27 @@ pub struct Project {
     pub system: ir::System,
     /// What the simulator needs; its machines are the instances.
     pub plant: runtime_sim::line::Line,
+    /// How the supply was drawn from the seed, if it was.
+    pub drawn: Option<Drawn>,
     /// Between instances.
     pub edges: Vec<connect::Edge>,
     /// The pairs of which the layout says that they may touch.
     pub may_touch: Vec<MayTouch>,
+}
+
+impl Project {
+    /// What the simulator needs for a replication: that of the scenario is 0, another one adds its number to the seed. A
+    /// supply that is a list stays as it is.
+    pub fn replication(&self, number: u32) -> runtime_sim::line::Line {
+        let mut plant = self.plant.clone();
+        let seed = (plant.scenario.seed as u32).wrapping_add(number);
+        plant.scenario.seed = u64::from(seed);
+        if let Some(drawn) = &self.drawn {
+            let supply = drawn.supply(seed).into_iter();
+            plant.scenario.supply = supply.map(|(belt, items)| Supply { belt, items }).collect();
+        }
+        plant
+    }
 }
 
 /// Two machines that meet.
@@ -172,7 +192,7 @@ pub struct Outcome {
 pub fn compile(input: Input) -> Outcome {
     let Input { sources, layout, specs, scenario, settings, order } = input;
     let draft = Draft::new(&sources, Texts { layout, specs: &specs, scenario }, &settings);
-    let Line { diagnostics, warnings: of_layout, verdict, project } = draft.line(&settings, order, 0);
+    let Line { diagnostics, warnings: of_layout, verdict, project } = draft.line(&settings, order);
     let warnings = draft.warnings().iter().cloned().chain(of_layout).collect();
     Outcome { sources, diagnostics, warnings, verdict, project }
 }

@@ -49,7 +49,7 @@ impl Line<'_> {
         let set = settings
             .iter()
             .rev()
-            .find(|s| s.parameter == parameter.name && s.applies_to(&self.robots[robot]));
+            .find(|s| s.parameter == parameter.name && s.applies_to(self.robots[robot].object));
         let in_layout = self.robots[robot].object.parameters.iter().find(|(n, _)| n.value == parameter.name);
         let json = set.map(|s| s.value.clone()).or_else(|| in_layout.map(|(_, json)| json.clone()));
         match (json, &parameter.source) {

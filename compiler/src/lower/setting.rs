@@ -1,13 +1,17 @@
-//! `--set TYPE.PARAM=VALUE` and `--set ROBOT.PARAM=VALUE`, and of the scenario `--set supply.seed=VALUE`.
+//! `--set TYPE.NAME=VALUE` and `--set MACHINE.NAME=VALUE`, and of the scenario `--set supply.seed=VALUE`.
 
-use super::bind::{Bound, Robot};
+use super::bind::automaton_name;
+use super::device_key;
 use crate::diagnostic::{Diagnostic, suggestion};
-use crate::ir::Model;
+use crate::ir::{Automaton, Model};
 use crate::layout::json::{self, Json};
+use crate::layout::object::is_common;
+use crate::layout::{Layout, Object};
 use crate::scenario::Scenario;
 use crate::source::{FileId, Sources, Span};
+use std::collections::{HashMap, HashSet};
 
-/// A parameter set on the command line.
+/// A parameter of automata, or a key of devices, set on the command line.
 #[derive(Clone, Debug)]
 pub struct Setting {
     /// A type as the layout writes it, or the name of a robot.
@@ -25,7 +29,7 @@ impl Setting {
         let form = || {
             vec![
                 Diagnostic::new("E0510", span, format!("`{text}` is not a setting"))
-                    .help("write TYPE.PARAMETER=VALUE or ROBOT.PARAMETER=VALUE, such as agv.capacity=4"),
+                    .help("write TYPE.NAME=VALUE or MACHINE.NAME=VALUE, such as agv.capacity=4: NAME is a parameter of the automaton or a key of the device"),
             ]
         };
         let (name, written) = text.split_once('=').ok_or_else(form)?;
@@ -51,9 +55,20 @@ impl Setting {
         Ok(Setting { target: target.into(), parameter: parameter.into(), value, span })
     }
 
-    pub fn applies_to(&self, robot: &Robot) -> bool {
-        robot.object.name.value == self.target || robot.object.kind.value == self.target
+    pub fn applies_to(&self, object: &Object) -> bool {
+        object.name.value == self.target || object.kind.value == self.target
     }
+}
+
+/// A machine of the layout with its automaton.
+pub type Machine<'a> = (&'a Object, &'a Automaton);
+
+/// All machines of the layout, whether or not their keys are right.
+pub fn machines<'a>(layout: &'a Layout, model: &'a Model) -> Vec<Machine<'a>> {
+    let automata: HashMap<&str, &Automaton> = model.automata.iter().map(|a| (a.name.as_str(), a)).collect();
+    let machine =
+        |object: &'a Object| Some((object, *automata.get(automaton_name(&object.kind.value).as_str())?));
+    layout.objects.iter().filter_map(machine).collect()
 }
 
 /// The target and the parameter by which the seed of the supply is set.
@@ -61,18 +76,18 @@ const SUPPLY: &str = "supply";
 const SEED: &str = "seed";
 
 /// Whether a setting concerns the supply: a type or a robot of this name comes first.
-fn is_of_supply(setting: &Setting, bound: &Bound) -> bool {
-    setting.target == SUPPLY && !bound.robots.iter().any(|robot| setting.applies_to(robot))
+fn is_of_supply(setting: &Setting, machines: &[Machine]) -> bool {
+    setting.target == SUPPLY && !machines.iter().any(|(object, _)| setting.applies_to(object))
 }
 
 /// Sets what the settings say of the scenario; the last of several holds.
 pub fn apply(
     settings: &[Setting],
-    bound: &Bound,
+    machines: &[Machine],
     scenario: &mut Scenario,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
-    for setting in settings.iter().filter(|setting| is_of_supply(setting, bound)) {
+    for setting in settings.iter().filter(|setting| is_of_supply(setting, machines)) {
         match &setting.value.value {
             json::Value::Number(n) if n.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(n) => {
                 scenario.supply.seed = *n as u32;
@@ -104,18 +119,15 @@ pub fn key_of_device(name: &str, device: &str) -> String {
 }
 
 /// Each setting has to concern somebody and something.
-pub fn check(settings: &[Setting], bound: &Bound, model: &Model, diagnostics: &mut Vec<Diagnostic>) {
+pub fn check(settings: &[Setting], machines: &[Machine], diagnostics: &mut Vec<Diagnostic>) {
     for setting in settings {
-        if is_of_supply(setting, bound) {
+        if is_of_supply(setting, machines) {
             diagnostics.extend(check_of_supply(setting));
             continue;
         }
-        let meant: Vec<&Robot> = bound.robots.iter().filter(|r| setting.applies_to(r)).collect();
+        let meant: Vec<&Machine> = machines.iter().filter(|(object, _)| setting.applies_to(object)).collect();
         if meant.is_empty() {
-            let known = bound
-                .robots
-                .iter()
-                .flat_map(|r| [r.object.name.value.as_str(), r.object.kind.value.as_str()]);
+            let known = machines.iter().flat_map(|(o, _)| [o.name.value.as_str(), o.kind.value.as_str()]);
             let help = suggestion(&setting.target, known)
                 .map_or("name a type or a robot of the layout".into(), |n| format!("is `{n}` meant?"));
             diagnostics.push(
@@ -128,32 +140,45 @@ pub fn check(settings: &[Setting], bound: &Bound, model: &Model, diagnostics: &m
             );
             continue;
         }
-        let parameters: Vec<&str> = (model.automata.iter())
-            .filter(|a| meant.iter().any(|r| r.automaton == a.name))
-            .flat_map(|a| &a.parameters)
-            .filter(|p| p.is_settable())
-            .map(|p| p.name.as_str())
-            .collect();
-        if !parameters.contains(&setting.parameter.as_str()) {
-            let mut devices = (model.automata.iter())
-                .filter(|a| meant.iter().any(|r| r.automaton == a.name))
-                .map(|a| &a.device);
-            let key_of = devices.find(|d| d.parameters.iter().any(|p| p.name == setting.parameter));
-            let near = suggestion(&setting.parameter, parameters.iter().copied());
-            let help = match (key_of, near) {
-                (Some(device), _) => key_of_device(&setting.parameter, &device.name),
-                (None, Some(near)) => format!("is `{near}` meant?"),
-                (None, None) if parameters.is_empty() => "its automaton has no parameters".into(),
-                (None, None) => format!("its parameters are {}", parameters.join(", ")),
+        let mut parameters = Vec::new();
+        let mut keys = Vec::new();
+        for (_, automaton) in meant {
+            parameters
+                .extend(automaton.parameters.iter().filter(|p| p.is_settable()).map(|p| p.name.as_str()));
+            let of_device = automaton.device.parameters.iter().map(|p| p.name.as_str());
+            keys.extend(of_device.filter(|name| device_key::is_key(name, automaton)));
+        }
+        for names in [&mut parameters, &mut keys] {
+            let mut known = HashSet::new();
+            names.retain(|name| known.insert(*name));
+        }
+        let all = || parameters.iter().chain(&keys).copied();
+        if !all().any(|name| name == setting.parameter) {
+            let known = match (parameters.is_empty(), keys.is_empty()) {
+                (true, true) => "its automaton has no parameters, and its device no keys".into(),
+                (false, true) => format!("its parameters are {}", parameters.join(", ")),
+                (true, false) => format!("the keys of its device are {}", keys.join(", ")),
+                (false, false) => format!(
+                    "its parameters are {}; the keys of its device are {}",
+                    parameters.join(", "),
+                    keys.join(", ")
+                ),
             };
-            diagnostics.push(
-                Diagnostic::new(
-                    "E0511",
-                    setting.span,
-                    format!("`{}` has no parameter `{}`", setting.target, setting.parameter),
-                )
-                .help(help),
+            let help = match suggestion(&setting.parameter, all()) {
+                Some(near) => {
+                    format!("is `{near}` meant? One can set: {}", all().collect::<Vec<_>>().join(", "))
+                }
+                None => known,
+            };
+            let message = format!(
+                "`{}` has no parameter and no key of its device `{}`",
+                setting.target, setting.parameter
             );
+            let diagnostic = Diagnostic::new("E0511", setting.span, message).help(help);
+            diagnostics.push(match is_common(&setting.parameter) {
+                true => diagnostic.note("keys of every object, such as `pose`, stand in the layout alone"),
+                false => diagnostic,
+            });
         }
     }
 }

@@ -11,6 +11,7 @@ pub use faults::{
 pub use read::kinds::ANY;
 pub use read::{kinds, parse};
 pub use resolve::{Input, Line, MachinePart, Panel, resolve};
+pub use supply::Drawn;
 
 use crate::source::{FileId, Sources, Span, Spanned};
 use runtime_sim::line::LineButton;
@@ -123,13 +124,6 @@ impl Scenario {
     pub fn is_built_in(&self, sources: &Sources) -> bool {
         sources.file(self.file).text == DEFAULT
     }
-
-    /// The same with another seed: so much more. A supply that is a list stays as it is.
-    pub fn replication(&self, number: u32) -> Self {
-        let mut scenario = self.clone();
-        scenario.supply.seed = scenario.supply.seed.wrapping_add(number);
-        scenario
-    }
 }
 
 /// What the belts bring; numbers are kinds.
@@ -202,6 +196,8 @@ pub struct ResolvedScenario {
     pub orders: Vec<(Vec<usize>, Vec<u32>)>,
     /// Belt, and the kinds it brings, in order.
     pub supply: Vec<(usize, Vec<usize>)>,
+    /// How it was drawn from the seed, if it was.
+    pub drawn: Option<Drawn>,
     pub spawn_first_s: f64,
     pub spawn_every_s: f64,
     pub time_limit_s: f64,

@@ -4,6 +4,7 @@ mod faults;
 
 pub use faults::{Input, MachinePart};
 
+use super::supply::Drawn;
 use super::{
     Answer, Collected, Faults, Items, MOST_PARTS, Number, Operation, Order, Part, Refusal, ResolvedScenario,
     Scenario, Slip, supply,
@@ -88,11 +89,12 @@ pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec
     let goal = scenario.goal.iter().filter_map(|collected| resolver.collected(collected)).collect();
     sort(&mut resolver.diagnostics);
     match (orders, supply) {
-        (Some(orders), Some(supply)) if resolver.diagnostics.is_empty() => Ok(ResolvedScenario {
+        (Some(orders), Some((supply, drawn))) if resolver.diagnostics.is_empty() => Ok(ResolvedScenario {
             kinds: scenario.kinds.clone(),
             number: scenario.orders.number,
             orders,
             supply,
+            drawn,
             spawn_first_s: scenario.supply.first_s,
             spawn_every_s: scenario.supply.every_s,
             time_limit_s: scenario.time_limit_s,
@@ -264,11 +266,15 @@ impl<'a> Resolver<'a> {
         found.into_iter().collect()
     }
 
-    fn supply(&mut self) -> Option<Vec<(usize, Vec<usize>)>> {
+    /// For each belt what it brings; and how that was drawn, if it was.
+    fn supply(&mut self) -> Option<(Vec<(usize, Vec<usize>)>, Option<Drawn>)> {
         let span = self.scenario.supply.span;
         let belts: Vec<usize> = self.line.belts.iter().map(|(_, index)| *index).collect();
         let supply = match &self.scenario.supply.items {
-            Items::Shuffled { surplus } => return self.shuffled(*surplus, &belts),
+            Items::Shuffled { surplus } => {
+                let drawn = self.drawn(*surplus, belts)?;
+                return Some((drawn.supply(self.scenario.supply.seed), Some(drawn)));
+            }
             Items::OnlyBelt(items) => match belts[..] {
                 [belt] => vec![(belt, items.clone())],
                 [] if items.is_empty() => Vec::new(),
@@ -300,13 +306,12 @@ impl<'a> Resolver<'a> {
             }
         };
         self.suffices(&supply);
-        Some(supply)
+        Some((supply, None))
     }
 
-    fn shuffled(&mut self, surplus: [u32; 2], belts: &[usize]) -> Option<Vec<(usize, Vec<usize>)>> {
+    fn drawn(&mut self, surplus: [u32; 2], belts: Vec<usize>) -> Option<Drawn> {
         let span = self.scenario.supply.span;
-        let list = self.list();
-        let orders: Vec<&[u32]> = list.iter().map(|o| o.parts.as_slice()).collect();
+        let orders: Vec<Vec<u32>> = self.list().iter().map(|order| order.parts.clone()).collect();
         let needed: u64 = orders.iter().flat_map(|parts| parts.iter()).map(|n| u64::from(*n)).sum();
         let brought = needed + supply::surplus(needed, surplus);
         if brought > MOST_PARTS {
@@ -326,15 +331,7 @@ impl<'a> Resolver<'a> {
             );
             return None;
         }
-        let mut supply: Vec<(usize, Vec<usize>)> = belts.iter().map(|belt| (*belt, Vec::new())).collect();
-        if !supply.is_empty() {
-            for (i, lot) in supply::lots(&orders, surplus, self.scenario.supply.seed).into_iter().enumerate()
-            {
-                let belt = i % belts.len();
-                supply[belt].1.extend(lot);
-            }
-        }
-        Some(supply)
+        Some(Drawn { orders, surplus, belts })
     }
 
     /// A list of parts is enough for all orders.

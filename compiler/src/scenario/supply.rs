@@ -2,6 +2,32 @@
 
 use runtime_sim::random::Random;
 
+/// A supply that is drawn: the same parts with each seed, in another order.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drawn {
+    /// Parts of each kind, for each order.
+    pub orders: Vec<Vec<u32>>,
+    pub surplus: [u32; 2],
+    /// They take the lots in turn.
+    pub belts: Vec<usize>,
+}
+
+impl Drawn {
+    /// For each belt the kinds that it brings, in order.
+    pub fn supply(&self, seed: u32) -> Vec<(usize, Vec<usize>)> {
+        let mut supply: Vec<(usize, Vec<usize>)> =
+            self.belts.iter().map(|belt| (*belt, Vec::new())).collect();
+        if supply.is_empty() {
+            return supply;
+        }
+        let orders: Vec<&[u32]> = self.orders.iter().map(Vec::as_slice).collect();
+        for (i, lot) in lots(&orders, self.surplus, seed).into_iter().enumerate() {
+            supply[i % self.belts.len()].1.extend(lot);
+        }
+        supply
+    }
+}
+
 /// How many parts of one kind the whole supply has beyond `needed`, rounded up.
 pub fn surplus(needed: u64, [numerator, denominator]: [u32; 2]) -> u64 {
     (needed * u64::from(numerator)).div_ceil(u64::from(denominator))

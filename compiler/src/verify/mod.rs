@@ -11,6 +11,7 @@ mod plant;
 mod properties;
 pub mod replay;
 pub mod scenario;
+mod situation;
 pub mod story;
 mod strokes;
 mod unread;

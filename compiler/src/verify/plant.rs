@@ -285,7 +285,7 @@ pub fn carries_hidden_items(machine: &Machine) -> bool {
 }
 
 /// What lies on a cylinder, a positioner or a vehicle on a track is nowhere to be found.
-fn is_known(machine: &Machine, place: &runtime_sim::part::place::Place) -> bool {
+pub(super) fn is_known(machine: &Machine, place: &runtime_sim::part::place::Place) -> bool {
     machine.strokes_under(place).is_none() && !machine.is_on_track(place)
 }
 

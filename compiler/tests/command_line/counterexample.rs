@@ -1,5 +1,6 @@
 //! `verify --report`: the page of a violation.
 
+use super::sweep::printed;
 use super::*;
 
 /// The page of a gate that must not open; `initial` says how it begins.
@@ -46,4 +47,42 @@ fn a_violation_that_it_does_not_show_is_drawn_from_the_search() {
         assert!(page.contains(part), "{part}: {page}");
     }
     assert!(!page.contains("<script"));
+}
+
+/// Two parts for one place of the vehicle: the arm is about to let the second one go where the first one lies.
+#[test]
+fn it_is_told_who_has_which_item_at_the_violation() {
+    let folder = folder("who_has_what");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let arm = fs::read_to_string(root.join("compiler/library/kitting.aut")).expect("the type");
+    let place = "tray.places[n] + up(heights[k])";
+    assert!(arm.contains(place));
+    fs::write(folder.join("kitting.aut"), arm.replace(place, "tray.places[0] + up(heights[k])"))
+        .expect("a file");
+    let scenario = r#"{"kinds": [{"name": "battery", "height": 0.053}, {"name": "pump", "height": 0.11}],
+        "orders": [{"station": "as1", "parts": {"battery": 1, "pump": 1}}]}"#;
+    fs::write(folder.join("two.json"), scenario).expect("a file");
+    let layout = example("ariac2021/less_agv.json");
+    let verify = |more: &[&str]| {
+        let line = ["verify", &layout, "--specs", "kitting.aut", "--scenario", "two.json", "--jobs", "1"];
+        let output = autogen(&folder, &[&line[..], more].concat());
+        assert_eq!(status(&output), 3, "{}", errors(&output));
+        output
+    };
+    let answer = json(&verify(&["--format", "json", "--report", "page.html"]));
+    let violation = &answer["violations"][0];
+    let title = violation["violation"].as_str().expect("a text");
+    let vehicle =
+        title.strip_prefix("kitting puts an item onto another one, at place 0 of ").expect("the title");
+    let lines: Vec<&str> =
+        violation["at_that_moment"].as_array().expect("a list").iter().filter_map(Value::as_str).collect();
+    let [arm, tray, gantry] = lines[..] else { panic!("{lines:#?}") };
+    let holds = |kind: &str| arm == format!("kitting in Releasing: {kind} on its gripper");
+    let lies = |kind: &str| tray == format!("{vehicle} in Loading: {kind} at place 0");
+    assert!(holds("battery") && lies("pump") || holds("pump") && lies("battery"), "{lines:#?}");
+    assert!(gantry.starts_with("gantry in ") && gantry.ends_with(": nothing on its gripper"), "{gantry}");
+    let text = printed(&verify(&[]));
+    assert!(text.contains(&format!("\nat that moment\n  {}\n", lines.join("\n  "))), "{text}");
+    let page = fs::read_to_string(folder.join("page.html")).expect("a page");
+    assert_eq!(page.contains("At that moment"), !page.contains("id=\"data\""));
 }

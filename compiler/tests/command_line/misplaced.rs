@@ -120,11 +120,14 @@ fn a_kind_that_a_process_makes_is_one_of_the_scenario() {
 
 #[test]
 fn keys_of_the_device_and_parameters_are_told_apart() {
-    let is_key = ["`cut` is a key of the device `mill`"];
-    let told = Cell::new().told("set", &["mill.cut=2"]);
-    only(&told, &[&["E0511"], &is_key[..]].concat());
+    let keys = "is `cut` meant? One can set: cut, door_time, clamp_time";
+    only(&Cell::new().told("set", &["mill.cutt=2"]), &["E0511", keys]);
+    let lists = "its parameters are over_vise, over_lane, height; the keys of its device are waits_at";
+    only(&Cell::new().told("set_nothing", &["arm.colour=2"]), &["E0511", lists]);
+    let common = "keys of every object, such as `pose`, stand in the layout alone";
+    only(&Cell::new().told("set_pose", &["arm.pose=[0,0,0]"]), &["E0511", "of its device `pose`", common]);
     let inside = Cell::new().layout("\"cut\": 90", "\"cut\": 90, \"parameters\": {\"cut\": 90}");
-    only(&inside.told("inside", &[]), &[&["E0501"], &is_key[..]].concat());
+    only(&inside.told("inside", &[]), &["E0501", "`cut` is a key of the device `mill`"]);
     let beside = Cell::new().layout("\"type\": \"tender\"", "\"type\": \"tender\", \"height\": 0.03");
     only(
         &beside.told("beside", &[]),

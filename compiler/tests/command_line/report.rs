@@ -40,6 +40,26 @@ fn a_report_stays_with_its_results() {
     assert_eq!(json(&without)["trace_hash"], json(&first)["trace_hash"]);
     assert!(!page.exists() && folder.join("made/results.json").exists());
 
+    // What goes with other files is said, once.
+    let said = |command: &[&str]| {
+        let line = ["--scenario", "one.json", "-o", "made"];
+        let output = autogen(&folder, &[command, &[&layout], &line].concat());
+        assert_eq!(status(&output), 0, "{}", errors(&output));
+        let text = String::from_utf8_lossy(&output.stdout).into_owned();
+        text.lines().find(|line| line.contains("earlier run")).map(String::from)
+    };
+    let of = |what: &str| Some(format!("{what} not belong to what the folder has now"));
+    assert_eq!(said(&["commission"]), None);
+    assert_eq!(said(&["build"]), None);
+    assert_eq!(
+        said(&["commission", "--no-report"]),
+        of("report.html of an earlier run was removed: it does")
+    );
+    assert_eq!(said(&["commission"]), None);
+    let both = "results.json and report.html of an earlier run were removed: they do";
+    assert_eq!(said(&["build", "--drives"]), of(both));
+    assert_eq!(said(&["build"]), None);
+
     // It is written over nothing that somebody else has written, and this is known before the run.
     fs::write(&page, "mine").expect("a file");
     let refused = run(&[]);

@@ -1,6 +1,7 @@
 //! How far a search goes, and what it tells.
 
 use crate::reached::Reached;
+use crate::refinement::Refinement;
 use crate::story::Execution;
 use crate::successor::Orders;
 use crate::unread::Unread;
@@ -91,14 +92,24 @@ pub struct Outcome {
     pub entered: Vec<(usize, usize)>,
 }
 
-/// Violations, and points and reals by their numbers in their executions.
+/// Why a search begins anew.
+pub(super) struct Again {
+    pub covered: Covered,
+    pub certain: Certain,
+    /// What must not be forgotten.
+    pub refinements: Vec<Refinement>,
+    /// What was found, if only a search that postpones nothing can tell whether the orders can be made.
+    pub undecided: Option<Box<Outcome>>,
+}
+
+/// What an attempt has found for certain: violations, and points and reals by their numbers in their executions.
 #[derive(Default)]
-pub(super) struct Found {
+pub(super) struct Certain {
     pub violations: Vec<(Violation, Execution)>,
     pub values: Values,
 }
 
-impl Found {
+impl Certain {
     /// Whichever has more.
     pub fn or(self, other: Self) -> Self {
         if other.violations.len() > self.violations.len() { other } else { self }
@@ -106,15 +117,29 @@ impl Found {
 }
 
 impl Outcome {
-    /// If it is cut: attempts before it have checked all sequences with faults in so many scans, and have found this.
-    pub(super) fn or_before(mut self, failing: Option<usize>, found: Found) -> Self {
+    /// If it is cut: an attempt before it has checked all sequences with faults in so many scans.
+    pub(super) fn or_checked(mut self, failing: Option<usize>) -> Self {
         let is_cut = !matches!(self.end, End::Complete | End::Violated);
         if is_cut && self.covered.failing < failing {
             self.covered.failing = failing;
             (self.orders, self.obligations) = (Decided::NotReached, Decided::NotReached);
         }
-        if is_cut && self.violations.len() < found.violations.len() {
-            Found { violations: self.violations, values: self.values } = found;
+        self
+    }
+
+    /// Earlier attempts say more if this one is cut: one all but whether the orders can be made, others what is certain.
+    pub(super) fn or_earlier(mut self, earlier: Option<Self>, certain: Certain) -> Self {
+        if matches!(self.end, End::Complete | End::Violated) {
+            return self;
+        }
+        let has_more = |earlier: &Self| self.violations.len() <= earlier.violations.len();
+        if self.orders == Decided::NotReached
+            && let Some(earlier) = earlier.filter(has_more)
+        {
+            self = earlier;
+        }
+        if self.violations.len() < certain.violations.len() {
+            Certain { violations: self.violations, values: self.values } = certain;
         }
         self
     }

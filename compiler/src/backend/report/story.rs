@@ -17,6 +17,7 @@ struct Page<'a> {
     gantt: &'a str,
     plan: &'a str,
     story: &'a str,
+    situation: &'a [String],
 }
 
 /// `simulator` is what that did instead.
@@ -34,6 +35,7 @@ pub fn html(
         gantt: &gantt::svg(project, execution),
         plan: &plan::svg(&project.plant, &project.edges),
         story: &teller.tell(execution),
+        situation: &teller.situation(execution),
     };
     // Writing to memory does not fail.
     page.render().unwrap_or_default()

@@ -36,8 +36,8 @@ pub struct CompareOptions {
     /// Of layouts: the scenario of both; default: the one of each
     #[arg(long, value_name = "FILE")]
     pub scenario: Option<PathBuf>,
-    /// Of layouts: sets a parameter in both, such as agv.capacity=4
-    #[arg(long = "set", value_name = "NAME.PARAM=VALUE")]
+    /// Of layouts: sets a parameter or a key of the device in both, such as agv.capacity=4
+    #[arg(long = "set", value_name = "NAME.KEY=VALUE")]
     pub settings: Vec<String>,
     #[arg(long, value_enum, default_value = "text")]
     pub format: Format,

@@ -81,6 +81,11 @@ impl Output {
         &self.folder
     }
 
+    /// Files of [`OF_A_RUN`] that are there.
+    pub fn of_a_run(&self) -> Vec<&'static str> {
+        OF_A_RUN.into_iter().filter(|name| self.folder.join(name).is_file()).collect()
+    }
+
     /// The command that built what is there; none if there is nothing.
     pub fn last_command(&self) -> Option<String> {
         Some(Manifest::read(&self.folder).about.get("command")?.as_str()?.into())

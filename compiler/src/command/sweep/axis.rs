@@ -1,9 +1,9 @@
-//! A parameter and the values that it goes through.
+//! What varies in a sweep, and the values that it goes through.
 
-/// `--set NAME.PARAM=V1,V2,...`, its values as they were written.
+/// `--set NAME.KEY=V1,V2,...`, its values as they were written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Axis {
-    /// `NAME.PARAM`.
+    /// `NAME.KEY`.
     pub name: String,
     pub values: Vec<String>,
 }

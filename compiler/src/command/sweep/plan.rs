@@ -6,18 +6,19 @@ use super::super::controllers::{self, Notice, SharedLibrary};
 use super::super::load::{self, Failure};
 use super::super::options::SweepOptions;
 use super::axis::Axis;
-use super::design::{Asked, Design};
+use super::design::{Asked, Design, Point};
 use super::precision::{self, Precision};
 use super::warm_up::WarmUp;
+use autogen::diagnostic::Diagnostic;
 use autogen::ir::System;
-use autogen::lower::{Draft, Setting, Texts};
+use autogen::lower::{Draft, Project, Setting, Texts};
 use autogen::source::{FileId, Sources};
 use runtime_sim::line::IoDelay;
 use runtime_sim::memory::Memory;
 use std::fmt::Display;
 use std::num::NonZeroU32;
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 pub struct Plan {
     pub design: Design,
@@ -44,6 +45,8 @@ pub struct Line {
     /// Its own, or that of its file.
     name: String,
     library: Mutex<Option<Result<SharedLibrary, String>>>,
+    /// The line of the point that was made last: that of the replications which follow.
+    last_made: Mutex<Option<(Point, Arc<Project>)>>,
     /// What runs of this layout have found; one for each that continues at the same time, beside the first one.
     memories: Mutex<Vec<Memory>>,
     memory: Memory,
@@ -211,9 +214,26 @@ impl Line {
             settings,
             shown,
             library: Mutex::new(None),
+            last_made: Mutex::new(None),
             memories: Mutex::default(),
             memory: Memory::default(),
         })
+    }
+
+    /// The line of a point, with the seed of its scenario and devices that answer at once.
+    pub fn made(&self, point: &Point, order: Option<u64>) -> Result<Arc<Project>, Vec<Diagnostic>> {
+        let last_made = || self.last_made.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((of, project)) = &*last_made()
+            && of == point
+        {
+            return Ok(project.clone());
+        }
+        let settings: Vec<Setting> =
+            self.settings.iter().zip(&point.values).map(|(of_axis, &value)| of_axis[value].clone()).collect();
+        let made = self.draft.line(&settings, order);
+        let project = Arc::new(made.project.ok_or(made.diagnostics)?);
+        *last_made() = Some((point.clone(), project.clone()));
+        Ok(project)
     }
 
     /// Lets a run use what others have found about this layout.

@@ -12,14 +12,15 @@ use autogen::backend::report;
 use autogen::backend::rust::parameters_text;
 use autogen::diagnostic::Diagnostic;
 use autogen::ir::System;
-use autogen::lower::{Project, Setting};
+use autogen::lower::Project;
 use autogen::source::Sources;
-use runtime_sim::line::IoDelay;
+use runtime_sim::line::{IoDelay, Line};
 use runtime_sim::memory::Memory;
 use runtime_sim::report::Report;
 use runtime_sim::run::{Seen, Stepping, record, run_again};
 use serde_json::Value;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
 
 /// What came of a run; whatever went wrong is in it.
 pub fn outcome(plan: &Plan, number: RunNumber, notice: Notice) -> Outcome {
@@ -60,14 +61,15 @@ pub fn page(plan: &Plan, number: RunNumber) -> Result<String, String> {
     let point = plan.design.point(number.point);
     let line = &plan.lines[point.layout];
     let made = catch_unwind(AssertUnwindSafe(|| {
-        let (project, mut controllers) = ready(plan, &point, number.replication, Notice::None)?;
+        let Ready { project, plant, mut controllers } =
+            ready(plan, &point, number.replication, Notice::None)?;
         let watched = report::watched(&project.system);
         let ignore = &mut |_: &Seen| {};
-        let recorded = record(&project.plant, &mut controllers, Stepping::Events, &watched, ignore)
-            .map_err(End::NoReport)?;
+        let recorded =
+            record(&plant, &mut controllers, Stepping::Events, &watched, ignore).map_err(End::NoReport)?;
         let mut results = results(&recorded.report, &project.system, &line.shown)?;
         contact::name_reasons(&mut results, &project.may_touch);
-        Ok(report::html(&project, &line.shown, &project.plant, &recorded, &results))
+        Ok(report::html(&project, &line.shown, &plant, &recorded, &results))
     }));
     match made {
         Ok(Ok(page)) => Ok(page),
@@ -77,36 +79,36 @@ pub fn page(plan: &Plan, number: RunNumber) -> Result<String, String> {
     }
 }
 
-/// The line of a point, and what controls it.
-fn ready(
-    plan: &Plan,
-    point: &Point,
-    replication: u32,
-    notice: Notice,
-) -> Result<(Project, Controllers), End> {
+/// A line that can be run.
+struct Ready {
+    project: Arc<Project>,
+    /// That of the replication.
+    plant: Line,
+    controllers: Controllers,
+}
+
+fn ready(plan: &Plan, point: &Point, replication: u32, notice: Notice) -> Result<Ready, End> {
     let line = &plan.lines[point.layout];
-    let settings: Vec<Setting> =
-        line.settings.iter().zip(&point.values).map(|(of_axis, &value)| of_axis[value].clone()).collect();
-    let made = line.draft.line(&settings, plan.design.orders.get(point.order).copied(), replication);
-    let Some(mut project) = made.project else { return Err(End::Refused(made.diagnostics)) };
+    let order = plan.design.orders.get(point.order).copied();
+    let project = line.made(point, order).map_err(End::Refused)?;
     let library = line.library(&project.system, notice).map_err(End::NoControllers)?;
-    project.plant.io_delay = match plan.delays[point.delay] {
+    let mut plant = project.replication(replication);
+    plant.io_delay = match plan.delays[point.delay] {
         IoDelay::Random { max, seed } => {
             IoDelay::Random { max, seed: seed.wrapping_add(u64::from(replication)) }
         }
         IoDelay::Fixed(scans) => IoDelay::Fixed(scans),
     };
     let controllers =
-        library.controllers(&project.plant, &parameters_text(&project.system)).map_err(End::NoReport)?;
-    Ok((project, controllers))
+        library.controllers(&plant, &parameters_text(&project.system)).map_err(End::NoReport)?;
+    Ok(Ready { project, plant, controllers })
 }
 
 fn run(plan: &Plan, point: &Point, replication: u32, notice: Notice) -> Result<Value, End> {
     let line = &plan.lines[point.layout];
-    let (project, mut controllers) = ready(plan, point, replication, notice)?;
-    let simulate = |memory: &mut Memory| {
-        run_again(&project.plant, &mut controllers, Stepping::Events, memory, &mut |_| {})
-    };
+    let Ready { project, plant, mut controllers } = ready(plan, point, replication, notice)?;
+    let simulate =
+        |memory: &mut Memory| run_again(&plant, &mut controllers, Stepping::Events, memory, &mut |_| {});
     let report = line.remembering(simulate).map_err(End::NoReport)?;
     results(&report, &project.system, &line.shown)
 }

@@ -161,6 +161,10 @@ impl Report<'_> {
         for shown in self.shown {
             let _ = writeln!(out, "{}\n", self.teller.title(shown.violation));
             let _ = writeln!(out, "{}", self.teller.tell(shown.execution));
+            let situation = self.teller.situation(shown.execution);
+            if !situation.is_empty() {
+                let _ = writeln!(out, "at that moment\n  {}\n", situation.join("\n  "));
+            }
             let _ = writeln!(out, "in the simulator   {}\n", replayed(self.teller, &shown.replay));
         }
         for (remark, execution) in &self.outcome.remarks {
@@ -199,6 +203,7 @@ impl Report<'_> {
                 json!({
                     "violation": self.teller.title(shown.violation),
                     "story": self.teller.tell(shown.execution).lines().collect::<Vec<_>>(),
+                    "at_that_moment": self.teller.situation(shown.execution),
                     "simulator": replayed(self.teller, &shown.replay),
                 })
             })
