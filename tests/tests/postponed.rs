@@ -134,8 +134,8 @@ automaton Idle on station { initial -> Idle {} final state Idle; }";
 /// If the orders cannot be made, nothing is postponed in the end.
 const NO_WAY_OUT: &str = "// no way out";
 
-/// Machines that step in the order of the text, then a station, and a conveyor if it names none. Every state has a way out, because the station
-/// sends away what is wrong, unless the text says that there is none.
+/// Machines that step in the order of the text, then a station, and a conveyor if it names none. Every state has a way out,
+/// because the station sends away what is wrong, unless the text says that there is none.
 fn line_of(text: &str) -> (Texts, Faults) {
     let after = |word: &str| text.lines().find_map(|line| line.strip_prefix(word));
     let types = after("// machines: ").expect("the types of machines").split(", ");
