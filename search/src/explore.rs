@@ -361,6 +361,7 @@ pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -
     let mut random = Random::default();
     let mut covered = Covered::default();
     let mut postpones = is_possible(&model, bounds.answers, bounds.orders);
+    let mut farthest = Covered::default();
     let (mut earlier, mut certain) = (None, Certain::default());
     loop {
         let states = covered.states;
@@ -368,13 +369,16 @@ pub fn explore(model: &Model, bounds: &Bounds, watch: &mut dyn FnMut(&Covered) -
             goes_on(&mut covered, begin, bounds, watch)
         });
         match attempt(&model, bounds, begin, postpones, watch) {
-            Ok(outcome) => return outcome.or_checked(covered.failing).or_earlier(earlier, certain),
+            Ok(outcome) => return outcome.or_checked(&farthest).or_earlier(earlier, certain),
             Err(again) => {
-                covered = Covered { failing: covered.failing.max(again.covered.failing), ..again.covered };
+                if again.covered.failing >= farthest.failing {
+                    farthest = again.covered;
+                }
+                covered = Covered { failing: farthest.failing, ..again.covered };
                 certain = certain.or(again.certain);
                 if let Some(undecided) = again.undecided {
                     postpones = false;
-                    earlier = Some(undecided.or_checked(covered.failing));
+                    earlier = Some(undecided.or_checked(&farthest));
                 }
                 refinement::along(&mut model, bounds, &again.refinements, &mut || {
                     goes_on(&mut covered, begin, bounds, watch)

@@ -4,7 +4,7 @@ use autogen::executor::Executor;
 use autogen::library;
 use autogen::lower::Project;
 use autogen::verify::{Asked, model, replay::replay};
-use autogen_search::explore::{Bounds, Decided, End, Outcome, explore};
+use autogen_search::explore::{Bounds, Covered, Decided, End, Outcome, explore};
 use autogen_search::model::{Model, Reductions, Variable};
 use autogen_search::plant::{Faults, Watch};
 use autogen_search::successor::Orders;
@@ -204,6 +204,23 @@ fn a_search_that_is_cut_has_checked_all_with_few_faults() {
         model_of(&changed("when taken -> Ready", "when taken and missed -> Ready").project(), Faults::All);
     let cut = explore(&model, &BOUNDS, &mut |covered| covered.failing.is_none());
     assert_eq!(verdict(&cut), (End::Stopped, vec!["NeverMade".into()]));
+}
+
+/// A search that begins anew tells how far it has come before.
+#[test]
+fn a_search_that_is_cut_when_it_begins_anew_tells_what_was_checked() {
+    let model = model_of(&buffer(ONE_PART).project(), Faults::All);
+    let (mut before, mut begins_anew) = (Covered::default(), false);
+    let cut = explore(&model, &BOUNDS, &mut |covered| {
+        begins_anew |= before.failing.is_some() && covered.states < before.states;
+        if !begins_anew {
+            before = *covered;
+        }
+        !begins_anew
+    });
+    assert!(begins_anew);
+    assert_eq!(cut.covered.failing, before.failing);
+    assert!(cut.covered.states >= before.states);
 }
 
 /// Without reductions all paths to the orders are kept, which takes more memory than there is left.

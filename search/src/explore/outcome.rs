@@ -117,11 +117,11 @@ impl Certain {
 }
 
 impl Outcome {
-    /// If it is cut: an attempt before it has checked all sequences with faults in so many scans.
-    pub(super) fn or_checked(mut self, failing: Option<usize>) -> Self {
+    /// If it is cut: an attempt before it may have come farther.
+    pub(super) fn or_checked(mut self, farthest: &Covered) -> Self {
         let is_cut = !matches!(self.end, End::Complete | End::Violated);
-        if is_cut && self.covered.failing < failing {
-            self.covered.failing = failing;
+        if is_cut && self.covered.failing < farthest.failing {
+            self.covered = Covered { time: self.covered.time, ..*farthest };
             (self.orders, self.obligations) = (Decided::NotReached, Decided::NotReached);
         }
         self
