@@ -45,6 +45,14 @@ pub struct Panel<'a> {
     pub operated: Operated,
 }
 
+/// What the belts bring.
+struct Brought {
+    /// Belt, and the kinds in order.
+    supply: Vec<(usize, Vec<usize>)>,
+    /// How it was drawn, if it was.
+    drawn: Option<Drawn>,
+}
+
 pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec<Diagnostic>> {
     let mut resolver = Resolver { scenario, line, by_name: HashMap::new(), diagnostics: Vec::new() };
     let orders = resolver.orders();
@@ -89,28 +97,30 @@ pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec
     let goal = scenario.goal.iter().filter_map(|collected| resolver.collected(collected)).collect();
     sort(&mut resolver.diagnostics);
     match (orders, supply) {
-        (Some(orders), Some((supply, drawn))) if resolver.diagnostics.is_empty() => Ok(ResolvedScenario {
-            kinds: scenario.kinds.clone(),
-            number: scenario.orders.number,
-            orders,
-            supply,
-            drawn,
-            spawn_first_s: scenario.supply.first_s,
-            spawn_every_s: scenario.supply.every_s,
-            time_limit_s: scenario.time_limit_s,
-            seed: scenario.supply.seed,
-            slips,
-            refusals,
-            answers,
-            pauses: pauses.clone(),
-            power_offs: power_offs.clone(),
-            sensors,
-            jams,
-            slow,
-            operations,
-            presses,
-            goal,
-        }),
+        (Some(orders), Some(Brought { supply, drawn })) if resolver.diagnostics.is_empty() => {
+            Ok(ResolvedScenario {
+                kinds: scenario.kinds.clone(),
+                number: scenario.orders.number,
+                orders,
+                supply,
+                drawn,
+                spawn_first_s: scenario.supply.first_s,
+                spawn_every_s: scenario.supply.every_s,
+                time_limit_s: scenario.time_limit_s,
+                seed: scenario.supply.seed,
+                slips,
+                refusals,
+                answers,
+                pauses: pauses.clone(),
+                power_offs: power_offs.clone(),
+                sensors,
+                jams,
+                slow,
+                operations,
+                presses,
+                goal,
+            })
+        }
         _ => Err(resolver.diagnostics),
     }
 }
@@ -266,14 +276,13 @@ impl<'a> Resolver<'a> {
         found.into_iter().collect()
     }
 
-    /// For each belt what it brings; and how that was drawn, if it was.
-    fn supply(&mut self) -> Option<(Vec<(usize, Vec<usize>)>, Option<Drawn>)> {
+    fn supply(&mut self) -> Option<Brought> {
         let span = self.scenario.supply.span;
         let belts: Vec<usize> = self.line.belts.iter().map(|(_, index)| *index).collect();
         let supply = match &self.scenario.supply.items {
             Items::Shuffled { surplus } => {
                 let drawn = self.drawn(*surplus, belts)?;
-                return Some((drawn.supply(self.scenario.supply.seed), Some(drawn)));
+                return Some(Brought { supply: drawn.supply(self.scenario.supply.seed), drawn: Some(drawn) });
             }
             Items::OnlyBelt(items) => match belts[..] {
                 [belt] => vec![(belt, items.clone())],
@@ -306,7 +315,7 @@ impl<'a> Resolver<'a> {
             }
         };
         self.suffices(&supply);
-        Some((supply, None))
+        Some(Brought { supply, drawn: None })
     }
 
     fn drawn(&mut self, surplus: [u32; 2], belts: Vec<usize>) -> Option<Drawn> {
