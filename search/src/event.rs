@@ -467,3 +467,8 @@ pub(crate) fn stop(stops: &[Point], tolerance: f64, goal: Point) -> Point {
     };
     stops.iter().find(near).copied().unwrap_or(goal)
 }
+
+/// The machines of these events, a bit each, of which there are less than 64.
+pub(crate) fn machines_of(events: &[Event]) -> u64 {
+    events.iter().fold(0, |machines, event| machines | 1_u64 << (event.machine % 64))
+}

@@ -1,7 +1,7 @@
 //! What follows a run of states, found beside a store that does not change meanwhile: so several runs can be expanded at
 //! the same time, and be added to the store in their order, as if one had been expanded after the other.
 
-use crate::event::Event;
+use crate::event::{Event, machines_of};
 use crate::reached::Reached;
 use crate::representative::LEFT_OUT;
 use crate::store::Store;
@@ -190,11 +190,6 @@ impl Expanded {
         after.end = steps.len();
         states.push(after);
     }
-}
-
-/// The machines of these events, a bit each, of which there are less than 64.
-pub(crate) fn machines_of(events: &[Event]) -> u64 {
-    events.iter().fold(0, |machines, event| machines | 1_u64 << (event.machine % 64))
 }
 
 /// What follows these states, as far as it is asked for, in runs in their order; each expander works by itself. The memory

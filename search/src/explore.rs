@@ -2,6 +2,7 @@
 //! time breadth first. So what is found has as few faults as possible, and is the shortest with so few; and a search that is
 //! cut has checked all that happens with up to so many.
 
+mod allowance;
 mod arrival;
 mod outcome;
 
@@ -25,25 +26,6 @@ use std::collections::HashSet;
 use std::mem::discriminant;
 use std::ops::Range;
 use std::time::{Duration, Instant};
-
-/// What is possible is checked with what the limits have left, and in any case for so long, for a fifth of the time of the
-/// search, and with a fifth of the memory.
-const LEAST_CHECK: Duration = Duration::from_secs(1);
-
-impl Allowance {
-    fn after(end: End, covered: &Covered, bounds: &Bounds) -> Self {
-        let left = match end {
-            // Whoever has stopped it waits.
-            End::Stopped => Some(Duration::ZERO),
-            _ => bounds.time.map(|time| time.saturating_sub(covered.time)),
-        };
-        let time = left.map(|left| left.max(covered.time / 5).max(LEAST_CHECK));
-        Self {
-            until: time.and_then(|time| Instant::now().checked_add(time)),
-            memory: bounds.memory.saturating_sub(covered.memory).max(bounds.memory / 5),
-        }
-    }
-}
 
 /// States are expanded for so long before what was found is put together.
 const BATCH: Duration = Duration::from_millis(50);
@@ -490,7 +472,7 @@ fn attempt(
         reached: store,
         values,
         unread,
-        entered: entered.into_iter().collect(),
+        entered,
     };
     match is_decided {
         true => Ok(outcome),

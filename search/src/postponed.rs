@@ -5,8 +5,7 @@
 //! it was, and does nothing more by itself, until a scan reads a value that this end changes. Of all states that differ only in
 //! what has ended unseen, the one in which nothing of it has ended counts for the others.
 
-use crate::event::{self, Event, What};
-use crate::expanded::machines_of;
+use crate::event::{self, Event, What, machines_of};
 use crate::model::{Model, Reductions};
 use crate::plant::{Machine, Watch};
 use crate::program::bit;

@@ -18,9 +18,10 @@ impl Teller<'_> {
                 let of_several = (machine.places.len() > 1).then_some(name);
                 held.extend(self.at_place(place, of_several, state));
             }
-            let name = &self.project.system.instances[number].name;
+            let name_of_state =
+                || self.state(number, self.model.instances[number].state.load(state) as usize);
             (!held.is_empty())
-                .then(|| format!("{name} in {}: {}", self.state(number, state), held.join(", ")))
+                .then(|| format!("{} in {}: {}", self.name(number), name_of_state(), held.join(", ")))
         });
         lines.collect()
     }
@@ -50,20 +51,6 @@ impl Teller<'_> {
             found.push(format!("an item beside the places{of}"));
         }
         found
-    }
-
-    /// Of a value that is one more than a kind, 0 without an item.
-    fn kind(&self, value: i32) -> Option<&str> {
-        let kind = usize::try_from(value).ok()?.checked_sub(1)?;
-        self.project.plant.kinds.get(kind).map(|kind| kind.name.as_str())
-    }
-
-    fn state(&self, machine: usize, state: &[u8]) -> &str {
-        let number = self.model.instances[machine].state.load(state) as usize;
-        match number {
-            0 => "Initial",
-            _ => &self.project.system.automaton_of(machine).states[number].name,
-        }
     }
 
     /// In the order in which the model has them.

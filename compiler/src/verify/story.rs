@@ -158,8 +158,22 @@ impl Teller<'_> {
         &self.project.plant.machines[machine].parts[part].name
     }
 
-    fn name(&self, machine: usize) -> &str {
+    pub(super) fn name(&self, machine: usize) -> &str {
         &self.project.system.instances[machine].name
+    }
+
+    /// A state of a machine's automaton.
+    pub(super) fn state(&self, machine: usize, number: usize) -> &str {
+        match number {
+            0 => "Initial",
+            _ => &self.project.system.automaton_of(machine).states[number].name,
+        }
+    }
+
+    /// Of a value that is one more than a kind; none: there is no item, or one of any kind.
+    pub(super) fn kind(&self, value: i32) -> Option<&str> {
+        let kind = usize::try_from(value).ok()?.checked_sub(1)?;
+        self.project.plant.kinds.get(kind).map(|kind| kind.name.as_str())
     }
 
     /// `kitting.aut:43:5`
@@ -173,10 +187,7 @@ impl Teller<'_> {
         let automaton = self.project.system.automaton_of(fired.instance);
         let state = &automaton.states[fired.state];
         let transition = &state.transitions[fired.transition];
-        let name = |number: usize| match number {
-            0 => "Initial",
-            number => automaton.states[number].name.as_str(),
-        };
+        let name = |number: usize| self.state(fired.instance, number);
         let target = transition.target.map_or(String::new(), |target| format!(" -> {}", name(target.0)));
         format!(
             "{}: {}{target}, {} ({})",
@@ -191,10 +202,8 @@ impl Teller<'_> {
     pub fn event(&self, happened: &Happened, event: &Event) -> String {
         let name = self.name(event.machine);
         let plant = &self.model.machines[event.machine];
-        let kind = |var: autogen_search::value::Var, state: &[u8]| {
-            let kind = var.load(state) as usize;
-            kind.checked_sub(1).map_or("item", |kind| self.project.plant.kinds[kind].name.as_str())
-        };
+        let kind =
+            |var: autogen_search::value::Var, state: &[u8]| self.kind(var.load(state)).unwrap_or("item");
         match event.what {
             What::Ends(ending) => {
                 let command = plant.head.as_ref().map_or(0, |head| head.command.load(&happened.before));
