@@ -148,10 +148,20 @@ impl Group {
                 Arc::new(Boxes::of(self.each(|body| body.bounds)))
             }
             (Movement::Still, _) if self.moves_parts() => Arc::new(Boxes::of(self.each(|body| body.bounds))),
-            (Movement::Still, _) => Arc::new(Boxes::of(self.present(plant))),
+            (Movement::Still, _) => self.boxes_at_rest(plant, memory),
         };
         self.boxes = Some((boxes.whole.outer(), boxes.clone()));
         boxes
+    }
+
+    /// What contains it where it rests: of an arm, which comes to the same places again and again, as remembered.
+    fn boxes_at_rest(&mut self, plant: &Plant, memory: &mut Memory) -> Arc<Boxes> {
+        let resting = self.resting(plant);
+        let key = match (&self.kind, resting) {
+            (Kind::Arm { index, .. }, Some(resting)) => resting.with(*index as u64).and(self.numbered(plant)),
+            _ => return Arc::new(Boxes::of(self.present(plant))),
+        };
+        memory.boxes_at_rest(key, || Arc::new(Boxes::of(self.present(plant))))
     }
 
     /// What contains it all the while, and as long as it goes on like this.
