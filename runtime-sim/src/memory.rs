@@ -144,6 +144,8 @@ impl Memory {
     }
 }
 
+/// Fingerprints take places that are nearly the same for one, so another computation may differ in the last digits:
+/// [`Answers::get`], which wants the same answer, is not for them.
 fn known_or(
     boxes: &Answers<Fingerprint, Arc<Boxes>>,
     of: Fingerprint,

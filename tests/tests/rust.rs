@@ -109,6 +109,15 @@ fn each_fixture_runs_as_on_the_executor() {
     }
 }
 
+/// Its adapters have nothing to publish.
+#[test]
+fn a_line_without_outputs_compiles_without_a_warning() {
+    let text = "automaton Idle on bin { initial state Waiting { when true {} } }";
+    let (system, sources) = instantiate(&[("idle.aut".into(), text.into())]);
+    let workspace = Workspace::write("without_outputs", &system, &sources);
+    workspace.cargo(&["clippy", "--quiet", "-p", "adapters", "--", "-D", "warnings"]);
+}
+
 /// Outputs of the line, in front of those of its machines.
 const SYSTEM: usize = 7;
 

@@ -110,7 +110,7 @@ pub fn latch(robot: &mut Robot, image: &[f64]) {
 }
 
 /// The process image of a robot's outputs.
-pub fn publish(robot: &Robot, running: bool, image: &mut Vec<f64>) {
+pub fn publish(robot: &Robot, {% if !has_outputs %}_{% endif %}running: bool, image: &mut Vec<f64>) {
     image.clear();
     match robot {
         {%- for robot in robots %}

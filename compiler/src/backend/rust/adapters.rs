@@ -13,6 +13,7 @@ struct Adapters {
     interfaces: Vec<InterfaceView>,
     relations: Vec<RelationView>,
     robots: Vec<RobotView>,
+    has_outputs: bool,
     has_cells: bool,
     uses_cells: bool,
     has_wiring: bool,
@@ -66,10 +67,12 @@ pub fn adapters(shared: Shared) -> String {
         });
     let interfaces: Vec<InterfaceView> = interfaces.collect();
     let has_wiring = !model.relations.is_empty() || interfaces.iter().any(|i| !i.parameters.is_empty());
+    let robots: Vec<RobotView> = (0..model.automata.len()).map(|id| robot(shared, id)).collect();
     let view = Adapters {
         enums: shared.names.enums.iter().map(|e| e.ty.clone()).collect(),
         relations: relations.collect(),
-        robots: (0..model.automata.len()).map(|id| robot(shared, id)).collect(),
+        has_outputs: robots.iter().any(|robot| robot.outputs.is_some()),
+        robots,
         has_cells: interfaces.iter().any(|i| i.has_cells),
         interfaces,
         uses_cells: uses_cells(shared),

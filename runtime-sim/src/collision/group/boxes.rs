@@ -133,7 +133,7 @@ impl Outer {
 impl Group {
     /// What contains it on each piece of its path, or all the while.
     pub fn boxes(&mut self, plant: &Plant, memory: &mut Memory) -> Arc<Boxes> {
-        if let Some((_, boxes)) = &self.boxes {
+        if let Some(boxes) = &self.boxes {
             return boxes.clone();
         }
         let moving = self.moving(plant).zip(self.machine());
@@ -150,8 +150,7 @@ impl Group {
             (Movement::Still, _) if self.moves_parts() => Arc::new(Boxes::of(self.each(|body| body.bounds))),
             (Movement::Still, _) => self.boxes_at_rest(plant, memory),
         };
-        self.boxes = Some((boxes.whole.outer(), boxes.clone()));
-        boxes
+        self.boxes.insert(boxes).clone()
     }
 
     /// What contains it where it rests: of an arm, which comes to the same places again and again, as remembered.
@@ -167,7 +166,7 @@ impl Group {
     /// What contains it all the while, and as long as it goes on like this.
     pub fn outer(&mut self, plant: &Plant, memory: &mut Memory) -> Outer {
         match &self.boxes {
-            Some((outer, _)) => *outer,
+            Some(boxes) => boxes.whole.outer(),
             None => self.boxes(plant, memory).whole.outer(),
         }
     }
