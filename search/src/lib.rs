@@ -23,6 +23,7 @@ mod refinement;
 mod remark;
 mod representative;
 mod scan;
+mod stop;
 pub mod store;
 pub mod story;
 pub mod stroke;

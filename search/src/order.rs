@@ -4,6 +4,7 @@ use crate::footprint::Footprint;
 use crate::model::Reductions;
 use crate::program::bit;
 use crate::scan::{Scan, Told};
+use crate::stop::{Mark, Stopped};
 use crate::successor::{Expander, Successor};
 use crate::violation::Violation;
 
@@ -216,7 +217,10 @@ impl Expander<'_> {
             self.remarked.clear();
             let mut result = self.on(&mut end, |scan| scan.finish(touched));
             if let Err(stop @ Violation::Stop { .. }) = result {
-                result = Err(self.behind_stop(&end.bytes, end.marks.forgotten).0.unwrap_or(stop));
+                let Marks { forgotten, fired, written, restless, .. } = end.marks;
+                let mark = Mark { forgotten, touched: touched | fired | restless, written };
+                let stopped = Stopped { state: end.bytes.clone(), mark };
+                result = Err(self.behind_stop(&stopped).0.unwrap_or(stop));
             }
             emit(Successor {
                 state: &end.bytes,

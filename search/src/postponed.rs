@@ -10,6 +10,7 @@ use crate::model::{Model, Reductions};
 use crate::plant::{Machine, Watch};
 use crate::program::bit;
 use crate::property::Check;
+use crate::stop::{Mark, Stopped};
 use crate::successor::{Expander, Orders};
 use crate::unread::Needed;
 use crate::value::Var;
@@ -413,25 +414,27 @@ impl Expander<'_> {
 
     /// After a stop, behind which this was found in scans that have read this: of which machines it would be another thing if
     /// their commands had ended.
-    pub(crate) fn observe_behind(&mut self, stopped: &[u8], found: &Option<Violation>, read: u64) {
+    pub(crate) fn observe_behind(&mut self, stopped: &Stopped, found: &Option<Violation>, read: u64) {
         let waiting = self.postponed.waiting;
         if waiting == 0 {
             return;
         }
         let choices = std::mem::take(&mut self.choices);
-        let acting = |machine: &usize| self.would_stay(stopped, *machine, bit(*machine), 0) != Some(0);
+        let acting = |machine: &usize| self.would_stay(&stopped.state, *machine, bit(*machine), 0) != Some(0);
         let acting: Vec<usize> = members(waiting).filter(acting).collect();
         let mut asked = acting.into_iter().fold(read & waiting, |asked, machine| asked | bit(machine));
         let mut ended = asked;
         while ended != 0 {
-            let mut state = stopped.to_vec();
+            let mut state = stopped.state.clone();
             for machine in members(ended) {
                 if let Some(end) = self.postponed.end(&self.postponing, machine) {
                     self.postponing.replace(machine, &mut state, &end.after);
                 }
             }
             let forgotten = self.model.unread.in_state(&self.model.instances, &state, u64::MAX);
-            let (other, read) = self.behind_stop(&state, forgotten);
+            let Mark { touched, written, .. } = stopped.mark;
+            let mark = Mark { forgotten, touched: touched | ended, written: written | ended };
+            let (other, read) = self.behind_stop(&Stopped { state, mark });
             let more = read & waiting & !asked;
             if other != *found || (asked | more).count_ones() > MOST_ASKED {
                 self.postponed.observed |= asked | more;

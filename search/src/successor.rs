@@ -9,12 +9,10 @@ use crate::postponed::{Postponed, Postponing};
 use crate::program::{Instance, bit};
 use crate::property::Whenever;
 use crate::scan::{Scan, Told};
+use crate::stop::Stopped;
 use crate::unread::Needed;
 use crate::value::Values;
 use crate::violation::Violation;
-
-/// A line that stops in so many scans one after another does so for ever.
-const MOST_STOPS: usize = 8;
 
 /// In which orders the instances step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,7 +39,7 @@ pub struct Expander<'a> {
     /// At most so many devices do something in one scan.
     pub answers: usize,
     pub orders: Orders,
-    order: Vec<usize>,
+    pub(crate) order: Vec<usize>,
     /// Of each state of each instance, if they step in any order.
     pub(crate) footprints: Vec<Vec<Footprint>>,
     /// Memory of states midway in a scan, to be used again.
@@ -359,53 +357,6 @@ impl<'a> Expander<'a> {
         self.chosen.iter().any(is_fresh) && (!has_to_fail || self.chosen.len() == 1)
     }
 
-    /// What is wrong once an operator has come, for whom the line has stopped in this state, while no device does anything:
-    /// it stops again in each scan, or in a fault.
-    /// The second result is what its scans read of what is postponed.
-    pub(crate) fn behind_stop(&mut self, stopped: &[u8], forgotten: u128) -> (Option<Violation>, u64) {
-        let work = std::mem::replace(&mut self.work, stopped.to_vec());
-        let (choices, told) = (std::mem::take(&mut self.choices), self.told.clone());
-        let (noted, remarked) = (self.noted.len(), self.remarked.len());
-        let order = std::mem::take(&mut self.order);
-        let first = self.before.clone();
-        let first_forgotten = (self.forgotten, self.forgotten_before);
-        self.forgotten = forgotten;
-        let (mut found, mut read) = (None, 0);
-        for _ in 0..MOST_STOPS {
-            // What the operator does may change inputs of devices.
-            self.model.inputs.iter().for_each(|input| input.var.store(&mut self.work, 0));
-            self.before.clone_from(&self.work);
-            self.forgotten_before = self.forgotten;
-            self.choices.clear();
-            let mut scan = self.begin();
-            let result = scan.run(&order, u64::MAX);
-            let (forgotten, observed) = (scan.forgotten, scan.observed);
-            self.forgotten = forgotten;
-            read |= observed;
-            if let Err(Violation::Fault { instance, fault }) = result
-                && self.choices.is_empty()
-                && !self.model.sensed[fault]
-            {
-                found = Some(Violation::FaultBehindStop { instance, fault });
-            }
-            let goes_on = |fault: usize| self.model.sensed[fault] || !self.choices.is_empty();
-            if !matches!(result, Err(Violation::Stop { fault }) if !goes_on(fault)) {
-                break;
-            }
-            if self.work == self.before {
-                found = Some(Violation::StopsAgain);
-                break;
-            }
-        }
-        self.before = first;
-        (self.forgotten, self.forgotten_before) = first_forgotten;
-        self.noted.truncate(noted);
-        self.remarked.truncate(remarked);
-        self.order = order;
-        (self.work, self.choices, self.told) = (work, choices, told);
-        (found, read)
-    }
-
     /// Every outcome of one scan.
     fn scan(&mut self, level: usize, touched: u64, emit: &mut impl FnMut(Successor)) {
         if self.orders == Orders::All {
@@ -421,18 +372,19 @@ impl<'a> Expander<'a> {
             let order = std::mem::take(&mut self.order);
             let mut scan = self.begin();
             let mut result = scan.run(&order, touched);
-            let (restless, forgotten) = (scan.restless, scan.forgotten);
+            let restless = scan.restless;
             let (observed, changed, given) = (scan.observed, scan.written | scan.fired, scan.given);
+            let mark = scan.mark(touched);
             self.order = order;
             self.observe(observed, changed);
             if given == 0 && result.is_ok() {
                 self.observe_hazards();
             }
             if let Err(stop @ Violation::Stop { .. }) = result {
-                let stopped = self.work.clone();
-                let (found, read) = self.behind_stop(&stopped, forgotten);
+                let stopped = Stopped { state: self.work.clone(), mark };
+                let (found, read) = self.behind_stop(&stopped);
                 self.observe_behind(&stopped, &found, read);
-                self.work = stopped;
+                self.work = stopped.state;
                 result = Err(found.unwrap_or(stop));
             }
             if self.is_silent {

@@ -1,0 +1,86 @@
+//! What comes behind a stop for an operator.
+
+use crate::program::bit;
+use crate::scan::Scan;
+use crate::successor::Expander;
+use crate::violation::Violation;
+
+/// A line that stops in so many scans one after another does so for ever.
+const MOST_STOPS: usize = 8;
+
+/// The state in which a scan has ended in a stop.
+pub(crate) struct Stopped {
+    pub state: Vec<u8>,
+    pub mark: Mark,
+}
+
+/// What the next scan has to know of a scan that was broken off.
+#[derive(Clone, Copy)]
+pub(crate) struct Mark {
+    /// What of its state is forgotten.
+    pub forgotten: u128,
+    /// Instances that may do something in the next scan, or whose properties were due.
+    pub touched: u64,
+    /// Instances that own a value that has changed.
+    pub written: u64,
+}
+
+impl Scan<'_> {
+    /// `touched`: those with which the scan has begun.
+    pub(crate) fn mark(&self, touched: u64) -> Mark {
+        let Self { forgotten, fired, written, restless, .. } = *self;
+        Mark { forgotten, touched: touched | fired | restless, written }
+    }
+}
+
+impl Expander<'_> {
+    /// What is wrong once an operator has come, for whom the line has stopped in this state, while no device does anything:
+    /// it stops again in each scan, or in a fault.
+    /// The second result is what its scans read of what is postponed.
+    pub(crate) fn behind_stop(&mut self, stopped: &Stopped) -> (Option<Violation>, u64) {
+        let work = std::mem::replace(&mut self.work, stopped.state.clone());
+        let (choices, told) = (std::mem::take(&mut self.choices), self.told.clone());
+        let (noted, remarked) = (self.noted.len(), self.remarked.len());
+        let order = std::mem::take(&mut self.order);
+        let first = self.before.clone();
+        let first_forgotten = (self.forgotten, self.forgotten_before);
+        let sensing = self.model.inputs.iter().fold(0, |machines, input| machines | bit(input.machine));
+        let mut mark = stopped.mark;
+        let (mut found, mut read) = (None, 0);
+        for _ in 0..MOST_STOPS {
+            // What the operator does may change inputs of devices.
+            self.model.inputs.iter().for_each(|input| input.var.store(&mut self.work, 0));
+            self.before.clone_from(&self.work);
+            self.forgotten = mark.forgotten;
+            self.forgotten_before = mark.forgotten;
+            self.choices.clear();
+            let touched = mark.touched | sensing;
+            let mut scan = self.begin();
+            scan.written = mark.written;
+            let result = scan.run(&order, touched);
+            mark = scan.mark(touched);
+            read |= scan.observed;
+            if let Err(Violation::Fault { instance, fault }) = result
+                && self.choices.is_empty()
+                && !self.model.sensed[fault]
+            {
+                found = Some(Violation::FaultBehindStop { instance, fault });
+            }
+            let goes_on = |fault: usize| self.model.sensed[fault] || !self.choices.is_empty();
+            if !matches!(result, Err(Violation::Stop { fault }) if !goes_on(fault)) {
+                break;
+            }
+            if self.work == self.before {
+                found = Some(Violation::StopsAgain);
+                break;
+            }
+        }
+        self.before = first;
+        (self.forgotten, self.forgotten_before) = first_forgotten;
+        self.noted.truncate(noted);
+        self.remarked.truncate(remarked);
+        self.order = order;
+        (self.work, self.choices, self.told) = (work, choices, told);
+        (found, read)
+    }
+}
