@@ -18,6 +18,7 @@ impl Scan<'_> {
         let Some(head) = &plant.head else { return };
         let before = is_under_way.then(|| self.asked(plant));
         if is_under_way {
+            self.ask_start(machine);
             self.interrupt(plant);
         }
         let number = |scan: &mut Self, point: Point| scan.values.number_of_point(point);
@@ -107,6 +108,7 @@ impl Scan<'_> {
     pub(crate) fn at_stop(&mut self, machine: usize) -> i32 {
         let Machine { head, route: Some(route), .. } = &self.model.machines[machine] else { return -1 };
         head.iter().for_each(|head| self.observe(head.status));
+        self.ask_start(machine);
         let stop = |scan: &Self, number: i32| {
             let at = scan.values.point(number);
             route.stops.iter().position(|stop| *stop == at).map_or(-1, |stop| stop as i32)

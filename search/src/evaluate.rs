@@ -2,7 +2,7 @@
 
 use crate::program::{Domain, Each, Int, Operator, PointValue, Real};
 use crate::scan::Scan;
-use crate::value::Point;
+use crate::value::{Point, Values};
 
 impl Scan<'_> {
     pub(crate) fn holds(&mut self, condition: &Int) -> bool {
@@ -165,6 +165,9 @@ impl Scan<'_> {
             PointValue::Constant(point) => *point,
             PointValue::Load(var) => {
                 let number = self.load(*var);
+                if number == Values::NOWHERE {
+                    self.ask_start(usize::from(self.model.owners[var.at as usize]));
+                }
                 self.values.point(number)
             }
             PointValue::Element(vars, index) => {

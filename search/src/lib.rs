@@ -23,6 +23,7 @@ mod refinement;
 mod remark;
 mod representative;
 mod scan;
+pub mod start;
 mod stop;
 pub mod store;
 pub mod story;

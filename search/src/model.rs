@@ -1,12 +1,15 @@
 //! A line as it is searched: automata, plant, and what a state consists of.
 
 use crate::plant::{Faults, Input, Machine, Order, Watch};
-use crate::program::Instance;
+use crate::program::{Cells, Instance};
 use crate::stroke::{Cylinder, Process};
 use crate::unread::Unread;
 use crate::value::{Point, Values, Var};
 use std::fmt;
 use std::sync::Arc;
+
+/// In [`Model::columns`].
+pub const NO_CELL: u8 = u8::MAX;
 
 #[derive(Clone, Debug)]
 pub struct Model {
@@ -14,6 +17,9 @@ pub struct Model {
     pub initial: Vec<u8>,
     /// Of each byte of a state the instance that owns it, of which others see cells; as the number of a bit.
     pub owners: Vec<u8>,
+    /// Of each byte of a state the number of the cell that stands there, among those of all interfaces; [`NO_CELL`] for what others
+    /// do not see.
+    pub columns: Vec<u8>,
     /// In the order in which they step.
     pub instances: Vec<Instance>,
     /// The machine of each instance.
@@ -86,6 +92,14 @@ pub enum Form {
 }
 
 impl Model {
+    /// The value that stands here.
+    pub(crate) fn cells_at(&self, var: Var) -> Cells {
+        let at = var.at as usize;
+        let owners = 1 << self.owners[at];
+        let columns = if self.columns[at] == NO_CELL { 0 } else { 1 << (self.columns[at] % 64) };
+        Cells { owners, columns }
+    }
+
     /// Whether all orders are made.
     pub fn is_made(&self, state: &[u8]) -> bool {
         self.orders.iter().all(|order| order.made.load(state) != 0)

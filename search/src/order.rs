@@ -2,7 +2,7 @@
 
 use crate::footprint::Footprint;
 use crate::model::Reductions;
-use crate::program::bit;
+use crate::program::{Cells, bit};
 use crate::scan::{Scan, Told};
 use crate::stop::{Mark, Stopped};
 use crate::successor::{Expander, Successor};
@@ -23,7 +23,7 @@ struct Marks {
     due: u64,
     /// A step has ended in a fault: it only matters which of the others do.
     has_failed: bool,
-    written: u64,
+    written: Cells,
     fired: u64,
     restless: u64,
     given: u64,
@@ -194,18 +194,18 @@ impl Expander<'_> {
         let Midway { bytes, marks, .. } = midway;
         marks.stepped |= bit(instance);
         marks.due &= !bit(instance);
-        if marks.written != 0 {
+        if marks.written.owners != 0 {
             for (other, program) in self.model.instances.iter().enumerate() {
                 let to = program.state.load(bytes) as usize;
                 if marks.stepped & bit(other) == 0
-                    && marks.written & program.states[to].reads != 0
+                    && marks.written.meets(program.states[to].reads)
                     && self.footprints[instance][state].feeds(&self.footprints[other][to])
                 {
                     marks.due |= bit(other);
                 }
             }
         }
-        marks.written |= written;
+        marks.written = marks.written | written;
         result
     }
 
@@ -215,7 +215,11 @@ impl Expander<'_> {
             let mut end = self.copy(midway);
             self.noted.clear();
             self.remarked.clear();
-            let mut result = self.on(&mut end, |scan| scan.finish(touched));
+            let mut result = self.on(&mut end, |scan| {
+                let result = scan.finish(touched);
+                scan.ask_starts();
+                result
+            });
             if let Err(stop @ Violation::Stop { .. }) = result {
                 let Marks { forgotten, fired, written, restless, .. } = end.marks;
                 let mark = Mark { forgotten, touched: touched | fired | restless, written };

@@ -8,12 +8,12 @@
 use crate::event::{self, Event, What, machines_of};
 use crate::model::{Model, Reductions};
 use crate::plant::{Machine, Watch};
-use crate::program::bit;
+use crate::program::{Cells, bit};
 use crate::property::Check;
 use crate::stop::{Mark, Stopped};
 use crate::successor::{Expander, Orders};
 use crate::unread::Needed;
-use crate::value::Var;
+use crate::value::{Values, Var};
 use crate::violation::Violation;
 use std::collections::HashMap;
 
@@ -253,7 +253,11 @@ impl Expander<'_> {
         let Self { model, values, work, postponing, .. } = self;
         let owned = &postponing.machines[machine];
         let differs = |var: &Var| var.load(work) != var.load(state);
-        if owned.visible.iter().any(differs) {
+        // Where a vehicle is of which it is forgotten where it has set out, nobody sees.
+        let is_forgotten = |var: &Var| {
+            model.unread.starts.iter().any(|start| start.at == *var) && var.load(state) == Values::NOWHERE
+        };
+        if owned.visible.iter().any(|var| differs(var) && !is_forgotten(var)) {
             return None;
         }
         let mut events = Vec::new();
@@ -343,7 +347,7 @@ impl Expander<'_> {
             };
             if restless & bit(instance) != 0
                 || self.model.stands(state, instance)
-                || own == 0 && reads & waiting == 0
+                || own == 0 && reads.owners & waiting == 0
             {
                 continue;
             }
@@ -433,7 +437,8 @@ impl Expander<'_> {
             }
             let forgotten = self.model.unread.in_state(&self.model.instances, &state, u64::MAX);
             let Mark { touched, written, .. } = stopped.mark;
-            let mark = Mark { forgotten, touched: touched | ended, written: written | ended };
+            let written = written | Cells { owners: ended, columns: u64::MAX };
+            let mark = Mark { forgotten, touched: touched | ended, written };
             let (other, read) = self.behind_stop(&Stopped { state, mark });
             let more = read & waiting & !asked;
             if other != *found || (asked | more).count_ones() > MOST_ASKED {

@@ -3,6 +3,7 @@
 use crate::plant::sight;
 use crate::property::Property;
 use crate::value::{Point, Var};
+use std::ops::BitOr;
 use std::sync::Arc;
 
 /// Whole numbers, truths (0 and 1), times in ms, members of enumerations and rows.
@@ -165,11 +166,41 @@ pub struct Transition {
     pub updates: Vec<Update>,
 }
 
+/// Cells of interfaces, and the values of the instances that own them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Cells {
+    /// Instances, a bit each; instance 64 has the bit of instance 0.
+    pub owners: u64,
+    /// Which cells of interfaces they may be, a bit each; cell 64 of all interfaces has the bit of cell 0.
+    pub columns: u64,
+}
+
+impl Cells {
+    /// A cell of all interfaces, by its number, of an instance.
+    pub fn of(owner: usize, cell: usize) -> Self {
+        Self { owners: bit(owner), columns: 1 << (cell % 64) }
+    }
+
+    /// Whether some may be among both.
+    #[inline]
+    pub fn meets(self, other: Self) -> bool {
+        self.owners & other.owners != 0 && self.columns & other.columns != 0
+    }
+}
+
+impl BitOr for Cells {
+    type Output = Self;
+
+    fn bitor(self, other: Self) -> Self {
+        Self { owners: self.owners | other.owners, columns: self.columns | other.columns }
+    }
+}
+
 #[derive(Clone, Debug)]
 pub struct State {
     pub transitions: Vec<Transition>,
-    /// Instances whose cells it reads or writes, a bit each; instance 64 has the bit of instance 0.
-    pub reads: u64,
+    /// What its guards read.
+    pub reads: Cells,
     /// Times of `after` in ascending order, ms; those that have come at the first test are left out.
     pub times: Vec<i32>,
     /// What is of no use here, and what it holds then.

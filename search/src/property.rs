@@ -1,6 +1,6 @@
 //! What types promise: it is checked after the steps of each scan.
 
-use crate::program::{Instance, Int, PointValue, Real, bit};
+use crate::program::{Cells, Instance, Int, PointValue, Real, bit};
 use crate::scan::Scan;
 use crate::value::{Point, Var};
 use crate::violation::Violation;
@@ -11,8 +11,7 @@ pub struct Property {
     /// Index into the faults of the model.
     pub fault: usize,
     pub effect: Effect,
-    /// Instances whose cells it reads, a bit each.
-    pub reads: u64,
+    pub reads: Cells,
     /// It reads what may change in scans in which nothing else does.
     pub asks_inputs: bool,
 }
@@ -87,7 +86,7 @@ impl Scan<'_> {
             let stands = program.stopped.is_some_and(|stopped| stopped.load(self.before) != 0);
             for property in &program.properties {
                 let is_due = (touched | self.fired) & bit(instance) != 0
-                    || self.written & property.reads != 0
+                    || self.written.meets(property.reads)
                     || property.is_due_always();
                 if is_due && self.is_violated(program, &property.check, stands) {
                     let fault = property.fault;

@@ -4,7 +4,7 @@ use crate::choice::Choices;
 use crate::model::{Model, Reductions};
 use crate::plant::status;
 use crate::postponed::{Postponed, Postponing};
-use crate::program::{Bounds, Clause, Command, Domain, Int, Key, Target, Transition, Update, bit};
+use crate::program::{Bounds, Cells, Clause, Command, Domain, Int, Key, Target, Transition, Update, bit};
 use crate::unread::Needed;
 use crate::value::{Values, Var};
 use crate::violation::Violation;
@@ -18,8 +18,8 @@ pub struct Scan<'a> {
     pub(crate) values: &'a mut Values,
     pub(crate) choices: &'a mut Choices,
     pub(crate) variables: &'a mut [i32],
-    /// Instances that own a value that has changed.
-    pub(crate) written: u64,
+    /// Values that have changed, and their owners.
+    pub(crate) written: Cells,
     /// Instances that have fired.
     pub(crate) fired: u64,
     /// Machines that were given a command.
@@ -84,10 +84,11 @@ impl Scan<'_> {
         self.properties(touched)?;
         self.act(touched)?;
         self.forget();
+        self.forget_starts();
         self.restless |= self.fired;
         for (instance, program) in model.instances.iter().enumerate() {
             let state = program.state.load(self.bytes) as usize;
-            if self.written & program.states[state].reads != 0 {
+            if self.written.meets(program.states[state].reads) {
                 self.restless |= bit(instance);
             }
         }
@@ -100,6 +101,7 @@ impl Scan<'_> {
         self.properties(bit(instance))?;
         self.forget_answer(instance, &self.model.machines[instance]);
         self.forget();
+        self.forget_starts();
         Ok(())
     }
 
@@ -110,7 +112,7 @@ impl Scan<'_> {
         }
         let state = program.state.load(self.bytes) as usize;
         self.step_if_ended(instance);
-        let is_due = touched & bit(instance) != 0 || self.written & program.states[state].reads != 0;
+        let is_due = touched & bit(instance) != 0 || self.written.meets(program.states[state].reads);
         if !is_due && self.model.reductions != Reductions::Off {
             return Ok(());
         }
@@ -129,7 +131,7 @@ impl Scan<'_> {
         let (postponed, postponing) = self.postponed;
         let Some(end) = postponed.end(postponing, instance) else { return };
         let program = &self.model.instances[instance].states[end.state];
-        if self.written & program.reads == 0 {
+        if !self.written.meets(program.reads) {
             return;
         }
         let now = postponing.own(instance, self.bytes);
@@ -177,7 +179,7 @@ impl Scan<'_> {
         if let Some(target) = transition.target {
             program.state.store(self.bytes, target as i32);
             if target != state {
-                self.written |= bit(instance);
+                self.written.owners |= bit(instance);
             }
             if let Some(times) = program.times_come {
                 times.store(self.bytes, 0);
@@ -327,7 +329,7 @@ impl Scan<'_> {
         let forgotten = self.model.unread.part(self.forgotten, var);
         if var.load(self.bytes) != value || forgotten != 0 {
             var.store(self.bytes, value);
-            self.written |= 1 << self.model.owners[var.at as usize];
+            self.written = self.written | self.model.cells_at(var);
             self.forgotten &= !forgotten;
         }
     }
@@ -361,7 +363,7 @@ impl Scan<'_> {
     /// are asked again.
     fn forget(&mut self) {
         let Model { unread, instances, .. } = self.model;
-        let changed = self.fired | self.written;
+        let changed = self.fired | self.written.owners;
         let known = self.forgotten & !unread.owned(changed);
         let forgotten = known | unread.in_state(instances, self.bytes, changed);
         let again = self.forgotten & !forgotten;

@@ -1,6 +1,6 @@
 //! What comes behind a stop for an operator.
 
-use crate::program::bit;
+use crate::program::{Cells, bit};
 use crate::scan::Scan;
 use crate::successor::Expander;
 use crate::violation::Violation;
@@ -21,8 +21,8 @@ pub(crate) struct Mark {
     pub forgotten: u128,
     /// Instances that may do something in the next scan, or whose properties were due.
     pub touched: u64,
-    /// Instances that own a value that has changed.
-    pub written: u64,
+    /// Values that have changed, and their owners.
+    pub written: Cells,
 }
 
 impl Scan<'_> {
@@ -58,6 +58,7 @@ impl Expander<'_> {
             let mut scan = self.begin();
             scan.written = mark.written;
             let result = scan.run(&order, touched);
+            scan.ask_starts();
             mark = scan.mark(touched);
             read |= scan.observed;
             if let Err(Violation::Fault { instance, fault }) = result

@@ -6,7 +6,7 @@ use crate::footprint::{Footprint, footprints};
 use crate::model::Model;
 use crate::plant::Faults;
 use crate::postponed::{Postponed, Postponing};
-use crate::program::{Instance, bit};
+use crate::program::{Cells, Instance, bit};
 use crate::property::Whenever;
 use crate::scan::{Scan, Told};
 use crate::stop::Stopped;
@@ -194,6 +194,8 @@ impl<'a> Expander<'a> {
         self.forgotten = self.model.unread.in_state(&self.model.instances, state, u64::MAX);
         self.forgotten_before = self.forgotten;
         self.restless = self.restless_in(state, restless);
+        self.work.copy_from_slice(state);
+        self.begin().ask_starts();
         let sources = event::sources(self.model);
         let mut options: Vec<Vec<Choice>> = std::mem::take(&mut self.options);
         let mut used = 0;
@@ -292,7 +294,7 @@ impl<'a> Expander<'a> {
             values: &mut self.values,
             choices: &mut self.choices,
             variables: &mut self.variables,
-            written: 0,
+            written: Cells::default(),
             fired: 0,
             given: 0,
             repeated: 0,
@@ -372,8 +374,9 @@ impl<'a> Expander<'a> {
             let order = std::mem::take(&mut self.order);
             let mut scan = self.begin();
             let mut result = scan.run(&order, touched);
+            scan.ask_starts();
             let restless = scan.restless;
-            let (observed, changed, given) = (scan.observed, scan.written | scan.fired, scan.given);
+            let (observed, changed, given) = (scan.observed, scan.written.owners | scan.fired, scan.given);
             let mark = scan.mark(touched);
             self.order = order;
             self.observe(observed, changed);

@@ -5,6 +5,7 @@
 //! end nobody has asked for what was forgotten: with every other value, all would have been the same.
 
 use crate::program::{Instance, bit};
+use crate::start::Start;
 use crate::value::Var;
 
 /// So many values, at most.
@@ -32,10 +33,18 @@ pub struct Tell {
 
 /// What is forgotten has been asked for, or would have become known again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Needed {
-    pub cell: usize,
-    /// In this mode it has to be known: the state of its owner, what this tells, and the token.
-    pub mode: usize,
+pub enum Needed {
+    /// A value, in this mode: the state of its owner, what this tells, and the token.
+    Value { cell: usize, mode: usize },
+    /// Where a vehicle under way has set out, in this state of its automaton.
+    Start { machine: usize, state: usize },
+}
+
+/// What is the same for all for which [`Unread::keep`] does the same.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Like {
+    Value { kind: usize, mode: usize },
+    Start { kind: usize, state: usize },
 }
 
 /// Values, a bit each in masks, and where they are forgotten.
@@ -45,6 +54,8 @@ pub struct Unread {
     /// Of each byte of a state one more than the number of the value that begins there.
     at: Vec<u8>,
     owners: Vec<Owner>,
+    /// Vehicles.
+    pub(crate) starts: Vec<Start>,
 }
 
 /// What is forgotten of an instance.
@@ -86,7 +97,13 @@ impl Owner {
 
 impl Unread {
     /// The first of these values, which the instances own, in a state of so many bytes. Of each instance what tells.
-    pub fn new(mut cells: Vec<Cell>, tells: Vec<Vec<Tell>>, instances: &[Instance], length: usize) -> Self {
+    pub fn new(
+        mut cells: Vec<Cell>,
+        tells: Vec<Vec<Tell>>,
+        instances: &[Instance],
+        length: usize,
+        starts: Vec<Start>,
+    ) -> Self {
         cells.truncate(MOST);
         let mut at = vec![0; length];
         let owners = tells.into_iter().zip(instances).map(|(tells, instance)| {
@@ -100,21 +117,28 @@ impl Unread {
             owner.own |= 1 << number;
             owner.forgotten(cell.token).iter_mut().for_each(|mask| *mask |= 1 << number);
         }
-        Self { cells, at, owners }
+        Self { cells, at, owners, starts }
     }
 
     /// Where they stand.
     pub fn vars(&self) -> impl Iterator<Item = Var> {
-        self.cells.iter().map(|cell| cell.var)
+        self.cells.iter().map(|cell| cell.var).chain(self.starts.iter().map(|start| start.at))
     }
 
     pub(crate) fn is_empty(&self) -> bool {
-        self.cells.is_empty()
+        self.cells.is_empty() && self.starts.is_empty()
     }
 
-    /// The same for all for which [`Unread::keep`] does the same.
-    pub(crate) fn like(&self, needed: Needed) -> (usize, usize) {
-        (self.cells[needed.cell].kind, needed.mode)
+    pub(crate) fn like(&self, needed: Needed) -> Like {
+        match needed {
+            Needed::Value { cell, mode } => Like::Value { kind: self.cells[cell].kind, mode },
+            Needed::Start { machine, state } => Like::Start { kind: self.kind_of_start(machine), state },
+        }
+    }
+
+    fn kind_of_start(&self, machine: usize) -> usize {
+        let start = self.starts.iter().find(|start| start.machine == machine);
+        start.map_or(machine, |start| start.kind)
     }
 
     /// What a mask has of the value that stands here.
@@ -171,8 +195,8 @@ impl Unread {
             let number = mask.trailing_zeros() as usize;
             let cell = &self.cells[number];
             let mode = self.owners[cell.owner].mode(&instances[cell.owner], state);
-            let needed =
-                Needed { cell: number, mode: cell.token.map_or(mode, |token| token.within(mode, state)) };
+            let mode = cell.token.map_or(mode, |token| token.within(mode, state));
+            let needed = Needed::Value { cell: number, mode };
             if !noted.contains(&needed) {
                 noted.push(needed);
             }
@@ -180,21 +204,47 @@ impl Unread {
         }
     }
 
-    /// From now on they are known there, as are all of their kinds; one that was known already, in every mode.
+    /// From now on they are known there, as are all of their kinds; one that was known already, everywhere.
     pub(crate) fn keep(&mut self, needed: &[Needed]) {
-        let Self { cells, owners, .. } = self;
-        let was_known = needed.iter().map(|Needed { cell, mode }| {
-            let Cell { owner, token, .. } = cells[*cell];
-            owners[owner].forgotten(token)[*mode] & 1 << cell == 0
+        let was_known = needed.iter().map(|needed| match *needed {
+            Needed::Value { cell, mode } => self.is_known(cell, mode),
+            Needed::Start { machine, state } => self.is_start_known(machine, state),
         });
         let was_known: Vec<bool> = was_known.collect();
-        for (Needed { cell, mode }, was_known) in needed.iter().zip(was_known) {
-            let kind = cells[*cell].kind;
-            for (number, cell) in cells.iter().enumerate().filter(|(_, cell)| cell.kind == kind) {
-                let forgotten = owners[cell.owner].forgotten(cell.token);
-                let modes = if was_known { 0..forgotten.len() } else { *mode..mode + 1 };
-                forgotten[modes].iter_mut().for_each(|mask| *mask &= !(1 << number));
+        for (needed, was_known) in needed.iter().zip(was_known) {
+            match *needed {
+                Needed::Value { cell, mode } => self.keep_value(cell, (!was_known).then_some(mode)),
+                Needed::Start { machine, state } => self.keep_start(machine, (!was_known).then_some(state)),
             }
+        }
+    }
+
+    fn is_known(&mut self, cell: usize, mode: usize) -> bool {
+        let Cell { owner, token, .. } = self.cells[cell];
+        self.owners[owner].forgotten(token)[mode] & 1 << cell == 0
+    }
+
+    /// In one mode, or in all.
+    fn keep_value(&mut self, cell: usize, mode: Option<usize>) {
+        let Self { cells, owners, .. } = self;
+        let kind = cells[cell].kind;
+        for (number, cell) in cells.iter().enumerate().filter(|(_, cell)| cell.kind == kind) {
+            let forgotten = owners[cell.owner].forgotten(cell.token);
+            let modes = mode.map_or(0..forgotten.len(), |mode| mode..mode + 1);
+            forgotten[modes].iter_mut().for_each(|mask| *mask &= !(1 << number));
+        }
+    }
+
+    fn is_start_known(&self, machine: usize, state: usize) -> bool {
+        self.starts.iter().any(|start| start.machine == machine && start.known[state])
+    }
+
+    /// In one state of the automaton, or in all.
+    fn keep_start(&mut self, machine: usize, state: Option<usize>) {
+        let kind = self.kind_of_start(machine);
+        for start in self.starts.iter_mut().filter(|start| start.kind == kind) {
+            let states = state.map_or(0..start.known.len(), |state| state..state + 1);
+            start.known[states].fill(true);
         }
     }
 }

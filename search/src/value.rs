@@ -34,7 +34,7 @@ impl Var {
 
 pub type Point = [f64; 3];
 
-/// Numbers of the points and reals that have come up. Number 0 is (0, 0, 0), and 0.
+/// Numbers of the points and reals that have come up. Number 0 is (0, 0, 0), and 0; point 1 is without end.
 #[derive(Clone, Debug)]
 pub struct Values {
     points: Vec<Point>,
@@ -46,6 +46,8 @@ pub struct Values {
     reached: Vec<Vec<(usize, bool)>>,
     /// Of each point that was asked for the sites that it is at.
     pub(crate) sites: Vec<Option<Box<[Site]>>>,
+    /// Of each point that was asked for the vehicles that may be there, a bit each.
+    vehicles: Vec<Option<u64>>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,14 +67,19 @@ impl Default for Values {
             is_full: false,
             reached: Vec::new(),
             sites: Vec::new(),
+            vehicles: Vec::new(),
         };
         values.number_of_point([0.0; 3]);
+        values.number_of_point([f64::INFINITY; 3]);
         values.number_of_real(0.0);
         values
     }
 }
 
 impl Values {
+    /// The point of which it is not known where it is: far from all others.
+    pub(crate) const NOWHERE: i32 = 1;
+
     pub fn point(&self, number: i32) -> Point {
         self.points[number as usize]
     }
@@ -135,6 +142,7 @@ impl Values {
         self.is_full = count.is_full;
         self.sites.truncate(count.points);
         self.reached.truncate(count.points);
+        self.vehicles.truncate(count.points);
     }
 
     /// Asks once for each machine and point.
@@ -149,6 +157,16 @@ impl Values {
         let is_reached = ask(self.points[number as usize]);
         known.push((machine, is_reached));
         is_reached
+    }
+
+    /// Asks once for each point.
+    pub(crate) fn vehicles_at(&mut self, number: i32, ask: impl FnOnce(Point) -> u64) -> u64 {
+        let at = number as usize;
+        if self.vehicles.len() <= at {
+            self.vehicles.resize(self.points.len(), None);
+        }
+        let point = self.points[at];
+        *self.vehicles[at].get_or_insert_with(|| ask(point))
     }
 
     pub(crate) fn note_sites(&mut self, number: i32, sites: Vec<Site>) {

@@ -7,10 +7,10 @@ use super::plant::{Plant, Signal};
 use super::{Asked, Skipped};
 use crate::executor::Executor;
 use crate::ir::{self, Automaton, Expr, InterfaceId, Place, RoleId, Scalar, System, UpdateKind, Value};
-use crate::reads::{Reads, Whose, is_fixed};
+use crate::reads::{ReadCell, Reads, Whose, is_fixed};
 use autogen_search::plant::{Action, Machine, sight};
 use autogen_search::program::{
-    Bounds, Clause, Command, Int, Key, Operator, State, Target, Transition, Unread, Update, bit,
+    Bounds, Cells, Clause, Command, Int, Key, Operator, State, Target, Transition, Unread, Update,
 };
 use autogen_search::value::Var;
 use runtime_sim::device::Direction;
@@ -58,6 +58,24 @@ pub struct Instance<'a> {
 }
 
 impl Line<'_> {
+    /// The number of a cell among those of all interfaces.
+    pub fn column(&self, interface: InterfaceId, cell: usize) -> usize {
+        let before = self.system.model.interfaces[..interface.0].iter();
+        before.map(|interface| interface.cells.len()).sum::<usize>() + cell
+    }
+
+    /// A cell of all members of an interface, or of one of them.
+    pub fn cells_read(&self, interface: InterfaceId, cell: usize, of: Option<usize>) -> Cells {
+        let column = self.column(interface, cell);
+        match of {
+            Some(owner) => Cells::of(owner, column),
+            None => {
+                let members = self.system.members[interface.0].iter();
+                members.fold(Cells::default(), |all, member| all | Cells::of(*member, column))
+            }
+        }
+    }
+
     /// Of an enumeration, or of an interface to whose rows a reference refers.
     pub fn members(&self, ty: Scalar) -> usize {
         match ty {
@@ -226,16 +244,10 @@ impl<'a> Instance<'a> {
         times.dedup();
         self.times = times.clone();
         self.defines.clear();
-        let mut reads = 0;
-        for cell in &Reads::of_state(automaton, state).cells {
-            match cell.of {
-                Whose::Own => reads |= bit(self.number),
-                Whose::Others => {
-                    let members = &self.line.system.members[cell.interface.0];
-                    members.iter().for_each(|member| reads |= bit(*member));
-                }
-            }
-        }
+        let reads = guards.cells.iter().map(|ReadCell { interface, cell, of }| {
+            self.line.cells_read(*interface, *cell, (*of == Whose::Own).then_some(self.number))
+        });
+        let reads = reads.fold(Cells::default(), |all, cells| all | cells);
         let transitions = state.transitions.iter().map(|transition| self.transition(transition)).collect();
         let locals = self.line.locals[self.number].iter().enumerate();
         let dead = locals.filter(|(local, _)| !live.contains(&Remembers::Local(*local)));

@@ -8,9 +8,11 @@ use super::strokes::Changing;
 use super::unread::unread;
 use super::{Asked, Remembered, Skipped};
 use crate::diagnostic::Diagnostic;
-use crate::ir::{Asking, Automaton, Expr, ExprKind, KeptBy, Place, Scalar, System, Type, UpdateKind, Value};
+use crate::ir::{
+    Asking, Automaton, Expr, ExprKind, InterfaceId, KeptBy, Place, Scalar, System, Type, UpdateKind, Value,
+};
 use crate::lower::Project;
-use autogen_search::model::{Model, Reach, Reductions};
+use autogen_search::model::{Model, NO_CELL, Reach, Reductions};
 use autogen_search::plant::{Order, Watch};
 use autogen_search::unread::Unread;
 use runtime_sim::device::{Direction, PortType};
@@ -149,6 +151,7 @@ pub fn model(project: &Project, asked: &Asked) -> Result<Searched, Vec<Diagnosti
         return Err(refused.into_iter().map(|(number, port)| unbounded(system, number, &port)).collect());
     }
     memory.end();
+    let columns = columns(&whole, memory.initial.len());
     let unread = match asked.remembered {
         Remembered::Least => unread(&whole, asked, &instances, memory.initial.len()),
         Remembered::Whole => Unread::default(),
@@ -161,6 +164,7 @@ pub fn model(project: &Project, asked: &Asked) -> Result<Searched, Vec<Diagnosti
     let model = Model {
         initial,
         owners,
+        columns,
         instances,
         machines: whole.plants.into_iter().map(|plant| plant.machine).collect(),
         inputs: changing.inputs,
@@ -181,6 +185,19 @@ pub fn model(project: &Project, asked: &Asked) -> Result<Searched, Vec<Diagnosti
         variables,
     };
     Ok(Searched { model, skipped })
+}
+
+/// Of each byte of a state which cell stands there.
+fn columns(line: &Line, length: usize) -> Vec<u8> {
+    let mut columns = vec![NO_CELL; length];
+    for (interface, rows) in line.cells.iter().enumerate() {
+        for (cell, (vars, _)) in rows.iter().flat_map(|row| row.iter().enumerate()) {
+            // Columns with the same bit count as one.
+            let column = (line.column(InterfaceId(interface), cell) % 64) as u8;
+            vars.iter().for_each(|var| columns[var.at as usize] = column);
+        }
+    }
+    columns
 }
 
 /// Of each fault whether the property of which it is reads an input of a device.

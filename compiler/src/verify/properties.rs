@@ -5,7 +5,7 @@ use super::memory::{Memory, kept};
 use super::{Asked, Remembered, Warnings};
 use crate::ir::{self, Automaton, Expr, ExprKind, Place, PropertyKind, Scalar, Severity, Value};
 use crate::library;
-use autogen_search::program::bit;
+use autogen_search::program::Cells;
 use autogen_search::property::{self, Check, Effect, Keep, Property, Whenever};
 
 /// Which properties of a type are searched. Of obligations those are left out whose violation calls the operator, because
@@ -87,7 +87,8 @@ impl Instance<'_> {
                 _ if property.asks_operator => Effect::AsksOperator,
                 _ => Effect::Fault,
             };
-            let reads = read_by(property).into_iter().fold(0, |bits, expr| bits | self.cells_of(expr));
+            let reads = read_by(property).into_iter().map(|expr| self.cells_of(expr));
+            let reads = reads.fold(Cells::default(), |all, cells| all | cells);
             let asks_inputs = self.asks_inputs;
             found.push(Property { check, fault: property.site.0, effect, reads, asks_inputs });
         }
@@ -135,16 +136,15 @@ impl Instance<'_> {
         kept(ty, |ty| self.line.members(ty))
     }
 
-    /// Whose cells an expression reads, a bit for each instance.
-    fn cells_of(&self, expr: &Expr) -> u64 {
+    /// The cells that an expression reads.
+    fn cells_of(&self, expr: &Expr) -> Cells {
         let own = match &expr.kind {
             ExprKind::Define(define) => self.cells_of(&self.automaton.defines[*define].value),
-            ExprKind::Read(Place::Cell { of: None, .. }) => bit(self.number),
-            ExprKind::Read(Place::Cell { interface, .. }) => {
-                self.line.system.members[interface.0].iter().fold(0, |bits, member| bits | bit(*member))
+            ExprKind::Read(Place::Cell { interface, cell, of, .. }) => {
+                self.line.cells_read(*interface, *cell, of.is_none().then_some(self.number))
             }
-            _ => 0,
+            _ => Cells::default(),
         };
-        expr.parts().into_iter().fold(own, |bits, part| bits | self.cells_of(part))
+        expr.parts().into_iter().fold(own, |all, part| all | self.cells_of(part))
     }
 }

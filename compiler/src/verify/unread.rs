@@ -7,6 +7,7 @@ use crate::ir::{
     Automaton, Expr, ExprKind, Implements, InterfaceId, KeptBy, Place, PropertyKind, Rule, Scalar, Type,
 };
 use autogen_search::program::Instance;
+use autogen_search::start::Start;
 use autogen_search::unread::{Cell, Tell, Unread};
 use autogen_search::value::Var;
 use std::collections::BTreeSet;
@@ -58,7 +59,20 @@ pub fn unread(line: &Line, asked: &Asked, instances: &[Instance], length: usize)
         }
     }
     single.extend(elements);
-    Unread::new(single, told, instances, length)
+    Unread::new(single, told, instances, length, starts(line, instances))
+}
+
+/// The vehicles: at first it is forgotten in every state where one that is under way has set out.
+fn starts(line: &Line, instances: &[Instance]) -> Vec<Start> {
+    let plants = line.plants.iter().enumerate();
+    let vehicles = plants.filter_map(|(machine, plant)| Some((machine, plant.machine.route.as_ref()?)));
+    let starts = vehicles.map(|(machine, route)| Start {
+        machine,
+        at: route.at,
+        kind: line.system.instances[machine].automaton.0,
+        known: vec![false; instances[machine].states.len()],
+    });
+    starts.collect()
 }
 
 struct Value<'a> {
