@@ -1,11 +1,13 @@
 //! SPIN counts the states of small lines too: a search of its own on the same models.
 
+use autogen::lower::Project;
 use autogen::verify::{Asked, model};
 use autogen_search::explore::{Bounds, Covered, End, explore};
 use autogen_search::model::Model;
 use autogen_search::plant::Faults;
 use autogen_search::promela::promela;
 use autogen_search::successor::Orders;
+use autogen_search::unread::Unread;
 use autogen_tests::{Texts, is_full_campaign, text};
 use std::path::Path;
 use std::process::Command;
@@ -85,6 +87,12 @@ const BOUNDS: Bounds = Bounds {
     jobs: 1,
 };
 
+/// A model in which nothing is forgotten: what has to be known turns out in a search of its own.
+fn remembering(project: &Project, faults: Faults) -> Model {
+    let model = model(project, &Asked::with(faults)).expect("a line that can be searched").model;
+    Model { unread: Unread::default(), ..model }
+}
+
 /// What both count, and the seconds that the processor worked for each.
 fn counted_by_both(name: &str, model: &Model) -> (Covered, [f64; 2]) {
     let before = processor_time().0;
@@ -118,7 +126,7 @@ fn states_and_transitions_are_those_that_spin_counts() {
     ];
     for (number, (types, faults)) in lines.into_iter().enumerate() {
         let project = line("shuttles", types).project();
-        let model = model(&project, &Asked::with(faults)).expect("a line that can be searched").model;
+        let model = remembering(&project, faults);
         let (covered, _) = counted_by_both(&number.to_string(), &model);
         println!(
             "{types:?}, faults {faults:?}: {} states, {} transitions",
@@ -135,7 +143,7 @@ fn many_states_are_those_that_spin_counts() {
     }
     let trips = if is_full_campaign() { 29 } else { 3 };
     let project = line("laps", &["lap"; 4]).set(&format!("lap.trips={trips}")).project();
-    let model = model(&project, &Asked::with(Faults::None)).expect("a line that can be searched").model;
+    let model = remembering(&project, Faults::None);
     let (one, seconds) = counted_by_both("laps", &model);
     let two = explore(&model, &Bounds { jobs: 2, ..BOUNDS }, &mut |_| true).covered;
     assert_eq!((two.states, two.transitions), (one.states, one.transitions));
