@@ -223,8 +223,8 @@ impl Expander<'_> {
             if let Err(stop @ Violation::Stop { .. }) = result {
                 let Marks { forgotten, fired, written, restless, .. } = end.marks;
                 let mark = Mark { forgotten, touched: touched | fired | restless, written };
-                let stopped = Stopped { state: end.bytes.clone(), mark };
-                result = Err(self.behind_stop(&stopped).0.unwrap_or(stop));
+                let stopped = Stopped::new(self.model, &end.bytes, mark);
+                result = Err(self.behind(stopped).unwrap_or(stop));
             }
             emit(Successor {
                 state: &end.bytes,

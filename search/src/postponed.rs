@@ -418,11 +418,12 @@ impl Expander<'_> {
 
     /// After a stop, behind which this was found in scans that have read this: of which machines it would be another thing if
     /// their commands had ended.
-    pub(crate) fn observe_behind(&mut self, stopped: &Stopped, found: &Option<Violation>, read: u64) {
+    pub(crate) fn observed_behind(&mut self, stopped: &Stopped, found: &Option<Violation>, read: u64) -> u64 {
         let waiting = self.postponed.waiting;
         if waiting == 0 {
-            return;
+            return 0;
         }
+        let mut observed = 0;
         let choices = std::mem::take(&mut self.choices);
         let acting = |machine: &usize| self.would_stay(&stopped.state, *machine, bit(*machine), 0) != Some(0);
         let acting: Vec<usize> = members(waiting).filter(acting).collect();
@@ -442,13 +443,14 @@ impl Expander<'_> {
             let (other, read) = self.behind_stop(&Stopped { state, mark });
             let more = read & waiting & !asked;
             if other != *found || (asked | more).count_ones() > MOST_ASKED {
-                self.postponed.observed |= asked | more;
+                observed = asked | more;
                 break;
             }
             asked |= more;
             ended = if more == 0 { (ended - 1) & asked } else { asked };
         }
         self.choices = choices;
+        observed
     }
 }
 

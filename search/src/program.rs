@@ -167,7 +167,7 @@ pub struct Transition {
 }
 
 /// Cells of interfaces, and the values of the instances that own them.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Cells {
     /// Instances, a bit each; instance 64 has the bit of instance 0.
     pub owners: u64,

@@ -1,21 +1,24 @@
 //! What comes behind a stop for an operator.
 
+use crate::model::Model;
 use crate::program::{Cells, bit};
 use crate::scan::Scan;
 use crate::successor::Expander;
 use crate::violation::Violation;
+use std::collections::HashMap;
 
 /// A line that stops in so many scans one after another does so for ever.
 const MOST_STOPS: usize = 8;
 
-/// The state in which a scan has ended in a stop.
+/// The state in which a scan has ended in a stop. What the operator does may change inputs of devices: they are open.
+#[derive(Clone, PartialEq, Eq, Hash)]
 pub(crate) struct Stopped {
     pub state: Vec<u8>,
     pub mark: Mark,
 }
 
 /// What the next scan has to know of a scan that was broken off.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) struct Mark {
     /// What of its state is forgotten.
     pub forgotten: u128,
@@ -23,6 +26,18 @@ pub(crate) struct Mark {
     pub touched: u64,
     /// Values that have changed, and their owners.
     pub written: Cells,
+}
+
+/// What is known of stops in scans of the state that is expanded: what is wrong behind them, and who needs what is postponed
+/// to find that out. Beside each which machines wait.
+pub(crate) type Stops = HashMap<(Stopped, u64), (Option<Violation>, u64)>;
+
+impl Stopped {
+    pub fn new(model: &Model, state: &[u8], mark: Mark) -> Self {
+        let mut state = state.to_vec();
+        model.inputs.iter().for_each(|input| input.var.store(&mut state, 0));
+        Self { state, mark }
+    }
 }
 
 impl Scan<'_> {
@@ -34,6 +49,21 @@ impl Scan<'_> {
 }
 
 impl Expander<'_> {
+    /// What is wrong behind a stop, as [`Expander::behind_stop`]; notes who needs what is postponed for that. Scans that differ
+    /// in what sensors tell often end in the same stop.
+    pub(crate) fn behind(&mut self, stopped: Stopped) -> Option<Violation> {
+        let key = (stopped, self.postponed.waiting);
+        if let Some((found, observed)) = self.stops.get(&key) {
+            self.postponed.observed |= observed;
+            return found.clone();
+        }
+        let (found, read) = self.behind_stop(&key.0);
+        let observed = self.observed_behind(&key.0, &found, read);
+        self.postponed.observed |= observed;
+        self.stops.insert(key, (found.clone(), observed));
+        found
+    }
+
     /// What is wrong once an operator has come, for whom the line has stopped in this state, while no device does anything:
     /// it stops again in each scan, or in a fault.
     /// The second result is what its scans read of what is postponed.
@@ -48,7 +78,6 @@ impl Expander<'_> {
         let mut mark = stopped.mark;
         let (mut found, mut read) = (None, 0);
         for _ in 0..MOST_STOPS {
-            // What the operator does may change inputs of devices.
             self.model.inputs.iter().for_each(|input| input.var.store(&mut self.work, 0));
             self.before.clone_from(&self.work);
             self.forgotten = mark.forgotten;

@@ -9,7 +9,7 @@ use crate::postponed::{Postponed, Postponing};
 use crate::program::{Cells, Instance, bit};
 use crate::property::Whenever;
 use crate::scan::{Scan, Told};
-use crate::stop::Stopped;
+use crate::stop::{Stopped, Stops};
 use crate::unread::Needed;
 use crate::value::Values;
 use crate::violation::Violation;
@@ -73,6 +73,7 @@ pub struct Expander<'a> {
     pub(crate) needed: Vec<Needed>,
     pub(crate) postponing: Postponing,
     pub(crate) postponed: Postponed,
+    pub(crate) stops: Stops,
     /// Successors are looked at, and not told.
     is_silent: bool,
 }
@@ -141,6 +142,7 @@ impl<'a> Expander<'a> {
             needed: Vec::new(),
             postponing: Postponing::default(),
             postponed: Postponed::default(),
+            stops: Stops::default(),
             is_silent: false,
         }
     }
@@ -190,6 +192,7 @@ impl<'a> Expander<'a> {
         restless: u64,
         is_wanted: impl Fn(bool) -> bool,
     ) -> Vec<Vec<Choice>> {
+        self.stops.clear();
         self.before.copy_from_slice(state);
         self.forgotten = self.model.unread.in_state(&self.model.instances, state, u64::MAX);
         self.forgotten_before = self.forgotten;
@@ -231,11 +234,20 @@ impl<'a> Expander<'a> {
             if needed == 0 {
                 break;
             }
-            self.postponed.fresh = needed;
             self.no_longer(needed);
+            if self.is_silent && !self.may_be_needed() {
+                break;
+            }
+            self.postponed.fresh = needed;
             self.answer(options, 0, 0, emit);
             self.postponed.fresh = 0;
         }
+    }
+
+    /// Whether there is something postponed of which nobody has needed it so far.
+    fn may_be_needed(&self) -> bool {
+        let Postponed { waiting, idle, observed, .. } = self.postponed;
+        (waiting | idle) & !observed != 0
     }
 
     /// Whether the state may stay as it is if no device does anything.
@@ -364,6 +376,9 @@ impl<'a> Expander<'a> {
         if self.orders == Orders::All {
             return self.scan_in_any_order(level, touched, emit);
         }
+        if self.is_silent && !self.may_be_needed() {
+            return;
+        }
         self.choices.clear();
         loop {
             self.work.copy_from_slice(&self.levels[level]);
@@ -384,11 +399,8 @@ impl<'a> Expander<'a> {
                 self.observe_hazards();
             }
             if let Err(stop @ Violation::Stop { .. }) = result {
-                let stopped = Stopped { state: self.work.clone(), mark };
-                let (found, read) = self.behind_stop(&stopped);
-                self.observe_behind(&stopped, &found, read);
-                self.work = stopped.state;
-                result = Err(found.unwrap_or(stop));
+                let stopped = Stopped::new(self.model, &self.work, mark);
+                result = Err(self.behind(stopped).unwrap_or(stop));
             }
             if self.is_silent {
                 if self.choices.advance() {
