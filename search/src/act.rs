@@ -106,6 +106,7 @@ impl Scan<'_> {
     }
 
     pub(crate) fn at_stop(&mut self, machine: usize) -> i32 {
+        self.decisions.end_record();
         let Machine { head, route: Some(route), .. } = &self.model.machines[machine] else { return -1 };
         head.iter().for_each(|head| self.observe(head.status));
         self.ask_start(machine);

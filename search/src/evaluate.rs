@@ -25,7 +25,10 @@ impl Scan<'_> {
                 self.input(inputs[index])
             }
             Int::AtStop(machine) => self.at_stop(*machine),
-            Int::Chance => self.choices.take(2) as i32,
+            Int::Chance => {
+                self.decisions.end_record();
+                self.choices.take(2) as i32
+            }
             Int::Shared(expr) => self.int(expr),
             Int::Not(a) => i32::from(!self.holds(a)),
             Int::Negate(a) => self.int(a).wrapping_neg(),
@@ -166,6 +169,7 @@ impl Scan<'_> {
             PointValue::Load(var) => {
                 let number = self.load(*var);
                 if number == Values::NOWHERE {
+                    self.decisions.end_record();
                     self.ask_start(usize::from(self.model.owners[var.at as usize]));
                 }
                 self.values.point(number)

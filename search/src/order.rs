@@ -257,6 +257,7 @@ impl Expander<'_> {
             values: &mut self.values,
             choices: &mut self.choices,
             variables: &mut self.variables,
+            decisions: &mut self.decisions,
             written: marks.written,
             fired: marks.fired,
             given: marks.given,

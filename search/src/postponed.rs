@@ -15,7 +15,7 @@ use crate::successor::{Expander, Orders};
 use crate::unread::Needed;
 use crate::value::{Values, Var};
 use crate::violation::Violation;
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 /// An instance that reads what so many machines have postponed counts as one that needs it.
 const MOST_ASKED: u32 = 4;
@@ -25,8 +25,10 @@ const MOST_ASKED: u32 = 4;
 pub(crate) struct Postponing {
     machines: Vec<Owned>,
     /// What each may do by itself, by its values.
-    known: Vec<HashMap<Box<[u8]>, usize>>,
+    known: Vec<FxHashMap<Box<[u8]>, usize>>,
     alone: Vec<Alone>,
+    /// The values that are looked up.
+    own: Vec<u8>,
 }
 
 /// The values of a machine.
@@ -83,7 +85,7 @@ pub(crate) fn is_possible(model: &Model, answers: Option<usize>, orders: Orders)
 impl Postponing {
     pub fn new(model: &Model) -> Self {
         let machines = (0..model.machines.len()).map(|machine| Owned::new(model, machine)).collect();
-        Self { machines, known: vec![HashMap::new(); model.machines.len()], alone: Vec::new() }
+        Self { machines, known: vec![FxHashMap::default(); model.machines.len()], alone: Vec::new(), own: Vec::new() }
     }
 
     pub fn machines(&self) -> impl Iterator<Item = usize> {
@@ -94,6 +96,11 @@ impl Postponing {
     /// The values of a machine in a state.
     pub fn own(&self, machine: usize, state: &[u8]) -> Box<[u8]> {
         self.machines[machine].bytes.iter().map(|at| state[*at]).collect()
+    }
+
+    fn read_own(&mut self, machine: usize, state: &[u8]) {
+        self.own.clear();
+        self.own.extend(self.machines[machine].bytes.iter().map(|at| state[*at]));
     }
 
     /// The state in which a machine has these values.
@@ -162,8 +169,8 @@ impl Postponed {
 impl Expander<'_> {
     /// What a machine may do by itself in this state.
     pub(crate) fn alone(&mut self, machine: usize, state: &[u8]) -> usize {
-        let own = self.postponing.own(machine, state);
-        if let Some(known) = self.postponing.known[machine].get(&own) {
+        self.postponing.read_own(machine, state);
+        if let Some(known) = self.postponing.known[machine].get(self.postponing.own.as_slice()) {
             self.needed.extend_from_slice(&self.postponing.alone[*known].needed);
             return *known;
         }
@@ -183,6 +190,7 @@ impl Expander<'_> {
         self.postponing.alone.push(alone);
         // New values may be given other numbers later.
         if !has_new_values {
+            let own = self.postponing.own(machine, state);
             self.postponing.known[machine].insert(own, number);
         }
         number
@@ -353,7 +361,7 @@ impl Expander<'_> {
             }
             let mut asked = 0;
             loop {
-                let Some(reads) = self.would_stay(state, instance, own, asked) else {
+                let Some(reads) = self.would_stay(state, self.forgotten, instance, own, asked) else {
                     woken |= asked | own;
                     break;
                 };
@@ -371,7 +379,15 @@ impl Expander<'_> {
     }
 
     /// Whether an instance does nothing, whichever of these have ended: of which others it reads what is postponed.
-    fn would_stay(&mut self, state: &[u8], instance: usize, own: u64, asked: u64) -> Option<u64> {
+    /// `known_not`: what is forgotten in the state.
+    fn would_stay(
+        &mut self,
+        state: &[u8],
+        known_not: u128,
+        instance: usize,
+        own: u64,
+        asked: u64,
+    ) -> Option<u64> {
         let mut others = 0;
         let mut ended = asked;
         let forgotten = self.forgotten;
@@ -383,7 +399,9 @@ impl Expander<'_> {
                     self.postponing.replace(machine, &mut self.work, &end.after);
                 }
             }
-            self.forgotten = self.model.unread.in_state(&self.model.instances, &self.work, u64::MAX);
+            let Model { unread, instances, .. } = self.model;
+            let of_others = known_not & !unread.owned(ended | own);
+            self.forgotten = of_others | unread.in_state(instances, &self.work, ended | own);
             self.choices.clear();
             let mut scan = self.begin();
             let result = scan.step_if_due(instance, u64::MAX);
@@ -425,7 +443,9 @@ impl Expander<'_> {
         }
         let mut observed = 0;
         let choices = std::mem::take(&mut self.choices);
-        let acting = |machine: &usize| self.would_stay(&stopped.state, *machine, bit(*machine), 0) != Some(0);
+        let acting = |machine: &usize| {
+            self.would_stay(&stopped.state, stopped.mark.forgotten, *machine, bit(*machine), 0) != Some(0)
+        };
         let acting: Vec<usize> = members(waiting).filter(acting).collect();
         let mut asked = acting.into_iter().fold(read & waiting, |asked, machine| asked | bit(machine));
         let mut ended = asked;

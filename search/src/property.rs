@@ -84,11 +84,11 @@ impl Scan<'_> {
         let model = self.model;
         for (instance, program) in model.instances.iter().enumerate() {
             let stands = program.stopped.is_some_and(|stopped| stopped.load(self.before) != 0);
-            for property in &program.properties {
+            for (number, property) in program.properties.iter().enumerate() {
                 let is_due = (touched | self.fired) & bit(instance) != 0
                     || self.written.meets(property.reads)
                     || property.is_due_always();
-                if is_due && self.is_violated(program, &property.check, stands) {
+                if is_due && self.is_violated(instance, number, stands) {
                     let fault = property.fault;
                     match property.effect {
                         Effect::Fault => return Err(Violation::Fault { instance, fault }),
@@ -109,11 +109,12 @@ impl Scan<'_> {
     }
 
     /// `stands`: the instance was stopped before this scan.
-    fn is_violated(&mut self, program: &Instance, check: &Check, stands: bool) -> bool {
-        match check {
-            Check::Always(condition) => !self.holds(condition),
+    fn is_violated(&mut self, instance: usize, property: usize, stands: bool) -> bool {
+        let program = &self.model.instances[instance];
+        match &program.properties[property].check {
+            Check::Always(condition) => !self.decide_condition(instance, property, condition),
             Check::Keep(keep) => match &keep.memory {
-                None => !stands && self.has_changed(program, keep),
+                None => !stands && self.has_changed(instance, property, keep),
                 Some(memory) => self.has_changed_since(keep, memory, stands),
             },
             Check::Whenever(whenever) => {
@@ -125,13 +126,14 @@ impl Scan<'_> {
         }
     }
 
-    fn has_changed(&mut self, program: &Instance, keep: &Keep) -> bool {
+    fn has_changed(&mut self, instance: usize, property: usize, keep: &Keep) -> bool {
         // In the beginning nothing has been checked.
-        if program.state.load(self.before) == 0 || !self.holds(&keep.condition) {
+        let is_first = self.model.instances[instance].state.load(self.before) == 0;
+        if is_first || !self.decide_condition(instance, property, &keep.condition) {
             return false;
         }
         self.swap();
-        let held = self.holds(&keep.condition);
+        let held = self.decide_condition(instance, property, &keep.condition);
         self.swap();
         held && keep.values.iter().any(|value| {
             let now = self.read(value);

@@ -9,7 +9,8 @@ use crate::postponed::members;
 use crate::program::bit;
 use crate::reached::Reached;
 use crate::successor::Expander;
-use std::collections::{BTreeSet, HashMap};
+use rustc_hash::FxHashMap;
+use std::collections::BTreeSet;
 
 /// So many candidates are looked up at most.
 const MOST: usize = 256;
@@ -28,16 +29,16 @@ pub(crate) struct Representatives {
     /// [`LEFT_OUT`].
     pub postponed: Vec<u64>,
     /// Of each machine, by its values after its command has ended, those before.
-    before: Vec<HashMap<Values, Vec<Values>>>,
+    before: Vec<FxHashMap<Values, Vec<Values>>>,
     /// States that are left out, with those that count for them, and the machines whose commands have not ended there.
-    left_out: HashMap<usize, (usize, u64)>,
+    left_out: FxHashMap<usize, (usize, u64)>,
     /// States that are not left out any more.
     pub resumed: Vec<usize>,
     /// Of states that have not been expanded the machines that were postponed unseen in the scan that has led there, if
     /// they are not all that are postponed in the state before.
-    unseen: HashMap<usize, u64>,
+    unseen: FxHashMap<usize, u64>,
     /// What has to be decided when a state is expanded.
-    owed: HashMap<usize, Vec<Owed>>,
+    owed: FxHashMap<usize, Vec<Owed>>,
     /// States that count for others for sure only if the other one does, in which more has ended.
     pub bound: Vec<(u32, u32)>,
     /// Automata, and their states in which only postponed answers have brought them.
@@ -55,7 +56,7 @@ pub(crate) struct Owed {
 
 impl Representatives {
     pub fn new(machines: usize) -> Self {
-        Self { postponed: vec![UNKNOWN], before: vec![HashMap::new(); machines], ..Self::default() }
+        Self { postponed: vec![UNKNOWN], before: vec![FxHashMap::default(); machines], ..Self::default() }
     }
 
     pub fn is_expanded(&self, state: usize) -> bool {

@@ -1,6 +1,7 @@
 //! One scan: every instance makes one step, then outputs act.
 
 use crate::choice::Choices;
+use crate::decision::{Decisions, Question};
 use crate::model::{Model, Reductions};
 use crate::plant::status;
 use crate::postponed::{Postponed, Postponing};
@@ -18,6 +19,7 @@ pub struct Scan<'a> {
     pub(crate) values: &'a mut Values,
     pub(crate) choices: &'a mut Choices,
     pub(crate) variables: &'a mut [i32],
+    pub(crate) decisions: &'a mut Decisions,
     /// Values that have changed, and their owners.
     pub(crate) written: Cells,
     /// Instances that have fired.
@@ -141,7 +143,7 @@ impl Scan<'_> {
             | self.model.unread.in_state(&self.model.instances, self.bytes, bit(instance));
         self.stepping = bit(instance);
         let begin = self.choices.mark();
-        let fires = program.transitions.iter().any(|transition| self.choose(&transition.clauses));
+        let fires = self.decide(instance, end.state).is_some();
         if fires || self.choices.mark() != begin {
             self.observed |= bit(instance);
         }
@@ -152,13 +154,9 @@ impl Scan<'_> {
     }
 
     fn step(&mut self, instance: usize, number: usize) -> Result<(), Fault> {
-        let program = &self.model.instances[instance];
-        for (index, transition) in program.states[number].transitions.iter().enumerate() {
-            if self.choose(&transition.clauses) {
-                return self.fire(instance, number, index, transition);
-            }
-        }
-        Ok(())
+        let Some(index) = self.decide(instance, number) else { return Ok(()) };
+        let transition = &self.model.instances[instance].states[number].transitions[index];
+        self.fire(instance, number, index, transition)
     }
 
     fn fire(
@@ -194,7 +192,7 @@ impl Scan<'_> {
     }
 
     /// Whether the clauses hold together; leaves the variables of their binders as chosen.
-    fn choose(&mut self, clauses: &[Clause]) -> bool {
+    pub(crate) fn choose(&mut self, clauses: &[Clause]) -> bool {
         match clauses.split_first() {
             None => true,
             Some((Clause::Condition(condition), rest)) => self.holds(condition) && self.choose(rest),
@@ -342,7 +340,9 @@ impl Scan<'_> {
             self.need(forgotten);
         }
         self.observe(var);
-        var.load(self.bytes)
+        let value = var.load(self.bytes);
+        self.decisions.note(Question::Value(var), value);
+        value
     }
 
     #[cold]
@@ -401,9 +401,17 @@ impl Scan<'_> {
     pub(crate) fn input(&mut self, number: usize) -> i32 {
         let input = &self.model.inputs[number];
         let held = input.var.load(self.bytes);
-        if (1..=input.values as i32).contains(&held) {
-            return held - 1 + input.low;
-        }
+        let value = if (1..=input.values as i32).contains(&held) {
+            held - 1 + input.low
+        } else {
+            self.choose_input(number)
+        };
+        self.decisions.note(Question::Input(number), value);
+        value
+    }
+
+    fn choose_input(&mut self, number: usize) -> i32 {
+        let input = &self.model.inputs[number];
         let value = self.choices.take(input.values) as i32;
         input.var.store(self.bytes, value + 1);
         if let Some(story) = &mut self.story {

@@ -5,7 +5,7 @@ use crate::program::{Cells, bit};
 use crate::scan::Scan;
 use crate::successor::Expander;
 use crate::violation::Violation;
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 /// A line that stops in so many scans one after another does so for ever.
 const MOST_STOPS: usize = 8;
@@ -30,7 +30,7 @@ pub(crate) struct Mark {
 
 /// What is known of stops in scans of the state that is expanded: what is wrong behind them, and who needs what is postponed
 /// to find that out. Beside each which machines wait.
-pub(crate) type Stops = HashMap<(Stopped, u64), (Option<Violation>, u64)>;
+pub(crate) type Stops = FxHashMap<(Stopped, u64), (Option<Violation>, u64)>;
 
 impl Stopped {
     pub fn new(model: &Model, state: &[u8], mark: Mark) -> Self {

@@ -1,9 +1,10 @@
 //! All that may follow a state: what devices do, then one scan.
 
 use crate::choice::Choices;
+use crate::decision::Decisions;
 use crate::event::{self, Event};
 use crate::footprint::{Footprint, footprints};
-use crate::model::Model;
+use crate::model::{Model, Reductions};
 use crate::plant::Faults;
 use crate::postponed::{Postponed, Postponing};
 use crate::program::{Cells, Instance, bit};
@@ -46,6 +47,7 @@ pub struct Expander<'a> {
     pub(crate) spare: Vec<Vec<u8>>,
     pub(crate) choices: Choices,
     pub(crate) variables: Vec<i32>,
+    pub(crate) decisions: Decisions,
     /// Of each source that may do anything what that is.
     options: Vec<Vec<Choice>>,
     events: Vec<Event>,
@@ -123,6 +125,10 @@ impl<'a> Expander<'a> {
             spare: Vec::new(),
             choices: Choices::default(),
             variables: vec![0; model.most_variables()],
+            decisions: match model.reductions {
+                Reductions::Off => Decisions::default(),
+                _ => Decisions::new(model),
+            },
             options: Vec::new(),
             events: Vec::new(),
             levels: Vec::new(),
@@ -193,6 +199,7 @@ impl<'a> Expander<'a> {
         is_wanted: impl Fn(bool) -> bool,
     ) -> Vec<Vec<Choice>> {
         self.stops.clear();
+        self.decisions.numbered = Some(self.values.count());
         self.before.copy_from_slice(state);
         self.forgotten = self.model.unread.in_state(&self.model.instances, state, u64::MAX);
         self.forgotten_before = self.forgotten;
@@ -286,7 +293,7 @@ impl<'a> Expander<'a> {
 
     /// Bytes of memory that it keeps to be used again.
     pub(crate) fn size(&self) -> usize {
-        self.spare.iter().chain(&self.levels).map(Vec::capacity).sum()
+        self.spare.iter().chain(&self.levels).map(Vec::capacity).sum::<usize>() + self.decisions.size()
     }
 
     /// Whether the goal of a property is waited for in a state.
@@ -306,6 +313,7 @@ impl<'a> Expander<'a> {
             values: &mut self.values,
             choices: &mut self.choices,
             variables: &mut self.variables,
+            decisions: &mut self.decisions,
             written: Cells::default(),
             fired: 0,
             given: 0,

@@ -1,7 +1,7 @@
 //! Values of a state: where each stands among its bytes, and numbers for what is no whole number.
 
 use crate::hazard::Site;
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 /// Where a value stands in a state. 1, 2 or 4 bytes; those of one and two hold no negative numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -38,9 +38,9 @@ pub type Point = [f64; 3];
 #[derive(Clone, Debug)]
 pub struct Values {
     points: Vec<Point>,
-    point_numbers: HashMap<[u64; 3], u16>,
+    point_numbers: FxHashMap<[u64; 3], u16>,
     reals: Vec<f64>,
-    real_numbers: HashMap<u64, u16>,
+    real_numbers: FxHashMap<u64, u16>,
     is_full: bool,
     /// Of each point for which machines it was asked whether they can bring their tools there, and whether they can.
     reached: Vec<Vec<(usize, bool)>>,
@@ -61,9 +61,9 @@ impl Default for Values {
     fn default() -> Self {
         let mut values = Self {
             points: Vec::new(),
-            point_numbers: HashMap::new(),
+            point_numbers: FxHashMap::default(),
             reals: Vec::new(),
-            real_numbers: HashMap::new(),
+            real_numbers: FxHashMap::default(),
             is_full: false,
             reached: Vec::new(),
             sites: Vec::new(),
