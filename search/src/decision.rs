@@ -217,7 +217,7 @@ impl Scan<'_> {
 
     fn ask(&mut self, question: Question) -> i32 {
         match question {
-            Question::Value(var) => self.load(var),
+            Question::Value(var) => self.read(var),
             Question::Input(input) => self.input(input),
         }
     }

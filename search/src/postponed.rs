@@ -27,8 +27,6 @@ pub(crate) struct Postponing {
     /// What each may do by itself, by its values.
     known: Vec<FxHashMap<Box<[u8]>, usize>>,
     alone: Vec<Alone>,
-    /// The values that are looked up.
-    own: Vec<u8>,
 }
 
 /// The values of a machine.
@@ -85,7 +83,7 @@ pub(crate) fn is_possible(model: &Model, answers: Option<usize>, orders: Orders)
 impl Postponing {
     pub fn new(model: &Model) -> Self {
         let machines = (0..model.machines.len()).map(|machine| Owned::new(model, machine)).collect();
-        Self { machines, known: vec![FxHashMap::default(); model.machines.len()], alone: Vec::new(), own: Vec::new() }
+        Self { machines, known: vec![FxHashMap::default(); model.machines.len()], alone: Vec::new() }
     }
 
     pub fn machines(&self) -> impl Iterator<Item = usize> {
@@ -98,9 +96,10 @@ impl Postponing {
         self.machines[machine].bytes.iter().map(|at| state[*at]).collect()
     }
 
-    fn read_own(&mut self, machine: usize, state: &[u8]) {
-        self.own.clear();
-        self.own.extend(self.machines[machine].bytes.iter().map(|at| state[*at]));
+    /// The same, in memory that is used again.
+    pub fn read_own(&self, machine: usize, state: &[u8], own: &mut Vec<u8>) {
+        own.clear();
+        own.extend(self.machines[machine].bytes.iter().map(|at| state[*at]));
     }
 
     /// The state in which a machine has these values.
@@ -169,8 +168,11 @@ impl Postponed {
 impl Expander<'_> {
     /// What a machine may do by itself in this state.
     pub(crate) fn alone(&mut self, machine: usize, state: &[u8]) -> usize {
-        self.postponing.read_own(machine, state);
-        if let Some(known) = self.postponing.known[machine].get(self.postponing.own.as_slice()) {
+        let mut own = std::mem::take(&mut self.own);
+        self.postponing.read_own(machine, state, &mut own);
+        let known = self.postponing.known[machine].get(own.as_slice());
+        self.own = own;
+        if let Some(known) = known {
             self.needed.extend_from_slice(&self.postponing.alone[*known].needed);
             return *known;
         }

@@ -136,9 +136,9 @@ impl Scan<'_> {
         let held = self.decide_condition(instance, property, &keep.condition);
         self.swap();
         held && keep.values.iter().any(|value| {
-            let now = self.read(value);
+            let now = self.read_value(value);
             self.swap();
-            let before = self.read(value);
+            let before = self.read_value(value);
             self.swap();
             now != before
         })
@@ -194,7 +194,7 @@ impl Scan<'_> {
         self.looks_back = !self.looks_back;
     }
 
-    fn read(&mut self, value: &Value) -> Read {
+    fn read_value(&mut self, value: &Value) -> Read {
         match value {
             Value::Int(value, _) => Read::Int(self.int(value)),
             Value::Real(value) => Read::Real(self.real(value)),
@@ -204,7 +204,7 @@ impl Scan<'_> {
 
     /// A value as the memory holds it.
     fn number(&mut self, value: &Value) -> i32 {
-        match self.read(value) {
+        match self.read_value(value) {
             Read::Int(now) => match value {
                 Value::Int(_, low) => now.wrapping_sub(*low),
                 _ => now,

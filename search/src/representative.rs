@@ -88,12 +88,16 @@ impl Representatives {
     /// The state that counts for this one, and the machines whose commands have not ended in it.
     pub fn find(&self, store: &Reached, expander: &Expander, state: &[u8]) -> Option<(usize, u64)> {
         let mut ended: Vec<(usize, &[Values])> = Vec::new();
-        let mut count = 1;
+        let (mut count, mut own) = (1, Vec::new());
         for machine in expander.postponing.machines() {
-            if let Some(before) = self.before[machine].get(&expander.postponing.own(machine, state)) {
+            expander.postponing.read_own(machine, state, &mut own);
+            if let Some(before) = self.before[machine].get(own.as_slice()) {
                 count *= before.len() + 1;
                 ended.push((machine, before));
             }
+        }
+        if ended.is_empty() {
+            return None;
         }
         let mut candidate = state.to_vec();
         // The last one is the state itself.

@@ -88,6 +88,9 @@ impl Scan<'_> {
         self.forget();
         self.forget_starts();
         self.restless |= self.fired;
+        if self.written.owners == 0 {
+            return Ok(());
+        }
         for (instance, program) in model.instances.iter().enumerate() {
             let state = program.state.load(self.bytes) as usize;
             if self.written.meets(program.states[state].reads) {
@@ -109,13 +112,15 @@ impl Scan<'_> {
 
     pub(crate) fn step_if_due(&mut self, instance: usize, touched: u64) -> Result<(), Violation> {
         let program = &self.model.instances[instance];
-        if self.model.stands(self.bytes, instance) {
+        let state = program.state.load(self.bytes) as usize;
+        let is_due = touched & bit(instance) != 0 || self.written.meets(program.states[state].reads);
+        let is_due = is_due || self.model.reductions == Reductions::Off;
+        let waits = self.postponed.0.waiting & bit(instance) != 0;
+        if !is_due && !waits || self.model.stands(self.bytes, instance) {
             return Ok(());
         }
-        let state = program.state.load(self.bytes) as usize;
         self.step_if_ended(instance);
-        let is_due = touched & bit(instance) != 0 || self.written.meets(program.states[state].reads);
-        if !is_due && self.model.reductions != Reductions::Off {
+        if !is_due {
             return Ok(());
         }
         let made = self.choices.count();
@@ -333,16 +338,22 @@ impl Scan<'_> {
     }
 
     /// What an expression reads.
-    #[inline]
     pub(crate) fn load(&mut self, var: Var) -> i32 {
-        let forgotten = self.model.unread.part(self.forgotten, var);
-        if forgotten != 0 {
-            self.need(forgotten);
-        }
-        self.observe(var);
-        let value = var.load(self.bytes);
+        let value = self.read(var);
         self.decisions.note(Question::Value(var), value);
         value
+    }
+
+    #[inline]
+    pub(crate) fn read(&mut self, var: Var) -> i32 {
+        if self.forgotten != 0 {
+            let forgotten = self.model.unread.part(self.forgotten, var);
+            if forgotten != 0 {
+                self.need(forgotten);
+            }
+        }
+        self.observe(var);
+        var.load(self.bytes)
     }
 
     #[cold]

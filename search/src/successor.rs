@@ -76,6 +76,8 @@ pub struct Expander<'a> {
     pub(crate) postponing: Postponing,
     pub(crate) postponed: Postponed,
     pub(crate) stops: Stops,
+    /// The values of a machine that are looked up.
+    pub(crate) own: Vec<u8>,
     /// Successors are looked at, and not told.
     is_silent: bool,
 }
@@ -149,6 +151,7 @@ impl<'a> Expander<'a> {
             postponing: Postponing::default(),
             postponed: Postponed::default(),
             stops: Stops::default(),
+            own: Vec::new(),
             is_silent: false,
         }
     }
