@@ -90,6 +90,13 @@ pub fn compare(name: &str, texts: &Texts, faults: Faults) -> Option<usize> {
     Some(more.covered.states - less.covered.states)
 }
 
+/// What a search with all reductions finds, and one in which all machines step in each scan and nothing is forgotten.
+pub fn found_with_and_without(texts: &Texts, faults: Faults) -> [(End, Vec<String>); 2] {
+    let whole = model(&texts.project(), &Asked::with(faults)).expect("a line that can be searched").model;
+    let plain = Model { reductions: Reductions::Off, unread: Unread::default(), ..whole.clone() };
+    [whole, plain].map(|model| verdict(&explore(&model, &ALL, &mut |_| true)))
+}
+
 /// They find the same with what is forgotten too, on two processors; and when the first violation is found, all sequences with
 /// as many faults have been checked. The sequence to each is one of the line.
 pub fn compare_verdicts(name: &str, texts: &Texts, faults: Faults) {

@@ -6,7 +6,7 @@ use autogen_search::plant::Faults;
 use autogen_tests::bounds::BOUNDS;
 use autogen_tests::mutants::mutants;
 use autogen_tests::outcome::verdict;
-use autogen_tests::postponing::{compare, compare_verdicts};
+use autogen_tests::postponing::{compare, compare_verdicts, found_with_and_without};
 use autogen_tests::small_lines::{self, Line};
 use autogen_tests::{Texts, ariac, fixtures, is_full_campaign, on_all_processors};
 use serde_json::Value;
@@ -144,6 +144,9 @@ fn line_of(text: &str) -> (Texts, Faults) {
         let place = match of {
             "table" => format!(r#""pose": [0, {y}, 0]"#),
             "over" => r#""pose": [0.966, 0, 1.127], "rail_dim": "y", "rail_range": [-4.8, 4.8]"#.to_string(),
+            "across" => {
+                r#""pose": [-0.966, 0, 1.127], "rail_dim": "y", "rail_range": [-4.8, 4.8]"#.to_string()
+            }
             "feed" => r#""pose": [1.693, 0, 0], "orient": "y", "orient_range": [-5, 5]"#.to_string(),
             _ => format!(r#""pose": [0, {y}, 0], "destinations": [[5, {y}, 0], [10, {y}, 0]]"#),
         };
@@ -171,6 +174,27 @@ fn small_lines_of_vehicles_do_the_same() {
         let saved = compare(&name, &texts, faults);
         assert!(saved > Some(0) || text.contains(NO_WAY_OUT), "{name}");
     }
+}
+
+/// Each needs one of the rules that say what must not be forgotten, and which machines are asked in a scan and behind a stop.
+#[test]
+fn what_is_left_out_is_not_missed() {
+    let mut wrong = Vec::new();
+    for (name, text) in fixtures("verify/forgotten", "aut") {
+        let (texts, faults) = line_of(&text);
+        let [found, without] = found_with_and_without(&texts, faults);
+        let of_kind = |violation: &String| violation.split(' ').next().unwrap_or_default().to_string();
+        let mut kinds: Vec<String> = found.1.iter().map(of_kind).collect();
+        kinds.dedup();
+        // The desk sends away what is not there.
+        kinds.retain(|kind| kind != "WrongItems");
+        let expected = text.lines().find_map(|line| line.strip_prefix("// finds: ")).expect("what it finds");
+        let is_expected = kinds.join(", ") == if expected == "nothing" { "" } else { expected };
+        if found != without || !is_expected {
+            wrong.push(name);
+        }
+    }
+    assert_eq!(wrong, Vec::<String>::new());
 }
 
 /// At first a few states show a mistake, but not that the orders can be made. All that may happen are too many states.
