@@ -170,7 +170,7 @@ impl Scan<'_> {
                 let number = self.load(*var);
                 if number == Values::NOWHERE {
                     self.decisions.end_record();
-                    self.ask_start(usize::from(self.model.owners[var.at as usize]));
+                    self.ask_start_at(*var);
                 }
                 self.values.point(number)
             }

@@ -383,6 +383,7 @@ impl Scan<'_> {
         }
         for cell in unread.of(forgotten & !self.forgotten) {
             cell.var.store(self.bytes, cell.instead);
+            self.written = self.written | self.model.cells_at(cell.var);
         }
         self.forgotten = forgotten;
     }

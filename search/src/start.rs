@@ -12,7 +12,7 @@ use crate::unread::Needed;
 use crate::value::{Point, Values, Var};
 
 /// An arm is at a place if its tool, or the start or the goal of its motion, is no farther than this from its floor and its
-/// slots in x and in y, m: far enough for what it loses beside them, and for what it grips.
+/// slots in x and in y, m: far enough for what it loses beside them. Grippers may reach farther.
 const MARGIN: f64 = 0.5;
 
 /// A vehicle, and where it is forgotten where it has set out.
@@ -29,6 +29,8 @@ pub struct Start {
 
 /// Vehicles that may be at this point, a bit each.
 fn vehicles_at(model: &Model, [x, y, _]: Point) -> u64 {
+    let arms = model.machines.iter().filter_map(|machine| machine.arm.as_ref());
+    let margin = arms.map(|arm| arm.near).fold(MARGIN, f64::max);
     let is_at = |machine: usize| {
         let plant = &model.machines[machine];
         let Some(route) = &plant.route else { return false };
@@ -36,12 +38,12 @@ fn vehicles_at(model: &Model, [x, y, _]: Point) -> u64 {
         carried.into_iter().any(|place| {
             route.stops.iter().any(|stop| {
                 let (dx, dy) = (x - stop[0], y - stop[1]);
-                let within = |at: f64, [low, high]: [f64; 2]| low - MARGIN <= at && at <= high + MARGIN;
+                let within = |at: f64, [low, high]: [f64; 2]| low - margin <= at && at <= high + margin;
                 within(dx - place.floor[0], place.floor_x) && within(dy - place.floor[1], place.floor_y)
                     || place
                         .slots
                         .iter()
-                        .any(|slot| (dx - slot[0]).abs() <= MARGIN && (dy - slot[1]).abs() <= MARGIN)
+                        .any(|slot| (dx - slot[0]).abs() <= margin && (dy - slot[1]).abs() <= margin)
             })
         })
     };
@@ -55,11 +57,29 @@ impl Scan<'_> {
         for Start { machine, at, known, .. } in &model.unread.starts {
             let Some(head) = &model.machines[*machine].head else { continue };
             let state = model.instances[*machine].state.load(self.bytes) as usize;
+            let is_forgotten = at.load(self.bytes) == Values::NOWHERE;
             if head.status.load(self.bytes) == status::UNDER_WAY && !known[state] {
-                at.store(self.bytes, Values::NOWHERE);
-            } else if at.load(self.bytes) == Values::NOWHERE {
+                if !is_forgotten && self.is_at_stop(*machine) {
+                    at.store(self.bytes, Values::NOWHERE);
+                }
+            } else if is_forgotten {
                 self.need_start(*machine);
             }
+        }
+    }
+
+    /// A trip that is replaced may leave a vehicle elsewhere.
+    fn is_at_stop(&self, machine: usize) -> bool {
+        let Some(route) = &self.model.machines[machine].route else { return false };
+        let at = self.values.point(route.at.load(self.bytes));
+        route.stops.contains(&at)
+    }
+
+    /// What is read here is a place; it may be where a vehicle is.
+    pub(crate) fn ask_start_at(&mut self, var: Var) {
+        let start = self.model.unread.starts.iter().find(|start| start.at == var);
+        if let Some(machine) = start.map(|start| start.machine) {
+            self.ask_start(machine);
         }
     }
 
@@ -82,8 +102,9 @@ impl Scan<'_> {
         }
         let mut met = 0;
         for arm in model.machines.iter().filter_map(|machine| machine.arm.as_ref()) {
-            for place in [arm.tool, arm.via, arm.goal] {
-                let number = place.load(self.bytes);
+            let ends = [arm.via, arm.goal].map(|place| place.load(self.bytes));
+            let ends = ends.into_iter().filter(|number| *number != 0);
+            for number in ends.chain([arm.tool.load(self.bytes)]) {
                 met |= self.values.vehicles_at(number, |point| vehicles_at(model, point));
             }
         }

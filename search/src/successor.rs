@@ -5,7 +5,7 @@ use crate::decision::Decisions;
 use crate::event::{self, Event};
 use crate::footprint::{Footprint, footprints};
 use crate::model::{Model, Reductions};
-use crate::plant::Faults;
+use crate::plant::{Faults, Input, sight};
 use crate::postponed::{Postponed, Postponing};
 use crate::program::{Cells, Instance, bit};
 use crate::property::Whenever;
@@ -113,6 +113,12 @@ impl Successor<'_> {
     pub fn is_plain(&self) -> bool {
         self.events.len() <= 1 && self.faults == 0 && self.guesses == 0
     }
+}
+
+/// Machines of which it is open what a sensor over a conveyor tells: an item may have come or gone while it rests.
+fn open_fields(model: &Model, state: &[u8]) -> u64 {
+    let is_open = |input: &&Input| input.stays.is_some() && input.var.load(state) == sight::OPEN;
+    model.inputs.iter().filter(is_open).fold(0, |machines, input| machines | bit(input.machine))
 }
 
 impl<'a> Expander<'a> {
@@ -282,6 +288,7 @@ impl<'a> Expander<'a> {
     /// Instances that would do something even if no device did.
     fn restless_in(&mut self, state: &[u8], candidates: u64) -> u64 {
         let mut restless = 0;
+        let candidates = candidates | open_fields(self.model, state);
         for instance in (0..self.model.instances.len()).filter(|instance| candidates & bit(*instance) != 0) {
             self.choices.clear();
             self.work.copy_from_slice(state);
@@ -384,6 +391,7 @@ impl<'a> Expander<'a> {
 
     /// Every outcome of one scan.
     fn scan(&mut self, level: usize, touched: u64, emit: &mut impl FnMut(Successor)) {
+        let touched = touched | open_fields(self.model, &self.levels[level]);
         if self.orders == Orders::All {
             return self.scan_in_any_order(level, touched, emit);
         }
