@@ -24,6 +24,8 @@ pub(crate) struct Expanded {
     steps: Vec<Step>,
     /// Successors that the store does not have, in the order in which they were found.
     pub unknown: Store,
+    /// The numbers of their pieces, as far as they have one.
+    codes: Vec<u8>,
     /// Of each of these: instances that may do something in the next scan even if no device does.
     pub restless: Vec<u64>,
     /// What has been found to be hardly meant: each thing once.
@@ -78,6 +80,7 @@ impl Expanded {
             states: Vec::new(),
             steps: Vec::new(),
             unknown: Store::new(length),
+            codes: Vec::new(),
             restless: Vec::new(),
             remarked: Vec::new(),
         }
@@ -85,11 +88,12 @@ impl Expanded {
 
     /// Nothing is known any more but what is the first state; the memory is kept.
     fn begin_anew(&mut self, first: usize) {
-        let Self { first: old, states, steps, unknown, restless, remarked } = self;
+        let Self { first: old, states, steps, unknown, codes, restless, remarked } = self;
         *old = first;
         states.clear();
         steps.clear();
         unknown.clear();
+        codes.clear();
         restless.clear();
         remarked.clear();
     }
@@ -99,7 +103,14 @@ impl Expanded {
         size_of::<After>() * self.states.capacity()
             + size_of::<Step>() * self.steps.capacity()
             + size_of::<u64>() * self.restless.capacity()
+            + self.codes.capacity()
             + self.unknown.size()
+    }
+
+    /// A state that the store did not have, of all that it does not have, and what it knows of it.
+    pub fn unknown(&self, number: usize) -> (&[u8], &[u8]) {
+        let length = self.codes.len() / self.unknown.len();
+        (self.unknown.state(number), &self.codes[number * length..][..length])
     }
 
     pub fn steps(&self, state: usize) -> &[Step] {
@@ -117,7 +128,7 @@ impl Expanded {
         restless: u64,
         postponed: Option<&[u64]>,
     ) {
-        let Self { states, steps, unknown, restless: of_unknown, remarked, .. } = self;
+        let Self { states, steps, unknown, codes, restless: of_unknown, remarked, .. } = self;
         if postponed.is_some_and(|postponed| postponed[state] == LEFT_OUT) {
             states.push(After {
                 end: steps.len(),
@@ -133,7 +144,7 @@ impl Expanded {
         let mut to = Vec::new();
         let before = store.state(state);
         let begin = steps.len();
-        let mut beside = store.beside(state, &before);
+        let (beside, mut other) = (store.coded(state, &before), Vec::new());
         let mut emit = |successor: Successor| {
             after.transitions += 1;
             let acting = if postponed.is_some() { machines_of(successor.events) } else { 0 };
@@ -150,7 +161,7 @@ impl Expanded {
             match successor.result {
                 Ok(()) => {
                     let is_plain = successor.is_plain();
-                    if let Some(known) = store.find_beside(successor.state, &mut beside) {
+                    if let Some(known) = store.find_beside(successor.state, &beside, &mut other) {
                         let tells = |(other, less): &(usize, u64)| *other == known && less & !acting == 0;
                         let is_told = postponed.is_some() && !to.iter().any(tells);
                         if (is_plain || is_told) && known != state {
@@ -162,6 +173,7 @@ impl Expanded {
                     let (number, is_new) = unknown.add(successor.state, 0);
                     if is_new {
                         of_unknown.push(successor.restless);
+                        codes.extend_from_slice(&other);
                     }
                     if is_new || is_plain || postponed.is_some() {
                         steps.push(Step::Unknown { number: number as u32, acting, is_plain });

@@ -262,7 +262,11 @@ impl<'a> Search<'a> {
                     }
                     if !self.still_counts(numbers[number]) {
                         let restless = expanded.restless[number];
-                        numbers[number] = self.arrive(from, mask, expanded.unknown.state(number), restless);
+                        numbers[number] = {
+                            let (state, code) = expanded.unknown(number);
+                            let coded = self.store.complete(state, code.to_vec());
+                            self.arrive(from, mask, coded, restless)
+                        };
                     }
                     self.reach(part, from, mask, numbers[number], *is_plain);
                 }

@@ -14,15 +14,15 @@ pub struct Reached {
 const PIECE: usize = 32;
 /// Bytes of the number of a value.
 const NUMBER: usize = 3;
-/// A piece has fewer values than this.
-const MOST: usize = 1 << (8 * NUMBER);
+/// Of a piece that no state has.
+const NONE: [u8; NUMBER] = [u8::MAX; NUMBER];
+/// A piece has fewer values than this: so many less than there are numbers that those of a batch of states find place.
+const MOST: usize = (1 << (8 * NUMBER)) - (1 << 22);
 
-/// A state and its code, beside which others are looked up: most of their pieces are the same.
-pub(crate) struct Beside<'a> {
-    state: &'a [u8],
-    code: Vec<u8>,
-    /// Of the state that is looked up.
-    other: Vec<u8>,
+/// A state, and the numbers of its pieces.
+pub(crate) struct Coded<'a> {
+    pub state: &'a [u8],
+    pub code: Vec<u8>,
 }
 
 impl Reached {
@@ -56,10 +56,28 @@ impl Reached {
         self.codes.parent(number)
     }
 
-    /// Of the state of this number, which is `state`.
-    pub(crate) fn beside<'a>(&self, number: usize, state: &'a [u8]) -> Beside<'a> {
-        let code = self.codes.state(number).to_vec();
-        Beside { state, other: code.clone(), code }
+    /// The state of this number, which is `state`.
+    pub(crate) fn coded<'a>(&self, number: usize, state: &'a [u8]) -> Coded<'a> {
+        Coded { state, code: self.codes.state(number).to_vec() }
+    }
+
+    /// Any state.
+    pub(crate) fn code<'a>(&self, state: &'a [u8]) -> Coded<'a> {
+        let mut code = vec![0; self.codes.length()];
+        code[..NUMBER * self.pieces.len()].fill(u8::MAX);
+        self.complete(state, code)
+    }
+
+    /// Any state, of some pieces of which the numbers were known before.
+    pub(crate) fn complete<'a>(&self, state: &'a [u8], mut code: Vec<u8>) -> Coded<'a> {
+        for ((piece, bytes), number) in
+            self.pieces.iter().zip(state.chunks(PIECE)).zip(code.chunks_exact_mut(NUMBER))
+        {
+            if *number == NONE {
+                number.copy_from_slice(&number_in(piece, bytes));
+            }
+        }
+        Coded { state, code }
     }
 
     /// Bytes of memory that it takes.
@@ -73,37 +91,50 @@ impl Reached {
     }
 
     pub fn find(&self, state: &[u8]) -> Option<usize> {
-        let mut code = vec![0; self.codes.length()];
-        for ((piece, bytes), number) in
-            self.pieces.iter().zip(state.chunks(PIECE)).zip(code.chunks_exact_mut(NUMBER))
-        {
-            number.copy_from_slice(&piece.find(bytes)?.to_le_bytes()[..NUMBER]);
-        }
-        self.codes.find(&code)
+        self.find_coded(&self.code(state))
     }
 
-    /// The same, quicker where it has most pieces in common with the other one.
-    pub(crate) fn find_beside(&self, state: &[u8], beside: &mut Beside) -> Option<usize> {
-        beside.other.copy_from_slice(&beside.code);
+    pub(crate) fn find_coded(&self, Coded { code, .. }: &Coded) -> Option<usize> {
+        let mut numbers = code.chunks_exact(NUMBER).take(self.pieces.len());
+        if numbers.any(|number| number == NONE) { None } else { self.codes.find(code) }
+    }
+
+    /// Another state, which has most pieces in common with this one; its code is left in `other`.
+    pub(crate) fn find_beside(&self, state: &[u8], beside: &Coded, other: &mut Vec<u8>) -> Option<usize> {
+        other.clone_from(&beside.code);
         let pieces = self.pieces.iter().zip(state.chunks(PIECE)).zip(beside.state.chunks(PIECE));
-        for (((piece, bytes), same), number) in pieces.zip(beside.other.chunks_exact_mut(NUMBER)) {
+        let mut is_known = true;
+        for (((piece, bytes), same), number) in pieces.zip(other.chunks_exact_mut(NUMBER)) {
             if bytes != same {
-                number.copy_from_slice(&piece.find(bytes)?.to_le_bytes()[..NUMBER]);
+                number.copy_from_slice(&number_in(piece, bytes));
             }
+            is_known &= *number != NONE;
         }
-        self.codes.find(&beside.other)
+        if is_known { self.codes.find(other) } else { None }
     }
 
     /// The number of the state, and whether it is new.
     pub fn add(&mut self, state: &[u8], parent: usize) -> (usize, bool) {
-        let mut code = vec![0; self.codes.length()];
+        let coded = self.code(state);
+        self.add_coded(coded, parent)
+    }
+
+    pub(crate) fn add_coded(&mut self, Coded { state, mut code }: Coded, parent: usize) -> (usize, bool) {
         for ((piece, bytes), number) in
             self.pieces.iter_mut().zip(state.chunks(PIECE)).zip(code.chunks_exact_mut(NUMBER))
         {
-            number.copy_from_slice(&piece.add(bytes, 0).0.to_le_bytes()[..NUMBER]);
+            if *number == NONE {
+                number.copy_from_slice(&piece.add(bytes, 0).0.to_le_bytes()[..NUMBER]);
+            }
         }
         self.codes.add(&code, parent)
     }
+}
+
+/// The number of the value of a piece.
+fn number_in(piece: &Store, bytes: &[u8]) -> [u8; NUMBER] {
+    let number = piece.find(bytes).map_or(u32::MAX, |number| number as u32).to_le_bytes();
+    [number[0], number[1], number[2]]
 }
 
 fn value(number: &[u8]) -> usize {
@@ -133,12 +164,12 @@ mod tests {
         assert_eq!(reached.len(), 50_000);
         let found = reached.state(4711);
         assert_eq!((reached.parent(4711), &found), (7, &state(4711)));
-        let mut beside = reached.beside(4711, &found);
+        let (beside, mut other) = (reached.coded(4711, &found), Vec::new());
         for (number, expected) in
             [(4711, Some(4711)), (4712, Some(4712)), (49_999, Some(49_999)), (50_000, None)]
         {
             assert_eq!(reached.find(&state(number)), expected);
-            assert_eq!(reached.find_beside(&state(number), &mut beside), expected);
+            assert_eq!(reached.find_beside(&state(number), &beside, &mut other), expected);
         }
     }
 }

@@ -7,7 +7,7 @@
 
 use crate::postponed::members;
 use crate::program::bit;
-use crate::reached::Reached;
+use crate::reached::{Coded, Reached};
 use crate::successor::Expander;
 use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
@@ -86,7 +86,8 @@ impl Representatives {
     }
 
     /// The state that counts for this one, and the machines whose commands have not ended in it.
-    pub fn find(&self, store: &Reached, expander: &Expander, state: &[u8]) -> Option<(usize, u64)> {
+    pub fn find(&self, store: &Reached, expander: &Expander, coded: &Coded) -> Option<(usize, u64)> {
+        let state = coded.state;
         let mut ended: Vec<(usize, &[Values])> = Vec::new();
         let (mut count, mut own) = (1, Vec::new());
         for machine in expander.postponing.machines() {
@@ -99,7 +100,7 @@ impl Representatives {
         if ended.is_empty() {
             return None;
         }
-        let mut candidate = state.to_vec();
+        let (mut candidate, mut code) = (state.to_vec(), Vec::new());
         // The last one is the state itself.
         for number in 0..count.min(MOST).saturating_sub(usize::from(count <= MOST)) {
             let mut rest = number;
@@ -113,7 +114,7 @@ impl Representatives {
                     machines |= bit(*machine);
                 }
             }
-            let found = store.find(&candidate).map(|found| self.of(found));
+            let found = store.find_beside(&candidate, coded, &mut code).map(|found| self.of(found));
             let found = found.map(|(found, more)| (found, machines | more));
             let found = found.filter(|(found, machines)| machines & !self.postponed[*found] == 0);
             if found.is_some() {

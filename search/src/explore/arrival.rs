@@ -2,6 +2,7 @@
 
 use super::Search;
 use crate::postponed::members;
+use crate::reached::Coded;
 use crate::representative::{Owed, Representatives};
 use crate::successor::Part;
 use std::ops::Range;
@@ -39,16 +40,16 @@ impl Search<'_> {
 
     /// The number of a state that is reached, or of the one that counts for it, and the machines whose commands have not
     /// ended in that.
-    pub(super) fn arrive(&mut self, from: usize, mask: u64, state: &[u8], restless: u64) -> (usize, u64) {
+    pub(super) fn arrive(&mut self, from: usize, mask: u64, state: Coded, restless: u64) -> (usize, u64) {
         if let Some(representatives) = &self.representatives {
-            if let Some(known) = self.store.find(state) {
+            if let Some(known) = self.store.find_coded(&state) {
                 return representatives.of(known);
             }
-            if let Some(found) = representatives.find(&self.store, &self.first, state) {
+            if let Some(found) = representatives.find(&self.store, &self.first, &state) {
                 return found;
             }
         }
-        let (to, is_new) = self.store.add(state, from);
+        let (to, is_new) = self.store.add_coded(state, from);
         if is_new {
             self.restless.push(restless);
             self.representatives.iter_mut().for_each(|all| all.add(from, mask));
@@ -64,7 +65,9 @@ impl Search<'_> {
                 continue;
             }
             let state = self.store.state(number);
-            let Some((other, ended)) = representatives.find(&self.store, &self.first, &state) else {
+            let Some((other, ended)) =
+                representatives.find(&self.store, &self.first, &self.store.coded(number, &state))
+            else {
                 continue;
             };
             let all = representatives.owed(number, self.store.parent(number));
@@ -142,7 +145,8 @@ impl Search<'_> {
                 self.first.postponing.replace(machine, &mut state, &after);
             }
         }
-        let found = self.store.find(&state);
+        let state = self.store.code(&state);
+        let found = self.store.find_coded(&state);
         if let Some(representatives) = self.representatives.as_mut()
             && let Some(found) = found
         {
@@ -151,6 +155,6 @@ impl Search<'_> {
                 representatives.resume(found);
             }
         }
-        self.arrive(from, mask, &state, u64::MAX)
+        self.arrive(from, mask, state, u64::MAX)
     }
 }
