@@ -1,7 +1,9 @@
 //! Variables, and the units that declare them.
 
 use super::attributes::{Attribute, OF_WHAT_IS_SHOWN};
-use super::code::{Ex, Stmt};
+use super::body::Body;
+use super::code::Ex;
+use super::externals::Externals;
 use super::print::{Dialect, comment};
 use crate::io_map::Raw;
 use crate::ir::{Scalar, Value};
@@ -52,18 +54,18 @@ pub struct Instance {
 }
 
 /// A function block or the program.
-#[derive(Clone, Debug, Default)]
-pub struct Unit {
+#[derive(Clone, Default)]
+pub struct Unit<'a> {
     pub name: String,
     pub comments: Vec<String>,
     pub inputs: Vec<Variable>,
     pub outputs: Vec<Variable>,
     /// Given by reference.
     pub references: Vec<Variable>,
-    pub externals: Vec<Variable>,
+    pub externals: Externals,
     pub variables: Vec<Variable>,
     pub instances: Vec<Instance>,
-    pub body: Vec<Stmt>,
+    pub body: Body<'a>,
 }
 
 impl Basic {
@@ -224,19 +226,19 @@ impl Variable {
     }
 }
 
-impl Unit {
-    /// Without its body and its externals, which are long.
-    pub fn without_body(&self) -> Self {
-        Self {
+impl Unit<'_> {
+    /// Without its body and its externals.
+    pub fn without_body<'b>(&self) -> Unit<'b> {
+        Unit {
             name: self.name.clone(),
             comments: self.comments.clone(),
             inputs: self.inputs.clone(),
             outputs: self.outputs.clone(),
             references: self.references.clone(),
-            externals: Vec::new(),
+            externals: Externals::default(),
             variables: self.variables.clone(),
             instances: self.instances.clone(),
-            body: Vec::new(),
+            body: Body::default(),
         }
     }
 
@@ -259,7 +261,7 @@ impl Unit {
         sections("VAR_OUTPUT", &self.outputs(dialect), line, to)?;
         sections("VAR_IN_OUT", &self.references, line, to)?;
         if dialect == Dialect::Portable {
-            sections("VAR_EXTERNAL", &self.externals, line, to)?;
+            block("VAR_EXTERNAL", self.externals.iter(), |v, f| v.line(dialect, f), to)?;
         }
         sections("VAR", &self.variables, line, to)?;
         block("VAR", instances(false), instance, to)?;

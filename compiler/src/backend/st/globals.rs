@@ -13,16 +13,19 @@ use super::image::Image;
 use super::restart;
 use super::role::Members;
 use super::value::{first_value, stop_value};
+use super::values::Values;
 use super::version;
 use super::watchdog;
 use crate::ir::{AutomatonId, Extent, InterfaceId, RoleId, Scalar, Type};
 use runtime_sim::device::Direction;
 use std::collections::{HashMap, HashSet};
+use std::ops::Range;
+use std::rc::Rc;
 
 /// A global array and what its elements are at power-up.
 pub struct Table {
     pub variable: Variable,
-    pub values: Vec<Ex>,
+    pub values: Rc<Values>,
 }
 
 /// Globals by what they are.
@@ -38,6 +41,13 @@ pub struct Globals {
     pub alarms: Vec<Table>,
     /// Parameters that nothing reads.
     pub unread: Vec<Table>,
+}
+
+impl Table {
+    /// The values stand in the declaration.
+    pub fn declared(variable: Variable) -> Self {
+        Self { variable, values: Rc::new(Values::Any(Vec::new())) }
+    }
 }
 
 pub struct List<'a> {
@@ -286,7 +296,7 @@ fn cells(shared: Shared) -> Vec<Table> {
                 let variable = Variable::new(name, Basic::of(cell.ty.scalar)).with_elements(Some(n));
                 let comments = if *name == held[0] { comments.clone() } else { Vec::new() };
                 let variable = Variable { comments, ..variable }.retained(is_retained);
-                tables.push(Table { variable, values: vec![first; n] });
+                tables.push(Table { variable, values: Rc::new(Values::Alike(Box::new(first), n)) });
             }
         }
     }
@@ -311,13 +321,12 @@ fn shown(shared: Shared) -> Vec<Table> {
         for (number, (parameter, held)) in
             interface.parameters.iter().zip(&shared.names.interfaces[i].parameters).enumerate()
         {
-            let values: Vec<Vec<Ex>> = (0..members)
+            let values = (0..members)
                 .flat_map(|row| shared.system.shown(id, row, number))
-                .map(|v| shared.constants(parameter.ty.scalar, *v))
-                .collect();
+                .map(|v| shared.constants(parameter.ty.scalar, *v));
             let each = each(shared, parameter.ty);
             let comments = about(&parameter.doc, rows(shared, id, each));
-            let of = table(parameter.ty.scalar, held, &values, &comments).into_iter();
+            let of = table(parameter.ty.scalar, held, values, &comments).into_iter();
             tables.extend(of.map(|t| Table { variable: Variable { each, ..t.variable }, ..t }));
         }
     }
@@ -325,16 +334,22 @@ fn shown(shared: Shared) -> Vec<Table> {
 }
 
 /// One array for each variable of a value.
-fn table(scalar: Scalar, held: &[String], values: &[Vec<Ex>], comments: &[String]) -> Vec<Table> {
+fn table(
+    scalar: Scalar,
+    held: &[String],
+    values: impl Iterator<Item = Vec<Ex>> + Clone,
+    comments: &[String],
+) -> Vec<Table> {
     let basic = Basic::of(scalar);
+    let count = values.clone().count();
     (held.iter().enumerate())
         .map(|(part, name)| Table {
             variable: Variable {
                 comments: if part == 0 { comments.to_vec() } else { Vec::new() },
                 ..Variable::new(name, basic)
             }
-            .with_elements(Some(values.len().max(1))),
-            values: values.iter().map(|v| v[part].clone()).collect(),
+            .with_elements(Some(count.max(1))),
+            values: Rc::new(values.clone().map(|mut v| v.swap_remove(part)).collect()),
         })
         .collect()
 }
@@ -354,7 +369,7 @@ fn relations(shared: Shared) -> Vec<Table> {
             Table {
                 variable: Variable { comments, each: Some(width), ..Variable::new(name, Basic::Bool) }
                     .with_elements(Some(n.max(1))),
-                values: reaches.iter().flatten().map(|b| Ex::Bool(*b)).collect(),
+                values: Rc::new(Values::Bool(reaches.iter().flatten().copied().collect())),
             }
         })
         .collect()
@@ -374,8 +389,8 @@ fn own(shared: Shared, id: AutomatonId) -> Vec<Table> {
         for robot in robots.iter().take(if is_common { 1 } else { usize::MAX }) {
             let held = array_names(shared, *robot, number);
             let values = &shared.system.instances[*robot].parameters[number];
-            let values: Vec<_> = values.iter().map(|v| shared.constants(parameter.ty.scalar, *v)).collect();
-            tables.extend(table(parameter.ty.scalar, held, &values, &comments));
+            let values = values.iter().map(|v| shared.constants(parameter.ty.scalar, *v));
+            tables.extend(table(parameter.ty.scalar, held, values, &comments));
         }
     }
     for (number, role) in automaton.roles.iter().enumerate() {
@@ -387,7 +402,7 @@ fn own(shared: Shared, id: AutomatonId) -> Vec<Table> {
             let variable = Variable::new(&shared.names.robots[*robot].roles[number], Basic::Dint);
             tables.push(Table {
                 variable: Variable { comments, ..variable }.with_elements(Some(most.max(1))),
-                values: (0..most).map(value).collect(),
+                values: Rc::new((0..most).map(value).collect()),
             });
         }
     }
@@ -404,42 +419,78 @@ pub fn array_names<'a>(shared: Shared<'a>, robot: usize, parameter: usize) -> &'
 /// Tables of so many elements get the value of most of them by a loop, then the others theirs.
 const LONG: usize = 16;
 
-/// Statements that give all elements of tables their values: loops where they are alike.
-pub fn fill(tables: &[&Table], counter: &str) -> Vec<Stmt> {
-    let mut out = Vec::new();
-    let mut alike: Vec<(usize, Vec<Stmt>)> = Vec::new();
-    let mut single = Vec::new();
-    for table in tables {
-        let n = table.values.len();
-        let most = usual(&table.values);
-        if let Some(value) = most {
-            let target = Ex::Element(table.variable.name.clone(), Box::new(name(counter)));
-            let store = Stmt::Assign(target, value.clone());
-            match alike.iter_mut().find(|(size, _)| *size == n) {
-                Some((_, stores)) => stores.push(store),
-                None => alike.push((n, vec![store])),
+/// So many assignments of single elements are made at once.
+const PIECE: usize = 1000;
+
+/// How all elements of tables get their values: by loops where they are alike, the others one by one.
+pub struct Filling {
+    pub loops: Vec<Stmt>,
+    pub others: Vec<Others>,
+}
+
+/// Some elements of a table.
+pub struct Others {
+    table: String,
+    values: Rc<Values>,
+    elements: Range<usize>,
+    /// A loop gives them this.
+    usual: Option<Ex>,
+}
+
+impl Filling {
+    pub fn new<'a>(tables: impl IntoIterator<Item = &'a Table>, counter: &str) -> Self {
+        let mut alike: Vec<(usize, Vec<Stmt>)> = Vec::new();
+        let mut others = Vec::new();
+        for table in tables {
+            let n = table.values.len();
+            let usual = usual(&table.values);
+            if let Some(value) = &usual {
+                let target = Ex::Element(table.variable.name.clone(), Box::new(name(counter)));
+                let store = Stmt::Assign(target, value.clone());
+                match alike.iter_mut().find(|(size, _)| *size == n) {
+                    Some((_, stores)) => stores.push(store),
+                    None => alike.push((n, vec![store])),
+                }
             }
+            others.extend((0..n).step_by(PIECE).map(|first| Others {
+                table: table.variable.name.clone(),
+                values: table.values.clone(),
+                elements: first..n.min(first + PIECE),
+                usual: usual.clone(),
+            }));
         }
-        for (i, value) in table.values.iter().enumerate().filter(|(_, value)| most != Some(*value)) {
-            let target = Ex::Element(table.variable.name.clone(), Box::new(Ex::Int(i as i32)));
-            single.push(Stmt::Assign(target, value.clone()));
+        let mut loops = Vec::new();
+        for (n, mut stores) in alike {
+            stores.push(advance(counter));
+            loops.push(super::code::assign(counter, Ex::Int(0)));
+            let condition = binary("<", name(counter), Ex::Int(n as i32));
+            loops.push(Stmt::While { condition, body: stores, most: n as u64 });
         }
+        Self { loops, others }
     }
-    for (n, mut stores) in alike {
-        stores.push(advance(counter));
-        out.push(super::code::assign(counter, Ex::Int(0)));
-        let condition = binary("<", name(counter), Ex::Int(n as i32));
-        out.push(Stmt::While { condition, body: stores, most: n as u64 });
+
+    /// All statements.
+    pub fn statements(self) -> Vec<Stmt> {
+        self.loops.into_iter().chain(self.others.iter().flat_map(Others::statements)).collect()
     }
-    out.extend(single);
-    out
+}
+
+impl Others {
+    pub fn statements(&self) -> Vec<Stmt> {
+        let elements = self.elements.clone().filter_map(|i| Some((i, self.values.get(i)?)));
+        let others = elements.filter(|(_, value)| self.usual.as_ref() != Some(value));
+        let store = |(i, value): (usize, Ex)| {
+            Stmt::Assign(Ex::Element(self.table.clone(), Box::new(Ex::Int(i as i32))), value)
+        };
+        others.map(store).collect()
+    }
 }
 
 /// The value of all elements, or of a long table the one that most of them have; none if there is no such value.
-fn usual(values: &[Ex]) -> Option<&Ex> {
+fn usual(values: &Values) -> Option<Ex> {
     // The only one that more than half of the elements can have.
-    let (mut candidate, mut lead) = (values.first()?, 0);
-    for value in values {
+    let (mut candidate, mut lead) = (values.get(0)?, 0);
+    for value in values.iter() {
         match (value == candidate, lead) {
             (true, _) => lead += 1,
             (false, 0) => (candidate, lead) = (value, 1),
@@ -455,18 +506,18 @@ fn usual(values: &[Ex]) -> Option<&Ex> {
 mod tests {
     use super::*;
 
-    fn values(texts: &str) -> Vec<Ex> {
+    fn values(texts: &str) -> Values {
         texts.chars().map(|c| Ex::Bool(c == '1')).collect()
     }
 
     #[test]
     fn a_loop_gives_what_most_elements_of_a_long_table_have() {
-        assert_eq!(usual(&values("111")), Some(&Ex::Bool(true)));
+        assert_eq!(usual(&values("111")), Some(Ex::Bool(true)));
         assert_eq!(usual(&values("110")), None, "short");
         assert_eq!(usual(&values("11")), None, "two assignments are shorter");
-        assert_eq!(usual(&values("0111111111111110")), Some(&Ex::Bool(true)));
+        assert_eq!(usual(&values("0111111111111110")), Some(Ex::Bool(true)));
         assert_eq!(usual(&values("1100110011001100")), None, "half of them");
-        assert_eq!(usual(&values("1100110011001000")), Some(&Ex::Bool(false)));
-        assert_eq!(usual(&[]), None);
+        assert_eq!(usual(&values("1100110011001000")), Some(Ex::Bool(false)));
+        assert_eq!(usual(&values("")), None);
     }
 }

@@ -117,12 +117,12 @@ pub fn codesys<'a>(shared: Shared<'a>, line: &'a Line) -> Part<'a> {
     part(move |f| writeln!(f, "{text}"))
 }
 
-fn pous(line: &Line, dialect: Dialect) -> Vec<Pou<'_>> {
+fn pous<'a>(line: &'a Line<'a>, dialect: Dialect) -> Vec<Pou<'a>> {
     let functions = line.functions.iter().map(|f| function(f));
     functions.chain(line.units().map(|unit| pou(unit, dialect))).collect()
 }
 
-fn pou(unit: &Unit, dialect: Dialect) -> Pou<'_> {
+fn pou<'a>(unit: &'a Unit<'a>, dialect: Dialect) -> Pou<'a> {
     Pou {
         name: &unit.name,
         kind: if unit.name == "MAIN" { "program" } else { "functionBlock" },
@@ -145,7 +145,7 @@ fn interface(unit: &Unit, dialect: Dialect, to: &mut Formatter) -> fmt::Result {
     section("localVars", 10, instances(false), instance, to)?;
     retained("localVars", 10, instances(true), instance, to)?;
     if dialect == Dialect::Portable {
-        section("externalVars", 10, unit.externals.iter(), of, to)?;
+        section("externalVars", 10, unit.externals.iter(), |v, f| of(&v, f), to)?;
     }
     to.write_str(&attributes::additional_data(unit.attributes(dialect), 10))
 }
@@ -281,11 +281,11 @@ fn variable(variable: &Variable, dialect: Dialect, indent: usize, to: &mut Forma
 /// A value in a declaration.
 fn value(ex: &Ex, dialect: Dialect, to: &mut Formatter) -> fmt::Result {
     match ex {
-        Ex::List(values) => {
+        Ex::List(list) => {
             to.write_str("<arrayValue>")?;
-            for ex in values {
+            for ex in list.iter() {
                 to.write_str("<value>")?;
-                value(ex, dialect, to)?;
+                value(&ex, dialect, to)?;
                 to.write_str("</value>")?;
             }
             to.write_str("</arrayValue>")

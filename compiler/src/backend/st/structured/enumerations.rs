@@ -79,12 +79,14 @@ pub fn typed(shared: Shared, line: &Line, enumerated: Enumerated) -> Typed {
     // A variable that is none of its enumeration is no value of it for another one.
     loop {
         let mut found = Vec::new();
-        units.iter().for_each(|users| users.not_of_it(&typed, &users.unit.body, &mut found));
+        for users in &units {
+            users.unit.body.pieces().for_each(|piece| users.not_of_it(&typed, &piece, &mut found));
+        }
         if found.is_empty() {
             return typed;
         }
         for (unit, name) in found {
-            typed.remove(unit, name);
+            typed.remove(&unit, &name);
         }
     }
 }
@@ -103,7 +105,7 @@ fn tables(shared: Shared, id: AutomatonId, names: &AutomatonNames, typed: &mut T
 struct Users<'a> {
     /// By the names of their instances.
     blocks: &'a HashMap<&'a str, &'a str>,
-    unit: &'a Unit,
+    unit: &'a Unit<'a>,
     own: HashSet<&'a str>,
 }
 
@@ -111,19 +113,20 @@ struct Users<'a> {
 type Key<'a> = (&'a str, &'a str);
 
 impl<'a> Users<'a> {
-    fn new(blocks: &'a HashMap<&'a str, &'a str>, unit: &'a Unit) -> Self {
+    fn new(blocks: &'a HashMap<&'a str, &'a str>, unit: &'a Unit<'a>) -> Self {
         let declared = [&unit.inputs, &unit.outputs, &unit.variables];
         let own = declared.into_iter().flatten().map(|variable| variable.name.as_str()).collect();
         Self { blocks, unit, own }
     }
 
     /// The variables that get what is no value of their enumeration.
-    fn not_of_it(&self, typed: &Typed, statements: &'a [Stmt], found: &mut Vec<Key<'a>>) {
+    fn not_of_it(&self, typed: &Typed, statements: &[Stmt], found: &mut Vec<(String, String)>) {
+        let owned = |(unit, name): Key| (unit.to_string(), name.to_string());
         for statement in statements {
             match statement {
                 Stmt::Assign(target, value) => {
                     let target = self.key(typed, target);
-                    found.extend(target.and_then(|target| self.assigned(typed, target, value)));
+                    found.extend(target.and_then(|target| self.assigned(typed, target, value)).map(owned));
                 }
                 Stmt::If(arms, otherwise) => {
                     arms.iter().for_each(|arm| self.not_of_it(typed, &arm.body, found));
@@ -137,16 +140,15 @@ impl<'a> Users<'a> {
                 Stmt::Call { instance, arguments } => {
                     let Some(block) = self.block(instance) else { continue };
                     let assigned = arguments.iter();
-                    found.extend(
-                        assigned.filter_map(|(name, value)| self.assigned(typed, (block, name), value)),
-                    );
+                    let not = assigned.filter_map(|(name, value)| self.assigned(typed, (block, name), value));
+                    found.extend(not.map(owned));
                 }
                 Stmt::Comment(_) | Stmt::Exit | Stmt::Return => {}
             }
         }
     }
 
-    fn assigned(&self, typed: &Typed, target: Key<'a>, value: &'a Ex) -> Option<Key<'a>> {
+    fn assigned<'k>(&self, typed: &Typed, target: Key<'k>, value: &Ex) -> Option<Key<'k>> {
         let wanted = typed.get(target.0, target.1)?;
         let is = match value {
             Ex::Member(member) => {
@@ -159,7 +161,7 @@ impl<'a> Users<'a> {
     }
 
     /// None of what is of no enumeration.
-    fn key(&self, typed: &Typed, place: &'a Ex) -> Option<Key<'a>> {
+    fn key<'k>(&'k self, typed: &Typed, place: &'k Ex) -> Option<Key<'k>> {
         let unit = self.unit.name.as_str();
         match place {
             Ex::Name(name) | Ex::Element(name, _) => typed
