@@ -23,6 +23,7 @@ mod drives;
 mod expression;
 mod externals;
 mod figures;
+mod filling;
 mod functions;
 mod globals;
 mod guard;
@@ -50,7 +51,7 @@ mod walk;
 mod watchdog;
 mod xml;
 
-use super::{Files, Folder, Sink};
+use super::{Files, Folder, Sink, part};
 use crate::io_map::{IoMap, Point};
 use crate::ir::{AutomatonId, System};
 use crate::naming::st::Scope;
@@ -70,7 +71,7 @@ use structured::{Enumerated, Structure, structured};
 
 /// Every point of I/O, in the order of `io.csv`; an [`IoMap`] counts them so.
 pub fn points(system: &System) -> Vec<Point> {
-    points::terminals(system, &names::names(system)).into_iter().map(|terminal| terminal.point).collect()
+    points::terminals(system, &names::names(system)).map(|terminal| terminal.point).collect()
 }
 
 /// The files of the folder `plc/`, without addresses.
@@ -82,8 +83,8 @@ pub fn files(system: &System, sources: &Sources) -> Files {
 /// of an I/O trace, named as the globals of `portable/main.st`; the state of a robot as `robot.state`.
 pub fn mapped(system: &System, sources: &Sources, map: &IoMap) -> (Files, Columns) {
     let mut files = Files::new();
-    let columns = write(system, sources, map, Flavours::WithoutPlcopen, &mut files);
-    files.extend(translated(system, sources, &Translations::default()));
+    let translations = Translations::default();
+    let columns = write(system, sources, map, Flavours::WithoutPlcopen, &translations, &mut files);
     (files, columns)
 }
 
@@ -104,16 +105,18 @@ pub enum Flavours {
     WithoutPlcopen,
 }
 
-/// Writes the files of the folder `plc/` but those of [`translated`], and returns the columns of [`mapped`].
+/// Writes the files of the folder `plc/`, the tables in other languages too, and returns the columns of [`mapped`].
 pub fn write(
     system: &System,
     sources: &Sources,
     map: &IoMap,
     flavours: Flavours,
+    translations: &Translations,
     files: &mut dyn Sink,
 ) -> Columns {
     with_line(system, sources, map, |mut made| {
         made.texts_without_types(files);
+        screen::files(made.shared, translations).iter().for_each(|(name, text)| files.file(name, text));
         if flavours == Flavours::All {
             made.plcopen(files);
         }
@@ -151,7 +154,7 @@ impl Made<'_> {
     fn texts_without_types(&self, files: &mut dyn Sink) {
         let (shared, names) = (self.shared, self.shared.names);
         files.file("portable/main.st", &text::portable(shared, &self.line));
-        files.file("io.csv", &table::io(shared, self.map));
+        files.file("io.csv", &part(|f| table::io(shared, self.map, f)));
         files.file("alarms.csv", &alarms::table(shared, &mut screen::as_written));
         files.file("states.csv", &states::table(shared, &mut screen::as_written));
         files.file("bounds.txt", &figures::report(shared, &self.line));
@@ -195,7 +198,8 @@ pub fn screen_texts(system: &System, sources: &Sources) -> Vec<String> {
     screen::texts(shared).into_iter().map(|(_, text)| text).collect()
 }
 
-/// The table of these texts, and those of alarms and states in other languages; files of the folder `plc/`.
+/// The table of these texts, and those of alarms and states in other languages; files of the folder `plc/` that
+/// [`write`] gives too.
 pub fn translated(system: &System, sources: &Sources, translations: &Translations) -> Files {
     let names = names::names(system);
     screen::files(Shared { system, sources, names: &names }, translations)

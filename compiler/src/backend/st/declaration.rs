@@ -8,6 +8,7 @@ use super::print::{Dialect, comment};
 use crate::io_map::Raw;
 use crate::ir::{Scalar, Value};
 use std::fmt::{self, Formatter, Write};
+use std::rc::Rc;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Basic {
@@ -36,9 +37,9 @@ pub struct Variable {
     /// The type of its elements, where there are enumerations.
     pub enumeration: Option<String>,
     /// Of a scalar; every other value is set by code.
-    pub initial: Option<Ex>,
+    pub initial: Option<Box<Ex>>,
     /// The first line stands behind the declaration, the others below it.
-    pub comments: Vec<String>,
+    pub comments: Vec<Rc<str>>,
     /// It outlasts a loss of power.
     pub is_retained: bool,
 }
@@ -133,7 +134,7 @@ impl Variable {
         self
     }
 
-    pub fn with_comment(mut self, text: impl Into<String>) -> Self {
+    pub fn with_comment(mut self, text: impl Into<Rc<str>>) -> Self {
         let text = text.into();
         if !text.is_empty() {
             self.comments.push(text);
@@ -142,7 +143,7 @@ impl Variable {
     }
 
     pub fn with_initial(mut self, value: Ex) -> Self {
-        self.initial = Some(value);
+        self.initial = Some(Box::new(value));
         self
     }
 

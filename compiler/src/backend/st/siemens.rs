@@ -179,13 +179,14 @@ fn structure(structure: &Structure) -> String {
 
 /// The declaration without an address and without what [`values`] writes.
 fn without_values(variable: &Variable) -> Variable {
-    let initial = variable.initial.as_ref().filter(|initial| !matches!(initial, Ex::List(_) | Ex::Fields(_)));
+    let initial =
+        variable.initial.as_ref().filter(|initial| !matches!(***initial, Ex::List(_) | Ex::Fields(_)));
     Variable { address: None, initial: initial.cloned(), ..variable.without_value() }
 }
 
 /// The values of arrays and structures as assignments.
 fn values(variable: &Variable, to: &mut Formatter) -> fmt::Result {
-    match &variable.initial {
+    match variable.initial.as_deref() {
         Some(initial @ (Ex::List(_) | Ex::Fields(_))) => {
             assign(&mut quoted(&variable.name), initial, variable.each, to)
         }

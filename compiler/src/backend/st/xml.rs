@@ -254,7 +254,7 @@ fn variable(variable: &Variable, dialect: Dialect, indent: usize, to: &mut Forma
         ),
     };
     let about = variable.comments.iter().fold(String::new(), |text, line| match text.as_str() {
-        "" => line.clone(),
+        "" => line.to_string(),
         text if text.ends_with('.') => format!("{text} {line}"),
         text => format!("{text}; {line}"),
     });
@@ -299,7 +299,11 @@ fn value(ex: &Ex, dialect: Dialect, to: &mut Formatter) -> fmt::Result {
             }
             to.write_str("</structValue>")
         }
-        single => write!(to, "<simpleValue value=\"{}\"/>", escaped(&dialect.expression(single))),
+        single => {
+            to.write_str("<simpleValue value=\"")?;
+            write_escaped(&dialect.expression(single), to)?;
+            to.write_str("\"/>")
+        }
     }
 }
 
@@ -309,6 +313,14 @@ fn named(name: &str) -> String {
 
 fn typed(attributes: &str, ty: &str, indent: usize) -> String {
     format!("{:indent$}<variable {attributes}><type>{ty}</type></variable>\n", "")
+}
+
+/// Numbers and most names are as they are.
+fn write_escaped(text: &str, to: &mut Formatter) -> fmt::Result {
+    match text.bytes().all(|byte| byte.is_ascii_alphanumeric() || b"_.-+ ".contains(&byte)) {
+        true => to.write_str(text),
+        false => to.write_str(&escaped(text)),
+    }
 }
 
 fn escaped(text: &str) -> String {

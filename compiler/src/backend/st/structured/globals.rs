@@ -13,9 +13,17 @@ use crate::backend::st::restart;
 use crate::backend::st::values::{Elements, Field, List};
 use crate::ir::{Extent, InterfaceId, Scalar};
 use std::collections::BTreeMap;
+use std::rc::Rc;
 
 pub fn globals(shared: Shared, line: &Line, places: &Places, typed: &Typed) -> (Globals, Vec<Structure>) {
-    let of = |variables: &[Variable]| variables_of(variables, "", places, typed);
+    // No port is of an enumeration.
+    let of_robot = |ports: &[Rc<Variable>]| match ports.iter().any(|port| places.get(&port.name).is_some()) {
+        true => {
+            let ports = ports.iter().map(|port| &**port);
+            variables_of(ports, "", places, typed).into_iter().map(Rc::new).collect()
+        }
+        false => ports.to_vec(),
+    };
     let mut structures = vec![point()];
     let mut cells = Vec::new();
     for id in (0..shared.system.model.interfaces.len()).map(InterfaceId) {
@@ -32,7 +40,7 @@ pub fn globals(shared: Shared, line: &Line, places: &Places, typed: &Typed) -> (
     alarms.extend(of_robots.map(|table| Table::declared(with_values(table))));
     let globals = Globals {
         system: line.globals.system.clone(),
-        ports: line.globals.ports.iter().map(|ports| of(ports)).collect(),
+        ports: line.globals.ports.iter().map(|ports| of_robot(ports)).collect(),
         raw: line.globals.raw.clone(),
         cells,
         parameters: parameters(shared, line, places, typed),
@@ -76,7 +84,7 @@ fn interface(shared: Shared, line: &Line, id: InterfaceId, typed: &Typed) -> Opt
     let fields = fields.into_iter().chain(mark).collect();
     let array = Variable {
         structure: Some(names.structure.clone()),
-        comments: vec![format!("cells of {}", interface.name), rows(shared, id, None)],
+        comments: vec![format!("cells of {}", interface.name).into(), rows(shared, id, None).into()],
         ..Variable::new(&names.rows, Basic::Bool)
     }
     .with_elements(Some(shared.system.members[id.0].len().max(1)))
@@ -122,7 +130,7 @@ fn table_of_alarms(line: &Line) -> Option<(Structure, Variable)> {
 
 /// The values of a table in its declaration.
 fn with_values(table: &Table) -> Variable {
-    let values = (table.values.len() > 0).then(|| Ex::List(List::single(table.values.clone())));
+    let values = (table.values.len() > 0).then(|| Box::new(Ex::List(List::single(table.values.clone()))));
     Variable { initial: values, ..table.variable.clone() }
 }
 
@@ -157,7 +165,7 @@ fn parameters(shared: Shared, line: &Line, places: &Places, typed: &Typed) -> Ve
                     unsaid: None,
                 });
                 let elements = Elements::Structures(fields.collect());
-                let initial = Some(Ex::List(List { len: first.values.len(), elements }));
+                let initial = Some(Box::new(Ex::List(List { len: first.values.len(), elements })));
                 let comments = first.variable.comments.iter();
                 let comments = comments.map(|text| rows.get(text).unwrap_or(text).clone()).collect();
                 let structure = Some(POINT.into());
@@ -170,11 +178,11 @@ fn parameters(shared: Shared, line: &Line, places: &Places, typed: &Typed) -> Ve
 }
 
 /// What is said of an array with so many elements for each row, and what of one of two dimensions.
-fn rows_by_element(shared: Shared) -> BTreeMap<String, String> {
+fn rows_by_element(shared: Shared) -> BTreeMap<Rc<str>, Rc<str>> {
     let mut texts = BTreeMap::new();
     let model = &shared.system.model;
     let mut add = |id: InterfaceId, each: usize| {
-        texts.insert(rows(shared, id, Some(each)), rows(shared, id, None));
+        texts.insert(rows(shared, id, Some(each)).into(), rows(shared, id, None).into());
     };
     for (i, interface) in model.interfaces.iter().enumerate() {
         for parameter in interface.parameters.iter().filter(|p| p.ty.extent != Extent::One) {

@@ -53,7 +53,12 @@ pub fn program<'a>(unit: &'a Unit<'a>, calls: Calls<'a>) -> Unit<'a> {
 }
 
 /// Coordinates as points, and members of enumerations as such.
-pub fn variables_of(variables: &[Variable], unit: &str, places: &Places, typed: &Typed) -> Vec<Variable> {
+pub fn variables_of<'v>(
+    variables: impl IntoIterator<Item = &'v Variable>,
+    unit: &str,
+    places: &Places,
+    typed: &Typed,
+) -> Vec<Variable> {
     let mut out: Vec<Variable> = Vec::new();
     for variable in variables {
         let named = typed.get(unit, &variable.name).cloned();
