@@ -35,13 +35,20 @@ struct Contacts {
     free: Answers<Fingerprint, bool>,
     /// What contains an arm on each piece of its path.
     boxes: Answers<Fingerprint, Arc<Boxes>>,
+    /// What contains an arm where it rests.
+    boxes_at_rest: Answers<Fingerprint, Arc<Boxes>>,
     /// For how long two that move stay apart, s.
     clear: Answers<Fingerprint, f64>,
 }
 
 impl Default for Contacts {
     fn default() -> Self {
-        Self { free: Answers::new(MOST), boxes: Answers::new(MOST_BOXES), clear: Answers::new(MOST_CLEAR) }
+        Self {
+            free: Answers::new(MOST),
+            boxes: Answers::new(MOST_BOXES),
+            boxes_at_rest: Answers::new(MOST_BOXES),
+            clear: Answers::new(MOST_CLEAR),
+        }
     }
 }
 
@@ -62,7 +69,7 @@ impl Surroundings {
 
 /// So many answers of late are remembered, and as many older ones, in all runs at the same time: 24 bytes each.
 const MOST: usize = 500_000;
-/// So many motions have their boxes remembered, and as many older ones: 9 kB each.
+/// So many motions have their boxes remembered, and as many older ones: 9 kB each. So have as many places of rest: 1 kB each.
 const MOST_BOXES: usize = 5_000;
 /// So many answers about two that move are remembered, and as many older ones: 24 bytes each.
 const MOST_CLEAR: usize = 100_000;
@@ -108,11 +115,15 @@ impl Memory {
     }
 
     pub(crate) fn boxes(&self, motion: Fingerprint, compute: impl FnOnce() -> Arc<Boxes>) -> Arc<Boxes> {
-        self.contacts.boxes.known(&motion).unwrap_or_else(|| {
-            let boxes = compute();
-            self.contacts.boxes.note(motion, boxes.clone());
-            boxes
-        })
+        known_or(&self.contacts.boxes, motion, compute)
+    }
+
+    pub(crate) fn boxes_at_rest(
+        &self,
+        place: Fingerprint,
+        compute: impl FnOnce() -> Arc<Boxes>,
+    ) -> Arc<Boxes> {
+        known_or(&self.contacts.boxes_at_rest, place, compute)
     }
 
     /// For how long two stay apart that move like this, s; none if that is not known.
@@ -131,4 +142,16 @@ impl Memory {
     pub(crate) fn note_free(&self, question: Fingerprint, is_free: bool) {
         self.contacts.free.note(question, is_free);
     }
+}
+
+fn known_or(
+    boxes: &Answers<Fingerprint, Arc<Boxes>>,
+    of: Fingerprint,
+    compute: impl FnOnce() -> Arc<Boxes>,
+) -> Arc<Boxes> {
+    boxes.known(&of).unwrap_or_else(|| {
+        let computed = compute();
+        boxes.note(of, computed.clone());
+        computed
+    })
 }

@@ -92,37 +92,35 @@ pub fn is_free(
     if ![a, b].into_iter().any(|group| groups[group].has_whole_path()) {
         return false;
     }
-    let units = [a, b].map(|group| match stands(group) {
-        true => vec![(Fingerprint::default(), groups[group].standing())],
-        false => groups[group].units(plant),
-    });
-    let (mut open, mut asked) = (Vec::new(), Vec::new());
-    for (first, of_a) in &units[0] {
-        for (second, of_b) in &units[1] {
-            let key = machines.and(*first).and(*second);
-            match memory.is_free(key) {
-                Some(true) => continue,
-                Some(false) => {
-                    memory.note_free(all, false);
-                    return false;
-                }
-                None => asked.push(key),
+    let mut units = Units::new([a, b], groups);
+    let (mut open, mut asked): (Vec<Two>, Vec<(Fingerprint, Option<bool>)>) = (Vec::new(), Vec::new());
+    for bodies in meeting(&near, [a, b], groups, plant) {
+        let key =
+            machines.and(units.of(0, bodies[0], groups, plant)).and(units.of(1, bodies[1], groups, plant));
+        let number = asked.iter().position(|(known, _)| *known == key).unwrap_or_else(|| {
+            asked.push((key, memory.is_free(key)));
+            asked.len() - 1
+        });
+        match asked[number].1 {
+            Some(true) => {}
+            Some(false) => {
+                memory.note_free(all, false);
+                return false;
             }
-            let pairs = of_a.iter().flat_map(|i| of_b.iter().map(move |j| [*i, *j]));
-            let pairs =
-                pairs.filter(|[i, j]| (a != b || i < j) && can_meet(groups, [(a, *i), (b, *j)], plant));
-            open.extend(pairs.map(|bodies| Two { bodies, asked: asked.len() - 1 }));
+            None => open.push(Two { bodies, asked: number }),
         }
     }
-    open.sort_by_key(|two| two.bodies);
     let mut path = Path::new([a, b], groups, plant);
     let found = near.into_iter().try_for_each(|piece| {
         let open: Vec<Two> = open.iter().filter(|two| piece.may_meet(two.bodies)).copied().collect();
         path.keep_off(&open, piece.path, HALVINGS)
     });
     match found {
-        Ok(()) => asked.iter().for_each(|key| memory.note_free(*key, true)),
-        Err(number) => memory.note_free(asked[number], false),
+        Ok(()) => {
+            let new = asked.iter().filter(|(_, known)| known.is_none());
+            new.for_each(|(key, _)| memory.note_free(*key, true));
+        }
+        Err(number) => memory.note_free(asked[number].0, false),
     }
     memory.note_free(all, found.is_ok());
     found.is_ok()
@@ -145,6 +143,46 @@ impl PathPiece<'_> {
     /// Whether the boxes of two bodies meet.
     fn may_meet(&self, [i, j]: [usize; 2]) -> bool {
         self.boxes.is_none_or(|[a, b]| !a.bodies[i].is_apart(&b.bodies[j]))
+    }
+
+    /// Bodies of both groups whose boxes meet; all, where boxes are not known.
+    fn meeting(&self, counts: [usize; 2]) -> Vec<[usize; 2]> {
+        let near = |side: usize| -> Vec<usize> {
+            let Some(boxes) = self.boxes else { return (0..counts[side]).collect() };
+            let (own, other) = (&boxes[side].bodies, &boxes[1 - side].all);
+            (0..own.len()).filter(|body| !own[*body].is_apart(other)).collect()
+        };
+        let [first, second] = [0, 1].map(near);
+        let pairs = first.iter().flat_map(|i| second.iter().map(move |j| [*i, *j]));
+        pairs.filter(|bodies| self.may_meet(*bodies)).collect()
+    }
+}
+
+/// Bodies of two groups, in order, that can come into contact and whose boxes meet on one of these pieces.
+fn meeting(near: &[PathPiece], [a, b]: [usize; 2], groups: &[Group], plant: &Plant) -> Vec<[usize; 2]> {
+    let counts = [a, b].map(|group| groups[group].bodies.len());
+    let mut all: Vec<[usize; 2]> = near.iter().flat_map(|piece| piece.meeting(counts)).collect();
+    all.sort_unstable();
+    all.dedup();
+    all.retain(|[i, j]| (a != b || i < j) && can_meet(groups, [(a, *i), (b, *j)], plant));
+    all
+}
+
+/// What tells the items of two groups apart, and the machines without items.
+struct Units {
+    numbers: [usize; 2],
+    /// Of the bodies, by group; none that nobody has asked for.
+    known: [Vec<Option<Fingerprint>>; 2],
+}
+
+impl Units {
+    fn new(numbers: [usize; 2], groups: &[Group]) -> Self {
+        Self { numbers, known: numbers.map(|group| vec![None; groups[group].bodies.len()]) }
+    }
+
+    fn of(&mut self, side: usize, body: usize, groups: &[Group], plant: &Plant) -> Fingerprint {
+        let group = &groups[self.numbers[side]];
+        *self.known[side][body].get_or_insert_with(|| group.unit(body, plant))
     }
 }
 

@@ -19,8 +19,8 @@ use crate::plant::Plant;
 use crate::plant::trajectory::Trajectory;
 use crate::point::Point;
 use crate::solid::{Link, Solid};
-use boxes::NEAR;
 pub use boxes::{Boxes, Swept};
+use boxes::{NEAR, Outer};
 use parts::Parts;
 use std::cell::OnceCell;
 use std::sync::Arc;
@@ -89,8 +89,8 @@ pub struct Group {
     resting: Option<Fingerprint>,
     /// Of all items, and of where they are on the machine.
     borne: Option<Fingerprint>,
-    /// None until somebody asks.
-    boxes: Option<Arc<Boxes>>,
+    /// And what contains all of them. None until somebody asks.
+    boxes: Option<(Outer, Arc<Boxes>)>,
 }
 
 #[derive(Clone, Debug)]

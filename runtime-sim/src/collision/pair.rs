@@ -117,13 +117,17 @@ impl Pair {
         asked: f64,
     ) -> f64 {
         let [a, b] = self.groups;
-        let rest = ![a, b].into_iter().any(|group| groups[group].moves());
         if a != b {
+            let [first, second] = [a, b].map(|group| groups[group].outer(plant, memory));
+            if first.is_apart(&second) {
+                return f64::INFINITY;
+            }
             let [first, second] = [a, b].map(|group| groups[group].boxes(plant, memory));
             if first.whole.is_apart(&second.whole) {
                 return f64::INFINITY;
             }
         }
+        let rest = ![a, b].into_iter().any(|group| groups[group].moves());
         [a, b].into_iter().for_each(|group| groups[group].catch_up(plant));
         let question = Question::of(groups, number, [a, b], plant);
         if let Some(question) = question

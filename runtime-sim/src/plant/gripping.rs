@@ -19,11 +19,47 @@ const ROUNDED: f64 = 1e-6;
 struct Nearest {
     /// Of those that rest, m; infinity if there are none.
     at_rest: f64,
-    /// Of those on each machine that moves, m, and how fast they go at most, m/s.
+    /// Of those on machines that move, m, and how fast they go at most, m/s.
     moving: Vec<(f64, f64)>,
 }
 
+/// Items that a gripper may find.
+struct Candidates {
+    /// Where those are gripped that rest, as far as the tool may get there.
+    at_rest: Vec<Point>,
+    moving: Vec<Carried>,
+}
+
+/// An item on a machine that moves.
+struct Carried {
+    /// Where it is gripped now.
+    grip: Point,
+    /// How far it may go at once, m.
+    leap: f64,
+    /// How fast it goes otherwise, m/s.
+    speed: f64,
+}
+
+impl Candidates {
+    /// How far they are from the tool at a place, from where it goes so far at most until its motion ends, m. Those that
+    /// rest and are out of its reach are left out from now on.
+    fn nearest(&mut self, tool: Point, reach: f64) -> Nearest {
+        let square = |grip: &Point| {
+            let gap = *grip - tool;
+            gap.dot(gap)
+        };
+        self.at_rest.retain(|grip| square(grip) <= reach * reach);
+        let at_rest = self.at_rest.iter().map(square).fold(f64::INFINITY, f64::min).sqrt();
+        let distance = |item: &Carried| (item.grip - tool).length() - item.leap;
+        Nearest { at_rest, moving: self.moving.iter().map(|item| (distance(item), item.speed)).collect() }
+    }
+}
+
 impl Nearest {
+    fn is_none(&self) -> bool {
+        self.at_rest == f64::INFINITY && self.moving.is_empty()
+    }
+
     /// So many seconds after their places were looked up.
     fn after(&self, seconds: f64) -> f64 {
         let moving = self.moving.iter().map(|(distance, speed)| distance - speed * seconds);
@@ -156,13 +192,14 @@ impl Plant {
         let Some(tool) = working.see(&self.items, &self.desk).tool(looks.chain) else { return f64::INFINITY };
         let near = looks.near + ROUNDED;
         let now = now_ms as f64 / 1000.0;
-        let mut nearest = self.nearest(tool.position, lying);
-        let mut from = now;
-        let mut left = MOST_LOOKS;
+        let mut candidates = self.candidates(lying);
+        let (mut from, mut left) = (now, MOST_LOOKS);
+        let mut goes = working.tool_goes(looks.chain, from, f64::MAX);
+        let mut nearest = candidates.nearest(tool.position, goes + near);
         // A look is done at the end of its scan.
         let time_of = |look: u64| (look.div_ceil(self.scan_ms) * self.scan_ms) as f64 / 1000.0;
         while left > 0 {
-            if working.tool_goes(looks.chain, from, f64::MAX) == 0.0 {
+            if goes == 0.0 || nearest.is_none() {
                 let soonest_ms = 1000.0 * (now + nearest.until(near)) - self.scan_ms as f64;
                 let periods = (soonest_ms / looks.period_ms as f64).floor();
                 return (periods * looks.period_ms as f64).max(look as f64);
@@ -175,14 +212,14 @@ impl Plant {
             let passed = first(left, may_meet);
             look += u64::from(passed) * looks.period_ms;
             left -= passed;
-            let at = time_of(look);
             if left == 0 {
                 break;
             }
-            let Some(tool) = working.tool_at(looks.chain, at) else { break };
-            nearest = self.nearest(tool, lying);
-            from = at;
-            if nearest.after(at - now) <= near {
+            from = time_of(look);
+            let Some(tool) = working.tool_at(looks.chain, from) else { break };
+            goes = working.tool_goes(looks.chain, from, f64::MAX);
+            nearest = candidates.nearest(tool, goes + near);
+            if nearest.after(from - now) <= near {
                 break;
             }
             look += looks.period_ms;
@@ -205,24 +242,13 @@ impl Plant {
         Lying { speeds: speeds.to_vec(), logged: self.items.log().len(), at_rest, moving }
     }
 
-    /// How far a place is from where items are gripped now, of those that are not.
-    fn nearest(&self, place: Point, Lying { speeds, at_rest, moving, .. }: &Lying) -> Nearest {
-        let square = |grip: &Point| {
-            let gap = *grip - place;
-            gap.dot(gap)
+    /// What a gripper may find as it lies now.
+    fn candidates(&self, Lying { speeds, at_rest, moving, .. }: &Lying) -> Candidates {
+        let carried = |item: &usize| {
+            let machine = self.items.all()[*item].carrier.machine()?;
+            Some(Carried { grip: self.grip_point(*item)?, leap: self.leap(*item), speed: speeds[machine] })
         };
-        let at_rest = at_rest.iter().map(square).fold(f64::INFINITY, f64::min).sqrt();
-        if moving.is_empty() {
-            return Nearest { at_rest, moving: Vec::new() };
-        }
-        let mut distances = vec![f64::INFINITY; speeds.len()];
-        for index in moving {
-            let machine = self.items.all()[*index].carrier.machine();
-            let (Some(machine), Some(grip)) = (machine, self.grip_point(*index)) else { continue };
-            distances[machine] = distances[machine].min((grip - place).length() - self.leap(*index));
-        }
-        let moving = distances.into_iter().zip(speeds.iter().copied());
-        Nearest { at_rest, moving: moving.filter(|(distance, _)| distance.is_finite()).collect() }
+        Candidates { at_rest: at_rest.clone(), moving: moving.iter().filter_map(carried).collect() }
     }
 
     /// How far an item that lies on a vehicle on a track goes at once at most, where this turns at corners, m.

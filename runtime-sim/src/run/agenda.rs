@@ -128,7 +128,7 @@ impl<'a> Agenda<'a> {
                         .iter()
                         .any(|read| is_analogue(&read.word) && read.is_read(&self.latched[machine]))
             };
-            if plant.moves(machine) && reads_analogue() {
+            if reads_analogue() && plant.moves(machine) {
                 return Some(scan + 1);
             }
             if description.monitor.is_stopped(changes.trace()) {

@@ -51,36 +51,83 @@ impl<T: Latch, const N: usize> Latch for Array<T, N> {
 }
 
 /// A value that is written to an image.
-pub trait Put {
-    fn put(self, out: &mut Vec<f64>);
+pub trait Put: Sized {
+    /// How many numbers it is.
+    const WORDS: usize;
+
+    /// Writes it to as many words.
+    fn put(self, words: &mut [f64]);
+
+    /// This one and the next one.
+    fn with<T: Put>(self, next: T) -> With<Self, T> {
+        With(self, next)
+    }
+
+    fn append(self, image: &mut Vec<f64>) {
+        let begin = image.len();
+        let end = begin + Self::WORDS;
+        image.resize(end, 0.0);
+        self.put(&mut image[begin..end]);
+    }
+}
+
+/// Two values, one after the other.
+pub struct With<A, B>(A, B);
+
+impl<A: Put, B: Put> Put for With<A, B> {
+    const WORDS: usize = A::WORDS + B::WORDS;
+
+    fn put(self, words: &mut [f64]) {
+        let (first, next) = words.split_at_mut(A::WORDS);
+        self.0.put(first);
+        self.1.put(next);
+    }
 }
 
 impl Put for bool {
-    fn put(self, out: &mut Vec<f64>) {
-        out.push(f64::from(u8::from(self)));
+    const WORDS: usize = 1;
+
+    fn put(self, words: &mut [f64]) {
+        words[0] = f64::from(u8::from(self));
     }
 }
 
 impl Put for i32 {
-    fn put(self, out: &mut Vec<f64>) {
-        out.push(f64::from(self));
+    const WORDS: usize = 1;
+
+    fn put(self, words: &mut [f64]) {
+        words[0] = f64::from(self);
     }
 }
 
 impl Put for f64 {
-    fn put(self, out: &mut Vec<f64>) {
-        out.push(self);
+    const WORDS: usize = 1;
+
+    fn put(self, words: &mut [f64]) {
+        words[0] = self;
     }
 }
 
 impl Put for Point {
-    fn put(self, out: &mut Vec<f64>) {
-        out.extend([self.x, self.y, self.z]);
+    const WORDS: usize = 3;
+
+    fn put(self, words: &mut [f64]) {
+        words.copy_from_slice(&[self.x, self.y, self.z]);
+    }
+}
+
+impl<T: Put, const N: usize> Put for [T; N] {
+    const WORDS: usize = N * T::WORDS;
+
+    fn put(self, words: &mut [f64]) {
+        self.into_iter().zip(words.chunks_exact_mut(T::WORDS)).for_each(|(value, words)| value.put(words));
     }
 }
 
 impl<T: Put, const N: usize> Put for Array<T, N> {
-    fn put(self, out: &mut Vec<f64>) {
-        self.0.into_iter().for_each(|value| value.put(out));
+    const WORDS: usize = N * T::WORDS;
+
+    fn put(self, words: &mut [f64]) {
+        self.0.put(words);
     }
 }

@@ -8,8 +8,10 @@ use controllers::{{ robot.module }}::{self, {{ robot.ty }}};
 {%- for item in enums %}
 
 impl Put for {{ item }} {
-    fn put(self, out: &mut Vec<f64>) {
-        (self as i32).put(out);
+    const WORDS: usize = 1;
+
+    fn put(self, words: &mut [f64]) {
+        (self as i32).put(words);
     }
 }
 
@@ -23,8 +25,10 @@ impl Read for {{ item }} {
 {%- for interface in interfaces %}
 
 impl Put for {{ interface.reference }} {
-    fn put(self, out: &mut Vec<f64>) {
-        out.push(f64::from(self.0));
+    const WORDS: usize = 1;
+
+    fn put(self, words: &mut [f64]) {
+        words[0] = f64::from(self.0);
     }
 }
 
@@ -57,14 +61,12 @@ impl Latch for {{ robot.module }}::Inputs {
         }
     }
 }
+{%- if let Some(outputs) = robot.outputs %}
 
-impl Put for {{ robot.module }}::Outputs {
-    fn put(self, {% if robot.outputs.is_empty() %}_{% else %}out{% endif %}: &mut Vec<f64>) {
-        {%- for name in robot.outputs %}
-        self.{{ name }}.put(out);
-        {%- endfor %}
-    }
+fn outputs_of_{{ robot.module }}(outputs: {{ robot.module }}::Outputs) -> impl Put {
+    {{ outputs }}
 }
+{%- endif %}
 
 impl Read for {{ robot.module }}::Parameters<'static> {
     fn read(reader: &mut Reader) -> Result<Self, String> {
@@ -89,10 +91,10 @@ pub fn alarm({% if !alarms %}_{% endif %}outputs: &SystemOutputs) -> (bool, i32,
 {%- if alarms %}
 
 impl Put for &Alarm {
-    fn put(self, out: &mut Vec<f64>) {
-        self.active.put(out);
-        self.acknowledged.put(out);
-        [self.count, self.first, self.last].into_iter().for_each(|word| word.put(out));
+    const WORDS: usize = 5;
+
+    fn put(self, words: &mut [f64]) {
+        self.active.with(self.acknowledged).with([self.count, self.first, self.last]).put(words);
     }
 }
 {%- endif %}
@@ -112,7 +114,11 @@ pub fn publish(robot: &Robot, running: bool, image: &mut Vec<f64>) {
     image.clear();
     match robot {
         {%- for robot in robots %}
-        Robot::{{ robot.ty }}(robot) => robot.published(running).put(image),
+        {%- if robot.outputs.is_some() %}
+        Robot::{{ robot.ty }}(robot) => outputs_of_{{ robot.module }}(robot.published(running)).append(image),
+        {%- else %}
+        Robot::{{ robot.ty }}(_) => {}
+        {%- endif %}
         {%- endfor %}
     }
 }
@@ -245,23 +251,7 @@ impl Layout {
         {%- endif %}
         match robot {
             {%- for robot in robots %}
-            Robot::{{ robot.ty }}(robot) => {
-                (robot.state as i32).put(out);
-                robot.elapsed.put(out);
-                {%- for local in robot.locals %}
-                robot.{{ local }}.put(out);
-                {%- endfor %}
-                {%- for cell in robot.cells %}
-                {{ cell }}.put(out);
-                {%- endfor %}
-                robot.outputs.put(out);
-                {%- if robot.can_stop %}
-                robot.stopped.put(out);
-                {%- endif %}
-                {%- if robot.has_alarms %}
-                robot.alarms.iter().for_each(|alarm| alarm.put(out));
-                {%- endif %}
-            }
+            Robot::{{ robot.ty }}(robot) => {{ robot.trace }}.append(out),
             {%- endfor %}
         }
     }

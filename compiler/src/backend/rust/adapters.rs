@@ -40,13 +40,11 @@ struct RobotView {
     ty: String,
     module: String,
     inputs: Vec<String>,
-    outputs: Vec<String>,
+    /// All outputs, one after the other.
+    outputs: Option<String>,
     parameters: Vec<String>,
-    locals: Vec<String>,
-    /// Paths of the cells that it owns.
-    cells: Vec<String>,
-    has_alarms: bool,
-    can_stop: bool,
+    /// Its state, the time in it, locals, its own cells, outputs, alarms.
+    trace: String,
 }
 
 pub fn adapters(shared: Shared) -> String {
@@ -91,7 +89,7 @@ fn robot(shared: Shared, id: usize) -> RobotView {
     let names = &shared.names.automata[id];
     let ports = |direction: Direction| {
         let ports = automaton.device.ports.iter().zip(&names.ports);
-        ports.filter(|(p, _)| p.direction == direction).map(|(_, name)| name.clone()).collect()
+        ports.filter(move |(p, _)| p.direction == direction).map(|(_, name)| name)
     };
     let owned = automaton.implements.iter().zip(&names.rows).flat_map(|(implements, row)| {
         let interface = &shared.names.interfaces[implements.interface.0];
@@ -100,16 +98,31 @@ fn robot(shared: Shared, id: usize) -> RobotView {
             .iter()
             .map(move |cell| format!("cells.{}[robot.parameters.{row}].{cell}", interface.field))
     });
+    let state = ["(robot.state as i32)", "robot.elapsed"].map(String::from).into_iter();
+    let locals = names.locals.iter().map(|local| format!("robot.{local}"));
+    let outputs = in_a_row(ports(Direction::Output).map(|name| format!("outputs.{name}")).collect());
+    let traced_outputs = outputs.as_ref().map(|_| format!("outputs_of_{}(robot.outputs)", names.module));
+    let stopped = automaton.can_stop().then(|| "robot.stopped".into());
+    let alarms = automaton.alarms().next().map(|_| "robot.alarms.each_ref()".into());
+    let trace = state.chain(locals).chain(owned).chain(traced_outputs).chain(stopped).chain(alarms);
     RobotView {
         keyword: automaton.name.clone(),
         ty: names.ty.clone(),
         module: names.module.clone(),
-        inputs: ports(Direction::Input),
-        outputs: ports(Direction::Output),
+        inputs: ports(Direction::Input).cloned().collect(),
+        outputs,
         parameters: names.parameters.iter().chain(&names.roles).chain(&names.rows).cloned().collect(),
-        locals: names.locals.clone(),
-        cells: owned.collect(),
-        has_alarms: automaton.alarms().next().is_some(),
-        can_stop: automaton.can_stop(),
+        trace: in_a_row(trace.collect()).unwrap_or_default(),
     }
+}
+
+/// So many values are put in a row, and rows into one another: the type of all is not nested too deep for rustc.
+const IN_A_ROW: usize = 16;
+
+/// An expression that puts all values one after the other; none of no values.
+fn in_a_row(values: Vec<String>) -> Option<String> {
+    if values.len() > IN_A_ROW {
+        return in_a_row(values.chunks(IN_A_ROW).filter_map(|row| in_a_row(row.to_vec())).collect());
+    }
+    values.into_iter().reduce(|row, next| format!("{row}.with({next})"))
 }

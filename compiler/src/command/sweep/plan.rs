@@ -9,6 +9,7 @@ use super::axis::Axis;
 use super::design::{Asked, Design, Point};
 use super::precision::{self, Precision};
 use super::warm_up::WarmUp;
+use autogen::backend::rust::parameters_text;
 use autogen::diagnostic::Diagnostic;
 use autogen::ir::System;
 use autogen::lower::{Draft, Project, Setting, Texts};
@@ -46,7 +47,7 @@ pub struct Line {
     name: String,
     library: Mutex<Option<Result<SharedLibrary, String>>>,
     /// The line of the point that was made last: that of the replications which follow.
-    last_made: Mutex<Option<(Point, Arc<Project>)>>,
+    last_made: Mutex<Option<(Point, Arc<Made>)>>,
     /// What runs of this layout have found; one for each that continues at the same time, beside the first one.
     memories: Mutex<Vec<Memory>>,
     memory: Memory,
@@ -149,6 +150,13 @@ fn titles(lines: &[Line], paths: &[PathBuf]) -> Vec<String> {
     }
 }
 
+/// A line with the values of a point: the same for all its replications.
+pub struct Made {
+    pub project: Project,
+    /// The values of its controllers, as these read them.
+    pub parameters: String,
+}
+
 /// Replications of a point take the seeds that follow its own. Were one of them that of another point, both would be
 /// the same run.
 fn seeds_are_apart(axes: &[Axis], replications: u32) -> Result<(), Refusal> {
@@ -221,19 +229,20 @@ impl Line {
     }
 
     /// The line of a point, with the seed of its scenario and devices that answer at once.
-    pub fn made(&self, point: &Point, order: Option<u64>) -> Result<Arc<Project>, Vec<Diagnostic>> {
+    pub fn made(&self, point: &Point, order: Option<u64>) -> Result<Arc<Made>, Vec<Diagnostic>> {
         let last_made = || self.last_made.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((of, project)) = &*last_made()
+        if let Some((of, made)) = &*last_made()
             && of == point
         {
-            return Ok(project.clone());
+            return Ok(made.clone());
         }
         let settings: Vec<Setting> =
             self.settings.iter().zip(&point.values).map(|(of_axis, &value)| of_axis[value].clone()).collect();
-        let made = self.draft.line(&settings, order);
-        let project = Arc::new(made.project.ok_or(made.diagnostics)?);
-        *last_made() = Some((point.clone(), project.clone()));
-        Ok(project)
+        let compiled = self.draft.line(&settings, order);
+        let project = compiled.project.ok_or(compiled.diagnostics)?;
+        let made = Arc::new(Made { parameters: parameters_text(&project.system), project });
+        *last_made() = Some((point.clone(), made.clone()));
+        Ok(made)
     }
 
     /// Lets a run use what others have found about this layout.

@@ -6,13 +6,11 @@ use super::super::fault;
 use super::super::print;
 use super::design::{Point, RunNumber};
 use super::outcome::Outcome;
-use super::plan::Plan;
+use super::plan::{Made, Plan};
 use crate::Status;
 use autogen::backend::report;
-use autogen::backend::rust::parameters_text;
 use autogen::diagnostic::Diagnostic;
 use autogen::ir::System;
-use autogen::lower::Project;
 use autogen::source::Sources;
 use runtime_sim::line::{IoDelay, Line};
 use runtime_sim::memory::Memory;
@@ -61,15 +59,15 @@ pub fn page(plan: &Plan, number: RunNumber) -> Result<String, String> {
     let point = plan.design.point(number.point);
     let line = &plan.lines[point.layout];
     let made = catch_unwind(AssertUnwindSafe(|| {
-        let Ready { project, plant, mut controllers } =
-            ready(plan, &point, number.replication, Notice::None)?;
+        let Ready { made, plant, mut controllers } = ready(plan, &point, number.replication, Notice::None)?;
+        let project = &made.project;
         let watched = report::watched(&project.system);
         let ignore = &mut |_: &Seen| {};
         let recorded =
             record(&plant, &mut controllers, Stepping::Events, &watched, ignore).map_err(End::NoReport)?;
         let mut results = results(&recorded.report, &project.system, &line.shown)?;
         contact::name_reasons(&mut results, &project.may_touch);
-        Ok(report::html(&project, &line.shown, &plant, &recorded, &results))
+        Ok(report::html(project, &line.shown, &plant, &recorded, &results))
     }));
     match made {
         Ok(Ok(page)) => Ok(page),
@@ -81,7 +79,7 @@ pub fn page(plan: &Plan, number: RunNumber) -> Result<String, String> {
 
 /// A line that can be run.
 struct Ready {
-    project: Arc<Project>,
+    made: Arc<Made>,
     /// That of the replication.
     plant: Line,
     controllers: Controllers,
@@ -90,27 +88,26 @@ struct Ready {
 fn ready(plan: &Plan, point: &Point, replication: u32, notice: Notice) -> Result<Ready, End> {
     let line = &plan.lines[point.layout];
     let order = plan.design.orders.get(point.order).copied();
-    let project = line.made(point, order).map_err(End::Refused)?;
-    let library = line.library(&project.system, notice).map_err(End::NoControllers)?;
-    let mut plant = project.replication(replication);
+    let made = line.made(point, order).map_err(End::Refused)?;
+    let library = line.library(&made.project.system, notice).map_err(End::NoControllers)?;
+    let mut plant = made.project.replication(replication);
     plant.io_delay = match plan.delays[point.delay] {
         IoDelay::Random { max, seed } => {
             IoDelay::Random { max, seed: seed.wrapping_add(u64::from(replication)) }
         }
         IoDelay::Fixed(scans) => IoDelay::Fixed(scans),
     };
-    let controllers =
-        library.controllers(&plant, &parameters_text(&project.system)).map_err(End::NoReport)?;
-    Ok(Ready { project, plant, controllers })
+    let controllers = library.controllers(&plant, &made.parameters).map_err(End::NoReport)?;
+    Ok(Ready { made, plant, controllers })
 }
 
 fn run(plan: &Plan, point: &Point, replication: u32, notice: Notice) -> Result<Value, End> {
     let line = &plan.lines[point.layout];
-    let Ready { project, plant, mut controllers } = ready(plan, point, replication, notice)?;
+    let Ready { made, plant, mut controllers } = ready(plan, point, replication, notice)?;
     let simulate =
         |memory: &mut Memory| run_again(&plant, &mut controllers, Stepping::Events, memory, &mut |_| {});
     let report = line.remembering(simulate).map_err(End::NoReport)?;
-    results(&report, &project.system, &line.shown)
+    results(&report, &made.project.system, &line.shown)
 }
 
 fn results(report: &Report, system: &System, sources: &Sources) -> Result<Value, End> {

@@ -107,7 +107,7 @@ impl Boxes {
 }
 
 /// What contains a group for a time, without a look at its bodies.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub struct Outer {
     all: BoundingBox,
     /// Without what stands in the world.
@@ -133,7 +133,7 @@ impl Outer {
 impl Group {
     /// What contains it on each piece of its path, or all the while.
     pub fn boxes(&mut self, plant: &Plant, memory: &mut Memory) -> Arc<Boxes> {
-        if let Some(boxes) = &self.boxes {
+        if let Some((_, boxes)) = &self.boxes {
             return boxes.clone();
         }
         let moving = self.moving(plant).zip(self.machine());
@@ -148,9 +148,28 @@ impl Group {
                 Arc::new(Boxes::of(self.each(|body| body.bounds)))
             }
             (Movement::Still, _) if self.moves_parts() => Arc::new(Boxes::of(self.each(|body| body.bounds))),
-            (Movement::Still, _) => Arc::new(Boxes::of(self.present(plant))),
+            (Movement::Still, _) => self.boxes_at_rest(plant, memory),
         };
-        self.boxes.insert(boxes).clone()
+        self.boxes = Some((boxes.whole.outer(), boxes.clone()));
+        boxes
+    }
+
+    /// What contains it where it rests: of an arm, which comes to the same places again and again, as remembered.
+    fn boxes_at_rest(&mut self, plant: &Plant, memory: &mut Memory) -> Arc<Boxes> {
+        let resting = self.resting(plant);
+        let key = match (&self.kind, resting) {
+            (Kind::Arm { index, .. }, Some(resting)) => resting.with(*index as u64).and(self.numbered(plant)),
+            _ => return Arc::new(Boxes::of(self.present(plant))),
+        };
+        memory.boxes_at_rest(key, || Arc::new(Boxes::of(self.present(plant))))
+    }
+
+    /// What contains it all the while, and as long as it goes on like this.
+    pub fn outer(&mut self, plant: &Plant, memory: &mut Memory) -> Outer {
+        match &self.boxes {
+            Some((outer, _)) => *outer,
+            None => self.boxes(plant, memory).whole.outer(),
+        }
     }
 
     /// Whether each body stands in the world.
@@ -159,14 +178,7 @@ impl Group {
         self.bodies.iter().map(stands).collect()
     }
 
-    /// The bodies that stand in the world.
-    pub fn standing(&self) -> Vec<usize> {
-        let all = self.bodies.iter().enumerate();
-        let stands = all.filter(|(_, body)| body.as_ref().is_some_and(|body| body.anchor == Anchor::World));
-        stands.map(|(number, _)| number).collect()
-    }
-
-    /// What contains them.
+    /// What contains the bodies that stand in the world.
     pub fn standing_boxes(&self) -> Swept {
         self.each(|body| if body.anchor == Anchor::World { body.bounds } else { BoundingBox::NOTHING })
     }

@@ -106,17 +106,10 @@ impl Group {
         Some(near(body.item?, place).near(turn))
     }
 
-    /// The machine without items, and each item: what tells it apart, and the numbers of its bodies.
-    pub fn units(&self, plant: &Plant) -> Vec<(Fingerprint, Vec<usize>)> {
-        let mut units = vec![(Fingerprint::default(), Vec::new())];
-        for (number, body) in self.bodies.iter().enumerate() {
-            let Some(body) = body else { continue };
-            match self.item(body, plant) {
-                Some(item) => units.push((item, vec![number])),
-                None => units[0].1.push(number),
-            }
-        }
-        units
+    /// What tells an item apart; the bodies of the machine itself have all the same.
+    pub fn unit(&self, body: usize, plant: &Plant) -> Fingerprint {
+        let item = self.bodies[body].as_ref().and_then(|body| self.item(body, plant));
+        item.unwrap_or_default()
     }
 }
 
