@@ -9,9 +9,8 @@ mod stay;
 mod writers;
 
 use crate::diagnostic::{Diagnostic, sort};
-use crate::layout::Layout;
 use crate::lower::Project;
-use crate::source::Span;
+use crate::source::{Span, Spanned};
 use region::Given;
 use runtime_sim::collision::{BoundingBox, Moving, Sweep};
 use stay::{Range, Stays};
@@ -37,15 +36,15 @@ struct Crossing {
 
 /// One for each pair of arms or vehicles that can be in one place at the same time, as far as texts and layout tell.
 /// Pairs that work with one another directly are left out, and so are those that the layout allows to touch.
-pub fn warnings(layout: &Layout, project: &Project) -> Vec<Diagnostic> {
+/// `names` are those of the objects of the layout.
+pub fn warnings(names: &[Spanned<String>], project: &Project) -> Vec<Diagnostic> {
     let machines = project.plant.machines.iter().enumerate();
     let movers = machines.filter_map(|(instance, machine)| {
         Some(Mover { instance, moving: Moving::new(machine)?, range: OnceCell::new() })
     });
     let movers: Vec<Mover> = movers.collect();
     let sweep = Sweep::new(movers.iter().map(|mover| mover.moving.whole()));
-    let objects: BTreeMap<&str, Span> =
-        layout.objects.iter().map(|object| (object.name.value.as_str(), object.name.span)).collect();
+    let objects: BTreeMap<&str, Span> = names.iter().map(|name| (name.value.as_str(), name.span)).collect();
     let given = Given::new(&project.system, &project.plant);
     let mut found = Vec::new();
     for mut pair in sweep.meeting().map(|pair| pair.map(|number| &movers[number])) {

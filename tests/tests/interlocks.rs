@@ -70,7 +70,7 @@ fn of(texts: &Texts) -> Vec<Diagnostic> {
     let mut sources = Sources::default();
     let file = sources.add("layout.json", texts.layout.as_str());
     let (layout, _) = layout::parse(&sources, file);
-    warnings(&layout.expect("it compiles"), &project)
+    warnings(&layout.expect("it compiles").names(), &project)
 }
 
 #[test]

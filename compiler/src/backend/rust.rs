@@ -23,9 +23,9 @@ mod tables;
 mod update;
 mod walk;
 
-pub use parameters::parameters_text;
+pub use parameters::{parameters, parameters_text};
 
-use super::Files;
+use super::{Files, Sink};
 use crate::ir::{AutomatonId, ExprKind, System, Update, UpdateKind};
 use crate::source::Sources;
 use askama::Template;
@@ -58,21 +58,28 @@ const COMMISSIONING: [(&str, &str); 5] = [
 
 /// The files of the workspace `rust/`, but for the simulator's.
 pub fn files(system: &System, sources: &Sources) -> Files {
-    let mut files = crates(system, sources);
-    let mut put = |path: &str, text: &str| files.insert(path.into(), text.into());
-    put("Cargo.toml", MANIFEST);
-    put("Cargo.lock", LOCK);
-    put("commissioning/Cargo.toml", COMMISSIONING_MANIFEST);
-    for (path, text) in COMMISSIONING {
-        put(&format!("commissioning/{path}"), text);
-    }
+    let mut files = Files::new();
+    write(system, sources, &mut files);
     files
+}
+
+/// Writes the files of the workspace `rust/`, but for the simulator's.
+pub fn write(system: &System, sources: &Sources, files: &mut dyn Sink) {
+    crates(system, sources, files);
+    files.file("Cargo.toml", &MANIFEST);
+    files.file("Cargo.lock", &LOCK);
+    files.file("commissioning/Cargo.toml", &COMMISSIONING_MANIFEST);
+    for (path, text) in COMMISSIONING {
+        files.file(&format!("commissioning/{path}"), &text);
+    }
 }
 
 /// The files of a workspace of the controllers and their adapters alone. Its shared library is all that a
 /// simulator needs which was compiled apart.
 pub fn library_files(system: &System, sources: &Sources) -> Files {
-    library_of(crates(system, sources))
+    let mut files = Files::new();
+    crates(system, sources, &mut files);
+    library_of(files)
 }
 
 /// The same from the [`files`] of the line.
@@ -84,12 +91,11 @@ pub fn library_of(files: Files) -> Files {
 }
 
 /// The crates of the controllers and of their adapters.
-fn crates(system: &System, sources: &Sources) -> Files {
+fn crates(system: &System, sources: &Sources, files: &mut dyn Sink) {
     let system = &without_idle_updates(system);
     let names = names::names(system);
     let shared = Shared { system, sources, names: &names };
-    let mut files = Files::new();
-    let mut put = |path: String, text: String| files.insert(path, text);
+    let mut put = |path: String, text: String| files.file(&path, &text);
     put("controllers/Cargo.toml".into(), CONTROLLERS_MANIFEST.into());
     put("controllers/src/types.rs".into(), TYPES.into());
     if shared::has_alarm_module(shared) {
@@ -118,7 +124,6 @@ fn crates(system: &System, sources: &Sources) -> Files {
         put(format!("adapters/{path}"), text.into());
     }
     put("adapters/src/layout.rs".into(), adapters::adapters(shared));
-    files
 }
 
 /// Without assignments of a place to itself, which have no effect.

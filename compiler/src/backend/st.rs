@@ -12,6 +12,7 @@ mod alarm;
 mod alarms;
 mod attributes;
 mod block;
+mod body;
 mod bounds;
 mod code;
 mod columns;
@@ -20,7 +21,9 @@ mod dead;
 mod declaration;
 mod drives;
 mod expression;
+mod externals;
 mod figures;
+mod filling;
 mod functions;
 mod globals;
 mod guard;
@@ -42,27 +45,33 @@ mod table;
 mod text;
 mod update;
 mod value;
+mod values;
 mod version;
 mod walk;
 mod watchdog;
 mod xml;
 
-use super::{Files, Folder, Sink};
+use super::{Files, Folder, Sink, part};
 use crate::io_map::{IoMap, Point};
 use crate::ir::{AutomatonId, System};
 use crate::naming::st::Scope;
 use crate::source::Sources;
 use crate::translation::Translations;
+use body::Body;
 use context::Shared;
+use declaration::Unit;
+use externals::Externals;
 use globals::{Globals, Index};
 use image::Image;
 use program::Blocks;
 use runtime_sim::io_trace::Columns;
+use std::collections::{BTreeSet, HashSet};
+use std::rc::Rc;
 use structured::{Enumerated, Structure, structured};
 
 /// Every point of I/O, in the order of `io.csv`; an [`IoMap`] counts them so.
 pub fn points(system: &System) -> Vec<Point> {
-    points::terminals(system, &names::names(system)).into_iter().map(|terminal| terminal.point).collect()
+    points::terminals(system, &names::names(system)).map(|terminal| terminal.point).collect()
 }
 
 /// The files of the folder `plc/`, without addresses.
@@ -74,8 +83,8 @@ pub fn files(system: &System, sources: &Sources) -> Files {
 /// of an I/O trace, named as the globals of `portable/main.st`; the state of a robot as `robot.state`.
 pub fn mapped(system: &System, sources: &Sources, map: &IoMap) -> (Files, Columns) {
     let mut files = Files::new();
-    let columns = write(system, sources, map, Flavours::WithoutPlcopen, &mut files);
-    files.extend(translated(system, sources, &Translations::default()));
+    let translations = Translations::default();
+    let columns = write(system, sources, map, Flavours::WithoutPlcopen, &translations, &mut files);
     (files, columns)
 }
 
@@ -96,21 +105,23 @@ pub enum Flavours {
     WithoutPlcopen,
 }
 
-/// Writes the files of the folder `plc/` but those of [`translated`], and returns the columns of [`mapped`].
+/// Writes the files of the folder `plc/`, the tables in other languages too, and returns the columns of [`mapped`].
 pub fn write(
     system: &System,
     sources: &Sources,
     map: &IoMap,
     flavours: Flavours,
+    translations: &Translations,
     files: &mut dyn Sink,
 ) -> Columns {
     with_line(system, sources, map, |mut made| {
         made.texts_without_types(files);
+        screen::files(made.shared, translations).iter().for_each(|(name, text)| files.file(name, text));
         if flavours == Flavours::All {
             made.plcopen(files);
         }
         // With structures, values stand where they are declared; these statements are as many as all values.
-        made.line.layout.body = Vec::new();
+        made.line.layout.body = Body::default();
         made.codesys(flavours, files);
         made.siemens(files);
         made.columns()
@@ -122,7 +133,7 @@ pub fn write(
 struct Made<'a> {
     shared: Shared<'a>,
     map: &'a IoMap,
-    line: Line,
+    line: Line<'a>,
     /// The names of MAIN.
     program: &'a Scope,
 }
@@ -136,14 +147,14 @@ fn with_line<T>(system: &System, sources: &Sources, map: &IoMap, write: impl FnO
 }
 
 impl Made<'_> {
-    fn structured(&self, enumerated: Enumerated) -> Line {
+    fn structured(&self, enumerated: Enumerated) -> Line<'_> {
         structured(self.shared, &self.line, enumerated, &mut self.program.clone())
     }
 
     fn texts_without_types(&self, files: &mut dyn Sink) {
         let (shared, names) = (self.shared, self.shared.names);
         files.file("portable/main.st", &text::portable(shared, &self.line));
-        files.file("io.csv", &table::io(shared, self.map));
+        files.file("io.csv", &part(|f| table::io(shared, self.map, f)));
         files.file("alarms.csv", &alarms::table(shared, &mut screen::as_written));
         files.file("states.csv", &states::table(shared, &mut screen::as_written));
         files.file("bounds.txt", &figures::report(shared, &self.line));
@@ -187,7 +198,8 @@ pub fn screen_texts(system: &System, sources: &Sources) -> Vec<String> {
     screen::texts(shared).into_iter().map(|(_, text)| text).collect()
 }
 
-/// The table of these texts, and those of alarms and states in other languages; files of the folder `plc/`.
+/// The table of these texts, and those of alarms and states in other languages; files of the folder `plc/` that
+/// [`write`] gives too.
 pub fn translated(system: &System, sources: &Sources, translations: &Translations) -> Files {
     let names = names::names(system);
     screen::files(Shared { system, sources, names: &names }, translations)
@@ -199,27 +211,27 @@ pub fn drives() -> Files {
 }
 
 /// The units of a line, in the order in which they must be declared.
-struct Line {
+struct Line<'a> {
     functions: Vec<&'static functions::Function>,
-    blocks: Vec<Option<Blocks>>,
-    watchdog: declaration::Unit,
-    layout: declaration::Unit,
-    program: declaration::Unit,
-    globals: Globals,
+    blocks: Rc<Vec<Option<Blocks<'a>>>>,
+    watchdog: Unit<'a>,
+    layout: Unit<'a>,
+    program: Unit<'a>,
+    globals: Rc<Globals>,
     /// Of a line with structures.
     structures: Vec<Structure>,
 }
 
-impl Line {
+impl<'a> Line<'a> {
     /// Function blocks, then the program.
-    fn units(&self) -> impl Iterator<Item = &declaration::Unit> {
+    fn units(&self) -> impl Iterator<Item = &Unit<'a>> {
         let blocks = self.blocks.iter().flatten();
         let blocks = blocks.flat_map(|b| [Some(&b.steps), b.properties.as_ref()].into_iter().flatten());
         [&self.watchdog, &self.layout].into_iter().chain(blocks.map(|b| &b.unit)).chain([&self.program])
     }
 }
 
-fn line(shared: Shared, image: &Image) -> Line {
+fn line<'a>(shared: Shared<'a>, image: &Image) -> Line<'a> {
     let mut globals = Globals::new(shared, image);
     let index = Index::new(&globals);
     let blocks: Vec<Option<Blocks>> = (0..shared.system.model.automata.len())
@@ -231,14 +243,20 @@ fn line(shared: Shared, image: &Image) -> Line {
             })
         })
         .collect();
-    let program = program::program(shared, &blocks, &globals, image);
+    let blocks = Rc::new(blocks);
+    let body = program::statements(shared, &blocks, image);
+    let mut functions = BTreeSet::new();
+    let mut used = HashSet::new();
+    body.names_and_functions(&mut used, &mut functions);
+    let program = program::program(shared, &blocks, body, &used);
     let units =
         blocks.iter().flatten().flat_map(|b| [Some(&b.steps), b.properties.as_ref()].into_iter().flatten());
-    let mut used = code::names(&program.body);
-    units.clone().for_each(|b| used.extend(code::names(&b.unit.body)));
-    globals.retain(|name| used.contains(name));
-    let bodies = units.map(|b| &b.unit.body).chain([&program.body]);
-    let functions = functions::needed(&bodies.flat_map(|b| code::functions(b)).collect::<Vec<_>>());
+    let mut of_blocks = HashSet::new();
+    units.for_each(|block| block.unit.body.names_and_functions(&mut of_blocks, &mut functions));
+    globals.retain(|name| used.contains(name) || of_blocks.contains(name));
+    let globals = Rc::new(globals);
+    let program = Unit { externals: Externals::marked(&globals, |name| used.contains(name)), ..program };
+    let functions = functions::needed(&functions.into_iter().collect::<Vec<_>>());
     let layout = program::layout(&globals);
     Line { functions, blocks, watchdog: watchdog::block(), layout, program, globals, structures: Vec::new() }
 }

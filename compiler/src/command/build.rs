@@ -2,7 +2,7 @@
 
 use super::copies::{Copies, copies};
 use super::options::{Addresses, BuildCommandOptions, BuildOptions, Format};
-use super::output::{self, Output, Refusal};
+use super::output::{self, Make, Output, Refusal};
 use super::{differences, dropped, io_error, load, print, read};
 use crate::Status;
 use autogen::backend::{Files, Folder, Sink, dot, plan, rust, sdf, st};
@@ -45,8 +45,9 @@ pub fn run(options: &BuildCommandOptions) -> Status {
     let done = build(options).and_then(|built| {
         let output = open(options, &built).map_err(|refusal| refused(options, &refusal))?;
         let of_a_run = output.of_a_run();
-        let make = |files: &mut dyn Sink| built.write(files);
-        let names = write(options, &built, make, &output).map_err(|refusal| refused(options, &refusal))?;
+        let make: [&Make; 2] =
+            [&|files| built.write_all_else(files), &|files| built.write_structured_text(files)];
+        let names = write(options, &built, &make, &output).map_err(|refusal| refused(options, &refusal))?;
         Ok((built.folder, names, dropped::of_a_run(&of_a_run, &output.of_a_run())))
     });
     match done {
@@ -123,20 +124,29 @@ pub fn build(options: &BuildOptions) -> Result<Built, Status> {
 impl Built {
     /// Gives all files of the output folder.
     pub fn write(&self, files: &mut dyn Sink) {
+        self.write_structured_text(files);
+        self.write_all_else(files);
+    }
+
+    fn write_structured_text(&self, files: &mut dyn Sink) {
+        let Self { project, sources, .. } = self;
+        let system = &project.system;
+        let mut plc = Folder { name: "plc", sink: files };
+        let columns = st::write(system, sources, &self.map, self.flavours, &self.translations, &mut plc);
+        put(&mut plc, &self.drives);
+        files.file(COLUMNS, &columns.to_text());
+    }
+
+    fn write_all_else(&self, files: &mut dyn Sink) {
         let Self { project, sources, .. } = self;
         let system = &project.system;
         put(files, &self.copies);
-        put(&mut Folder { name: "rust", sink: files }, &files_of_rust(system, sources));
-        let mut plc = Folder { name: "plc", sink: files };
-        let columns = st::write(system, sources, &self.map, self.flavours, &mut plc);
-        put(&mut plc, &self.drives);
-        put(&mut plc, &st::translated(system, sources, &self.translations));
+        write_rust(system, sources, &mut Folder { name: "rust", sink: files });
         put(&mut Folder { name: "graph", sink: files }, &dot::files(system, &project.edges));
         files.file("graph/plan.svg", &plan::svg(&project.plant, &project.edges));
         sdf::write(&project.name, &project.plant, &mut Folder { name: "world", sink: files });
         files.file("rust/commissioning/data/line.txt", &project.plant.to_text());
-        files.file("rust/commissioning/data/parameters.txt", &rust::parameters_text(system));
-        files.file(COLUMNS, &columns.to_text());
+        files.file("rust/commissioning/data/parameters.txt", &rust::parameters(system));
     }
 }
 
@@ -173,7 +183,7 @@ pub fn open(options: &BuildOptions, built: &Built) -> Result<Output, Refusal> {
 pub fn write(
     options: &BuildOptions,
     built: &Built,
-    make: impl FnOnce(&mut dyn Sink),
+    make: &[&Make],
     output: &Output,
 ) -> Result<Vec<String>, Refusal> {
     let commands = [output.last_command(), built.about["command"].as_str().map(String::from)];
@@ -272,13 +282,12 @@ fn report_missing(translations: &Translations, texts: &[String]) {
 }
 
 /// The Cargo workspace that links the controllers with the simulator, without the data that it runs.
-pub fn files_of_rust(system: &System, sources: &Sources) -> Files {
-    let mut files = rust::files(system, sources);
+fn write_rust(system: &System, sources: &Sources, files: &mut dyn Sink) {
+    rust::write(system, sources, files);
     for (name, text) in simulator::SOURCES {
-        files.insert(format!("runtime-sim/{name}"), (*text).into());
+        files.file(&format!("runtime-sim/{name}"), text);
     }
-    files.insert("runtime-sim/Cargo.toml".into(), simulator::MANIFEST.into());
-    files
+    files.file("runtime-sim/Cargo.toml", &simulator::MANIFEST);
 }
 
 /// What the manifest says before the list of files. No dates and no paths: the same input, the same bytes.

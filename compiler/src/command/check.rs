@@ -4,6 +4,7 @@ use super::options::{CheckOptions, Denied, Format, InputOptions};
 use super::{load, print};
 use crate::Status;
 use autogen::diagnostic::Diagnostic;
+use autogen::layout::Layout;
 use autogen::lower::{Outcome, compile};
 use autogen::{interlock, overlap};
 
@@ -13,10 +14,10 @@ pub fn run(options: &CheckOptions) -> Status {
         Ok(input) => input,
         Err(failure) => return print::failure(options, &failure),
     };
-    let layout = input.layout.0.clone();
+    let names = input.layout.0.as_ref().map(Layout::names);
     let mut outcome = compile(input);
-    if let (Some(layout), Some(project)) = (&layout, &outcome.project) {
-        outcome.warnings.extend(interlock::warnings(layout, project));
+    if let (Some(names), Some(project)) = (&names, &outcome.project) {
+        outcome.warnings.extend(interlock::warnings(names, project));
     }
     let notes = outcome.project.as_ref().filter(|_| *notes).map(|project| overlap::notes(&project.system));
     show(options, &outcome, &notes.unwrap_or_default());

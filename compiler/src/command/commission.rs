@@ -83,7 +83,7 @@ fn commission(options: &CommissionOptions) -> Result<Status, End> {
     let output = build::open(&options.build, &built).map_err(refused)?;
     let of_last_run = output.of_a_run();
     let make = |files: &mut dyn Sink| built_files.iter().for_each(|(name, text)| files.file(name, text));
-    build::write(&options.build, &built, make, &output).map_err(refused)?;
+    build::write(&options.build, &built, &[&make], &output).map_err(refused)?;
     let names = if options.no_report { &OF_A_RUN[..1] } else { &OF_A_RUN[..] };
     output.may_write_results(names, overwrite).map_err(refused)?;
 

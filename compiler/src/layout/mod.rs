@@ -35,6 +35,13 @@ pub struct Layout {
     pub may_touch: Vec<MayTouch>,
 }
 
+impl Layout {
+    /// The names of the objects, in their order.
+    pub fn names(&self) -> Vec<Spanned<String>> {
+        self.objects.iter().map(|object| object.name.clone()).collect()
+    }
+}
+
 /// What a person can operate beside the devices.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Panel {

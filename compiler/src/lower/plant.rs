@@ -3,7 +3,7 @@
 use super::role::Line;
 use crate::diagnostic::Diagnostic;
 use crate::executor::Executor;
-use crate::ir::{Automaton, Element, InterfaceId, PropertyKind, RoleKind, System, Value};
+use crate::ir::{Automaton, Expr, InterfaceId, PropertyKind, RoleKind, State, System, Value};
 use crate::reads::{self, ReadCell, Reads, Whose};
 use crate::scenario::{self, Input, MachinePart, Number, Panel, ResolvedScenario, Scenario};
 use runtime_sim::line;
@@ -90,9 +90,11 @@ pub fn line(
         scans: for_s.map(|for_s| scans(for_s).max(1)),
     };
     let arms = arms(system);
-    let mut executor = Executor::new(system);
+    // What it is asked is fixed by the layout.
+    let mut executor = Executor::without_values(system);
     let traces = system.traces();
-    let reads: Vec<Vec<StateReads>> = system.model.automata.iter().map(state_reads).collect();
+    let types: Vec<OfType> =
+        system.model.automata.iter().map(|automaton| of_type(system, automaton)).collect();
     line::Line {
         scan_ms,
         kinds: scenario
@@ -110,10 +112,13 @@ pub fn line(
         machines: machines
             .into_iter()
             .enumerate()
-            .map(|(i, machine)| Machine {
-                states: states(system, &arms, &reads, &mut executor, i),
-                monitor: monitor(system, &traces, &mut executor, i),
-                ..machine
+            .map(|(i, machine)| {
+                let of_type = &types[system.instances[i].automaton.0];
+                Machine {
+                    states: states(system, &arms, of_type, &mut executor, i),
+                    monitor: monitor(of_type, &traces, &mut executor, i),
+                    ..machine
+                }
             })
             .collect(),
         obstacles,
@@ -220,65 +225,85 @@ fn arms(system: &System) -> Vec<Arms> {
     arms
 }
 
-/// What the guards of a state read, and what the state as a whole does.
-struct StateReads<'a> {
-    guards: Reads<'a>,
-    all: Reads<'a>,
+/// What the simulator needs of all instances of a type.
+struct OfType<'a> {
+    automaton: &'a Automaton,
+    states: Vec<OfState<'a>>,
+    /// For each property of a time the word of its local, counted from the beginning of the trace, and the time if the
+    /// layout fixes it.
+    counters: Vec<(usize, Option<&'a Expr>)>,
+    panel: Vec<usize>,
 }
 
-fn state_reads(automaton: &Automaton) -> Vec<StateReads<'_>> {
-    let states = automaton.states.iter();
-    let reads = states.map(|state| StateReads {
-        guards: Reads::of_guards(automaton, state),
-        all: Reads::of_state(automaton, state),
+/// What it needs of a state.
+struct OfState<'a> {
+    guards: Reads<'a>,
+    /// All times, if the layout fixes them.
+    timers: Option<Vec<&'a Expr>>,
+    reads: Vec<usize>,
+    reads_while: Vec<line::ReadWhile>,
+}
+
+fn of_type<'a>(system: &System, automaton: &'a Automaton) -> OfType<'a> {
+    let is_fixed = |time: &Expr| reads::is_fixed(automaton, time);
+    let states = automaton.states.iter().map(|state| {
+        let all = Reads::of_state(automaton, state);
+        OfState {
+            guards: Reads::of_guards(automaton, state),
+            reads: all.words(system.kinds()),
+            reads_while: all.words_while(system.kinds()),
+            timers: all.timers.iter().all(|time| is_fixed(time)).then(|| all.timers.to_vec()),
+        }
     });
-    reads.collect()
+    let word = |local: usize| {
+        let before = automaton.locals[..local].iter();
+        2 + before.map(|l| l.ty.scalar.words() * system.model.elements(l.ty.extent)).sum::<usize>()
+    };
+    let counters = automaton.properties.iter().filter_map(|property| {
+        let PropertyKind::Whenever { within, waited, .. } = &property.kind else { return None };
+        Some((word(*waited), Some(within).filter(|within| is_fixed(within))))
+    });
+    OfType {
+        automaton,
+        states: states.collect(),
+        counters: counters.collect(),
+        panel: words(&Reads::of_modes(automaton), system.kinds()),
+    }
 }
 
 /// What the simulator needs of the states of an instance.
 fn states(
     system: &System,
     arms: &[Arms],
-    reads: &[Vec<StateReads>],
+    of_type: &OfType,
     executor: &mut Executor,
     instance: usize,
 ) -> Vec<line::State> {
-    let automaton = system.automaton_of(instance);
-    let mut states = Vec::new();
-    let reads = &reads[system.instances[instance].automaton.0];
-    for (state, StateReads { guards, all }) in automaton.states.iter().zip(reads) {
-        let is_fixed = all.timers.iter().all(|time| reads::is_fixed(automaton, time));
-        let times = all.timers.iter().map(|time| match executor.value(instance, time) {
-            Value::Int(ms) => ms.max(0) as u32,
-            other => unreachable!("a checked time is {other:?}"),
-        });
-        states.push(line::State {
-            name: state.name.clone(),
-            working: !guards.timers.is_empty() || !guards.inputs.is_empty(),
-            awaits: owners(system, arms, instance, guards).into_iter().collect(),
-            reads: all.words(system.kinds()),
-            reads_while: all.words_while(system.kinds()),
-            timers: is_fixed.then(|| times.collect()),
-        });
-    }
-    states
+    let states = of_type.automaton.states.iter().zip(&of_type.states);
+    let mut time = |time: &&Expr| match executor.value(instance, time) {
+        Value::Int(ms) => ms.max(0) as u32,
+        other => unreachable!("a checked time is {other:?}"),
+    };
+    let state = |(state, of_state): (&State, &OfState)| line::State {
+        name: state.name.clone(),
+        working: !of_state.guards.timers.is_empty() || !of_state.guards.inputs.is_empty(),
+        awaits: owners(system, arms, instance, &of_state.guards).into_iter().collect(),
+        reads: of_state.reads.clone(),
+        reads_while: of_state.reads_while.clone(),
+        timers: of_state.timers.as_ref().map(|times| times.iter().map(&mut time).collect()),
+    };
+    states.map(state).collect()
 }
 
 /// Where the trace has what the properties of an instance keep; `traces` is where that of each instance begins.
-fn monitor(system: &System, traces: &[usize], executor: &mut Executor, instance: usize) -> Monitor {
-    let automaton = system.automaton_of(instance);
-    let values = system.values_of(instance, traces[instance]);
-    let word = |local: usize| {
-        let is_it = |element| element == Element::Local { robot: instance, local, index: 0 };
-        values.iter().find(|value| is_it(value.element)).and_then(|value| value.trace)
-    };
-    let counters = automaton.properties.iter().filter_map(|property| {
-        let PropertyKind::Whenever { within, waited, .. } = &property.kind else { return None };
-        let limit = match executor.value(instance, within) {
-            Value::Int(ms) if reads::is_fixed(automaton, within) => Some(ms.max(0) as u32),
+fn monitor(of_type: &OfType, traces: &[usize], executor: &mut Executor, instance: usize) -> Monitor {
+    let automaton = of_type.automaton;
+    let counters = of_type.counters.iter().map(|(word, within)| {
+        let limit = within.and_then(|within| match executor.value(instance, within) {
+            Value::Int(ms) => Some(ms.max(0) as u32),
             _ => None,
-        };
-        Some(Counter { word: word(*waited)?, limit })
+        });
+        Counter { word: traces[instance] + word, limit }
     });
     let counters = counters.collect();
     let begin = traces[instance + 1] - automaton.alarm_words();
@@ -293,7 +318,7 @@ fn monitor(system: &System, traces: &[usize], executor: &mut Executor, instance:
                 word: first + number * ALARM_WORDS,
             })
             .collect(),
-        panel: words(&Reads::of_modes(automaton), system.kinds()),
+        panel: of_type.panel.clone(),
     }
 }
 

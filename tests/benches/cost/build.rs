@@ -41,10 +41,10 @@ fn one(robots: usize, layout: String) {
             begin = Instant::now();
         };
         let input = Texts::of_layout(layout.as_str()).input();
-        let read = input.layout.0.clone().expect("a layout that can be read");
+        let names = input.layout.0.as_ref().expect("a layout that can be read").names();
         let outcome = compile(input);
         let project = outcome.project.expect("a line that is right");
-        black_box(interlock::warnings(&read, &project));
+        black_box(interlock::warnings(&names, &project));
         lap(0);
         let of_rust = rust::files(&project.system, &outcome.sources);
         lap(1);

@@ -26,13 +26,18 @@ pub fn module(text: &str, importable: &Importable) -> String {
     printed(&syn::File { items, ..file })
 }
 
-/// A module that is laid out but for its imports, which are added. Nothing of it is parsed: it may be long.
+/// A module that is laid out but for its imports, which are added: they stand before everything else. Nothing else of
+/// it is parsed: it may be long.
 pub fn laid_out(text: &str, importable: &Importable) -> String {
     let importable_names: HashSet<&str> =
         importable.iter().flat_map(|(_, names)| names).map(String::as_str).collect();
     let used: HashSet<&str> = names(text).filter(|word| importable_names.contains(word)).collect();
-    let (head, rest) = with_imports(text, |name| used.contains(name), importable);
-    format!("{}\n{}\n", print(&head), rest.trim())
+    let is_of_head =
+        |line: &&str| line.starts_with("//!") || line.starts_with("use ") || line.trim().is_empty();
+    let length: usize = text.split_inclusive('\n').take_while(is_of_head).map(str::len).sum();
+    let (head, rest) = text.split_at(length);
+    let (head, _) = with_imports(head, |name| used.contains(name), importable);
+    [print(&head).as_str(), "\n", rest.trim(), "\n"].concat()
 }
 
 /// The comment of a module with all its imports, and the rest of its text.

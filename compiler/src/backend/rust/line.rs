@@ -52,7 +52,9 @@ pub fn line(shared: Shared) -> String {
         has_cells: interfaces.iter().any(|i| i.has_cells),
         interfaces,
     };
-    format::laid_out(&render(&view), &shared.importable("crate"))
+    let text = render(&view);
+    drop(view);
+    format::laid_out(&text, &shared.importable("crate"))
 }
 
 /// A row for each member from which items come, and in it a truth for each to which they may get.

@@ -4,55 +4,89 @@
 //! members show, the relations, and the robots in layout order.
 
 use crate::ir::{InterfaceId, System, Value};
-use std::fmt::Write;
+use std::fmt::{self, Display, Formatter, Write};
 
 pub fn parameters_text(system: &System) -> String {
-    let model = &system.model;
-    let mut out = format!("parameters 1\nscan_ms {}\n", system.scan_ms);
-    for (id, interface) in model.interfaces.iter().enumerate() {
-        let rows = system.members[id].len();
-        let _ = writeln!(out, "{} {rows}", interface.name);
-        for row in 0..rows {
-            let shown = (0..interface.parameters.len()).flat_map(|p| system.shown(InterfaceId(id), row, p));
-            entry(&mut out, shown.map(|v| word(*v)));
-        }
-    }
-    for (relation, rows) in model.relations.iter().zip(&system.reaches) {
-        let name = |id: InterfaceId| &model.interface(id).name;
-        let _ = writeln!(out, "{}_{} {}", name(relation.from), name(relation.to), rows.len());
-        for row in rows {
-            entry(
-                &mut out,
-                [row.len().to_string()].into_iter().chain(row.iter().map(|b| u8::from(*b).to_string())),
-            );
-        }
-    }
-    let _ = writeln!(out, "robots {}", system.instances.len());
-    for instance in &system.instances {
-        let values = instance.parameters.iter().flatten().map(|v| word(*v));
-        let list = |rows: &Vec<usize>| {
-            [rows.len()].into_iter().chain(rows.iter().copied()).map(|n| n.to_string()).collect::<Vec<_>>()
-        };
-        let roles = instance.roles.iter().flat_map(list);
-        let rows = instance.rows.iter().map(usize::to_string);
-        let head = [model.automaton(instance.automaton).name.clone(), instance.name.clone()];
-        entry(&mut out, head.into_iter().chain(values).chain(roles).chain(rows));
-    }
-    out + "end\n"
+    parameters(system).to_string()
 }
 
-fn entry(out: &mut String, words: impl Iterator<Item = String>) {
-    let words: Vec<String> = words.collect();
-    if !words.is_empty() {
-        let _ = writeln!(out, "  {}", words.join(" "));
+/// The same text, made while it is written.
+pub fn parameters(system: &System) -> impl Display {
+    Parameters(system)
+}
+
+struct Parameters<'a>(&'a System);
+
+impl Display for Parameters<'_> {
+    fn fmt(&self, to: &mut Formatter) -> fmt::Result {
+        let Self(system) = self;
+        let model = &system.model;
+        write!(to, "parameters 1\nscan_ms {}\n", system.scan_ms)?;
+        for (id, interface) in model.interfaces.iter().enumerate() {
+            let rows = system.members[id].len();
+            writeln!(to, "{} {rows}", interface.name)?;
+            for row in 0..rows {
+                let mut entry = Entry::new(to);
+                for number in 0..interface.parameters.len() {
+                    entry.values(system.shown(InterfaceId(id), row, number))?;
+                }
+                entry.end()?;
+            }
+        }
+        for (relation, rows) in model.relations.iter().zip(&system.reaches) {
+            let name = |id: InterfaceId| &model.interface(id).name;
+            writeln!(to, "{}_{} {}", name(relation.from), name(relation.to), rows.len())?;
+            for row in rows {
+                let mut entry = Entry::new(to);
+                entry.word(row.len())?;
+                row.iter().try_for_each(|reaches| entry.word(u8::from(*reaches)))?;
+                entry.end()?;
+            }
+        }
+        writeln!(to, "robots {}", system.instances.len())?;
+        for instance in &system.instances {
+            let mut entry = Entry::new(to);
+            entry.word(&model.automaton(instance.automaton).name)?;
+            entry.word(&instance.name)?;
+            instance.parameters.iter().try_for_each(|values| entry.values(values))?;
+            for rows in &instance.roles {
+                entry.word(rows.len())?;
+                rows.iter().try_for_each(|row| entry.word(row))?;
+            }
+            instance.rows.iter().try_for_each(|row| entry.word(row))?;
+            entry.end()?;
+        }
+        to.write_str("end\n")
     }
 }
 
-fn word(value: Value) -> String {
-    match value {
-        Value::Bool(b) => u8::from(b).to_string(),
-        Value::Int(i) => i.to_string(),
-        Value::Real(r) => format!("{r:?}"),
-        Value::Point([x, y, z]) => format!("{x:?} {y:?} {z:?}"),
+/// Words on a line; no line without words.
+struct Entry<'a, 'b> {
+    to: &'a mut Formatter<'b>,
+    between: &'static str,
+}
+
+impl<'a, 'b> Entry<'a, 'b> {
+    fn new(to: &'a mut Formatter<'b>) -> Self {
+        Self { to, between: "  " }
+    }
+
+    fn word(&mut self, word: impl Display) -> fmt::Result {
+        self.to.write_str(self.between)?;
+        self.between = " ";
+        write!(self.to, "{word}")
+    }
+
+    fn values<'v>(&mut self, values: impl IntoIterator<Item = &'v Value>) -> fmt::Result {
+        values.into_iter().try_for_each(|value| match *value {
+            Value::Bool(b) => self.word(u8::from(b)),
+            Value::Int(i) => self.word(i),
+            Value::Real(r) => self.word(format_args!("{r:?}")),
+            Value::Point([x, y, z]) => self.word(format_args!("{x:?} {y:?} {z:?}")),
+        })
+    }
+
+    fn end(self) -> fmt::Result {
+        if self.between == " " { self.to.write_char('\n') } else { Ok(()) }
     }
 }

@@ -44,7 +44,9 @@ pub fn of_type(shared: Shared, id: AutomatonId) -> String {
         .filter(|number| shared.system.instances[*number].automaton == id)
         .map(|number| robot(shared, number));
     let view = OfType { ty: &names.ty, module: &names.module, robots: numbers.collect() };
-    format::laid_out(&render(&view), &shared.importable("crate"))
+    let text = render(&view);
+    drop(view);
+    format::laid_out(&text, &shared.importable("crate"))
 }
 
 fn robot<'a>(shared: Shared<'a>, number: usize) -> Robot<'a> {

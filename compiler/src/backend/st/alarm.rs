@@ -6,7 +6,9 @@ use super::declaration::{Basic, Variable};
 use super::globals::Table;
 use super::names::ELEMENT;
 use super::property::STOPPED;
+use super::values::Values;
 use crate::ir::Severity;
+use std::rc::Rc;
 
 /// Columns of the table.
 pub const COLUMNS: [&str; 7] = ["code", "robot", "active", "acknowledged", "count", "first", "last"];
@@ -26,16 +28,16 @@ fn has_modes(shared: Shared) -> bool {
 /// The arrays: an element for each entry, and for each robot whether an alarm has stopped it.
 pub fn tables(shared: Shared) -> Vec<Table> {
     let entries = shared.system.alarms();
-    let sized = |elements: usize, name: &str, basic: Basic, about: &str, values: Vec<Ex>| Table {
+    let sized = |elements: usize, name: &str, basic: Basic, about: &str, values: Values| Table {
         variable: Variable::new(name, basic).with_elements(Some(elements)).with_comment(about),
-        values,
+        values: Rc::new(values),
     };
-    let table = |name: &str, basic: Basic, about: &str, values: Vec<Ex>| {
+    let table = |name: &str, basic: Basic, about: &str, values: Values| {
         sized(values.len(), name, basic, about, values)
     };
     // An array has two elements at least: a screen is not to show the second of a single one.
-    let acknowledged = vec![Ex::Bool(true); entries.len().max(2)];
-    let all = |value: Ex| vec![value; entries.len()];
+    let acknowledged = Values::Alike(Box::new(Ex::Bool(true)), entries.len().max(2));
+    let all = |value: Ex| Values::Alike(Box::new(value), entries.len());
     let mut tables = Vec::new();
     if !entries.is_empty() {
         let codes = entries.iter().map(|entry| Ex::Int(entry.site.0 as i32 + 1)).collect();
@@ -57,7 +59,7 @@ pub fn tables(shared: Shared) -> Vec<Table> {
         ]);
     }
     if can_stop(shared) {
-        let robots = vec![Ex::Bool(false); shared.system.instances.len()];
+        let robots = Values::Alike(Box::new(Ex::Bool(false)), shared.system.instances.len());
         let about = match has_modes(shared) {
             true => "an alarm or its panel has stopped the robot: it makes no steps, and its device is held",
             false => "an alarm has stopped the robot: it makes no steps, and its device is held",

@@ -4,15 +4,19 @@ use super::context::Shared;
 use super::screen::{Translate, Use};
 use super::table::row;
 use super::value::{LATE_SCAN, NO_SUCH_STATE, NOT_RETAINED, WRONG_INTERVAL};
-use crate::ir::{Automaton, FaultId, FaultKind, Severity, Transition, UpdateKind};
+use crate::ir::{Automaton, AutomatonId, FaultId, FaultKind, Severity, Transition, UpdateKind};
+use std::collections::BTreeMap;
 
 /// `alarms.csv`: the codes that are published with a fault or an alarm. Robots have the numbers that `fault_robot` gives.
 pub fn table(shared: Shared, translate: &mut Translate) -> String {
     let mut text = row(&["code", "type", "robots", "state", "transition", "text", "remedy", "stops"]);
+    let mut robots_of: BTreeMap<AutomatonId, String> = BTreeMap::new();
     for (i, site) in shared.system.model.faults.iter().enumerate() {
-        let robots: Vec<String> = (shared.instances(site.automaton).iter())
-            .map(|r| format!("{r} {}", shared.system.instances[*r].name))
-            .collect();
+        let robots = robots_of.entry(site.automaton).or_insert_with(|| {
+            let robots = shared.instances(site.automaton);
+            let named = robots.iter().map(|r| format!("{r} {}", shared.system.instances[*r].name));
+            named.collect::<Vec<_>>().join(" ")
+        });
         if robots.is_empty() {
             continue;
         }
@@ -48,7 +52,7 @@ pub fn table(shared: Shared, translate: &mut Translate) -> String {
         text += &row(&[
             &(i + 1).to_string(),
             &automaton.name,
-            &robots.join(" "),
+            robots,
             &state,
             &transition,
             &about,

@@ -5,6 +5,7 @@ use super::context::{Lowering, Shared};
 use super::dead;
 use super::declaration::{Basic, Unit, Variable, constants};
 use super::expression::limited;
+use super::externals::Externals;
 use super::globals::{Index, about, array_names, elements, meaning};
 use super::modes;
 use super::names::ELEMENT;
@@ -60,12 +61,12 @@ impl Candidate {
 }
 
 /// A function block with what it is called with.
-pub struct Block {
-    pub unit: Unit,
+pub struct Block<'a> {
+    pub unit: Unit<'a>,
     pub arguments: Vec<(String, Origin)>,
 }
 
-pub fn steps(shared: Shared, id: AutomatonId, index: &Index) -> Block {
+pub fn steps<'a>(shared: Shared, id: AutomatonId, index: &Index) -> Block<'a> {
     let globals = index.globals;
     let mut lowering = Lowering::new(shared, id);
     let branches = lowering.branches();
@@ -130,7 +131,7 @@ pub fn steps(shared: Shared, id: AutomatonId, index: &Index) -> Block {
             variables,
             references: Vec::new(),
             instances: Vec::new(),
-            body,
+            body: body.into(),
         },
         arguments,
     }
@@ -185,8 +186,8 @@ pub fn kept_values(kept: &[&Candidate]) -> Vec<Stmt> {
     body
 }
 
-pub fn externals(globals: &Index, used: &HashSet<String>) -> Vec<Variable> {
-    globals.among(used).map(Variable::external).collect()
+pub fn externals(globals: &Index, used: &HashSet<String>) -> Externals {
+    Externals::Declared(globals.among(used).map(Variable::external).collect())
 }
 
 /// Everything that a block of the type may be given or keep.
@@ -340,7 +341,7 @@ pub fn inputs_and_kept(
         .unzip()
 }
 
-impl Block {
+impl Block<'_> {
     /// The call of this block for a robot; what the robot keeps is read from the instance of its steps.
     pub fn call(&self, shared: Shared, instance: &str, robot: usize) -> Stmt {
         let arguments = self.arguments.iter();

@@ -1,5 +1,6 @@
 //! Statements and expressions of Structured Text, as values: they are printed, counted and searched.
 
+use super::values::List;
 use std::collections::HashSet;
 use std::rc::Rc;
 
@@ -19,7 +20,7 @@ pub enum Ex {
     /// An element of what is no variable by itself, or of an array of two dimensions.
     Item(Box<Ex>, Vec<Ex>),
     /// The values of an array.
-    List(Vec<Ex>),
+    List(List),
     /// The values of a structure. Many have the same fields.
     Fields(Vec<(Rc<str>, Ex)>),
     /// An output of a function block.
@@ -157,7 +158,8 @@ impl Ex {
     /// Names that are read: variables, instances of blocks.
     pub fn names(&self, found: &mut HashSet<String>) {
         match self {
-            Ex::Bool(_) | Ex::Int(_) | Ex::Real(_) | Ex::Member(_) => {}
+            // A list has constants.
+            Ex::Bool(_) | Ex::Int(_) | Ex::Real(_) | Ex::Member(_) | Ex::List(_) => {}
             Ex::Name(name) | Ex::Field(name, _) => add(name, found),
             Ex::Element(name, index) => {
                 add(name, found);
@@ -172,7 +174,7 @@ impl Ex {
                 a.names(found);
                 indices.iter().for_each(|index| index.names(found));
             }
-            Ex::Chain(_, parts) | Ex::List(parts) => parts.iter().for_each(|p| p.names(found)),
+            Ex::Chain(_, parts) => parts.iter().for_each(|p| p.names(found)),
             Ex::Fields(fields) => fields.iter().for_each(|(_, value)| value.names(found)),
             Ex::Call(_, arguments) => arguments.iter().for_each(|(_, a)| a.names(found)),
         }
@@ -181,7 +183,13 @@ impl Ex {
     /// Functions that are called.
     pub fn functions(&self, found: &mut Vec<&'static str>) {
         match self {
-            Ex::Bool(_) | Ex::Int(_) | Ex::Real(_) | Ex::Member(_) | Ex::Name(_) | Ex::Field(..) => {}
+            Ex::Bool(_)
+            | Ex::Int(_)
+            | Ex::Real(_)
+            | Ex::Member(_)
+            | Ex::Name(_)
+            | Ex::Field(..)
+            | Ex::List(_) => {}
             Ex::Element(_, a) | Ex::Not(a) | Ex::Minus(a) | Ex::Part(a, _) => a.functions(found),
             Ex::Binary(_, a, b) | Ex::Within(a, _, b) => {
                 a.functions(found);
@@ -191,7 +199,7 @@ impl Ex {
                 a.functions(found);
                 indices.iter().for_each(|index| index.functions(found));
             }
-            Ex::Chain(_, parts) | Ex::List(parts) => parts.iter().for_each(|p| p.functions(found)),
+            Ex::Chain(_, parts) => parts.iter().for_each(|p| p.functions(found)),
             Ex::Fields(fields) => fields.iter().for_each(|(_, value)| value.functions(found)),
             Ex::Call(function, arguments) => {
                 found.push(function);
@@ -256,12 +264,6 @@ pub fn expressions<'a>(statements: &'a [Stmt], visit: &mut impl FnMut(&'a Ex)) {
 pub fn names(statements: &[Stmt]) -> HashSet<String> {
     let mut found = HashSet::new();
     expressions(statements, &mut |e| e.names(&mut found));
-    found
-}
-
-pub fn functions(statements: &[Stmt]) -> Vec<&'static str> {
-    let mut found = Vec::new();
-    expressions(statements, &mut |e| e.functions(&mut found));
     found
 }
 

@@ -1,11 +1,14 @@
 //! Variables, and the units that declare them.
 
 use super::attributes::{Attribute, OF_WHAT_IS_SHOWN};
-use super::code::{Ex, Stmt};
+use super::body::Body;
+use super::code::Ex;
+use super::externals::Externals;
 use super::print::{Dialect, comment};
 use crate::io_map::Raw;
 use crate::ir::{Scalar, Value};
 use std::fmt::{self, Formatter, Write};
+use std::rc::Rc;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Basic {
@@ -34,9 +37,9 @@ pub struct Variable {
     /// The type of its elements, where there are enumerations.
     pub enumeration: Option<String>,
     /// Of a scalar; every other value is set by code.
-    pub initial: Option<Ex>,
+    pub initial: Option<Box<Ex>>,
     /// The first line stands behind the declaration, the others below it.
-    pub comments: Vec<String>,
+    pub comments: Vec<Rc<str>>,
     /// It outlasts a loss of power.
     pub is_retained: bool,
 }
@@ -52,18 +55,18 @@ pub struct Instance {
 }
 
 /// A function block or the program.
-#[derive(Clone, Debug, Default)]
-pub struct Unit {
+#[derive(Clone, Default)]
+pub struct Unit<'a> {
     pub name: String,
     pub comments: Vec<String>,
     pub inputs: Vec<Variable>,
     pub outputs: Vec<Variable>,
     /// Given by reference.
     pub references: Vec<Variable>,
-    pub externals: Vec<Variable>,
+    pub externals: Externals,
     pub variables: Vec<Variable>,
     pub instances: Vec<Instance>,
-    pub body: Vec<Stmt>,
+    pub body: Body<'a>,
 }
 
 impl Basic {
@@ -131,7 +134,7 @@ impl Variable {
         self
     }
 
-    pub fn with_comment(mut self, text: impl Into<String>) -> Self {
+    pub fn with_comment(mut self, text: impl Into<Rc<str>>) -> Self {
         let text = text.into();
         if !text.is_empty() {
             self.comments.push(text);
@@ -140,7 +143,7 @@ impl Variable {
     }
 
     pub fn with_initial(mut self, value: Ex) -> Self {
-        self.initial = Some(value);
+        self.initial = Some(Box::new(value));
         self
     }
 
@@ -224,19 +227,19 @@ impl Variable {
     }
 }
 
-impl Unit {
-    /// Without its body and its externals, which are long.
-    pub fn without_body(&self) -> Self {
-        Self {
+impl Unit<'_> {
+    /// Without its body and its externals.
+    pub fn without_body<'b>(&self) -> Unit<'b> {
+        Unit {
             name: self.name.clone(),
             comments: self.comments.clone(),
             inputs: self.inputs.clone(),
             outputs: self.outputs.clone(),
             references: self.references.clone(),
-            externals: Vec::new(),
+            externals: Externals::default(),
             variables: self.variables.clone(),
             instances: self.instances.clone(),
-            body: Vec::new(),
+            body: Body::default(),
         }
     }
 
@@ -259,7 +262,7 @@ impl Unit {
         sections("VAR_OUTPUT", &self.outputs(dialect), line, to)?;
         sections("VAR_IN_OUT", &self.references, line, to)?;
         if dialect == Dialect::Portable {
-            sections("VAR_EXTERNAL", &self.externals, line, to)?;
+            block("VAR_EXTERNAL", self.externals.iter(), |v, f| v.line(dialect, f), to)?;
         }
         sections("VAR", &self.variables, line, to)?;
         block("VAR", instances(false), instance, to)?;

@@ -1,7 +1,8 @@
 //! How large the program is, and how much a scan can execute at most.
 
 use super::Line;
-use super::bounds::{greatest, written};
+use super::body::Size;
+use super::bounds::written;
 use super::code::Stmt;
 use super::context::Shared;
 use super::declaration::Unit;
@@ -22,13 +23,16 @@ impl Bound<'_> {
 }
 
 /// `bounds.txt`
-pub fn report(shared: Shared, line: &Line) -> String {
+pub fn report<'l>(shared: Shared, line: &'l Line) -> String {
     let count =
         |unit: &Unit| line.program.instances.iter().filter(|i| i.block == unit.name).count().max(1) as u64;
-    let bounds: Vec<Bound> = line
-        .units()
-        .map(|unit| Bound { name: &unit.name, once: greatest(&unit.body), instances: count(unit) })
-        .collect();
+    let sizes: Vec<(&Unit, Size)> = line.units().map(|unit| (unit, unit.body.size())).collect();
+    let bound = |(unit, size): &(&'l Unit, Size)| Bound {
+        name: &unit.name,
+        once: size.greatest,
+        instances: count(unit),
+    };
+    let bounds: Vec<Bound> = sizes.iter().map(bound).collect();
     let mut text = String::from(
         "The most statements that one scan executes. An assignment, a call, a test and an iteration of a loop count one each.\nThe program is not a safety function.\n\n",
     );
@@ -49,7 +53,7 @@ pub fn report(shared: Shared, line: &Line) -> String {
     let _ = writeln!(
         text,
         "\n{} statements are written; {statements} of them for {transitions} transitions: {:.1} each.",
-        line.units().map(|unit| written(&unit.body)).sum::<u64>(),
+        sizes.iter().map(|(_, size)| size.written).sum::<u64>(),
         statements as f64 / transitions.max(1) as f64
     );
     text
@@ -63,9 +67,11 @@ fn transitions(shared: Shared, line: &Line) -> (u64, usize) {
         let Some(blocks) = blocks else { continue };
         let automaton = shared.system.model.automaton(AutomatonId(number));
         transitions += automaton.states.iter().map(|s| s.transitions.len()).sum::<usize>();
-        for statement in &blocks.steps.unit.body {
-            if let Stmt::Case { branches, .. } = statement {
-                statements += branches.iter().map(|(_, body)| written(body)).sum::<u64>();
+        for piece in blocks.steps.unit.body.pieces() {
+            for statement in piece.iter() {
+                if let Stmt::Case { branches, .. } = statement {
+                    statements += branches.iter().map(|(_, body)| written(body)).sum::<u64>();
+                }
             }
         }
     }

@@ -6,30 +6,33 @@
 
 use super::alarm;
 use super::attributes::{Attribute, OF_WHAT_IS_SHOWN};
-use super::code::{Ex, Stmt, advance, binary, name};
+use super::code::Ex;
 use super::context::Shared;
 use super::declaration::{Basic, Variable, constants};
 use super::image::Image;
+use super::names::RobotNames;
 use super::restart;
 use super::role::Members;
 use super::value::{first_value, stop_value};
+use super::values::Values;
 use super::version;
 use super::watchdog;
 use crate::ir::{AutomatonId, Extent, InterfaceId, RoleId, Scalar, Type};
 use runtime_sim::device::Direction;
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
+use std::rc::Rc;
 
 /// A global array and what its elements are at power-up.
 pub struct Table {
     pub variable: Variable,
-    pub values: Vec<Ex>,
+    pub values: Rc<Values>,
 }
 
 /// Globals by what they are.
 pub struct Globals {
     pub system: Vec<Variable>,
     /// For each robot its ports.
-    pub ports: Vec<Vec<Variable>>,
+    pub ports: Vec<Vec<Rc<Variable>>>,
     /// Raw values at their addresses.
     pub raw: Vec<Variable>,
     pub cells: Vec<Table>,
@@ -38,6 +41,13 @@ pub struct Globals {
     pub alarms: Vec<Table>,
     /// Parameters that nothing reads.
     pub unread: Vec<Table>,
+}
+
+impl Table {
+    /// The values stand in the declaration.
+    pub fn declared(variable: Variable) -> Self {
+        Self { variable, values: Rc::new(Values::Any(Vec::new())) }
+    }
 }
 
 pub struct List<'a> {
@@ -51,14 +61,11 @@ pub struct List<'a> {
 
 impl Globals {
     pub fn new(shared: Shared, image: &Image) -> Self {
-        let located = |variables: Vec<Variable>| {
-            let address = |v: &Variable| image.located.get(&v.name).cloned();
-            variables.into_iter().map(|v| Variable { address: address(&v), ..v }).collect()
-        };
-        let robots = 0..shared.system.instances.len();
+        let located = |v: Variable| Variable { address: image.located.get(&v.name).cloned(), ..v };
+        let ports = ports(shared).into_iter();
         Self {
-            system: located(system(shared)),
-            ports: robots.map(|robot| located(ports(shared, robot))).collect(),
+            system: system(shared).into_iter().map(located).collect(),
+            ports: ports.map(|of| of.into_iter().map(|v| Rc::new(located(v))).collect()).collect(),
             raw: image.raw.clone(),
             cells: cells(shared),
             parameters: parameters(shared),
@@ -102,7 +109,7 @@ impl Globals {
                 variables: retained,
                 is_retained: true,
             },
-            list("GVL_Ports", "ports of the robots", OF_WHAT_IS_SHOWN, self.ports.iter().flatten().collect()),
+            list("GVL_Ports", "ports of the robots", OF_WHAT_IS_SHOWN, self.ports().collect()),
             list("GVL_Raw", "raw values of the process image", &[], self.raw.iter().collect()),
             list("GVL_Cells", "shared cells", OF_WHAT_IS_SHOWN, tables(&self.cells)),
             list("GVL_Alarms", "the table of alarms", OF_WHAT_IS_SHOWN, tables(&self.alarms)),
@@ -113,7 +120,11 @@ impl Globals {
 
     pub fn all(&self) -> impl Iterator<Item = &Variable> {
         let tables = self.cells.iter().chain(&self.parameters).chain(&self.alarms).map(|t| &t.variable);
-        self.system.iter().chain(self.ports.iter().flatten()).chain(&self.raw).chain(tables)
+        self.system.iter().chain(self.ports()).chain(&self.raw).chain(tables)
+    }
+
+    fn ports(&self) -> impl Iterator<Item = &Variable> {
+        self.ports.iter().flatten().map(|variable| &**variable)
     }
 }
 
@@ -197,7 +208,19 @@ fn system(shared: Shared) -> Vec<Variable> {
     variables
 }
 
-fn ports(shared: Shared, robot: usize) -> Vec<Variable> {
+/// For each robot its ports. Those of a type differ by their names.
+fn ports(shared: Shared) -> Vec<Vec<Variable>> {
+    let mut of_types: BTreeMap<AutomatonId, Vec<Variable>> = BTreeMap::new();
+    let mut of_robot = |(robot, names): (usize, &RobotNames)| {
+        let id = shared.system.instances[robot].automaton;
+        let of_type = of_types.entry(id).or_insert_with(|| ports_of(shared, robot));
+        let named = names.ports.iter().flatten().zip(of_type);
+        named.map(|(name, variable)| Variable { name: name.clone(), ..variable.clone() }).collect()
+    };
+    shared.names.robots.iter().enumerate().map(&mut of_robot).collect()
+}
+
+fn ports_of(shared: Shared, robot: usize) -> Vec<Variable> {
     let automaton = shared.system.automaton_of(robot);
     let names = &shared.names.robots[robot].ports;
     let mut variables = Vec::new();
@@ -210,7 +233,7 @@ fn ports(shared: Shared, robot: usize) -> Vec<Variable> {
         for (name, first) in held.iter().zip(constants(first)) {
             let mut variable = Variable::new(name, Basic::of(Scalar::from(port.ty))).with_elements(count);
             if *name == held[0] {
-                variable.comments.push(format!("{word}: {}{unit}", port.meaning));
+                variable.comments.push(format!("{word}: {}{unit}", port.meaning).into());
             }
             variable.comments.extend(about(&[], elements(shared, port.extent.into())));
             let has_initial = port.direction == Direction::Output && count.is_none();
@@ -232,6 +255,16 @@ pub fn rows(shared: Shared, interface: InterfaceId, each: Option<usize>) -> Stri
             let of = |(i, m): (usize, &&str)| format!("{} {m}", i * n);
             format!("{n} each, from {}", members.iter().enumerate().map(of).collect::<Vec<_>>().join(", "))
         }
+    }
+}
+
+/// The texts of [`rows`] of an interface, each once: they are as long as the line.
+#[derive(Default)]
+struct Rows(BTreeMap<Option<usize>, Rc<str>>);
+
+impl Rows {
+    fn of(&mut self, shared: Shared, interface: InterfaceId, each: Option<usize>) -> Rc<str> {
+        self.0.entry(each).or_insert_with(|| rows(shared, interface, each).into()).clone()
     }
 }
 
@@ -266,27 +299,28 @@ pub fn elements(shared: Shared, extent: Extent) -> String {
     }
 }
 
-pub fn about(doc: &[String], meaning: String) -> Vec<String> {
+pub fn about(doc: &[String], meaning: impl Into<Rc<str>>) -> Vec<Rc<str>> {
     let text = doc.iter().map(|l| l.trim()).collect::<Vec<_>>().join(" ");
-    [text, meaning].into_iter().filter(|t| !t.is_empty()).collect()
+    [text.into(), meaning.into()].into_iter().filter(|t| !t.is_empty()).collect()
 }
 
 fn cells(shared: Shared) -> Vec<Table> {
     let mut tables = Vec::new();
     for (i, interface) in shared.system.model.interfaces.iter().enumerate() {
         let members = shared.system.members[i].len().max(1);
+        let mut rows = Rows::default();
         for (number, (cell, held)) in
             interface.cells.iter().zip(&shared.names.interfaces[i].cells).enumerate()
         {
             let is_retained = restart::retains_cell(shared, InterfaceId(i), number);
             let n = members * shared.system.model.elements(cell.ty.extent);
-            let mut comments = about(&cell.doc, rows(shared, InterfaceId(i), each(shared, cell.ty)));
+            let mut comments = about(&cell.doc, rows.of(shared, InterfaceId(i), each(shared, cell.ty)));
             comments.extend(about(&[], meaning(shared, cell.ty.scalar)));
             for (name, first) in held.iter().zip(shared.constants(cell.ty.scalar, cell.initial)) {
                 let variable = Variable::new(name, Basic::of(cell.ty.scalar)).with_elements(Some(n));
                 let comments = if *name == held[0] { comments.clone() } else { Vec::new() };
                 let variable = Variable { comments, ..variable }.retained(is_retained);
-                tables.push(Table { variable, values: vec![first; n] });
+                tables.push(Table { variable, values: Rc::new(Values::Alike(Box::new(first), n)) });
             }
         }
     }
@@ -308,16 +342,16 @@ fn shown(shared: Shared) -> Vec<Table> {
     for (i, interface) in shared.system.model.interfaces.iter().enumerate() {
         let id = InterfaceId(i);
         let members = shared.system.members[i].len();
+        let mut rows = Rows::default();
         for (number, (parameter, held)) in
             interface.parameters.iter().zip(&shared.names.interfaces[i].parameters).enumerate()
         {
-            let values: Vec<Vec<Ex>> = (0..members)
+            let values = (0..members)
                 .flat_map(|row| shared.system.shown(id, row, number))
-                .map(|v| shared.constants(parameter.ty.scalar, *v))
-                .collect();
+                .map(|v| shared.constants(parameter.ty.scalar, *v));
             let each = each(shared, parameter.ty);
-            let comments = about(&parameter.doc, rows(shared, id, each));
-            let of = table(parameter.ty.scalar, held, &values, &comments).into_iter();
+            let comments = about(&parameter.doc, rows.of(shared, id, each));
+            let of = table(parameter.ty.scalar, held, values, &comments).into_iter();
             tables.extend(of.map(|t| Table { variable: Variable { each, ..t.variable }, ..t }));
         }
     }
@@ -325,16 +359,22 @@ fn shown(shared: Shared) -> Vec<Table> {
 }
 
 /// One array for each variable of a value.
-fn table(scalar: Scalar, held: &[String], values: &[Vec<Ex>], comments: &[String]) -> Vec<Table> {
+fn table(
+    scalar: Scalar,
+    held: &[String],
+    values: impl Iterator<Item = Vec<Ex>> + Clone,
+    comments: &[Rc<str>],
+) -> Vec<Table> {
     let basic = Basic::of(scalar);
+    let count = values.clone().count();
     (held.iter().enumerate())
         .map(|(part, name)| Table {
             variable: Variable {
                 comments: if part == 0 { comments.to_vec() } else { Vec::new() },
                 ..Variable::new(name, basic)
             }
-            .with_elements(Some(values.len().max(1))),
-            values: values.iter().map(|v| v[part].clone()).collect(),
+            .with_elements(Some(count.max(1))),
+            values: Rc::new(values.clone().map(|mut v| v.swap_remove(part)).collect()),
         })
         .collect()
 }
@@ -347,14 +387,14 @@ fn relations(shared: Shared) -> Vec<Table> {
             let n = reaches.iter().map(Vec::len).sum::<usize>();
             let width = reaches.first().map_or(0, Vec::len);
             let comments = vec![
-                "whether items get from the first robot to the second".to_string(),
-                rows(shared, relation.from, Some(width)),
-                rows(shared, relation.to, None),
+                "whether items get from the first robot to the second".into(),
+                rows(shared, relation.from, Some(width)).into(),
+                rows(shared, relation.to, None).into(),
             ];
             Table {
                 variable: Variable { comments, each: Some(width), ..Variable::new(name, Basic::Bool) }
                     .with_elements(Some(n.max(1))),
-                values: reaches.iter().flatten().map(|b| Ex::Bool(*b)).collect(),
+                values: Rc::new(Values::Bool(reaches.iter().flatten().copied().collect())),
             }
         })
         .collect()
@@ -374,8 +414,8 @@ fn own(shared: Shared, id: AutomatonId) -> Vec<Table> {
         for robot in robots.iter().take(if is_common { 1 } else { usize::MAX }) {
             let held = array_names(shared, *robot, number);
             let values = &shared.system.instances[*robot].parameters[number];
-            let values: Vec<_> = values.iter().map(|v| shared.constants(parameter.ty.scalar, *v)).collect();
-            tables.extend(table(parameter.ty.scalar, held, &values, &comments));
+            let values = values.iter().map(|v| shared.constants(parameter.ty.scalar, *v));
+            tables.extend(table(parameter.ty.scalar, held, values, &comments));
         }
     }
     for (number, role) in automaton.roles.iter().enumerate() {
@@ -387,7 +427,7 @@ fn own(shared: Shared, id: AutomatonId) -> Vec<Table> {
             let variable = Variable::new(&shared.names.robots[*robot].roles[number], Basic::Dint);
             tables.push(Table {
                 variable: Variable { comments, ..variable }.with_elements(Some(most.max(1))),
-                values: (0..most).map(value).collect(),
+                values: Rc::new((0..most).map(value).collect()),
             });
         }
     }
@@ -399,74 +439,4 @@ pub fn array_names<'a>(shared: Shared<'a>, robot: usize, parameter: usize) -> &'
     let id = shared.system.instances[robot].automaton;
     let table = &shared.names.automata[id.0].tables[parameter];
     if table.is_empty() { &shared.names.robots[robot].parameters[parameter] } else { table }
-}
-
-/// Tables of so many elements get the value of most of them by a loop, then the others theirs.
-const LONG: usize = 16;
-
-/// Statements that give all elements of tables their values: loops where they are alike.
-pub fn fill(tables: &[&Table], counter: &str) -> Vec<Stmt> {
-    let mut out = Vec::new();
-    let mut alike: Vec<(usize, Vec<Stmt>)> = Vec::new();
-    let mut single = Vec::new();
-    for table in tables {
-        let n = table.values.len();
-        let most = usual(&table.values);
-        if let Some(value) = most {
-            let target = Ex::Element(table.variable.name.clone(), Box::new(name(counter)));
-            let store = Stmt::Assign(target, value.clone());
-            match alike.iter_mut().find(|(size, _)| *size == n) {
-                Some((_, stores)) => stores.push(store),
-                None => alike.push((n, vec![store])),
-            }
-        }
-        for (i, value) in table.values.iter().enumerate().filter(|(_, value)| most != Some(*value)) {
-            let target = Ex::Element(table.variable.name.clone(), Box::new(Ex::Int(i as i32)));
-            single.push(Stmt::Assign(target, value.clone()));
-        }
-    }
-    for (n, mut stores) in alike {
-        stores.push(advance(counter));
-        out.push(super::code::assign(counter, Ex::Int(0)));
-        let condition = binary("<", name(counter), Ex::Int(n as i32));
-        out.push(Stmt::While { condition, body: stores, most: n as u64 });
-    }
-    out.extend(single);
-    out
-}
-
-/// The value of all elements, or of a long table the one that most of them have; none if there is no such value.
-fn usual(values: &[Ex]) -> Option<&Ex> {
-    // The only one that more than half of the elements can have.
-    let (mut candidate, mut lead) = (values.first()?, 0);
-    for value in values {
-        match (value == candidate, lead) {
-            (true, _) => lead += 1,
-            (false, 0) => (candidate, lead) = (value, 1),
-            (false, _) => lead -= 1,
-        }
-    }
-    let count = values.iter().filter(|value| *value == candidate).count();
-    let is_usual = count == values.len() || values.len() >= LONG && 2 * count > values.len();
-    (values.len() > 2 && is_usual).then_some(candidate)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn values(texts: &str) -> Vec<Ex> {
-        texts.chars().map(|c| Ex::Bool(c == '1')).collect()
-    }
-
-    #[test]
-    fn a_loop_gives_what_most_elements_of_a_long_table_have() {
-        assert_eq!(usual(&values("111")), Some(&Ex::Bool(true)));
-        assert_eq!(usual(&values("110")), None, "short");
-        assert_eq!(usual(&values("11")), None, "two assignments are shorter");
-        assert_eq!(usual(&values("0111111111111110")), Some(&Ex::Bool(true)));
-        assert_eq!(usual(&values("1100110011001100")), None, "half of them");
-        assert_eq!(usual(&values("1100110011001000")), Some(&Ex::Bool(false)));
-        assert_eq!(usual(&[]), None);
-    }
 }

@@ -25,18 +25,21 @@ pub struct Image {
 /// The image of a line. Raw variables are named last, so that no other name depends on the table.
 pub fn image(system: &System, names: &Names, map: &IoMap, program: &mut Scope) -> Image {
     let mut image = Image::default();
-    for (number, terminal) in terminals(system, names).iter().enumerate() {
+    if map.is_empty() {
+        return image;
+    }
+    for (number, terminal) in terminals(system, names).enumerate() {
         let Some(wire) = map.wire(number) else { continue };
-        if stands_there_itself(terminal, wire) {
+        if stands_there_itself(&terminal, wire) {
             image.located.insert(terminal.variable.clone(), wire.address.to_string());
             continue;
         }
         let element = terminal.element.map(|i| format!("_{i}")).unwrap_or_default();
         let raw = program.take_all(&format!("{}{element}", terminal.variable), &["_raw"]).concat();
-        image.raw.push(variable(terminal, wire, &raw));
+        image.raw.push(variable(&terminal, wire, &raw));
         match terminal.point.direction {
             Direction::Input => {
-                image.inputs.push(Stmt::Assign(terminal.place(), value(terminal, wire, &raw)))
+                image.inputs.push(Stmt::Assign(terminal.place(), value(&terminal, wire, &raw)))
             }
             Direction::Output => image.outputs.extend(store(wire, terminal.place(), &raw)),
         }

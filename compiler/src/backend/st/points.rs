@@ -2,12 +2,12 @@
 
 use super::code::{Ex, name};
 use super::declaration::{Basic, constants};
-use super::names::Names;
+use super::names::{Names, RobotNames};
 use super::print::Dialect;
 use super::value::{NO_SUCH_STATE, first_value, stop_value};
 use crate::device::Port;
 use crate::io_map::{Kind, Point};
-use crate::ir::{KIND, Scalar, System};
+use crate::ir::{Instance, KIND, Scalar, System};
 use runtime_sim::device::{Direction, Extent, PortType, Stop};
 
 /// A point and its variable.
@@ -40,9 +40,11 @@ impl Terminal {
     }
 }
 
-pub fn terminals(system: &System, names: &Names) -> Vec<Terminal> {
-    let mut terminals = line(system);
-    for (robot, (instance, own)) in system.instances.iter().zip(&names.robots).enumerate() {
+/// The terminals of the line, then those of each robot.
+pub fn terminals(system: &System, names: &Names) -> impl Iterator<Item = Terminal> {
+    let robots = system.instances.iter().zip(&names.robots).enumerate();
+    let of_robot = |(robot, (instance, own)): (usize, (&Instance, &RobotNames))| {
+        let mut terminals = Vec::new();
         for (port, held) in system.automaton_of(robot).device.ports.iter().zip(&own.ports) {
             for element in 0..port.extent.elements(system.kinds()) {
                 for (part, variable) in held.iter().enumerate() {
@@ -56,8 +58,9 @@ pub fn terminals(system: &System, names: &Names) -> Vec<Terminal> {
                 }
             }
         }
-    }
-    terminals
+        terminals
+    };
+    line(system).into_iter().chain(robots.flat_map(of_robot))
 }
 
 /// Inputs and outputs of the whole line.

@@ -1,6 +1,7 @@
 //! Text of statements and expressions, in one of two dialects.
 
 use super::code::{self, Arm, Ex, Member, Stmt};
+use super::values::List;
 use crate::plain;
 use std::borrow::Borrow;
 use std::fmt::{self, Write};
@@ -104,7 +105,7 @@ impl Dialect {
                 self.write(of, text);
                 self.write_all("[", indices, "]", text);
             }
-            Ex::List(values) => text.extend(["[", &self.list(values).collect::<Vec<_>>().join(", "), "]"]),
+            Ex::List(list) => text.extend(["[", &self.list(list).collect::<Vec<_>>().join(", "), "]"]),
             Ex::Fields(fields) => {
                 for (i, (name, value)) in fields.iter().enumerate() {
                     text.extend([if i == 0 { "(" } else { ", " }, name, " := "]);
@@ -160,10 +161,10 @@ impl Dialect {
 
     /// The value in a declaration: that of a long array on several lines.
     pub fn initial(self, value: &Ex, to: &mut impl Write) -> fmt::Result {
-        let Ex::List(values) = value else { return to.write_str(&self.expression(value)) };
+        let Ex::List(list) = value else { return to.write_str(&self.expression(value)) };
         let room = WIDTH / 2 - "[\n        ".len();
         let mut length = 0;
-        let is_short = self.list(values).all(|part| {
+        let is_short = self.list(list).all(|part| {
             length += part.len() + ", ".len();
             length <= room + ", ".len()
         });
@@ -172,7 +173,7 @@ impl Dialect {
         }
         to.write_char('[')?;
         let mut width = WIDTH;
-        for (i, part) in self.list(values).enumerate() {
+        for (i, part) in self.list(list).enumerate() {
             if i > 0 {
                 to.write_char(',')?;
             }
@@ -189,12 +190,21 @@ impl Dialect {
     }
 
     /// Values side by side; those that are alike by their number.
-    fn list(self, values: &[Ex]) -> impl Iterator<Item = String> {
-        values.chunk_by(|a, b| a == b).flat_map(move |alike| {
-            let text = self.expression(&alike[0]);
-            match alike.len() > 2 {
-                true => std::iter::repeat_n(format!("{}({text})", alike.len()), 1),
-                false => std::iter::repeat_n(text, alike.len()),
+    fn list(self, list: &List) -> impl Iterator<Item = String> {
+        let mut values = list.iter().peekable();
+        let alike = std::iter::from_fn(move || {
+            let first = values.next()?;
+            let mut count = 1;
+            while values.next_if(|value| *value == first).is_some() {
+                count += 1;
+            }
+            Some((first, count))
+        });
+        alike.flat_map(move |(value, count)| {
+            let text = self.expression(&value);
+            match count > 2 {
+                true => std::iter::repeat_n(format!("{count}({text})"), 1),
+                false => std::iter::repeat_n(text, count),
             }
         })
     }

@@ -2,10 +2,13 @@
 
 use super::alarm;
 use super::block::{Block, publishes};
-use super::code::{self, Arm, Ex, Stmt, and, assign, binary, name, not, or, when};
+use super::body::Body;
+use super::code::{Arm, Ex, Stmt, and, assign, binary, name, not, or, when};
 use super::context::Shared;
 use super::declaration::{Basic, Instance, Unit, Variable, constants};
-use super::globals::{Globals, fill};
+use super::externals::Externals;
+use super::filling::Filling;
+use super::globals::{Globals, Table};
 use super::image::Image;
 use super::modes;
 use super::names::{ELEMENT, ROUNDED};
@@ -15,84 +18,108 @@ use super::value::{first_value, stop_value};
 use super::watchdog;
 use crate::ir::ByHand;
 use runtime_sim::device::Direction;
+use std::collections::{BTreeSet, HashSet};
+use std::rc::Rc;
 
 pub const LAYOUT: &str = "FB_Layout";
 
 /// The blocks of a type that has robots.
-pub struct Blocks {
-    pub steps: Block,
-    pub properties: Option<Block>,
+pub struct Blocks<'a> {
+    pub steps: Block<'a>,
+    pub properties: Option<Block<'a>>,
 }
 
-pub fn program(shared: Shared, blocks: &[Option<Blocks>], globals: &Globals, image: &Image) -> Unit {
-    let mut body = Vec::new();
-    let mut instances = Vec::new();
-    instances.push(watchdog::instance());
-    instances.push(Instance {
-        name: "layout".into(),
-        block: LAYOUT.into(),
-        comment: String::new(),
-        is_retained: false,
+/// The blocks of a robot.
+fn of_robot<'b, 'a>(
+    shared: Shared,
+    blocks: &'b [Option<Blocks<'a>>],
+    robot: usize,
+) -> Option<&'b Blocks<'a>> {
+    blocks[shared.system.instances[robot].automaton.0].as_ref()
+}
+
+/// The scan.
+pub fn statements<'a>(shared: Shared<'a>, blocks: &Rc<Vec<Option<Blocks<'a>>>>, image: &Image) -> Body<'a> {
+    let count = shared.system.instances.len();
+    let each = |make: fn(Shared, &Blocks, usize) -> Vec<Stmt>| {
+        let blocks = blocks.clone();
+        move |robot: usize| of_robot(shared, &blocks, robot).map_or(Vec::new(), |of| make(shared, of, robot))
+    };
+    let mut first = Vec::new();
+    let retained = (0..count).filter(|robot| {
+        of_robot(shared, blocks, *robot).is_some_and(|of| publishes(&of.steps, restart::KEPT))
     });
-    let robots: Vec<_> = (shared.system.instances.iter().zip(&shared.names.robots).enumerate())
-        .filter_map(|(robot, (instance, names))| Some((robot, names, blocks[instance.automaton.0].as_ref()?)))
-        .collect();
-    let retained = robots.iter().filter(|(_, _, blocks)| publishes(&blocks.steps, restart::KEPT));
-    body.extend(restart::begin(shared, retained.map(|(_, names, _)| names.instance.as_str())));
+    let instances = retained.map(|robot| shared.names.robots[robot].instance.as_str());
+    first.extend(restart::begin(shared, instances));
     let cold = vec![("cold_start".to_string(), not(name("init_done")))];
-    body.push(Stmt::Call { instance: "layout".into(), arguments: cold });
-    body.extend(commented("Inputs: from raw values.", &image.inputs));
-    body.push(Stmt::Comment(
+    first.push(Stmt::Call { instance: "layout".into(), arguments: cold });
+    first.extend(commented("Inputs: from raw values.", &image.inputs));
+    first.push(Stmt::Comment(
         "A screen may write these two in the middle of a scan: they are read once.".into(),
     ));
-    body.extend([assign("start_now", name("start")), assign("reset_now", name("reset"))]);
-    body.extend(watchdog::call());
-    body.extend(status(shared));
-    body.push(Stmt::Comment("Steps, in layout order.".into()));
-    for (robot, names, blocks) in &robots {
-        let comment = format!("robot {robot}");
-        instances.push(Instance {
-            name: names.instance.clone(),
-            block: blocks.steps.unit.name.clone(),
-            comment,
-            is_retained: publishes(&blocks.steps, restart::KEPT),
-        });
-        body.push(blocks.steps.call(shared, &names.instance, *robot));
+    first.extend([assign("start_now", name("start")), assign("reset_now", name("reset"))]);
+    first.extend(watchdog::call());
+    first.extend(status(shared));
+    first.push(Stmt::Comment("Steps, in layout order.".into()));
+    let mut body = Body::from(first);
+    body.push_made(
+        count,
+        each(|shared, of, robot| vec![of.steps.call(shared, &shared.names.robots[robot].instance, robot)]),
+    );
+    if blocks.iter().flatten().any(|of| of.properties.is_some()) {
+        body.push([Stmt::Comment("Properties.".into())]);
+        body.push_made(
+            count,
+            each(|shared, of, robot| {
+                let instance = &shared.names.robots[robot].properties;
+                of.properties.iter().map(|block| block.call(shared, instance, robot)).collect()
+            }),
+        );
     }
-    let mut tests = Vec::new();
-    for (robot, names, blocks) in &robots {
-        let Some(block) = &blocks.properties else { continue };
-        instances.push(Instance {
-            name: names.properties.clone(),
-            block: block.unit.name.clone(),
-            comment: String::new(),
-            is_retained: false,
-        });
-        tests.push(block.call(shared, &names.properties, *robot));
-    }
-    if !tests.is_empty() {
-        body.push(Stmt::Comment("Properties.".into()));
-        body.extend(tests);
-    }
-    body.push(assign("fault", binary("<>", name("fault_code"), Ex::Int(0))));
-    body.push(when(name("fault"), vec![assign("running", Ex::Bool(false))]));
-    body.extend(alarm::told(shared));
-    body.push(Stmt::Comment(
+    let mut then = vec![
+        assign("fault", binary("<>", name("fault_code"), Ex::Int(0))),
+        when(name("fault"), vec![assign("running", Ex::Bool(false))]),
+    ];
+    then.extend(alarm::told(shared));
+    then.push(Stmt::Comment(
         "Outputs: the values of the blocks, or stop values while the line does not run.".into(),
     ));
-    for (robot, _, blocks) in &robots {
-        body.extend(publish(shared, *robot, &blocks.steps));
-    }
-    body.extend(commented("Outputs: to raw values.", &image.outputs));
-    body.extend(alarm::counted(shared));
-    body.push(assign("init_done", Ex::Bool(true)));
-    body.extend(restart::end(shared));
-    body.shrink_to_fit();
-    let used = code::names(&body);
+    body.push(then);
+    body.push_made(count, each(|shared, of, robot| publish(shared, robot, &of.steps)));
+    let mut last = commented("Outputs: to raw values.", &image.outputs);
+    last.extend(alarm::counted(shared));
+    last.push(assign("init_done", Ex::Bool(true)));
+    last.extend(restart::end(shared));
+    body.push(last);
+    body
+}
+
+/// The program without its externals. `used` are the names in its statements.
+pub fn program<'a>(
+    shared: Shared,
+    blocks: &[Option<Blocks>],
+    body: Body<'a>,
+    used: &HashSet<String>,
+) -> Unit<'a> {
+    let instance = |name: &str, block: &str, comment: String| Instance {
+        name: name.into(),
+        block: block.into(),
+        comment,
+        is_retained: false,
+    };
+    let mut instances = vec![watchdog::instance(), instance("layout", LAYOUT, String::new())];
+    let robots = (shared.names.robots.iter().enumerate())
+        .filter_map(|(robot, names)| Some((robot, names, of_robot(shared, blocks, robot)?)));
+    instances.extend(robots.clone().map(|(robot, names, of)| Instance {
+        is_retained: publishes(&of.steps, restart::KEPT),
+        ..instance(&names.instance, &of.steps.unit.name, format!("robot {robot}"))
+    }));
+    instances.extend(robots.filter_map(|(_, names, of)| {
+        Some(instance(&names.properties, &of.properties.as_ref()?.unit.name, String::new()))
+    }));
     Unit {
         name: "MAIN".into(),
         comments: vec!["One scan: every robot steps once, in layout order.".into()],
-        externals: globals.all().filter(|v| used.contains(&v.name)).map(Variable::uncommented).collect(),
         variables: [
             Variable::new("start_now", Basic::Bool).with_comment("start, in this scan"),
             Variable::new("reset_now", Basic::Bool).with_comment("reset, in this scan"),
@@ -223,29 +250,33 @@ fn publish(shared: Shared, robot: usize, block: &Block) -> Vec<Stmt> {
 }
 
 /// Sets cells and tables of parameters in the first scan.
-pub fn layout(globals: &Globals) -> Unit {
-    let parameters: Vec<_> = globals.parameters.iter().collect();
-    let mut body = vec![when(not(name("cold_start")), vec![Stmt::Return])];
+pub fn layout<'a>(globals: &Rc<Globals>) -> Unit<'a> {
+    let mut first = vec![when(not(name("cold_start")), vec![Stmt::Return])];
     if !globals.cells.is_empty() {
-        body.push(Stmt::Comment("Shared cells.".into()));
-        body.extend(restart::cells(&globals.cells));
+        first.push(Stmt::Comment("Shared cells.".into()));
+        first.extend(restart::cells(&globals.cells));
     }
-    if !parameters.is_empty() {
-        body.push(Stmt::Comment("Parameters.".into()));
-        body.extend(fill(&parameters, ELEMENT));
+    let mut body = Body::from(first);
+    let mut fill = |about: &str, tables: &[Table]| {
+        let Filling { loops, others } = Filling::new(tables, ELEMENT);
+        body.push([Stmt::Comment(about.into())]);
+        body.push(loops);
+        body.push_made(others.len(), move |i| others[i].statements());
+    };
+    if !globals.parameters.is_empty() {
+        fill("Parameters.", &globals.parameters);
     }
-    let alarms: Vec<_> = globals.alarms.iter().collect();
-    if !alarms.is_empty() {
-        body.push(Stmt::Comment("Alarms.".into()));
-        body.extend(fill(&alarms, ELEMENT));
+    if !globals.alarms.is_empty() {
+        fill("Alarms.", &globals.alarms);
     }
-    let used = code::names(&body);
+    let mut used = HashSet::new();
+    body.names_and_functions(&mut used, &mut BTreeSet::new());
     let counter = Variable::new(ELEMENT, Basic::Dint).with_comment("number of an element");
     Unit {
         name: LAYOUT.into(),
         comments: vec!["The values of this layout, and the initial values of shared cells.".into()],
         inputs: vec![Variable::new("cold_start", Basic::Bool).with_comment("this is the first scan")],
-        externals: globals.all().filter(|v| used.contains(&v.name)).map(Variable::uncommented).collect(),
+        externals: Externals::marked(globals, |name| used.contains(name)),
         variables: if used.contains(ELEMENT) { vec![counter] } else { Vec::new() },
         body,
         ..Unit::default()

@@ -24,7 +24,7 @@ pub const ENTRY: &str = "alarm_entry";
 pub const STOPPED: &str = "robot_stopped";
 pub const LOCAL: [&str; 4] = [VIOLATED, HOLDS, WAS_STOPPED, ENTRY];
 
-pub fn block(shared: Shared, id: AutomatonId, globals: &Index) -> Option<Block> {
+pub fn block<'a>(shared: Shared, id: AutomatonId, globals: &Index) -> Option<Block<'a>> {
     let mut lowering = Lowering::new(shared, id);
     let automaton = lowering.automaton();
     if automaton.properties.is_empty() && automaton.modes.is_none() {
@@ -75,7 +75,7 @@ pub fn block(shared: Shared, id: AutomatonId, globals: &Index) -> Option<Block> 
             inputs,
             externals: externals(globals, &used),
             variables,
-            body,
+            body: body.into(),
             ..Unit::default()
         },
         arguments,

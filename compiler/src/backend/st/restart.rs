@@ -7,7 +7,8 @@ use super::block::{Candidate, kept_values};
 use super::code::{Arm, Ex, Stmt, and, assign, binary, name, not, when};
 use super::context::{Lowering, Shared};
 use super::declaration::{Basic, Variable};
-use super::globals::{Globals, Table, fill};
+use super::filling::Filling;
+use super::globals::{Globals, Table};
 use super::names::ELEMENT;
 use super::value::NOT_RETAINED;
 use crate::ir::InterfaceId;
@@ -90,11 +91,11 @@ pub fn end(shared: Shared) -> Option<Stmt> {
 
 /// Cells at power-up, in the block of the layout.
 pub fn cells(cells: &[Table]) -> Vec<Stmt> {
-    let of = |is_retained: bool| -> Vec<&Table> {
-        cells.iter().filter(|table| table.variable.is_retained == is_retained).collect()
+    let of = |is_retained: bool| {
+        let tables = cells.iter().filter(|table| table.variable.is_retained == is_retained);
+        Filling::new(tables, ELEMENT).statements()
     };
-    let mut out = fill(&of(false), ELEMENT);
-    let retained = fill(&of(true), ELEMENT);
+    let (mut out, retained) = (of(false), of(true));
     if !retained.is_empty() {
         out.push(when(not(name(WARM)), retained));
     }

@@ -13,6 +13,7 @@ use super::structured::Structure;
 use super::text::{made_from, render};
 use crate::backend::{Part, Sink, Text, part};
 use askama::Template;
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::fmt::{self, Formatter, Write};
 
@@ -178,13 +179,14 @@ fn structure(structure: &Structure) -> String {
 
 /// The declaration without an address and without what [`values`] writes.
 fn without_values(variable: &Variable) -> Variable {
-    let initial = variable.initial.as_ref().filter(|initial| !matches!(initial, Ex::List(_) | Ex::Fields(_)));
+    let initial =
+        variable.initial.as_ref().filter(|initial| !matches!(***initial, Ex::List(_) | Ex::Fields(_)));
     Variable { address: None, initial: initial.cloned(), ..variable.without_value() }
 }
 
 /// The values of arrays and structures as assignments.
 fn values(variable: &Variable, to: &mut Formatter) -> fmt::Result {
-    match &variable.initial {
+    match variable.initial.as_deref() {
         Some(initial @ (Ex::List(_) | Ex::Fields(_))) => {
             assign(&mut quoted(&variable.name), initial, variable.each, to)
         }
@@ -196,12 +198,12 @@ fn values(variable: &Variable, to: &mut Formatter) -> fmt::Result {
 fn assign(place: &mut String, value: &Ex, each: Option<usize>, to: &mut Formatter) -> fmt::Result {
     let whole = place.len();
     match value {
-        Ex::List(values) => values.iter().enumerate().try_for_each(|(i, value)| {
+        Ex::List(list) => list.iter().enumerate().try_for_each(|(i, value)| {
             match each {
                 Some(each) => write!(place, "[{}, {}]", i / each, i % each)?,
                 None => write!(place, "[{i}]")?,
             }
-            assign(place, value, None, to)?;
+            assign(place, &value, None, to)?;
             place.truncate(whole);
             Ok(())
         }),
@@ -248,7 +250,10 @@ fn block(unit: &Unit, made_from: &str, is_global: &impl Fn(&str) -> bool, to: &m
             declaration::block("VAR", unit.instances.iter(), instance, f)?;
             declaration::block("VAR CONSTANT", constants.in_order().into_iter(), constant, f)
         }),
-        body: part(|f| DIALECT.statements(unit.body.iter().map(|statement| own.statement(statement)), 1, f)),
+        body: part(|f| {
+            let statements = |piece: Cow<[Stmt]>| DIALECT.statements(own.statements(&piece), 1, f);
+            unit.body.pieces().try_for_each(statements)
+        }),
     };
     write!(to, "\n{text}\n")
 }
@@ -260,16 +265,24 @@ struct Constants {
 
 impl Constants {
     fn of(unit: &Unit) -> Self {
-        let mut members = Vec::new();
-        members_of(&unit.body, &mut members);
         let own = [&unit.inputs, &unit.outputs, &unit.references, &unit.variables]
             .into_iter()
             .flatten()
             .map(|v| v.name.to_lowercase());
         let own: BTreeSet<String> = own.chain(unit.instances.iter().map(|i| i.name.to_lowercase())).collect();
-        let named = members.into_iter().filter_map(|member| Some((Self::name(member)?, member.clone())));
-        // One that is called as a variable of the block stays a number.
-        Self { names: named.filter(|(name, _)| !own.contains(&name.to_lowercase())).collect() }
+        let mut names = BTreeMap::new();
+        for piece in unit.body.pieces() {
+            let mut members = Vec::new();
+            members_of(&piece, &mut members);
+            for member in members {
+                let Some(name) = Self::name(member) else { continue };
+                // One that is called as a variable of the block stays a number.
+                if !names.contains_key(&name) && !own.contains(&name.to_lowercase()) {
+                    names.insert(name, member.clone());
+                }
+            }
+        }
+        Self { names }
     }
 
     /// `E_Slot.Full` is `Slot_Full`.
@@ -301,7 +314,7 @@ fn members_of<'a>(statements: &'a [Stmt], found: &mut Vec<&'a Member>) {
 fn members_in<'a>(ex: &'a Ex, found: &mut Vec<&'a Member>) {
     match ex {
         Ex::Member(member) => found.push(member),
-        Ex::Bool(_) | Ex::Int(_) | Ex::Real(_) | Ex::Name(_) | Ex::Field(..) => {}
+        Ex::Bool(_) | Ex::Int(_) | Ex::Real(_) | Ex::Name(_) | Ex::Field(..) | Ex::List(_) => {}
         Ex::Element(_, a) | Ex::Not(a) | Ex::Minus(a) | Ex::Part(a, _) => members_in(a, found),
         Ex::Binary(_, a, b) | Ex::Within(a, _, b) => {
             members_in(a, found);
@@ -312,7 +325,7 @@ fn members_in<'a>(ex: &'a Ex, found: &mut Vec<&'a Member>) {
             indices.iter().for_each(|index| members_in(index, found));
         }
         Ex::Fields(fields) => fields.iter().for_each(|(_, value)| members_in(value, found)),
-        Ex::Chain(_, parts) | Ex::List(parts) => parts.iter().for_each(|part| members_in(part, found)),
+        Ex::Chain(_, parts) => parts.iter().for_each(|part| members_in(part, found)),
         Ex::Call(_, arguments) => arguments.iter().for_each(|(_, a)| members_in(a, found)),
     }
 }

@@ -23,6 +23,7 @@ use crate::naming::st::Scope;
 use access::Places;
 use calls::Calls;
 pub use enumerations::Enumerated;
+use std::rc::Rc;
 use units::Given;
 
 /// The type of a point.
@@ -36,12 +37,17 @@ pub struct Structure {
 }
 
 /// The line with structures. `scope` has the names of the program.
-pub fn structured(shared: Shared, line: &Line, enumerated: Enumerated, scope: &mut Scope) -> Line {
+pub fn structured<'a>(
+    shared: Shared<'a>,
+    line: &'a Line<'a>,
+    enumerated: Enumerated,
+    scope: &mut Scope,
+) -> Line<'a> {
     let typed = enumerations::typed(shared, line, enumerated);
     let shared_places = Places::shared(shared);
     let (globals, structures) = globals::globals(shared, line, &shared_places, &typed);
     let index = Index::new(&globals);
-    let of_unit = |unit: &Unit, id: Option<AutomatonId>| {
+    let of_unit = |unit: &Unit, id: Option<AutomatonId>| -> Given {
         let places = match id {
             Some(id) => shared_places.of_automaton(shared, id),
             None => shared_places.clone(),
@@ -66,10 +72,11 @@ pub fn structured(shared: Shared, line: &Line, enumerated: Enumerated, scope: &m
             Some(Blocks { steps, properties })
         })
         .collect();
-    let mut calls = Calls::new(shared, &given, &line.program, scope);
-    let program = units::program(&line.program, &shared_places, &mut calls);
-    let mut globals = globals;
-    globals.parameters.extend(calls.parameters);
     let [layout, watchdog] = [0, 1].map(|i| given[i].unit.clone());
-    Line { functions: line.functions.clone(), blocks, watchdog, layout, program, globals, structures }
+    let mut calls = Calls::new(shared, given, &line.program, &shared_places);
+    let mut globals = globals;
+    globals.parameters.extend(calls.name_points(&line.program.body, scope));
+    let program = units::program(&line.program, calls);
+    let (functions, blocks, globals) = (line.functions.clone(), Rc::new(blocks), Rc::new(globals));
+    Line { functions, blocks, watchdog, layout, program, globals, structures }
 }

@@ -6,6 +6,7 @@ use crate::csv;
 use crate::io_map::{Conversion, IoMap, Wire};
 use crate::naming::st::Renamed;
 use runtime_sim::device::Direction;
+use std::fmt::{self, Formatter};
 
 /// A line of fields.
 pub fn row(fields: &[&str]) -> String {
@@ -38,9 +39,9 @@ const IO: [&str; 12] = [
 
 /// Every point of I/O by the name of its variable. The columns behind the meaning are for a person to fill;
 /// they hold what the map says.
-pub fn io(shared: Shared, map: &IoMap) -> String {
-    let mut text = row(&IO);
-    for (number, Terminal { point, .. }) in terminals(shared.system, shared.names).iter().enumerate() {
+pub fn io(shared: Shared, map: &IoMap, to: &mut Formatter) -> fmt::Result {
+    to.write_str(&row(&IO))?;
+    for (number, Terminal { point, .. }) in terminals(shared.system, shared.names).enumerate() {
         let direction = if point.direction == Direction::Input { "input" } else { "output" };
         let about = [&point.robot, &point.name, direction, point.kind.name(), &point.unit, &point.stop];
         let wired = map.wire(number).map(wire).unwrap_or_default();
@@ -49,9 +50,9 @@ pub fn io(shared: Shared, map: &IoMap) -> String {
             .chain([point.meaning.as_str()])
             .chain(wired.iter().map(String::as_str))
             .collect();
-        text += &row(&fields);
+        to.write_str(&row(&fields))?;
     }
-    text
+    Ok(())
 }
 
 /// Address, raw type, scale, offset, inversion.

@@ -144,7 +144,7 @@ impl EnumNames {
     }
 }
 
-fn unit<'a>(made_from: &'a str, unit: &'a Unit, dialect: Dialect) -> Part<'a> {
+fn unit<'a>(made_from: &'a str, unit: &'a Unit<'a>, dialect: Dialect) -> Part<'a> {
     let text = UnitText {
         pragmas: attributes::pragmas(unit.attributes(dialect)),
         keyword: if unit.name == "MAIN" { "PROGRAM" } else { "FUNCTION_BLOCK" },
@@ -162,7 +162,7 @@ pub fn body(unit: &Unit, dialect: Dialect, to: &mut impl Write) -> fmt::Result {
     if dialect == Dialect::Codesys && unit.name == "MAIN" {
         to.write_str(watchdog::CODESYS)?;
     }
-    dialect.statements(&unit.body, 0, to)
+    unit.body.pieces().try_for_each(|piece| dialect.statements(piece.iter(), 0, to))
 }
 
 /// The names of the files that were read, but for the devices that come with the tool, and what was set beside

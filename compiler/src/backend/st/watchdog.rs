@@ -82,7 +82,7 @@ pub fn call() -> Vec<Stmt> {
 }
 
 /// The block.
-pub fn block() -> Unit {
+pub fn block<'a>() -> Unit<'a> {
     let variable = |(name, about): (&str, &str)| Variable::new(name, Basic::Dint).with_comment(about);
     let truth = |name: &str, about: &str| Variable::new(name, Basic::Bool).with_comment(about);
     let inputs = [
@@ -112,7 +112,7 @@ pub fn block() -> Unit {
         ]
         .map(variable)
         .into(),
-        body: body(),
+        body: body().into(),
         ..Unit::default()
     }
 }

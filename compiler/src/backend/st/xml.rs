@@ -117,12 +117,12 @@ pub fn codesys<'a>(shared: Shared<'a>, line: &'a Line) -> Part<'a> {
     part(move |f| writeln!(f, "{text}"))
 }
 
-fn pous(line: &Line, dialect: Dialect) -> Vec<Pou<'_>> {
+fn pous<'a>(line: &'a Line<'a>, dialect: Dialect) -> Vec<Pou<'a>> {
     let functions = line.functions.iter().map(|f| function(f));
     functions.chain(line.units().map(|unit| pou(unit, dialect))).collect()
 }
 
-fn pou(unit: &Unit, dialect: Dialect) -> Pou<'_> {
+fn pou<'a>(unit: &'a Unit<'a>, dialect: Dialect) -> Pou<'a> {
     Pou {
         name: &unit.name,
         kind: if unit.name == "MAIN" { "program" } else { "functionBlock" },
@@ -145,7 +145,7 @@ fn interface(unit: &Unit, dialect: Dialect, to: &mut Formatter) -> fmt::Result {
     section("localVars", 10, instances(false), instance, to)?;
     retained("localVars", 10, instances(true), instance, to)?;
     if dialect == Dialect::Portable {
-        section("externalVars", 10, unit.externals.iter(), of, to)?;
+        section("externalVars", 10, unit.externals.iter(), |v, f| of(&v, f), to)?;
     }
     to.write_str(&attributes::additional_data(unit.attributes(dialect), 10))
 }
@@ -254,7 +254,7 @@ fn variable(variable: &Variable, dialect: Dialect, indent: usize, to: &mut Forma
         ),
     };
     let about = variable.comments.iter().fold(String::new(), |text, line| match text.as_str() {
-        "" => line.clone(),
+        "" => line.to_string(),
         text if text.ends_with('.') => format!("{text} {line}"),
         text => format!("{text}; {line}"),
     });
@@ -281,11 +281,11 @@ fn variable(variable: &Variable, dialect: Dialect, indent: usize, to: &mut Forma
 /// A value in a declaration.
 fn value(ex: &Ex, dialect: Dialect, to: &mut Formatter) -> fmt::Result {
     match ex {
-        Ex::List(values) => {
+        Ex::List(list) => {
             to.write_str("<arrayValue>")?;
-            for ex in values {
+            for ex in list.iter() {
                 to.write_str("<value>")?;
-                value(ex, dialect, to)?;
+                value(&ex, dialect, to)?;
                 to.write_str("</value>")?;
             }
             to.write_str("</arrayValue>")
@@ -299,7 +299,11 @@ fn value(ex: &Ex, dialect: Dialect, to: &mut Formatter) -> fmt::Result {
             }
             to.write_str("</structValue>")
         }
-        single => write!(to, "<simpleValue value=\"{}\"/>", escaped(&dialect.expression(single))),
+        single => {
+            to.write_str("<simpleValue value=\"")?;
+            write_escaped(&dialect.expression(single), to)?;
+            to.write_str("\"/>")
+        }
     }
 }
 
@@ -309,6 +313,14 @@ fn named(name: &str) -> String {
 
 fn typed(attributes: &str, ty: &str, indent: usize) -> String {
     format!("{:indent$}<variable {attributes}><type>{ty}</type></variable>\n", "")
+}
+
+/// Numbers and most names are as they are.
+fn write_escaped(text: &str, to: &mut Formatter) -> fmt::Result {
+    match text.bytes().all(|byte| byte.is_ascii_alphanumeric() || b"_.-+ ".contains(&byte)) {
+        true => to.write_str(text),
+        false => to.write_str(&escaped(text)),
+    }
 }
 
 fn escaped(text: &str) -> String {

@@ -5,7 +5,7 @@ use crate::command::load::{self, Failure};
 use crate::command::{named, read};
 use autogen::check;
 use autogen::diagnostic::Diagnostic;
-use autogen::layout::Panel;
+use autogen::layout::{Layout, Panel};
 use autogen::lower::{Input, compile};
 use autogen::lsp::json;
 use autogen::lsp::specs::{Specs, trees};
@@ -68,13 +68,13 @@ fn layout(path: &Path) -> Found {
     let mut sources = Sources::default();
     match load::texts(&mut sources, path, &[], None) {
         Ok(load::Texts { layout, specs, scenario, .. }) => {
-            let machines = layout.0.clone();
+            let names = layout.0.as_ref().map(Layout::names);
             let input = Input { sources, layout, specs, scenario, settings: Vec::new(), order: None };
             let outcome = compile(input);
             let mut diagnostics = outcome.diagnostics;
             diagnostics.extend(outcome.warnings);
-            if let (Some(machines), Some(project)) = (&machines, &outcome.project) {
-                diagnostics.extend(interlock::warnings(machines, project));
+            if let (Some(names), Some(project)) = (&names, &outcome.project) {
+                diagnostics.extend(interlock::warnings(names, project));
             }
             Found { sources: outcome.sources, diagnostics, refused: None }
         }

@@ -13,7 +13,7 @@ pub use manifest::{MANIFEST, hash, is_within};
 use super::lock::Lock;
 use autogen::backend::{Files, Sink};
 use manifest::Manifest;
-use new_files::NewFiles;
+pub use new_files::Make;
 use present::{Present, obstacles, present};
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
@@ -91,19 +91,17 @@ impl Output {
         Some(Manifest::read(&self.folder).about.get("command")?.as_str()?.into())
     }
 
-    /// Writes the files that `make` gives and a manifest of them, with `about` first in it, and removes those of the
+    /// Writes the files that `make` gives, each on a thread of its own, and a manifest of them, with `about` first in it, and removes those of the
     /// last time that are no more. Results stay only where nothing else changes: they are those of other controllers.
     /// Returns the names of the files.
     pub fn write(
         &self,
-        make: impl FnOnce(&mut dyn Sink),
+        make: &[&Make],
         about: Map<String, Value>,
         overwrite: Overwrite,
     ) -> Result<Vec<String>, Refusal> {
         let before = Manifest::read(&self.folder);
-        let mut new = NewFiles::new(&self.folder, before.clone());
-        make(&mut new);
-        let new = new.end();
+        let new = new_files::staged(&self.folder, before.clone(), make);
         let hashes = new.hashes().clone();
         let names = hashes.keys().cloned().collect();
         new.replace(&after(hashes, about, &before), &self.inputs, overwrite)?;
@@ -114,9 +112,8 @@ impl Output {
     /// are not among them go.
     pub fn write_results(&self, files: &Files, overwrite: Overwrite) -> Result<(), Refusal> {
         let before = Manifest::read(&self.folder);
-        let mut new = NewFiles::new(&self.folder, before.clone());
-        files.iter().for_each(|(name, text)| new.file(name, text));
-        let new = new.end();
+        let make = |sink: &mut dyn Sink| files.iter().for_each(|(name, text)| sink.file(name, text));
+        let new = new_files::staged(&self.folder, before.clone(), &[&make]);
         let mut hashes = before.files.clone();
         hashes.retain(|name, _| !OF_A_RUN.contains(&name.as_str()));
         hashes.extend(new.hashes().clone());

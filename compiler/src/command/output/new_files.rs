@@ -19,35 +19,66 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::{self, JoinHandle};
 
 /// Bytes of a text that are handed on at once.
-const PIECE: usize = 256 * 1024;
+const PIECE: usize = 64 * 1024;
 /// Pieces that may wait.
-const MOST_PIECES: usize = 16;
+const MOST_PIECES: usize = 32;
 /// Bytes of a file that are in memory until it is known whether it is there already.
 const MOST_BYTES: usize = 1_000_000;
 
-/// Takes files one at a time.
-pub struct NewFiles {
-    pieces: SyncSender<Piece>,
-    staging: JoinHandle<Staged>,
+/// Gives files, one at a time.
+pub type Make<'a> = dyn Fn(&mut dyn Sink) + Sync + 'a;
+
+/// Bytes of the stack of a thread that makes files: as many as the first thread of a program usually has.
+const STACK: usize = 8 * 1024 * 1024;
+
+/// The files that these give, each on a thread of its own.
+pub fn staged(folder: &Path, before: Manifest, make: &[&Make]) -> Staged {
+    let staged = Staged::new(folder, before);
+    thread::scope(|scope| {
+        let (pieces, received) = sync_channel(MOST_PIECES);
+        let (empty, mut all): (Vec<_>, Vec<_>) = (0..make.len())
+            .map(|number| {
+                let (empty, written) = sync_channel(MOST_PIECES);
+                (empty, NewFiles { number, pieces: pieces.clone(), written })
+            })
+            .unzip();
+        drop(pieces);
+        let staging = scope.spawn(move || staged.all(received, &empty));
+        let own = all.pop();
+        let others = all.into_iter().zip(make).map(|(mut new, make)| {
+            let thread = thread::Builder::new().stack_size(STACK);
+            thread.spawn_scoped(scope, move || make(&mut new)).expect("a thread")
+        });
+        let others: Vec<_> = others.collect();
+        if let (Some(mut new), Some(make)) = (own, make.last()) {
+            make(&mut new);
+        }
+        for other in others {
+            other.join().unwrap_or_else(|panic| resume_unwind(panic));
+        }
+        staging.join().unwrap_or_else(|panic| resume_unwind(panic))
+    })
 }
 
+/// Takes files one at a time.
+struct NewFiles {
+    /// Among those that are made at the same time.
+    number: usize,
+    pieces: SyncSender<Piece>,
+    /// Empty texts of pieces that were written, to be used again.
+    written: Receiver<Vec<u8>>,
+}
+
+/// Of a file, with the number of who makes it.
 enum Piece {
-    Begin(String),
-    Text(Vec<u8>),
-    End,
+    Begin(usize, String),
+    Text(usize, Vec<u8>),
+    End(usize),
 }
 
 impl NewFiles {
-    pub fn new(folder: &Path, before: Manifest) -> Self {
-        let (pieces, received) = sync_channel(MOST_PIECES);
-        let staged = Staged::new(folder, before);
-        Self { pieces, staging: thread::spawn(move || staged.all(received)) }
-    }
-
-    /// All files are there.
-    pub fn end(self) -> Staged {
-        drop(self.pieces);
-        self.staging.join().unwrap_or_else(|panic| resume_unwind(panic))
+    fn empty(&self) -> Vec<u8> {
+        self.written.try_recv().unwrap_or_else(|_| Vec::with_capacity(PIECE))
     }
 
     /// The other end is there as long as this is.
@@ -58,12 +89,12 @@ impl NewFiles {
 
 impl Sink for NewFiles {
     fn file(&mut self, name: &str, text: &dyn Display) {
-        self.send(Piece::Begin(name.into()));
-        let mut pieces = Pieces { to: self, rest: Vec::with_capacity(PIECE) };
+        self.send(Piece::Begin(self.number, name.into()));
+        let mut pieces = Pieces { to: self, rest: self.empty() };
         let _ = write!(pieces, "{text}");
         let rest = pieces.rest;
-        self.send(Piece::Text(rest));
-        self.send(Piece::End);
+        self.send(Piece::Text(self.number, rest));
+        self.send(Piece::End(self.number));
     }
 }
 
@@ -76,8 +107,8 @@ struct Pieces<'a> {
 impl Write for Pieces<'_> {
     fn write_str(&mut self, text: &str) -> fmt::Result {
         if self.rest.len() + text.len() > PIECE {
-            let piece = std::mem::replace(&mut self.rest, Vec::with_capacity(PIECE));
-            self.to.send(Piece::Text(piece));
+            let piece = std::mem::replace(&mut self.rest, self.to.empty());
+            self.to.send(Piece::Text(self.to.number, piece));
         }
         self.rest.extend_from_slice(text.as_bytes());
         Ok(())
@@ -119,26 +150,35 @@ impl Staged {
         &self.hashes
     }
 
-    fn all(mut self, pieces: Receiver<Piece>) -> Self {
-        let mut present: Option<(String, NewFile)> = None;
+    /// `empty` gives the texts of pieces back, to each who makes files.
+    fn all(mut self, pieces: Receiver<Piece>, empty: &[SyncSender<Vec<u8>>]) -> Self {
+        let mut present: BTreeMap<usize, (String, NewFile)> = BTreeMap::new();
         for piece in pieces {
-            match (piece, &mut present) {
-                (Piece::Begin(name), _) => {
+            match piece {
+                Piece::Begin(from, name) => {
                     self.obstacles.extend(obstacles(&self.folder, [name.as_str()].into_iter()));
-                    let is_wanted = self.obstacles.is_empty() && self.failed.is_none();
-                    let file = self.file(&name);
-                    present = is_wanted.then_some((name, file));
+                    if self.obstacles.is_empty() && self.failed.is_none() {
+                        let file = self.file(&name);
+                        present.insert(from, (name, file));
+                    }
                 }
-                (Piece::Text(text), Some((_, file))) => file.write(&text),
-                (Piece::End, Some(_)) => {
-                    if let Some((name, file)) = present.take() {
+                Piece::Text(from, mut text) => {
+                    if let Some((_, file)) = present.get_mut(&from) {
+                        file.write(&text);
+                    }
+                    text.clear();
+                    // Nobody waits for it.
+                    let _ = empty[from].try_send(text);
+                }
+                Piece::End(from) => {
+                    if let Some((name, file)) = present.remove(&from) {
                         let own = self.before.files.get(&name).cloned();
                         self.add(name, file, |there| there.is(own.as_deref()));
                     }
                 }
-                (_, None) => {}
             }
         }
+        self.changes.sort_by(|a, b| a.name.cmp(&b.name));
         for syncing in std::mem::take(&mut self.syncing) {
             let synced = syncing.join().unwrap_or_else(|panic| resume_unwind(panic));
             self.failed = self.failed.take().or(synced.err());

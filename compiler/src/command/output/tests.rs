@@ -17,7 +17,7 @@ fn files(texts: &[(&str, &str)]) -> Files {
 
 fn write(folder: &Path, files: &Files, overwrite: Overwrite) -> Result<Vec<String>, Refusal> {
     let make = |sink: &mut dyn Sink| files.iter().for_each(|(name, text)| sink.file(name, text));
-    open(folder).write(make, about(), overwrite)
+    open(folder).write(&[&make], about(), overwrite)
 }
 
 fn about() -> Map<String, Value> {

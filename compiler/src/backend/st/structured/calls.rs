@@ -3,56 +3,52 @@
 use super::POINT;
 use super::access::{COORDINATES, Place, Places};
 use super::units::Given;
+use crate::backend::st::body::Body;
 use crate::backend::st::code::{Ex, Stmt, name};
 use crate::backend::st::context::Shared;
 use crate::backend::st::declaration::{Basic, Unit, Variable, constants};
 use crate::backend::st::globals::{Table, about};
-use crate::ir::Value;
+use crate::ir::{Extent, Parameter, Scalar, Value};
 use crate::naming::st::Scope;
 use std::collections::{BTreeMap, HashMap};
 use std::rc::Rc;
 
 pub struct Calls<'a> {
     shared: Shared<'a>,
+    given: Vec<Given<'a>>,
     /// By the name of an instance.
-    blocks: HashMap<&'a str, &'a Given>,
+    blocks: HashMap<&'a str, usize>,
     robots: HashMap<&'a str, usize>,
-    scope: &'a mut Scope,
+    /// With what the instances have.
+    pub places: Places,
     /// Points that robots are given, by robot and number of the parameter.
     named: BTreeMap<(usize, usize), String>,
-    pub parameters: Vec<Table>,
 }
 
 impl<'a> Calls<'a> {
-    pub fn new(shared: Shared<'a>, given: &'a [Given], program: &'a Unit, scope: &'a mut Scope) -> Self {
-        let of = |block: &str| given.iter().find(|given| given.unit.name == block);
-        let blocks: HashMap<&str, &Given> =
+    pub fn new(shared: Shared<'a>, given: Vec<Given<'a>>, program: &'a Unit, places: &Places) -> Self {
+        let of = |block: &str| given.iter().position(|given| given.unit.name == block);
+        let blocks: HashMap<&str, usize> =
             program.instances.iter().filter_map(|i| Some((i.name.as_str(), of(&i.block)?))).collect();
         let robots = shared.names.robots.iter().enumerate();
         let robots = robots.flat_map(|(robot, names)| {
             [(names.instance.as_str(), robot), (names.properties.as_str(), robot)]
         });
-        Self {
-            shared,
-            blocks,
-            robots: robots.collect(),
-            scope,
-            named: BTreeMap::new(),
-            parameters: Vec::new(),
-        }
+        let of_instances = blocks.iter().map(|(name, i)| (name.to_string(), given[*i].places.clone()));
+        let places = places.of_program(of_instances.collect());
+        Self { shared, blocks, robots: robots.collect(), places, named: BTreeMap::new(), given }
     }
 
-    /// What the instances have.
-    pub fn places(&self) -> HashMap<String, Rc<Places>> {
-        self.blocks.iter().map(|(name, given)| (name.to_string(), given.places.clone())).collect()
+    fn given(&self, instance: &str) -> Option<&Given<'a>> {
+        self.blocks.get(instance).map(|i| &self.given[*i])
     }
 
-    pub fn call(&mut self, instance: &str, arguments: &[(String, Ex)], places: &Places) -> Stmt {
-        let given = self.blocks.get(instance).copied();
+    pub fn call(&self, instance: &str, arguments: &[(String, Ex)]) -> Stmt {
+        let given = self.given(instance);
         let shared = given.map_or(&[][..], |given| &given.shared);
         let mut all: Vec<(String, Ex)> = Vec::with_capacity(arguments.len() + shared.len());
         for (argument, value) in arguments {
-            let value = places.ex(value);
+            let value = self.places.ex(value);
             match given.and_then(|given| given.places.get(argument)) {
                 Some(Place { of, coordinate: Some(_), .. }) => {
                     if all.iter().all(|(known, _)| known != of) {
@@ -60,7 +56,7 @@ impl<'a> Calls<'a> {
                             Ex::Part(whole, _) => *whole,
                             // Of an array the variable itself.
                             Ex::Name(array) => name(&array),
-                            _ => self.parameter(instance, of),
+                            _ => self.named.get(&self.parameter(instance, of)).map_or(value, |of| name(of)),
                         };
                         all.push((of.clone(), whole));
                     }
@@ -72,25 +68,54 @@ impl<'a> Calls<'a> {
         Stmt::Call { instance: instance.into(), arguments: all }
     }
 
-    /// The variable that holds a point which a robot is given.
-    fn parameter(&mut self, instance: &str, of: &str) -> Ex {
-        let robot = self.robots.get(instance).copied().unwrap_or_default();
-        let own = &self.shared.system.instances[robot];
-        let names = &self.shared.names.automata[own.automaton.0];
-        let number = names.parameters.iter().position(|held| held.whole.as_deref() == Some(of));
-        let number = number.unwrap_or_default();
-        if let Some(known) = self.named.get(&(robot, number)) {
-            return name(known);
+    /// Names the variables that hold points which robots are given, in the order of the calls.
+    pub fn name_points(&mut self, program: &Body, scope: &mut Scope) -> Vec<Table> {
+        let is_point = |p: &Parameter| p.ty.scalar == Scalar::Point && p.ty.extent == Extent::One;
+        let mut tables = Vec::new();
+        if !self.shared.system.model.automata.iter().any(|a| a.parameters.iter().any(is_point)) {
+            return tables;
         }
+        for piece in program.pieces() {
+            for statement in piece.iter() {
+                let Stmt::Call { instance, arguments } = statement else { continue };
+                for (argument, value) in arguments {
+                    let Some(Place { of, coordinate: Some(_), .. }) =
+                        self.given(instance).and_then(|given| given.places.get(argument))
+                    else {
+                        continue;
+                    };
+                    if matches!(self.places.ex(value), Ex::Part(..) | Ex::Name(_)) {
+                        continue;
+                    }
+                    let (robot, number) = self.parameter(instance, of);
+                    if !self.named.contains_key(&(robot, number)) {
+                        let table = self.point(robot, number, scope);
+                        self.named.insert((robot, number), table.variable.name.clone());
+                        tables.push(table);
+                    }
+                }
+            }
+        }
+        tables
+    }
+
+    /// Which parameter of which robot an argument is.
+    fn parameter(&self, instance: &str, of: &str) -> (usize, usize) {
+        let robot = self.robots.get(instance).copied().unwrap_or_default();
+        let names = &self.shared.names.automata[self.shared.system.instances[robot].automaton.0];
+        let number = names.parameters.iter().position(|held| held.whole.as_deref() == Some(of));
+        (robot, number.unwrap_or_default())
+    }
+
+    /// The variable that holds a point which a robot is given.
+    fn point(&self, robot: usize, number: usize, scope: &mut Scope) -> Table {
+        let own = &self.shared.system.instances[robot];
         let parameter = &self.shared.system.model.automaton(own.automaton).parameters[number];
-        let variable = self.scope.take(&format!("{}_{}", own.name, parameter.name));
+        let variable = scope.take(&format!("{}_{}", own.name, parameter.name));
         let value = own.parameters[number].first().copied().unwrap_or(Value::Point([0.0; 3]));
         let fields = COORDINATES.iter().map(|c| Rc::from(*c)).zip(constants(value)).collect();
         let declared = Variable::new(&variable, Basic::Lreal).with_initial(Ex::Fields(fields));
         let comments = about(&parameter.doc, String::new());
-        let declared = Variable { structure: Some(POINT.into()), comments, ..declared };
-        self.parameters.push(Table { variable: declared, values: Vec::new() });
-        self.named.insert((robot, number), variable.clone());
-        name(&variable)
+        Table::declared(Variable { structure: Some(POINT.into()), comments, ..declared })
     }
 }

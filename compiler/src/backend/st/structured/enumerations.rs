@@ -75,16 +75,22 @@ pub fn typed(shared: Shared, line: &Line, enumerated: Enumerated) -> Typed {
         tables(shared, AutomatonId(number), names, &mut typed);
     }
     let blocks = line.program.instances.iter().map(|i| (i.name.as_str(), i.block.as_str())).collect();
-    let units: Vec<Users> = line.units().map(|unit| Users::new(&blocks, unit)).collect();
+    let mut assigned = HashSet::new();
+    for users in line.units().map(|unit| Users::new(&blocks, unit)) {
+        users.unit.body.pieces().for_each(|piece| users.assigned(&typed, &piece, &mut assigned));
+    }
     // A variable that is none of its enumeration is no value of it for another one.
     loop {
-        let mut found = Vec::new();
-        units.iter().for_each(|users| users.not_of_it(&typed, &users.unit.body, &mut found));
-        if found.is_empty() {
+        let known = assigned.len();
+        assigned.retain(|(target, value)| {
+            let is_of_it = typed.get(&target.0, &target.1).is_none_or(|wanted| value.is_of(&typed, wanted));
+            if !is_of_it {
+                typed.remove(&target.0, &target.1);
+            }
+            is_of_it
+        });
+        if assigned.len() == known {
             return typed;
-        }
-        for (unit, name) in found {
-            typed.remove(unit, name);
         }
     }
 }
@@ -103,63 +109,86 @@ fn tables(shared: Shared, id: AutomatonId, names: &AutomatonNames, typed: &mut T
 struct Users<'a> {
     /// By the names of their instances.
     blocks: &'a HashMap<&'a str, &'a str>,
-    unit: &'a Unit,
+    unit: &'a Unit<'a>,
     own: HashSet<&'a str>,
 }
 
 /// A variable, behind its unit.
 type Key<'a> = (&'a str, &'a str);
+type Variable = (String, String);
+
+/// What a variable gets.
+#[derive(PartialEq, Eq, Hash)]
+enum Given {
+    /// A member of an enumeration.
+    Member(Option<String>),
+    /// The value of a variable of an enumeration, or any other.
+    Value(Option<Variable>),
+}
+
+impl Given {
+    fn is_of(&self, typed: &Typed, wanted: &str) -> bool {
+        let ty = match self {
+            Given::Member(ty) => ty.as_deref(),
+            Given::Value(of) => {
+                of.as_ref().and_then(|(unit, name)| typed.get(unit, name)).map(String::as_str)
+            }
+        };
+        ty == Some(wanted)
+    }
+}
 
 impl<'a> Users<'a> {
-    fn new(blocks: &'a HashMap<&'a str, &'a str>, unit: &'a Unit) -> Self {
+    fn new(blocks: &'a HashMap<&'a str, &'a str>, unit: &'a Unit<'a>) -> Self {
         let declared = [&unit.inputs, &unit.outputs, &unit.variables];
         let own = declared.into_iter().flatten().map(|variable| variable.name.as_str()).collect();
         Self { blocks, unit, own }
     }
 
-    /// The variables that get what is no value of their enumeration.
-    fn not_of_it(&self, typed: &Typed, statements: &'a [Stmt], found: &mut Vec<Key<'a>>) {
+    /// Adds what variables of an enumeration get.
+    fn assigned(&self, typed: &Typed, statements: &[Stmt], found: &mut HashSet<(Variable, Given)>) {
         for statement in statements {
             match statement {
                 Stmt::Assign(target, value) => {
-                    let target = self.key(typed, target);
-                    found.extend(target.and_then(|target| self.assigned(typed, target, value)));
+                    if let Some(target) = self.key(typed, target) {
+                        self.one(typed, target, value, found);
+                    }
                 }
                 Stmt::If(arms, otherwise) => {
-                    arms.iter().for_each(|arm| self.not_of_it(typed, &arm.body, found));
-                    self.not_of_it(typed, otherwise, found);
+                    arms.iter().for_each(|arm| self.assigned(typed, &arm.body, found));
+                    self.assigned(typed, otherwise, found);
                 }
                 Stmt::Case { branches, otherwise, .. } => {
-                    branches.iter().for_each(|(_, body)| self.not_of_it(typed, body, found));
-                    self.not_of_it(typed, otherwise, found);
+                    branches.iter().for_each(|(_, body)| self.assigned(typed, body, found));
+                    self.assigned(typed, otherwise, found);
                 }
-                Stmt::While { body, .. } => self.not_of_it(typed, body, found),
+                Stmt::While { body, .. } => self.assigned(typed, body, found),
                 Stmt::Call { instance, arguments } => {
                     let Some(block) = self.block(instance) else { continue };
-                    let assigned = arguments.iter();
-                    found.extend(
-                        assigned.filter_map(|(name, value)| self.assigned(typed, (block, name), value)),
-                    );
+                    arguments.iter().for_each(|(name, value)| self.one(typed, (block, name), value, found));
                 }
                 Stmt::Comment(_) | Stmt::Exit | Stmt::Return => {}
             }
         }
     }
 
-    fn assigned(&self, typed: &Typed, target: Key<'a>, value: &'a Ex) -> Option<Key<'a>> {
-        let wanted = typed.get(target.0, target.1)?;
-        let is = match value {
+    fn one(&self, typed: &Typed, target: Key, value: &Ex, found: &mut HashSet<(Variable, Given)>) {
+        if typed.get(target.0, target.1).is_none() {
+            return;
+        }
+        let owned = |(unit, name): Key| (unit.to_string(), name.to_string());
+        let given = match value {
             Ex::Member(member) => {
                 let ty = member.qualified.as_ref().and_then(|q| q.split_once('.')).map(|(ty, _)| ty);
-                ty == Some(wanted.as_str())
+                Given::Member(ty.map(String::from))
             }
-            _ => self.key(typed, value).and_then(|(unit, name)| typed.get(unit, name)) == Some(wanted),
+            _ => Given::Value(self.key(typed, value).map(owned)),
         };
-        (!is).then_some(target)
+        found.insert((owned(target), given));
     }
 
     /// None of what is of no enumeration.
-    fn key(&self, typed: &Typed, place: &'a Ex) -> Option<Key<'a>> {
+    fn key<'k>(&'k self, typed: &Typed, place: &'k Ex) -> Option<Key<'k>> {
         let unit = self.unit.name.as_str();
         match place {
             Ex::Name(name) | Ex::Element(name, _) => typed

@@ -10,29 +10,37 @@ use crate::backend::st::context::Shared;
 use crate::backend::st::declaration::{Basic, Variable};
 use crate::backend::st::globals::{Globals, Table, about, meaning, rows};
 use crate::backend::st::restart;
+use crate::backend::st::values::{Elements, Field, List};
 use crate::ir::{Extent, InterfaceId, Scalar};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
 pub fn globals(shared: Shared, line: &Line, places: &Places, typed: &Typed) -> (Globals, Vec<Structure>) {
-    let of = |variables: &[Variable]| variables_of(variables, "", places, typed);
+    // No port is of an enumeration.
+    let of_robot = |ports: &[Rc<Variable>]| match ports.iter().any(|port| places.get(&port.name).is_some()) {
+        true => {
+            let ports = ports.iter().map(|port| &**port);
+            variables_of(ports, "", places, typed).into_iter().map(Rc::new).collect()
+        }
+        false => ports.to_vec(),
+    };
     let mut structures = vec![point()];
     let mut cells = Vec::new();
     for id in (0..shared.system.model.interfaces.len()).map(InterfaceId) {
         let Some((structure, array)) = interface(shared, line, id, typed) else { continue };
         structures.push(structure);
-        cells.push(Table { variable: array, values: Vec::new() });
+        cells.push(Table::declared(array));
     }
     let mut alarms = Vec::new();
     if let Some((structure, array)) = table_of_alarms(line) {
         structures.push(structure);
-        alarms.push(Table { variable: array, values: Vec::new() });
+        alarms.push(Table::declared(array));
     }
     let of_robots = line.globals.alarms.iter().filter(|table| places.get(&table.variable.name).is_none());
-    alarms.extend(of_robots.map(|table| Table { variable: with_values(table), values: Vec::new() }));
+    alarms.extend(of_robots.map(|table| Table::declared(with_values(table))));
     let globals = Globals {
         system: line.globals.system.clone(),
-        ports: line.globals.ports.iter().map(|ports| of(ports)).collect(),
+        ports: line.globals.ports.iter().map(|ports| of_robot(ports)).collect(),
         raw: line.globals.raw.clone(),
         cells,
         parameters: parameters(shared, line, places, typed),
@@ -76,7 +84,7 @@ fn interface(shared: Shared, line: &Line, id: InterfaceId, typed: &Typed) -> Opt
     let fields = fields.into_iter().chain(mark).collect();
     let array = Variable {
         structure: Some(names.structure.clone()),
-        comments: vec![format!("cells of {}", interface.name), rows(shared, id, None)],
+        comments: vec![format!("cells of {}", interface.name).into(), rows(shared, id, None).into()],
         ..Variable::new(&names.rows, Basic::Bool)
     }
     .with_elements(Some(shared.system.members[id.0].len().max(1)))
@@ -102,15 +110,12 @@ fn table_of_alarms(line: &Line) -> Option<(Structure, Variable)> {
         elements: None,
         ..table.variable.clone()
     });
-    let names: Vec<Rc<str>> = columns.iter().map(|(name, _)| (*name).into()).collect();
-    // What is not written is zero.
-    let row = |i: usize| {
-        let fields = names.iter().zip(&columns).filter_map(|(name, (_, table))| {
-            let value = table.values.get(i).filter(|value| **value != table.variable.basic.zero())?;
-            Some((name.clone(), value.clone()))
-        });
-        Ex::Fields(fields.collect())
+    let column = |(name, table): &(&str, &Table)| Field {
+        name: (*name).into(),
+        values: table.values.clone(),
+        unsaid: Some(table.variable.basic.zero()),
     };
+    let values = columns.iter().map(column).collect();
     let count = first.variable.elements.unwrap_or_default();
     let array = Variable {
         structure: Some("ST_Alarm".into()),
@@ -118,14 +123,14 @@ fn table_of_alarms(line: &Line) -> Option<(Structure, Variable)> {
         ..Variable::new("alarms", Basic::Bool)
     }
     .with_elements(Some(count))
-    .with_initial(Ex::List((0..count).map(row).collect()));
+    .with_initial(Ex::List(List { len: count, elements: Elements::Structures(values) }));
     let about = "an entry of the table of alarms".to_string();
     Some((Structure { name: "ST_Alarm".into(), about, fields: fields.collect() }, array))
 }
 
 /// The values of a table in its declaration.
 fn with_values(table: &Table) -> Variable {
-    let values = (!table.values.is_empty()).then(|| Ex::List(table.values.clone()));
+    let values = (table.values.len() > 0).then(|| Box::new(Ex::List(List::single(table.values.clone()))));
     Variable { initial: values, ..table.variable.clone() }
 }
 
@@ -154,30 +159,30 @@ fn parameters(shared: Shared, line: &Line, places: &Places, typed: &Typed) -> Ve
                 let Some(mut parts) = points.remove(&point) else { continue };
                 parts.sort_by_key(|(coordinate, _)| *coordinate);
                 let first = parts[0].1;
-                let names: Vec<Rc<str>> = parts.iter().map(|(coordinate, _)| (*coordinate).into()).collect();
-                let value = |i: usize| {
-                    let values = parts.iter().map(|(_, table)| table.values[i].clone());
-                    let fields = names.iter().cloned().zip(values);
-                    Ex::Fields(fields.collect())
-                };
-                let initial = Some(Ex::List((0..first.values.len()).map(value).collect()));
+                let fields = parts.iter().map(|(coordinate, table)| Field {
+                    name: (*coordinate).into(),
+                    values: table.values.clone(),
+                    unsaid: None,
+                });
+                let elements = Elements::Structures(fields.collect());
+                let initial = Some(Box::new(Ex::List(List { len: first.values.len(), elements })));
                 let comments = first.variable.comments.iter();
                 let comments = comments.map(|text| rows.get(text).unwrap_or(text).clone()).collect();
                 let structure = Some(POINT.into());
                 Variable { name: point, structure, initial, comments, ..variable }
             }
         };
-        out.push(Table { variable, values: Vec::new() });
+        out.push(Table::declared(variable));
     }
     out
 }
 
 /// What is said of an array with so many elements for each row, and what of one of two dimensions.
-fn rows_by_element(shared: Shared) -> BTreeMap<String, String> {
+fn rows_by_element(shared: Shared) -> BTreeMap<Rc<str>, Rc<str>> {
     let mut texts = BTreeMap::new();
     let model = &shared.system.model;
     let mut add = |id: InterfaceId, each: usize| {
-        texts.insert(rows(shared, id, Some(each)), rows(shared, id, None));
+        texts.insert(rows(shared, id, Some(each)).into(), rows(shared, id, None).into());
     };
     for (i, interface) in model.interfaces.iter().enumerate() {
         for parameter in interface.parameters.iter().filter(|p| p.ty.extent != Extent::One) {

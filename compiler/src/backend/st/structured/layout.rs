@@ -15,7 +15,7 @@ use crate::ir::{Extent, InterfaceId};
 const ITEM: &str = "item_no";
 
 /// With the names of the portable text.
-pub fn unit(shared: Shared, line: &Line) -> Unit {
+pub fn unit<'a>(shared: Shared, line: &Line) -> Unit<'a> {
     let mut body = vec![when(not(name("cold_start")), vec![Stmt::Return])];
     let retained: Vec<Ex> = ((0..shared.system.model.interfaces.len()).map(InterfaceId))
         .filter(|id| is_retained(shared, line, *id))
@@ -46,7 +46,7 @@ pub fn unit(shared: Shared, line: &Line) -> Unit {
             .collect(),
         name: line.layout.name.clone(),
         inputs: line.layout.inputs.clone(),
-        body,
+        body: body.into(),
         ..Unit::default()
     }
 }

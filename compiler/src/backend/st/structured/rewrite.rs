@@ -42,14 +42,13 @@ impl Places {
         let boxed = |ex: &Ex| Box::new(self.ex(ex));
         let all = |parts: &[Ex]| parts.iter().map(|part| self.ex(part)).collect();
         match ex {
-            Ex::Bool(_) | Ex::Int(_) | Ex::Real(_) | Ex::Member(_) => ex.clone(),
+            Ex::Bool(_) | Ex::Int(_) | Ex::Real(_) | Ex::Member(_) | Ex::List(_) => ex.clone(),
             Ex::Name(name) => self.read(name, None),
             Ex::Element(name, index) => self.read(name, Some(self.ex(index))),
             Ex::Field(instance, output) => self.output(instance, output),
             Ex::Within(row, each, element) => Ex::Within(boxed(row), *each, boxed(element)),
             Ex::Part(of, field) => Ex::Part(boxed(of), field.clone()),
             Ex::Item(of, indices) => Ex::Item(boxed(of), all(indices)),
-            Ex::List(values) => Ex::List(all(values)),
             Ex::Fields(fields) => {
                 Ex::Fields(fields.iter().map(|(name, value)| (name.clone(), self.ex(value))).collect())
             }

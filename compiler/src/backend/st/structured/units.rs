@@ -13,14 +13,14 @@ use std::rc::Rc;
 
 /// A block, and the shared variables that each call gives it.
 #[derive(Clone)]
-pub struct Given {
-    pub unit: Unit,
+pub struct Given<'a> {
+    pub unit: Unit<'a>,
     pub shared: Vec<String>,
     pub places: Rc<Places>,
 }
 
-pub fn unit(unit: &Unit, places: &Places, globals: &Index, typed: &Typed) -> Given {
-    let body = places.statements(&unit.body);
+pub fn unit<'a>(unit: &Unit, places: &Places, globals: &Index, typed: &Typed) -> Given<'a> {
+    let body: Vec<Stmt> = unit.body.pieces().flat_map(|piece| places.statements(&piece)).collect();
     let used = code::names(&body);
     let written = written(&body);
     let of = |variables: &[Variable]| variables_of(variables, &unit.name, places, typed);
@@ -37,23 +37,28 @@ pub fn unit(unit: &Unit, places: &Places, globals: &Index, typed: &Typed) -> Giv
         if is_read { &mut inputs } else { &mut references }.push(global.external());
         shared.push(global.name.clone());
     }
+    let body = body.into();
     let unit = Unit { inputs, outputs, references, variables, body, ..unit.without_body() };
     Given { unit, shared, places: Rc::new(places.clone()) }
 }
 
 /// The program: its calls give blocks what they need.
-pub fn program(unit: &Unit, places: &Places, calls: &mut Calls) -> Unit {
-    let places = places.of_program(calls.places());
-    let statement = |statement: &Stmt| match statement {
-        Stmt::Call { instance, arguments } => calls.call(instance, arguments, &places),
-        _ => places.statement(statement),
+pub fn program<'a>(unit: &'a Unit<'a>, calls: Calls<'a>) -> Unit<'a> {
+    let statement = move |statement: &Stmt| match statement {
+        Stmt::Call { instance, arguments } => calls.call(instance, arguments),
+        _ => calls.places.statement(statement),
     };
-    let body = joined(unit.body.iter().map(statement).collect());
+    let body = unit.body.map(move |piece| joined(piece.iter().map(&statement).collect()));
     Unit { body, ..unit.without_body() }
 }
 
 /// Coordinates as points, and members of enumerations as such.
-pub fn variables_of(variables: &[Variable], unit: &str, places: &Places, typed: &Typed) -> Vec<Variable> {
+pub fn variables_of<'v>(
+    variables: impl IntoIterator<Item = &'v Variable>,
+    unit: &str,
+    places: &Places,
+    typed: &Typed,
+) -> Vec<Variable> {
     let mut out: Vec<Variable> = Vec::new();
     for variable in variables {
         let named = typed.get(unit, &variable.name).cloned();
