@@ -197,6 +197,10 @@ impl Scan<'_> {
             }
         }
         event::land(self.model, self.bytes, landing, kind);
+        if let Landing::Zone { machine, .. } = landing {
+            let seen = self.model.inputs.iter().filter(|input| input.stays == Some(machine));
+            self.restless |= seen.fold(0, |machines, input| machines | bit(input.machine));
+        }
         arm.holds.store(self.bytes, 0);
         Ok(())
     }

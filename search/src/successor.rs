@@ -115,10 +115,12 @@ impl Successor<'_> {
     }
 }
 
-/// Machines of which it is open what a sensor over a conveyor tells: an item may have come or gone while it rests.
-fn open_fields(model: &Model, state: &[u8]) -> u64 {
-    let is_open = |input: &&Input| input.stays.is_some() && input.var.load(state) == sight::OPEN;
-    model.inputs.iter().filter(is_open).fold(0, |machines, input| machines | bit(input.machine))
+/// Machines of which a sensor over a conveyor at rest may tell something else now: an item has come or gone.
+fn opened(model: &Model, before: &[u8], state: &[u8]) -> u64 {
+    let is_open = |input: &Input, state: &[u8]| input.var.load(state) == sight::OPEN;
+    let is_opened =
+        |input: &&Input| input.stays.is_some() && is_open(input, state) && !is_open(input, before);
+    model.inputs.iter().filter(is_opened).fold(0, |machines, input| machines | bit(input.machine))
 }
 
 impl<'a> Expander<'a> {
@@ -288,7 +290,6 @@ impl<'a> Expander<'a> {
     /// Instances that would do something even if no device did.
     fn restless_in(&mut self, state: &[u8], candidates: u64) -> u64 {
         let mut restless = 0;
-        let candidates = candidates | open_fields(self.model, state);
         for instance in (0..self.model.instances.len()).filter(|instance| candidates & bit(*instance) != 0) {
             self.choices.clear();
             self.work.copy_from_slice(state);
@@ -391,7 +392,7 @@ impl<'a> Expander<'a> {
 
     /// Every outcome of one scan.
     fn scan(&mut self, level: usize, touched: u64, emit: &mut impl FnMut(Successor)) {
-        let touched = touched | open_fields(self.model, &self.levels[level]);
+        let touched = touched | opened(self.model, &self.before, &self.levels[level]);
         if self.orders == Orders::All {
             return self.scan_in_any_order(level, touched, emit);
         }
