@@ -6,8 +6,10 @@ use crate::program::{Instance, Int};
 use crate::scan::Scan;
 use crate::value::{Count, Var};
 
-/// So many nodes, at most.
+/// So many nodes and outcomes, at most.
 const MOST: usize = 1 << 16;
+/// What asks more questions than this is evaluated each time.
+const MOST_ASKED: usize = 256;
 
 /// Decision trees.
 #[derive(Default)]
@@ -83,7 +85,9 @@ impl Decisions {
     /// Bytes of memory that it takes.
     pub fn size(&self) -> usize {
         let of_node = |node: &Node| size_of::<Node>() + node.next.capacity() * size_of::<(i32, Next)>();
-        self.nodes.iter().map(of_node).sum()
+        let of_outcome = |outcome: &Outcome| size_of::<Outcome>() + size_of_val(&*outcome.variables);
+        let nodes: usize = self.nodes.iter().map(of_node).sum();
+        nodes + self.outcomes.iter().map(of_outcome).sum::<usize>()
     }
 
     #[inline]
@@ -195,7 +199,7 @@ impl Scan<'_> {
             }
         }
         let has_new_values = self.decisions.numbered != Some(self.values.count());
-        if has_new_values || self.decisions.nodes.len() >= MOST {
+        if has_new_values || self.decisions.nodes.len() + self.decisions.outcomes.len() >= MOST {
             return evaluate(self);
         }
         self.decisions.asked.clear();
@@ -204,6 +208,10 @@ impl Scan<'_> {
         let has_ended = std::mem::take(&mut self.decisions.records) == Records::Ended;
         let outcome = match found {
             _ if has_ended => Next::Open,
+            _ if self.decisions.asked.len() > MOST_ASKED => {
+                self.decisions.asked.clear();
+                Next::Open
+            }
             None => Next::No,
             Some(transition) => {
                 let variables = self.variables[..variables].into();

@@ -215,7 +215,7 @@ impl<'a> Search<'a> {
                     }
                 }
             }
-            let again = runs.iter().map(Expanded::size).chain(self.expanders.iter().map(Expander::size));
+            let again = runs.iter().map(Expanded::size).chain(self.all_expanders().map(Expander::size));
             self.again = again.sum();
             self.spare = runs;
             if self.first.values.count() != self.expanders[0].values.count() {
@@ -311,6 +311,10 @@ impl<'a> Search<'a> {
         let mut found = HashSet::new();
         needed.retain(|(needed, _)| found.insert(first.model.unread.like(*needed)));
         needed.iter().map(|(needed, state)| Refinement::new(*needed, store, first, *state)).collect()
+    }
+
+    fn all_expanders(&self) -> impl Iterator<Item = &Expander<'a>> {
+        self.expanders.iter().chain([&self.first])
     }
 
     fn measure(&mut self) {

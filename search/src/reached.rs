@@ -124,7 +124,9 @@ impl Reached {
             self.pieces.iter_mut().zip(state.chunks(PIECE)).zip(code.chunks_exact_mut(NUMBER))
         {
             if *number == NONE {
-                number.copy_from_slice(&piece.add(bytes, 0).0.to_le_bytes()[..NUMBER]);
+                let found = piece.add(bytes, 0).0;
+                assert!(found < 1 << (8 * NUMBER), "`is_full` is asked before there are so many");
+                number.copy_from_slice(&found.to_le_bytes()[..NUMBER]);
             }
         }
         self.codes.add(&code, parent)

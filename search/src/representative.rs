@@ -66,7 +66,7 @@ impl Representatives {
     /// Bytes of memory that it takes.
     pub fn size(&self) -> usize {
         8 * (self.postponed.capacity() + self.bound.capacity())
-            + 24 * self.unseen.capacity()
+            + 24 * (self.unseen.capacity() + self.left_out.capacity())
             + self.owed.values().map(|owed| size_of_val(owed.as_slice()) + 48).sum::<usize>()
     }
 

@@ -106,11 +106,15 @@ struct Pieces<'a> {
 
 impl Write for Pieces<'_> {
     fn write_str(&mut self, text: &str) -> fmt::Result {
-        if self.rest.len() + text.len() > PIECE {
+        let mut text = text.as_bytes();
+        while self.rest.len() + text.len() > PIECE {
+            let (now, later) = text.split_at(PIECE - self.rest.len());
+            self.rest.extend_from_slice(now);
             let piece = std::mem::replace(&mut self.rest, self.to.empty());
             self.to.send(Piece::Text(self.to.number, piece));
+            text = later;
         }
-        self.rest.extend_from_slice(text.as_bytes());
+        self.rest.extend_from_slice(text);
         Ok(())
     }
 }
