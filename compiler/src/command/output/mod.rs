@@ -91,8 +91,8 @@ impl Output {
         Some(Manifest::read(&self.folder).about.get("command")?.as_str()?.into())
     }
 
-    /// Writes the files that `make` gives, each on a thread of its own, and a manifest of them, with `about` first in it, and removes those of the
-    /// last time that are no more. Results stay only where nothing else changes: they are those of other controllers.
+    /// Writes the files that all of `make` give, at the same time, and a manifest of them, with `about` first in it, and removes
+    /// those of the last time that are no more. Results stay only where nothing else changes: they are those of other controllers.
     /// Returns the names of the files.
     pub fn write(
         &self,

@@ -31,7 +31,7 @@ pub type Make<'a> = dyn Fn(&mut dyn Sink) + Sync + 'a;
 /// Bytes of the stack of a thread that makes files: as many as the first thread of a program usually has.
 const STACK: usize = 8 * 1024 * 1024;
 
-/// The files that these give, each on a thread of its own.
+/// The files that these give, all at the same time.
 pub fn staged(folder: &Path, before: Manifest, make: &[&Make]) -> Staged {
     let staged = Staged::new(folder, before);
     thread::scope(|scope| {
@@ -198,7 +198,7 @@ impl Staged {
         debug_assert!(!self.hashes.contains_key(&name), "{name} is written twice");
         match file.end().and_then(|hashed| self.compare(&name, hashed, is_own)) {
             Ok(hash) => drop(self.hashes.insert(name, hash)),
-            Err(refusal) => self.failed = Some(refusal),
+            Err(refusal) => drop(self.failed.get_or_insert(refusal)),
         }
     }
 
@@ -299,8 +299,11 @@ impl NewFile {
     }
 
     fn write(&mut self, text: &[u8]) {
+        if self.failed.is_some() {
+            return;
+        }
         self.rest.extend_from_slice(text);
-        if self.rest.len() >= MOST_BYTES && self.failed.is_none() {
+        if self.rest.len() >= MOST_BYTES {
             self.failed = self.write_rest().err();
         }
     }

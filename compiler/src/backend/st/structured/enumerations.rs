@@ -151,7 +151,7 @@ impl<'a> Users<'a> {
             match statement {
                 Stmt::Assign(target, value) => {
                     if let Some(target) = self.key(typed, target) {
-                        self.one(typed, target, value, found);
+                        self.assigned_to(typed, target, value, found);
                     }
                 }
                 Stmt::If(arms, otherwise) => {
@@ -165,14 +165,16 @@ impl<'a> Users<'a> {
                 Stmt::While { body, .. } => self.assigned(typed, body, found),
                 Stmt::Call { instance, arguments } => {
                     let Some(block) = self.block(instance) else { continue };
-                    arguments.iter().for_each(|(name, value)| self.one(typed, (block, name), value, found));
+                    arguments
+                        .iter()
+                        .for_each(|(name, value)| self.assigned_to(typed, (block, name), value, found));
                 }
                 Stmt::Comment(_) | Stmt::Exit | Stmt::Return => {}
             }
         }
     }
 
-    fn one(&self, typed: &Typed, target: Key, value: &Ex, found: &mut HashSet<(Variable, Given)>) {
+    fn assigned_to(&self, typed: &Typed, target: Key, value: &Ex, found: &mut HashSet<(Variable, Given)>) {
         if typed.get(target.0, target.1).is_none() {
             return;
         }
