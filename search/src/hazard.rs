@@ -52,16 +52,8 @@ fn sites_at(scan: &Scan, number: i32) -> Vec<Site> {
 impl Scan<'_> {
     /// What a command that has just been given makes dangerous.
     pub(crate) fn hazards(&mut self) -> Result<(), Violation> {
-        let mut at = std::mem::take(&mut self.values.at_sites);
-        at.clear();
-        let result = self.hazards_at(&mut at);
-        self.values.at_sites = at;
-        result
-    }
-
-    /// `at`: memory for the sites at which arms are.
-    fn hazards_at(&mut self, at: &mut Vec<(Site, usize)>) -> Result<(), Violation> {
         let model = self.model;
+        let mut at: Vec<(Site, usize)> = Vec::new();
         for (machine, plant) in model.machines.iter().enumerate() {
             let Some(arm) = &plant.arm else { continue };
             for number in self.places_of(arm) {

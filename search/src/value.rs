@@ -46,8 +46,6 @@ pub struct Values {
     reached: Vec<Vec<(usize, bool)>>,
     /// Of each point that was asked for the sites that it is at.
     pub(crate) sites: Vec<Option<Box<[Site]>>>,
-    /// Memory to be used again.
-    pub(crate) at_sites: Vec<(Site, usize)>,
     /// Of each point that was asked for the vehicles that may be there, a bit each.
     vehicles: Vec<Option<u64>>,
 }
@@ -69,7 +67,6 @@ impl Default for Values {
             is_full: false,
             reached: Vec::new(),
             sites: Vec::new(),
-            at_sites: Vec::new(),
             vehicles: Vec::new(),
         };
         values.number_of_point([0.0; 3]);
