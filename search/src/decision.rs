@@ -60,8 +60,10 @@ pub(crate) enum Question {
 
 struct Node {
     question: Question,
-    /// By the answer.
-    next: Vec<(i32, Next)>,
+    /// The answer that came up first, and what comes then: it stands here, where it is found at once.
+    first: (i32, Next),
+    /// The same of all others, in the order of the answers.
+    others: Vec<(i32, Next)>,
 }
 
 struct Outcome {
@@ -84,7 +86,7 @@ impl Decisions {
 
     /// Bytes of memory that it takes.
     pub fn size(&self) -> usize {
-        let of_node = |node: &Node| size_of::<Node>() + node.next.capacity() * size_of::<(i32, Next)>();
+        let of_node = |node: &Node| size_of::<Node>() + node.others.capacity() * size_of::<(i32, Next)>();
         let of_outcome = |outcome: &Outcome| size_of::<Outcome>() + size_of_val(&*outcome.variables);
         let nodes: usize = self.nodes.iter().map(of_node).sum();
         nodes + self.outcomes.iter().map(of_outcome).sum::<usize>()
@@ -105,8 +107,11 @@ impl Decisions {
     }
 
     fn after(&self, node: u32, value: i32) -> Next {
-        let next = &self.nodes[node as usize].next;
-        next.binary_search_by_key(&value, |(other, _)| *other).map_or(Next::New, |found| next[found].1)
+        let Node { first, others, .. } = &self.nodes[node as usize];
+        if first.0 == value {
+            return first.1;
+        }
+        others.binary_search_by_key(&value, |(other, _)| *other).map_or(Next::New, |found| others[found].1)
     }
 
     /// Adds what was asked, and the outcome.
@@ -116,7 +121,7 @@ impl Decisions {
             let next = match self.next(at) {
                 Next::Node(node) => node,
                 _ => {
-                    self.nodes.push(Node { question, next: Vec::new() });
+                    self.nodes.push(Node { question, first: (answer, Next::New), others: Vec::new() });
                     let node = (self.nodes.len() - 1) as u32;
                     self.set(at, Next::Node(node));
                     node
@@ -139,7 +144,11 @@ impl Decisions {
         match at {
             At::Root(root) => self.roots[root] = next,
             At::Node(node, answer) => {
-                let all = &mut self.nodes[node as usize].next;
+                let Node { first, others: all, .. } = &mut self.nodes[node as usize];
+                if first.0 == answer {
+                    first.1 = next;
+                    return;
+                }
                 match all.binary_search_by_key(&answer, |(other, _)| *other) {
                     Ok(found) => all[found].1 = next,
                     Err(place) => all.insert(place, (answer, next)),

@@ -268,6 +268,7 @@ impl Expander<'_> {
             looks_back: false,
             needed: &mut self.needed,
             postponed: (&self.postponed, &self.postponing),
+            own: &mut self.own,
             observed: 0,
             stepping: 0,
             noted: &mut self.noted,

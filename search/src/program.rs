@@ -238,6 +238,8 @@ pub struct Instance {
     pub times_come: Option<Var>,
     pub states: Vec<State>,
     pub properties: Vec<Property>,
+    /// As [`Property::reads_of_all`] of these.
+    pub property_reads: Option<Cells>,
     /// Variables of binders and quantifiers.
     pub variables: usize,
 }

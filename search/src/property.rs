@@ -83,11 +83,15 @@ impl Scan<'_> {
     pub(crate) fn properties(&mut self, touched: u64) -> Result<(), Violation> {
         let model = self.model;
         for (instance, program) in model.instances.iter().enumerate() {
+            let is_touched = |scan: &Self| (touched | scan.fired) & bit(instance) != 0;
+            let may_be_due = program.property_reads.is_none_or(|reads| self.written.meets(reads));
+            if !may_be_due && !is_touched(self) {
+                continue;
+            }
             let stands = program.stopped.is_some_and(|stopped| stopped.load(self.before) != 0);
             for (number, property) in program.properties.iter().enumerate() {
-                let is_due = (touched | self.fired) & bit(instance) != 0
-                    || self.written.meets(property.reads)
-                    || property.is_due_always();
+                let is_due =
+                    is_touched(self) || self.written.meets(property.reads) || property.is_due_always();
                 if is_due && self.is_violated(instance, number, stands) {
                     let fault = property.fault;
                     match property.effect {
@@ -216,6 +220,12 @@ impl Scan<'_> {
 }
 
 impl Property {
+    /// What any of these reads; none if one of them is due in each scan.
+    pub fn reads_of_all(properties: &[Self]) -> Option<Cells> {
+        let all = |reads, property: &Self| (!property.is_due_always()).then_some(reads | property.reads);
+        properties.iter().try_fold(Cells::default(), all)
+    }
+
     /// Whether it is checked, or remembers anything, in scans in which nothing else changes too.
     fn is_due_always(&self) -> bool {
         self.asks_inputs

@@ -39,6 +39,8 @@ pub struct Scan<'a> {
     pub(crate) needed: &'a mut Vec<Needed>,
     /// Answers that are postponed, and what they change.
     pub(crate) postponed: (&'a Postponed, &'a Postponing),
+    /// Memory for the values of a machine.
+    pub(crate) own: &'a mut Vec<u8>,
     /// Machines of which somebody needs the answer that is postponed.
     pub(crate) observed: u64,
     /// The instance that makes its step, as a bit.
@@ -92,6 +94,9 @@ impl Scan<'_> {
             return Ok(());
         }
         for (instance, program) in model.instances.iter().enumerate() {
+            if self.restless & bit(instance) != 0 {
+                continue;
+            }
             let state = program.state.load(self.bytes) as usize;
             if self.written.meets(program.states[state].reads) {
                 self.restless |= bit(instance);
@@ -141,7 +146,8 @@ impl Scan<'_> {
         if !self.written.meets(program.reads) {
             return;
         }
-        let now = postponing.own(instance, self.bytes);
+        let mut now = std::mem::take(self.own);
+        postponing.read_own(instance, self.bytes, &mut now);
         let forgotten = self.forgotten;
         postponing.replace(instance, self.bytes, &end.after);
         self.forgotten = self.forgotten & !self.model.unread.owned(bit(instance))
@@ -156,6 +162,7 @@ impl Scan<'_> {
         self.stepping = 0;
         self.forgotten = forgotten;
         postponing.replace(instance, self.bytes, &now);
+        *self.own = now;
     }
 
     fn step(&mut self, instance: usize, number: usize) -> Result<(), Fault> {

@@ -11,7 +11,7 @@ pub struct Var {
 }
 
 impl Var {
-    #[inline]
+    #[inline(always)]
     pub fn load(self, state: &[u8]) -> i32 {
         let at = self.at as usize;
         match self.width {
@@ -21,7 +21,7 @@ impl Var {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     pub fn store(self, state: &mut [u8], value: i32) {
         let at = self.at as usize;
         match self.width {

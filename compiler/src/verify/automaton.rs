@@ -207,6 +207,7 @@ impl<'a> Instance<'a> {
             stopped: self.line.stopped[self.number],
             times_come,
             states,
+            property_reads: autogen_search::property::Property::reads_of_all(&properties),
             properties,
             variables: automaton.variables.len(),
         }
