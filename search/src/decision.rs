@@ -9,7 +9,7 @@ use crate::value::{Count, Var};
 /// So many nodes and outcomes, at most.
 const MOST: usize = 1 << 16;
 /// What asks more questions than this is evaluated each time.
-const MOST_ASKED: usize = 256;
+const MOST_QUESTIONS: usize = 256;
 
 /// Decision trees.
 #[derive(Default)]
@@ -217,7 +217,7 @@ impl Scan<'_> {
         let has_ended = std::mem::take(&mut self.decisions.records) == Records::Ended;
         let outcome = match found {
             _ if has_ended => Next::Open,
-            _ if self.decisions.asked.len() > MOST_ASKED => {
+            _ if self.decisions.asked.len() > MOST_QUESTIONS => {
                 self.decisions.asked.clear();
                 Next::Open
             }

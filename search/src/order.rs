@@ -2,9 +2,9 @@
 
 use crate::footprint::Footprint;
 use crate::model::Reductions;
-use crate::program::{Cells, bit};
+use crate::program::{Cells, bit, members};
 use crate::scan::{Scan, Told};
-use crate::stop::{Mark, Stopped};
+use crate::stop::Stopped;
 use crate::successor::{Expander, Successor};
 use crate::violation::Violation;
 
@@ -215,14 +215,12 @@ impl Expander<'_> {
             let mut end = self.copy(midway);
             self.noted.clear();
             self.remarked.clear();
-            let mut result = self.on(&mut end, |scan| {
+            let (mut result, mark) = self.on(&mut end, |scan| {
                 let result = scan.finish(touched);
                 scan.ask_starts();
-                result
+                (result, scan.mark(touched))
             });
             if let Err(stop @ Violation::Stop { .. }) = result {
-                let Marks { forgotten, fired, written, restless, .. } = end.marks;
-                let mark = Mark { forgotten, touched: touched | fired | restless, written };
                 let stopped = Stopped::new(self.model, &end.bytes, mark);
                 result = Err(self.behind(stopped).unwrap_or(stop));
             }
@@ -244,11 +242,7 @@ impl Expander<'_> {
         }
     }
 
-    fn on(
-        &mut self,
-        midway: &mut Midway,
-        work: impl FnOnce(&mut Scan) -> Result<(), Violation>,
-    ) -> Result<(), Violation> {
+    fn on<T>(&mut self, midway: &mut Midway, work: impl FnOnce(&mut Scan) -> T) -> T {
         let Midway { bytes, marks, told } = midway;
         let mut scan = Scan {
             model: self.model,
@@ -280,13 +274,4 @@ impl Expander<'_> {
         *marks = Marks { written, fired, given, repeated, restless, forgotten, ..*marks };
         result
     }
-}
-
-/// The instances of a mask.
-fn members(mut mask: u64) -> impl Iterator<Item = usize> {
-    std::iter::from_fn(move || {
-        let instance = (mask != 0).then(|| mask.trailing_zeros() as usize)?;
-        mask &= mask - 1;
-        Some(instance)
-    })
 }

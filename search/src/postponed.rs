@@ -8,7 +8,7 @@
 use crate::event::{self, Event, What, machines_of};
 use crate::model::{Model, Reductions};
 use crate::plant::{Machine, Watch};
-use crate::program::{Cells, bit};
+use crate::program::{Cells, bit, members};
 use crate::property::Check;
 use crate::stop::{Mark, Stopped};
 use crate::successor::{Expander, Orders};
@@ -474,13 +474,4 @@ impl Expander<'_> {
         self.choices = choices;
         observed
     }
-}
-
-/// The machines of a mask.
-pub(crate) fn members(mut mask: u64) -> impl Iterator<Item = usize> {
-    std::iter::from_fn(move || {
-        let machine = (mask != 0).then(|| mask.trailing_zeros() as usize)?;
-        mask &= mask - 1;
-        Some(machine)
-    })
 }

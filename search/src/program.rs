@@ -248,3 +248,12 @@ pub struct Instance {
 pub fn bit(instance: usize) -> u64 {
     1 << (instance % 64)
 }
+
+/// The instances of a mask, in order.
+pub(crate) fn members(mut mask: u64) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let instance = (mask != 0).then(|| mask.trailing_zeros() as usize)?;
+        mask &= mask - 1;
+        Some(instance)
+    })
+}

@@ -5,8 +5,7 @@
 //! it is. And where a scan leads from a state to one in which fewer commands are postponed, those with the others ended are
 //! stored beside it.
 
-use crate::postponed::members;
-use crate::program::bit;
+use crate::program::{bit, members};
 use crate::reached::{Coded, Reached};
 use crate::successor::Expander;
 use rustc_hash::FxHashMap;

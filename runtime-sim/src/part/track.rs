@@ -1,10 +1,10 @@
 //! A vehicle on a track.
 
-mod course;
+mod polyline;
 mod network;
 mod ride;
 
-pub use course::Course;
+pub use polyline::Polyline;
 pub use network::{Edge, Network};
 pub use ride::{Begin, Piece, Ride};
 
@@ -60,7 +60,7 @@ pub struct Track {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Guide {
     /// Goals and the start are places along it.
-    Line { course: Arc<Course>, places: Vec<f64>, begins: f64 },
+    Line { polyline: Arc<Polyline>, places: Vec<f64>, begins: f64 },
     /// Goals and the start are nodes.
     Network { network: Arc<Network>, begins: usize },
 }
@@ -96,10 +96,10 @@ impl Described for Track {
 impl Guide {
     fn line(settings: &Settings) -> Result<Self, String> {
         let is_closed = settings.has("closed") && settings.truth("closed")?;
-        let course = Course::new(&settings.points("corners")?, is_closed)?;
+        let polyline = Polyline::new(&settings.points("corners")?, is_closed)?;
         let places = settings.numbers("places")?;
         let begins = settings.optional("begins", Settings::number)?.unwrap_or(0.0);
-        let length = course.length();
+        let length = polyline.length();
         let is_on_track = |place: f64| (-SAME..=length + SAME).contains(&place);
         if let Some((number, place)) = places.iter().enumerate().find(|(_, place)| !is_on_track(**place)) {
             return Err(format!("place {number} is at {place:.3} m of a track of {length:.3} m"));
@@ -110,9 +110,9 @@ impl Guide {
         if places.len() > MOST_PLACES as usize {
             return Err(format!("{} places, {MOST_PLACES} are the most", places.len()));
         }
-        let on_track = |place: f64| course.on_track(place);
+        let on_track = |place: f64| polyline.on_track(place);
         let places = places.into_iter().map(on_track).collect();
-        Ok(Self::Line { places, begins: on_track(begins), course: Arc::new(course) })
+        Ok(Self::Line { places, begins: on_track(begins), polyline: Arc::new(polyline) })
     }
 
     fn network(settings: &Settings) -> Result<Self, String> {
@@ -133,7 +133,7 @@ impl Track {
     /// Where the vehicle is at the start.
     pub fn begin(&self) -> Frame {
         match &self.guide {
-            Guide::Line { course, begins, .. } => course.frame(*begins),
+            Guide::Line { polyline, begins, .. } => polyline.frame(*begins),
             Guide::Network { network, begins } => {
                 let ahead = network.ahead(*begins);
                 let yaw = libm::atan2(ahead.y, ahead.x).to_degrees();
@@ -145,7 +145,7 @@ impl Track {
     /// Between these it drives straight.
     pub fn corners(&self) -> Vec<Point> {
         match &self.guide {
-            Guide::Line { course, .. } => course.corners(),
+            Guide::Line { polyline, .. } => polyline.corners(),
             Guide::Network { network, .. } => network.nodes.clone(),
         }
     }
@@ -153,7 +153,7 @@ impl Track {
     /// Both ends of all that it may drive on.
     pub fn sides(&self) -> Vec<[Point; 2]> {
         match &self.guide {
-            Guide::Line { course, .. } => course.sides().collect(),
+            Guide::Line { polyline, .. } => polyline.sides().collect(),
             Guide::Network { network, .. } => {
                 network.edges.iter().map(|edge| [edge.from, edge.to].map(|node| network.nodes[node])).collect()
             }
@@ -163,8 +163,8 @@ impl Track {
     /// Its goals.
     pub fn goals(&self) -> Vec<Point> {
         match &self.guide {
-            Guide::Line { course, places, .. } => {
-                places.iter().map(|place| course.frame(*place).position).collect()
+            Guide::Line { polyline, places, .. } => {
+                places.iter().map(|place| polyline.frame(*place).position).collect()
             }
             Guide::Network { network, .. } => network.nodes.clone(),
         }
@@ -172,10 +172,10 @@ impl Track {
 }
 
 /// The place that lies last behind this one; none on an open track before the first.
-fn behind(course: &Course, places: &[f64], place: f64) -> Option<usize> {
+fn behind(polyline: &Polyline, places: &[f64], place: f64) -> Option<usize> {
     let gone = |other: f64| {
         let gone = place - other + SAME;
-        if course.is_closed() { course.on_track(gone) } else { gone }
+        if polyline.is_closed() { polyline.on_track(gone) } else { gone }
     };
     let behind = places.iter().map(|other| gone(*other)).enumerate().filter(|(_, gone)| *gone >= 0.0);
     behind.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(number, _)| number)
@@ -193,7 +193,7 @@ struct Way {
 /// What it drives along.
 #[derive(Clone, Debug)]
 struct Leads {
-    course: Arc<Course>,
+    polyline: Arc<Polyline>,
     /// The goals along it, and their numbers.
     goals: Vec<(f64, usize)>,
 }
@@ -225,16 +225,16 @@ enum Asked {
 impl Driving {
     fn new(track: &Track) -> Result<Self, String> {
         let (leads, place, passed) = match &track.guide {
-            Guide::Line { course, places, begins } => {
+            Guide::Line { polyline, places, begins } => {
                 let goals = places.iter().copied().zip(0..).collect();
-                (Leads { course: course.clone(), goals }, *begins, behind(course, places, *begins))
+                (Leads { polyline: polyline.clone(), goals }, *begins, behind(polyline, places, *begins))
             }
             Guide::Network { network, begins } => {
                 let node = network.nodes[*begins];
                 let lead = node - network.ahead(*begins).scaled(LEAD);
-                let course = Arc::new(Course::new(&[lead, node], false)?);
-                let place = course.length();
-                (Leads { course, goals: vec![(place, *begins)] }, place, Some(*begins))
+                let polyline = Arc::new(Polyline::new(&[lead, node], false)?);
+                let place = polyline.length();
+                (Leads { polyline, goals: vec![(place, *begins)] }, place, Some(*begins))
             }
         };
         Ok(Self {
@@ -250,8 +250,8 @@ impl Driving {
         })
     }
 
-    fn course(&self) -> &Course {
-        &self.leads.course
+    fn polyline(&self) -> &Polyline {
+        &self.leads.polyline
     }
 
     /// Where it is along the track at a time from now on, if no command changes anything.
@@ -260,7 +260,7 @@ impl Driving {
     }
 
     pub fn frame(&self, ms: f64) -> Frame {
-        self.course().frame(self.place(ms))
+        self.polyline().frame(self.place(ms))
     }
 
     pub fn frame_now(&self) -> Frame {
@@ -280,7 +280,7 @@ impl Driving {
     /// How far a point is from the track within so many metres ahead of it at a time, m.
     pub fn distance(&self, point: Point, range: f64, ms: f64) -> f64 {
         let place = self.place(ms);
-        self.course().distance(point, place, place + range)
+        self.polyline().distance(point, place, place + range)
     }
 
     fn now(&self) -> Begin {
@@ -306,9 +306,9 @@ impl Driving {
     fn way_along(&self, place: f64) -> Option<Way> {
         let now = self.now();
         let mut length = place - now.place;
-        if self.course().is_closed() {
-            length = self.course().on_track(length);
-            if self.course().length() - length < SAME {
+        if self.polyline().is_closed() {
+            length = self.polyline().on_track(length);
+            if self.polyline().length() - length < SAME {
                 length = 0.0;
             }
         }
@@ -332,7 +332,7 @@ impl Driving {
                 let way = Way { leads: self.leads.clone(), from: now.place, length: 0.0 };
                 return (now.speed == 0.0).then_some(way);
             }
-            let ahead = self.course().ahead(behind.next_down());
+            let ahead = self.polyline().ahead(behind.next_down());
             (Some(network.nodes[last] - ahead.scaled(LEAD)), network.way(last, goal, speed)?)
         } else {
             let next = self.leads.goals.get(at)?.1;
@@ -340,7 +340,7 @@ impl Driving {
             edges.extend(network.way(next, goal, speed)?);
             (None, edges)
         };
-        let course = network.course(lead, &edges, now.speed).ok()?;
+        let polyline = network.polyline(lead, &edges, now.speed).ok()?;
         let mut place = lead.map_or(0.0, |_| LEAD);
         let mut goals = vec![(place, last)];
         for edge in &edges {
@@ -349,10 +349,10 @@ impl Driving {
         }
         // It turns as it sets out.
         let from = if is_at_node { LEAD.next_down() } else { now.place - behind };
-        let length = course.length() - from;
+        let length = polyline.length() - from;
         let begin = Begin { place: from, ..now };
-        let is_possible = now.speed == 0.0 || Ride::is_possible(&course, &begin, course.length(), SAME);
-        let leads = Leads { course: Arc::new(course), goals };
+        let is_possible = now.speed == 0.0 || Ride::is_possible(&polyline, &begin, polyline.length(), SAME);
+        let leads = Leads { polyline: Arc::new(polyline), goals };
         is_possible.then_some(Way { leads, from, length })
     }
 
@@ -367,12 +367,12 @@ impl Driving {
             self.ride = None;
             return;
         }
-        let ride = Ride::new(self.leads.course.clone(), now, now.place + length);
-        let round = self.course().length();
+        let ride = Ride::new(self.leads.polyline.clone(), now, now.place + length);
+        let round = self.polyline().length();
         for (place, number) in &self.leads.goals {
             let mut gone = (place - now.place) * ride.sign();
-            if self.leads.course.is_closed() {
-                gone = self.leads.course.on_track(gone);
+            if self.leads.polyline.is_closed() {
+                gone = self.leads.polyline.on_track(gone);
                 // A place that is rounded to be behind it.
                 if round - gone < SAME {
                     gone = 0.0;
@@ -452,7 +452,7 @@ impl Running for Driving {
             self.passed = Some(number);
         }
         if let Some(ride) = self.ride.as_ref().filter(|ride| ride.end_ms() <= now_ms) {
-            self.place = self.course().on_track(ride.to());
+            self.place = self.polyline().on_track(ride.to());
             self.ride = None;
         }
         if self.ride.is_none() && !self.held && self.asked.take().is_some() {

@@ -1,7 +1,7 @@
 //! States that are reached, where others may count for them.
 
 use super::Search;
-use crate::postponed::members;
+use crate::program::members;
 use crate::reached::Coded;
 use crate::representative::{Owed, Representatives};
 use crate::successor::Part;

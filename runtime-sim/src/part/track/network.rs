@@ -1,6 +1,6 @@
 //! Nodes and the edges between them, on which vehicles find their way.
 
-use super::course::{Course, Limits};
+use super::polyline::{Polyline, Limits};
 use crate::point::Point;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -147,7 +147,7 @@ impl Network {
 
     /// The line over these edges, behind a lead to the first node if there is one. Where it turns back a vehicle stops that
     /// is so fast, m/s.
-    pub fn course(&self, lead: Option<Point>, edges: &[usize], fast: f64) -> Result<Course, String> {
+    pub fn polyline(&self, lead: Option<Point>, edges: &[usize], fast: f64) -> Result<Polyline, String> {
         let first = edges.first().map(|edge| self.nodes[self.edges[*edge].from]);
         let ends = edges.iter().map(|edge| self.nodes[self.edges[*edge].to]);
         let corners: Vec<Point> = lead.into_iter().chain(first).chain(ends).collect();
@@ -160,7 +160,7 @@ impl Network {
             let stands = number == 1 && lead.is_some() && fast == 0.0;
             limits.push(Limits { speed, entry: if turns_back && !stands { 0.0 } else { f64::INFINITY } });
         }
-        Ok(Course::new(&corners, false)?.limited(limits))
+        Ok(Polyline::new(&corners, false)?.limited(limits))
     }
 }
 

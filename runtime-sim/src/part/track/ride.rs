@@ -1,6 +1,6 @@
 //! How a vehicle goes along its track, in closed form.
 
-use super::course::{Course, Stretch};
+use super::polyline::{Polyline, Stretch};
 use crate::frame::Frame;
 use crate::point::Point;
 use std::sync::Arc;
@@ -8,7 +8,7 @@ use std::sync::Arc;
 /// From where it is to where it comes to rest: it gains speed, keeps it, and brakes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ride {
-    course: Arc<Course>,
+    polyline: Arc<Polyline>,
     from: f64,
     to: f64,
     /// From the start of the run.
@@ -111,8 +111,8 @@ fn over(stretch: &Stretch, begin: Begin, speed: f64, end: f64) -> [Phase; 3] {
 
 impl Ride {
     /// To rest at a place no nearer than where braking brings it.
-    pub fn new(course: Arc<Course>, begin: Begin, to: f64) -> Self {
-        let stretches = course.stretches(begin.place, to);
+    pub fn new(polyline: Arc<Polyline>, begin: Begin, to: f64) -> Self {
+        let stretches = polyline.stretches(begin.place, to);
         let ends = ends(&stretches, &begin);
         let mut speed = begin.speed;
         let mut phases = Vec::with_capacity(3 * stretches.len());
@@ -122,12 +122,12 @@ impl Ride {
             phases.extend(over(stretch, begin, speed, end));
             speed = end;
         }
-        Self { course, from: begin.place, to, begin_ms: begin.ms, phases }
+        Self { polyline, from: begin.place, to, begin_ms: begin.ms, phases }
     }
 
     /// Whether it can keep to all limits, and come to rest there: `spare` metres more would do too.
-    pub fn is_possible(course: &Course, begin: &Begin, to: f64, spare: f64) -> bool {
-        let stretches = course.stretches(begin.place, to);
+    pub fn is_possible(polyline: &Polyline, begin: &Begin, to: f64, spare: f64) -> bool {
+        let stretches = polyline.stretches(begin.place, to);
         let Some((first, end)) = stretches.first().zip(ends(&stretches, begin).first().copied()) else {
             return false;
         };
@@ -179,7 +179,7 @@ impl Ride {
     }
 
     pub fn frame(&self, ms: f64) -> Frame {
-        self.course.frame(self.place(ms))
+        self.polyline.frame(self.place(ms))
     }
 
     /// When it has gone so far.
@@ -201,7 +201,7 @@ impl Ride {
     /// at once.
     pub fn path(&self, reach: f64, from_ms: f64, to_ms: f64) -> f64 {
         let [low, high] = self.span(from_ms, to_ms);
-        let turns = self.course.corners_between(low, high);
+        let turns = self.polyline.corners_between(low, high);
         let turned: f64 = turns.map(|(_, turn)| libm::sin(turn.to_radians() / 2.0).abs()).sum();
         high - low + 2.0 * reach * turned
     }
@@ -209,9 +209,9 @@ impl Ride {
     /// The corners that it passes between two times, with both ends.
     pub fn corners(&self, from_ms: f64, to_ms: f64) -> Vec<Point> {
         let [low, high] = self.span(from_ms, to_ms);
-        let corners = self.course.corners_between(low, high).map(|(place, _)| place);
+        let corners = self.polyline.corners_between(low, high).map(|(place, _)| place);
         let places = [low].into_iter().chain(corners).chain([high]);
-        places.map(|place| self.course.frame(place).position).collect()
+        places.map(|place| self.polyline.frame(place).position).collect()
     }
 
     fn span(&self, from_ms: f64, to_ms: f64) -> [f64; 2] {
@@ -222,7 +222,7 @@ impl Ride {
     /// All of it, cut where its acceleration or its direction changes.
     pub fn pieces(&self) -> Vec<Piece> {
         let [low, high] = self.span(self.begin_ms, self.end_ms());
-        let corners = self.course.corners_between(low, high);
+        let corners = self.polyline.corners_between(low, high);
         let mut times: Vec<f64> = corners.map(|(place, _)| self.time_of((place - self.from).abs())).collect();
         let mut ms = self.begin_ms;
         for phase in &self.phases {
@@ -237,7 +237,7 @@ impl Ride {
 
     fn piece(&self, begin_ms: f64, end_ms: f64) -> Piece {
         let middle_ms = (begin_ms + end_ms) / 2.0;
-        let along = self.course.ahead(self.place(middle_ms)).scaled(self.sign());
+        let along = self.polyline.ahead(self.place(middle_ms)).scaled(self.sign());
         let acceleration = self.phase(middle_ms).map_or(0.0, |(number, _)| self.phases[number].acceleration);
         let position = self.frame(begin_ms).position;
         Piece {
@@ -256,9 +256,9 @@ mod tests {
 
     fn ride(length: f64, speed: f64) -> Ride {
         let corners = [Point::new(0.0, 0.0, 0.0), Point::new(100.0, 0.0, 0.0)];
-        let course = Arc::new(Course::new(&corners, false).expect("a track"));
+        let polyline = Arc::new(Polyline::new(&corners, false).expect("a track"));
         let begin = Begin { ms: 1000.0, place: 10.0, speed, top_speed: 1.5, acceleration: 0.5 };
-        Ride::new(course, begin, 10.0 + length)
+        Ride::new(polyline, begin, 10.0 + length)
     }
 
     #[test]
@@ -302,9 +302,9 @@ mod tests {
     #[test]
     fn pieces_join() {
         let corners = [[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [0.0, 10.0]].map(|[x, y]| Point::new(x, y, 0.0));
-        let course = Arc::new(Course::new(&corners, true).expect("a track"));
+        let polyline = Arc::new(Polyline::new(&corners, true).expect("a track"));
         let begin = Begin { ms: 0.0, place: 35.0, speed: 0.0, top_speed: 1.5, acceleration: 0.5 };
-        let ride = Ride::new(course, begin, 55.0);
+        let ride = Ride::new(polyline, begin, 55.0);
         let pieces = ride.pieces();
         assert_eq!(pieces.len(), 5);
         for piece in &pieces {

@@ -6,7 +6,7 @@ use crate::point::Point;
 /// Straight from corner to corner. Places on it are metres along it, from the first corner on; on a closed one they continue
 /// beyond its length.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Course {
+pub struct Polyline {
     /// Each with its first corner as origin, x leading along it.
     sides: Vec<Side>,
     is_closed: bool,
@@ -46,7 +46,7 @@ pub struct Stretch {
 /// Corners nearer to one another are none, m.
 const SHORTEST: f64 = 1e-3;
 
-impl Course {
+impl Polyline {
     /// An error says which corner is wrong.
     pub fn new(corners: &[Point], is_closed: bool) -> Result<Self, String> {
         let mut sides: Vec<Side> = Vec::new();
@@ -196,16 +196,16 @@ impl Course {
 mod tests {
     use super::*;
 
-    fn square() -> Course {
+    fn square() -> Polyline {
         let corners = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]];
-        Course::new(&corners.map(|[x, y]| Point::new(x, y, 0.0)), true).expect("a track")
+        Polyline::new(&corners.map(|[x, y]| Point::new(x, y, 0.0)), true).expect("a track")
     }
 
     #[test]
     fn a_place_is_the_same_after_a_round() {
-        let course = square();
+        let polyline = square();
         for place in [0.0, 3.0, 4.0, 9.5, 15.999] {
-            let (here, again) = (course.frame(place), course.frame(place + 32.0));
+            let (here, again) = (polyline.frame(place), polyline.frame(place + 32.0));
             assert!((here.position - again.position).length() < 1e-12);
             assert_eq!(here.yaw, again.yaw, "{place}");
         }
@@ -213,21 +213,21 @@ mod tests {
 
     #[test]
     fn at_a_corner_the_line_turns() {
-        let course = square();
-        assert_eq!(course.frame(4.0).yaw, 90.0);
-        let corners: Vec<f64> = course.corners_between(3.0, 17.0).map(|(place, _)| place).collect();
+        let polyline = square();
+        assert_eq!(polyline.frame(4.0).yaw, 90.0);
+        let corners: Vec<f64> = polyline.corners_between(3.0, 17.0).map(|(place, _)| place).collect();
         assert_eq!(corners, [4.0, 8.0, 12.0, 16.0]);
-        assert_eq!(course.corners_between(4.0, 7.9).count(), 0);
+        assert_eq!(polyline.corners_between(4.0, 7.9).count(), 0);
     }
 
     #[test]
     fn the_distance_is_that_of_the_nearest_place_round_corners() {
-        let course = square();
+        let polyline = square();
         let point = Point::new(4.5, 2.0, 0.0);
-        assert!((course.distance(point, 3.0, 7.0) - 0.5).abs() < 1e-12);
+        assert!((polyline.distance(point, 3.0, 7.0) - 0.5).abs() < 1e-12);
         // The stretch ends a metre before.
-        assert!((course.distance(point, 3.0, 5.0) - 1.25_f64.sqrt()).abs() < 1e-12);
+        assert!((polyline.distance(point, 3.0, 5.0) - 1.25_f64.sqrt()).abs() < 1e-12);
         // All round.
-        assert!((course.distance(Point::new(-1.0, 2.0, 0.0), 3.0, 15.0) - 1.0).abs() < 1e-12);
+        assert!((polyline.distance(Point::new(-1.0, 2.0, 0.0), 3.0, 15.0) - 1.0).abs() < 1e-12);
     }
 }
