@@ -145,27 +145,33 @@ impl PathPiece<'_> {
         self.boxes.is_none_or(|[a, b]| !a.bodies[i].is_apart(&b.bodies[j]))
     }
 
-    /// Bodies of both groups whose boxes meet; all, where boxes are not known.
-    fn meeting(&self, counts: [usize; 2]) -> Vec<[usize; 2]> {
-        let near = |side: usize| -> Vec<usize> {
-            let Some(boxes) = self.boxes else { return (0..counts[side]).collect() };
-            let (own, other) = (&boxes[side].bodies, &boxes[1 - side].all);
-            (0..own.len()).filter(|body| !own[*body].is_apart(other)).collect()
-        };
-        let [first, second] = [0, 1].map(near);
-        let pairs = first.iter().flat_map(|i| second.iter().map(move |j| [*i, *j]));
-        pairs.filter(|bodies| self.may_meet(*bodies)).collect()
+    /// Bodies of one of the groups whose boxes meet that of the other group; all, where boxes are not known.
+    fn near(&self, side: usize, count: usize) -> impl Iterator<Item = usize> {
+        let own = self.boxes.map_or(count, |boxes| boxes[side].bodies.len());
+        (0..own).filter(move |body| {
+            self.boxes.is_none_or(|boxes| !boxes[side].bodies[*body].is_apart(&boxes[1 - side].all))
+        })
     }
 }
 
 /// Bodies of two groups, in order, that can come into contact and whose boxes meet on one of these pieces.
 fn meeting(near: &[PathPiece], [a, b]: [usize; 2], groups: &[Group], plant: &Plant) -> Vec<[usize; 2]> {
-    let counts = [a, b].map(|group| groups[group].bodies.len());
-    let mut all: Vec<[usize; 2]> = near.iter().flat_map(|piece| piece.meeting(counts)).collect();
-    all.sort_unstable();
-    all.dedup();
-    all.retain(|[i, j]| (a != b || i < j) && can_meet(groups, [(a, *i), (b, *j)], plant));
-    all
+    let [of_a, of_b] = [a, b].map(|group| groups[group].bodies.len());
+    let mut meet = vec![false; of_a * of_b];
+    let mut second: Vec<usize> = Vec::new();
+    for piece in near {
+        second.clear();
+        second.extend(piece.near(1, of_b));
+        for i in piece.near(0, of_a) {
+            for j in &second {
+                let meets = &mut meet[i * of_b + j];
+                *meets = *meets || piece.may_meet([i, *j]);
+            }
+        }
+    }
+    let pairs = (0..of_a).flat_map(|i| (0..of_b).map(move |j| [i, j])).zip(meet);
+    let can_meet = |[i, j]: &[usize; 2]| (a != b || i < j) && can_meet(groups, [(a, *i), (b, *j)], plant);
+    pairs.filter(|(_, meet)| *meet).map(|(bodies, _)| bodies).filter(can_meet).collect()
 }
 
 /// What tells the items of two groups apart, and the machines without items.
