@@ -13,7 +13,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 /// States that one processor takes at a time, at most; fewer where there are few, so that none waits long for the others.
-const RUN: usize = 32;
+const RUN: usize = 256;
 /// The same at least.
 const SHORT: usize = 4;
 
