@@ -130,7 +130,7 @@ fn check_answers_scripts() {
 }
 
 #[test]
-fn an_infeasible_layout_is_status_1_with_place_and_mend() {
+fn an_infeasible_layout_is_status_1_with_place_and_help() {
     let folder = folder("infeasible");
     let layout = fs::read_to_string(example("ariac2021/default.json")).expect("the example");
     fs::write(
@@ -150,6 +150,16 @@ fn an_infeasible_layout_is_status_1_with_place_and_mend() {
         assert!(diagnostic["help"].as_str().is_some_and(|h| h.contains("pose[0]")), "{diagnostic}");
     }
     assert!(!folder.join("out").exists(), "nothing is written of a layout that has errors");
+}
+
+#[test]
+fn a_value_with_its_unit_is_answered_with_the_unit_that_is_meant() {
+    let folder = folder("unit");
+    let layout = example("tending/tending.json");
+    let output = autogen(&folder, &["check", &layout, "--set", "mill.cut=4s"]);
+    assert_eq!(status(&output), 1);
+    let errors = errors(&output);
+    assert!(errors.contains("--set:1:10") && errors.contains("times in s"), "{errors}");
 }
 
 #[test]

@@ -121,11 +121,19 @@ impl Reader<'_> {
             );
             return None;
         }
-        self.report(
-            Diagnostic::new("E0103", place, format!("`{word}` is not a number of JSON"))
-                .note("a number has digits before and after its point, no leading zero and no leading plus")
-                .help("write it like 0.5, -3 or 1e-3"),
-        );
+        let number = word.trim_end_matches(char::is_alphabetic);
+        let (note, help) = match number.len() < word.len() && is_json_number(number) {
+            true => (
+                "numbers are written without a unit: lengths are in m, times in s",
+                "convert it to this unit, and write the number alone, like 0.5",
+            ),
+            false => (
+                "a number has digits before and after its point, no leading zero and no leading plus",
+                "write it like 0.5, -3 or 1e-3",
+            ),
+        };
+        let message = format!("`{word}` is not a number of JSON");
+        self.report(Diagnostic::new("E0103", place, message).note(note).help(help));
         value.filter(|v| v.is_finite()).map(Value::Number)
     }
 
