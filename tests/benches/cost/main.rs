@@ -5,6 +5,7 @@
 
 mod build;
 mod lines;
+mod properties;
 
 use autogen_tests::ariac;
 use autogen_tests::workspace::Workspace;
@@ -13,6 +14,8 @@ use std::process::Command;
 fn main() {
     println!("The default line, on the generated controllers\n");
     run();
+    println!("\nProperties, in the generated controllers\n");
+    properties::measure();
     println!("\nBuild, from texts to files in memory\n");
     build::measure();
 }
