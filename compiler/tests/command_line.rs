@@ -157,7 +157,7 @@ fn a_value_with_its_unit_is_answered_with_the_unit_that_is_meant() {
     let folder = folder("unit");
     let layout = example("tending/tending.json");
     let output = autogen(&folder, &["check", &layout, "--set", "mill.cut=4s"]);
-    assert_eq!(status(&output), 1);
+    assert_eq!(status(&output), 2);
     let errors = errors(&output);
     assert!(errors.contains("--set:1:10") && errors.contains("times in s"), "{errors}");
 }
