@@ -9,7 +9,7 @@ use autogen::source::Sources;
 use autogen_tests::replay::run as start;
 use autogen_tests::workspace::Workspace;
 use autogen_tests::{LAYOUTS, Texts, ariac, is_full_campaign, on_all_processors, own_line};
-use runtime_sim::device::error::NO_PART;
+use runtime_sim::device::error::{NO_PART, REFUSED};
 use runtime_sim::line::{Answer, During, IoDelay, Line, Pause, Refusal, Slip, Stuck};
 use runtime_sim::machine::Machine;
 use runtime_sim::random::Random;
@@ -76,7 +76,7 @@ fn disturbed() -> Vec<Job> {
         jobs.extend([5, 100].map(|scans| shown_late(device, scans)));
     }
     // A motion that goes on seems to have failed, and a belt that moves seems to stand.
-    jobs.push(reads_in("Retreating", "rail_arm", ERROR, 3.0, 1000));
+    jobs.push(reads_in("Retreating", "rail_arm", ERROR, f64::from(REFUSED), 1000));
     jobs.push(reads_in("Passing", "belt", MOVING, 0.0, 400));
     for line in ["default", "buffer", "shared_agv"] {
         let texts = || match line {
@@ -115,27 +115,32 @@ const ERROR: usize = 3;
 /// The states in which an arm goes on with a part.
 const HOLDING: [&str; 2] = ["Lifting", "Carrying"];
 
+/// The first scan in which a machine is in one of these states, if there is one.
+fn entry(job: &Job, machine: usize, among: &[&str]) -> Option<u64> {
+    let system = &job.project.system;
+    let (begin, states) = (system.traces()[machine], &system.automaton_of(machine).states);
+    let mut entry = None;
+    let observer = &mut |seen: &Seen| {
+        if among.contains(&&*states[seen.trace[begin] as usize].name) {
+            entry.get_or_insert(seen.scan);
+        }
+    };
+    simulate(&job.project.plant, &mut Executor::new(system), Stepping::Events, observer)
+        .expect("a line that can be run");
+    entry
+}
+
 /// The first part that an arm grips is shown so many scans later.
 fn shown_late(device: &str, scans: u64) -> Job {
     let name = format!("first grip of each {device} shown {scans} scans late");
     let mut job = job(name, orders(ariac("default"), 2), |_| ());
-    let line = job.project.plant.clone();
-    for machine in all(&line, device) {
-        let system = &job.project.system;
-        let (begin, states) = (system.traces()[machine], &system.automaton_of(machine).states);
-        let mut shown = None;
-        let observer = &mut |seen: &Seen| {
-            if HOLDING.contains(&&*states[seen.trace[begin] as usize].name) {
-                shown.get_or_insert(seen.scan);
-            }
-        };
-        simulate(&line, &mut Executor::new(system), Stepping::Events, observer)
-            .expect("a line that can be run");
-        let at_scan = shown.expect("a part is gripped") - 10;
+    let stuck = |machine: usize| {
+        let at_scan = entry(&job, machine, &HOLDING).expect("a part is gripped") - 10;
         let during = During { at_scan, scans: Some(10 + scans) };
-        let stuck = Stuck { machine, word: ATTACHED, words: 1, value: 0.0, during };
-        job.project.plant.scenario.sensors.push(stuck);
-    }
+        Stuck { machine, word: ATTACHED, words: 1, value: 0.0, during }
+    };
+    let all: Vec<Stuck> = all(&job.project.plant, device).into_iter().map(stuck).collect();
+    job.project.plant.scenario.sensors.extend(all);
     job
 }
 
@@ -149,18 +154,8 @@ fn lossy(seed: u64) -> Job {
 /// so many scans.
 fn reads_in(state: &str, device: &str, word: usize, value: f64, scans: u64) -> Job {
     let found = (1..60).map(lossy).find_map(|job| {
-        let (line, system) = (&job.project.plant, &job.project.system);
-        let machine = all(line, device)[0];
-        let (begin, states) = (system.traces()[machine], &system.automaton_of(machine).states);
-        let mut entered = None;
-        let observer = &mut |seen: &Seen| {
-            if states[seen.trace[begin] as usize].name == state {
-                entered.get_or_insert(seen.scan);
-            }
-        };
-        simulate(line, &mut Executor::new(system), Stepping::Events, observer)
-            .expect("a line that can be run");
-        entered.map(|at_scan| (job, machine, at_scan))
+        let machine = all(&job.project.plant, device)[0];
+        entry(&job, machine, &[state]).map(|at_scan| (job, machine, at_scan))
     });
     let (mut job, machine, at_scan) = found.expect("a run with this state");
     let during = During { at_scan, scans: Some(scans) };

@@ -9,7 +9,7 @@ const MACHINES: usize = 100;
 /// Properties of each of them.
 const PROPERTIES: usize = 10;
 
-/// A machine with ten of these properties, whose values change in each scan.
+/// Machines with so many of these properties each. The machine changes its state in each scan.
 fn line(property: &str) -> Texts {
     let robots: Vec<String> = (0..MACHINES)
         .map(|number| format!(r#"{{"name": "w{number}", "type": "watch", "pose": [{number}, 0, 0]}}"#))
