@@ -23,11 +23,10 @@ use crate::point::Point;
 pub use gap::Load;
 use line::Line;
 use options::Options;
-use plane::{Plane, Rectangle};
+use plane::{Plane, Rectangle, Start};
 
 use scene::Scene;
 use seen::Seen;
-use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::sync::Arc;
 use timing::{Lift, Timing};
@@ -223,27 +222,12 @@ impl Planner {
     fn quickest(&self, task: &Task, candidates: &[Candidate], effort: &Effort) -> Option<Path> {
         let Task { from, load, transfer, limits, rises } = task;
         let first = self.arm.stance(from)?;
-        let mut stands: Vec<Option<bool>> = vec![None; candidates.len()];
-        let mut falls: BTreeMap<(usize, usize), Option<Vertical>> = BTreeMap::new();
         let mut options = Options::new(self, task, &first, candidates, effort);
         let mut tries = 0;
         let (mut suspect_time, mut suspect) = (0.5, 0.5);
-        while let Some((choice, timing, line)) = options.next() {
+        while let Some((choice, timing, line, fall)) = options.next() {
             let candidate = &candidates[choice.candidate];
-            let is_free = stands[choice.candidate].get_or_insert_with(|| self.is_free_at_place(candidate));
-            if !*is_free {
-                continue;
-            }
             let (rise, end) = (&rises[choice.rise], candidate.end(transfer));
-            // What is fetched is lifted from there, as high as it may have to go.
-            let (lifted, top) = match transfer.end {
-                End::AtGoal => (Load::Largest, rise.top.max(self.scene.highest_place + transfer.clearance())),
-                End::Above => (*load, rise.top),
-            };
-            let fall = falls
-                .entry((choice.candidate, choice.rise))
-                .or_insert_with(|| self.vertical(&end, top, lifted));
-            let Some(fall) = fall else { continue };
             tries += 1;
             if tries > effort.tries {
                 return None;
@@ -262,6 +246,18 @@ impl Planner {
         None
     }
 
+    /// How the tool is lowered from the top of a rise; none if something is in the way.
+    fn fall(&self, task: &Task, candidate: &Candidate, rise: &Vertical) -> Option<Vertical> {
+        // What is fetched is lifted from there, as high as it may have to go.
+        let (lifted, top) = match task.transfer.end {
+            End::AtGoal => {
+                (Load::Largest, rise.top.max(self.scene.highest_place + task.transfer.clearance()))
+            }
+            End::Above => (task.load, rise.top),
+        };
+        self.vertical(&candidate.end(task.transfer), top, lifted)
+    }
+
     fn compute_lift(&self, from: &Joints, top: f64, limits: &Limits) -> Option<Lift> {
         let tool = self.arm.tool(from);
         let (mut z, mut last) = (tool.z, *from);
@@ -275,13 +271,19 @@ impl Planner {
         Some(Lift::new(motion.rests_at(), |t| self.arm.tool(&motion.at(t)).z))
     }
 
-    fn compute_line(&self, from: &Joints, to: &Joints, [back, forth]: [f64; 2]) -> Option<Line> {
-        let (start, end) = (self.drawn_back(from, back)?, self.drawn_back(to, forth)?);
+    fn compute_line(
+        &self,
+        from: &Joints,
+        start: &mut Start,
+        to: &Joints,
+        [back, forth]: [f64; 2],
+    ) -> Option<Line> {
+        let end = self.drawn_back(to, forth)?;
         let mut places = vec![axis(from)];
         if back > 0.0 {
-            places.push(start);
+            places.push(start.point());
         }
-        places.extend(self.plane.shortest([start, end])?);
+        places.extend(self.plane.shortest(start, end)?);
         if forth > 0.0 {
             places.push(end);
         }

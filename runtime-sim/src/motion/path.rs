@@ -90,6 +90,17 @@ impl Travel {
             None => self.gone.last().copied().unwrap_or(0.0),
         }
     }
+
+    /// The place at which it has gone so much farther than at `place`, which is in the section with this number; 1 if it
+    /// never does.
+    pub fn after(&self, number: usize, place: f64, distance: f64) -> f64 {
+        let sum = self.within(number, place) + distance;
+        let ahead = number.min(self.gone.len());
+        let reached = ahead + self.gone[ahead..].partition_point(|gone| *gone < sum);
+        let Some(section) = self.sections.get(reached) else { return 1.0 };
+        let at = section.end - (self.gone[reached] - sum) / section.rate.max(f64::MIN_POSITIVE);
+        at.clamp(place, section.end)
+    }
 }
 
 /// Where a place is on a path.

@@ -3,19 +3,18 @@
 use super::gap::{Load, Nearby, Pair};
 use super::{LIFTED, MARGIN_AT_PLACE, Plan, Planner, axis, turned};
 use crate::kinematics::arm::Joints;
-use crate::motion::{Path, Section, Travel};
+use crate::motion::{Path, Travel};
 use crate::point::Point;
 
 /// A path rounds the corners of its plan: it keeps off obstacles where the plan does not keep off quite as far.
 const ROUNDED: f64 = 0.5;
 /// A path is checked between so many equal parts, before it is from end to end.
 const FIRST_LOOKS: u32 = 32;
-/// A path is checked again at the latest when some point may have gone this part of what is kept.
+/// Two are measured again at the latest when they have gone this part of what is kept.
 const SHORTEST_STEP: f64 = 0.6;
-/// No point of the robot and its load goes farther for a metre of a rail or a radian of a joint, m: from the axis to
-/// the end of the stretched arm, from the shoulder, from the elbow, from the wrists.
-const RADII: [f64; 9] = [1.0, 1.0, 2.2, 1.6, 1.6, 1.0, 0.5, 0.4, 0.3];
-/// What is farther than this does not count, m.
+/// Two are measured with others that have to be measured, if this part of what they may go is left or less.
+const SOON: f64 = 0.5;
+/// Distances are measured up to this, m.
 const ENOUGH: f64 = 0.15;
 /// Joints that differ by less are the same, m or rad.
 const SAME: f64 = 1e-9;
@@ -38,19 +37,19 @@ struct Asked {
 }
 
 /// Two on a path.
-struct Looked<'a> {
+struct Checked<'a> {
     pair: &'a Pair,
     /// As seen from one another.
     travel: Travel,
-    /// A distance that was no shorter when they had gone so far, m.
-    distance: f64,
-    gone: f64,
+    /// The place where they were measured, and up to which they keep so far apart, m.
+    free: [f64; 2],
+    margin: f64,
 }
 
-impl<'a> Looked<'a> {
-    /// Not looked at yet.
+impl<'a> Checked<'a> {
+    /// Not measured yet.
     fn new(pair: &'a Pair, path: &Path) -> Self {
-        Self { pair, travel: Travel::new(path.sections(&pair.radii)), distance: 0.0, gone: 0.0 }
+        Self { pair, travel: Travel::new(path.sections(&pair.radii)), free: [0.0; 2], margin: 0.0 }
     }
 }
 
@@ -126,45 +125,45 @@ impl Planner {
             *suspect = place;
             return false;
         }
-        let mut all: Vec<Looked> = self.scene.links.pairs(load).map(|pair| Looked::new(pair, path)).collect();
-        let sections = path.sections(&RADII);
+        let mut all: Vec<Checked> =
+            self.scene.links.pairs(load).map(|pair| Checked::new(pair, path)).collect();
         let mut place = 0.0;
         while place < 1.0 {
-            let Some(room) = self.room(&mut all, place, &around, path) else {
+            let Some(next) = self.check_due(&mut all, place, &around, path) else {
                 *suspect = place;
                 return false;
             };
-            place = after(&sections, place, room);
+            place = next;
         }
         true
     }
 
-    /// How far the fastest point may go from a place of a path, m; none if something is too near there. What was
-    /// measured before tells how near it can have come since, and most of it need not be measured again.
-    fn room(&self, all: &mut [Looked], place: f64, around: &Around, path: &Path) -> Option<f64> {
+    /// Measures all pairs that are due at a place of a path. The place at which the next one is due; none if one is too near.
+    fn check_due(&self, all: &mut [Checked], place: f64, around: &Around, path: &Path) -> Option<f64> {
         let joints = path.at(place);
         let Asked { load, margin } = around.asked(self, &joints);
         let links = self.scene.links.at(&joints);
-        let section = all.first().map_or(0, |looked| looked.travel.section(place));
-        let (mut least, mut nearest) = (ENOUGH, 0);
-        for (number, looked) in all.iter_mut().enumerate() {
-            let gone = looked.travel.within(section, place);
-            let is_there = load == Load::Largest || !self.scene.links.is_of_load(looked.pair);
-            if !is_there || looked.distance - (gone - looked.gone) >= least {
-                continue;
+        let section = all.first().map_or(0, |checked| checked.travel.section(place));
+        let mut next = 1.0_f64;
+        for checked in all.iter_mut() {
+            let [from, to] = checked.free;
+            if margin > checked.margin || to - place <= SOON * (to - from) {
+                let is_there = load == Load::Largest || !self.scene.links.is_of_load(checked.pair);
+                let (kept, least) = if is_there {
+                    let distance = links.distance(checked.pair, &around.near, ENOUGH);
+                    if distance < margin {
+                        return None;
+                    }
+                    (margin, (distance - margin).max(margin * SHORTEST_STEP))
+                } else {
+                    (0.0, LIFTED)
+                };
+                checked.free = [place, checked.travel.after(section, place, least)];
+                checked.margin = kept;
             }
-            let distance = links.distance(looked.pair, &around.near, ENOUGH);
-            (looked.distance, looked.gone) = (distance, gone);
-            if distance < least {
-                (least, nearest) = (distance, number);
-            }
-            if least < margin {
-                return None;
-            }
+            next = next.min(checked.free[1]);
         }
-        // Next time it comes first, and most others need not be measured.
-        all.swap(0, nearest);
-        Some((least - margin).max(margin * SHORTEST_STEP))
+        Some(next)
     }
 }
 
@@ -173,18 +172,4 @@ fn first_looks() -> impl Iterator<Item = f64> {
     // Far from one another at first.
     let turned = |i: u32| i.reverse_bits() >> (FIRST_LOOKS.leading_zeros() + 1);
     (1..FIRST_LOOKS).map(move |i| f64::from(turned(i)) / f64::from(FIRST_LOOKS))
-}
-
-/// The place on a path from `place` on before which nothing has gone so many metres.
-fn after(sections: &[Section], place: f64, mut distance: f64) -> f64 {
-    let mut at = place;
-    for section in &sections[sections.partition_point(|section| section.end <= place)..] {
-        let reached = at + distance / section.rate.max(f64::MIN_POSITIVE);
-        if reached < section.end {
-            return reached;
-        }
-        distance -= (section.end - at) * section.rate;
-        at = section.end;
-    }
-    1.0
 }

@@ -24,6 +24,8 @@ pub struct Block {
 const AROUND: u32 = 4;
 /// It passes a corner at so many radii: between two of these directions it is still farther away than one.
 const WIDER: f64 = 1.02;
+/// Lengths of the same path that are added up in another way differ by less, as a part of it.
+const ROUNDED: f64 = 1e-12;
 /// Rectangles that are farther than this from start and goal are not looked at, m.
 const DETOUR: f64 = 4.0;
 
@@ -119,6 +121,24 @@ struct Corner {
     near: Blocks,
 }
 
+/// Where several paths begin.
+#[derive(Debug)]
+pub struct Start {
+    point: Point,
+    /// Of each corner that was looked at: the blocks to which the segment to it is too near.
+    segments: Vec<Option<Blocks>>,
+}
+
+impl Start {
+    pub fn new(point: Point) -> Self {
+        Self { point, segments: Vec::new() }
+    }
+
+    pub fn point(&self) -> Point {
+        self.point
+    }
+}
+
 /// A set of the first [`KNOWN`] blocks by their numbers.
 type Blocks = u64;
 const KNOWN: usize = Blocks::BITS as usize;
@@ -207,7 +227,8 @@ impl Plane {
 
     /// Places to pass between start and goal so that a disc keeps off all blocks, and its middle within the area; where
     /// start or goal are nearer to a block, no nearer than they. None if there is no path.
-    pub fn shortest(&self, [start, goal]: [Point; 2]) -> Option<Vec<Point>> {
+    pub fn shortest(&self, from: &mut Start, goal: Point) -> Option<Vec<Point>> {
+        let start = from.point;
         let mut near = Near { known: 0, others: Vec::new(), all: Vec::new() };
         let mut numbers = Vec::new();
         for (number, block) in self.blocks.iter().enumerate() {
@@ -246,38 +267,66 @@ impl Plane {
                 places.extend(free.map(|point| Place { point, corner: None }));
             }
         }
-        self.search(&places, &near)
+        self.search(&places, &near, from)
     }
 
     /// From the first place to the second. Whether a segment is free is looked up if it is known, and asked only when it is
     /// the next on the shortest path if it is not. Numbers that are not negative are in the order of their bits.
-    fn search(&self, places: &[Place], near: &Near) -> Option<Vec<Point>> {
+    fn search(&self, places: &[Place], near: &Near, from: &mut Start) -> Option<Vec<Point>> {
         let distance = |a: usize, b: usize| (places[b].point - places[a].point).length();
         let still: Vec<f64> = (0..places.len()).map(|place| distance(place, 1)).collect();
         let segment = |a: usize, b: usize| [places[a].point, places[b].point];
         let mut before: Vec<Option<usize>> = vec![None; places.len()];
+        // The shortest path to a place of those that are known to be free: no longer one is looked at.
+        let mut free_lengths = vec![f64::INFINITY; places.len()];
         let mut queue = BinaryHeap::from([Reverse((still[0].to_bits(), 0, 0, 0))]);
         while let Some(Reverse((_, present, last, gone))) = queue.pop() {
-            let is_known = places[last].corner.and(places[present].corner).is_some();
-            if before[present].is_some() || !is_known && !near.is_free(segment(last, present)) {
+            if before[present].is_some() {
+                continue;
+            }
+            let is_free = match (places[last].corner, places[present].corner) {
+                (Some(_), Some(_)) => true,
+                (None, Some(corner)) if last == 0 => {
+                    near.is_free_beside(self.segment(from, corner), segment(last, present))
+                }
+                _ => near.is_free(segment(last, present)),
+            };
+            if !is_free {
                 continue;
             }
             before[present] = Some(last);
             if present == 1 {
                 return Some(back_from(1, &before, places));
             }
+            let gone = f64::from_bits(gone);
+            let straight = gone + still[present];
+            if straight < free_lengths[1] && near.is_free(segment(present, 1)) {
+                free_lengths[1] = straight;
+            }
             let known = places[present].corner.map(|corner| self.segments(corner));
             for next in (0..places.len()).filter(|next| before[*next].is_none()) {
-                if let (Some(known), Some(corner)) = (&known, places[next].corner)
-                    && !near.is_free_beside(known[corner], segment(present, next))
-                {
+                let length = gone + distance(present, next);
+                let whole = length + still[next];
+                if length > free_lengths[next] || whole > free_lengths[1] * (1.0 + ROUNDED) {
                     continue;
                 }
-                let length = f64::from_bits(gone) + distance(present, next);
-                queue.push(Reverse(((length + still[next]).to_bits(), next, present, length.to_bits())));
+                if let (Some(known), Some(corner)) = (&known, places[next].corner) {
+                    if !near.is_free_beside(known[corner], segment(present, next)) {
+                        continue;
+                    }
+                    free_lengths[next] = length;
+                }
+                queue.push(Reverse((whole.to_bits(), next, present, length.to_bits())));
             }
         }
         None
+    }
+
+    /// The blocks to which the segment from a start to a corner is too near.
+    fn segment(&self, from: &mut Start, corner: usize) -> Blocks {
+        let segment = [from.point, self.corners[corner].place];
+        from.segments.resize(self.corners.len(), None);
+        *from.segments[corner].get_or_insert_with(|| too_near(segment, &self.blocks))
     }
 
     /// Of a corner: the blocks to which the segment to each of the others is too near.
@@ -322,7 +371,8 @@ mod tests {
     fn without_an_obstacle_it_is_straight() {
         let aside = rectangle([-1.0, 1.0], [0.7, 2.0]);
         assert_eq!(
-            Plane::new(vec![block(aside)], area()).shortest([point(-3.0, 0.0), point(3.0, 0.0)]),
+            Plane::new(vec![block(aside)], area())
+                .shortest(&mut Start::new(point(-3.0, 0.0)), point(3.0, 0.0)),
             Some(vec![])
         );
     }
@@ -331,7 +381,7 @@ mod tests {
     fn it_goes_round_on_the_shorter_side_and_keeps_off() {
         let wall = rectangle([-0.1, 0.1], [-1.0, 3.0]);
         let ends = [point(-3.0, 0.0), point(3.0, 0.0)];
-        let path = Plane::new(vec![block(wall)], area()).shortest(ends).unwrap();
+        let path = Plane::new(vec![block(wall)], area()).shortest(&mut Start::new(ends[0]), ends[1]).unwrap();
         assert!(!path.is_empty() && path.iter().all(|p| p.y < -1.0), "{path:?}");
         let all: Vec<Point> = [ends[0]].into_iter().chain(path).chain([ends[1]]).collect();
         for pair in all.windows(2) {
@@ -339,17 +389,18 @@ mod tests {
         }
         // The shorter side is closed: it takes the other.
         let closed = rectangle([-10.0, 10.0], [-1.5, 5.0]);
-        let path = Plane::new(vec![block(wall)], closed).shortest(ends).unwrap();
+        let path = Plane::new(vec![block(wall)], closed).shortest(&mut Start::new(ends[0]), ends[1]).unwrap();
         assert!(path.iter().all(|p| p.y > 3.0), "{path:?}");
         let shut = rectangle([-10.0, 10.0], [-1.5, 3.5]);
-        assert_eq!(Plane::new(vec![block(wall)], shut).shortest(ends), None);
+        assert_eq!(Plane::new(vec![block(wall)], shut).shortest(&mut Start::new(ends[0]), ends[1]), None);
     }
 
     #[test]
     fn who_begins_too_near_comes_no_nearer() {
         let wall = rectangle([-0.1, 0.1], [-1.0, 1.0]);
-        let path =
-            Plane::new(vec![block(wall)], area()).shortest([point(-0.3, 0.0), point(3.0, 0.0)]).unwrap();
+        let path = Plane::new(vec![block(wall)], area())
+            .shortest(&mut Start::new(point(-0.3, 0.0)), point(3.0, 0.0))
+            .unwrap();
         let first = [point(-0.3, 0.0), path[0]];
         assert!(wall.distance(first) >= 0.2 - 1e-6, "{path:?}");
     }

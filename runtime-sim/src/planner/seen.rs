@@ -1,6 +1,7 @@
 //! What the robot has found at a place, or between two: many paths begin or end there.
 
 use super::line::Line;
+use super::plane::Start;
 use super::timing::Lift;
 use super::{Candidate, Load, Planner, Vertical};
 use crate::answers::Answers;
@@ -62,10 +63,16 @@ impl Planner {
         self.seen.lifts.get(question, || self.compute_lift(from, top, limits).map(Arc::new))
     }
 
-    /// The line of the torso's axis; none if nothing leads round the obstacles.
-    pub(super) fn line(&self, from: &Joints, to: &Joints, backs: [f64; 2]) -> Option<Arc<Line>> {
+    /// The line of the torso's axis, which draws back to `start` first; none if nothing leads round the obstacles.
+    pub(super) fn line(
+        &self,
+        from: &Joints,
+        start: &mut Start,
+        to: &Joints,
+        backs: [f64; 2],
+    ) -> Option<Arc<Line>> {
         let torso = |joints: &Joints| -> Torso { [0, 1, 2].map(|i| joints[i].to_bits()) };
         let question = ([torso(from), torso(to)], backs.map(f64::to_bits));
-        self.seen.lines.get(question, || self.compute_line(from, to, backs).map(Arc::new))
+        self.seen.lines.get(question, || self.compute_line(from, start, to, backs).map(Arc::new))
     }
 }
