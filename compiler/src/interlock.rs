@@ -10,6 +10,7 @@ mod writers;
 
 use crate::diagnostic::{Diagnostic, sort};
 use crate::lower::Project;
+use crate::parallel::in_parts;
 use crate::source::{Span, Spanned};
 use region::Given;
 use runtime_sim::collision::{BoundingBox, Moving, Sweep};
@@ -24,7 +25,25 @@ const MOST_CROSSINGS: usize = 100;
 struct Mover {
     instance: usize,
     moving: Moving,
-    range: OnceCell<Range>,
+}
+
+/// Where movers are and go, by their numbers: sought when it is asked for.
+struct Ranges<'a> {
+    given: Given<'a>,
+    movers: &'a [Mover],
+    known: Vec<OnceCell<Range>>,
+}
+
+impl<'a> Ranges<'a> {
+    fn new(project: &'a Project, movers: &'a [Mover]) -> Self {
+        let known = movers.iter().map(|_| OnceCell::new()).collect();
+        Self { given: Given::new(&project.system, &project.plant), movers, known }
+    }
+
+    fn of(&self, number: usize) -> &Range {
+        let mover = &self.movers[number];
+        self.known[number].get_or_init(|| stay::range(&self.given, mover.instance, &mover.moving))
+    }
 }
 
 /// Where two machines can both be, and the commands that bring them there; none of one whose goals are not known.
@@ -39,40 +58,46 @@ struct Crossing {
 /// `names` are those of the objects of the layout.
 pub fn warnings(names: &[Spanned<String>], project: &Project) -> Vec<Diagnostic> {
     let machines = project.plant.machines.iter().enumerate();
-    let movers = machines.filter_map(|(instance, machine)| {
-        Some(Mover { instance, moving: Moving::new(machine)?, range: OnceCell::new() })
-    });
+    let movers =
+        machines.filter_map(|(instance, machine)| Some(Mover { instance, moving: Moving::new(machine)? }));
     let movers: Vec<Mover> = movers.collect();
     let sweep = Sweep::new(movers.iter().map(|mover| mover.moving.whole()));
     let objects: BTreeMap<&str, Span> = names.iter().map(|name| (name.value.as_str(), name.span)).collect();
-    let given = Given::new(&project.system, &project.plant);
-    let mut found = Vec::new();
-    for mut pair in sweep.meeting().map(|pair| pair.map(|number| &movers[number])) {
-        pair.sort_by_key(|mover| mover.instance);
-        if let Some(crossing) = crossing(project, &given, pair) {
-            found.extend(diagnostic(project, &objects, pair, &crossing));
-        }
-    }
+    let in_order = |mut pair: [usize; 2]| {
+        pair.sort_by_key(|number| movers[*number].instance);
+        pair
+    };
+    let pairs = sweep.meeting().map(in_order);
+    let pairs: Vec<[usize; 2]> =
+        pairs.filter(|pair| !is_allowed(project, pair.map(|number| &movers[number]))).collect();
+    let mut found = in_parts(&pairs, 1, |pairs| {
+        let ranges = Ranges::new(project, &movers);
+        let found = |pair: &[usize; 2]| {
+            let crossing = crossing(&ranges, *pair)?;
+            diagnostic(project, &objects, pair.map(|number| &movers[number]), &crossing)
+        };
+        pairs.iter().filter_map(found).collect()
+    });
     sort(&mut found);
     found
 }
 
-fn crossing<'m>(project: &Project, given: &Given, [a, b]: [&'m Mover; 2]) -> Option<Crossing> {
+fn is_allowed(project: &Project, [a, b]: [&Mover; 2]) -> bool {
     let names = [a, b].map(|mover| project.plant.machines[mover.instance].name.as_str());
-    if works_with(project, a, b) || works_with(project, b, a) || project.plant.allows(names) {
-        return None;
-    }
-    let range =
-        |mover: &'m Mover| mover.range.get_or_init(|| stay::range(given, mover.instance, &mover.moving));
+    works_with(project, a, b) || works_with(project, b, a) || project.plant.allows(names)
+}
+
+fn crossing(ranges: &Ranges, [a, b]: [usize; 2]) -> Option<Crossing> {
+    let moving = |number: usize| &ranges.movers[number].moving;
     // Where the one goes that could take up more often shows that the other one need not be looked at.
-    let volume = |mover: &Mover| mover.moving.whole().volume();
+    let volume = |number: usize| moving(number).whole().volume();
     let (larger, other) = if volume(a) >= volume(b) { (a, b) } else { (b, a) };
-    if let Range::Stays(stays) = range(larger)
-        && stays.bounds.is_apart(&other.moving.whole())
+    if let Range::Stays(stays) = ranges.of(larger)
+        && stays.bounds.is_apart(&moving(other).whole())
     {
         return None;
     }
-    match [a, b].map(range) {
+    match [a, b].map(|number| ranges.of(number)) {
         [Range::Whole(one, here), Range::Whole(other, there)] => {
             Some(Crossing { common: one.common(other), places: [*here, *there], is_known: [false; 2] })
         }
@@ -80,7 +105,7 @@ fn crossing<'m>(project: &Project, given: &Given, [a, b]: [&'m Mover; 2]) -> Opt
             .map(|(common, there)| Crossing { common, places: [*here, there], is_known: [false, true] }),
         [Range::Stays(stays), Range::Whole(whole, there)] => within(whole, stays)
             .map(|(common, here)| Crossing { common, places: [here, *there], is_known: [true, false] }),
-        [Range::Stays(stays), Range::Stays(others)] => both([&a.moving, &b.moving], stays, others),
+        [Range::Stays(stays), Range::Stays(others)] => both([a, b].map(moving), stays, others),
     }
 }
 

@@ -16,13 +16,18 @@ pub fn run(options: &CheckOptions) -> Status {
     };
     let names = input.layout.0.as_ref().map(Layout::names);
     let mut outcome = compile(input);
-    if let (Some(names), Some(project)) = (&names, &outcome.project) {
+    let are_denied = *deny == Some(Denied::Warnings);
+    // What nobody sees need not be sought.
+    if let (Some(names), Some(project)) = (&names, &outcome.project)
+        && (!options.quiet || are_denied)
+    {
         outcome.warnings.extend(interlock::warnings(names, project));
     }
-    let notes = outcome.project.as_ref().filter(|_| *notes).map(|project| overlap::notes(&project.system));
+    let noted = outcome.project.as_ref().filter(|_| *notes && !options.quiet);
+    let notes = noted.map(|project| overlap::notes(&project.system));
     show(options, &outcome, &notes.unwrap_or_default());
     let status = match outcome.project {
-        Some(_) if outcome.warnings.is_empty() || *deny != Some(Denied::Warnings) => Status::Done,
+        Some(_) if outcome.warnings.is_empty() || !are_denied => Status::Done,
         Some(_) | None => Status::WrongInput,
     };
     // The process ends: to give back each value of a long line takes longer than to print all of it.

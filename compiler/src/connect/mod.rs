@@ -18,8 +18,12 @@ pub use near::Ground;
 use crate::device::Placed;
 use crate::diagnostic::Diagnostic;
 use crate::layout::Number;
+use crate::parallel::in_parts;
 use crate::source::Span;
 use std::collections::BTreeMap;
+
+/// Pairs whose poses are tried in one thread: fewer take no longer than to begin another one.
+const LEAST: usize = 100;
 
 /// A machine that hands over or takes.
 #[derive(Clone, Debug)]
@@ -212,7 +216,9 @@ impl Report {
 /// types are bound to machines before.
 pub fn check(line: &Line) -> Report {
     let reachable = poses::Reachable::new(line);
-    let margins: Vec<Option<f64>> = line.proposals.iter().map(|p| reachable.margin(p)).collect();
+    let margins: Vec<Option<f64>> = in_parts(&line.proposals, LEAST, |proposals| {
+        proposals.iter().map(|proposal| reachable.margin(proposal)).collect()
+    });
     let stands: Vec<bool> = margins.iter().map(Option::is_some).collect();
     let edges = edges(line, &reachable, &margins);
     let flow = flow::Flow::new(line);
@@ -267,13 +273,16 @@ fn edges(line: &Line, reachable: &poses::Reachable, margins: &[Option<f64>]) -> 
             }
         }
     }
-    let edge = |((from, to), (margin, proposal))| Edge {
-        from,
-        to,
-        margin,
-        wrist_room: reachable.wrist_room(proposal),
-    };
-    best.into_iter().map(edge).collect()
+    let best: Vec<_> = best.into_iter().collect();
+    in_parts(&best, LEAST, |best| {
+        let edges = best.iter().map(|&((from, to), (margin, proposal))| Edge {
+            from,
+            to,
+            margin,
+            wrist_room: reachable.wrist_room(proposal),
+        });
+        edges.collect()
+    })
 }
 
 impl Proposal {

@@ -224,7 +224,6 @@ impl Found<'_> {
         let locks = self.sets.number(self.system, self.instance, holders);
         let choices: usize = stages.iter().map(|stage| stage.regions.len()).product();
         let numbers: &[usize] = if choices == 1 { &[0, 1, 2, 3, 4, 5, 6, 7] } else { &[0, 7] };
-        let mut corners: Vec<(Corner, Facing)> = Vec::with_capacity(stages.len());
         for choice in 0..choices {
             if self.stays.len() >= MOST_PATHS {
                 return;
@@ -239,30 +238,36 @@ impl Found<'_> {
                     if std::mem::replace(&mut known[pair], true) {
                         continue;
                     }
-                    corners.clear();
-                    corners.extend(regions.iter().zip(stages).enumerate().map(|(i, (region, stage))| {
-                        (region.corners[if i == 0 { first } else { number }], stage.facing)
-                    }));
-                    self.path(&corners, locks, place);
+                    let corners = regions.iter().zip(stages).enumerate().map(|(i, (region, stage))| {
+                        (&region.corners[if i == 0 { first } else { number }], stage.facing)
+                    });
+                    self.path(corners, locks, place);
                 }
             }
         }
     }
 
-    fn path(&mut self, corners: &[(Corner, Facing)], locks: usize, place: Span) {
-        if self.stays.len() >= MOST_PATHS || !corners.iter().all(|(corner, _)| corner.is_reached) {
+    fn path<'c>(
+        &mut self,
+        corners: impl Iterator<Item = (&'c Corner, Facing)> + Clone,
+        locks: usize,
+        place: Span,
+    ) {
+        if self.stays.len() >= MOST_PATHS || !corners.clone().all(|(corner, _)| corner.is_reached) {
             return;
         }
         self.key.clear();
-        self.key.extend(corners.iter().map(|(corner, _)| corner.number));
-        if !self.paths.contains_key(&self.key) {
-            let goals: Vec<(Point, Facing)> =
-                corners.iter().map(|(at, facing)| (at.point, *facing)).collect();
-            let path = self.moving.path(&goals).map(Rc::new);
-            self.paths.insert(self.key.clone(), Known { path, locks: BTreeSet::new() });
-        }
-        let known = self.paths.get_mut(&self.key);
-        let Some(Known { path: Some(path), locks: held }) = known else { return };
+        self.key.extend(corners.clone().map(|(corner, _)| corner.number));
+        let known = match self.paths.get_mut(&self.key) {
+            Some(known) => known,
+            None => {
+                let goals: Vec<(Point, Facing)> = corners.map(|(at, facing)| (at.point, facing)).collect();
+                let path = self.moving.path(&goals).map(Rc::new);
+                let known = Known { path, locks: BTreeSet::new() };
+                self.paths.entry(self.key.clone()).or_insert(known)
+            }
+        };
+        let Known { path: Some(path), locks: held } = known else { return };
         if held.insert(locks) {
             self.stays.push(Stay { path: path.clone(), locks, place });
         }

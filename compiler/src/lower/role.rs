@@ -11,6 +11,7 @@ use crate::ir::{
     TextPart, Value,
 };
 use crate::layout::Layout;
+use crate::parallel::in_parts;
 use crate::scenario::{Number, Scenario};
 use crate::source::{Span, Spanned};
 use runtime_sim::machine::Machine;
@@ -21,6 +22,9 @@ use std::collections::{BTreeSet, HashMap, HashSet};
 const MOST_PAIRS: usize = 100_000;
 /// Pairs that are tried since a machine is cut off, however far the two are apart.
 const MOST_FAR: usize = 2000;
+
+/// Machines that are made in one thread: fewer take no longer than to begin another one.
+const LEAST: usize = 100;
 
 /// The machines of a layout, bound to a model of just their types.
 pub struct Line<'a> {
@@ -87,8 +91,10 @@ impl<'a> Line<'a> {
     /// The machines as the simulator takes them, their automata still to come; `None` has been reported.
     pub fn machines(&mut self) -> Option<Vec<Machine>> {
         let mut all = Vec::new();
-        for robot in &self.robots {
-            match robot.placed.machine(&robot.object.name.value, &self.heights, robot.object.span) {
+        let machine =
+            |robot: &Robot| robot.placed.machine(&robot.object.name.value, &self.heights, robot.object.span);
+        for made in in_parts(&self.robots, LEAST, |robots| robots.iter().map(machine).collect()) {
+            match made {
                 Ok(machine) => all.push(machine),
                 Err(found) => found.into_iter().for_each(|d| collect(&mut self.diagnostics, d)),
             }
