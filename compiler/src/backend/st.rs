@@ -57,7 +57,6 @@ use crate::ir::{AutomatonId, System};
 use crate::naming::st::Scope;
 use crate::source::Sources;
 use crate::translation::Translations;
-use body::Body;
 use context::Shared;
 use declaration::Unit;
 use externals::Externals;
@@ -66,8 +65,8 @@ use image::Image;
 use program::Blocks;
 use runtime_sim::io_trace::Columns;
 use std::collections::{BTreeSet, HashSet};
-use std::rc::Rc;
-use structured::{Enumerated, Structure, structured};
+use std::sync::Arc;
+use structured::{Enumerated, Places, Structure, structured};
 
 /// Every point of I/O, in the order of `io.csv`; an [`IoMap`] counts them so.
 pub fn points(system: &System) -> Vec<Point> {
@@ -82,18 +81,21 @@ pub fn files(system: &System, sources: &Sources) -> Files {
 /// The files of the folder `plc/`, with the addresses of a map for [`points`] of the same system. And the columns
 /// of an I/O trace, named as the globals of `portable/main.st`; the state of a robot as `robot.state`.
 pub fn mapped(system: &System, sources: &Sources, map: &IoMap) -> (Files, Columns) {
-    let mut files = Files::new();
-    let translations = Translations::default();
-    let columns = write(system, sources, map, Flavours::WithoutPlcopen, &translations, &mut files);
-    (files, columns)
+    with_program(system, sources, map, |program| {
+        let mut files = Files::new();
+        program.portable(Flavours::WithoutPlcopen, &Translations::default(), &mut files);
+        program.with_structures(Flavours::WithoutPlcopen, &mut files);
+        (files, program.columns())
+    })
 }
 
 /// The text of [`mapped`] as PLCopen XML, in the two flavours that tools import; files of the folder `plc/`.
 pub fn plcopen(system: &System, sources: &Sources, map: &IoMap) -> Files {
-    with_line(system, sources, map, |made| {
+    with_program(system, sources, map, |program| {
         let mut files = Files::new();
-        made.plcopen(&mut files);
-        made.codesys_xml(&made.structured(Enumerated::ByType), &mut files);
+        program.plcopen(&mut files);
+        let places = Places::shared(program.shared);
+        program.codesys_xml(&program.structured(&places, Enumerated::ByType), &mut files);
         files
     })
 }
@@ -105,50 +107,55 @@ pub enum Flavours {
     WithoutPlcopen,
 }
 
-/// Writes the files of the folder `plc/`, the tables in other languages too, and returns the columns of [`mapped`].
-pub fn write(
-    system: &System,
-    sources: &Sources,
-    map: &IoMap,
-    flavours: Flavours,
-    translations: &Translations,
-    files: &mut dyn Sink,
-) -> Columns {
-    with_line(system, sources, map, |mut made| {
-        made.texts_without_types(files);
-        screen::files(made.shared, translations).iter().for_each(|(name, text)| files.file(name, text));
-        if flavours == Flavours::All {
-            made.plcopen(files);
-        }
-        // With structures, values stand where they are declared; these statements are as many as all values.
-        made.line.layout.body = Body::default();
-        made.codesys(flavours, files);
-        made.siemens(files);
-        made.columns()
-    })
-}
-
-/// A line as it is written in all flavours. With structures it is made for one of them at a time: it is as large as the
-/// whole line.
-struct Made<'a> {
+/// The program of a line, as it is written in all flavours. With structures it is made for one of them at a time: it is
+/// as large as the whole line.
+pub struct Program<'a> {
     shared: Shared<'a>,
     map: &'a IoMap,
     line: Line<'a>,
     /// The names of MAIN.
-    program: &'a Scope,
+    names: &'a Scope,
 }
 
-fn with_line<T>(system: &System, sources: &Sources, map: &IoMap, write: impl FnOnce(Made) -> T) -> T {
+/// Gives the program of a line. [`Program::portable`] and [`Program::with_structures`] give all files of the folder
+/// `plc/`, each half of them, and may do it at the same time.
+pub fn with_program<T>(
+    system: &System,
+    sources: &Sources,
+    map: &IoMap,
+    write: impl FnOnce(Program) -> T,
+) -> T {
     let names = names::names(system);
     let mut program = names.program.inner();
     let image = image::image(system, &names, map, &mut program);
     let shared = Shared { system, sources, names: &names };
-    write(Made { shared, map, line: line(shared, &image), program: &program })
+    write(Program { shared, map, line: line(shared, &image), names: &program })
 }
 
-impl Made<'_> {
-    fn structured(&self, enumerated: Enumerated) -> Line<'_> {
-        structured(self.shared, &self.line, enumerated, &mut self.program.clone())
+impl Program<'_> {
+    /// The text that all compilers take, and all tables, those in other languages too.
+    pub fn portable(&self, flavours: Flavours, translations: &Translations, files: &mut dyn Sink) {
+        self.texts_without_types(files);
+        screen::files(self.shared, translations).iter().for_each(|(name, text)| files.file(name, text));
+        if flavours == Flavours::All {
+            self.plcopen(files);
+        }
+    }
+
+    /// The texts for tools that have structures.
+    pub fn with_structures(&self, flavours: Flavours, files: &mut dyn Sink) {
+        let places = Places::shared(self.shared);
+        self.codesys(&places, flavours, files);
+        self.siemens(&places, files);
+    }
+
+    /// The columns of [`mapped`].
+    pub fn columns(&self) -> Columns {
+        columns::columns(self.shared, &self.line.globals)
+    }
+
+    fn structured(&self, places: &Places, enumerated: Enumerated) -> Line<'_> {
+        structured(self.shared, &self.line, places, enumerated, &mut self.names.clone())
     }
 
     fn texts_without_types(&self, files: &mut dyn Sink) {
@@ -158,7 +165,7 @@ impl Made<'_> {
         files.file("alarms.csv", &alarms::table(shared, &mut screen::as_written));
         files.file("states.csv", &states::table(shared, &mut screen::as_written));
         files.file("bounds.txt", &figures::report(shared, &self.line));
-        let raw = self.program.renamed().iter().map(|renamed| ("globals".to_string(), renamed.clone()));
+        let raw = self.names.renamed().iter().map(|renamed| ("globals".to_string(), renamed.clone()));
         let renamed: Vec<_> = names.renamed.iter().cloned().chain(raw).collect();
         if !renamed.is_empty() {
             files.file("names.csv", &table::renamed(&renamed));
@@ -169,8 +176,8 @@ impl Made<'_> {
         files.file("portable/project.xml", &xml::plcopen(self.shared, &self.line));
     }
 
-    fn codesys(&self, flavours: Flavours, files: &mut dyn Sink) {
-        let line = self.structured(Enumerated::ByType);
+    fn codesys(&self, places: &Places, flavours: Flavours, files: &mut dyn Sink) {
+        let line = self.structured(places, Enumerated::ByType);
         text::codesys(self.shared, &line, &mut Folder { name: "codesys", sink: files });
         if flavours == Flavours::All {
             self.codesys_xml(&line, files);
@@ -181,13 +188,9 @@ impl Made<'_> {
         files.file("codesys/project.xml", &xml::codesys(self.shared, by_type));
     }
 
-    fn siemens(&self, files: &mut dyn Sink) {
-        let by_number = self.structured(Enumerated::ByNumber);
+    fn siemens(&self, places: &Places, files: &mut dyn Sink) {
+        let by_number = self.structured(places, Enumerated::ByNumber);
         siemens::files(self.shared, &by_number, &mut Folder { name: "siemens", sink: files });
-    }
-
-    fn columns(&self) -> Columns {
-        columns::columns(self.shared, &self.line.globals)
     }
 }
 
@@ -199,7 +202,7 @@ pub fn screen_texts(system: &System, sources: &Sources) -> Vec<String> {
 }
 
 /// The table of these texts, and those of alarms and states in other languages; files of the folder `plc/` that
-/// [`write`] gives too.
+/// [`Program::portable`] gives too.
 pub fn translated(system: &System, sources: &Sources, translations: &Translations) -> Files {
     let names = names::names(system);
     screen::files(Shared { system, sources, names: &names }, translations)
@@ -213,11 +216,11 @@ pub fn drives() -> Files {
 /// The units of a line, in the order in which they must be declared.
 struct Line<'a> {
     functions: Vec<&'static functions::Function>,
-    blocks: Rc<Vec<Option<Blocks<'a>>>>,
+    blocks: Arc<Vec<Option<Blocks<'a>>>>,
     watchdog: Unit<'a>,
     layout: Unit<'a>,
     program: Unit<'a>,
-    globals: Rc<Globals>,
+    globals: Arc<Globals>,
     /// Of a line with structures.
     structures: Vec<Structure>,
 }
@@ -243,7 +246,7 @@ fn line<'a>(shared: Shared<'a>, image: &Image) -> Line<'a> {
             })
         })
         .collect();
-    let blocks = Rc::new(blocks);
+    let blocks = Arc::new(blocks);
     let body = program::statements(shared, &blocks, image);
     let mut functions = BTreeSet::new();
     let mut used = HashSet::new();
@@ -254,7 +257,7 @@ fn line<'a>(shared: Shared<'a>, image: &Image) -> Line<'a> {
     let mut of_blocks = HashSet::new();
     units.for_each(|block| block.unit.body.names_and_functions(&mut of_blocks, &mut functions));
     globals.retain(|name| used.contains(name) || of_blocks.contains(name));
-    let globals = Rc::new(globals);
+    let globals = Arc::new(globals);
     let program = Unit { externals: Externals::marked(&globals, |name| used.contains(name)), ..program };
     let functions = functions::needed(&functions.into_iter().collect::<Vec<_>>());
     let layout = program::layout(&globals);

@@ -45,10 +45,22 @@ pub fn run(options: &BuildCommandOptions) -> Status {
     let done = build(options).and_then(|built| {
         let output = open(options, &built).map_err(|refusal| refused(options, &refusal))?;
         let of_a_run = output.of_a_run();
-        let make: [&Make; 2] =
-            [&|files| built.write_all_else(files), &|files| built.write_structured_text(files)];
-        let names = write(options, &built, &make, &output).map_err(|refusal| refused(options, &refusal))?;
-        Ok((built.folder, names, dropped::of_a_run(&of_a_run, &output.of_a_run())))
+        let names = built.with_program(|program| {
+            let first = |files: &mut dyn Sink| {
+                built.write_all_else(files);
+                built.write_portable(&program, files);
+            };
+            let make: [&Make; 2] = [&first, &|files| built.write_with_structures(&program, files)];
+            let names = write(options, &built, &make, &output);
+            // The process ends: to give back each value of a long line takes time.
+            std::mem::forget(program);
+            names
+        });
+        let names = names.map_err(|refusal| refused(options, &refusal))?;
+        let folder = built.folder.clone();
+        // The same.
+        std::mem::forget(built);
+        Ok((folder, names, dropped::of_a_run(&of_a_run, &output.of_a_run())))
     });
     match done {
         Ok((folder, names, removed)) => {
@@ -124,17 +136,26 @@ pub fn build(options: &BuildOptions) -> Result<Built, Status> {
 impl Built {
     /// Gives all files of the output folder.
     pub fn write(&self, files: &mut dyn Sink) {
-        self.write_structured_text(files);
+        self.with_program(|program| {
+            self.write_portable(&program, files);
+            self.write_with_structures(&program, files);
+        });
         self.write_all_else(files);
     }
 
-    fn write_structured_text(&self, files: &mut dyn Sink) {
-        let Self { project, sources, .. } = self;
-        let system = &project.system;
+    fn with_program<T>(&self, write: impl FnOnce(st::Program) -> T) -> T {
+        st::with_program(&self.project.system, &self.sources, &self.map, write)
+    }
+
+    fn write_portable(&self, program: &st::Program, files: &mut dyn Sink) {
         let mut plc = Folder { name: "plc", sink: files };
-        let columns = st::write(system, sources, &self.map, self.flavours, &self.translations, &mut plc);
+        program.portable(self.flavours, &self.translations, &mut plc);
         put(&mut plc, &self.drives);
-        files.file(COLUMNS, &columns.to_text());
+        files.file(COLUMNS, &program.columns().to_text());
+    }
+
+    fn write_with_structures(&self, program: &st::Program, files: &mut dyn Sink) {
+        program.with_structures(self.flavours, &mut Folder { name: "plc", sink: files });
     }
 
     fn write_all_else(&self, files: &mut dyn Sink) {

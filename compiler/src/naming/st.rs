@@ -65,19 +65,24 @@ impl Scope {
             stem = format!("{}_v", cut(&stem, longest - 2));
             reason = "reserved word";
         }
+        let in_lower_case =
+            |stem: &str| suffixes.iter().map(|suffix| lower(stem, suffix)).collect::<Vec<_>>();
         let mut found = stem.clone();
+        let mut keys = in_lower_case(&found);
         for number in 2.. {
-            if suffixes.iter().all(|suffix| !self.is_taken(&lower(&found, suffix))) {
+            if keys.iter().all(|key| !self.is_taken(key)) {
                 break;
             }
             let tail = format!("_{number}");
             found = cut(&stem, longest - tail.len()) + &tail;
+            keys = in_lower_case(&found);
             reason = "name already used; case does not count";
         }
         suffixes
             .iter()
-            .map(|suffix| {
-                Arc::make_mut(&mut self.taken).insert(lower(&found, suffix));
+            .zip(keys)
+            .map(|(suffix, key)| {
+                Arc::make_mut(&mut self.taken).insert(key);
                 let name = format!("{found}{suffix}");
                 if !reason.is_empty() {
                     self.renamed.push(Renamed {
@@ -110,7 +115,9 @@ impl Scope {
 }
 
 fn lower(stem: &str, suffix: &str) -> String {
-    format!("{stem}{suffix}").to_ascii_lowercase()
+    let mut name = [stem, suffix].concat();
+    name.make_ascii_lowercase();
+    name
 }
 
 fn of_specification(wanted: &str, suffix: &str) -> String {

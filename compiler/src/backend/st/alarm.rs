@@ -8,7 +8,7 @@ use super::names::ELEMENT;
 use super::property::STOPPED;
 use super::values::Values;
 use crate::ir::Severity;
-use std::rc::Rc;
+use std::sync::Arc;
 
 /// Columns of the table.
 pub const COLUMNS: [&str; 7] = ["code", "robot", "active", "acknowledged", "count", "first", "last"];
@@ -30,7 +30,7 @@ pub fn tables(shared: Shared) -> Vec<Table> {
     let entries = shared.system.alarms();
     let sized = |elements: usize, name: &str, basic: Basic, about: &str, values: Values| Table {
         variable: Variable::new(name, basic).with_elements(Some(elements)).with_comment(about),
-        values: Rc::new(values),
+        values: Arc::new(values),
     };
     let table = |name: &str, basic: Basic, about: &str, values: Values| {
         sized(values.len(), name, basic, about, values)

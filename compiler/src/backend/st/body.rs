@@ -4,7 +4,7 @@ use super::bounds;
 use super::code::{self, Stmt};
 use std::borrow::Cow;
 use std::collections::{BTreeSet, HashSet};
-use std::rc::Rc;
+use std::sync::Arc;
 
 /// The statements of a unit. What it does for each robot or for each value is as long as the line: that is made piece
 /// by piece, each time that it is looked at.
@@ -15,7 +15,7 @@ pub struct Body<'a>(Vec<Part<'a>>);
 enum Part<'a> {
     Whole(Vec<Stmt>),
     /// So many pieces.
-    Made(usize, Rc<dyn Fn(usize) -> Vec<Stmt> + 'a>),
+    Made(usize, Arc<dyn Fn(usize) -> Vec<Stmt> + Send + Sync + 'a>),
 }
 
 /// How many statements there are.
@@ -31,18 +31,18 @@ impl<'a> Body<'a> {
     }
 
     /// So many pieces, by their numbers.
-    pub fn push_made(&mut self, count: usize, make: impl Fn(usize) -> Vec<Stmt> + 'a) {
-        self.0.push(Part::Made(count, Rc::new(make)));
+    pub fn push_made(&mut self, count: usize, make: impl Fn(usize) -> Vec<Stmt> + Send + Sync + 'a) {
+        self.0.push(Part::Made(count, Arc::new(make)));
     }
 
     /// The same with other statements in the place of each piece.
-    pub fn map(&'a self, change: impl Fn(&[Stmt]) -> Vec<Stmt> + 'a) -> Self {
-        let change = Rc::new(change);
+    pub fn map(&'a self, change: impl Fn(&[Stmt]) -> Vec<Stmt> + Send + Sync + 'a) -> Self {
+        let change = Arc::new(change);
         let changed = |part: &'a Part<'a>| match part {
             Part::Whole(statements) => Part::Whole(change(statements)),
             Part::Made(count, make) => {
                 let change = change.clone();
-                Part::Made(*count, Rc::new(move |i| change(&make(i))))
+                Part::Made(*count, Arc::new(move |i| change(&make(i))))
             }
         };
         Self(self.0.iter().map(changed).collect())

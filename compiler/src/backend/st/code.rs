@@ -2,7 +2,7 @@
 
 use super::values::List;
 use std::collections::HashSet;
-use std::rc::Rc;
+use std::sync::Arc;
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Ex {
@@ -22,7 +22,7 @@ pub enum Ex {
     /// The values of an array.
     List(List),
     /// The values of a structure. Many have the same fields.
-    Fields(Vec<(Rc<str>, Ex)>),
+    Fields(Vec<(Arc<str>, Ex)>),
     /// An output of a function block.
     Field(String, String),
     Not(Box<Ex>),

@@ -8,7 +8,7 @@ use super::print::{Dialect, comment};
 use crate::io_map::Raw;
 use crate::ir::{Scalar, Value};
 use std::fmt::{self, Formatter, Write};
-use std::rc::Rc;
+use std::sync::Arc;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Basic {
@@ -39,7 +39,7 @@ pub struct Variable {
     /// Of a scalar; every other value is set by code.
     pub initial: Option<Box<Ex>>,
     /// The first line stands behind the declaration, the others below it.
-    pub comments: Vec<Rc<str>>,
+    pub comments: Vec<Arc<str>>,
     /// It outlasts a loss of power.
     pub is_retained: bool,
 }
@@ -134,7 +134,7 @@ impl Variable {
         self
     }
 
-    pub fn with_comment(mut self, text: impl Into<Rc<str>>) -> Self {
+    pub fn with_comment(mut self, text: impl Into<Arc<str>>) -> Self {
         let text = text.into();
         if !text.is_empty() {
             self.comments.push(text);

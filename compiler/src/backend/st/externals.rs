@@ -3,13 +3,13 @@
 use super::declaration::Variable;
 use super::globals::Globals;
 use std::borrow::Cow;
-use std::rc::Rc;
+use std::sync::Arc;
 
 #[derive(Clone)]
 pub enum Externals {
     Declared(Vec<Variable>),
     /// Those that are marked, in the order of [`Globals::all`]. The program declares as many as the line has ports.
-    Marked(Rc<Globals>, Vec<bool>),
+    Marked(Arc<Globals>, Vec<bool>),
 }
 
 impl Default for Externals {
@@ -19,7 +19,7 @@ impl Default for Externals {
 }
 
 impl Externals {
-    pub fn marked(globals: &Rc<Globals>, is_used: impl Fn(&str) -> bool) -> Self {
+    pub fn marked(globals: &Arc<Globals>, is_used: impl Fn(&str) -> bool) -> Self {
         let marks = globals.all().map(|variable| is_used(&variable.name)).collect();
         Externals::Marked(globals.clone(), marks)
     }

@@ -4,7 +4,7 @@ use super::code::{Ex, Stmt, advance, assign, binary, name};
 use super::globals::Table;
 use super::values::Values;
 use std::ops::Range;
-use std::rc::Rc;
+use std::sync::Arc;
 
 /// Tables of so many elements get the value of most of them by a loop, then the others theirs.
 const LONG: usize = 16;
@@ -21,7 +21,7 @@ pub struct Filling {
 /// Some elements of a table.
 pub struct Others {
     table: String,
-    values: Rc<Values>,
+    values: Arc<Values>,
     elements: Range<usize>,
     /// A loop gives them this.
     usual: Option<Ex>,

@@ -20,19 +20,19 @@ use super::watchdog;
 use crate::ir::{AutomatonId, Extent, InterfaceId, RoleId, Scalar, Type};
 use runtime_sim::device::Direction;
 use std::collections::{BTreeMap, HashMap, HashSet};
-use std::rc::Rc;
+use std::sync::Arc;
 
 /// A global array and what its elements are at power-up.
 pub struct Table {
     pub variable: Variable,
-    pub values: Rc<Values>,
+    pub values: Arc<Values>,
 }
 
 /// Globals by what they are.
 pub struct Globals {
     pub system: Vec<Variable>,
     /// For each robot its ports.
-    pub ports: Vec<Vec<Rc<Variable>>>,
+    pub ports: Vec<Vec<Arc<Variable>>>,
     /// Raw values at their addresses.
     pub raw: Vec<Variable>,
     pub cells: Vec<Table>,
@@ -46,7 +46,7 @@ pub struct Globals {
 impl Table {
     /// The values stand in the declaration.
     pub fn declared(variable: Variable) -> Self {
-        Self { variable, values: Rc::new(Values::Any(Vec::new())) }
+        Self { variable, values: Arc::new(Values::Any(Vec::new())) }
     }
 }
 
@@ -65,7 +65,7 @@ impl Globals {
         let ports = ports(shared).into_iter();
         Self {
             system: system(shared).into_iter().map(located).collect(),
-            ports: ports.map(|of| of.into_iter().map(|v| Rc::new(located(v))).collect()).collect(),
+            ports: ports.map(|of| of.into_iter().map(|v| Arc::new(located(v))).collect()).collect(),
             raw: image.raw.clone(),
             cells: cells(shared),
             parameters: parameters(shared),
@@ -260,10 +260,10 @@ pub fn rows(shared: Shared, interface: InterfaceId, each: Option<usize>) -> Stri
 
 /// The texts of [`rows`] of an interface, each once: they are as long as the line.
 #[derive(Default)]
-struct Rows(BTreeMap<Option<usize>, Rc<str>>);
+struct Rows(BTreeMap<Option<usize>, Arc<str>>);
 
 impl Rows {
-    fn of(&mut self, shared: Shared, interface: InterfaceId, each: Option<usize>) -> Rc<str> {
+    fn of(&mut self, shared: Shared, interface: InterfaceId, each: Option<usize>) -> Arc<str> {
         self.0.entry(each).or_insert_with(|| rows(shared, interface, each).into()).clone()
     }
 }
@@ -299,7 +299,7 @@ pub fn elements(shared: Shared, extent: Extent) -> String {
     }
 }
 
-pub fn about(doc: &[String], meaning: impl Into<Rc<str>>) -> Vec<Rc<str>> {
+pub fn about(doc: &[String], meaning: impl Into<Arc<str>>) -> Vec<Arc<str>> {
     let text = doc.iter().map(|l| l.trim()).collect::<Vec<_>>().join(" ");
     [text.into(), meaning.into()].into_iter().filter(|t| !t.is_empty()).collect()
 }
@@ -320,7 +320,7 @@ fn cells(shared: Shared) -> Vec<Table> {
                 let variable = Variable::new(name, Basic::of(cell.ty.scalar)).with_elements(Some(n));
                 let comments = if *name == held[0] { comments.clone() } else { Vec::new() };
                 let variable = Variable { comments, ..variable }.retained(is_retained);
-                tables.push(Table { variable, values: Rc::new(Values::Alike(Box::new(first), n)) });
+                tables.push(Table { variable, values: Arc::new(Values::Alike(Box::new(first), n)) });
             }
         }
     }
@@ -363,7 +363,7 @@ fn table(
     scalar: Scalar,
     held: &[String],
     values: impl Iterator<Item = Vec<Ex>> + Clone,
-    comments: &[Rc<str>],
+    comments: &[Arc<str>],
 ) -> Vec<Table> {
     let basic = Basic::of(scalar);
     let count = values.clone().count();
@@ -374,7 +374,7 @@ fn table(
                 ..Variable::new(name, basic)
             }
             .with_elements(Some(count.max(1))),
-            values: Rc::new(values.clone().map(|mut v| v.swap_remove(part)).collect()),
+            values: Arc::new(values.clone().map(|mut v| v.swap_remove(part)).collect()),
         })
         .collect()
 }
@@ -394,7 +394,7 @@ fn relations(shared: Shared) -> Vec<Table> {
             Table {
                 variable: Variable { comments, each: Some(width), ..Variable::new(name, Basic::Bool) }
                     .with_elements(Some(n.max(1))),
-                values: Rc::new(Values::Bool(reaches.iter().flatten().copied().collect())),
+                values: Arc::new(Values::Bool(reaches.iter().flatten().copied().collect())),
             }
         })
         .collect()
@@ -427,7 +427,7 @@ fn own(shared: Shared, id: AutomatonId) -> Vec<Table> {
             let variable = Variable::new(&shared.names.robots[*robot].roles[number], Basic::Dint);
             tables.push(Table {
                 variable: Variable { comments, ..variable }.with_elements(Some(most.max(1))),
-                values: Rc::new((0..most).map(value).collect()),
+                values: Arc::new((0..most).map(value).collect()),
             });
         }
     }

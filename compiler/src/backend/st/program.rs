@@ -19,7 +19,7 @@ use super::watchdog;
 use crate::ir::ByHand;
 use runtime_sim::device::Direction;
 use std::collections::{BTreeSet, HashSet};
-use std::rc::Rc;
+use std::sync::Arc;
 
 pub const LAYOUT: &str = "FB_Layout";
 
@@ -39,7 +39,7 @@ fn of_robot<'b, 'a>(
 }
 
 /// The scan.
-pub fn statements<'a>(shared: Shared<'a>, blocks: &Rc<Vec<Option<Blocks<'a>>>>, image: &Image) -> Body<'a> {
+pub fn statements<'a>(shared: Shared<'a>, blocks: &Arc<Vec<Option<Blocks<'a>>>>, image: &Image) -> Body<'a> {
     let count = shared.system.instances.len();
     let each = |make: fn(Shared, &Blocks, usize) -> Vec<Stmt>| {
         let blocks = blocks.clone();
@@ -250,7 +250,7 @@ fn publish(shared: Shared, robot: usize, block: &Block) -> Vec<Stmt> {
 }
 
 /// Sets cells and tables of parameters in the first scan.
-pub fn layout<'a>(globals: &Rc<Globals>) -> Unit<'a> {
+pub fn layout<'a>(globals: &Arc<Globals>) -> Unit<'a> {
     let mut first = vec![when(not(name("cold_start")), vec![Stmt::Return])];
     if !globals.cells.is_empty() {
         first.push(Stmt::Comment("Shared cells.".into()));

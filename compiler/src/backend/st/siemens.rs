@@ -4,6 +4,8 @@
 //! `"Line".name` for what all blocks share, `"F_name"` for a function; and that states and members are constants
 //! of the block.
 
+mod quotes;
+
 use super::Line;
 use super::code::{Arm, Ex, Member, Stmt, expressions};
 use super::context::Shared;
@@ -11,8 +13,10 @@ use super::declaration::{self, Instance, Unit, Variable};
 use super::print::{Dialect, comment, harmless};
 use super::structured::Structure;
 use super::text::{made_from, render};
+use super::values::Elements;
 use crate::backend::{Part, Sink, Text, part};
 use askama::Template;
+use quotes::{is_word, push_quoted, quoted};
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::fmt::{self, Formatter, Write};
@@ -21,41 +25,6 @@ use std::fmt::{self, Formatter, Write};
 const SHARED: &str = "Line";
 /// The block that calls all others. Each project has a block `Main` already, and names are not told by their case.
 const CALLER: &str = "Line_controller";
-/// Words of SCL that may be a name in quotes alone. Those of IEC 61131-3 are no names of a specification's text at all.
-const WORDS: [&str; 32] = [
-    "any",
-    "begin",
-    "block_db",
-    "block_fb",
-    "block_fc",
-    "block_sdb",
-    "cont",
-    "const",
-    "continue",
-    "counter",
-    "data_block",
-    "db_any",
-    "en",
-    "eno",
-    "end_const",
-    "end_data_block",
-    "end_label",
-    "end_organization_block",
-    "end_region",
-    "goto",
-    "label",
-    "nil",
-    "ok",
-    "organization_block",
-    "pointer",
-    "region",
-    "s5time",
-    "timer",
-    "title",
-    "variant",
-    "version",
-    "void",
-];
 const DIALECT: Dialect = Dialect::Siemens;
 
 #[derive(Template)]
@@ -160,7 +129,10 @@ fn sections(keyword: &str, variables: &[Variable], to: &mut Formatter) -> fmt::R
 }
 
 fn declared(variable: &Variable, to: &mut impl Write) -> fmt::Result {
-    Variable { name: quoted(&variable.name), ..variable.clone() }.line(DIALECT, to)
+    match is_word(&variable.name) {
+        true => Variable { name: quoted(&variable.name), ..variable.clone() }.line(DIALECT, to),
+        false => variable.line(DIALECT, to),
+    }
 }
 
 fn structure(structure: &Structure) -> String {
@@ -198,32 +170,47 @@ fn values(variable: &Variable, to: &mut Formatter) -> fmt::Result {
 fn assign(place: &mut String, value: &Ex, each: Option<usize>, to: &mut Formatter) -> fmt::Result {
     let whole = place.len();
     match value {
-        Ex::List(list) => list.iter().enumerate().try_for_each(|(i, value)| {
+        Ex::List(list) => (0..list.len).try_for_each(|i| {
             match each {
                 Some(each) => write!(place, "[{}, {}]", i / each, i % each)?,
                 None => write!(place, "[{i}]")?,
             }
-            assign(place, &value, None, to)?;
+            match &list.elements {
+                Elements::Single(values) => {
+                    values.get(i).map_or(Ok(()), |value| assign(place, &value, None, to))?;
+                }
+                Elements::Structures(fields) => {
+                    let mut said = fields.iter().filter_map(|field| Some((&field.name, field.said(i)?)));
+                    said.try_for_each(|(field, value)| assign_field(place, field, &value, to))?;
+                }
+            }
             place.truncate(whole);
             Ok(())
         }),
-        Ex::Fields(fields) => fields.iter().try_for_each(|(field, value)| {
-            place.push('.');
-            *place += &quoted(field);
-            assign(place, value, None, to)?;
-            place.truncate(whole);
-            Ok(())
-        }),
+        Ex::Fields(fields) => {
+            fields.iter().try_for_each(|(field, value)| assign_field(place, field, value, to))
+        }
         // What a data block has without a start value.
         Ex::Bool(false) | Ex::Int(0) => Ok(()),
         Ex::Real(real) if real.to_bits() == 0 => Ok(()),
         Ex::Member(member) => writeln!(to, "    {place} := {}; {}", member.value, comment(&member.note)),
-        single => writeln!(to, "    {place} := {};", DIALECT.expression(single)),
+        single => {
+            *place += " := ";
+            DIALECT.write(single, place);
+            writeln!(to, "    {place};")?;
+            place.truncate(whole);
+            Ok(())
+        }
     }
 }
 
-fn quoted(name: &str) -> String {
-    if WORDS.iter().any(|word| word.eq_ignore_ascii_case(name)) { format!("\"{name}\"") } else { name.into() }
+fn assign_field(place: &mut String, field: &str, value: &Ex, to: &mut Formatter) -> fmt::Result {
+    let whole = place.len();
+    place.push('.');
+    push_quoted(field, place);
+    assign(place, value, None, to)?;
+    place.truncate(whole);
+    Ok(())
 }
 
 fn block(unit: &Unit, made_from: &str, is_global: &impl Fn(&str) -> bool, to: &mut Formatter) -> fmt::Result {
@@ -359,8 +346,13 @@ struct Names<'a, G> {
 
 impl<G: Fn(&str) -> bool> Names<'_, G> {
     fn name(&self, name: &str) -> String {
-        let quoted = quoted(name);
-        if (self.is_global)(name) { format!("\"{SHARED}\".{quoted}") } else { format!("#{quoted}") }
+        let mut text = String::with_capacity(name.len() + "\"\".\"\"".len() + SHARED.len());
+        match (self.is_global)(name) {
+            true => text.extend(["\"", SHARED, "\"."]),
+            false => text.push('#'),
+        }
+        push_quoted(name, &mut text);
+        text
     }
 
     fn statements(&self, statements: &[Stmt]) -> Vec<Stmt> {

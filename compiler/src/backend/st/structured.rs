@@ -20,10 +20,10 @@ use super::program::Blocks;
 use super::{block::Block, declaration::Unit};
 use crate::ir::AutomatonId;
 use crate::naming::st::Scope;
-use access::Places;
+pub use access::Places;
 use calls::Calls;
 pub use enumerations::Enumerated;
-use std::rc::Rc;
+use std::sync::Arc;
 use units::Given;
 
 /// The type of a point.
@@ -36,16 +36,16 @@ pub struct Structure {
     pub fields: Vec<Variable>,
 }
 
-/// The line with structures. `scope` has the names of the program.
+/// The line with structures. `shared_places` are those of [`Places::shared`], `scope` has the names of the program.
 pub fn structured<'a>(
     shared: Shared<'a>,
     line: &'a Line<'a>,
+    shared_places: &Places,
     enumerated: Enumerated,
     scope: &mut Scope,
 ) -> Line<'a> {
     let typed = enumerations::typed(shared, line, enumerated);
-    let shared_places = Places::shared(shared);
-    let (globals, structures) = globals::globals(shared, line, &shared_places, &typed);
+    let (globals, structures) = globals::globals(shared, line, shared_places, &typed);
     let index = Index::new(&globals);
     let of_unit = |unit: &Unit, id: Option<AutomatonId>| -> Given {
         let places = match id {
@@ -55,7 +55,7 @@ pub fn structured<'a>(
         units::unit(unit, &places, &index, &typed)
     };
     let layout = layout::unit(shared, line);
-    let layout = units::unit(&layout, &shared_places, &index, &typed);
+    let layout = units::unit(&layout, shared_places, &index, &typed);
     let mut given: Vec<Given> = vec![layout];
     given.push(of_unit(&line.watchdog, None));
     let blocks: Vec<Option<Blocks>> = (line.blocks.iter().enumerate())
@@ -73,10 +73,10 @@ pub fn structured<'a>(
         })
         .collect();
     let [layout, watchdog] = [0, 1].map(|i| given[i].unit.clone());
-    let mut calls = Calls::new(shared, given, &line.program, &shared_places);
+    let mut calls = Calls::new(shared, given, &line.program, shared_places);
     let mut globals = globals;
     globals.parameters.extend(calls.name_points(&line.program.body, scope));
     let program = units::program(&line.program, calls);
-    let (functions, blocks, globals) = (line.functions.clone(), Rc::new(blocks), Rc::new(globals));
+    let (functions, blocks, globals) = (line.functions.clone(), Arc::new(blocks), Arc::new(globals));
     Line { functions, blocks, watchdog, layout, program, globals, structures }
 }

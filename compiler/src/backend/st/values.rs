@@ -1,7 +1,7 @@
 //! The values of tables: as many as a line has parameters, so they are held as narrow as they are, and once.
 
 use super::code::Ex;
-use std::rc::Rc;
+use std::sync::Arc;
 
 /// The values of a table, in the order of its elements.
 #[derive(Clone, Debug, PartialEq)]
@@ -85,21 +85,28 @@ pub struct List {
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Elements {
-    Single(Rc<Values>),
+    Single(Arc<Values>),
     Structures(Vec<Field>),
 }
 
 /// A field of structures.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Field {
-    pub name: Rc<str>,
-    pub values: Rc<Values>,
+    pub name: Arc<str>,
+    pub values: Arc<Values>,
     /// What a structure has that does not say it.
     pub unsaid: Option<Ex>,
 }
 
+impl Field {
+    /// The value of an element, if its structure says it.
+    pub fn said(&self, i: usize) -> Option<Ex> {
+        self.values.get(i).filter(|value| Some(value) != self.unsaid.as_ref())
+    }
+}
+
 impl List {
-    pub fn single(values: Rc<Values>) -> Self {
+    pub fn single(values: Arc<Values>) -> Self {
         Self { len: values.len(), elements: Elements::Single(values) }
     }
 
@@ -111,10 +118,7 @@ impl List {
         match &self.elements {
             Elements::Single(values) => values.get(i),
             Elements::Structures(fields) => {
-                let fields = fields.iter().filter_map(|field| {
-                    let value = field.values.get(i).filter(|value| Some(value) != field.unsaid.as_ref())?;
-                    Some((field.name.clone(), value))
-                });
+                let fields = fields.iter().filter_map(|field| Some((field.name.clone(), field.said(i)?)));
                 Some(Ex::Fields(fields.collect()))
             }
         }

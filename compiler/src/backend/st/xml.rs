@@ -8,9 +8,11 @@ use super::declaration::{Instance, Unit, Variable, lists_of_globals};
 use super::functions::Function;
 use super::print::Dialect;
 use super::text::{body, enumerations, made_from};
+use super::values::Elements;
 use crate::backend::{Part, part};
 use crate::{plain, version};
 use askama::Template;
+use std::borrow::Borrow;
 use std::fmt::{self, Formatter, Write};
 
 #[derive(Template)]
@@ -240,71 +242,97 @@ fn element<T>(
 }
 
 fn variable(variable: &Variable, dialect: Dialect, indent: usize, to: &mut Formatter) -> fmt::Result {
-    let single = match variable.structure.as_ref().or(variable.enumeration.as_ref()) {
-        Some(name) => format!("<derived name=\"{name}\"/>"),
-        None => format!("<{}/>", variable.basic.name()),
-    };
+    write!(to, "{:indent$}<variable name=\"{}\"", "", variable.name)?;
+    if let Some(at) = &variable.address {
+        write!(to, " address=\"{at}\"")?;
+    }
+    to.write_str("><type>")?;
     let last = variable.last(dialect);
-    let dimension = |last: &usize| format!("<dimension lower=\"0\" upper=\"{last}\"/>");
-    let ty = match last.is_empty() {
-        true => single,
-        false => format!(
-            "<array>{}<baseType>{single}</baseType></array>",
-            last.iter().map(dimension).collect::<String>()
-        ),
-    };
+    if !last.is_empty() {
+        to.write_str("<array>")?;
+        last.iter().try_for_each(|last| write!(to, "<dimension lower=\"0\" upper=\"{last}\"/>"))?;
+        to.write_str("<baseType>")?;
+    }
+    match variable.structure.as_ref().or(variable.enumeration.as_ref()) {
+        Some(name) => write!(to, "<derived name=\"{name}\"/>")?,
+        None => write!(to, "<{}/>", variable.basic.name())?,
+    }
+    if !last.is_empty() {
+        to.write_str("</baseType></array>")?;
+    }
+    to.write_str("</type>")?;
+    if let Some(ex) = &variable.initial {
+        to.write_str("<initialValue>")?;
+        value(ex, dialect, &mut String::new(), to)?;
+        to.write_str("</initialValue>")?;
+    }
+    about(variable, dialect, to)?;
+    to.write_str("</variable>\n")
+}
+
+/// The comments of a variable.
+fn about(variable: &Variable, dialect: Dialect, to: &mut Formatter) -> fmt::Result {
     let about = variable.comments.iter().fold(String::new(), |text, line| match text.as_str() {
         "" => line.to_string(),
         text if text.ends_with('.') => format!("{text} {line}"),
         text => format!("{text}; {line}"),
     });
     let about = escaped(&about);
-    let about = match (about.is_empty(), dialect) {
-        (true, _) => String::new(),
-        (false, Dialect::Portable) => format!("<documentation><xhtml:p>{about}</xhtml:p></documentation>"),
-        (false, Dialect::Codesys | Dialect::Siemens) => {
-            format!(
-                "<documentation><xhtml xmlns=\"http://www.w3.org/1999/xhtml\">{about}</xhtml></documentation>"
-            )
-        }
-    };
-    let address = variable.address.as_ref().map(|at| format!(" address=\"{at}\"")).unwrap_or_default();
-    write!(to, "{:indent$}<variable name=\"{}\"{address}><type>{ty}</type>", "", variable.name)?;
-    if let Some(ex) = &variable.initial {
-        to.write_str("<initialValue>")?;
-        value(ex, dialect, to)?;
-        to.write_str("</initialValue>")?;
+    match dialect {
+        _ if about.is_empty() => Ok(()),
+        Dialect::Portable => write!(to, "<documentation><xhtml:p>{about}</xhtml:p></documentation>"),
+        Dialect::Codesys | Dialect::Siemens => write!(
+            to,
+            "<documentation><xhtml xmlns=\"http://www.w3.org/1999/xhtml\">{about}</xhtml></documentation>"
+        ),
     }
-    writeln!(to, "{about}</variable>")
 }
 
-/// A value in a declaration.
-fn value(ex: &Ex, dialect: Dialect, to: &mut Formatter) -> fmt::Result {
+/// A value in a declaration. `text` is for the text of a single one.
+fn value(ex: &Ex, dialect: Dialect, text: &mut String, to: &mut Formatter) -> fmt::Result {
     match ex {
         Ex::List(list) => {
             to.write_str("<arrayValue>")?;
-            for ex in list.iter() {
+            for i in 0..list.len {
                 to.write_str("<value>")?;
-                value(&ex, dialect, to)?;
+                match &list.elements {
+                    Elements::Single(values) => {
+                        values.get(i).map_or(Ok(()), |ex| value(&ex, dialect, text, to))?
+                    }
+                    Elements::Structures(fields) => {
+                        let said = fields.iter().filter_map(|field| Some((&*field.name, field.said(i)?)));
+                        structure(said, dialect, text, to)?;
+                    }
+                }
                 to.write_str("</value>")?;
             }
             to.write_str("</arrayValue>")
         }
-        Ex::Fields(fields) => {
-            to.write_str("<structValue>")?;
-            for (name, ex) in fields {
-                write!(to, "<value member=\"{name}\">")?;
-                value(ex, dialect, to)?;
-                to.write_str("</value>")?;
-            }
-            to.write_str("</structValue>")
-        }
+        Ex::Fields(fields) => structure(fields.iter().map(|(name, ex)| (&**name, ex)), dialect, text, to),
         single => {
+            text.clear();
+            dialect.write(single, text);
             to.write_str("<simpleValue value=\"")?;
-            write_escaped(&dialect.expression(single), to)?;
+            write_escaped(text, to)?;
             to.write_str("\"/>")
         }
     }
+}
+
+/// The values of a structure.
+fn structure<'f, E: Borrow<Ex>>(
+    fields: impl Iterator<Item = (&'f str, E)>,
+    dialect: Dialect,
+    text: &mut String,
+    to: &mut Formatter,
+) -> fmt::Result {
+    to.write_str("<structValue>")?;
+    for (name, ex) in fields {
+        write!(to, "<value member=\"{name}\">")?;
+        value(ex.borrow(), dialect, text, to)?;
+        to.write_str("</value>")?;
+    }
+    to.write_str("</structValue>")
 }
 
 fn named(name: &str) -> String {

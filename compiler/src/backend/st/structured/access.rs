@@ -6,7 +6,7 @@ use crate::backend::st::context::Shared;
 use crate::backend::st::names::Held;
 use crate::ir::AutomatonId;
 use std::collections::HashMap;
-use std::rc::Rc;
+use std::sync::Arc;
 
 /// The coordinates of a point.
 pub const COORDINATES: [&str; 3] = ["x", "y", "z"];
@@ -25,10 +25,10 @@ pub struct Place {
 #[derive(Clone, Default)]
 pub struct Places {
     /// What all units share.
-    shared: Rc<HashMap<String, Place>>,
+    shared: Arc<HashMap<String, Place>>,
     own: HashMap<String, Place>,
     /// What the instances of blocks have.
-    instances: HashMap<String, Rc<Places>>,
+    instances: HashMap<String, Arc<Places>>,
 }
 
 impl Places {
@@ -49,7 +49,7 @@ impl Places {
             let place = Place { of: "alarms".into(), field: Some(column.into()), coordinate: None };
             places.own.insert(format!("alarms_{column}"), place);
         }
-        Self { shared: Rc::new(places.own), ..Self::default() }
+        Self { shared: Arc::new(places.own), ..Self::default() }
     }
 
     /// With what the blocks of a type have.
@@ -62,7 +62,7 @@ impl Places {
     }
 
     /// With what the instances of the program have.
-    pub fn of_program(&self, instances: HashMap<String, Rc<Places>>) -> Self {
+    pub fn of_program(&self, instances: HashMap<String, Arc<Places>>) -> Self {
         Self { instances, ..self.clone() }
     }
 

@@ -1,7 +1,7 @@
 //! Calls of blocks in the program.
 
 use super::POINT;
-use super::access::{COORDINATES, Place, Places};
+use super::access::{COORDINATES, Places};
 use super::units::Given;
 use crate::backend::st::body::Body;
 use crate::backend::st::code::{Ex, Stmt, name};
@@ -11,7 +11,7 @@ use crate::backend::st::globals::{Table, about};
 use crate::ir::{Extent, Parameter, Scalar, Value};
 use crate::naming::st::Scope;
 use std::collections::{BTreeMap, HashMap};
-use std::rc::Rc;
+use std::sync::Arc;
 
 pub struct Calls<'a> {
     shared: Shared<'a>,
@@ -47,10 +47,10 @@ impl<'a> Calls<'a> {
         let given = self.given(instance);
         let shared = given.map_or(&[][..], |given| &given.shared);
         let mut all: Vec<(String, Ex)> = Vec::with_capacity(arguments.len() + shared.len());
-        for (argument, value) in arguments {
+        for (number, (argument, value)) in arguments.iter().enumerate() {
             let value = self.places.ex(value);
-            match given.and_then(|given| given.places.get(argument)) {
-                Some(Place { of, coordinate: Some(_), .. }) => {
+            match given.and_then(|given| given.point_of(number, argument)) {
+                Some(of) => {
                     if all.iter().all(|(known, _)| known != of) {
                         let whole = match value {
                             Ex::Part(whole, _) => *whole,
@@ -61,7 +61,7 @@ impl<'a> Calls<'a> {
                         all.push((of.clone(), whole));
                     }
                 }
-                _ => all.push((argument.clone(), value)),
+                None => all.push((argument.clone(), value)),
             }
         }
         all.extend(shared.iter().map(|shared| (shared.clone(), name(shared))));
@@ -78,9 +78,8 @@ impl<'a> Calls<'a> {
         for piece in program.pieces() {
             for statement in piece.iter() {
                 let Stmt::Call { instance, arguments } = statement else { continue };
-                for (argument, value) in arguments {
-                    let Some(Place { of, coordinate: Some(_), .. }) =
-                        self.given(instance).and_then(|given| given.places.get(argument))
+                for (number, (argument, value)) in arguments.iter().enumerate() {
+                    let Some(of) = self.given(instance).and_then(|given| given.point_of(number, argument))
                     else {
                         continue;
                     };
@@ -113,7 +112,7 @@ impl<'a> Calls<'a> {
         let parameter = &self.shared.system.model.automaton(own.automaton).parameters[number];
         let variable = scope.take(&format!("{}_{}", own.name, parameter.name));
         let value = own.parameters[number].first().copied().unwrap_or(Value::Point([0.0; 3]));
-        let fields = COORDINATES.iter().map(|c| Rc::from(*c)).zip(constants(value)).collect();
+        let fields = COORDINATES.iter().map(|c| Arc::from(*c)).zip(constants(value)).collect();
         let declared = Variable::new(&variable, Basic::Lreal).with_initial(Ex::Fields(fields));
         let comments = about(&parameter.doc, String::new());
         Table::declared(Variable { structure: Some(POINT.into()), comments, ..declared })

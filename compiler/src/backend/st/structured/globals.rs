@@ -13,14 +13,14 @@ use crate::backend::st::restart;
 use crate::backend::st::values::{Elements, Field, List};
 use crate::ir::{Extent, InterfaceId, Scalar};
 use std::collections::BTreeMap;
-use std::rc::Rc;
+use std::sync::Arc;
 
 pub fn globals(shared: Shared, line: &Line, places: &Places, typed: &Typed) -> (Globals, Vec<Structure>) {
     // No port is of an enumeration.
-    let of_robot = |ports: &[Rc<Variable>]| match ports.iter().any(|port| places.get(&port.name).is_some()) {
+    let of_robot = |ports: &[Arc<Variable>]| match ports.iter().any(|port| places.get(&port.name).is_some()) {
         true => {
             let ports = ports.iter().map(|port| &**port);
-            variables_of(ports, "", places, typed).into_iter().map(Rc::new).collect()
+            variables_of(ports, "", places, typed).into_iter().map(Arc::new).collect()
         }
         false => ports.to_vec(),
     };
@@ -178,7 +178,7 @@ fn parameters(shared: Shared, line: &Line, places: &Places, typed: &Typed) -> Ve
 }
 
 /// What is said of an array with so many elements for each row, and what of one of two dimensions.
-fn rows_by_element(shared: Shared) -> BTreeMap<Rc<str>, Rc<str>> {
+fn rows_by_element(shared: Shared) -> BTreeMap<Arc<str>, Arc<str>> {
     let mut texts = BTreeMap::new();
     let model = &shared.system.model;
     let mut add = |id: InterfaceId, each: usize| {

@@ -9,14 +9,25 @@ use crate::backend::st::code::{self, Ex, Stmt};
 use crate::backend::st::declaration::{Unit, Variable};
 use crate::backend::st::globals::Index;
 use std::collections::BTreeSet;
-use std::rc::Rc;
+use std::sync::Arc;
 
 /// A block, and the shared variables that each call gives it.
 #[derive(Clone)]
 pub struct Given<'a> {
     pub unit: Unit<'a>,
     pub shared: Vec<String>,
-    pub places: Rc<Places>,
+    pub places: Arc<Places>,
+    /// What it is called with, and the point of which that is a coordinate.
+    points: Vec<(String, Option<String>)>,
+}
+
+impl Given<'_> {
+    /// The point of which an argument is a coordinate. Most calls have all arguments, in this order.
+    pub fn point_of(&self, number: usize, argument: &str) -> Option<&String> {
+        let is_it = |known: &&(String, Option<String>)| known.0 == argument;
+        let known = self.points.get(number).filter(is_it).or_else(|| self.points.iter().find(is_it));
+        known?.1.as_ref()
+    }
 }
 
 pub fn unit<'a>(unit: &Unit, places: &Places, globals: &Index, typed: &Typed) -> Given<'a> {
@@ -37,9 +48,14 @@ pub fn unit<'a>(unit: &Unit, places: &Places, globals: &Index, typed: &Typed) ->
         if is_read { &mut inputs } else { &mut references }.push(global.external());
         shared.push(global.name.clone());
     }
+    let point = |variable: &Variable| {
+        let place = places.get(&variable.name).filter(|place| place.coordinate.is_some());
+        (variable.name.clone(), place.map(|place| place.of.clone()))
+    };
+    let points = unit.inputs.iter().map(point).collect();
     let body = body.into();
     let unit = Unit { inputs, outputs, references, variables, body, ..unit.without_body() };
-    Given { unit, shared, places: Rc::new(places.clone()) }
+    Given { unit, shared, places: Arc::new(places.clone()), points }
 }
 
 /// The program: its calls give blocks what they need.
@@ -108,5 +124,22 @@ fn root(target: &Ex, found: &mut BTreeSet<String>) {
         Ex::Name(name) | Ex::Element(name, _) => drop(found.insert(name.clone())),
         Ex::Part(of, _) | Ex::Item(of, _) => root(of, found),
         _ => {}
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_point_of_an_argument_does_not_depend_on_its_number() {
+        let points = [("robot", None), ("at_x", Some("at")), ("rest_x", Some("rest"))];
+        let points = points.map(|(name, of)| (name.to_string(), of.map(String::from))).to_vec();
+        let given = Given { unit: Unit::default(), shared: Vec::new(), places: Arc::default(), points };
+        for number in 0..4 {
+            let point_of = |argument| given.point_of(number, argument).map(String::as_str);
+            let found = ["robot", "at_x", "rest_x", "speed"].map(point_of);
+            assert_eq!(found, [None, Some("at"), Some("rest"), None], "{number}");
+        }
     }
 }
