@@ -51,13 +51,13 @@ pub fn lying(
     let here = BoundingBox::around(&ball.shifted(place));
     match (machine.route(), conveyed) {
         (Some(_), _) => at_stops(machine, &ball.shifted(offset)),
-        (None, Some(conveyed)) => here.with(&on_course(&conveyed, ball)),
+        (None, Some(conveyed)) => here.with(&along_conveyor(&conveyed, ball)),
         (None, None) => here,
     }
 }
 
 /// What an item can take on the rest of its conveyor, wherever that is carried.
-fn on_course(conveyed: &Conveyed, ball: &Ball) -> BoundingBox {
+fn along_conveyor(conveyed: &Conveyed, ball: &Ball) -> BoundingBox {
     let Conveyed { centre_line, place, across, carried, .. } = conveyed;
     let pieces = if matches!(centre_line, CentreLine::Arc { .. }) { ARC_PIECES } else { 1 };
     let piece = (place - centre_line.end()).max(0.0) / pieces as f64;
