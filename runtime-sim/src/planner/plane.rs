@@ -4,7 +4,7 @@ use crate::point::Point;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 use std::f64::consts::FRAC_PI_2;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Mutex, PoisonError};
 
 /// On the plane: lower and upper corner; z has no meaning.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -110,8 +110,8 @@ pub struct Plane {
     corners: Vec<Corner>,
     /// Where those of each block begin, and the end of all.
     begins: Vec<usize>,
-    /// Of each corner that was passed: the blocks to which the segment to each of the others is too near.
-    segments: Mutex<Vec<Option<Arc<[Blocks]>>>>,
+    /// From each corner.
+    segments: Mutex<Vec<Segments>>,
 }
 
 #[derive(Debug)]
@@ -125,9 +125,11 @@ struct Corner {
 #[derive(Debug)]
 pub struct Start {
     point: Point,
-    /// Of each corner that was looked at: the blocks to which the segment to it is too near.
-    segments: Vec<Option<Blocks>>,
+    segments: Segments,
 }
+
+/// Of each corner that was looked at from a place: the blocks to which the segment to it is too near.
+type Segments = Vec<Option<Blocks>>;
 
 impl Start {
     pub fn new(point: Point) -> Self {
@@ -216,7 +218,7 @@ impl Plane {
             corners.extend(places.map(|place| Corner { place, near: too_near([place; 2], &blocks) }));
             begins.push(corners.len());
         }
-        let segments = Mutex::new(vec![None; corners.len()]);
+        let segments = Mutex::new(vec![Segments::new(); corners.len()]);
         Self { blocks, area, corners, begins, segments }
     }
 
@@ -286,9 +288,10 @@ impl Plane {
             }
             let is_free = match (places[last].corner, places[present].corner) {
                 (Some(_), Some(_)) => true,
-                (None, Some(corner)) if last == 0 => {
-                    near.is_free_beside(self.segment(from, corner), segment(last, present))
-                }
+                (None, Some(corner)) if last == 0 => near.is_free_beside(
+                    self.segment(from.point, &mut from.segments, corner),
+                    segment(last, present),
+                ),
                 _ => near.is_free(segment(last, present)),
             };
             if !is_free {
@@ -303,15 +306,18 @@ impl Plane {
             if straight < free_lengths[1] && near.is_free(segment(present, 1)) {
                 free_lengths[1] = straight;
             }
-            let known = places[present].corner.map(|corner| self.segments(corner));
+            // Nothing panics while it is locked.
+            let mut segments = self.segments.lock().unwrap_or_else(PoisonError::into_inner);
+            let mut known = places[present].corner.map(|corner| &mut segments[corner]);
             for next in (0..places.len()).filter(|next| before[*next].is_none()) {
                 let length = gone + distance(present, next);
                 let whole = length + still[next];
                 if length > free_lengths[next] || whole > free_lengths[1] * (1.0 + ROUNDED) {
                     continue;
                 }
-                if let (Some(known), Some(corner)) = (&known, places[next].corner) {
-                    if !near.is_free_beside(known[corner], segment(present, next)) {
+                if let (Some(known), Some(corner)) = (&mut known, places[next].corner) {
+                    let beside = self.segment(places[present].point, known, corner);
+                    if !near.is_free_beside(beside, segment(present, next)) {
                         continue;
                     }
                     free_lengths[next] = length;
@@ -322,20 +328,10 @@ impl Plane {
         None
     }
 
-    /// The blocks to which the segment from a start to a corner is too near.
-    fn segment(&self, from: &mut Start, corner: usize) -> Blocks {
-        let segment = [from.point, self.corners[corner].place];
-        from.segments.resize(self.corners.len(), None);
-        *from.segments[corner].get_or_insert_with(|| too_near(segment, &self.blocks))
-    }
-
-    /// Of a corner: the blocks to which the segment to each of the others is too near.
-    fn segments(&self, corner: usize) -> Arc<[Blocks]> {
-        // Nothing panics while it is locked.
-        let mut segments = self.segments.lock().unwrap_or_else(PoisonError::into_inner);
-        let from = self.corners[corner].place;
-        let of = || self.corners.iter().map(|to| too_near([from, to.place], &self.blocks)).collect();
-        segments[corner].get_or_insert_with(of).clone()
+    /// The blocks to which the segment from a place to a corner is too near.
+    fn segment(&self, from: Point, known: &mut Segments, corner: usize) -> Blocks {
+        known.resize(self.corners.len(), None);
+        *known[corner].get_or_insert_with(|| too_near([from, self.corners[corner].place], &self.blocks))
     }
 }
 
