@@ -346,6 +346,7 @@ fn back_from(place: usize, before: &[Option<usize>], places: &[Place]) -> Vec<Po
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::random::Random;
 
     fn point(x: f64, y: f64) -> Point {
         Point::new(x, y, 0.0)
@@ -399,5 +400,66 @@ mod tests {
             .unwrap();
         let first = [point(-0.3, 0.0), path[0]];
         assert!(wall.distance(first) >= 0.2 - 1e-6, "{path:?}");
+    }
+
+    /// Of the shortest path by all places round corners, each with each, m.
+    fn least_length(plane: &Plane, [start, goal]: [Point; 2]) -> Option<f64> {
+        let blocks: Vec<Block> = plane.blocks.iter().map(|block| block.rounded(block.radius)).collect();
+        let round = blocks.iter().flat_map(Block::round_corners);
+        let free = round.filter(|place| plane.area.contains(*place) && keeps_off_all([*place; 2], &blocks));
+        let places: Vec<Point> = [start, goal].into_iter().chain(free).collect();
+        let mut lengths = vec![f64::INFINITY; places.len()];
+        lengths[0] = 0.0;
+        let mut open: Vec<usize> = (0..places.len()).collect();
+        while !open.is_empty() {
+            let nearest = (0..open.len()).min_by(|a, b| lengths[open[*a]].total_cmp(&lengths[open[*b]]));
+            let from = open.swap_remove(nearest?);
+            for to in &open {
+                let path = [places[from], places[*to]];
+                let length = lengths[from] + (path[1] - path[0]).length();
+                if length < lengths[*to] && keeps_off_all(path, &blocks) {
+                    lengths[*to] = length;
+                }
+            }
+        }
+        lengths[1].is_finite().then_some(lengths[1])
+    }
+
+    #[test]
+    fn no_path_is_shorter_whatever_was_asked_before() {
+        let mut random = Random::new(7);
+        let mut drawn = |low: f64, high: f64| low + random.fraction() * (high - low);
+        let (mut round, mut none) = (0, 0);
+        for _ in 0..12 {
+            let blocks = (0..10).map(|_| {
+                let [x, y] = [drawn(-4.0, 3.0), drawn(-4.0, 3.0)];
+                block(rectangle([x, x + drawn(0.2, 2.0)], [y, y + drawn(0.2, 2.0)]))
+            });
+            let plane = Plane::new(blocks.collect(), rectangle([-4.5, 4.5], [-4.5, 4.5]));
+            let mut place = || loop {
+                let place = point(drawn(-4.5, 4.5), drawn(-4.5, 4.5));
+                if plane.keeps_off(place) {
+                    return place;
+                }
+            };
+            for start in [place(), place()] {
+                let mut from = Start::new(start);
+                for goal in [place(), place(), place()] {
+                    let found = plane.shortest(&mut from, goal).map(|path| {
+                        let all: Vec<Point> = [start].into_iter().chain(path).chain([goal]).collect();
+                        round += usize::from(all.len() > 3);
+                        all.windows(2).map(|pair| (pair[1] - pair[0]).length()).sum::<f64>()
+                    });
+                    let least = least_length(&plane, [start, goal]);
+                    none += usize::from(least.is_none());
+                    let are_same = match (found, least) {
+                        (Some(found), Some(least)) => (found - least).abs() < 1e-9,
+                        _ => found == least,
+                    };
+                    assert!(are_same, "{start:?} {goal:?}: {found:?}, not {least:?}");
+                }
+            }
+        }
+        assert!(round > 10 && none > 0, "{round} past two corners or more, {none} without a path");
     }
 }
