@@ -25,7 +25,7 @@ pub mod lower;
 pub mod lsp;
 pub mod naming;
 pub mod overlap;
-mod parallel;
+pub mod parallel;
 pub mod plain;
 pub mod reads;
 pub mod scenario;

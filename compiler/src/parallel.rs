@@ -5,7 +5,9 @@ use std::panic::resume_unwind;
 use std::thread;
 
 /// Bytes of the stack of a thread: as many as the first thread of a program usually has.
-const STACK: usize = 8 * 1024 * 1024;
+pub const STACK: usize = 8 * 1024 * 1024;
+/// Machines or pairs of them in one thread: fewer take no longer than to begin another one.
+pub const LEAST: usize = 100;
 
 /// What `work` gives for parts of the items that follow one another, in the order of the items: where a part ends
 /// must not matter. No part is shorter than `least`, but for the last one.

@@ -18,12 +18,9 @@ pub use near::Ground;
 use crate::device::Placed;
 use crate::diagnostic::Diagnostic;
 use crate::layout::Number;
-use crate::parallel::in_parts;
+use crate::parallel::{LEAST, in_parts};
 use crate::source::Span;
 use std::collections::BTreeMap;
-
-/// Pairs whose poses are tried in one thread: fewer take no longer than to begin another one.
-const LEAST: usize = 100;
 
 /// A machine that hands over or takes.
 #[derive(Clone, Debug)]

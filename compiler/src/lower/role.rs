@@ -11,7 +11,7 @@ use crate::ir::{
     TextPart, Value,
 };
 use crate::layout::Layout;
-use crate::parallel::in_parts;
+use crate::parallel::{LEAST, in_parts};
 use crate::scenario::{Number, Scenario};
 use crate::source::{Span, Spanned};
 use runtime_sim::machine::Machine;
@@ -22,9 +22,6 @@ use std::collections::{BTreeSet, HashMap, HashSet};
 const MOST_PAIRS: usize = 100_000;
 /// Pairs that are tried since a machine is cut off, however far the two are apart.
 const MOST_FAR: usize = 2000;
-
-/// Machines that are made in one thread: fewer take no longer than to begin another one.
-const LEAST: usize = 100;
 
 /// The machines of a layout, bound to a model of just their types.
 pub struct Line<'a> {

@@ -75,7 +75,6 @@ impl<'a> Options<'a> {
             first_lifts,
             last_lifts: last_lifts(planner, task, candidates),
         };
-        let mut queue = Vec::new();
         for candidate in 0..candidates.len() {
             let length = options.least_length(candidate);
             for back in 0..effort.backs.len() {
@@ -85,14 +84,13 @@ impl<'a> Options<'a> {
                         let choice = Choice { candidate, back, rise, turning, clear };
                         if let Some(timing) = options.timing(&choice, length) {
                             let number = options.choices.len();
-                            queue.push(Reverse((timing.end.to_bits(), number, Length::AtLeast)));
+                            options.queue.push(Reverse((timing.end.to_bits(), number, Length::AtLeast)));
                             options.choices.push(choice);
                         }
                     }
                 }
             }
         }
-        options.queue = queue.into();
         options
     }
 

@@ -8,6 +8,7 @@ use super::transaction::{self, Change, create_parent, sync};
 use super::{Overwrite, Refusal, among};
 use crate::command::interrupt::Temporary;
 use autogen::backend::Sink;
+use autogen::parallel::STACK;
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 use std::fmt::{self, Display, Write};
@@ -27,9 +28,6 @@ const MOST_BYTES: usize = 1_000_000;
 
 /// Gives files, one at a time.
 pub type Make<'a> = dyn Fn(&mut dyn Sink) + Sync + 'a;
-
-/// Bytes of the stack of a thread that makes files: as many as the first thread of a program usually has.
-const STACK: usize = 8 * 1024 * 1024;
 
 /// The files that these give, all at the same time.
 pub fn staged(folder: &Path, before: Manifest, make: &[&Make]) -> Staged {
