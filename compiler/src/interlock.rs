@@ -6,6 +6,7 @@ mod lock;
 mod region;
 mod stage;
 mod stay;
+pub mod visits;
 mod writers;
 
 use crate::diagnostic::{Diagnostic, sort};

@@ -183,9 +183,17 @@ pub struct Handover {
     pub place: Span,
     pub direction: Direction,
     pub name: String,
-    pub index: Option<usize>,
+    pub index: Option<Index>,
     /// Height over the contact from which an arm comes and to which it leaves, m.
     pub approach: f64,
+}
+
+/// Which one of several places of one name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Index {
+    Number(usize),
+    /// The one that a whole number of the automaton names, which stays within the places.
+    Parameter(usize),
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -341,9 +341,9 @@ fn the_picture_of_the_readme_is_drawn_from_the_default_layout() {
 }
 
 /// `docs/NAME` is what `commission` draws of the default line with these options.
-fn is_drawn_by(name: &str, options: &[&str]) {
+fn is_drawn_by(name: &str, layout: &str, options: &[&str]) {
     let folder = folder(name);
-    let layout = example("ariac2021/default.json");
+    let layout = example(layout);
     let output =
         autogen(&folder, &[&["commission", layout.as_str(), "--trajectories", name][..], options].concat());
     assert_eq!(status(&output), 0, "{}", errors(&output));
@@ -357,7 +357,7 @@ fn is_drawn_by(name: &str, options: &[&str]) {
 
 #[test]
 fn two_batteries_are_drawn_from_the_run_of_the_default_layout() {
-    is_drawn_by("paths.svg", &["--items", "battery_3,battery_4"]);
+    is_drawn_by("paths.svg", "ariac2021/default.json", &["--items", "battery_3,battery_4"]);
 }
 
 #[test]
@@ -366,7 +366,7 @@ fn two_batteries_of_the_prototype_are_drawn_as_in_the_paper() {
     let prototype = ["--specs", &specs, "--scenario", &scenario];
     let values = ["--set", "agv.capacity=4", "--set", "gantry.version=V0"];
     let items = ["--items", "battery_green_3,battery_blue_3"];
-    is_drawn_by("fig6.svg", &[&prototype[..], &values, &items].concat());
+    is_drawn_by("fig6.svg", "ariac2021/prototype/default.json", &[&prototype[..], &values, &items].concat());
 }
 
 fn numbers(value: &Value) -> Vec<f64> {

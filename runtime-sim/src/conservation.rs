@@ -74,6 +74,7 @@ mod tests {
             wiring: Arc::default(),
             states: vec![],
             monitor: Default::default(),
+            visits: None,
         };
         Items::new(&Line {
             scan_ms: 10,

@@ -31,6 +31,8 @@ pub struct Machine {
     /// States of its automaton; empty if it has none.
     pub states: Vec<State>,
     pub monitor: Monitor,
+    /// Numbers of the stops of its route at which it can be, the start among them, in ascending order; none: at any.
+    pub visits: Option<Vec<usize>>,
 }
 
 /// Elements of a port or a constant.
@@ -366,8 +368,15 @@ impl Machine {
         self.track().map_or_else(|| self.stops().to_vec(), Track::corners)
     }
 
-    /// Where it may be, if it goes from stop to stop; the first is where it starts.
+    /// All stops, if it goes from stop to stop; the first is where it starts.
     pub fn stops(&self) -> &[Point] {
         self.route().map_or(&[], |route| &route.stops)
+    }
+
+    /// Those of them at which it can be.
+    pub fn visited(&self) -> Vec<Point> {
+        let visits = |number: &usize| self.visits.as_ref().is_none_or(|visits| visits.contains(number));
+        let stops = self.stops().iter().enumerate();
+        stops.filter(|(number, _)| visits(number)).map(|(_, stop)| *stop).collect()
     }
 }

@@ -4,6 +4,7 @@ use crate::answers::Answers;
 use crate::collision::Boxes;
 use crate::fingerprint::Fingerprint;
 use crate::line::{Kind, Line, Obstacle};
+use crate::machine::Machine;
 use crate::part::Part;
 use crate::part::chain::motions::Motions;
 use crate::planner::Planner;
@@ -55,14 +56,26 @@ impl Default for Contacts {
 /// All that paths and contacts depend on.
 #[derive(Clone, Debug, PartialEq)]
 struct Surroundings {
-    machines: Vec<(Point, Vec<Arc<Part>>)>,
+    machines: Vec<Surrounding>,
     obstacles: Vec<Obstacle>,
     kinds: Vec<Kind>,
 }
 
+/// A machine: where it stands, what it consists of, and the stops at which it can be.
+#[derive(Clone, Debug, PartialEq)]
+struct Surrounding {
+    pose: Point,
+    parts: Vec<Arc<Part>>,
+    visits: Option<Vec<usize>>,
+}
+
 impl Surroundings {
     fn of(line: &Line) -> Self {
-        let machines = line.machines.iter().map(|machine| (machine.pose, machine.parts.clone()));
+        let machines = line.machines.iter().map(|Machine { pose, parts, visits, .. }| Surrounding {
+            pose: *pose,
+            parts: parts.clone(),
+            visits: visits.clone(),
+        });
         Self { machines: machines.collect(), obstacles: line.obstacles.clone(), kinds: line.kinds.clone() }
     }
 }

@@ -1,8 +1,9 @@
 //! Plans the paths of a gantry round obstacles.
 //!
 //! Up as high as its goal or, if need be, over all obstacles; then with torso and rails round them; then down. All
-//! of it is one path without a stop. The robot knows the layout: machines and obstacles, vehicles at their stops and
-//! on the trip from the first to the second. It does not know where others are at present, nor other arms.
+//! of it is one path without a stop. The robot knows the layout: machines and obstacles, vehicles at the stops at which
+//! they can be, and all trips between these. A vehicle over whose tray a path begins or ends waits there. The robot does
+//! not know where others are at present, nor other arms.
 
 mod check;
 mod gap;
@@ -308,7 +309,7 @@ impl Planner {
     }
 
     fn compute_is_free_at_place(&self, Candidate { over, at, .. }: &Candidate) -> bool {
-        let near = self.scene.near([over, at].map(axis));
+        let near = self.scene.near([over, at].map(axis), &[self.arm.tool(at)]);
         let gap = |joints, enough| self.scene.gap(&near, joints, Load::None, [enough; 2]);
         gap(at, MARGIN_AT_PLACE) >= MARGIN_AT_PLACE
             && gap(over, MARGIN_AT_PLACE) >= MARGIN_AT_PLACE
@@ -359,7 +360,7 @@ impl Planner {
 
     fn compute_vertical(&self, low: &Joints, top: f64, load: Load) -> Option<Vertical> {
         let tool = self.arm.tool(low);
-        let near = self.scene.near([axis(low)]);
+        let near = self.scene.near([axis(low)], &[tool]);
         let gap = if tool.z < top {
             f64::INFINITY
         } else {

@@ -143,15 +143,22 @@ pub fn own_line(folder: &str) -> Texts {
     Texts { layout: text(&format!("examples/{folder}/{folder}.json")), specs, scenario, ..Texts::default() }
 }
 
+/// A layout of the paper with the library's automata: all vehicles go to the near stop.
+pub fn paper(layout: &str) -> Texts {
+    Texts { layout: text(&format!("examples/ariac2021/prototype/{layout}.json")), ..ariac(layout) }
+}
+
 /// A layout of the paper with the prototype's automata, and what they made for Table I.
 pub fn prototype(layout: &str) -> Texts {
     let folder = root().join("examples/ariac2021/prototype");
     let entries = std::fs::read_dir(folder).expect("the folder of the prototype");
-    let mut paths: Vec<PathBuf> = entries.map(|entry| entry.expect("an entry").path()).collect();
+    let paths = entries.map(|entry| entry.expect("an entry").path());
+    let mut paths: Vec<PathBuf> =
+        paths.filter(|path| path.extension().is_some_and(|ext| ext == "aut")).collect();
     paths.sort();
     let specs = paths.iter().map(|path| std::fs::read_to_string(path).expect("a text")).collect();
     let scenario = Some(text("examples/ariac2021/table1.scenario.json"));
-    Texts { specs, scenario, ..ariac(layout) }
+    Texts { specs, scenario, ..paper(layout) }
 }
 
 /// The lines of `examples/scenes` by name.

@@ -98,7 +98,10 @@ fn what_is_so_within_one_scan_alone_is_seen() {
     let text = line.text_of("agv");
     assert!(text.contains(local) && text.contains(from));
     let text = text
-        .replace(local, &format!("    local is_early: bool := false;\n{local}"))
+        .replace(
+            local,
+            &format!("    serves stations: Demand[1..];\n    local is_early: bool := false;\n{local}"),
+        )
         .replace(from, &format!("        when {claimed} {{ is_early := true; }}\n{from}"));
     let texts = line.with("agv", &text);
     for order in 1..8 {

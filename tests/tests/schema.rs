@@ -157,7 +157,7 @@ fn parameters_are_those_of_the_types() {
     let schema = layouts(&[]);
     let layout = text("examples/ariac2021/default.json");
     let with = |parameters: &str| {
-        layout.replacen(r#""name": "agv1","#, &format!(r#""name": "agv1", "parameters": {parameters},"#), 1)
+        layout.replacen(r#""name": "agv2","#, &format!(r#""name": "agv2", "parameters": {parameters},"#), 1)
     };
     for (parameters, is_right) in [
         (r#"{"capacity": 4}"#, true),

@@ -2,7 +2,7 @@
 //! on the paper's layouts. `docs/table1.md` shows what comes of it.
 
 use autogen::executor::Executor;
-use autogen_tests::{Texts, ariac, on_all_processors, prototype, root, text};
+use autogen_tests::{Texts, ariac, on_all_processors, paper, prototype, root, text};
 use runtime_sim::run::{Stepping, run};
 use std::fmt::Write;
 use std::process::Command;
@@ -157,10 +157,10 @@ fn the_librarys_automata_are_as_shown() {
     let rows = [
         ("prototype V1, a tenth", v1().to_vec(), "as1".to_string()),
         ("prototype V1, full speed", cells(prototype, one, &fast), "as1".into()),
-        ("library, a tenth", cells(ariac, one, &slow), "as1".into()),
-        ("library, full speed", cells(ariac, one, &fast), "as1".into()),
-        ("library, a tenth", cells(ariac, near, &slow), "as1, as3 in turn".into()),
-        ("library, full speed", cells(ariac, near, &fast), "as1, as3 in turn".into()),
+        ("library, a tenth", cells(paper, one, &slow), "as1".into()),
+        ("library, full speed", cells(paper, one, &fast), "as1".into()),
+        ("library, a tenth", cells(paper, near, &slow), "as1, as3 in turn".into()),
+        ("library, full speed", cells(paper, near, &fast), "as1, as3 in turn".into()),
     ];
     assert_shown(&table("automata", "orders at", &rows));
 }
@@ -245,7 +245,7 @@ fn an_independent_calculation_ends_at_nearly_the_same_time() {
     }
     let scenario = examples.join("table1.scenario.json");
     let differing: Vec<String> = on_all_processors(&measured(), |measured| {
-        let layout = examples.join(format!("{}.json", measured.layout));
+        let layout = examples.join(format!("prototype/{}.json", measured.layout));
         let capacity = measured.capacity.to_string();
         let output = python(&[script.as_ref(), layout.as_ref(), scenario.as_ref(), capacity.as_ref()])
             .expect("python3");

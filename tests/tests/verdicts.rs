@@ -223,8 +223,8 @@ fn what_stands_in_something_else_is_named() {
     let stacked = text("examples/ariac2021/default.json")
         .replacen("\"pose\": [-1.899, 3.38, 0]", "\"pose\": [-7.3, 3.1, 0]", 1)
         .replacen(
-            "\"may_touch\": [",
-            "\"may_touch\": [{\"pair\": [\"as1\", \"bin1\"], \"reason\": \"stacked\"},",
+            "\"stationary\": [",
+            "\"may_touch\": [{\"pair\": [\"as1\", \"bin1\"], \"reason\": \"stacked\"}], \"stationary\": [",
             1,
         );
     assert_eq!(codes(&Texts::of_layout(stacked).compile()), Vec::<&str>::new());

@@ -21,12 +21,12 @@ use runtime_sim::run::{Stepping, run};
 
 const ONE_PART: &str = r#"{
     "kinds": [{"name": "battery", "height": 0.053}, {"name": "pump", "height": 0.11}],
-    "orders": [{"station": "as1", "parts": {"battery": 1}}],
+    "orders": [{"station": "as3", "parts": {"battery": 1}}],
     "supply": {"surplus": [4, 1]}
 }"#;
 const TWO_PARTS: &str = r#"{
     "kinds": [{"name": "battery", "height": 0.053}, {"name": "pump", "height": 0.11}],
-    "orders": [{"station": "as1", "parts": {"battery": 1, "pump": 1}}],
+    "orders": [{"station": "as3", "parts": {"battery": 1, "pump": 1}}],
     "supply": {"surplus": [4, 1]}
 }"#;
 

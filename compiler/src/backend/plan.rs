@@ -41,10 +41,10 @@ pub fn svg(line: &Line, edges: &[Edge]) -> String {
     drawing.finish()
 }
 
-/// Where an arrow touches a machine: a vehicle is loaded at its start and unloaded at its stop.
+/// Where an arrow touches a machine: a vehicle is loaded at its start and unloaded at the first stop to which it goes.
 fn meeting(machine: &Machine, other: &Machine, leaves: bool) -> Point {
-    if let [start, near, ..] = machine.stops() {
-        return if leaves { *near } else { *start };
+    if let [start, first, ..] = machine.visited()[..] {
+        return if leaves { first } else { start };
     }
     if let Some([from, to]) = machine.riding() {
         let rail = to - from;

@@ -372,15 +372,19 @@ impl Context<'_, '_> {
         self.checker.uses(tree.place.span, Space::Handovers, &device.name, &found.name);
         let index = match (&tree.index, found.indexed) {
             (None, None) => None,
-            (Some(ast::Expr { kind: ast::ExprKind::Int(i), .. }), Some(n)) if (0..n as i64).contains(i) => {
-                Some(*i as usize)
-            }
-            (_, Some(n)) => {
-                self.report(
-                    Diagnostic::new("E0324", tree.span, format!("one of the {n} places must be named"))
-                        .help(format!("write `{}[0]` to `{}[{}]`", found.name, found.name, n - 1)),
-                );
-                return None;
+            (index, Some(n)) => {
+                let index = index.as_ref().and_then(|index| self.index_of_place(index, n));
+                if index.is_none() {
+                    let (name, last) = (&found.name, n - 1);
+                    self.report(
+                        Diagnostic::new("E0324", tree.span, format!("one of the {n} places must be named"))
+                            .help(format!(
+                                "write `{name}[0]` to `{name}[{last}]`, or a parameter of this automaton within 0..{last}"
+                            )),
+                    );
+                    return None;
+                }
+                index
             }
             (Some(index), None) => {
                 self.report(
@@ -408,6 +412,25 @@ impl Context<'_, '_> {
             ast::Direction::Offers => ir::Direction::Offers,
         };
         Some(ir::Handover { place: tree.span, direction, name: found.name.clone(), index, approach })
+    }
+
+    /// Which of so many places is meant; none if it is none of them, or not known beforehand.
+    fn index_of_place(&mut self, tree: &ast::Expr, places: usize) -> Option<ir::Index> {
+        match &tree.kind {
+            ast::ExprKind::Int(i) if (0..places as i64).contains(i) => Some(ir::Index::Number(*i as usize)),
+            ast::ExprKind::Name(name) => {
+                let Some(symbol @ Symbol::Parameter(parameter)) = self.symbols.get(name) else { return None };
+                let ir::Type { scalar: Scalar::Int { lo, hi }, extent: Extent::One } =
+                    self.automaton.parameters[*parameter].ty
+                else {
+                    return None;
+                };
+                let index = (lo >= 0 && (hi as usize) < places).then_some(ir::Index::Parameter(*parameter));
+                self.uses_symbol(name, &symbol.clone(), tree.span);
+                index
+            }
+            _ => None,
+        }
     }
 
     /// The parameter that holds a device constant.

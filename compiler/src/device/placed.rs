@@ -87,6 +87,7 @@ impl Placed {
             parts: self.parts(heights, place)?,
             wiring: self.device.wiring.clone(),
             states: Vec::new(),
+            visits: None,
             monitor: Default::default(),
         };
         match machine.check() {

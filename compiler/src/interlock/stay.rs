@@ -77,11 +77,11 @@ struct Evaluated {
 }
 
 /// A command that moves the machine.
-struct Motion<'a> {
+pub(super) struct Motion<'a> {
     state: usize,
-    transition: &'a Transition,
+    pub(super) transition: &'a Transition,
     /// The places past which it goes, and the last one.
-    goals: Vec<(&'a Expr, Facing)>,
+    pub(super) goals: Vec<(&'a Expr, Facing)>,
     /// The locals by which it reads places of other machines.
     named: BTreeSet<usize>,
 }
@@ -286,7 +286,7 @@ fn chosen<'a>(stages: &[&'a Stage], choice: usize) -> Vec<&'a Corners> {
     regions
 }
 
-fn motions<'a>(given: &Given<'a>, instance: usize) -> Vec<Motion<'a>> {
+pub(super) fn motions<'a>(given: &Given<'a>, instance: usize) -> Vec<Motion<'a>> {
     let Given { system, line, .. } = *given;
     let automaton = system.automaton_of(instance);
     let machine = &line.machines[instance];

@@ -12,7 +12,7 @@ use crate::layout::{Layout, Panel, Reading};
 use crate::scenario::{Number, Scenario};
 use crate::source::{FileId, Sources};
 use crate::spec::{ast, parser};
-use crate::{connect, lint, scenario};
+use crate::{connect, interlock, lint, scenario};
 use runtime_sim::plant::transfers;
 use runtime_sim::random::Random;
 use std::collections::BTreeSet;
@@ -248,7 +248,12 @@ impl Parts {
             return;
         };
         let drawn = resolved.drawn.clone();
-        let plant = plant::line(&system, &line, bound.obstacles, resolved, layout.scan_ms, machines);
+        let mut plant = plant::line(&system, &line, bound.obstacles, resolved, layout.scan_ms, machines);
+        // Only a gantry plans round vehicles.
+        if plant.machines.iter().any(|machine| machine.arm().is_some_and(|arm| arm.gantry().is_some())) {
+            let visits = interlock::visits::of_all(&system, &plant);
+            plant.machines.iter_mut().zip(visits).for_each(|(machine, visits)| machine.visits = visits);
+        }
         found.diagnostics.extend(overlap::overlaps(&layout, &plant));
         let transfers = transfers(&plant);
         found.diagnostics.extend(collected::out_of_reach(&scenario, &plant, &edges, &transfers));

@@ -7,8 +7,8 @@ use crate::device::Heights;
 use crate::diagnostic::{Diagnostic, collect};
 use crate::executor::Executor;
 use crate::ir::{
-    self, Automaton, AutomatonId, Direction, Handover, Instance, InterfaceId, Model, Role, RoleKind, System,
-    TextPart, Value,
+    self, Automaton, AutomatonId, Direction, Handover, Index, Instance, InterfaceId, Model, Role, RoleKind,
+    System, TextPart, Value,
 };
 use crate::layout::Layout;
 use crate::parallel::{LEAST, in_parts};
@@ -259,15 +259,20 @@ impl<'a> Line<'a> {
     fn site(&self, passive: usize, role: &Role) -> Option<Site> {
         let automaton = self.automaton(passive);
         let handover = automaton.implements[automaton.implementing(role.interface)?].handover.as_ref()?;
+        let number = |parameter: usize| match self.values[passive][parameter][0] {
+            Value::Int(n) => Some(n.max(0) as usize),
+            _ => None,
+        };
         let capacity = automaton.parameters.iter().position(|p| p.name == "capacity");
-        let capacity = match capacity.map(|p| &self.values[passive][p][0]) {
-            Some(Value::Int(n)) => (*n).max(1) as usize,
-            _ => usize::MAX,
+        let index = match handover.index {
+            Some(Index::Parameter(parameter)) => Some(number(parameter)?),
+            Some(Index::Number(index)) => Some(index),
+            None => None,
         };
         Some(Site {
             name: handover.name.clone(),
-            index: handover.index,
-            capacity,
+            index,
+            capacity: capacity.and_then(number).map_or(usize::MAX, |capacity| capacity.max(1)),
             approach: handover.approach,
         })
     }

@@ -238,6 +238,7 @@ mod tests {
             wiring: Default::default(),
             states: Vec::new(),
             monitor: Default::default(),
+            visits: None,
         };
         let chain = Chain::new(&arm, &machine);
         let ranges = arm.ranges().expect("limits").to_vec();

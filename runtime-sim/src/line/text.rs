@@ -24,7 +24,7 @@ impl Line {
             out.push_str(entry.trim_end());
             out.push('\n');
         };
-        put("line 10".into());
+        put("line 11".into());
         put(format!("scan_ms {}", self.scan_ms));
         put(match self.io_delay {
             IoDelay::Fixed(scans) => format!("io_delay fixed {scans}"),
@@ -85,6 +85,8 @@ impl Line {
                 put(format!("      {code} {word}"));
             }
             put(format!("    panel {}", list(panel)));
+            let visits = machine.visits.as_ref().map_or("any".into(), |stops| format!("at {}", list(stops)));
+            put(format!("    visits {visits}"));
         }
         put(format!("obstacles {}", self.obstacles.len()));
         for obstacle in &self.obstacles {
@@ -153,7 +155,7 @@ impl Line {
     /// Reads the text form, and leaves what follows it.
     pub fn read(words: &mut Words) -> Result<Line, String> {
         words.expect("line")?;
-        words.expect("10")?;
+        words.expect("11")?;
         words.expect("scan_ms")?;
         let scan_ms = words.int()?;
         words.expect("io_delay")?;
@@ -266,7 +268,13 @@ fn read_machine(words: &mut Words, devices: &[Arc<Wiring>]) -> Result<Machine, S
             words.list(|w| w.int())?
         },
     };
-    Ok(Machine { name, pose, parts, wiring, states, monitor })
+    words.expect("visits")?;
+    let visits = match words.name()? {
+        "any" => None,
+        "at" => Some(words.list(|w| w.int())?),
+        other => return Err(words.error(format_args!("`{other}` is neither `any` nor `at`"))),
+    };
+    Ok(Machine { name, pose, parts, wiring, states, monitor, visits })
 }
 
 fn read_obstacle(words: &mut Words) -> Result<Obstacle, String> {

@@ -100,7 +100,8 @@ impl Planner {
         margin: f64,
     ) -> Around<'a> {
         let lifted = ends.map(|end| self.arm.tool(end).z + self.scene.load_height + LIFTED);
-        Around { near: self.scene.near(places), ends, lifted, load, margin }
+        let near = self.scene.near(places, &ends.map(|end| self.arm.tool(end)));
+        Around { near, ends, lifted, load, margin }
     }
 
     /// Whether nothing on this path comes nearer to an obstacle than `margin`. On the verticals at its ends it may come

@@ -21,6 +21,7 @@ pub struct Scene {
     arm: Arm,
     pub links: Links,
     obstacles: Vec<Cluster>,
+    lanes: Vec<Lane>,
     /// The lowest point of what does not turn with the torso, m.
     lowest_beam: f64,
     places: Vec<Places>,
@@ -30,6 +31,16 @@ pub struct Scene {
     pub load_height: f64,
     /// Over all obstacles the arm carries its load from this height of the tool on, m.
     pub over_all: f64,
+}
+
+/// What a vehicle passes through between the stops at which it can be.
+#[derive(Clone, Debug)]
+struct Lane {
+    /// In groups that are one rectangle from above.
+    passed: Vec<Vec<Solid>>,
+    cluster: Cluster,
+    /// What it carries parts on, at each of the stops.
+    places: Vec<Point>,
 }
 
 /// The places of one machine at which parts may lie, with the largest part of each.
@@ -81,8 +92,8 @@ impl Scene {
         };
         let obstacles = line.obstacles.iter().filter_map(|o| o.solid()).map(|solid| vec![solid]);
         let boxes: Vec<Vec<Solid>> = others().flat_map(workspaces).chain(obstacles).collect();
-        let passing: Vec<Vec<Solid>> = others().flat_map(passing).collect();
-        let all = boxes.iter().chain(&passing);
+        let lanes: Vec<Lane> = others().filter_map(lane).collect();
+        let all = boxes.iter().chain(lanes.iter().flat_map(|lane| &lane.passed));
         let blocks = all.flat_map(|solids| {
             around.iter().map(|part| part.keeps_off(shoulder, solids)).collect::<Vec<_>>()
         });
@@ -104,6 +115,7 @@ impl Scene {
             links: Links::new(arm, &Chain::new(&arm, own), members, load),
             arm,
             obstacles,
+            lanes,
             lowest_beam,
             load_height: largest(|kind| kind.height),
             highest_place: heights.fold(0.0, f64::max) + under,
@@ -113,8 +125,9 @@ impl Scene {
         Some((scene, blocks))
     }
 
-    /// The obstacles that the robot can come near while its torso is between these places.
-    pub fn near(&self, places: impl IntoIterator<Item = Point>) -> Nearby<'_> {
+    /// The obstacles that the robot can come near while its torso is between these places, and vehicles under way: all
+    /// but those that have one of these tools over them, which wait there.
+    pub fn near(&self, places: impl IntoIterator<Item = Point>, tools: &[Point]) -> Nearby<'_> {
         let none =
             [Point::new(f64::INFINITY, f64::INFINITY, 0.0), Point::new(-f64::INFINITY, -f64::INFINITY, 0.0)];
         let [low, high] = places.into_iter().fold(none, |[low, high], place| {
@@ -129,10 +142,13 @@ impl Scene {
             let behind = lowest.y > high.y + REACH || highest.y < low.y - REACH;
             !(beside || behind)
         };
-        let all = self.obstacles.iter().filter(is_near).collect();
+        let waits =
+            |lane: &&Lane| tools.iter().any(|tool| lane.places.iter().any(|place| is_over(*tool, *place)));
+        let lanes = self.lanes.iter().filter(|lane| !waits(lane)).map(|lane| &lane.cluster);
         let is_high = |other: &&Cluster| other.bounds.corners()[1].z > self.lowest_beam - HIGH;
-        let high = self.obstacles.iter().filter(is_high);
-        Nearby { all, high: high.collect() }
+        let all: Vec<&Cluster> = self.obstacles.iter().chain(lanes).collect();
+        let high = all.iter().copied().filter(is_high).collect();
+        Nearby { all: all.into_iter().filter(is_near).collect(), high }
     }
 
     /// See [`super::gap::Standing::gap`].
@@ -144,14 +160,10 @@ impl Scene {
     pub fn gap_at_place(&self, joints: &Joints, enough: f64) -> f64 {
         let frames = self.arm.frames(joints);
         let tool = self.arm.tool(joints);
-        let is_here = |place: &Point| {
-            let offset = *place - tool;
-            offset.x * offset.x + offset.y * offset.y <= AT_PLACE * AT_PLACE
-        };
         let members = self.links.located(&frames);
         let mut least = enough;
         for Places { all, order } in &self.places {
-            let Some(here) = all.iter().position(|(place, _)| is_here(place)) else { continue };
+            let Some(here) = all.iter().position(|(place, _)| is_over(tool, *place)) else { continue };
             for (i, (_, part)) in all.iter().enumerate() {
                 if i > here || i < here && *order == Order::Any {
                     least = members.iter().fold(least, |least, member| least.min(member.gap(part, least)));
@@ -172,28 +184,51 @@ impl AroundAxis {
     }
 }
 
+fn is_over(tool: Point, place: Point) -> bool {
+    let offset = place - tool;
+    offset.x * offset.x + offset.y * offset.y <= AT_PLACE * AT_PLACE
+}
+
 fn shifted(solids: &[Solid], by: Point) -> Vec<Solid> {
     let moved = |s: &Solid| Solid { pose: Pose { position: s.pose.position + by, ..s.pose }, ..s.clone() };
     solids.iter().map(moved).collect()
 }
 
-/// The workspace of a vehicle on its trip from its first stop to the second, in groups that stand together.
-fn passing(machine: &Machine) -> Vec<Vec<Solid>> {
-    let [start, near, ..] = *machine.stops() else { return Vec::new() };
-    let trip = near - start;
-    let steps = (trip.length() / STEP).ceil().max(1.0);
+/// The lane of a vehicle; none of a machine that stands.
+fn lane(machine: &Machine) -> Option<Lane> {
+    let stops = machine.visited();
     let solids = machine.solids();
-    let on_trip = (0..=steps as u32).map(|i| shifted(&solids, start + trip.scaled(f64::from(i) / steps)));
-    // Along an axis of the world all of it is one rectangle from above.
-    if trip.x == 0.0 || trip.y == 0.0 { vec![on_trip.flatten().collect()] } else { on_trip.collect() }
+    let trips =
+        stops.iter().enumerate().flat_map(|(i, start)| stops[i + 1..].iter().map(move |end| [start, end]));
+    let passed: Vec<Vec<Solid>> = trips.flat_map(|[start, end]| on_trip(&solids, *start, *end)).collect();
+    let cluster = Cluster::new(&passed.concat())?;
+    let carried = machine.places().filter(|place| machine.is_driven(place)).flat_map(|place| &place.slots);
+    let places = carried.flat_map(|slot| stops.iter().map(|stop| *stop + *slot)).collect();
+    Some(Lane { passed, cluster, places })
 }
 
-/// The workspace of a machine while the gantry works, in groups that stand together: a vehicle at each of its
-/// stops, an arm along its rail.
+/// What a vehicle passes through on a trip, in groups that are one rectangle from above.
+fn on_trip(solids: &[Solid], start: Point, end: Point) -> Vec<Vec<Solid>> {
+    let trip = end - start;
+    let [x, y, z] = [trip.x, trip.y, trip.z].map(f64::abs);
+    if [x, y, z].iter().filter(|along| **along > 0.0).count() <= 1 {
+        let swept = shifted(solids, start + trip.scaled(0.5)).into_iter().map(|solid| {
+            let size = half(&solid).scaled(2.0) + Point::new(x, y, z);
+            Solid { shape: Shape::Box { size }, ..solid }
+        });
+        return vec![swept.collect()];
+    }
+    let steps = (trip.length() / STEP).ceil().max(1.0);
+    let places = (0..=steps as u32).map(|i| start + trip.scaled(f64::from(i) / steps));
+    places.map(|place| shifted(solids, place)).collect()
+}
+
+/// The workspace of a machine while the gantry works, in groups that stand together: a vehicle at each stop at
+/// which it can be, an arm along its rail.
 fn workspaces(machine: &Machine) -> Vec<Vec<Solid>> {
     let solids = machine.solids();
     if machine.route().is_some() {
-        return machine.stops().iter().map(|stop| shifted(&solids, *stop)).collect();
+        return machine.visited().iter().map(|stop| shifted(&solids, *stop)).collect();
     }
     let Some(chain) = machine.chain() else { return vec![solids] };
     let Some([half, height]) = chain.envelope else { return Vec::new() };
@@ -253,7 +288,7 @@ fn places(line: &Line) -> Vec<Places> {
         }
     };
     let of = |machine: &Machine| -> Vec<Places> {
-        let stops = machine.stops();
+        let stops = machine.visited();
         let at_all = |place: &Place| -> Vec<Places> {
             if machine.is_driven(place) {
                 stops.iter().map(|stop| of_place(*stop, place)).collect()

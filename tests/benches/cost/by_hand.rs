@@ -19,6 +19,7 @@ pub struct Vehicle {
     state: State,
     next: usize,
     capacity: usize,
+    unloads_at: usize,
     stops: [Point; 3],
     offsets: [Point; 12],
     pub cmd: i32,
@@ -32,6 +33,7 @@ impl Vehicle {
             state: State::Start,
             next: 0,
             capacity: parameters.capacity as usize,
+            unloads_at: parameters.unloads_at as usize,
             stops: parameters.stops.0,
             offsets: parameters.offsets.0,
             cmd: 0,
@@ -51,18 +53,19 @@ impl Vehicle {
         let (done, failed) = (ended && inputs.error == 0, ended && inputs.error != 0);
         match self.state {
             State::Start => {
+                tray.hands_over = self.stops[self.unloads_at];
                 self.go(0, inputs);
                 self.state = State::Returning;
             }
             State::Loading => {
                 if self.is_loaded(tray, demand) {
                     tray.open = false;
-                    self.go(1, inputs);
+                    self.go(self.unloads_at, inputs);
                     self.state = State::Moving;
                 }
             }
             State::Moving if done => self.state = State::Dropping,
-            State::Moving if failed => self.go(1, inputs),
+            State::Moving if failed => self.go(self.unloads_at, inputs),
             State::Dropping => self.drop(inputs, tray, source),
             State::Returning if done => {
                 tray.open = true;
@@ -83,20 +86,14 @@ impl Vehicle {
         if tray.held {
             return false;
         }
-        let (mut full, mut promised) = (0, 0);
-        for slot in &tray.slot.0[..self.capacity] {
-            match slot {
-                Slot::Full => full += 1,
-                Slot::Promised => promised += 1,
-                _ => {}
-            }
-        }
-        full == self.capacity
-            || full > 0
-                && promised == 0
-                && demand
-                    .iter()
-                    .all(|d| d.wants.0.iter().zip(&d.aboard.0).all(|(wants, aboard)| wants <= aboard))
+        let slots = &tray.slot.0[..self.capacity];
+        let is_last = |slot: usize| {
+            let order = &demand[tray.ticket.0[slot]];
+            order.wants.0.iter().zip(&order.aboard.0).all(|(wants, aboard)| wants <= aboard)
+        };
+        slots.iter().all(|slot| *slot == Slot::Full)
+            || (0..self.capacity).any(|slot| slots[slot] == Slot::Full && is_last(slot))
+                && !slots.contains(&Slot::Promised)
     }
 
     fn drop(&mut self, inputs: &Inputs, tray: &mut TrayCells, source: &mut SourceCells) {
@@ -119,7 +116,7 @@ impl Vehicle {
             self.next = slot;
             source.kind = tray.holds.0[slot];
             source.goes_to = tray.ticket.0[slot];
-            source.at = self.stops[1] + self.offsets[slot];
+            source.at = tray.hands_over + self.offsets[slot];
             source.offer = true;
         }
     }

@@ -196,7 +196,15 @@ impl Design {
         let wiring = Arc::new(Wiring { inputs, outputs, commands: Vec::new() });
         let (name, pose) = (format!("lane_{number}"), from.position);
         (
-            Machine { name, pose, parts, wiring, states: Vec::new(), monitor: Default::default() },
+            Machine {
+                name,
+                pose,
+                parts,
+                wiring,
+                states: Vec::new(),
+                monitor: Default::default(),
+                visits: None,
+            },
             end.unwrap_or_default(),
         )
     }
