@@ -92,7 +92,7 @@ fn parts_in_another_order_make_no_difference() {
     );
 }
 
-/// The gantry is the slowest machine of this line. All these runs together take some seconds.
+/// Gantry and kitting robot are busy nearly all the time then.
 #[test]
 fn an_order_of_the_default_layout_takes_at_most_70_s_where_vehicles_carry_a_whole_one() {
     for capacity in [4, 8] {

@@ -6,6 +6,7 @@ mod declared;
 mod devices;
 mod expression;
 mod facts;
+mod implements;
 pub mod names;
 mod path;
 mod property;

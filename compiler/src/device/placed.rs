@@ -87,8 +87,8 @@ impl Placed {
             parts: self.parts(heights, place)?,
             wiring: self.device.wiring.clone(),
             states: Vec::new(),
-            visits: None,
             monitor: Default::default(),
+            visits: None,
         };
         match machine.check() {
             Ok(()) => Ok(machine),

@@ -249,11 +249,8 @@ impl Parts {
         };
         let drawn = resolved.drawn.clone();
         let mut plant = plant::line(&system, &line, bound.obstacles, resolved, layout.scan_ms, machines);
-        // Only a gantry plans round vehicles.
-        if plant.machines.iter().any(|machine| machine.arm().is_some_and(|arm| arm.gantry().is_some())) {
-            let visits = interlock::visits::of_all(&system, &plant);
-            plant.machines.iter_mut().zip(visits).for_each(|(machine, visits)| machine.visits = visits);
-        }
+        let visits = interlock::visits::of_all(&system, &plant);
+        plant.machines.iter_mut().zip(visits).for_each(|(machine, visits)| machine.visits = visits);
         found.diagnostics.extend(overlap::overlaps(&layout, &plant));
         let transfers = transfers(&plant);
         found.diagnostics.extend(collected::out_of_reach(&scenario, &plant, &edges, &transfers));

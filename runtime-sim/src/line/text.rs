@@ -62,8 +62,7 @@ impl Line {
             put(format!("    states {}", machine.states.len()));
             for state in &machine.states {
                 let activity = if state.working { "working" } else { "waiting" };
-                let timers =
-                    state.timers.as_ref().map_or("any".into(), |timers| format!("at {}", list(timers)));
+                let timers = any_or_list(state.timers.as_deref());
                 put(format!(
                     "      {} {activity} {} reads {} while {} timers {timers}",
                     state.name,
@@ -85,8 +84,7 @@ impl Line {
                 put(format!("      {code} {word}"));
             }
             put(format!("    panel {}", list(panel)));
-            let visits = machine.visits.as_ref().map_or("any".into(), |stops| format!("at {}", list(stops)));
-            put(format!("    visits {visits}"));
+            put(format!("    visits {}", any_or_list(machine.visits.as_deref())));
         }
         put(format!("obstacles {}", self.obstacles.len()));
         for obstacle in &self.obstacles {
@@ -204,14 +202,22 @@ fn list<T: std::fmt::Display>(values: &[T]) -> String {
     text
 }
 
+fn any_or_list<T: std::fmt::Display>(values: Option<&[T]>) -> String {
+    values.map_or("any".into(), |values| format!("at {}", list(values)))
+}
+
 fn point_text(point: Point) -> String {
     format!("{:?} {:?} {:?}", point.x, point.y, point.z)
 }
 
-/// A number behind `at`, or the word for none.
-fn optional<T: std::str::FromStr>(words: &mut Words, none: &str) -> Result<Option<T>, String> {
+/// What stands behind `at`, or the word for none.
+fn optional<T>(
+    words: &mut Words,
+    none: &str,
+    read: impl FnOnce(&mut Words) -> Result<T, String>,
+) -> Result<Option<T>, String> {
     match words.name()? {
-        "at" => Ok(Some(words.int()?)),
+        "at" => Ok(Some(read(words)?)),
         word if word == none => Ok(None),
         other => Err(words.error(format_args!("`{other}` is neither `{none}` nor `at`"))),
     }
@@ -243,21 +249,17 @@ fn read_machine(words: &mut Words, devices: &[Arc<Wiring>]) -> Result<Machine, S
             Ok(ReadWhile { word, gates: w.list(|w| Ok((w.int()?, w.int::<u8>()? != 0)))? })
         })?;
         w.expect("timers")?;
-        let timers = match w.name()? {
-            "any" => None,
-            "at" => Some(w.list(|w| w.int())?),
-            other => return Err(w.error(format_args!("`{other}` is neither `any` nor `at`"))),
-        };
+        let timers = optional(w, "any", |w| w.list(|w| w.int()))?;
         Ok(State { name, working, awaits, reads, reads_while, timers })
     })?;
     let monitor = Monitor {
         stopped: {
             words.expect("stopped")?;
-            optional(words, "never")?
+            optional(words, "never", |w| w.int())?
         },
         counters: {
             words.expect("counters")?;
-            words.list(|w| Ok(Counter { word: w.int()?, limit: optional(w, "any")? }))?
+            words.list(|w| Ok(Counter { word: w.int()?, limit: optional(w, "any", |w| w.int())? }))?
         },
         alarms: {
             words.expect("alarms")?;
@@ -269,11 +271,7 @@ fn read_machine(words: &mut Words, devices: &[Arc<Wiring>]) -> Result<Machine, S
         },
     };
     words.expect("visits")?;
-    let visits = match words.name()? {
-        "any" => None,
-        "at" => Some(words.list(|w| w.int())?),
-        other => return Err(words.error(format_args!("`{other}` is neither `any` nor `at`"))),
-    };
+    let visits = optional(words, "any", |w| w.list(|w| w.int()))?;
     Ok(Machine { name, pose, parts, wiring, states, monitor, visits })
 }
 
@@ -365,5 +363,5 @@ fn during_text(During { at_scan, scans }: During) -> String {
 }
 
 fn read_during(words: &mut Words) -> Result<During, String> {
-    Ok(During { at_scan: words.int()?, scans: optional(words, "on")? })
+    Ok(During { at_scan: words.int()?, scans: optional(words, "on", |w| w.int())? })
 }

@@ -36,8 +36,6 @@ pub struct Scene {
 /// What a vehicle passes through between the stops at which it can be.
 #[derive(Clone, Debug)]
 struct Lane {
-    /// In groups that are one rectangle from above.
-    passed: Vec<Vec<Solid>>,
     cluster: Cluster,
     /// What it carries parts on, at each of the stops.
     places: Vec<Point>,
@@ -92,8 +90,8 @@ impl Scene {
         };
         let obstacles = line.obstacles.iter().filter_map(|o| o.solid()).map(|solid| vec![solid]);
         let boxes: Vec<Vec<Solid>> = others().flat_map(workspaces).chain(obstacles).collect();
-        let lanes: Vec<Lane> = others().filter_map(lane).collect();
-        let all = boxes.iter().chain(lanes.iter().flat_map(|lane| &lane.passed));
+        let trips: Vec<(&Machine, Vec<Vec<Solid>>)> = others().map(|other| (other, trips(other))).collect();
+        let all = boxes.iter().chain(trips.iter().flat_map(|(_, passed)| passed));
         let blocks = all.flat_map(|solids| {
             around.iter().map(|part| part.keeps_off(shoulder, solids)).collect::<Vec<_>>()
         });
@@ -115,7 +113,7 @@ impl Scene {
             links: Links::new(arm, &Chain::new(&arm, own), members, load),
             arm,
             obstacles,
-            lanes,
+            lanes: trips.iter().filter_map(|(machine, passed)| Lane::new(machine, passed)).collect(),
             lowest_beam,
             load_height: largest(|kind| kind.height),
             highest_place: heights.fold(0.0, f64::max) + under,
@@ -174,6 +172,17 @@ impl Scene {
     }
 }
 
+impl Lane {
+    /// None of a machine that stands.
+    fn new(machine: &Machine, passed: &[Vec<Solid>]) -> Option<Self> {
+        let stops = machine.visited();
+        let carried =
+            machine.places().filter(|place| machine.is_driven(place)).flat_map(|place| &place.slots);
+        let places = carried.flat_map(|slot| stops.iter().map(|stop| *stop + *slot)).collect();
+        Some(Self { cluster: Cluster::new(&passed.concat())?, places })
+    }
+}
+
 impl AroundAxis {
     /// What of these solids is an obstacle to it, seen from above.
     fn keeps_off(&self, shoulder: f64, solids: &[Solid]) -> Option<Block> {
@@ -194,20 +203,16 @@ fn shifted(solids: &[Solid], by: Point) -> Vec<Solid> {
     solids.iter().map(moved).collect()
 }
 
-/// The lane of a vehicle; none of a machine that stands.
-fn lane(machine: &Machine) -> Option<Lane> {
+/// What a vehicle passes through between the stops at which it can be, in groups that are one rectangle from above.
+fn trips(machine: &Machine) -> Vec<Vec<Solid>> {
     let stops = machine.visited();
     let solids = machine.solids();
     let trips =
         stops.iter().enumerate().flat_map(|(i, start)| stops[i + 1..].iter().map(move |end| [start, end]));
-    let passed: Vec<Vec<Solid>> = trips.flat_map(|[start, end]| on_trip(&solids, *start, *end)).collect();
-    let cluster = Cluster::new(&passed.concat())?;
-    let carried = machine.places().filter(|place| machine.is_driven(place)).flat_map(|place| &place.slots);
-    let places = carried.flat_map(|slot| stops.iter().map(|stop| *stop + *slot)).collect();
-    Some(Lane { passed, cluster, places })
+    trips.flat_map(|[start, end]| on_trip(&solids, *start, *end)).collect()
 }
 
-/// What a vehicle passes through on a trip, in groups that are one rectangle from above.
+/// The same on one trip.
 fn on_trip(solids: &[Solid], start: Point, end: Point) -> Vec<Vec<Solid>> {
     let trip = end - start;
     let [x, y, z] = [trip.x, trip.y, trip.z].map(f64::abs);

@@ -88,7 +88,7 @@ impl Vehicle {
         }
         let slots = &tray.slot.0[..self.capacity];
         let is_last = |slot: usize| {
-            let order = &demand[tray.ticket.0[slot]];
+            let order = &demand[usize::from(tray.ticket.0[slot].0)];
             order.wants.0.iter().zip(&order.aboard.0).all(|(wants, aboard)| wants <= aboard)
         };
         slots.iter().all(|slot| *slot == Slot::Full)
