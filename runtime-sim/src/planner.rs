@@ -18,7 +18,7 @@ mod timing;
 
 use crate::kinematics::arm::{Arm, FINEST_TURN, Joints, LINE_STEP, Limits};
 use crate::kinematics::gantry::{Stance, Wrist};
-use crate::kinematics::{nearest_equivalent, nearest_turn};
+use crate::kinematics::{nearest_equivalent, nearest_turn, wrapped};
 use crate::motion::{Knot, Motion, Path};
 use crate::point::Point;
 pub use gap::Load;
@@ -119,12 +119,17 @@ struct Effort {
     tries: usize,
     /// How far the robot draws back at the beginning, and from how far back it comes at the end, m.
     backs: &'static [[f64; 2]],
+    /// Of a wrist that ends on the side on which it is.
+    changes: Changes,
 }
 
-const EFFORTS: [Effort; 2] = [
-    Effort { tries: 100, backs: &[[0.0, 0.0]] },
+const STRAIGHT_ON: &[[f64; 2]] = &[[0.0, 0.0]];
+const EFFORTS: [Effort; 3] = [
+    Effort { tries: 100, backs: STRAIGHT_ON, changes: Changes::None },
+    Effort { tries: 300, backs: STRAIGHT_ON, changes: Changes::Twice },
     Effort {
         tries: 1000,
+        changes: Changes::None,
         backs: &[
             [0.4, 0.0],
             [0.0, 0.4],
@@ -161,6 +166,16 @@ struct Plan {
     line: Arc<Line>,
     stances: [Stance; 2],
     ends: [Joints; 2],
+    changes: Changes,
+}
+
+/// How often the wrist changes its side on a path.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Changes {
+    None,
+    Once,
+    /// Out of a place, and into one, with the wrist on the other side.
+    Twice,
 }
 
 impl Plan {
@@ -213,7 +228,9 @@ impl Planner {
         let mut wrists = WRISTS.into_iter().filter(|wrist| load == Load::None || *wrist == present);
         wrists.find_map(|wrist| {
             let candidates = self.candidates(directed, wrist, transfer);
-            EFFORTS.iter().find_map(|effort| {
+            let may_change = load == Load::None && wrist == present;
+            let mut efforts = EFFORTS.iter().filter(|effort| may_change || effort.changes == Changes::None);
+            efforts.find_map(|effort| {
                 candidates.iter().find_map(|candidates| self.quickest(&task, candidates, effort))
             })
         })
@@ -234,11 +251,13 @@ impl Planner {
                 return None;
             }
             let margin = MARGIN.min(rise.gap).min(fall.gap);
-            let plan = Plan { timing, line, stances: [first, candidate.stance], ends: [**from, end] };
+            let stances = [first, candidate.stance];
+            let changes = if stances[0].wrist == stances[1].wrist { effort.changes } else { Changes::Once };
+            let plan = Plan { timing, line, stances, ends: [**from, end], changes };
             if !self.may_be_free(&plan, *load, margin, &mut suspect_time) {
                 continue;
             }
-            let Some(knots) = self.sampled(&plan) else { continue };
+            let Some(knots) = self.sampled(&plan, *load) else { continue };
             let path = Path::new(**from, &knots, limits);
             if self.is_free([from, &end], &path, *load, margin, &mut suspect) {
                 return Some(path);
@@ -316,15 +335,11 @@ impl Planner {
             && self.scene.gap_at_place(at, MARGIN_AT_PLACE) >= MARGIN_AT_PLACE
     }
 
-    /// The joints at a time of a plan, with whole turns as they are at `near`; none where the reach forbids it.
+    /// The joints at a time of a plan, with whole turns as they are at `near`; none where the reach forbids it. A wrist
+    /// changes its side evenly while the torso moves.
     fn at_time(&self, plan: &Plan, time: f64, near: &Joints) -> Option<Joints> {
         let (part, turned, height) = plan.timing.at(time);
         let ([first, last], [from, to]) = (&plan.stances, &plan.ends);
-        let stance = Stance {
-            turn: first.turn + turned * (last.turn - first.turn),
-            beyond: first.beyond + part * (last.beyond - first.beyond),
-            wrist: last.wrist,
-        };
         let place = if part <= 0.0 {
             axis(from)
         } else if part >= 1.0 {
@@ -332,11 +347,29 @@ impl Planner {
         } else {
             plan.line.at(part * plan.line.length())
         };
-        self.arm.standing_at(place, height, &stance, near)
+        let standing = |wrist: Wrist, near: &Joints| {
+            let turn = first.turn + turned * (last.turn - first.turn);
+            let beyond = first.beyond + part * (last.beyond - first.beyond);
+            self.arm.standing_at(place, height, &Stance { turn, beyond, wrist }, near)
+        };
+        let passed = plan.timing.passed(time);
+        let (other, share) = match plan.changes {
+            Changes::None => return standing(last.wrist, near),
+            Changes::Once => (last.wrist, passed),
+            Changes::Twice => (first.wrist.other(), 1.0 - (2.0 * passed - 1.0).abs()),
+        };
+        match share {
+            0.0 => standing(first.wrist, from),
+            1.0 => standing(other, from),
+            _ => {
+                let (here, there) = (standing(first.wrist, from)?, standing(other, from)?);
+                Some(here.map(|i, angle| angle + share * (there[i] - angle)))
+            }
+        }
     }
 
     /// The joints at regular times of a plan, and those at its end.
-    fn sampled(&self, plan: &Plan) -> Option<Vec<Knot>> {
+    fn sampled(&self, plan: &Plan, load: Load) -> Option<Vec<Knot>> {
         let [from, to] = &plan.ends;
         let count = plan.samples();
         let mut knots: Vec<Knot> = Vec::with_capacity(count as usize);
@@ -344,17 +377,21 @@ impl Planner {
             let near = knots.last().map_or(from, |knot| &knot.joints);
             knots.push(Knot::new(self.at_time(plan, plan.time(i), near)?));
         }
-        // Where the limits of the last joint do not let it keep the direction of a part, it turns back while the torso
-        // moves.
         let tool = to.len() - 1;
         let reached = knots.last().map_or(from[tool], |knot| knot.joints[tool]);
-        let (last, turns) = turned(to[tool], reached);
-        let end = to.map(|i, value| if i == tool { last } else { value });
+        let (end, turns) = match load {
+            // There is no direction to be kept. Not wound up, the last joint can keep that of a part that is fetched.
+            Load::None => (wrapped(to[tool]), wrapped(to[tool]) - from[tool]),
+            // Where the limits of the last joint do not let it keep the direction of the part, it turns back while the
+            // torso moves.
+            Load::Largest => turned(to[tool], reached),
+        };
         for (i, knot) in (1..count).zip(&mut knots) {
-            let part = plan.timing.passed(plan.time(i));
-            knot.joints = knot.joints.map(|i, value| if i == tool { value + part * turns } else { value });
+            let begin = if load == Load::None { from[tool] } else { knot.joints[tool] };
+            let angle = begin + plan.timing.passed(plan.time(i)) * turns;
+            knot.joints = knot.joints.map(|i, value| if i == tool { angle } else { value });
         }
-        knots.push(Knot::new(end));
+        knots.push(Knot::new(to.map(|i, value| if i == tool { end } else { value })));
         Some(knots)
     }
 

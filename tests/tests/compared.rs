@@ -78,6 +78,7 @@ fn disturbed() -> Vec<Job> {
     // A motion that goes on seems to have failed, and a belt that moves seems to stand.
     jobs.push(reads_in("Retreating", "rail_arm", ERROR, f64::from(REFUSED), 1000));
     jobs.push(reads_in("Passing", "belt", MOVING, 0.0, 400));
+    jobs.extend(waits_for_room());
     for line in ["default", "buffer", "shared_agv"] {
         let texts = || match line {
             "default" => orders(ariac(line), 2),
@@ -110,6 +111,8 @@ fn nothing_gripped(line: &mut Line) {
 /// Where `attached` stands in the inputs of an arm, `moving` in those of a belt, and `error` in those of both.
 const ATTACHED: usize = 4;
 const MOVING: usize = 4;
+/// Of the belt, for each of the four kinds.
+const SEES: usize = 5;
 const ERROR: usize = 3;
 
 /// The states in which an arm goes on with a part.
@@ -161,6 +164,19 @@ fn reads_in(state: &str, device: &str, word: usize, value: f64, scans: u64) -> J
     let during = During { at_scan, scans: Some(scans) };
     job.project.plant.scenario.sensors.push(Stuck { machine, word, words: 1, value, during });
     Job { name: format!("{device} misled in {state}"), ..job }
+}
+
+/// Parts wait for room near their station; and the first of them is not seen any more for a second.
+fn waits_for_room() -> [Job; 2] {
+    let texts = || ariac("default").set("agv.capacity=1").set("conveyor.near=4.5");
+    let usual = job("parts wait for room", texts(), |_| ());
+    let machine = all(&usual.project.plant, "belt")[0];
+    let at_scan = entry(&usual, machine, &["Waiting"]).expect("a part that waits");
+    // In this scan it is still seen.
+    let during = During { at_scan: at_scan + 1, scans: Some(100) };
+    let unseen = Stuck { machine, word: SEES, words: 4, value: 0.0, during };
+    let taken = job("a part is taken away", texts(), |line| line.scenario.sensors.push(unseen));
+    [usual, taken]
 }
 
 /// The first command of the machines of one kind is refused, and one in so many of the others.

@@ -116,7 +116,7 @@ fn coverage(job: &Job) -> Coverage {
 #[test]
 fn every_text_does_what_the_executor_does() {
     let begin = Instant::now();
-    let families = if is_full_campaign() { 1000 / OF_A_FAMILY } else { 100 / OF_A_FAMILY };
+    let families = if is_full_campaign() { 1000 / OF_A_FAMILY } else { 50 / OF_A_FAMILY };
     let first: u64 = std::env::var("AUTOGEN_SEED").ok().and_then(|s| s.parse().ok()).unwrap_or(1);
     let mut jobs: Vec<Job> =
         examples().into_iter().map(|(name, texts)| Job::Example(name, Box::new(texts))).collect();

@@ -152,6 +152,13 @@ impl Path {
         Self { halves, knots, places, rates, fingerprint }
     }
 
+    /// What is left of it at a place.
+    pub fn rest(&self, place: f64, limits: &Limits) -> Self {
+        let knots = self.knots.iter().zip(&self.places).filter(|(_, at)| **at > place);
+        let knots: Vec<Knot> = knots.map(|(joints, _)| Knot::new(*joints)).collect();
+        Self::new(self.at(place), &knots, limits)
+    }
+
     /// Of the places of all joints along it.
     pub fn fingerprint(&self) -> Fingerprint {
         self.fingerprint

@@ -4,7 +4,7 @@ use super::motions::{Motions, Planned};
 use crate::kinematics::arm::{Joints, Limits};
 use crate::kinematics::facing::Facing;
 use crate::kinematics::pose::Pose;
-use crate::motion::{Motion, Travel};
+use crate::motion::{Motion, Path, Travel};
 use crate::planner::{Load, Transfer};
 use crate::point::Point;
 use std::sync::Arc;
@@ -18,6 +18,11 @@ pub struct Drive {
     /// Of a part on the tool where the last motion arrived: one that is broken off does not change what a part keeps.
     direction: f64,
     phase: Phase,
+    /// Of the motion under way, or of the last one.
+    target: Option<Target>,
+    /// What is left of a path round obstacles on which the robot has come to rest: the same command goes on along it.
+    /// Another path begins at a place; between places there may be none.
+    left: Option<Path>,
     /// How far the tool goes at most along the path under way.
     travel: Arc<Travel>,
 }
@@ -60,7 +65,7 @@ impl Drive {
         let arm = motions.arm();
         let joints = arm.solve(rest, &arm.start())?;
         let (limits, tool, direction) = (arm.limits(), arm.tool_pose(&joints), arm.direction(&joints));
-        Some(Self { motions, limits, joints, tool, direction, phase: Phase::Rest, travel: Arc::default() })
+        Some(Self { motions, limits, joints, tool, direction, phase: Phase::Rest, target: None, left: None, travel: Arc::default() })
     }
 
     /// Its frame, world frame.
@@ -101,22 +106,36 @@ impl Drive {
     /// Sets out for a target at `t`, in seconds; what moves still brakes first. `None` if no joints bring the
     /// tool there.
     pub fn start(&mut self, target: Target, t: f64) -> Option<()> {
-        let planned = self.planned_to(target, t)?;
-        self.phase = match std::mem::replace(&mut self.phase, Phase::Rest) {
-            Phase::Rest => {
-                self.travel = planned.tool;
-                Phase::Going(planned.motion)
-            }
+        let planned = self.planned_to(target, t);
+        let goes_on = !self.is_at_rest() && self.target == Some(target);
+        if planned.is_none() && !goes_on {
+            return None;
+        }
+        match std::mem::replace(&mut self.phase, Phase::Rest) {
+            Phase::Rest => self.set_out(target, planned?),
             Phase::Going(mut motion) | Phase::Braking(mut motion, _) => {
                 motion.hold(t);
-                Phase::Braking(motion, Some(target))
+                self.phase = Phase::Braking(motion, Some(target));
             }
-        };
+        }
         Some(())
+    }
+
+    fn set_out(&mut self, target: Target, planned: Planned) {
+        let Planned { motion, tool } = planned;
+        self.phase = Phase::Going(motion);
+        self.travel = tool;
+        self.target = Some(target);
+        self.left = None;
     }
 
     /// From the present joints, which stand.
     fn planned_to(&self, target: Target, t: f64) -> Option<Planned> {
+        if self.target == Some(target)
+            && let Some(path) = &self.left
+        {
+            return Some(self.motions.along(path.clone(), &self.limits, t));
+        }
         let directed = self.motions.arm().directed(&self.joints, self.direction);
         self.motions.planned([&self.joints, &directed], &target, &self.limits, t)
     }
@@ -160,35 +179,33 @@ impl Drive {
 
     /// Goes on to the time `t`. It may arrive while it is held, if it was about to.
     pub fn advance(&mut self, t: f64) -> Moved {
-        let (phase, moved) = match std::mem::replace(&mut self.phase, Phase::Rest) {
-            Phase::Rest => (Phase::Rest, Moved::Arrived),
+        match std::mem::replace(&mut self.phase, Phase::Rest) {
+            Phase::Rest => Moved::Arrived,
             Phase::Going(motion) => {
                 self.place(motion.at(t));
                 if motion.has_ended(t) {
                     self.direction = self.motions.arm().direction(&self.joints);
-                    (Phase::Rest, Moved::Arrived)
+                    Moved::Arrived
                 } else {
-                    (Phase::Going(motion), Moved::Moving)
+                    self.phase = Phase::Going(motion);
+                    Moved::Moving
                 }
             }
             Phase::Braking(motion, next) => {
                 self.place(motion.at(t));
                 if t < motion.rests_at() {
-                    (Phase::Braking(motion, next), Moved::Moving)
-                } else {
-                    match next.map(|target| self.planned_to(target, t)) {
-                        None => (Phase::Rest, Moved::Arrived),
-                        Some(None) => (Phase::Rest, Moved::Lost),
-                        Some(Some(Planned { motion, tool })) => {
-                            self.travel = tool;
-                            (Phase::Going(motion), Moved::Moving)
-                        }
-                    }
+                    self.phase = Phase::Braking(motion, next);
+                    return Moved::Moving;
                 }
+                let place = motion.place(t);
+                let leads_on = matches!(self.target, Some(Target::Round(..))) && place < 1.0;
+                self.left = leads_on.then(|| motion.path().rest(place, &self.limits));
+                let Some(target) = next else { return Moved::Arrived };
+                let Some(planned) = self.planned_to(target, t) else { return Moved::Lost };
+                self.set_out(target, planned);
+                Moved::Moving
             }
-        };
-        self.phase = phase;
-        moved
+        }
     }
 
     fn place(&mut self, joints: Joints) {

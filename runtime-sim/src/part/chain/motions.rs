@@ -5,7 +5,7 @@ use crate::answers::Answers;
 use crate::collision::reach::{Ball, Chain, Radii};
 use crate::kinematics::arm::{Arm, Joints, Limits};
 use crate::machine::Machine;
-use crate::motion::{Knot, Motion, Travel};
+use crate::motion::{Knot, Motion, Path, Travel};
 use crate::planner::{End, Load, Planner, Transfer};
 use crate::point::Point;
 use std::sync::Arc;
@@ -103,6 +103,13 @@ impl Motions {
             Some(Planned { motion, tool })
         });
         planned.map(|Planned { motion, tool }| Planned { motion: motion.begun(begin), tool })
+    }
+
+    /// The same along a path that is known.
+    pub fn along(&self, path: Path, limits: &Limits, begin: f64) -> Planned {
+        let motion = Motion::on(path, limits, begin);
+        let tool = Arc::new(motion.travel(&self.radii));
+        Planned { motion, tool }
     }
 
     fn computed(
