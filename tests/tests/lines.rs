@@ -137,10 +137,9 @@ fn after_a_loss_of_power_the_gantry_goes_on_along_its_path() {
         &[73.75, 185.92, 480.42, 490.22],
         |at| format!("without power at {at} s"),
         |at| {
-            let power =
-                format!("\"faults\": {{\"power_offs\": [{{\"at_s\": {at}, \"for_s\": 3}}]}}, \"supply\"");
-            let scenario = autogen::scenario::DEFAULT.replace("\"supply\"", &power);
-            Texts { scenario: Some(scenario), ..ariac("default") }.project()
+            let mut project = ariac("default").project();
+            project.plant.scenario.power_offs = vec![Pause { at_scan: (at * 100.0) as u64, scans: 300 }];
+            project
         },
     );
 }

@@ -65,7 +65,17 @@ impl Drive {
         let arm = motions.arm();
         let joints = arm.solve(rest, &arm.start())?;
         let (limits, tool, direction) = (arm.limits(), arm.tool_pose(&joints), arm.direction(&joints));
-        Some(Self { motions, limits, joints, tool, direction, phase: Phase::Rest, target: None, left: None, travel: Arc::default() })
+        Some(Self {
+            motions,
+            limits,
+            joints,
+            tool,
+            direction,
+            phase: Phase::Rest,
+            target: None,
+            left: None,
+            travel: Arc::default(),
+        })
     }
 
     /// Its frame, world frame.
@@ -106,18 +116,15 @@ impl Drive {
     /// Sets out for a target at `t`, in seconds; what moves still brakes first. `None` if no joints bring the
     /// tool there.
     pub fn start(&mut self, target: Target, t: f64) -> Option<()> {
-        let planned = self.planned_to(target, t);
-        let goes_on = !self.is_at_rest() && self.target == Some(target);
-        if planned.is_none() && !goes_on {
-            return None;
+        if self.is_at_rest() {
+            let planned = self.planned_to(target, t)?;
+            self.set_out(target, planned);
+            return Some(());
         }
-        match std::mem::replace(&mut self.phase, Phase::Rest) {
-            Phase::Rest => self.set_out(target, planned?),
-            Phase::Going(mut motion) | Phase::Braking(mut motion, _) => {
-                motion.hold(t);
-                self.phase = Phase::Braking(motion, Some(target));
-            }
+        if self.target != Some(target) {
+            self.planned_to(target, t)?;
         }
+        self.brake(t, Some(target));
         Some(())
     }
 
@@ -155,11 +162,15 @@ impl Drive {
 
     /// Brakes and forgets the target.
     pub fn stop(&mut self, t: f64) {
+        self.brake(t, None);
+    }
+
+    fn brake(&mut self, t: f64, next: Option<Target>) {
         self.phase = match std::mem::replace(&mut self.phase, Phase::Rest) {
             Phase::Rest => Phase::Rest,
             Phase::Going(mut motion) | Phase::Braking(mut motion, _) => {
                 motion.hold(t);
-                Phase::Braking(motion, None)
+                Phase::Braking(motion, next)
             }
         };
     }

@@ -99,15 +99,17 @@ impl Motions {
         let question = Question::new([from, directed], target, limits);
         let planned = self.known.get(question, || {
             let motion = self.computed([from, directed], target, limits)?;
-            let tool = Arc::new(motion.travel(&self.radii));
-            Some(Planned { motion, tool })
+            Some(self.measured(motion))
         });
         planned.map(|Planned { motion, tool }| Planned { motion: motion.begun(begin), tool })
     }
 
     /// The same along a path that is known.
     pub fn along(&self, path: Path, limits: &Limits, begin: f64) -> Planned {
-        let motion = Motion::on(path, limits, begin);
+        self.measured(Motion::on(path, limits, begin))
+    }
+
+    fn measured(&self, motion: Motion) -> Planned {
         let tool = Arc::new(motion.travel(&self.radii));
         Planned { motion, tool }
     }
