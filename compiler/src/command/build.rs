@@ -11,6 +11,7 @@ use autogen::io_map::{self, Conversion, Counting, IoMap, Point};
 use autogen::ir::System;
 use autogen::library;
 use autogen::lower::{Outcome, Project, compile};
+use autogen::parallel::in_parts;
 use autogen::plain;
 use autogen::simulator;
 use autogen::source::{FileId, Sources};
@@ -136,11 +137,29 @@ pub fn build(options: &BuildOptions) -> Result<Built, Status> {
 impl Built {
     /// Gives all files of the output folder.
     pub fn write(&self, files: &mut dyn Sink) {
+        self.write_structured_text(files);
+        self.write_all_else(files);
+    }
+
+    /// The same files, all in memory, made by two threads where there are two processors.
+    pub fn files(&self) -> Files {
+        let halves: [fn(&Self, &mut dyn Sink); 2] = [Self::write_structured_text, Self::write_all_else];
+        let made = in_parts(&halves, 1, |part| {
+            let files = part.iter().map(|write| {
+                let mut files = Files::new();
+                write(self, &mut files);
+                files
+            });
+            files.collect()
+        });
+        made.into_iter().flatten().collect()
+    }
+
+    fn write_structured_text(&self, files: &mut dyn Sink) {
         self.with_program(|program| {
             self.write_portable(&program, files);
             self.write_with_structures(&program, files);
         });
-        self.write_all_else(files);
     }
 
     fn with_program<T>(&self, write: impl FnOnce(st::Program) -> T) -> T {

@@ -74,8 +74,7 @@ fn commission(options: &CommissionOptions) -> Result<Status, End> {
         trajectories: Request::new(options)?,
     };
     let built = build::build(&options.build).map_err(End::Said)?;
-    let mut built_files = Files::new();
-    built.write(&mut built_files);
+    let built_files = built.files();
     are_free(options, &built, &built_files)?;
     files.trajectories.check(&built.project.plant)?;
     let refused = |refusal| End::Said(build::refused(&options.build, &refusal));
