@@ -10,6 +10,8 @@ use crate::item::{Item, Items};
 pub fn conservation(log: &[Event], items: &Items) -> Result<(), String> {
     let end: &[Item] = items.all();
     let mut carriers = vec![Carrier::Supply; end.len()];
+    // The item that the gripper of each machine holds.
+    let mut held = vec![None; items.machines()];
     let mut last_scan = 0;
     for event in log {
         let Event::Item { scan, item, from, to, point } = *event else { continue };
@@ -31,14 +33,13 @@ pub fn conservation(log: &[Event], items: &Items) -> Result<(), String> {
         if !(point.x.is_finite() && point.y.is_finite() && point.z.is_finite()) {
             return Err(format!("scan {scan}: item {item} is nowhere"));
         }
-        if let Carrier::Grip { machine, .. } = to {
-            let held =
-                carriers.iter().position(|c| matches!(c, Carrier::Grip { machine: m, .. } if *m == machine));
-            if let Some(other) = held {
-                return Err(format!(
-                    "scan {scan}: gripper {machine} holds item {other} and takes item {item}"
-                ));
-            }
+        if let Carrier::Grip { machine, .. } = to
+            && let Some(other) = held[machine].replace(item)
+        {
+            return Err(format!("scan {scan}: gripper {machine} holds item {other} and takes item {item}"));
+        }
+        if let Carrier::Grip { machine, .. } = from {
+            held[machine] = None;
         }
         carriers[item] = to;
     }
@@ -47,8 +48,11 @@ pub fn conservation(log: &[Event], items: &Items) -> Result<(), String> {
             return Err(format!("item {item} ends at {:?}, by the log at {carrier:?}", found.carrier));
         }
     }
-    for machine in 0..items.machines() {
-        let by_log = carriers.iter().filter(|c| c.machine() == Some(machine)).count();
+    let mut counts = vec![0; items.machines()];
+    for machine in carriers.iter().filter_map(Carrier::machine) {
+        counts[machine] += 1;
+    }
+    for (machine, by_log) in counts.into_iter().enumerate() {
         let borne = items.borne_by(machine);
         if borne.len() != by_log || borne.iter().any(|&i| carriers[i].machine() != Some(machine)) {
             return Err(format!("machine {machine} bears items {borne:?}, by the log {by_log} items"));

@@ -1,10 +1,11 @@
 //! A run: controllers against the plant, scan by scan, until it is over.
 
+mod accounts;
 mod agenda;
 mod changes;
 mod progress;
 
-use crate::account::{Account, Activity};
+use crate::account::Activity;
 use crate::collision::{CollisionCheck, Contact};
 use crate::conservation::conservation;
 use crate::history::{History, Stay};
@@ -18,6 +19,7 @@ use crate::scan::{Controllers, SystemInputs, SystemOutputs};
 use crate::shortage::point_text;
 use crate::system::Operator;
 use crate::wiring::{Drives, Source};
+use accounts::Accounts;
 use agenda::Agenda;
 use changes::Changes;
 use progress::Progress;
@@ -127,7 +129,7 @@ fn simulate(
     let mut inputs = plant.images().to_vec();
     let mut outputs = plant::outputs(line);
     let output_words: Vec<usize> = outputs.iter().map(Vec::len).collect();
-    let mut accounts = vec![Account::new(line); line.machines.len()];
+    let mut accounts = Accounts::new(line);
     let mut states: Vec<usize> = (0..line.machines.len()).map(|machine| controllers.state(machine)).collect();
     let numbers: Vec<_> = (0..line.machines.len()).map(|machine| numbers(line, machine)).collect();
     let stays = controllers.stays();
@@ -149,9 +151,11 @@ fn simulate(
             controllers.power_up();
             agenda.power_up();
         }
+        agenda.arrive(arrived);
         let is_due = is_powered && agenda.is_due(scan, system, &inputs, &states, &changes);
         let mut acted = false;
-        if is_due || is_powered && stepping != Stepping::Events {
+        let is_stepped = is_due || is_powered && stepping != Stepping::Events;
+        if is_stepped {
             let scans = agenda.scans_since(scan);
             controllers.skip(scans - 1);
             let before = std::mem::replace(&mut answer, controllers.scan(system, &inputs, &mut outputs));
@@ -237,20 +241,24 @@ fn simulate(
         if is_alive {
             progress.is_alive(next - 1);
         }
-        for (machine, account) in accounts.iter_mut().enumerate() {
-            let is_stopped = line.machines[machine].monitor.is_stopped(&trace);
-            let activity = if !answer.running || is_stopped {
-                Activity::Stopped
-            } else if numbers[machine].is_some_and(|(cmd, ack)| outputs[machine][cmd] != inputs[machine][ack])
-            {
-                Activity::Moving
-            } else {
-                Activity::InState(states[machine])
-            };
-            account.book(line, machine, activity, next - scan);
-            if let Some(recorders) = &mut recorders {
-                let stay = Stay { scan, state: states[machine], counted: activity.counted(line, machine) };
-                recorders.history.stay(machine, stay);
+        if is_stepped || arrived != Arrived::Nothing || scan == 0 {
+            for machine in 0..line.machines.len() {
+                let is_stopped = line.machines[machine].monitor.is_stopped(&trace);
+                let activity = if !answer.running || is_stopped {
+                    Activity::Stopped
+                } else if numbers[machine]
+                    .is_some_and(|(cmd, ack)| outputs[machine][cmd] != inputs[machine][ack])
+                {
+                    Activity::Moving
+                } else {
+                    Activity::InState(states[machine])
+                };
+                accounts.note(machine, activity, scan);
+                if let Some(recorders) = &mut recorders {
+                    let stay =
+                        Stay { scan, state: states[machine], counted: activity.counted(line, machine) };
+                    recorders.history.stay(machine, stay);
+                }
             }
         }
         scan = next;
@@ -276,7 +284,7 @@ fn simulate(
         reason,
         fault,
         scans: scan,
-        accounts,
+        accounts: accounts.until(scan),
         states,
         trace_hash: changes.hash(),
         collisions: check.into_contacts(),

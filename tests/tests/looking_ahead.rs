@@ -31,36 +31,40 @@ fn first_true(texts: &Texts, word: Option<&str>) -> (Report, Option<f64>) {
     events
 }
 
-/// One vehicle drives 20 m along x at 1 m/s, reached after 0.2 s, its front 0.4 m ahead. Another one stands 0.7 m beside
-/// its line, from x = 9.8 m on, and drives 0.5 m towards it.
+/// A vehicle on a track, its hull so long to the front and to the back, m.
+fn vehicle(name: &str, track: &str, length: f64) -> String {
+    format!(
+        "device {name} {{
+            part drive = track {{ {track} mass: 10.0; }};
+            part hull = body {{ on: drive; low: point(-{length}, -0.2, 0); high: point({length}, 0.2, 0.3); }};
+            in place: int -1..1 = drive.place;
+            out goal: int 0..9;
+            command 1 go(goal) = drive.to(goal);
+        }}"
+    )
+}
+
+/// 20 m along x at 1 m/s, reached after 0.2 s, its front 0.4 m ahead.
+const ALONG: &str =
+    "corners: [pose, pose + point(20, 0, 0)]; places: [0.0, 20.0]; speed: 1.0; acceleration: 5.0;";
+const DRIVES_ALONG: &str = "automaton Along on along {
+    initial -> There { go(1); }
+    state There { when done -> Ended; }
+    final state Ended;
+}";
+
+/// One vehicle drives along x. Another one stands 0.7 m beside its line, from x = 9.8 m on, and drives 0.5 m towards it.
 fn vehicles(across: &str) -> Report {
-    let vehicle = |name: &str, track: &str, length: f64| {
-        format!(
-            "device {name} {{
-                part drive = track {{ {track} mass: 10.0; }};
-                part hull = body {{ on: drive; low: point(-{length}, -0.2, 0); high: point({length}, 0.2, 0.3); }};
-                in place: int -1..1 = drive.place;
-                out goal: int 0..9;
-                command 1 go(goal) = drive.to(goal);
-            }}"
-        )
-    };
-    let along =
-        "corners: [pose, pose + point(20, 0, 0)]; places: [0.0, 20.0]; speed: 1.0; acceleration: 5.0;";
     let aside =
         "corners: [pose, pose + point(0, -0.5, 0)]; places: [0.0, 0.5]; speed: 2.0; acceleration: 8.0;";
-    let devices = [vehicle("along", along, 0.4), vehicle("across", aside, 0.2)].concat();
+    let devices = [vehicle("along", ALONG, 0.4), vehicle("across", aside, 0.2)].concat();
     let texts = Texts {
         layout: r#"{"robots": [{"name": "along", "type": "along", "pose": [0, 0, 0]},
             {"name": "across", "type": "across", "pose": [10, 0.7, 0]}]}"#
             .into(),
         specs: vec![format!(
             "{devices}
-            automaton Along on along {{
-                initial -> There {{ go(1); }}
-                state There {{ when done -> Ended; }}
-                final state Ended;
-            }}
+            {DRIVES_ALONG}
             automaton Across on across {{ {across} final state Ended; }}"
         )],
         scenario: Some(r#"{"time_limit_s": 30}"#.into()),
@@ -95,6 +99,40 @@ fn a_vehicle_that_comes_and_goes_while_another_one_passes_is_touched() {
     assert!((touches..touches + 4.0 * SCAN).contains(&contact.time_s), "{contact:?}");
 }
 
+/// A piece crosses the line of a vehicle on a conveyor without a body, long before the vehicle comes; but the conveyor stops.
+#[test]
+fn a_piece_that_stops_on_its_way_is_run_into() {
+    let crossing = "device crossing {
+        part infeed = lane { from: origin * frame(0, -2, 0.1, 90); length: 4.0; width: 0.14; speed: 0.5; };
+        part feeder = source { on: infeed; inset: 0.1; };
+        part eye = beam { across: infeed; at: 2.0; };
+        in at_line: bool = eye.sees;
+        out run: bool = infeed.run stop false;
+    }
+    automaton Crossing on crossing {
+        initial -> Running { run := true; }
+        state Running { when at_line -> Standing { run := false; } }
+        final state Standing;
+    }";
+    let texts = Texts {
+        layout: r#"{"robots": [{"name": "along", "type": "along", "pose": [0, 0, 0]},
+            {"name": "crossing", "type": "crossing", "pose": [10, 0, 0]}]}"#
+            .into(),
+        specs: vec![[&vehicle("along", ALONG, 0.4), crossing, DRIVES_ALONG].concat()],
+        scenario: Some(ONE_PIECE.into()),
+        ..Texts::default()
+    };
+    let (report, at_line) = first_true(&texts, Some("crossing_at_line"));
+    assert!(at_line.is_some_and(|time| time < 7.0), "{at_line:?}");
+    let [contact] = &report.collisions[..] else { panic!("{report:?}") };
+    // The piece is 0.1 m long.
+    let touches = 10.0 - 0.05 - 0.4 + 0.1;
+    assert!((touches..touches + 3.0 * SCAN).contains(&contact.time_s), "{contact:?}");
+}
+
+const ONE_PIECE: &str = r#"{"kinds": [{"name": "piece", "height": 0.05, "size": [0.1, 0.1]}],
+    "supply": {"items": ["piece"], "times": 1, "every_s": 2}, "time_limit_s": 20}"#;
+
 /// A tool at rest over the end of a conveyor that brings one piece, 50 mm high.
 fn under_a_tool(infeed: &str, grips: &str, automaton: &str) -> Texts {
     Texts {
@@ -120,11 +158,7 @@ fn under_a_tool(infeed: &str, grips: &str, automaton: &str) -> Texts {
             }}
             automaton Cell on cell {{ {automaton} }}"
         )],
-        scenario: Some(
-            r#"{"kinds": [{"name": "piece", "height": 0.05, "size": [0.1, 0.1]}],
-                "supply": {"items": ["piece"], "times": 1, "every_s": 2}, "time_limit_s": 20}"#
-                .into(),
-        ),
+        scenario: Some(ONE_PIECE.into()),
         ..Texts::default()
     }
 }

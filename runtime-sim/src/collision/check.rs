@@ -9,8 +9,8 @@
 
 use super::TOLERANCE;
 use super::body::Piece;
-use super::group::{Anchor, Group, Kind};
-use super::pair::{Known, Pair, Span, Touch};
+use super::group::{Anchor, Group, Kind, Outer};
+use super::pair::{AT_ONCE, Known, Pair, Span, Touch};
 use crate::carrier::Carrier;
 use crate::event::Event;
 use crate::fingerprint::Fingerprint;
@@ -45,8 +45,10 @@ pub struct Contact {
 #[derive(Clone, Debug)]
 pub struct CollisionCheck {
     groups: Vec<Group>,
-    /// Of the movements of the groups.
-    versions: Vec<u64>,
+    /// Of the movements of the groups; none before the first look.
+    versions: Vec<Option<u64>>,
+    /// What has contained each group so far.
+    reaches: Vec<Outer>,
     pairs: Vec<Pair>,
     /// Of each group the numbers of its pairs.
     pairs_of: Vec<Vec<usize>>,
@@ -60,6 +62,8 @@ pub struct CollisionCheck {
     /// Events that were handled.
     read: usize,
     contacts: Vec<Contact>,
+    /// A pair is in contact.
+    touches: bool,
     seconds: f64,
 }
 
@@ -78,9 +82,6 @@ struct Tracked {
     /// lies there.
     hang: Pose,
 }
-
-/// Times no farther apart are one, s.
-const AT_ONCE: f64 = 1e-9;
 
 impl CollisionCheck {
     pub fn new(line: &Line) -> Self {
@@ -112,14 +113,16 @@ impl CollisionCheck {
         Self {
             items: items.collect(),
             sizes,
-            versions: vec![0; groups.len()],
+            versions: vec![None; groups.len()],
+            reaches: vec![Outer::NOTHING; groups.len()],
             pairs_of: (0..groups.len()).map(pairs_of).collect(),
-            due: (0..pairs.len()).collect(),
+            due: Vec::new(),
             groups,
             pairs,
             known_until: f64::NEG_INFINITY,
             read: 0,
             contacts: Vec::new(),
+            touches: false,
             seconds: f64::from(line.scan_ms) / 1000.0,
         }
     }
@@ -131,7 +134,7 @@ impl CollisionCheck {
 
     /// Whether something is in contact: then every scan has to be checked.
     pub(crate) fn touches(&self) -> bool {
-        self.pairs.iter().any(Pair::touches)
+        self.touches
     }
 
     /// Looks ahead from the scan that begins, when the plant has obeyed its outputs and nothing has moved yet, to the
@@ -151,7 +154,7 @@ impl CollisionCheck {
                 group.catch_up(plant);
             }
         }
-        let changed = self.follow_groups(plant);
+        let changed = self.follow_groups(plant, memory);
         let now = plant.now_ms() as f64 / 1000.0;
         if !changed && self.known_until - now >= self.seconds * (next - scan) as f64 + AT_ONCE {
             return (next, None);
@@ -165,7 +168,8 @@ impl CollisionCheck {
             // What comes into contact at the very end is found in this span, however it is rounded.
             let end = self.seconds * (next - scan) as f64 + AT_ONCE;
             let pair = &mut self.pairs[index];
-            let versions = pair.groups.map(|group| self.versions[group]);
+            let [a, b] = pair.groups;
+            let versions = pair.groups.map(|group| self.groups[group].version());
             if pair.touches() {
                 if pair.known.versions != versions {
                     pair.known = Known { versions, until: f64::NEG_INFINITY };
@@ -175,6 +179,11 @@ impl CollisionCheck {
                 continue;
             }
             if pair.known.versions == versions && pair.known.until - now >= end {
+                continue;
+            }
+            if a != b && self.reaches[a].is_apart(&self.reaches[b]) {
+                pair.is_far = true;
+                pair.known = Known { versions, until: f64::INFINITY };
                 continue;
             }
             let clear = pair.clear_for(&mut self.groups, index, plant, memory, end);
@@ -193,18 +202,26 @@ impl CollisionCheck {
             return (next, None);
         }
         let found = self.search(near, plant);
+        self.touches = self.pairs.iter().any(Pair::touches);
         (next, self.note_all(found, plant))
     }
 
-    /// How groups continue; whether one does not go on as it did. The pairs of these are due.
-    fn follow_groups(&mut self, plant: &Plant) -> bool {
+    /// How groups continue; whether one does not go on as it did. The pairs of these are due, but those that are far.
+    fn follow_groups(&mut self, plant: &Plant, memory: &mut Memory) -> bool {
         let mut changed = false;
-        for (number, (group, version)) in self.groups.iter_mut().zip(&mut self.versions).enumerate() {
+        for (number, group) in self.groups.iter_mut().enumerate() {
             group.follow(plant);
-            if std::mem::replace(version, group.version()) != group.version() {
-                self.due.extend(&self.pairs_of[number]);
-                changed = true;
+            let version = Some(group.version());
+            if std::mem::replace(&mut self.versions[number], version) == version {
+                continue;
             }
+            changed = true;
+            let pairs = &self.pairs_of[number];
+            let reach = self.reaches[number].with(&group.outer(plant, memory));
+            if std::mem::replace(&mut self.reaches[number], reach) != reach {
+                pairs.iter().for_each(|pair| self.pairs[*pair].is_far = false);
+            }
+            self.due.extend(pairs.iter().filter(|pair| !self.pairs[**pair].is_far));
         }
         changed
     }
@@ -292,12 +309,9 @@ impl CollisionCheck {
     }
 
     fn leave(&mut self, item: usize, plant: &Plant) {
-        let tracked = &mut self.items[item];
-        let Some((index, body)) = tracked.place.take() else { return };
-        for pair in self.pairs.iter_mut().filter(|pair| pair.groups.contains(&index)) {
-            pair.expect(index, body);
-        }
-        let group = &mut self.groups[index];
+        let Some((index, body)) = self.items[item].place.take() else { return };
+        self.expect(index, body);
+        let (tracked, group) = (&mut self.items[item], &mut self.groups[index]);
         if let Some(turn) = group.turn(body, plant) {
             tracked.turn = turn;
         }
@@ -368,9 +382,15 @@ impl CollisionCheck {
         let item = size.into_iter().chain(turned).chain(hang).fold(Fingerprint::default(), Fingerprint::near);
         let body = group.add_item(anchor, piece, item, plant);
         tracked.place = Some((index, body));
-        for pair in self.pairs.iter_mut().filter(|pair| pair.groups.contains(&index)) {
-            pair.expect(index, body);
+        self.expect(index, body);
+    }
+
+    /// Another body stands at this number of a group, or none any more.
+    fn expect(&mut self, group: usize, body: usize) {
+        for pair in &self.pairs_of[group] {
+            self.pairs[*pair].expect(group, body);
         }
+        self.touches = self.touches && self.pairs.iter().any(Pair::touches);
     }
 }
 

@@ -20,7 +20,7 @@ use crate::plant::trajectory::Trajectory;
 use crate::point::Point;
 use crate::solid::{Link, Solid};
 use boxes::NEAR;
-pub use boxes::{Boxes, Swept};
+pub use boxes::{Boxes, Outer, Swept};
 use parts::Parts;
 use std::cell::OnceCell;
 use std::sync::Arc;
@@ -42,6 +42,8 @@ pub struct Body {
     travel: OnceCell<Travel>,
     /// Of an item: of its size, of how it is turned, and of how it hangs.
     item: Option<Fingerprint>,
+    /// That of its group when it came, or last did not go on as before: the same never comes back at this number.
+    pub version: u64,
 }
 
 /// What a body moves with.
@@ -188,7 +190,17 @@ impl Group {
             }
             _ => (None, still(&ball)),
         };
-        Body { anchor, pieces, ball, bounds, travel: OnceCell::new(), radii, path: 0.0, item: None }
+        Body {
+            anchor,
+            pieces,
+            ball,
+            bounds,
+            travel: OnceCell::new(),
+            radii,
+            path: 0.0,
+            item: None,
+            version: self.version,
+        }
     }
 
     /// Adds an item that comes to lie or to hang here; the number of its body.

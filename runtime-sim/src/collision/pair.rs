@@ -23,6 +23,10 @@ pub struct Pair {
     bodies: Vec<Vec<f64>>,
     touching: Vec<Touching>,
     pub known: Known,
+    /// Of groups that have moved near one another.
+    apart: Option<Box<KnownApart>>,
+    /// Whatever has contained the one group so far is apart from what has contained the other.
+    pub is_far: bool,
 }
 
 /// That two groups do not come into contact as they move.
@@ -32,6 +36,16 @@ pub struct Known {
     pub versions: [u64; 2],
     /// Seconds from the start of the run; infinity: as long as they go on like this.
     pub until: f64,
+}
+
+/// That all bodies of two groups that moved do not come into contact, each as it was going to move: all were looked at in
+/// this run, not remembered from motions that differ by the grain of a [`Fingerprint`](crate::fingerprint::Fingerprint).
+#[derive(Clone, Debug, Default)]
+struct KnownApart {
+    /// Of the bodies, by group and number.
+    versions: [Vec<u64>; 2],
+    /// Seconds from the start of the run.
+    until: f64,
 }
 
 /// Bodies that are in contact.
@@ -93,13 +107,24 @@ const AHEAD: f64 = 20.0;
 /// What is looked at ahead stays so far apart, m: then it does not come into contact either where its places differ by
 /// the grain of a [`Fingerprint`](crate::fingerprint::Fingerprint).
 const FREE: f64 = TOLERANCE + UNCERTAIN;
+/// Times no farther apart are one, s.
+pub const AT_ONCE: f64 = 1e-9;
 /// No search takes shorter steps, s: whatever moves goes less than a thousandth of the tolerance.
 const SHORTEST_STEP: f64 = 1e-9;
 
 impl Pair {
     pub fn new(groups: [usize; 2], allowed: bool) -> Self {
         let known = Known { versions: [0; 2], until: f64::NEG_INFINITY };
-        Self { groups, allowed, contact: None, bodies: Vec::new(), touching: Vec::new(), known }
+        Self {
+            groups,
+            allowed,
+            contact: None,
+            bodies: Vec::new(),
+            touching: Vec::new(),
+            known,
+            apart: None,
+            is_far: false,
+        }
     }
 
     pub fn touches(&self) -> bool {
@@ -192,6 +217,9 @@ impl Pair {
             }
         }
         self.forget_paths();
+        if a != b && !rest {
+            self.know_apart(groups, plant, seconds);
+        }
         if let Some(motions) = motions {
             memory.note_clear(motions, all_clear);
         }
@@ -199,6 +227,31 @@ impl Pair {
             note_free(memory, question);
         }
         all_clear
+    }
+
+    /// For so many seconds from now no two bodies come into contact.
+    fn know_apart(&mut self, groups: &[Group], plant: &Plant, seconds: f64) {
+        let apart = self.apart.get_or_insert_default();
+        apart.until = plant.now_ms() as f64 / 1000.0 + seconds;
+        for (versions, group) in apart.versions.iter_mut().zip(self.groups) {
+            versions.clear();
+            versions.extend(versions_of(&groups[group]));
+        }
+    }
+
+    /// Of both groups for each body whether it moves as it did when it was last known of all that they stay apart; none if
+    /// that is not known up to the end of the span.
+    fn apart_as_before(&self, span: &Span) -> Option<[Vec<bool>; 2]> {
+        let apart = self.apart.as_ref().filter(|_| span.swept.is_some())?;
+        if apart.until - span.plant.now_ms() as f64 / 1000.0 + AT_ONCE < span.to {
+            return None;
+        }
+        let as_before = |side: usize| {
+            let known = apart.versions[side].iter().map(Some).chain(std::iter::repeat(None));
+            let versions = versions_of(&span.groups[self.groups[side]]);
+            versions.zip(known).map(|(version, known)| known == Some(&version)).collect()
+        };
+        Some([0, 1].map(as_before))
     }
 
     /// A group does not go on as it did when it was looked at, or may not.
@@ -234,12 +287,17 @@ impl Pair {
         self.touching.retain_mut(|touching| span.still_touch([a, b], touching));
         let mut first: Option<Touch> = None;
         let paths = [a, b].map(|group| span.groups[group].paths_to(span.to));
+        let as_before = self.apart_as_before(span);
         for i in 0..counts[0] {
             let from = if a == b { i + 1 } else { 0 };
             for j in from..counts[1] {
                 let two = [(a, i), (b, j)];
                 let (Some(of_a), Some(of_b)) = (paths[0][i], paths[1][j]) else { continue };
                 let paths = of_a + of_b;
+                if as_before.as_ref().is_some_and(|[of_a, of_b]| of_a[i] && of_b[j]) {
+                    debug_assert!(span.stay_apart(two), "two bodies meet that were known to stay apart");
+                    continue;
+                }
                 if self.touching.iter().any(|touching| touching.bodies == [i, j]) {
                     continue;
                 }
@@ -276,6 +334,13 @@ impl Span<'_> {
     /// Whether the boxes of a body of the first group and of one of the second meet.
     fn may_meet(&self, [i, j]: [usize; 2]) -> bool {
         self.swept.is_none_or(|[a, b]| !a.bodies[i].is_apart(&b.bodies[j]))
+    }
+
+    /// Whether two bodies do not come into contact.
+    fn stay_apart(&mut self, two: Two) -> bool {
+        let (groups, contact) = (&mut *self.groups, TOLERANCE);
+        let mut exact = Span { groups, contact, apart: TOLERANCE, swept: None, ..*self };
+        !can_meet(exact.groups, two, exact.plant) || matches!(exact.search(two), Search::Clear(_))
     }
 
     /// Metres that both bodies together go at most between two times.
@@ -384,6 +449,11 @@ impl Span<'_> {
             _ => Apart::AtLeast(farther),
         }
     }
+}
+
+/// Of the bodies, by their numbers; 0 where there is none.
+fn versions_of(group: &Group) -> impl Iterator<Item = u64> {
+    group.bodies.iter().map(|body| body.as_ref().map_or(0, |body| body.version))
 }
 
 /// What is no number counts as a contact.

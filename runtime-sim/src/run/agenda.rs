@@ -1,10 +1,11 @@
 //! Which scans have to be executed: those in which a guard may begin to hold, or the plant may change by itself.
 
 use super::changes::Changes;
-use crate::line::Line;
-use crate::monitor::Counter;
-use crate::plant::Plant;
+use crate::image::are_same;
+use crate::line::{Line, State};
+use crate::plant::{Arrived, Plant};
 use crate::scan::{SystemInputs, SystemOutputs};
+use std::cell::OnceCell;
 
 /// What the controllers wait for since the last scan in which they were stepped. A scan in which none of this happens
 /// does nothing but let times in states continue.
@@ -16,7 +17,11 @@ pub struct Agenda<'a> {
     last: Option<Stepped>,
     /// The inputs that they latched in it.
     latched: Vec<Vec<f64>>,
+    /// The inputs may be others by now.
+    has_arrived: bool,
     analogue: Vec<Vec<bool>>,
+    /// Since the last step; none until somebody asks.
+    awaited: OnceCell<Awaited>,
 }
 
 struct Stepped {
@@ -27,10 +32,34 @@ struct Stepped {
     acted: bool,
 }
 
+/// What may happen without an event of a device or of the line.
+#[derive(Default)]
+struct Awaited {
+    /// Something may happen in any scan.
+    anything: bool,
+    /// The scans in which the first of all timers ends and the last one.
+    timers: Option<[u64; 2]>,
+    /// Machines, stopped ones too, in states that read words which change while something moves.
+    places: Vec<usize>,
+}
+
 impl<'a> Agenda<'a> {
     /// `analogue` says which words of the inputs change while a machine moves.
     pub fn new(line: &'a Line, stays: Vec<usize>, inputs: &[Vec<f64>], analogue: Vec<Vec<bool>>) -> Self {
-        Self { line, stays, last: None, latched: inputs.to_vec(), analogue }
+        Self {
+            line,
+            stays,
+            last: None,
+            latched: inputs.to_vec(),
+            has_arrived: false,
+            analogue,
+            awaited: OnceCell::new(),
+        }
+    }
+
+    /// What has become of the inputs.
+    pub fn arrive(&mut self, arrived: Arrived) {
+        self.has_arrived |= arrived != Arrived::Nothing;
     }
 
     /// The controllers have lost their power and have it again: the next scan is their first one.
@@ -56,38 +85,34 @@ impl<'a> Agenda<'a> {
         if last.acted || system != last.system {
             return true;
         }
-        let differs = |machine: usize, word: &usize| {
-            self.latched[machine].get(*word).map(|w| w.to_bits())
-                != inputs[machine].get(*word).map(|w| w.to_bits())
-        };
-        let mut machines = self.line.machines.iter().enumerate();
-        if machines.any(|(machine, it)| it.monitor.panel.iter().any(|word| differs(machine, word))) {
+        if last.running {
+            let awaited = self.awaited(last, states, changes);
+            if awaited.anything || awaited.timers.is_some_and(|[first, _]| first <= scan) {
+                return true;
+            }
+        }
+        let machines = 0..self.latched.len();
+        self.has_arrived && machines.into_iter().any(|machine| self.has_news(machine, last, inputs, states))
+    }
+
+    /// Whether an input of a machine that it reads is another one than it latched.
+    fn has_news(&self, machine: usize, last: &Stepped, inputs: &[Vec<f64>], states: &[usize]) -> bool {
+        let (latched, inputs) = (&self.latched[machine], &inputs[machine]);
+        if are_same(latched, inputs) {
+            return false;
+        }
+        let differs =
+            |word: &usize| latched.get(*word).map(|w| w.to_bits()) != inputs.get(*word).map(|w| w.to_bits());
+        let description = &self.line.machines[machine];
+        if description.monitor.panel.iter().any(differs) {
             return true;
         }
         if !last.running {
             return false;
         }
-        let passed = ((scan - last.scan) * u64::from(self.line.scan_ms)) as f64;
-        self.line.machines.iter().enumerate().any(|(machine, description)| {
-            let Some(state) = description.states.get(states[machine]) else { return true };
-            let stay = self.stays.get(machine).map_or(0.0, |word| changes.stay(*word));
-            let ends = |timer: &u32| stay < f64::from(*timer) && f64::from(*timer) <= stay + passed;
-            let monitor = &description.monitor;
-            let stops = monitor.is_stopped(changes.trace());
-            let counter_ends = |counter: &Counter| {
-                let waited = changes.stay(counter.word);
-                let ends = |limit: u32| waited < f64::from(limit) && f64::from(limit) <= waited + passed;
-                waited >= 0.0 && counter.limit.is_none_or(ends)
-            };
-            !stops
-                && (state.timers.as_ref().is_none_or(|timers| timers.iter().any(ends))
-                    || monitor.counters.iter().any(counter_ends))
-                || state.reads.iter().any(|word| differs(machine, word))
-                || state
-                    .reads_while
-                    .iter()
-                    .any(|read| differs(machine, &read.word) && read.is_read(&self.latched[machine]))
-        })
+        let Some(state) = description.states.get(states[machine]) else { return true };
+        state.reads.iter().any(differs)
+            || state.reads_while.iter().any(|read| differs(&read.word) && read.is_read(latched))
     }
 
     /// The controllers were stepped.
@@ -105,6 +130,8 @@ impl<'a> Agenda<'a> {
         for (latched, input) in self.latched.iter_mut().zip(inputs) {
             latched.copy_from_slice(input);
         }
+        self.has_arrived = false;
+        self.awaited = OnceCell::new();
     }
 
     /// The first scan after this one in which the controllers may have to be stepped, if no device changes anything.
@@ -117,44 +144,62 @@ impl<'a> Agenda<'a> {
         if !last.running {
             return None;
         }
-        let mut next: Option<u64> = None;
-        for (machine, description) in self.line.machines.iter().enumerate() {
-            let Some(state) = description.states.get(states[machine]) else { return Some(scan + 1) };
-            let is_analogue = |word: &usize| self.analogue[machine].get(*word) == Some(&true);
-            let reads_analogue = || {
-                state.reads.iter().any(is_analogue)
-                    || state
-                        .reads_while
-                        .iter()
-                        .any(|read| is_analogue(&read.word) && read.is_read(&self.latched[machine]))
-            };
-            if reads_analogue() && plant.moves(machine) {
-                return Some(scan + 1);
-            }
-            if description.monitor.is_stopped(changes.trace()) {
-                continue;
-            }
-            let Some(timers) = &state.timers else { return Some(scan + 1) };
-            let counters = &description.monitor.counters;
-            if counters.iter().any(|it| it.limit.is_none() && changes.stay(it.word) >= 0.0) {
-                return Some(scan + 1);
-            }
-            if let Some(ends) = self.timer_ends(last, machine, timers, changes).min() {
-                let due = ends.max(scan + 1);
-                next = Some(next.map_or(due, |next| next.min(due)));
-            }
+        let awaited = self.awaited(last, states, changes);
+        if awaited.anything || awaited.places.iter().any(|machine| plant.moves(*machine)) {
+            return Some(scan + 1);
         }
-        next
+        awaited.timers.map(|[first, _]| first.max(scan + 1))
     }
 
     /// Whether a timer of a machine is running, which ends after this scan: of its present state, or of a property.
     pub fn is_timed(&self, scan: u64, states: &[usize], changes: &Changes) -> bool {
         let Some(last) = self.last.as_ref().filter(|last| last.running) else { return false };
-        self.line.machines.iter().enumerate().any(|(machine, description)| {
-            let timers = description.states.get(states[machine]).and_then(|state| state.timers.as_deref());
-            !description.monitor.is_stopped(changes.trace())
-                && self.timer_ends(last, machine, timers.unwrap_or_default(), changes).any(|ends| ends > scan)
+        self.awaited(last, states, changes).timers.is_some_and(|[_, end]| end > scan)
+    }
+
+    fn awaited(&self, last: &Stepped, states: &[usize], changes: &Changes) -> &Awaited {
+        self.awaited.get_or_init(|| {
+            let mut awaited = Awaited::default();
+            for (machine, state) in states.iter().enumerate() {
+                self.await_machine(&mut awaited, last, (machine, *state), changes);
+            }
+            awaited
         })
+    }
+
+    /// Adds what a machine waits for in its state.
+    fn await_machine(
+        &self,
+        awaited: &mut Awaited,
+        last: &Stepped,
+        (machine, state): (usize, usize),
+        changes: &Changes,
+    ) {
+        let description = &self.line.machines[machine];
+        let state = description.states.get(state);
+        if state.is_some_and(|state| self.reads_places(machine, state)) {
+            awaited.places.push(machine);
+        }
+        awaited.anything |= state.is_none();
+        if description.monitor.is_stopped(changes.trace()) {
+            return;
+        }
+        let timers = state.and_then(|state| state.timers.as_deref());
+        let counters = &description.monitor.counters;
+        awaited.anything |=
+            timers.is_none() || counters.iter().any(|it| it.limit.is_none() && changes.stay(it.word) >= 0.0);
+        for ends in self.timer_ends(last, machine, timers.unwrap_or_default(), changes) {
+            let [earliest, latest] = awaited.timers.unwrap_or([ends; 2]);
+            awaited.timers = Some([earliest.min(ends), latest.max(ends)]);
+        }
+    }
+
+    /// Whether a state reads words that change while something moves.
+    fn reads_places(&self, machine: usize, state: &State) -> bool {
+        let is_analogue = |word: &usize| self.analogue[machine].get(*word) == Some(&true);
+        let latched = &self.latched[machine];
+        state.reads.iter().any(is_analogue)
+            || state.reads_while.iter().any(|read| is_analogue(&read.word) && read.is_read(latched))
     }
 
     /// The scans in which timers of a machine end that had not ended in the last step.

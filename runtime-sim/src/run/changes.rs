@@ -4,7 +4,6 @@ use crate::hash::Hash;
 use crate::image::are_same;
 use crate::line::Line;
 use crate::machine::Machine;
-use std::ops::Range;
 
 /// The last trace and the last outputs, and a hash of all changes with their scans. Times in states, and those for which
 /// properties wait, are no part of it, so a scan in which nothing happens does not change it.
@@ -13,11 +12,12 @@ pub struct Changes {
     hash: Hash,
     words: Vec<f64>,
     times: Vec<Time>,
-    /// Where the words of the trace are that are no times, as far as the last time.
-    others: Vec<Range<usize>>,
     /// Milliseconds that pass in a scan while the system runs.
     scan_ms: f64,
 }
+
+/// So many words are compared before one is looked for that has changed.
+const FEW: usize = 32;
 
 /// A word of the trace that is a time in a state, or one for which a property waits. It is at rest while the word at the
 /// second place says that the machine is stopped.
@@ -37,9 +37,7 @@ impl Changes {
         let counters = line.machines.iter().flat_map(|Machine { monitor, .. }| {
             monitor.counters.iter().map(|counter| Time { word: counter.word, stopped: monitor.stopped })
         });
-        let times: Vec<Time> = stays.chain(counters).collect();
-        let others = between(times.iter().map(|time| time.word).collect());
-        Self { times, others, scan_ms: f64::from(line.scan_ms), ..Self::default() }
+        Self { times: stays.chain(counters).collect(), scan_ms: f64::from(line.scan_ms), ..Self::default() }
     }
 
     /// Takes the trace and the outputs of a scan, and says whether anything has changed since the last one that was
@@ -57,21 +55,13 @@ impl Changes {
         // Whether a time stood still is said by the last trace.
         let mut changed = self.take_times(running as f64 * self.scan_ms, trace);
         self.times.iter().for_each(|time| self.words[time.word] = trace[time.word]);
-        for number in 0..=self.others.len() {
-            let range = self.others.get(number).cloned().unwrap_or(self.behind()..trace.len());
-            changed |= self.take_words(scan, range.start, &trace[range]);
-        }
+        changed |= self.take_words(scan, 0, trace);
         let mut first = trace.len();
         for words in outputs {
             changed |= self.take_words(scan, first, words);
             first += words.len();
         }
         changed
-    }
-
-    /// Behind the last time.
-    fn behind(&self) -> usize {
-        self.others.last().map_or(0, |last| last.end + 1)
     }
 
     /// Whether a time has not just gone on.
@@ -88,19 +78,23 @@ impl Changes {
         self.times.iter().any(went_otherwise)
     }
 
-    /// Whether one of these words has changed, of which none is a time; the first of them has this number.
+    /// Whether one of these words has changed; the first of them has this number, and times among them are known by now.
     fn take_words(&mut self, scan: u64, first: usize, words: &[f64]) -> bool {
         let known = &mut self.words[first..first + words.len()];
-        if are_same(known, words) {
-            return false;
-        }
-        for (offset, (last, word)) in known.iter_mut().zip(words).enumerate() {
-            if last.to_bits() != word.to_bits() {
-                *last = *word;
-                self.hash.change(scan, first + offset, *word);
+        let mut changed = false;
+        for (number, (known, words)) in known.chunks_mut(FEW).zip(words.chunks(FEW)).enumerate() {
+            if are_same(known, words) {
+                continue;
+            }
+            changed = true;
+            for (offset, (last, word)) in known.iter_mut().zip(words).enumerate() {
+                if last.to_bits() != word.to_bits() {
+                    *last = *word;
+                    self.hash.change(scan, first + number * FEW + offset, *word);
+                }
             }
         }
-        true
+        changed
     }
 
     /// Time in its state of the machine whose stay is at this place of the trace, ms.
@@ -118,14 +112,6 @@ impl Changes {
     }
 }
 
-/// What is before each of these places, from the one before it on.
-fn between(mut places: Vec<usize>) -> Vec<Range<usize>> {
-    places.sort_unstable();
-    places.dedup();
-    let begins = [0].into_iter().chain(places.iter().map(|place| place + 1));
-    begins.zip(&places).map(|(begin, end)| begin..*end).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -133,7 +119,7 @@ mod tests {
     /// With times at these places.
     fn changes(words: &[usize]) -> Changes {
         let times: Vec<Time> = words.iter().map(|word| Time { word: *word, stopped: None }).collect();
-        Changes { others: between(words.to_vec()), times, scan_ms: 10.0, ..Changes::default() }
+        Changes { times, scan_ms: 10.0, ..Changes::default() }
     }
 
     #[test]

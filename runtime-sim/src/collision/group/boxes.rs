@@ -20,7 +20,7 @@ pub const NEAR: f64 = TOLERANCE + UNCERTAIN;
 const PIECES: usize = 16;
 const PLACES: usize = 4;
 /// Of a body whose ball has a greater radius the pieces are looked at, m: of a long beam it holds much besides.
-const LONG: f64 = 0.5;
+const LONG: f64 = 0.1;
 
 /// What contains a group for a time.
 #[derive(Clone, Debug, PartialEq)]
@@ -107,7 +107,7 @@ impl Boxes {
 }
 
 /// What contains a group for a time, without a look at its bodies.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outer {
     all: BoundingBox,
     /// Without what stands in the world.
@@ -115,7 +115,9 @@ pub struct Outer {
 }
 
 impl Outer {
-    fn with(&self, other: &Self) -> Self {
+    pub const NOTHING: Self = Self { all: BoundingBox::NOTHING, moving: BoundingBox::NOTHING };
+
+    pub fn with(&self, other: &Self) -> Self {
         Self { all: self.all.with(&other.all), moving: self.moving.with(&other.moving) }
     }
 

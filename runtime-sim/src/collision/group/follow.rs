@@ -1,7 +1,7 @@
 //! Whether a group goes on as it did: each movement has a version.
 
 use super::super::movement::Movement;
-use super::{Group, path_of_parts};
+use super::{Anchor, Group, path_of_parts};
 use crate::plant::Plant;
 use crate::plant::trajectory::Trajectory;
 use std::cell::OnceCell;
@@ -78,24 +78,37 @@ impl Group {
         let goes_on = movement.goes_on(&self.movement);
         self.movement = movement;
         self.version += 1;
+        self.bodies.iter_mut().flatten().for_each(|body| body.version = self.version);
         if goes_on {
             return;
         }
-        self.forget();
+        self.forget_place();
         self.bodies.iter_mut().flatten().for_each(|body| body.travel = OnceCell::new());
     }
 
     /// How the items on its conveyors and its cylinders continue.
     fn follow_parts(&mut self, index: usize, plant: &Plant, passed: f64) {
         let moved = self.moves_parts();
-        let goes_on = self.parts.follow(&self.bodies, index, plant, passed);
-        if moved || !goes_on {
+        let followed = self.parts.follow(&self.bodies, index, plant, passed);
+        if moved || !followed.all_go_on {
             self.moving = None;
             self.resting = None;
             self.borne = None;
         }
-        if !goes_on {
+        if !followed.all_go_on {
             self.forget();
+            let (mut items, mut strokes) =
+                (followed.items.iter().peekable(), followed.strokes.iter().peekable());
+            for body in self.bodies.iter_mut().flatten() {
+                let new = match body.anchor {
+                    Anchor::Lying { item, .. } => items.next_if_eq(&&item),
+                    Anchor::Carriage(part) => strokes.next_if_eq(&&part),
+                    Anchor::World | Anchor::Link(_) | Anchor::Route => None,
+                };
+                if new.is_some() {
+                    body.version = self.version;
+                }
+            }
         }
     }
 

@@ -47,48 +47,98 @@ impl Parts {
         laws.try_fold(Fingerprint::default(), |all, law| Some(all.and(law?)))
     }
 
-    /// Looks again, so many seconds after the last time; whether all of them have continued as they were going to.
-    pub fn follow(&mut self, bodies: &[Option<Body>], machine: usize, plant: &Plant, passed: f64) -> bool {
+    /// Looks again, so many seconds after the last time.
+    pub fn follow(
+        &mut self,
+        bodies: &[Option<Body>],
+        machine: usize,
+        plant: &Plant,
+        passed: f64,
+    ) -> Followed {
         let lying = bodies.iter().flatten().filter_map(Body::lying);
         let conveyed = lying.filter_map(|item| Some((item, plant.conveyed(item)?)));
-        let items_go_on =
-            replace(&mut self.conveyed, conveyed, |then: &Conveyed, now| then.becomes(now, passed));
+        let items = replace(&mut self.conveyed, conveyed, |then: &Conveyed, now| then.becomes(now, passed));
         let cylinders = bodies.iter().flatten().filter_map(|body| match body.anchor {
             Anchor::Carriage(part) => Some(part),
             _ => None,
         });
         let strokes = cylinders.filter_map(|part| Some((part, plant.stroking(machine, part)?)));
-        let strokes_go_on =
-            replace(&mut self.strokes, strokes, |then: &Stroking, now| then.becomes(now, passed));
-        items_go_on && strokes_go_on
+        let strokes = replace(&mut self.strokes, strokes, |then: &Stroking, now| then.becomes(now, passed));
+        Followed { all_go_on: items.all_go_on && strokes.all_go_on, items: items.new, strokes: strokes.new }
     }
+}
+
+/// What has become of the items and the cylinders of a machine since the last look.
+pub struct Followed {
+    /// They are the same, and have continued as they were going to.
+    pub all_go_on: bool,
+    /// Those that have not, or were not there, in the order of the bodies.
+    pub items: Vec<usize>,
+    pub strokes: Vec<usize>,
 }
 
 fn find<T>(all: &[(usize, T)], number: usize) -> Option<&T> {
     all.iter().find(|(known, _)| *known == number).map(|(_, one)| one)
 }
 
-/// Whether the new ones are those that the old ones become.
+struct Replaced {
+    /// All old ones are there, and there are no new ones.
+    all_go_on: bool,
+    /// Numbers of those that are not what an old one becomes, in order.
+    new: Vec<usize>,
+}
+
+/// Replaces the old ones by the new ones, both by their numbers.
 fn replace<T>(
     all: &mut Vec<(usize, T)>,
     new: impl Iterator<Item = (usize, T)>,
     becomes: impl Fn(&T, &T) -> bool,
-) -> bool {
-    let (mut count, mut goes_on) = (0, true);
+) -> Replaced {
+    let (mut count, mut replaced) = (0, Replaced { all_go_on: true, new: Vec::new() });
     for (number, now) in new {
-        match all.get_mut(count) {
-            Some(known) => {
-                goes_on &= known.0 == number && becomes(&known.1, &now);
-                *known = (number, now);
+        match all[count..].iter().position(|(known, _)| *known == number) {
+            // Those before it are gone, or come later.
+            Some(ahead) => {
+                replaced.all_go_on &= ahead == 0;
+                all[count..=count + ahead].rotate_right(1);
+                if !becomes(&all[count].1, &now) {
+                    replaced.new.push(number);
+                }
+                all[count].1 = now;
             }
             None => {
-                goes_on = false;
-                all.push((number, now));
+                replaced.new.push(number);
+                all.insert(count, (number, now));
             }
         }
         count += 1;
     }
-    goes_on &= count == all.len();
+    replaced.all_go_on &= count == all.len() && replaced.new.is_empty();
     all.truncate(count);
-    goes_on
+    replaced
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What becomes of three that do not change, and the numbers of those that are new.
+    fn replaced(new: &[(usize, f64)]) -> (bool, Vec<usize>) {
+        let mut all = vec![(1, 0.1), (2, 0.2), (3, 0.3)];
+        let Replaced { all_go_on, new: numbers } = replace(&mut all, new.iter().copied(), |a, b| a == b);
+        assert_eq!(all, new);
+        (all_go_on, numbers)
+    }
+
+    #[test]
+    fn those_beside_what_comes_or_goes_go_on() {
+        assert_eq!(replaced(&[(1, 0.1), (2, 0.2), (3, 0.3)]), (true, vec![]));
+        assert_eq!(replaced(&[(2, 0.2), (3, 0.3)]), (false, vec![]));
+        assert_eq!(replaced(&[(1, 0.1), (2, 0.2)]), (false, vec![]));
+        assert_eq!(replaced(&[(1, 0.1), (4, 0.4), (2, 0.2), (3, 0.3)]), (false, vec![4]));
+        assert_eq!(replaced(&[(1, 0.1), (4, 0.4), (3, 0.3)]), (false, vec![4]));
+        assert_eq!(replaced(&[(1, 0.1), (2, 0.25), (3, 0.3)]), (false, vec![2]));
+        assert_eq!(replaced(&[(3, 0.3), (1, 0.1), (2, 0.2)]), (false, vec![]));
+        assert_eq!(replaced(&[]), (false, vec![]));
+    }
 }
