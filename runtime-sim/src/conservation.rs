@@ -128,9 +128,11 @@ mod tests {
         let mut items = items();
         let gripper = Carrier::Grip { machine: 1, part: 0, hang: Point::default() };
         items.pass(0, gripper, Point::default());
-        assert_eq!(verdict(&items), Ok(()));
+        items.pass(0, bin(2), Point::default());
         items.pass(1, gripper, Point::default());
-        assert_eq!(verdict(&items).unwrap_err(), "scan 0: gripper 1 holds item 0 and takes item 1");
+        assert_eq!(verdict(&items), Ok(()));
+        items.pass(0, gripper, Point::default());
+        assert_eq!(verdict(&items).unwrap_err(), "scan 0: gripper 1 holds item 1 and takes item 0");
     }
 
     #[test]

@@ -38,6 +38,7 @@ fn vehicle(name: &str, track: &str, length: f64) -> String {
             part drive = track {{ {track} mass: 10.0; }};
             part hull = body {{ on: drive; low: point(-{length}, -0.2, 0); high: point({length}, 0.2, 0.3); }};
             in place: int -1..1 = drive.place;
+            in at: point unit \"m\" = drive.position;
             out goal: int 0..9;
             command 1 go(goal) = drive.to(goal);
         }}"
@@ -97,6 +98,37 @@ fn a_vehicle_that_comes_and_goes_while_another_one_passes_is_touched() {
     // It has to come 0.3 m nearer, and gets to its full speed on the first 0.25 m.
     let touches = 9.5 + 0.25 + 0.05 / 2.0;
     assert!((touches..touches + 4.0 * SCAN).contains(&contact.time_s), "{contact:?}");
+}
+
+/// One vehicle alone, which drives along x when it begins.
+fn alone(states: &str) -> Report {
+    let device = vehicle("along", ALONG, 0.4);
+    let texts = Texts {
+        layout: r#"{"robots": [{"name": "along", "type": "along", "pose": [0, 0, 0]}]}"#.into(),
+        specs: vec![format!(
+            "{device}
+            automaton Along on along {{ initial -> There {{ go(1); }} {states} final state Ended; }}"
+        )],
+        scenario: Some(r#"{"time_limit_s": 30}"#.into()),
+        ..Texts::default()
+    };
+    first_true(&texts, None).0
+}
+
+#[test]
+fn a_guard_on_a_place_holds_when_it_is_passed() {
+    let report = alone(
+        "state There { when at.x > 5 -> Past; }
+        state Past { when after 1 s -> Ended; }",
+    );
+    assert_eq!(report.machines[0].state, "Ended", "{report:?}");
+}
+
+#[test]
+fn a_command_that_nobody_waits_for_is_booked_until_it_ends() {
+    let report = alone("state There { when after 25 s -> Ended; }");
+    let moving = report.machines[0].account.moving as f64 * SCAN;
+    assert!((20.2..20.3).contains(&moving), "{moving}");
 }
 
 /// A piece crosses the line of a vehicle on a conveyor without a body, long before the vehicle comes; but the conveyor stops.
