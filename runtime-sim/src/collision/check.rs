@@ -168,7 +168,6 @@ impl CollisionCheck {
             // What comes into contact at the very end is found in this span, however it is rounded.
             let end = self.seconds * (next - scan) as f64 + AT_ONCE;
             let pair = &mut self.pairs[index];
-            let [a, b] = pair.groups;
             let versions = pair.groups.map(|group| self.groups[group].version());
             if pair.touches() {
                 if pair.known.versions != versions {
@@ -179,11 +178,6 @@ impl CollisionCheck {
                 continue;
             }
             if pair.known.versions == versions && pair.known.until - now >= end {
-                continue;
-            }
-            if a != b && self.reaches[a].is_apart(&self.reaches[b]) {
-                pair.is_far = true;
-                pair.known = Known { versions, until: f64::INFINITY };
                 continue;
             }
             let clear = pair.clear_for(&mut self.groups, index, plant, memory, end);
@@ -206,7 +200,7 @@ impl CollisionCheck {
         (next, self.note_all(found, plant))
     }
 
-    /// How groups continue; whether one does not go on as it did. The pairs of these are due, but those that are far.
+    /// How groups continue; whether one does not go on as it did. Those of its pairs are due whose reaches meet.
     fn follow_groups(&mut self, plant: &Plant, memory: &mut Memory) -> bool {
         let mut changed = false;
         for (number, group) in self.groups.iter_mut().enumerate() {
@@ -216,12 +210,11 @@ impl CollisionCheck {
                 continue;
             }
             changed = true;
-            let pairs = &self.pairs_of[number];
-            let reach = self.reaches[number].with(&group.outer(plant, memory));
-            if std::mem::replace(&mut self.reaches[number], reach) != reach {
-                pairs.iter().for_each(|pair| self.pairs[*pair].is_far = false);
-            }
-            self.due.extend(pairs.iter().filter(|pair| !self.pairs[**pair].is_far));
+            self.reaches[number] = self.reaches[number].with(&group.outer(plant, memory));
+            let reaches = &self.reaches;
+            let may_meet = |[a, b]: [usize; 2]| a == b || !reaches[a].is_apart(&reaches[b]);
+            let pairs = self.pairs_of[number].iter().filter(|pair| may_meet(self.pairs[**pair].groups));
+            self.due.extend(pairs);
         }
         changed
     }

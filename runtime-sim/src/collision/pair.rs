@@ -25,8 +25,6 @@ pub struct Pair {
     pub known: Known,
     /// Of groups that have moved near one another.
     apart: Option<Box<KnownApart>>,
-    /// Whatever has contained the one group so far is apart from what has contained the other.
-    pub is_far: bool,
 }
 
 /// That two groups do not come into contact as they move.
@@ -115,16 +113,7 @@ const SHORTEST_STEP: f64 = 1e-9;
 impl Pair {
     pub fn new(groups: [usize; 2], allowed: bool) -> Self {
         let known = Known { versions: [0; 2], until: f64::NEG_INFINITY };
-        Self {
-            groups,
-            allowed,
-            contact: None,
-            bodies: Vec::new(),
-            touching: Vec::new(),
-            known,
-            apart: None,
-            is_far: false,
-        }
+        Self { groups, allowed, contact: None, bodies: Vec::new(), touching: Vec::new(), known, apart: None }
     }
 
     pub fn touches(&self) -> bool {

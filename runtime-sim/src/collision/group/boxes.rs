@@ -107,7 +107,7 @@ impl Boxes {
 }
 
 /// What contains a group for a time, without a look at its bodies.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub struct Outer {
     all: BoundingBox,
     /// Without what stands in the world.
