@@ -119,17 +119,12 @@ struct Effort {
     tries: usize,
     /// How far the robot draws back at the beginning, and from how far back it comes at the end, m.
     backs: &'static [[f64; 2]],
-    /// Of a wrist that ends on the side on which it is.
-    changes: Changes,
 }
 
-const STRAIGHT_ON: &[[f64; 2]] = &[[0.0, 0.0]];
-const EFFORTS: [Effort; 3] = [
-    Effort { tries: 100, backs: STRAIGHT_ON, changes: Changes::None },
-    Effort { tries: 300, backs: STRAIGHT_ON, changes: Changes::Twice },
+const EFFORTS: [Effort; 2] = [
+    Effort { tries: 100, backs: &[[0.0, 0.0]] },
     Effort {
         tries: 1000,
-        changes: Changes::None,
         backs: &[
             [0.4, 0.0],
             [0.0, 0.4],
@@ -149,7 +144,7 @@ const EFFORTS: [Effort; 3] = [
     },
 ];
 /// How far the tool is lifted before the torso sets out, and how high it still is when the torso arrives, m.
-const CLEARS: [f64; 2] = [STRAIGHT, f64::INFINITY];
+const CLEARS: [f64; 4] = [STRAIGHT, 0.4, 0.6, f64::INFINITY];
 /// Pieces of a line by which it is timed, m.
 const LIFT_STEP: f64 = 0.1;
 /// A plan becomes joints so often, s.
@@ -166,16 +161,6 @@ struct Plan {
     line: Arc<Line>,
     stances: [Stance; 2],
     ends: [Joints; 2],
-    changes: Changes,
-}
-
-/// How often the wrist changes its side on a path.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Changes {
-    None,
-    Once,
-    /// Out of a place, and into one, with the wrist on the other side.
-    Twice,
 }
 
 impl Plan {
@@ -228,9 +213,7 @@ impl Planner {
         let mut wrists = WRISTS.into_iter().filter(|wrist| load == Load::None || *wrist == present);
         wrists.find_map(|wrist| {
             let candidates = self.candidates(directed, wrist, transfer);
-            let may_change = load == Load::None && wrist == present;
-            let mut efforts = EFFORTS.iter().filter(|effort| may_change || effort.changes == Changes::None);
-            efforts.find_map(|effort| {
+            EFFORTS.iter().find_map(|effort| {
                 candidates.iter().find_map(|candidates| self.quickest(&task, candidates, effort))
             })
         })
@@ -251,9 +234,7 @@ impl Planner {
                 return None;
             }
             let margin = MARGIN.min(rise.gap).min(fall.gap);
-            let stances = [first, candidate.stance];
-            let changes = if stances[0].wrist == stances[1].wrist { effort.changes } else { Changes::Once };
-            let plan = Plan { timing, line, stances, ends: [**from, end], changes };
+            let plan = Plan { timing, line, stances: [first, candidate.stance], ends: [**from, end] };
             if !self.may_be_free(&plan, *load, margin, &mut suspect_time) {
                 continue;
             }
@@ -336,7 +317,7 @@ impl Planner {
     }
 
     /// The joints at a time of a plan, with whole turns as they are at `near`; none where the reach forbids it. A wrist
-    /// changes its side evenly while the torso moves.
+    /// changes its side while the torso moves.
     fn at_time(&self, plan: &Plan, time: f64, near: &Joints) -> Option<Joints> {
         let (part, turned, height) = plan.timing.at(time);
         let ([first, last], [from, to]) = (&plan.stances, &plan.ends);
@@ -352,17 +333,14 @@ impl Planner {
             let beyond = first.beyond + part * (last.beyond - first.beyond);
             self.arm.standing_at(place, height, &Stance { turn, beyond, wrist }, near)
         };
-        let passed = plan.timing.passed(time);
-        let (other, share) = match plan.changes {
-            Changes::None => return standing(last.wrist, near),
-            Changes::Once => (last.wrist, passed),
-            Changes::Twice => (first.wrist.other(), 1.0 - (2.0 * passed - 1.0).abs()),
-        };
-        match share {
+        if first.wrist == last.wrist {
+            return standing(last.wrist, near);
+        }
+        match plan.timing.passed(time) {
             0.0 => standing(first.wrist, from),
-            1.0 => standing(other, from),
-            _ => {
-                let (here, there) = (standing(first.wrist, from)?, standing(other, from)?);
+            1.0 => standing(last.wrist, from),
+            share => {
+                let (here, there) = (standing(first.wrist, from)?, standing(last.wrist, from)?);
                 Some(here.map(|i, angle| angle + share * (there[i] - angle)))
             }
         }

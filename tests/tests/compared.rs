@@ -78,7 +78,7 @@ fn disturbed() -> Vec<Job> {
     // A motion that goes on seems to have failed, and a belt that moves seems to stand.
     jobs.push(reads_in("Retreating", "rail_arm", ERROR, f64::from(REFUSED), 1000));
     jobs.push(reads_in("Passing", "belt", MOVING, 0.0, 400));
-    jobs.extend(waits_for_room());
+    jobs.push(taken_away());
     for line in ["default", "buffer", "shared_agv"] {
         let texts = || match line {
             "default" => orders(ariac(line), 2),
@@ -90,7 +90,7 @@ fn disturbed() -> Vec<Job> {
                 jobs.push(job(name, texts(), |line| refuse(line, device, one_in, seed)));
             }
         }
-        for seed in 1..=if is_full_campaign() { 60 } else { 6 } {
+        for seed in 1..=if is_full_campaign() { 60 } else { 8 } {
             for (device, one_in) in [("rail_arm", 5), ("gantry", 3)] {
                 let name = format!("{line}, parts lost by each {device}, {seed}");
                 jobs.push(job(name, texts(), |line| slip(line, device, one_in, seed)));
@@ -166,17 +166,15 @@ fn reads_in(state: &str, device: &str, word: usize, value: f64, scans: u64) -> J
     Job { name: format!("{device} misled in {state}"), ..job }
 }
 
-/// Parts wait for room near their station; and the first of them is not seen any more for a second.
-fn waits_for_room() -> [Job; 2] {
-    let texts = || ariac("default").set("agv.capacity=1").set("conveyor.near=4.5");
-    let usual = job("parts wait for room", texts(), |_| ());
+/// A part is not seen any more when the belt has come to rest for it.
+fn taken_away() -> Job {
+    let usual = job("usual", ariac("default"), |_| ());
     let machine = all(&usual.project.plant, "belt")[0];
-    let at_scan = entry(&usual, machine, &["Waiting"]).expect("a part that waits");
+    let at_scan = entry(&usual, machine, &["Stopping"]).expect("a part that is wanted");
     // In this scan it is still seen.
     let during = During { at_scan: at_scan + 1, scans: Some(100) };
     let unseen = Stuck { machine, word: SEES, words: 4, value: 0.0, during };
-    let taken = job("a part is taken away", texts(), |line| line.scenario.sensors.push(unseen));
-    [usual, taken]
+    job("a part is taken away", ariac("default"), |line| line.scenario.sensors.push(unseen))
 }
 
 /// The first command of the machines of one kind is refused, and one in so many of the others.

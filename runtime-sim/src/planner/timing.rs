@@ -149,10 +149,10 @@ impl Timing {
         (self.over.at(time), self.turn.at(time), height)
     }
 
-    /// Part of the time in which the torso moves.
+    /// How far joints have gone that go from rest to rest while the torso moves, from 0 to 1.
     pub fn passed(&self, time: f64) -> f64 {
         let begin = self.over.begin.min(self.turn.begin);
-        let end = self.over.end().max(self.turn.end());
-        if end > begin { ((time - begin) / (end - begin)).clamp(0.0, 1.0) } else { 1.0 }
+        let duration = self.over.end().max(self.turn.end()) - begin;
+        Trapezoid { begin, duration, ramp: 0.5 }.at(time)
     }
 }
