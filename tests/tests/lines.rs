@@ -211,8 +211,9 @@ fn devices_may_answer_late() {
 #[test]
 fn the_line_may_be_stopped_at_any_moment() {
     let mut random = Random::new(7);
-    let scans: Vec<u64> = (0..campaign(6, 100)).map(|_| u64::from(random.up_to(59_000)) + 3).collect();
     let project = ariac("default").project();
+    let last = execute(&project).scans as u32;
+    let scans: Vec<u64> = (0..campaign(6, 100)).map(|_| u64::from(3 + random.up_to(last - 4))).collect();
     on_all_processors(&scans, |scan| {
         let mut plant = project.plant.clone();
         plant.scenario.pauses = vec![Pause { at_scan: *scan, scans: 300 }];
@@ -240,8 +241,9 @@ fn the_line_may_be_stopped_at_any_moment() {
 #[test]
 fn power_may_be_lost_at_any_moment() {
     let mut random = Random::new(11);
-    let scans: Vec<u64> = (0..campaign(16, 1000)).map(|_| u64::from(random.up_to(69_000)) + 3).collect();
     let project = ariac("default").project();
+    let last = execute(&project).scans as u32;
+    let scans: Vec<u64> = (0..campaign(16, 1000)).map(|_| u64::from(3 + random.up_to(last - 4))).collect();
     let reports = on_all_processors(&scans, |scan| {
         let mut project = project.clone();
         project.plant.scenario.power_offs = vec![Pause { at_scan: *scan, scans: 1 + scan % 500 }];
