@@ -79,6 +79,7 @@ fn disturbed() -> Vec<Job> {
     jobs.push(reads_in("Retreating", "rail_arm", ERROR, f64::from(REFUSED), 1000));
     jobs.push(reads_in("Passing", "belt", MOVING, 0.0, 400));
     jobs.push(taken_away());
+    jobs.push(broken_off());
     for line in ["default", "buffer", "shared_agv"] {
         let texts = || match line {
             "default" => orders(ariac(line), 2),
@@ -175,6 +176,15 @@ fn taken_away() -> Job {
     let during = During { at_scan: at_scan + 1, scans: Some(100) };
     let unseen = Stuck { machine, word: SEES, words: 4, value: 0.0, during };
     job("a part is taken away", ariac("default"), |line| line.scenario.sensors.push(unseen))
+}
+
+/// The gantry loses its power on its way to a part.
+fn broken_off() -> Job {
+    let usual = job("usual", ariac("default"), |_| ());
+    let machine = all(&usual.project.plant, "gantry")[0];
+    let begin = entry(&usual, machine, &["Fetching"]).expect("a part that is fetched");
+    let off = Pause { at_scan: begin + 200, scans: 100 };
+    job("a motion to a part is broken off", ariac("default"), |line| line.scenario.power_offs = vec![off])
 }
 
 /// The first command of the machines of one kind is refused, and one in so many of the others.
