@@ -43,13 +43,6 @@ pub struct Links {
 }
 
 impl Wrist {
-    pub fn other(self) -> Self {
-        match self {
-            Wrist::Inside => Wrist::Outside,
-            Wrist::Outside => Wrist::Inside,
-        }
-    }
-
     fn offset(self) -> f64 {
         match self {
             Wrist::Inside => -D5,
