@@ -17,16 +17,19 @@ impl Default for Fingerprint {
 }
 
 impl Fingerprint {
+    #[inline]
     pub fn with(self, number: u64) -> Self {
         let [a, b] = self.0;
         Self([a, b.rotate_left(23)].map(|half| Random::new(half ^ number).next_u64()))
     }
 
     /// A length or an angle, to the nearest micrometre or microradian.
+    #[inline]
     pub fn near(self, value: f64) -> Self {
         self.with((value / GRAIN).round() as i64 as u64)
     }
 
+    #[inline]
     pub fn and(self, other: Fingerprint) -> Self {
         self.with(other.0[0]).with(other.0[1])
     }

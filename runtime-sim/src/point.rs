@@ -21,23 +21,28 @@ impl Point {
     }
 
     /// The same place, `height` metres higher.
+    #[inline]
     pub fn up(self, height: f64) -> Self {
         Self { z: self.z + height, ..self }
     }
 
     /// This offset, so many times as long.
+    #[inline]
     pub fn scaled(self, factor: f64) -> Self {
         Self::new(self.x * factor, self.y * factor, self.z * factor)
     }
 
+    #[inline]
     pub fn dot(self, other: Self) -> f64 {
         self.x * other.x + self.y * other.y + self.z * other.z
     }
 
+    #[inline]
     pub fn length(self) -> f64 {
         self.dot(self).sqrt()
     }
 
+    #[inline]
     pub fn coordinate(self, along: impl Into<Direction>) -> f64 {
         match along.into() {
             Direction::X => self.x,
@@ -58,6 +63,7 @@ impl Point {
 
 impl Add for Point {
     type Output = Self;
+    #[inline]
     fn add(self, other: Self) -> Self {
         Self::new(self.x + other.x, self.y + other.y, self.z + other.z)
     }
@@ -65,6 +71,7 @@ impl Add for Point {
 
 impl Sub for Point {
     type Output = Self;
+    #[inline]
     fn sub(self, other: Self) -> Self {
         Self::new(self.x - other.x, self.y - other.y, self.z - other.z)
     }

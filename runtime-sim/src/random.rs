@@ -7,11 +7,13 @@ pub struct Random {
 }
 
 impl Random {
+    #[inline]
     pub fn new(seed: u64) -> Self {
         Self { state: seed }
     }
 
     /// One for each list of numbers: what is drawn at one place does not depend on what is drawn at others.
+    #[inline]
     pub fn at<const N: usize>(seed: u64, place: [u64; N]) -> Self {
         place.into_iter().fold(Self::new(seed), |random, number| {
             let mut random = Self { state: random.state ^ number.wrapping_mul(0xD6E8_FEB8_6659_FD93) };
@@ -19,6 +21,7 @@ impl Random {
         })
     }
 
+    #[inline]
     pub fn next_u64(&mut self) -> u64 {
         self.state = self.state.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let mut z = self.state;

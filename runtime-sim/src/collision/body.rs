@@ -31,21 +31,25 @@ pub struct Ball {
 
 impl Ball {
     /// The distance of two balls, 0 if they meet.
+    #[inline]
     pub fn gap(&self, other: &Ball) -> f64 {
         ((other.middle - self.middle).length() - self.radius - other.radius).max(0.0)
     }
 
     /// Whether two balls are no nearer than this, m.
+    #[inline]
     pub fn is_apart_by(&self, other: &Ball, distance: f64) -> bool {
         let offset = other.middle - self.middle;
         let reach = self.radius + other.radius + distance;
         offset.dot(offset) >= reach * reach
     }
 
+    #[inline]
     pub fn shifted(&self, offset: Point) -> Self {
         Self { middle: self.middle + offset, ..*self }
     }
 
+    #[inline]
     pub fn within(&self, frame: &Pose) -> Self {
         Self { middle: frame.point(self.middle), radius: self.radius }
     }
@@ -86,19 +90,21 @@ impl Piece {
         self.ball.middle.z - self.within(&Pose::IDENTITY).extent(Point::new(0.0, 0.0, 1.0))
     }
 
+    #[inline]
     pub fn within(&self, frame: &Pose) -> Placed {
         let ball = self.ball.within(frame);
         let core = match self.core {
-            Core::Segment(ends) => Core::Segment(ends.map(|end| frame.point(end))),
-            Core::Block(block) => Core::Block(Block {
+            Core::Segment([begin, end]) => Core::Segment([frame.point(begin), frame.point(end)]),
+            Core::Block(Block { axes: [x, y, z], half, .. }) => Core::Block(Block {
                 middle: ball.middle,
-                axes: block.axes.map(|axis| frame.direction(axis)),
-                half: block.half,
+                axes: [frame.direction(x), frame.direction(y), frame.direction(z)],
+                half,
             }),
         };
         Placed { core, radius: self.radius, ball }
     }
 
+    #[inline]
     pub fn ball(&self) -> Ball {
         self.ball
     }
@@ -115,6 +121,7 @@ pub struct Placed {
 impl Placed {
     /// A distance that theirs is not below: that of their balls, and unless it is `enough`, also those along the
     /// directions of the faces.
+    #[inline]
     pub fn apart_at_least(&self, other: &Placed, enough: f64) -> f64 {
         let balls = self.ball.gap(&other.ball);
         if balls >= enough {
@@ -131,6 +138,7 @@ impl Placed {
 
     /// Whether they are no nearer than this, m, as far as their balls and their widths along the directions of the faces
     /// show.
+    #[inline]
     pub fn is_apart_by(&self, other: &Placed, distance: f64) -> bool {
         if self.ball.is_apart_by(&other.ball, distance) {
             return true;
@@ -148,13 +156,13 @@ impl Placed {
 
     /// What contains it.
     pub fn bounds(&self) -> BoundingBox {
-        let axes = [Point::new(1.0, 0.0, 0.0), Point::new(0.0, 1.0, 0.0), Point::new(0.0, 0.0, 1.0)];
-        let [x, y, z] = axes.map(|axis| self.extent(axis));
-        let half = Point::new(x, y, z);
+        let along = |x: f64, y: f64, z: f64| self.extent(Point::new(x, y, z));
+        let half = Point::new(along(1.0, 0.0, 0.0), along(0.0, 1.0, 0.0), along(0.0, 0.0, 1.0));
         BoundingBox::between(self.ball.middle - half, self.ball.middle + half)
     }
 
     /// Half of its length along a direction.
+    #[inline]
     fn extent(&self, direction: Point) -> f64 {
         let core = match &self.core {
             Core::Segment([a, b]) => (*b - *a).dot(direction).abs() / 2.0,

@@ -17,11 +17,13 @@ pub struct BoundingBox {
 }
 
 impl BoundingBox {
+    #[inline]
     pub fn around(ball: &Ball) -> Self {
         let corner = Point::new(ball.radius, ball.radius, ball.radius);
         Self { low: ball.middle - corner, high: ball.middle + corner }
     }
 
+    #[inline]
     pub fn with(&self, other: &BoundingBox) -> Self {
         Self {
             low: by_coordinate(self.low, other.low, f64::min),
@@ -59,6 +61,7 @@ impl BoundingBox {
         x * y * z
     }
 
+    #[inline]
     pub fn between(low: Point, high: Point) -> Self {
         Self { low, high }
     }
@@ -68,17 +71,20 @@ impl BoundingBox {
     }
 
     /// By so much on each side, m.
+    #[inline]
     pub fn wider(&self, by: f64) -> Self {
         let corner = Point::new(by, by, by);
         Self { low: self.low - corner, high: self.high + corner }
     }
 
     /// A distance that nothing within the ball is nearer to it than, m; less than 0 if they meet.
+    #[inline]
     pub fn gap(&self, ball: &Ball) -> f64 {
         self.square_gap(ball.middle).sqrt() - ball.radius
     }
 
     /// The square of the distance of a point, m2; 0 within.
+    #[inline]
     pub fn square_gap(&self, point: Point) -> f64 {
         let outside = |at: f64, low: f64, high: f64| (low - at).max(at - high).max(0.0);
         let x = outside(point.x, self.low.x, self.high.x);
@@ -87,12 +93,14 @@ impl BoundingBox {
         x * x + y * y + z * z
     }
 
+    #[inline]
     pub fn is_apart(&self, other: &BoundingBox) -> bool {
         let beyond = |low: Point, high: Point| low.x > high.x || low.y > high.y || low.z > high.z;
         beyond(self.low, other.high) || beyond(other.low, self.high)
     }
 }
 
+#[inline]
 fn by_coordinate(a: Point, b: Point, rule: fn(f64, f64) -> f64) -> Point {
     Point::new(rule(a.x, b.x), rule(a.y, b.y), rule(a.z, b.z))
 }

@@ -67,12 +67,14 @@ impl Block {
     /// A point in the box's own frame.
     fn own(&self, point: Point) -> [f64; 3] {
         let offset = point - self.middle;
-        self.axes.map(|axis| offset.dot(axis))
+        let [u, v, w] = self.axes;
+        [offset.dot(u), offset.dot(v), offset.dot(w)]
     }
 
     /// How far a point of the box's own frame is outside along each axis.
     fn outside(&self, own: [f64; 3]) -> [f64; 3] {
-        [0, 1, 2].map(|i| own[i] - own[i].max(-self.half[i]).min(self.half[i]))
+        let along = |i: usize| own[i] - own[i].max(-self.half[i]).min(self.half[i]);
+        [along(0), along(1), along(2)]
     }
 
     /// The point of the box that is nearest to a point.
@@ -83,15 +85,18 @@ impl Block {
     }
 
     fn corner(&self, signs: [f64; 3]) -> Point {
-        let [x, y, z] = [0, 1, 2].map(|i| self.axes[i].scaled(self.half[i] * signs[i]));
-        self.middle + x + y + z
+        let along = |i: usize| self.axes[i].scaled(self.half[i] * signs[i]);
+        self.middle + along(0) + along(1) + along(2)
     }
 
     /// Bit i of the number of a corner says on which side along axis i it is.
     fn corners(&self) -> [Point; 8] {
-        std::array::from_fn(|number| {
-            self.corner([0, 1, 2].map(|i| if number >> i & 1 == 1 { 1.0 } else { -1.0 }))
-        })
+        let mut corners = [self.middle; 8];
+        for (number, corner) in corners.iter_mut().enumerate() {
+            let sign = |i: usize| if number >> i & 1 == 1 { 1.0 } else { -1.0 };
+            *corner = self.corner([sign(0), sign(1), sign(2)]);
+        }
+        corners
     }
 
     /// The square of a distance that no point between two of the box's own frame is nearer than.
@@ -100,7 +105,7 @@ impl Block {
             let (low, high) = (start[i].min(end[i]), start[i].max(end[i]));
             (low - self.half[i]).max(-self.half[i] - high).max(0.0)
         };
-        let [x, y, z] = [0, 1, 2].map(along);
+        let (x, y, z) = (along(0), along(1), along(2));
         x * x + y * y + z * z
     }
 }
@@ -113,7 +118,8 @@ const ROUNDED: f64 = 1e-9;
 
 /// Between a segment and a box, 0 if they meet.
 pub fn segment_block(segment: [Point; 2], block: &Block) -> Gap {
-    let (t, _) = nearest_on(segment.map(|point| block.own(point)), block);
+    let [start, end] = segment;
+    let (t, _) = nearest_on([block.own(start), block.own(end)], block);
     gap_at(t, segment, block)
 }
 
@@ -125,8 +131,8 @@ fn gap_at(t: f64, segment: [Point; 2], block: &Block) -> Gap {
 
 /// Where on a segment of the box's own frame, 0 to 1, it is nearest to the box, and how near.
 fn nearest_on([start, end]: [[f64; 3]; 2], block: &Block) -> (f64, f64) {
-    let offset = [0, 1, 2].map(|i| end[i] - start[i]);
-    let at = |t: f64| [0, 1, 2].map(|i| start[i] + t * offset[i]);
+    let offset = [end[0] - start[0], end[1] - start[1], end[2] - start[2]];
+    let at = |t: f64| [start[0] + t * offset[0], start[1] + t * offset[1], start[2] + t * offset[2]];
     // Half of the slope of the square distance: it grows with t, and is straight between the faces' planes.
     let slope = |t: f64| {
         let [x, y, z] = block.outside(at(t));
@@ -173,13 +179,16 @@ pub fn block_block(a: &Block, b: &Block) -> Gap {
 /// From the edges of one box to another box; none if all of them are farther than `enough`.
 fn nearest_edge(of: &Block, to: &Block, enough: f64) -> Option<Gap> {
     let corners = of.corners();
-    let own = corners.map(|corner| to.own(corner));
+    let mut own = [[0.0; 3]; 8];
+    for (own, corner) in own.iter_mut().zip(corners) {
+        *own = to.own(corner);
+    }
     // What is no number is never left out.
     let is_known = own.iter().flatten().chain(&to.half).sum::<f64>().is_finite();
     let mut least = enough;
     let mut nearest: Option<([usize; 2], f64)> = None;
     for edge in EDGES {
-        let [start, end] = edge.map(|corner| own[corner]);
+        let [start, end] = [own[edge[0]], own[edge[1]]];
         let most = least.min(enough) + ROUNDED;
         if is_known && to.square_apart(start, end) > most * most {
             continue;
@@ -193,5 +202,5 @@ fn nearest_edge(of: &Block, to: &Block, enough: f64) -> Option<Gap> {
             break;
         }
     }
-    nearest.map(|(edge, t)| gap_at(t, edge.map(|corner| corners[corner]), to))
+    nearest.map(|([start, end], t)| gap_at(t, [corners[start], corners[end]], to))
 }

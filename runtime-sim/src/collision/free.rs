@@ -279,10 +279,11 @@ impl<'a> Path<'a> {
         let mut near = Vec::new();
         let mut moving = [None, None];
         let places = [from, middle, to];
-        let sections = self.numbers.map(|number| self.groups[number].sections(places));
+        let sections = [0, 1].map(|side| self.groups[self.numbers[side]].sections(places));
         for two in all {
-            let [of_a, of_b] = [0, 1]
-                .map(|side| self.look(side, two.bodies[side], places, sections[side], &mut moving[side]));
+            let mut look =
+                |side: usize| self.look(side, two.bodies[side], places, sections[side], &mut moving[side]);
+            let (of_a, of_b) = (look(0), look(1));
             let travel = match self.between(two.bodies, places, sections[0]) {
                 Some(between) => between.min(of_a + of_b),
                 None => of_a + of_b,
@@ -292,8 +293,8 @@ impl<'a> Path<'a> {
                 moving.map(|moving| &moving.there).or(self.resting[side][two.bodies[side]].as_ref())
             };
             let [Some(a), Some(b)] = [there(0), there(1)] else { continue };
-            let bodies = [0, 1].map(|side| self.body(side, two.bodies[side]));
-            let [Some(of_a), Some(of_b)] = bodies else { continue };
+            let body = |side: usize| self.body(side, two.bodies[side]);
+            let [Some(of_a), Some(of_b)] = [body(0), body(1)] else { continue };
             match keeps_off([a, b], [of_a, of_b], travel) {
                 KeepsOff::Yes => {}
                 KeepsOff::ForNow => near.push(*two),
@@ -361,7 +362,8 @@ impl<'a> Path<'a> {
 
 /// Metres to either end at most.
 fn from_middle(travel: &Travel, places: [f64; 3], sections: [usize; 3]) -> f64 {
-    let [from, middle, to] = [0, 1, 2].map(|i| travel.within(sections[i], places[i]));
+    let gone = |i: usize| travel.within(sections[i], places[i]);
+    let (from, middle, to) = (gone(0), gone(1), gone(2));
     (middle - from).max(to - middle)
 }
 

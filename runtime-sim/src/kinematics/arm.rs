@@ -82,6 +82,7 @@ pub const FINEST_TURN: f64 = PI / 16_777_216.0;
 impl Joints {
     /// # Panics
     /// With more than [`MOST_JOINTS`] values.
+    #[inline]
     pub fn new(values: &[f64]) -> Self {
         let mut joints = Self { values: [0.0; MOST_JOINTS], count: values.len() };
         joints.values[..values.len()].copy_from_slice(values);
@@ -89,6 +90,7 @@ impl Joints {
     }
 
     /// Each value by the same rule.
+    #[inline]
     pub fn map(&self, rule: impl Fn(usize, f64) -> f64) -> Self {
         let mut joints = *self;
         for (i, value) in joints.values[..self.count].iter_mut().enumerate() {
@@ -98,17 +100,20 @@ impl Joints {
     }
 
     /// To tell them apart exactly; missing ones are 0.
+    #[inline]
     pub fn bits(&self) -> [u64; MOST_JOINTS] {
         std::array::from_fn(|i| if i < self.count { self.values[i].to_bits() } else { 0 })
     }
 
     /// The first values as an array; missing ones are 0.
+    #[inline]
     pub(super) fn array<const N: usize>(&self) -> [f64; N] {
         std::array::from_fn(|i| self.values[i])
     }
 }
 
 impl Frames {
+    #[inline]
     pub(super) fn new(poses: &[Pose]) -> Self {
         let mut frames = Self { poses: [Pose::IDENTITY; MOST_JOINTS], count: poses.len() };
         frames.poses[..poses.len()].copy_from_slice(poses);
@@ -118,6 +123,7 @@ impl Frames {
 
 impl Deref for Frames {
     type Target = [Pose];
+    #[inline]
     fn deref(&self) -> &[Pose] {
         &self.poses[..self.count]
     }
@@ -125,6 +131,7 @@ impl Deref for Frames {
 
 impl Deref for Joints {
     type Target = [f64];
+    #[inline]
     fn deref(&self) -> &[f64] {
         &self.values[..self.count]
     }

@@ -253,12 +253,13 @@ impl Gantry {
         let torso = self.torso_pose(joints);
         let base = torso.then(&MOUNT);
         let arm = ur10::frames(angles);
-        std::array::from_fn(|i| match i {
-            0 => Pose { position: Point::new(*x, 0.0, self.shoulder), ..Pose::IDENTITY },
-            1 => Pose { position: Point::new(*x, *y, self.shoulder), ..Pose::IDENTITY },
-            2 => torso,
-            _ => base.then(&arm[i - 3]),
-        })
+        let rail = |y: f64| Pose { position: Point::new(*x, y, self.shoulder), ..Pose::IDENTITY };
+        let mut frames = [torso; JOINTS];
+        [frames[0], frames[1]] = [rail(0.0), rail(*y)];
+        for (frame, link) in frames[3..].iter_mut().zip(&arm) {
+            *frame = base.then(link);
+        }
+        frames
     }
 
     /// The joints, from the world on.

@@ -19,6 +19,7 @@ impl Pose {
     };
 
     /// A frame at `position` turned by `angle` radians about the vertical.
+    #[inline]
     pub fn turned(position: Point, angle: f64) -> Self {
         let (sin, cos) = libm::sincos(angle);
         Self { rotation: [[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]], position }
@@ -26,6 +27,7 @@ impl Pose {
 
     /// One link of a chain by Denavit and Hartenberg: turn about z, shift along z and the new x, then turn about x.
     /// `twist` is the sine and cosine of the last turn.
+    #[inline]
     pub fn link(angle: f64, shift_z: f64, shift_x: f64, twist: (f64, f64)) -> Self {
         let (s, c) = libm::sincos(angle);
         let (st, ct) = twist;
@@ -36,11 +38,13 @@ impl Pose {
     }
 
     /// Axis 0, 1 or 2 of the frame.
+    #[inline]
     pub fn axis(&self, i: usize) -> Point {
         Point::new(self.rotation[0][i], self.rotation[1][i], self.rotation[2][i])
     }
 
     /// A direction given in this frame, in the frame this one is given in.
+    #[inline]
     pub fn direction(&self, inner: Point) -> Point {
         let along = |row: &[f64; 3]| row[0] * inner.x + row[1] * inner.y + row[2] * inner.z;
         let [x, y, z] = &self.rotation;
@@ -48,11 +52,13 @@ impl Pose {
     }
 
     /// A point given in this frame, in the frame this one is given in.
+    #[inline]
     pub fn point(&self, inner: Point) -> Point {
         self.position + self.direction(inner)
     }
 
     /// The frame that this one is given in, seen from this one.
+    #[inline]
     pub fn inverse(&self) -> Self {
         let r = &self.rotation;
         let rotation = std::array::from_fn(|i| std::array::from_fn(|j| r[j][i]));
@@ -80,15 +86,15 @@ impl Pose {
     }
 
     /// `inner`, given in this frame, in the frame this one is given in.
+    #[inline]
     pub fn then(&self, inner: &Pose) -> Self {
-        let r = &self.rotation;
-        let mut rotation = [[0.0; 3]; 3];
-        for (row, target) in r.iter().zip(&mut rotation) {
-            for (column, value) in target.iter_mut().enumerate() {
-                *value = (0..3).map(|k| row[k] * inner.rotation[k][column]).sum();
-            }
-        }
-        Self { rotation, position: self.point(inner.position) }
+        let [first, second, third] = &inner.rotation;
+        let turned = |row: &[f64; 3]| {
+            let column = |i: usize| row[0] * first[i] + row[1] * second[i] + row[2] * third[i];
+            [column(0), column(1), column(2)]
+        };
+        let [x, y, z] = &self.rotation;
+        Self { rotation: [turned(x), turned(y), turned(z)], position: self.point(inner.position) }
     }
 }
 

@@ -147,7 +147,11 @@ impl RailArm {
         let [_, angles @ ..] = joints;
         let base = self.base(joints);
         let arm = ur10::frames(angles);
-        std::array::from_fn(|i| if i == 0 { base } else { base.then(&arm[i - 1]) })
+        let mut frames = [base; JOINTS];
+        for (frame, link) in frames[1..].iter_mut().zip(&arm) {
+            *frame = base.then(link);
+        }
+        frames
     }
 
     /// The joints, from the world on.

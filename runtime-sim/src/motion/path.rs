@@ -74,16 +74,19 @@ impl Travel {
     }
 
     /// From the beginning to a place.
+    #[inline]
     pub fn to(&self, place: f64) -> f64 {
         self.within(self.section(place), place)
     }
 
     /// Number of the section in which a place is.
+    #[inline]
     pub fn section(&self, place: f64) -> usize {
         self.sections.partition_point(|section| section.end < place)
     }
 
     /// As [`Self::to`], of a place in the section with this number.
+    #[inline]
     pub fn within(&self, number: usize, place: f64) -> f64 {
         match self.sections.get(number) {
             Some(section) => self.gone[number] - (section.end - place) * section.rate,

@@ -51,6 +51,7 @@ impl Located {
     }
 
     /// The same from something else.
+    #[inline]
     pub fn gap(&self, other: &Placed, enough: f64) -> f64 {
         let gap = |least: f64, piece| least.min(gap(piece, other, enough.min(least)));
         self.pieces.iter().fold(f64::INFINITY, gap)
@@ -58,6 +59,7 @@ impl Located {
 }
 
 /// The distance, or one that is no longer and no shorter than `enough`, m.
+#[inline]
 fn gap(a: &Placed, b: &Placed, enough: f64) -> f64 {
     if a.is_apart_by(b, enough) { enough } else { a.gap(b).distance }
 }

@@ -28,6 +28,7 @@ impl Obstruction {
     }
 
     /// A distance that nothing within the ball is nearer to it than, m.
+    #[inline]
     pub fn apart(&self, ball: &Ball) -> f64 {
         self.bounds.gap(ball)
     }
@@ -42,6 +43,7 @@ impl Cluster {
     }
 
     /// The square of a distance that none of them is nearer to a point than, m2.
+    #[inline]
     pub fn square_gap(&self, point: Point) -> f64 {
         self.bounds.square_gap(point)
     }

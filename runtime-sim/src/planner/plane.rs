@@ -48,9 +48,9 @@ impl Rectangle {
         if self.meets([a, b]) {
             return 0.0;
         }
-        let of_ends = [a, b].map(|end| self.square_distance(end));
-        let of_corners = self.corners().map(|corner| square_distance(corner, [a, b]));
-        of_ends.into_iter().chain(of_corners).fold(f64::INFINITY, f64::min).sqrt()
+        let of_ends = self.square_distance(a).min(self.square_distance(b));
+        let of_corners = self.corners().into_iter().map(|corner| square_distance(corner, [a, b]));
+        of_corners.fold(of_ends, f64::min).sqrt()
     }
 
     /// Whether a segment is at least so far away.
@@ -86,8 +86,9 @@ impl Rectangle {
     }
 
     fn corners(&self) -> [Point; 4] {
-        let [x, y] = [[self.low.x, self.high.x], [self.low.y, self.high.y]];
-        [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(i, j)| Point::new(x[i], y[j], 0.0))
+        let Self { low, high } = *self;
+        let corner = |x: f64, y: f64| Point::new(x, y, 0.0);
+        [corner(low.x, low.y), corner(high.x, low.y), corner(low.x, high.y), corner(high.x, high.y)]
     }
 }
 
