@@ -3,6 +3,9 @@
 //! Plain data and functions over it. It knows neither the compiler nor the
 //! controllers it is linked with: the two meet in [`scan::Controllers`].
 //! SI units, world frame (z up), unless a name says otherwise.
+//!
+//! It may be compiled in several pieces. So what is called in the loops of planner and collision check is `inline` where
+//! it is small, and arrays are not mapped there: `map` calls its closure across pieces.
 
 pub mod account;
 mod answers;

@@ -42,7 +42,6 @@ impl Point {
         self.dot(self).sqrt()
     }
 
-    #[inline]
     pub fn coordinate(self, along: impl Into<Direction>) -> f64 {
         match along.into() {
             Direction::X => self.x,

@@ -13,7 +13,6 @@ impl Random {
     }
 
     /// One for each list of numbers: what is drawn at one place does not depend on what is drawn at others.
-    #[inline]
     pub fn at<const N: usize>(seed: u64, place: [u64; N]) -> Self {
         place.into_iter().fold(Self::new(seed), |random, number| {
             let mut random = Self { state: random.state ^ number.wrapping_mul(0xD6E8_FEB8_6659_FD93) };
