@@ -278,6 +278,20 @@ fn each(shared: Shared, ty: Type) -> Option<usize> {
     (ty.extent != Extent::One).then(|| shared.system.model.elements(ty.extent))
 }
 
+/// Tables name all rows. What refers to a row of many names the first few and the last one.
+const MOST_NAMED: usize = 50;
+const FIRST_NAMED: usize = 3;
+
+/// `0 agv1, 1 agv2`; of many members `0 agv1, 1 agv2, 2 agv3, ... 99 agv100`.
+fn rows_in_short(shared: Shared, interface: InterfaceId) -> String {
+    let count = shared.system.members[interface.0].len();
+    if count <= MOST_NAMED {
+        return rows(shared, interface, None);
+    }
+    let first = named_rows(shared, interface, &Vec::from_iter(0..FIRST_NAMED));
+    format!("{first}, ... {}", named_rows(shared, interface, &[count - 1]))
+}
+
 /// The members of an enumeration by number, or to what a reference refers.
 pub fn meaning(shared: Shared, scalar: Scalar) -> String {
     match scalar {
@@ -285,7 +299,7 @@ pub fn meaning(shared: Shared, scalar: Scalar) -> String {
             let members = &shared.system.model.enums[id.0].members;
             members.iter().enumerate().map(|(i, m)| format!("{i} {m}")).collect::<Vec<_>>().join(", ")
         }
-        Scalar::Ref(id) => rows(shared, id, None),
+        Scalar::Ref(id) => rows_in_short(shared, id),
         Scalar::Time => "ms".into(),
         _ => String::new(),
     }
