@@ -106,6 +106,23 @@ fn another_machine_and_rejects_change_no_time() {
     assert_ne!(cycles(&seed).0, usual);
 }
 
+/// The mill opens as soon as it has begun, and the arm takes the blank out.
+#[test]
+fn an_item_that_is_taken_before_the_end_is_a_crash() {
+    let mut early = cell("time: 2 min;", "");
+    let waits = "when finished and not cutting -> Opening";
+    assert!(early.specs[0].contains(waits));
+    early.specs[0] = early.specs[0].replace(waits, "when cutting -> Opening");
+    let project = early.project();
+    let reports = [Stepping::EveryScan, Stepping::Events, Stepping::Checked].map(|stepping| {
+        let mut executor = Executor::new(&project.system);
+        run_again(&project.plant, &mut executor, stepping, &mut Memory::default(), &mut |_| {})
+            .expect("a line that can be run")
+    });
+    assert_eq!(reports[0].reason, "interlock of mill: a blank was taken from a process");
+    assert!(reports.iter().all(|report| *report == reports[0]), "{reports:?}");
+}
+
 #[test]
 fn a_kind_without_a_time_is_a_crash() {
     let reason = |kinds: &str| {

@@ -24,7 +24,7 @@ pub const SCHEMA: Schema = Schema {
     levels: &[Level { name: "start", ty: PortType::Bool }],
     ..Schema::new(
         "process",
-        "Works on the item at a place (an item on a lane is at none: stop it there, and let the automaton wait with `when after T`) after a rising edge of `start`, for a time that is fixed or drawn. `ended` stays true until the next start. A start without an item, or without what it needs, ends the run: on the machine it would be a crash.",
+        "Works on the item at a place (an item on a lane is at none: stop it there, and let the automaton wait with `when after T`) after a rising edge of `start`, for a time that is fixed or drawn. `ended` stays true until the next start. A start without an item, or without what it needs, and an item that is taken away before the end, end the run: on the machine it would be a crash.",
         &[
             Setting::new("on", Form::Part(&["place"]), "", "the place of the item"),
             Setting::new("time", Form::Times, "ms", "duration; the likeliest of a triangular distribution, the mean of a normal one").optional(),
@@ -365,6 +365,13 @@ impl Running for Cycle {
                 }
                 None => world.crash(format!("a process was started without {lacks}")),
             }
+        }
+        if let Some((item, _)) = self.works
+            && !world.see().borne_by(self.process.place).any(|borne| borne == item)
+        {
+            self.works = None;
+            let kind = world.items.all()[item].kind;
+            world.crash(format!("a {} was taken from a process", self.kinds[kind]));
         }
         if let Some((item, ready_ms)) = self.works
             && ready_ms <= world.next_ms()

@@ -59,6 +59,8 @@ pub const VERTICAL: &str = "z";
 
 /// No number is farther from 0.
 const FARTHEST: f64 = 1e6;
+/// No time is longer, ms.
+const LONGEST: f64 = 1e9;
 
 impl Settings {
     pub fn new(settings: Vec<(&'static str, Value)>) -> Self {
@@ -108,17 +110,15 @@ impl Settings {
 
     /// Whole milliseconds.
     pub fn milliseconds(&self, name: &str) -> Result<u64, String> {
-        let is_time = |n: &f64| (0.0..=1e9).contains(n) && n.fract() == 0.0;
-        self.read(name, "time in whole milliseconds", |v| number(v).filter(is_time).map(|n| n as u64))
+        self.read(name, "time of at most 1000000 s in whole milliseconds", time)
     }
 
     /// Whole milliseconds: of one time, or of each of a list.
     pub fn times(&self, name: &str) -> Result<Vec<u64>, String> {
-        let is_time = |n: &f64| (1.0..=1e9).contains(n) && n.fract() == 0.0;
-        let time = |value: &Value| number(value).filter(is_time).map(|n| n as u64);
-        self.read(name, "time over 0, in whole milliseconds", |value| match value {
-            Value::List(values) => values.iter().map(time).collect(),
-            _ => Some(vec![time(value)?]),
+        let some_time = |value: &Value| time(value).filter(|ms| *ms > 0);
+        self.read(name, "time over 0 and of at most 1000000 s, in whole milliseconds", |value| match value {
+            Value::List(values) => values.iter().map(some_time).collect(),
+            _ => Some(vec![some_time(value)?]),
         })
     }
 
@@ -203,6 +203,13 @@ impl Settings {
 fn number(value: &Value) -> Option<f64> {
     match value {
         Value::Number(number) if number.abs() <= FARTHEST => Some(*number),
+        _ => None,
+    }
+}
+
+fn time(value: &Value) -> Option<u64> {
+    match value {
+        Value::Number(ms) if (0.0..=LONGEST).contains(ms) && ms.fract() == 0.0 => Some(*ms as u64),
         _ => None,
     }
 }

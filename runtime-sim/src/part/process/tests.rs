@@ -106,6 +106,12 @@ fn each_kind_has_times_of_its_own() {
 }
 
 #[test]
+fn a_process_may_take_hours() {
+    let cycle = cycle(vec![("time", Value::Number(1e9))], [1, 2]);
+    assert_eq!(cycle.time_ms(0), 1_000_000_000);
+}
+
+#[test]
 fn wrong_settings_are_refused() {
     let ms = Value::Number;
     let uniform = ("distribution", word("uniform"));
@@ -116,7 +122,14 @@ fn wrong_settings_are_refused() {
     let kinds = ("kinds", words(&["a", "b"]));
     let wrong = [
         (vec![], "a fixed time needs the setting time"),
-        (vec![("time", ms(0.0))], "the setting time is no time over 0, in whole milliseconds"),
+        (
+            vec![("time", ms(0.0))],
+            "the setting time is no time over 0 and of at most 1000000 s, in whole milliseconds",
+        ),
+        (
+            vec![("time", ms(1e9 + 1.0))],
+            "the setting time is no time over 0 and of at most 1000000 s, in whole milliseconds",
+        ),
         (vec![("time", ms(5.0)), ("shortest", ms(6.0))], "its times are not in order: shortest, time, longest"),
         (vec![("time", ms(5.0)), ("longest", ms(4.0))], "its times are not in order: shortest, time, longest"),
         (vec![("time", ms(5.0)), ("deviation", ms(4.0))], "a fixed time has no deviation"),
