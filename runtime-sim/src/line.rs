@@ -185,6 +185,16 @@ impl Scenario {
         self.is_powered(scan) && self.power_offs.iter().any(|off| off.end() == scan)
     }
 
+    /// So many scans without power end before this one.
+    pub fn scans_without_power(&self, scan: u64) -> u64 {
+        let mut first = scan;
+        let is_off = |scan: u64| self.power_offs.iter().find(|off| off.at_scan < scan && off.holds(scan));
+        while let Some(off) = first.checked_sub(1).and_then(is_off) {
+            first = off.at_scan + 1;
+        }
+        scan - first
+    }
+
     /// Whether somebody presses a button of the line in this scan.
     pub fn presses(&self, button: LineButton, scan: u64) -> bool {
         self.presses.iter().any(|press| press.button == button && press.during.holds(scan))

@@ -148,6 +148,7 @@ fn simulate(
         let system = operator.inputs(scan, &line.scenario);
         let is_powered = line.scenario.is_powered(scan);
         if line.scenario.powers_up(scan) {
+            lose_power(line, controllers, &agenda, scan);
             controllers.power_up();
             agenda.power_up();
         }
@@ -275,6 +276,7 @@ fn simulate(
             break end;
         }
     };
+    lose_power(line, controllers, &agenda, scan);
     let (finished, reason) = match conservation(plant.items().log(), plant.items()) {
         Ok(()) => (finished, reason),
         Err(violation) => (false, format!("bug: {violation}")),
@@ -295,6 +297,16 @@ fn simulate(
         history: recorders.history.finish(&plant),
     });
     Ok((Report::new(line, &plant, outcome), recorded))
+}
+
+/// The scans before this one that the controllers have not executed: first those that were left out, then those without
+/// power.
+fn lose_power(line: &Line, controllers: &mut dyn Controllers, agenda: &Agenda, scan: u64) {
+    let without_power = line.scenario.scans_without_power(scan);
+    if without_power > 0 {
+        controllers.skip((agenda.scans_since(scan) - 1).saturating_sub(without_power));
+        controllers.lose_power(without_power);
+    }
 }
 
 /// Where in the images of a machine the number of its last command stands, and the number answered. None for a

@@ -1,10 +1,13 @@
 //! `autogen why`: lines of `fixtures/why` that were made to stand, each as it is at 20 s. A line is a layout with
 //! the types of its name; all of them are made of the devices there.
 
+use autogen::executor::Executor;
 use autogen::lower::Project;
 use autogen::why::{self, Node, Picture, Verdict, Waits, Watch};
 use autogen_tests::{Texts, ariac, root, side_by_side, text};
-use runtime_sim::run::{Stepping, run};
+use runtime_sim::line::Pause;
+use runtime_sim::run::{Seen, Stepping, run};
+use runtime_sim::scan::Controllers;
 
 /// The lines by name.
 fn lines() -> Vec<String> {
@@ -92,6 +95,32 @@ fn scans_that_are_left_out_change_no_picture() {
             shown.collect()
         };
         assert_eq!(states(&events), states(&every), "{at}");
+    }
+}
+
+/// While the power is off no time passes for the controllers; after it, states are entered anew.
+#[test]
+fn a_loss_of_power_is_no_time_in_a_state() {
+    let mut project = ariac("default").project();
+    let off = |at_scan: u64, scans: u64| Pause { at_scan, scans };
+    project.plant.scenario.power_offs = vec![off(700, 500), off(1000, 900), off(2500, 30)];
+    for at in [699, 700, 701, 1200, 1898, 1899, 1900, 2100, 2500, 2501, 2529, 2530, 2531, 3000] {
+        let mut line = project.plant.clone();
+        line.scenario.time_limit_s = 40.0;
+        let mut executor = Executor::new(&project.system);
+        let words = executor.stays();
+        let mut stays = Vec::new();
+        run(&line, &mut executor, Stepping::EveryScan, &mut |seen: &Seen| {
+            if seen.scan == at {
+                stays = words.iter().map(|word| seen.trace[*word] as u64).collect();
+            }
+        })
+        .expect("a line that runs");
+        for stepping in [Stepping::Events, Stepping::EveryScan] {
+            let shown: Vec<u64> =
+                picture(&project, at, stepping).machines.iter().map(|machine| machine.stay_ms).collect();
+            assert_eq!(shown, stays, "{at}, {stepping:?}");
+        }
     }
 }
 

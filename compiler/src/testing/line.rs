@@ -14,6 +14,7 @@ pub struct Watched<'c> {
     machines: usize,
     scan_ms: u64,
     scan: Option<u64>,
+    /// Scans that were left out since, or had no power.
     skipped: u64,
     states: Vec<Option<usize>>,
     /// By machine and state, ms.
@@ -62,6 +63,10 @@ impl Controllers for Watched<'_> {
         answer
     }
 
+    fn lose_power(&mut self, scans: u64) {
+        self.skipped += scans;
+    }
+
     fn power_up(&mut self) {
         self.controllers.power_up();
     }
@@ -79,7 +84,7 @@ impl Controllers for Watched<'_> {
     }
 
     fn skip(&mut self, scans: u64) {
-        self.skipped = scans;
+        self.skipped += scans;
         self.controllers.skip(scans);
     }
 }

@@ -1,6 +1,7 @@
 //! Emitted Structured Text as an engine: an evaluator that knows only the text runs it.
 
 use crate::backend::Files;
+use crate::executor::Executor;
 use crate::ir::{Extent, KeptBy, Scalar, System};
 use crate::naming::{camel, snake};
 use autogen_st_judge::listed;
@@ -104,6 +105,7 @@ pub struct StructuredText {
     outputs: Vec<Vec<Place>>,
     states: Vec<Place>,
     trace: Vec<Word>,
+    stays: Vec<usize>,
     /// Names of the words of the trace.
     pub names: Vec<String>,
     /// The text has a table of alarms.
@@ -147,7 +149,8 @@ impl StructuredText {
         }
         let has_alarms = !system.alarms().is_empty();
         let mut first = Vec::new();
-        crate::executor::Executor::new(system).trace(&mut first);
+        let executor = Executor::new(system);
+        executor.trace(&mut first);
         let (names, places): (Vec<_>, Vec<_>) = trace.into_iter().unzip();
         let words = places.into_iter().zip(first);
         let trace = words.map(|(place, first)| place.map_or(Word::Constant(first), Word::At)).collect();
@@ -160,6 +163,7 @@ impl StructuredText {
             outputs,
             states,
             trace,
+            stays: executor.stays(),
             names,
             has_alarms,
         })
@@ -344,7 +348,7 @@ impl Controllers for StructuredText {
     }
 
     fn stays(&self) -> Vec<usize> {
-        Vec::new()
+        self.stays.clone()
     }
 
     fn skip(&mut self, scans: u64) {

@@ -30,10 +30,8 @@ pub struct Watch<'a> {
     pub(super) fault: Option<Stopped>,
     /// After this scan the picture is taken.
     at: u64,
-    /// The last scan that was executed.
+    /// The last scan that was executed or left out, or had no power.
     scan: Option<u64>,
-    /// Scans that were left out since.
-    skipped: u64,
     picture: Option<Picture>,
     later: Option<Later>,
 }
@@ -44,7 +42,7 @@ impl<'a> Watch<'a> {
         let mut executor = Executor::new(system);
         executor.keep_journal();
         let last = HashMap::new();
-        Self { system, executor, last, fault: None, at, scan: None, skipped: 0, picture: None, later: None }
+        Self { system, executor, last, fault: None, at, scan: None, picture: None, later: None }
     }
 
     /// Also looks on, until each of these machines has left the state in which it is then.
@@ -78,6 +76,10 @@ impl<'a> Watch<'a> {
         self.ms(self.at)
     }
 
+    fn next_scan(&self) -> u64 {
+        self.scan.map_or(0, |scan| scan + 1)
+    }
+
     fn look(&mut self, scan: u64) {
         let picture = guard::picture(self, scan);
         if let Some(mut later) = self.later.take() {
@@ -90,16 +92,7 @@ impl<'a> Watch<'a> {
 
 impl Controllers for Watch<'_> {
     fn scan(&mut self, system: SystemInputs, inputs: &[Vec<f64>], outputs: &mut [Vec<f64>]) -> SystemOutputs {
-        let before = self.scan.map_or(0, |scan| scan + 1);
-        let scan = before + self.skipped;
-        let mut skipped = std::mem::take(&mut self.skipped);
-        if self.picture.is_none() && scan > self.at {
-            let first = (self.at + 1).saturating_sub(before);
-            self.executor.skip(first);
-            self.look(self.at);
-            skipped -= first;
-        }
-        self.executor.skip(skipped);
+        let scan = self.next_scan();
         let answer = self.executor.scan(system, inputs, outputs);
         self.scan = Some(scan);
         let stopped = (answer.fault && self.fault.is_none()).then(|| Stopped {
@@ -125,6 +118,14 @@ impl Controllers for Watch<'_> {
         answer
     }
 
+    fn lose_power(&mut self, scans: u64) {
+        let next = self.next_scan();
+        if self.picture.is_none() && next + scans > self.at {
+            self.look(self.at);
+        }
+        self.scan = (next + scans).checked_sub(1);
+    }
+
     fn power_up(&mut self) {
         self.executor.power_up();
     }
@@ -142,6 +143,15 @@ impl Controllers for Watch<'_> {
     }
 
     fn skip(&mut self, scans: u64) {
-        self.skipped = scans;
+        let next = self.next_scan();
+        let mut left = scans;
+        if self.picture.is_none() && next + scans > self.at {
+            let first = (self.at + 1).saturating_sub(next);
+            self.executor.skip(first);
+            self.look(self.at);
+            left -= first;
+        }
+        self.executor.skip(left);
+        self.scan = (next + scans).checked_sub(1);
     }
 }

@@ -138,6 +138,7 @@ struct Side<'a> {
     named: HashMap<Element, (&'a str, Scalar)>,
     machines: Vec<bool>,
     scan: Option<u64>,
+    /// Scans that were left out since, or had no power.
     skipped: u64,
     states: Vec<usize>,
     /// None, once nobody asks any more.
@@ -185,6 +186,10 @@ impl Controllers for Side<'_> {
         answer
     }
 
+    fn lose_power(&mut self, scans: u64) {
+        self.skipped += scans;
+    }
+
     fn power_up(&mut self) {
         self.executor.power_up();
     }
@@ -202,7 +207,7 @@ impl Controllers for Side<'_> {
     }
 
     fn skip(&mut self, scans: u64) {
-        self.skipped = scans;
+        self.skipped += scans;
         self.executor.skip(scans);
     }
 }
