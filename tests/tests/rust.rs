@@ -1,7 +1,7 @@
 //! The generated Rust: how it reads, that it compiles without a warning, that no path leads to a panic,
 //! and that it does what the reference executor does.
 
-use autogen::backend::{rust, st};
+use autogen::backend::{Files, rust, st};
 use autogen::executor::Executor;
 use autogen::io_map::IoMap;
 use autogen::ir::System;
@@ -14,6 +14,7 @@ use autogen_tests::workspace::Workspace;
 use autogen_tests::{ariac, many, root};
 use runtime_sim::device::Direction;
 use runtime_sim::run::{Seen, Stepping, run as simulate};
+use std::collections::BTreeSet;
 use std::io::{BufRead, BufReader};
 
 /// Names and texts of the fixtures.
@@ -58,6 +59,51 @@ fn together() -> (System, Sources) {
         instance.name = name.into();
     }
     (system, sources)
+}
+
+/// Names that begin with a capital letter, as those of types and traits, without what is in comments and texts.
+fn capital_names<'t>(texts: impl Iterator<Item = &'t str>) -> BTreeSet<&'t str> {
+    let code = texts.flat_map(str::lines).filter(|line| !line.trim_start().starts_with("//"));
+    let code = code.flat_map(|line| line.split('"').step_by(2));
+    let names = code.flat_map(|part| part.split(|c: char| !c.is_ascii_alphanumeric() && c != '_'));
+    names.filter(|name| name.starts_with(|c: char| c.is_ascii_uppercase())).collect()
+}
+
+/// Those of the Rust of a line.
+fn capital_names_of(files: &Files) -> BTreeSet<&str> {
+    let is_own = |path: &str| path.starts_with("controllers/") || path.starts_with("adapters/");
+    capital_names(
+        files.iter().filter(|(path, _)| is_own(path) && path.ends_with(".rs")).map(|(_, text)| text.as_str()),
+    )
+}
+
+/// No enumeration has the name of a type or of a trait that the Rust of every line uses.
+#[test]
+fn names_of_all_generated_code_are_given_to_no_enumeration() {
+    let (system, sources) = together();
+    let fixtures_written = rust::files(&system, &sources);
+    let default = ariac("default").compile();
+    let project = default.project.expect("a line that is right");
+    let default_written = rust::files(&project.system, &default.sources);
+    let library = ["conveyor", "agv", "kitting", "gantry", "station", "handover", "devices/gantry"]
+        .map(|name| autogen_tests::text(&format!("compiler/library/{name}.aut")));
+    let words = library.iter().flat_map(|text| text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_'));
+    let of_library: BTreeSet<String> = words.map(autogen::naming::camel).collect();
+    let is_constant = |name: &str| name.len() > 1 && !name.contains(|c: char| c.is_ascii_lowercase());
+    let in_both = capital_names_of(&fixtures_written);
+    let in_both = in_both.intersection(&capital_names_of(&default_written)).copied().collect::<Vec<_>>();
+    let is_used = |name: &&str| !of_library.contains(*name) && !is_constant(name) && *name != "Self";
+    let used: BTreeSet<&str> =
+        in_both.into_iter().filter(is_used).chain(["Sized", "Drop", "Send", "Fn"]).collect();
+    assert!(used.contains(&"FnMut") && used.contains(&"Debug"), "{used:?}");
+
+    let enums = used.iter().map(|name| format!("enum {name} {{ {name}First, {name}Second }}\n"));
+    let one = fixtures().into_iter().find(|(name, _)| name == "arithmetic.aut").expect("a fixture");
+    let (system, sources) = instantiate(&[one, ("used.aut".into(), enums.collect())]);
+    let kinds = &rust::files(&system, &sources)["controllers/src/kinds.rs"];
+    let given: Vec<&str> =
+        used.into_iter().filter(|name| kinds.contains(&format!("pub enum {name} {{"))).collect();
+    assert!(given.is_empty(), "{given:?}");
 }
 
 #[test]
