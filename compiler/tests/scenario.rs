@@ -79,6 +79,7 @@ const LINE: Line = Line {
         Panel { robot: "desk", part: "start", numbers: [11, 0], operated: Operated::Press },
         Panel { robot: "desk", part: "speed", numbers: [11, 1], operated: Operated::SetNumber },
     ],
+    made: &[],
 };
 
 fn resolve(text: &str, line: &Line) -> Result<ResolvedScenario, Vec<Diagnostic>> {

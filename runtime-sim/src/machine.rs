@@ -10,6 +10,7 @@ use crate::part::axis::Axis;
 use crate::part::chain::Chain;
 use crate::part::lane::Lane;
 use crate::part::place::Place;
+use crate::part::process::Process;
 use crate::part::route::Route;
 use crate::part::stroke::{Stroke, Strokes};
 use crate::part::track::Track;
@@ -103,6 +104,13 @@ impl Machine {
             }
         }
         self.check_wiring()
+    }
+
+    pub fn processes(&self) -> impl Iterator<Item = &Process> {
+        self.parts.iter().filter_map(|part| match &part.primitive {
+            Primitive::Process(process) => Some(process),
+            _ => None,
+        })
     }
 
     /// Of each word of its inputs, whether it changes while something moves. What a person sets does not.

@@ -135,3 +135,40 @@ fn a_kind_without_a_time_is_a_crash() {
     assert_eq!(reason("bracket"), "interlock of mill: a process was started without a time for a blank");
     assert_eq!(reason("blank"), "time limit reached");
 }
+
+/// How many items of a kind processes make is not known before the run, so their orders are not refused.
+#[test]
+fn what_a_process_makes_may_be_ordered() {
+    let refusals = |ordered: &str| {
+        let mut texts = side_by_side("tending/tending");
+        let kinds = ["blank", "bracket", "scrap"]
+            .map(|kind| format!(r#"{{"name": "{kind}", "height": 0.02, "size": [0.04, 0.04]}}"#));
+        texts.scenario = Some(format!(
+            r#"{{"kinds": [{}], "supply": {{"items": ["blank"], "times": 3}},
+                "orders": {{"count": 3, "parts": {{"{ordered}": 1}}}}}}"#,
+            kinds.join(", ")
+        ));
+        let desk = "device desk {
+                define table = origin * point(0, 0, 0.8);
+                part top = place {
+                    at: table; slots: [point(-0.1, 0, 0), point(0, 0, 0), point(0.1, 0, 0)]; by_kind: true;
+                    floor: point(0, 0, 0); floor_x: [-0.2, 0.2]; floor_y: [-0.2, 0.2];
+                };
+                part terminal = orders { at: top; };
+                in open: bool = terminal.open;
+            }
+            automaton Desk on desk { initial state On { when open -> On {} } }";
+        texts.specs.push(desk.into());
+        let first = r#""robots": ["#;
+        texts.layout = texts.layout.replacen(
+            first,
+            &format!(r#"{first}{{"name": "desk", "type": "desk", "pose": [9, 9, 0]}},"#),
+            1,
+        );
+        let found = texts.compile().diagnostics;
+        found.iter().map(|found| format!("{}: {}", found.code, found.message)).collect::<Vec<_>>()
+    };
+    assert!(!refusals("bracket").iter().any(|found| found.starts_with("E0138")), "{:?}", refusals("bracket"));
+    let scrap = "E0138: the belts bring too few parts \"scrap\": 0 of 3".to_string();
+    assert!(refusals("scrap").contains(&scrap), "{:?}", refusals("scrap"));
+}

@@ -173,12 +173,9 @@ fn reached(
 
 /// The kinds into which a machine makes one.
 fn made_of(line: &Line, machine: usize, kind: usize) -> impl Iterator<Item = usize> {
-    let processes = line.machines[machine].parts.iter().filter_map(|part| match &part.primitive {
-        Primitive::Process(process) => Some(process),
-        _ => None,
-    });
-    let made = processes.flat_map(move |process| process.made_of(&line.kinds[kind].name));
-    made.filter_map(|to| line.kinds.iter().position(|kind| kind.name == to))
+    let made = line.machines[machine].processes().flat_map(|process| process.made());
+    let made = made.filter(move |[from, _]| *from == line.kinds[kind].name);
+    made.filter_map(|[_, to]| line.kinds.iter().position(|kind| kind.name == to))
 }
 
 fn diagnostic(

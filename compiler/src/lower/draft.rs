@@ -227,7 +227,7 @@ impl Parts {
         found.verdict = Some(line.verdict(&report));
         found.diagnostics.append(&mut line.diagnostics);
         found.diagnostics.extend(report.diagnostics.iter().cloned());
-        let resolved = match plant::resolve(&scenario, &line) {
+        let resolved = match plant::resolve(&scenario, &line, &machines) {
             Ok(resolved) => resolved,
             Err(wrong) => {
                 found.diagnostics.extend(wrong);

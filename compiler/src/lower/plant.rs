@@ -11,7 +11,11 @@ use runtime_sim::machine::Machine;
 use runtime_sim::monitor::{ALARM_WORDS, Alarm, Counter, Monitor};
 use std::collections::BTreeSet;
 
-pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec<Diagnostic>> {
+pub fn resolve(
+    scenario: &Scenario,
+    line: &Line,
+    machines: &[Machine],
+) -> Result<ResolvedScenario, Vec<Diagnostic>> {
     let named = |wanted: &dyn Fn(usize) -> bool| -> Vec<(&str, usize)> {
         (0..line.robots.len())
             .filter(|r| wanted(*r))
@@ -59,6 +63,8 @@ pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec
             parts.map(move |(number, part)| (format!("{robot}.{part}"), [r, number]))
         })
         .collect();
+    let processes = machines.iter().flat_map(Machine::processes);
+    let made: Vec<&str> = processes.flat_map(|process| process.made()).map(|[_, to]| to).collect();
     scenario::resolve(
         scenario,
         &scenario::Line {
@@ -70,6 +76,7 @@ pub fn resolve(scenario: &Scenario, line: &Line) -> Result<ResolvedScenario, Vec
             inputs: &inputs,
             parts: &parts,
             sinks: &sinks,
+            made: &made,
         },
     )
 }

@@ -33,6 +33,8 @@ pub struct Line<'a> {
     pub parts: &'a [MachinePart<'a>],
     /// By `robot.part`.
     pub sinks: &'a [(String, [usize; 2])],
+    /// Kinds that processes make of others.
+    pub made: &'a [&'a str],
 }
 
 /// A button or a set-point.
@@ -343,7 +345,7 @@ impl<'a> Resolver<'a> {
         Some(Drawn { orders, surplus, belts })
     }
 
-    /// A list of parts is enough for all orders.
+    /// A list of parts is enough for all orders, but for kinds that processes make: how many is not known before the run.
     fn suffices(&mut self, supply: &[(usize, Vec<usize>)]) {
         if self.scenario.orders.number == Number::WithoutEnd {
             let message = "the belts bring a list of parts, and the orders have no end";
@@ -356,7 +358,8 @@ impl<'a> Resolver<'a> {
             );
             return;
         }
-        for (k, kind) in self.scenario.kinds.iter().enumerate() {
+        let kinds = self.scenario.kinds.iter().enumerate();
+        for (k, kind) in kinds.filter(|(_, kind)| !self.line.made.contains(&kind.name.value.as_str())) {
             let needed: u64 = self.scenario.orders.list.iter().map(|o| u64::from(o.parts[k])).sum();
             let brought = supply.iter().flat_map(|(_, items)| items).filter(|i| **i == k).count() as u64;
             if brought < needed {

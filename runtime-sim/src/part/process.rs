@@ -94,10 +94,10 @@ impl Process {
         self.times.iter().map(Distribution::shortest_ms).min().unwrap_or(0)
     }
 
-    /// What may become of a kind, by name, after the rules for all its items and for some.
-    pub fn made_of(&self, kind: &str) -> impl Iterator<Item = &str> {
+    /// Pairs of a kind and one that its items may become, by name.
+    pub fn made(&self) -> impl Iterator<Item = [&str; 2]> {
         let all = self.makes.iter().chain(self.rejects.iter().map(|reject| &reject.kinds));
-        all.filter(move |[from, _]| from == kind).map(|[_, to]| to.as_str())
+        all.map(|pair| pair.each_ref().map(String::as_str))
     }
 }
 
