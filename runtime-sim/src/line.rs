@@ -185,6 +185,11 @@ impl Scenario {
         self.is_powered(scan) && self.power_offs.iter().any(|off| off.end() == scan)
     }
 
+    /// The first scan after this one before which power is lost.
+    pub fn next_without_power(&self, scan: u64) -> Option<u64> {
+        self.power_offs.iter().map(|off| off.at_scan + 1).filter(|first| *first > scan).min()
+    }
+
     /// So many scans without power end before this one.
     pub fn scans_without_power(&self, scan: u64) -> u64 {
         let mut first = scan;

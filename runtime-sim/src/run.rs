@@ -3,6 +3,7 @@
 mod accounts;
 mod agenda;
 mod changes;
+mod power;
 mod progress;
 
 use crate::account::Activity;
@@ -22,6 +23,7 @@ use crate::wiring::{Drives, Source};
 use accounts::Accounts;
 use agenda::Agenda;
 use changes::Changes;
+use power::Unpowered;
 use progress::Progress;
 
 /// What an observer is shown of a scan, once its outputs are published.
@@ -135,6 +137,7 @@ fn simulate(
     let stays = controllers.stays();
     let mut changes = Changes::new(&stays, line);
     let mut agenda = Agenda::new(line, stays, &inputs, analogue);
+    let mut unpowered = Unpowered::new(line);
     let mut answer = SystemOutputs::default();
     let mut trace = Vec::new();
     let mut progress = Progress::new(line);
@@ -201,7 +204,7 @@ fn simulate(
         progress.note(scan, acted || arrived == Arrived::Events);
 
         check.follow_items(&plant);
-        plant.obey(&outputs);
+        plant.obey(if is_powered { &outputs } else { unpowered.outputs(&outputs) });
         if let Some(recorders) = &mut recorders {
             recorders.paths.look(&plant);
             recorders.history.look(&plant);
@@ -223,6 +226,7 @@ fn simulate(
                 agenda.next_step(scan, &states, &changes, &plant),
                 plant.next_change(),
                 operator.next_change(scan, &line.scenario),
+                line.scenario.next_without_power(scan),
                 Some(progress.limit()),
                 (!is_alive).then(|| progress.stalls_at()),
             ];

@@ -285,6 +285,25 @@ fn a_conveyor_that_jams_stands_with_its_items() {
     assert_eq!(jammed.last(), Some(&(8000, 3)));
 }
 
+/// The scan at 3 s is executed, that at 7 s again; in between the level is off, which has no stop value.
+#[test]
+fn a_conveyor_without_power_stands_whatever_its_level_was() {
+    let device = "part belt = lane { from: origin; length: 2.0; width: 0.2; speed: 0.1; };
+        part feed = source { on: belt; inset: 0.1; };
+        part eye = beam { across: belt; at: 0.65; };
+        in sees: bool = eye.sees;
+        out run: bool = belt.run;";
+    let automaton = "retain all;
+        initial -> Waiting { run := true; }
+        resume state Waiting { when sees -> Seen {} }
+        final state Seen;";
+    let supply = r#""kinds": [{"name": "box", "height": 0.1}], "supply": {"items": ["box"]}"#;
+    let seen = |faults: &str| entries(&line(device, automaton, &format!("{supply}, {faults}")));
+    assert_eq!(seen(r#""faults": {}"#), [(0, 0), (20, 1), (7020, 2)]);
+    let off = seen(r#""faults": {"power_offs": [{"at_s": 3, "for_s": 4}]}"#);
+    assert_eq!(off.last(), Some(&(7020 + 3990, 2)));
+}
+
 /// A route has no ramps: it stands where it is. A track brakes: from 1.5 m/s with 0.5 m/s2 in 2.25 m and 3 s.
 #[test]
 fn vehicles_that_jam_halt_and_continue_to_their_goals() {
