@@ -89,6 +89,28 @@ fn what_hangs_on_an_arm_touches_what_lies_on_its_own_machine() {
     );
 }
 
+/// The tool stops 20 mm over the box, and its cup is so soft: the box hangs at the cup, and is put down where it belongs.
+#[test]
+fn what_is_gripped_from_a_little_above_hangs_at_the_tool() {
+    let above = "move(pick_at + up(0.02));\n        grip := true;";
+    let texts = changed(
+        "palletizer",
+        &[("near: 0.01;", "near: 0.03;"), ("move(pick_at);\n        grip := true;", above)],
+    );
+    let mut hanging = 0;
+    let report = run(&texts, |seen| {
+        for (item, all) in seen.plant.items().all().iter().enumerate() {
+            let Carrier::Grip { machine, .. } = all.carrier else { continue };
+            let places = [seen.plant.position(machine), seen.plant.place(item)];
+            let [tool, place] = places.map(|place| place.expect("it is on the line"));
+            assert!((tool.z - place.z - 0.15).abs() < 1e-9, "{tool:?} {place:?}");
+            hanging += 1;
+        }
+    });
+    assert!(hanging > 8, "{hanging}");
+    assert_eq!(report.reason, "all orders made");
+}
+
 #[test]
 fn what_moves_on_a_machine_without_its_arm_is_not_checked_against_itself() {
     // A door whose leaf is in its frame, and another one that overlaps it.

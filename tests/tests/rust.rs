@@ -11,7 +11,7 @@ use autogen_tests::instances::{instantiate, panelled};
 use autogen_tests::lots::Lots;
 use autogen_tests::replay::{Recording, bits, difference, record, replay, run, silent};
 use autogen_tests::workspace::Workspace;
-use autogen_tests::{ariac, many, root};
+use autogen_tests::{Texts, ariac, many, root};
 use runtime_sim::device::Direction;
 use runtime_sim::run::{Seen, Stepping, run as simulate};
 use std::collections::BTreeSet;
@@ -104,6 +104,40 @@ fn names_of_all_generated_code_are_given_to_no_enumeration() {
     let given: Vec<&str> =
         used.into_iter().filter(|name| kinds.contains(&format!("pub enum {name} {{"))).collect();
     assert!(given.is_empty(), "{given:?}");
+}
+
+/// Of ports without a text only what is known is said.
+#[test]
+fn ports_without_a_meaning_leave_no_punctuation() {
+    let device = "device unit {
+            part belt = lane { from: origin; length: 2.0; width: 0.2; speed: 0.1; };
+            part feed = source { on: belt; inset: 0.1; };
+            part eye = zone { over: belt; middle: point(1, 0, 0); half: 0.3; part_half: 0.05; };
+            in sees: bool[Kind] = eye.sees;
+            in seen_at: point[Kind] unit \"m\" = eye.foremost;
+            out run: bool = belt.run;
+        }";
+    let automaton = "automaton Unit on unit { local at: point[Kind];
+            initial -> Off {}
+            state Off { when exists k in Kind: sees[k] and seen_at[k].x > 1 -> On { run := true; } }
+            state On { when false -> Off {} } }";
+    let texts = Texts {
+        layout: r#"{"robots": [{"name": "unit", "type": "unit", "pose": [0, 0, 0]}]}"#.into(),
+        specs: vec![device.into(), automaton.into()],
+        scenario: Some(r#"{"kinds": [{"name": "box", "height": 0.1}], "time_limit_s": 9}"#.into()),
+        ..Texts::default()
+    };
+    let outcome = texts.compile();
+    let found = autogen_tests::plain(&outcome.sources, &outcome.diagnostics);
+    let project = outcome.project.unwrap_or_else(|| panic!("{found}"));
+    let rust = rust::files(&project.system, &outcome.sources);
+    let st = st::files(&project.system, &outcome.sources);
+    let own = rust.iter().filter(|(path, _)| path.starts_with("controllers/"));
+    for (path, text) in own.chain(&st) {
+        for wrong in ["(* ,", ": *)", "(* *)", "/// .\n", "/// \n", ": ,", ": ;"] {
+            assert!(!text.contains(wrong), "{path}: {wrong}\n{text}");
+        }
+    }
 }
 
 #[test]

@@ -148,7 +148,10 @@ impl Context<'_, '_> {
         let mut known: Vec<String> = self.symbols.keys().cloned().collect();
         known.extend(self.variables.iter().map(|(n, _, _)| n.clone()));
         known.extend(self.checker.model.enums.iter().flat_map(|e| e.members.iter().cloned()));
-        known.extend(["done", "failed", "self"].map(String::from));
+        known.push("self".into());
+        if self.automaton.device.is_commanded() {
+            known.extend(["done", "failed"].map(String::from));
+        }
         let diagnostic = Diagnostic::new("E0311", span, format!("there is no `{name}` here"));
         let help = match suggestion(name, known.iter().map(String::as_str)) {
             _ if self.states.iter().any(|s| s == name) => {

@@ -84,6 +84,17 @@ pub struct Port {
     pub stop: Stop,
 }
 
+impl Port {
+    /// What it carries, and its unit behind `joint`; empty if neither is given.
+    pub fn about(&self, joint: &str) -> String {
+        match (self.meaning.as_str(), self.unit.as_str()) {
+            (meaning, "") => meaning.into(),
+            ("", unit) => unit.into(),
+            (meaning, unit) => format!("{meaning}{joint}{unit}"),
+        }
+    }
+}
+
 /// A command: the output `verb` is set to `number`, the arguments to the named output ports.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verb {

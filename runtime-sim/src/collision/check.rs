@@ -330,18 +330,6 @@ impl CollisionCheck {
         let group = &mut self.groups[index];
         let tracked = &mut self.items[item];
         let upper = plant.upper(item);
-        // Gripped from a little above or below, a part is drawn to the tool by its grip point.
-        let place = match (to, upper) {
-            (Carrier::Grip { machine, .. }, Some(upper)) => {
-                let tool = plant.position(machine).unwrap_or(place);
-                place + upper.scaled((tool - place).dot(upper) - plant.grasp(item))
-            }
-            (Carrier::Grip { machine, .. }, None) => {
-                let tool = plant.position(machine).unwrap_or(place);
-                Point { z: tool.z - plant.grasp(item), ..place }
-            }
-            _ => place,
-        };
         let lies = match upper {
             Some(upper) => Pose { position: place, ..lying_on_its_side(&tracked.tipped, upper) },
             None => Pose::turned(place, tracked.turn),

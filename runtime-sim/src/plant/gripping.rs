@@ -271,8 +271,8 @@ impl Plant {
                 && let Some(place) = self.place(item)
             {
                 self.take_from_under(machine, item);
-                let hang = tool.inverse().point(place);
-                self.items.pass(item, Carrier::Grip { machine, part, hang }, place);
+                let hang = Point { z: self.grasp(item), ..tool.inverse().point(place) };
+                self.items.pass(item, Carrier::Grip { machine, part, hang }, tool.point(hang));
             }
         }
     }

@@ -203,13 +203,15 @@ fn port_field(context: &Context, port: &Port, name: &str) -> Field {
         PortType::Real => Value::Real(0.0),
         PortType::Point => Value::Point([0.0; 3]),
     };
-    let unit = if port.unit.is_empty() { String::new() } else { format!(", in {}", port.unit) };
-    let text = sentence(&format!("{}{unit}", port.meaning));
+    let text = sentence(&port.about(", in "));
     Field { doc: doc(&[text]), name: name.into(), ty: context.ty(ty), initial: context.filled(ty, first) }
 }
 
-/// With a capital and a full stop.
+/// With a capital and a full stop, if there is a text.
 fn sentence(text: &str) -> String {
+    if text.is_empty() {
+        return String::new();
+    }
     let mut letters = text.chars();
     let first: String = letters.next().into_iter().flat_map(char::to_uppercase).collect();
     format!("{first}{}.", letters.as_str())

@@ -260,10 +260,9 @@ fn ports(shared: Shared, automaton: &Automaton, id: AutomatonId) -> Vec<Candidat
         let count = array(shared, port.extent.into());
         let held = &shared.names.automata[id.0].ports[i];
         for (part, (held, first)) in held.iter().zip(constants(first_value(port.ty))).enumerate() {
-            let unit = if port.unit.is_empty() { String::new() } else { format!(", {}", port.unit) };
             let mut variable = Variable::new(held, Basic::of(Scalar::from(port.ty)))
                 .with_elements(count)
-                .with_comment(if part == 0 { format!("{}{unit}", port.meaning) } else { String::new() });
+                .with_comment(if part == 0 { port.about(", ") } else { String::new() });
             variable.comments.extend(about(&[], elements(shared, port.extent.into())));
             all.push(match port.direction {
                 Direction::Input => Candidate::given(variable, Origin::Input { port: i, part }),

@@ -228,12 +228,13 @@ fn ports_of(shared: Shared, robot: usize) -> Vec<Variable> {
         let count = (port.extent != runtime_sim::device::Extent::One)
             .then(|| port.extent.elements(shared.system.kinds()));
         let word = if port.direction == Direction::Input { "input" } else { "output" };
-        let unit = if port.unit.is_empty() { String::new() } else { format!(", {}", port.unit) };
+        let said = port.about(", ");
+        let said = if said.is_empty() { word.into() } else { format!("{word}: {said}") };
         let first = stop_value(port).unwrap_or(first_value(port.ty));
         for (name, first) in held.iter().zip(constants(first)) {
             let mut variable = Variable::new(name, Basic::of(Scalar::from(port.ty))).with_elements(count);
             if *name == held[0] {
-                variable.comments.push(format!("{word}: {}{unit}", port.meaning).into());
+                variable.comments.push(said.as_str().into());
             }
             variable.comments.extend(about(&[], elements(shared, port.extent.into())));
             let has_initial = port.direction == Direction::Output && count.is_none();
