@@ -11,6 +11,7 @@ mod idle;
 mod phase;
 mod sight;
 pub mod trajectory;
+mod upright;
 mod working;
 
 pub(crate) use delay::{Arrived, Bus};
@@ -32,6 +33,7 @@ pub use conveying::{By, Gap, Transfer, gaps, transfers};
 use gripping::{Lying, NextLook};
 use std::sync::Arc;
 use trajectory::Trajectory;
+use upright::Upright;
 use working::{Shared, Working};
 
 /// A time is not distinguished from one that is so much later.
@@ -49,6 +51,8 @@ pub struct Plant {
     names: Arc<[String]>,
     /// Of the kinds: over the underside of an item, where it is gripped, m.
     grasps: Vec<f64>,
+    /// Of the kinds.
+    bodies: Vec<Upright>,
     obstacles: Vec<Obstacle>,
     desk: Desk,
     images: Vec<Vec<f64>>,
@@ -100,6 +104,7 @@ impl Plant {
             items,
             names: crate::item::names(line).into(),
             grasps: line.kinds.iter().map(|kind| kind.grasp).collect(),
+            bodies: line.kinds.iter().map(Upright::of).collect(),
             obstacles: line.obstacles.clone(),
             desk,
             images,
@@ -221,10 +226,31 @@ impl Plant {
     fn fall(&mut self, Falls { item, from, ms }: Falls) {
         let (carrier, point) = fall::fall(self, (from, self.upper(item)), ms);
         if let (Some(under), Some(machine)) = (self.lies_under(item, &carrier, ms), carrier.machine()) {
-            let [upper, lower] = [item, under].map(|item| &self.names[item]);
-            self.items.crash(machine, format!("{upper} comes down on {lower}, which lies on a conveyor"));
+            self.crash_onto(machine, [item, under], "which lies on a conveyor");
+        } else if let Some((machine, under)) = self.is_in(item, &carrier) {
+            self.crash_onto(machine, [item, under], "which lies there");
         }
         self.items.pass(item, carrier, point);
+    }
+
+    fn crash_onto(&mut self, machine: usize, two: [usize; 2], lies: &str) {
+        let [upper, lower] = two.map(|item| &self.names[item]);
+        self.items.crash(machine, format!("{upper} comes down on {lower}, {lies}"));
+    }
+
+    /// The machine of a place and an item there in which another one would be, however both are turned.
+    fn is_in(&self, item: usize, lands: &Carrier) -> Option<(usize, usize)> {
+        let Carrier::Place { machine, part, offset } = *lands else { return None };
+        let body = |item: usize| self.bodies[self.items.all()[item].kind];
+        let others = self.items.borne_by(machine).iter().copied().filter(|other| *other != item);
+        let mut others = others.filter(|other| self.upper(*other).is_none());
+        let found = others.find(|other| {
+            let Carrier::Place { part: of, offset: lies, .. } = self.items.all()[*other].carrier else {
+                return false;
+            };
+            of == part && body(item).is_in(offset, &body(*other), lies)
+        });
+        found.map(|other| (machine, other))
     }
 
     /// An item on a conveyor on which another one comes down.

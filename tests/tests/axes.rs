@@ -77,6 +77,9 @@ fn what_hangs_on_an_arm_touches_what_lies_on_its_own_machine() {
         "{}",
         reason(&texts)
     );
+    // The boxes of the second layer fall into those of the first one.
+    let texts = changed("palletizer", &[("stacks: true;", "")]);
+    assert_eq!(reason(&texts), "interlock of robot: box_5 comes down on box_1, which lies there");
     // Straight from the infeed to a place beside another box, without a detour over it.
     let low = ("move(put_at + up(over));\n        move(put_at);", "move(put_at);");
     let straight =
