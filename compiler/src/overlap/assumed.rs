@@ -91,7 +91,9 @@ impl<'a> Assumed<'a> {
             let [first, second] = self.guards;
             if self.choose(&first.clauses) == Some(true) && self.choose(&second.clauses) == Some(true) {
                 let read = self.read.clone();
-                if self.always.iter().all(|always| self.holds(always) == Some(true)) {
+                if self.always.iter().all(|always| self.holds(always) == Some(true))
+                    && self.is_answer_possible()
+                {
                     return Some(self.shown(&read));
                 }
             }
@@ -102,6 +104,18 @@ impl<'a> Assumed<'a> {
             *choice += 1;
         }
         None
+    }
+
+    /// A command is answered exactly if its number is not 0 and is that of the last answer.
+    fn is_answer_possible(&self) -> bool {
+        let number = |name: &str| self.port(name).and_then(|port| self.values.get(&port).copied());
+        let none = Some(Value::Int(0));
+        match (self.values.get(&Source::Answered), number("cmd"), number("ack")) {
+            (Some(Value::Bool(true)), Some(cmd), Some(ack)) => Some(cmd) != none && cmd == ack,
+            (Some(Value::Bool(true)), cmd, ack) => cmd != none && ack != none,
+            (Some(_), Some(cmd), Some(ack)) => Some(cmd) == none || cmd != ack,
+            _ => true,
+        }
     }
 
     fn shown(&self, read: &[(Source, Scalar)]) -> Vec<String> {
