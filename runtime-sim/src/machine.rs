@@ -208,6 +208,7 @@ impl Machine {
         if wiring.is_commanded() && !(has(Drives::Command) && has(Drives::Verb) && has(Drives::Hold)) {
             return Err("a machine with commands lacks the outputs for them".into());
         }
+        self.check_levels()?;
         self.check_lanes()?;
         for command in &wiring.commands {
             let action = schema(command.part).and_then(|schema| schema.actions.get(command.action));
@@ -225,6 +226,21 @@ impl Machine {
                 if !is_one || then.within_ms > 1_000_000_000 {
                     return Err("a command waits for a signal that is not there".into());
                 }
+            }
+        }
+        Ok(())
+    }
+
+    /// A part that two outputs drive in the same way would obey the last of them.
+    fn check_levels(&self) -> Result<(), Misfit> {
+        let outputs = &self.wiring.outputs;
+        for (number, Output { drives, .. }) in outputs.iter().enumerate() {
+            if let Drives::Level { part, level } = *drives
+                && outputs[..number].iter().any(|other| other.drives == *drives)
+            {
+                let Part { name, .. } = &*self.parts[part];
+                let level = self.parts[part].schema().levels[level].name;
+                return Err(Misfit::of(part, format!("two outputs drive {name}.{level}: take one of them")));
             }
         }
         Ok(())

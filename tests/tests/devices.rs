@@ -30,6 +30,21 @@ fn a_chain_on_axes_without_inverse_kinematics_is_told() {
     );
 }
 
+/// The valve would obey the last one.
+#[test]
+fn two_outputs_for_one_valve_are_told() {
+    let device = "device thing {
+        part stop = cylinder { extend: 100 ms; retract: 100 ms; };
+        in is_out: bool = stop.is_out;
+        out slow: bool = stop.extend stop false;
+        out fast: bool = stop.extend stop false;
+    }";
+    let expected = "`thing` cannot be built from its device: two outputs drive stop.extend: take one of them";
+    assert_eq!(told(device, ""), [("E0711", expected.to_string())]);
+    let one = device.replace("fast: bool = stop.extend", "fast: bool = stop.retract");
+    assert_eq!(told(&one, ""), []);
+}
+
 /// What is wrong with an arm, an axis or a positioner: the settings, the code, and words of the message.
 const WRONG: &[(&str, &str, &str)] = &[
     ("part x = axis { from: origin; along: x; range: [0, 1]; speed: 1; acceleration: 1; };

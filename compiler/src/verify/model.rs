@@ -2,7 +2,7 @@
 
 use super::automaton::{Instance, Line, Vars};
 use super::memory::{Kept, Memory, kept};
-use super::plant::{Known, carries_hidden_items, hides_items, plant};
+use super::plant::{Known, carries_hidden_items, hides_items, plant, several};
 use super::properties::{can_stop, read_by, searched};
 use super::strokes::Changing;
 use super::unread::unread;
@@ -33,7 +33,10 @@ pub struct Searched {
 pub fn model(project: &Project, asked: &Asked) -> Result<Searched, Vec<Diagnostic>> {
     let Project { system, plant: line, .. } = project;
     let unknown = (0..system.instances.len()).filter(|number| works_sideways(&line.machines[*number]));
-    let unknown: Vec<Diagnostic> = unknown.map(|number| sideways(system, number)).collect();
+    let unknown = unknown.map(|number| sideways(system, number));
+    let refused = |(number, machine)| Some(unsearched(system, number, &several(machine)?));
+    let refused = line.machines.iter().enumerate().filter_map(refused);
+    let unknown: Vec<Diagnostic> = unknown.chain(refused).collect();
     if !unknown.is_empty() {
         return Err(unknown);
     }
@@ -238,6 +241,14 @@ fn unbounded(system: &System, number: usize, port: &str) -> Diagnostic {
     Diagnostic::new(
         "E1001",
         automaton.place,
+/// `several`: parts of which one alone can be searched.
+fn unsearched(system: &System, number: usize, several: &str) -> Diagnostic {
+    let name = &system.instances[number].name;
+    let message = format!("`{name}` cannot be searched: it has {several}");
+    Diagnostic::new("E1001", system.automaton_of(number).place, message)
+        .help("verify lines whose machines have one of each, or make two machines of it")
+}
+
         format!("`{name}` cannot be searched: no contract says which values its input `{port}` may have"),
     )
     .help("verify lines whose automata read booleans, whole numbers of few values, and places that commands fix")

@@ -190,7 +190,7 @@ pub fn plant(
                 let of = Of { machine, number, part, scan_ms: u64::from(line.scan_ms) };
                 changing.add_process(of, process, level(part, "start"), memory);
             }
-            Primitive::Lane(lane) if machine.wiring.commands.iter().any(|command| command.part == part) => {
+            Primitive::Lane(lane) if is_commanded(machine, part) => {
                 let zones =
                     machine.parts.iter().enumerate().filter_map(|(of, other)| match &other.primitive {
                         Primitive::Zone(field) if field.lane == part => {
@@ -271,9 +271,29 @@ pub fn plant(
 
 /// Whether items may be somewhere that is not searched: on a conveyor without commands, or at such a place.
 pub fn hides_items(machine: &Machine) -> bool {
-    let is_commanded = |part: usize| machine.wiring.commands.iter().any(|command| command.part == part);
+fn is_commanded(machine: &Machine, part: usize) -> bool {
+    machine.wiring.commands.iter().any(|command| command.part == part)
+}
+
+/// Parts of a machine of which one alone can be searched, if it has several.
+pub fn several(machine: &Machine) -> Option<String> {
+    let named = |is_one: &dyn Fn(usize, &Primitive) -> bool| -> Vec<&str> {
+        let parts = machine.parts.iter().enumerate();
+        parts
+            .filter(|(number, part)| is_one(*number, &part.primitive))
+            .map(|(_, part)| &part.name[..])
+            .collect()
+    };
+    let lanes = named(&|number, part| matches!(part, Primitive::Lane(_)) && is_commanded(machine, number));
+    let grips = named(&|_, part| matches!(part, Primitive::Grip(_)));
+    let desks = named(&|_, part| matches!(part, Primitive::Orders(_)));
+    let kinds = [("conveyors with commands", lanes), ("grippers", grips), ("terminals of orders", desks)];
+    let found = kinds.into_iter().find(|(_, names)| names.len() > 1);
+    found.map(|(what, names)| format!("several {what}: {}", names.join(", ")))
+}
+
     machine.parts.iter().enumerate().any(|(number, part)| match &part.primitive {
-        Primitive::Lane(_) => !is_commanded(number),
+        Primitive::Lane(_) => !is_commanded(machine, number),
         Primitive::Place(place) => !is_known(machine, place),
         _ => false,
     })
@@ -344,6 +364,14 @@ fn zone(
 ) -> Option<Zone> {
     let (middle, _) = lane.centre_line.find(field.middle)?;
     let corner = |along: f64, across: f64| lane.centre_line.point(middle + along, across);
+/// The conveyor with commands over which a part is a field.
+fn field_over(machine: &Machine, part: usize) -> Option<usize> {
+    let Primitive::Zone(field) = &machine.parts[part].primitive else { return None };
+    let Primitive::Lane(lane) = &machine.parts[field.lane].primitive else { return None };
+    let is_over = is_commanded(machine, field.lane) && lane.centre_line.find(field.middle).is_some();
+    is_over.then_some(field.lane)
+}
+
     let half = lane.width / 2.0;
     let corners = [
         corner(-field.half, -half),
@@ -417,17 +445,18 @@ fn signal(
     let machine = &line.machines[number];
     let zone_of = || {
         // The fields of the lane, in the order of the parts.
-        let lane = found.lane.as_ref()?;
-        let is_zone = |part: &&usize| matches!(machine.parts[**part].primitive, Primitive::Zone(_));
-        let before: Vec<usize> = (0..part).collect();
-        lane.zones.get(before.iter().filter(is_zone).count())
+        let before = (0..part).filter(|other| field_over(machine, *other) == Some(own)).count();
+        lane.zones.get(before)
     };
     match (signal_name(machine, part, signal), &found.arm, &found.route, &found.lane) {
         (("grip", "holds"), Some(arm), ..) => return Signal::Held(arm.shown),
         (("chain", "tool"), Some(arm), ..) => return Signal::At(arm.tool),
         (("route", "position"), _, Some(route), _) => return Signal::At(route.at),
         (("route", "at_stop"), _, Some(_), _) => return Signal::AtStop,
-        (("lane", "moves"), .., Some(lane)) => return Signal::Moves(lane.motion),
+        (("lane", "moves"), .., Some(lane)) if is_commanded(machine, part) => {
+            return Signal::Moves(lane.motion);
+        }
+        let (lane, own) = (found.lane.as_ref()?, field_over(machine, part)?);
         (("zone", "sees"), ..) => {
             if let Some(zone) = zone_of() {
                 return Signal::Free(zone.sees.iter().copied().flatten().collect());
