@@ -11,15 +11,21 @@ use std::fmt::Write;
 
 const BOUNDS: Bounds = Bounds { violations: 100, ..bounds::BOUNDS };
 
-/// A line by its type: the first line of the text has its layout.
+/// A line by its type: the first line of the text has its layout, the second one may have its scenario.
 fn line(name: &str) -> Texts {
     of_text(&text(&format!("tests/fixtures/verify/properties/{name}.aut")))
 }
 
 fn of_text(text: &str) -> Texts {
-    let (layout, _) = text.split_once('\n').expect("a layout");
-    let layout = layout.strip_prefix("// ").expect("a layout in a comment").to_string();
-    Texts { layout, specs: vec![text.to_string()], ..Texts::default() }
+    let is_object = |line: &&str| line.starts_with('{');
+    let mut objects = text.lines().map_while(|line| line.strip_prefix("// ").filter(is_object));
+    let layout = objects.next().expect("a layout in a comment").to_string();
+    Texts {
+        layout,
+        scenario: objects.next().map(str::to_string),
+        specs: vec![text.to_string()],
+        ..Texts::default()
+    }
 }
 
 fn names() -> Vec<String> {

@@ -368,7 +368,7 @@ impl<'a> Instance<'a> {
 
 fn offset(begin: &Int, element: usize) -> Int {
     match begin {
-        Int::Constant(begin) => Int::Constant(begin + element as i32),
+        Int::Constant(begin) => Int::Constant(begin.wrapping_add(element as i32)),
         begin => Int::Binary(Operator::Add, Box::new([begin.clone(), Int::Constant(element as i32)])),
     }
 }

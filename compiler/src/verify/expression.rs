@@ -7,6 +7,7 @@ use autogen_search::plant::{phase, status};
 use autogen_search::program::{Domain as Values, Operator as Op};
 use autogen_search::program::{Each, Elements, Int, PointValue, Real};
 use autogen_search::value::Var;
+use runtime_sim::device::PortType;
 use std::sync::Arc;
 
 /// What stands where a name is read: a place in the state of each element, or values that never change.
@@ -73,7 +74,7 @@ impl Instance<'_> {
                 let flat: Arc<[i32]> = table.iter().flatten().map(|reaches| i32::from(*reaches)).collect();
                 let (from, to) = (self.int(from), self.int(to));
                 match at(from, width, to) {
-                    Int::Constant(index) => Int::Constant(flat[index as usize]),
+                    Int::Constant(index) => Int::Constant(element(&flat, index).unwrap_or(0)),
                     index => Int::Table(flat, Box::new(index)),
                 }
             }
@@ -91,11 +92,11 @@ impl Instance<'_> {
             ExprKind::Constant(value) => Real::Constant(f64::from(whole(*value))),
             ExprKind::Read(place) => match self.stored(place) {
                 (Stored::Vars(vars, _), index) => match index {
-                    Int::Constant(index) => Real::Load(vars[index as usize]),
+                    Int::Constant(index) => element(&vars, index).map_or(Real::Constant(0.0), Real::Load),
                     index => Real::Element(vars.into(), Box::new(index)),
                 },
                 (Stored::Fixed(values), index) => match index {
-                    Int::Constant(index) => Real::Constant(real(values[index as usize])),
+                    Int::Constant(index) => Real::Constant(element(&values, index).map_or(0.0, real)),
                     index => Real::Table(values.into_iter().map(real).collect(), Box::new(index)),
                 },
                 (Stored::Signal(_), _) => {
@@ -129,7 +130,9 @@ impl Instance<'_> {
             ExprKind::Constant(Value::Point(point)) => PointValue::Constant(*point),
             ExprKind::Read(place) => match self.stored(place) {
                 (Stored::Vars(vars, _), index) => match index {
-                    Int::Constant(index) => PointValue::Load(vars[index as usize]),
+                    Int::Constant(index) => {
+                        element(&vars, index).map_or(PointValue::Constant([0.0; 3]), PointValue::Load)
+                    }
                     index => PointValue::Element(vars.into(), Box::new(index)),
                 },
                 (Stored::Fixed(values), index) => points(values.into_iter().map(point).collect(), index),
@@ -205,11 +208,15 @@ impl Instance<'_> {
 
     fn read_int(&mut self, place: &Place) -> Int {
         match self.stored(place) {
-            (Stored::Vars(vars, low), Int::Constant(index)) => Int::Load(vars[index as usize], low),
+            (Stored::Vars(vars, low), Int::Constant(index)) => {
+                element(&vars, index).map_or(Int::Constant(0), |var| Int::Load(var, low))
+            }
             (Stored::Vars(vars, low), index) => {
                 Int::Element(Arc::new(Elements { vars, low }), Box::new(index))
             }
-            (Stored::Fixed(values), Int::Constant(index)) => Int::Constant(whole(values[index as usize])),
+            (Stored::Fixed(values), Int::Constant(index)) => {
+                Int::Constant(element(&values, index).map_or(0, whole))
+            }
             (Stored::Fixed(values), index) => {
                 Int::Table(values.into_iter().map(whole).collect(), Box::new(index))
             }
@@ -219,11 +226,11 @@ impl Instance<'_> {
 
     fn signal(&mut self, place: &Place, signal: Signal, index: Int) -> Int {
         match (signal, index) {
-            (Signal::Fixed(value), _) => Int::Constant(value),
+            (Signal::Fixed(value), _) => self.latched(place, Int::Constant(value), [value; 2]),
             (Signal::Free(inputs), index) => {
                 self.asks_inputs = true;
                 match index {
-                    Int::Constant(index) => Int::Input(inputs[index as usize]),
+                    Int::Constant(index) => element(&inputs, index).map_or(Int::Constant(0), Int::Input),
                     index => Int::InputElement(inputs.into(), Box::new(index)),
                 }
             }
@@ -236,7 +243,8 @@ impl Instance<'_> {
             }
             (Signal::AtStop, _) => {
                 self.asks_inputs = true;
-                Int::AtStop(self.number)
+                let stops = self.machine().route.as_ref().map_or(0, |route| route.stops.len());
+                self.latched(place, Int::AtStop(self.number), [-1, stops as i32 - 1])
             }
             (Signal::IsOpen, _) => self.is_open(),
             (Signal::Parts, index) => {
@@ -247,12 +255,15 @@ impl Instance<'_> {
                 if parts.is_empty() {
                     parts = vec![0; kinds];
                 }
+                let most = parts.iter().copied().max().unwrap_or(0);
                 let parts = Int::Table(parts.into(), Box::new(at(Int::Load(desk.order, 0), kinds, index)));
-                Int::Binary(Op::Multiply, Box::new([self.is_open(), parts]))
+                let parts = Int::Binary(Op::Multiply, Box::new([self.is_open(), parts]));
+                self.latched(place, parts, [0, most])
             }
             (Signal::OrderNumber, _) => {
                 let Some(desk) = self.machine().desk.clone() else { return Int::Constant(0) };
-                Int::Binary(Op::Multiply, Box::new([self.is_open(), Int::Load(desk.order, 1)]))
+                let number = Int::Binary(Op::Multiply, Box::new([self.is_open(), Int::Load(desk.order, 1)]));
+                self.latched(place, number, [0, self.line.plant.scenario.orders.len() as i32])
             }
             (Signal::Error, _) => match self.machine().head.as_ref().and_then(|head| head.error) {
                 Some(port) => Int::Load(port, 0),
@@ -263,6 +274,14 @@ impl Instance<'_> {
                 Int::Constant(0)
             }
         }
+    }
+
+    /// What a port shows of a number that is one of these: the nearest number within its bounds.
+    fn latched(&self, place: &Place, value: Int, [least, most]: [i32; 2]) -> Int {
+        let Place::Port { port, .. } = place else { return value };
+        let PortType::Int { lo, hi } = self.automaton.device.ports[*port].ty else { return value };
+        let value = if most > hi { Int::Min(Box::new([value, Int::Constant(hi)])) } else { value };
+        if least < lo { Int::Max(Box::new([value, Int::Constant(lo)])) } else { value }
     }
 
     fn is_open(&self) -> Int {
@@ -368,13 +387,20 @@ fn binary(operator: Op, a: Int, b: Int) -> Int {
     }
 }
 
+/// The element of this number; none where it is never read, because a condition before it does not hold.
+fn element<T: Copy>(values: &[T], index: i32) -> Option<T> {
+    usize::try_from(index).ok().and_then(|index| values.get(index).copied())
+}
+
 /// The number of an element in a row of a table.
 fn at(row: Int, elements: usize, element: Int) -> Int {
     match (row, element) {
-        (Int::Constant(row), Int::Constant(element)) => Int::Constant(row * elements as i32 + element),
+        (Int::Constant(row), Int::Constant(element)) => {
+            Int::Constant(row.wrapping_mul(elements as i32).wrapping_add(element))
+        }
         (row, element) => {
             let begin = match row {
-                Int::Constant(row) => Int::Constant(row * elements as i32),
+                Int::Constant(row) => Int::Constant(row.wrapping_mul(elements as i32)),
                 row if elements == 1 => row,
                 row => Int::Binary(Op::Multiply, Box::new([row, Int::Constant(elements as i32)])),
             };
@@ -389,7 +415,7 @@ fn at(row: Int, elements: usize, element: Int) -> Int {
 
 fn points(points: Vec<[f64; 3]>, index: Int) -> PointValue {
     match index {
-        Int::Constant(index) => PointValue::Constant(points[index as usize]),
+        Int::Constant(index) => PointValue::Constant(element(&points, index).unwrap_or_default()),
         index => PointValue::Table(points.into(), Box::new(index)),
     }
 }
