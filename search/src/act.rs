@@ -17,6 +17,7 @@ impl Scan<'_> {
         let plant = &self.model.machines[machine];
         let Some(head) = &plant.head else { return };
         let before = is_under_way.then(|| self.asked(plant));
+        self.keep_stop(machine);
         if is_under_way {
             self.ask_start(machine);
             self.interrupt(plant);
@@ -110,6 +111,9 @@ impl Scan<'_> {
         let Machine { head, route: Some(route), .. } = &self.model.machines[machine] else { return -1 };
         head.iter().for_each(|head| self.observe(head.status));
         self.ask_start(machine);
+        if let Some(shown) = route.shown_stop(self.bytes) {
+            return shown;
+        }
         let stop = |scan: &Self, number: i32| {
             let at = scan.values.point(number);
             route.stops.iter().position(|stop| *stop == at).map_or(-1, |stop| stop as i32)
@@ -118,11 +122,24 @@ impl Scan<'_> {
         if !surface::is_driving(self.model, self.bytes, machine) {
             return stop(self, at);
         }
-        match self.choices.take(3) {
+        let shown = match self.choices.take(3) {
             0 => stop(self, at),
             1 => -1,
             _ => stop(self, goal),
         }
+        };
+        route.show(self.bytes, shown);
+        shown
+    }
+
+    /// Properties see the stop that was shown before the command.
+    fn keep_stop(&mut self, machine: usize) {
+        let mut properties = self.model.instances[machine].properties.iter();
+        if let Some(route) = self.model.machines[machine].route.as_ref().filter(|route| route.shown.is_some())
+            && properties.any(|property| property.asks_inputs)
+        {
+            let shown = self.at_stop(machine);
+            route.show(self.bytes, shown);
     }
 
     /// Levels act, orders are served, and what is not remembered is forgotten.
@@ -147,6 +164,7 @@ impl Scan<'_> {
             }
         }
         if self.given == 0 || model.watch != Watch::Everything {
+        model.open_stops(self.bytes);
             return Ok(());
         }
         self.hazards()?;

@@ -231,3 +231,4 @@ fn commanded(machine: &Machine) -> Vec<Var> {
     vars.extend(machine.lane.as_ref().map(|lane| lane.motion));
     vars
 }
+        vars.extend(route.shown);

@@ -101,6 +101,19 @@ impl Model {
     }
 
     /// Whether all orders are made.
+    /// What devices show by themselves is open in the next scan, whatever it was.
+    pub(crate) fn open_inputs(&self, state: &mut [u8]) {
+        self.inputs.iter().for_each(|input| input.var.store(state, 0));
+        self.open_stops(state);
+    }
+
+    /// Which stops vehicles show is open in the next scan.
+    pub(crate) fn open_stops(&self, state: &mut [u8]) {
+        for route in self.machines.iter().filter_map(|machine| machine.route.as_ref()) {
+            route.shown.iter().for_each(|shown| shown.store(state, 0));
+        }
+    }
+
     pub fn is_made(&self, state: &[u8]) -> bool {
         self.orders.iter().all(|order| order.made.load(state) != 0)
     }

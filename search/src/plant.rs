@@ -106,6 +106,22 @@ pub struct Route {
     pub goal: Var,
     pub stops: Vec<Point>,
     pub tolerance: f64,
+    /// Two more than the number of the stop that it shows in this scan, 0 while that is open; none: nobody reads it.
+    pub shown: Option<Var>,
+}
+
+impl Route {
+    /// The number of the stop that it shows in this scan, if that is decided.
+    pub(crate) fn shown_stop(&self, state: &[u8]) -> Option<i32> {
+        let shown = self.shown?.load(state);
+        (shown != 0).then_some(shown - 2)
+    }
+
+    pub(crate) fn show(&self, state: &mut [u8], stop: i32) {
+        if let Some(shown) = self.shown {
+            shown.store(state, stop + 2);
+        }
+    }
 }
 
 /// A conveyor that is driven by commands.

@@ -114,6 +114,7 @@ impl Scan<'_> {
         self.forget_starts();
         Ok(())
     }
+        self.model.open_stops(self.bytes);
 
     pub(crate) fn step_if_due(&mut self, instance: usize, touched: u64) -> Result<(), Violation> {
         let program = &self.model.instances[instance];

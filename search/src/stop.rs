@@ -35,7 +35,7 @@ pub(crate) type Stops = FxHashMap<(Stopped, u64), (Option<Violation>, u64)>;
 impl Stopped {
     pub fn new(model: &Model, state: &[u8], mark: Mark) -> Self {
         let mut state = state.to_vec();
-        model.inputs.iter().for_each(|input| input.var.store(&mut state, 0));
+        model.open_inputs(&mut state);
         Self { state, mark }
     }
 }
@@ -78,7 +78,7 @@ impl Expander<'_> {
         let mut mark = stopped.mark;
         let (mut found, mut read) = (None, 0);
         for _ in 0..MOST_STOPS {
-            self.model.inputs.iter().for_each(|input| input.var.store(&mut self.work, 0));
+            self.model.open_inputs(&mut self.work);
             self.before.clone_from(&self.work);
             self.forgotten = mark.forgotten;
             self.forgotten_before = mark.forgotten;

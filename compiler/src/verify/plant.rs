@@ -179,6 +179,8 @@ pub fn plant(
                     goal: memory.point(number, name("(goal)"), first),
                     stops: route.stops.iter().map(|stop| coordinates(*stop)).collect(),
                     tolerance: route.tolerance,
+                    shown: shows_stop(machine, ports, reads)
+                        .then(|| memory.number(number, name("(shown stop)"), route.stops.len() + 1, 0)),
                 });
             }
             Primitive::Cylinder(cylinder) if watched[part] => {
@@ -327,6 +329,16 @@ fn watched(machine: &Machine, ports: &[Port], reads: &[bool]) -> Vec<bool> {
         }
     }
     watched
+}
+
+/// Whether its automaton reads at which stop a vehicle is.
+fn shows_stop(machine: &Machine, ports: &[Port], reads: &[bool]) -> bool {
+    let inputs = ports.iter().zip(reads).filter(|(port, _)| port.direction == Direction::Input);
+    let mut inputs = inputs.zip(&machine.wiring.inputs);
+    inputs.any(|((_, is_read), input)| {
+        let shows = |part, signal| signal_name(machine, part, signal) == ("route", "at_stop");
+        *is_read && matches!(input.source, Source::Signal { part, signal } if shows(part, signal))
+    })
 }
 
 /// Places for the levels that the plant reads.
