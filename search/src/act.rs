@@ -106,14 +106,15 @@ impl Scan<'_> {
         }
     }
 
+    /// The number of the stop at which a vehicle is: under way it is chosen where it is first read.
     pub(crate) fn at_stop(&mut self, machine: usize) -> i32 {
         self.decisions.end_record();
         let Machine { head, route: Some(route), .. } = &self.model.machines[machine] else { return -1 };
         head.iter().for_each(|head| self.observe(head.status));
-        self.ask_start(machine);
         if let Some(shown) = route.shown_stop(self.bytes) {
             return shown;
         }
+        self.ask_start(machine);
         let stop = |scan: &Self, number: i32| {
             let at = scan.values.point(number);
             route.stops.iter().position(|stop| *stop == at).map_or(-1, |stop| stop as i32)
@@ -126,7 +127,6 @@ impl Scan<'_> {
             0 => stop(self, at),
             1 => -1,
             _ => stop(self, goal),
-        }
         };
         route.show(self.bytes, shown);
         shown
@@ -140,6 +140,7 @@ impl Scan<'_> {
         {
             let shown = self.at_stop(machine);
             route.show(self.bytes, shown);
+        }
     }
 
     /// Levels act, orders are served, and what is not remembered is forgotten.
@@ -163,8 +164,8 @@ impl Scan<'_> {
                 input.var.store(self.bytes, 0);
             }
         }
-        if self.given == 0 || model.watch != Watch::Everything {
         model.open_stops(self.bytes);
+        if self.given == 0 || model.watch != Watch::Everything {
             return Ok(());
         }
         self.hazards()?;

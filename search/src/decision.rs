@@ -169,6 +169,7 @@ enum At {
 impl Scan<'_> {
     /// The first transition of a state whose clauses hold; the variables of its binders are as chosen.
     pub(crate) fn decide(&mut self, instance: usize, state: usize) -> Option<usize> {
+        self.not_passed = i32::MAX;
         let root = self.decisions.begins.get(instance).map(|[states, _]| states + state);
         self.look_up(root, self.model.instances[instance].variables, |scan| {
             let transitions = &scan.model.instances[instance].states[state].transitions;

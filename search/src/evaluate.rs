@@ -1,6 +1,6 @@
 //! Values of expressions, as `docs/semantics.md` says.
 
-use crate::program::{Domain, Each, Int, Operator, PointValue, Real};
+use crate::program::{After, Domain, Each, Int, Operator, PointValue, Real};
 use crate::scan::Scan;
 use crate::value::{Point, Values};
 
@@ -25,10 +25,7 @@ impl Scan<'_> {
                 self.input(inputs[index])
             }
             Int::AtStop(machine) => self.at_stop(*machine),
-            Int::Chance => {
-                self.decisions.end_record();
-                self.choices.take(2) as i32
-            }
+            Int::After(after) => i32::from(self.has_passed(after)),
             Int::Shared(expr) => self.int(expr),
             Int::Not(a) => i32::from(!self.holds(a)),
             Int::Negate(a) => self.int(a).wrapping_neg(),
@@ -74,6 +71,30 @@ impl Scan<'_> {
                 sum
             }
         }
+    }
+
+    /// Whether a time has passed is chosen where it is first asked, between those that have passed and those that have not.
+    fn has_passed(&mut self, After { instance, time }: &After) -> bool {
+        self.decisions.end_record();
+        let model = self.model;
+        let program = &model.instances[*instance];
+        let Some(elapsed) = program.elapsed else { return false };
+        let scans = self.int(time).unsigned_abs().div_ceil(model.scan_ms) as i32;
+        let times = &program.states[program.state.load(self.bytes) as usize].times;
+        let come = program.times_come.map_or(0, |come| come.load(self.bytes)) as usize;
+        // The first test of a state is one scan after its entry.
+        let passed = times[..come].last().copied().unwrap_or(1).max(elapsed.load(self.bytes));
+        let not_passed = times.get(come).copied().unwrap_or(i32::MAX).min(self.not_passed);
+        if scans <= passed || scans >= not_passed {
+            return scans <= passed;
+        }
+        let has_passed = self.choices.take(2) == 1;
+        if has_passed {
+            elapsed.store(self.bytes, scans);
+        } else {
+            self.not_passed = scans;
+        }
+        has_passed
     }
 
     /// Whether the body is so for one of the values; they are tried until one is found.

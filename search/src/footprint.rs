@@ -2,7 +2,9 @@
 
 use crate::model::Model;
 use crate::plant::Machine;
-use crate::program::{Clause, Domain, Each, Int, Key, PointValue, Real, Target, Transition, Update};
+use crate::program::{
+    Argument, Clause, Domain, Each, Instance, Int, Key, PointValue, Real, Target, Transition, Update,
+};
 use crate::value::Var;
 
 #[derive(Clone, Debug)]
@@ -95,7 +97,7 @@ impl<'a> Finder<'a> {
         if let Some(target) = transition.target {
             let instance = &self.model.instances[self.instance];
             self.write(instance.state);
-            instance.times_come.into_iter().for_each(|times| self.write(times));
+            instance.times_come.into_iter().chain(instance.elapsed).for_each(|times| self.write(times));
             instance.states[target].dead.iter().for_each(|(var, _)| self.write(*var));
             instance.states[target].unread.iter().for_each(|unread| {
                 self.read(unread.input);
@@ -120,8 +122,15 @@ impl<'a> Finder<'a> {
             }
             Update::Copy(updates) => updates.iter().for_each(|update| self.update(update)),
             Update::Command(command) => {
-                command.outputs.iter().for_each(|output| self.update(output));
-                command.points.iter().for_each(|point| self.point(point));
+                for argument in &command.arguments {
+                    match argument {
+                        Argument::Output(output) => self.update(output),
+                        Argument::Place(target, place, _) => {
+                            self.target(target);
+                            self.point(place);
+                        }
+                    }
+                }
                 for var in commanded(&self.model.machines[self.instance]) {
                     self.read(var);
                     self.write(var);
@@ -149,7 +158,7 @@ impl<'a> Finder<'a> {
 
     fn int(&mut self, expr: &Int) {
         match expr {
-            Int::Constant(_) | Int::Variable(_) | Int::Chance => {}
+            Int::Constant(_) | Int::Variable(_) => {}
             Int::Load(var, _) => self.read(*var),
             Int::Element(elements, index) => self.element(&elements.vars, index),
             Int::Table(_, a) | Int::Not(a) | Int::Negate(a) | Int::Absolute(a) | Int::OneOf(_, a) => {
@@ -163,6 +172,16 @@ impl<'a> Finder<'a> {
             Int::AtStop(machine) => {
                 let machine = &self.model.machines[*machine];
                 commanded(machine).into_iter().for_each(|var| self.read(var));
+                machine.route.iter().filter_map(|route| route.shown).for_each(|shown| self.write(shown));
+            }
+            Int::After(after) => {
+                let Instance { times_come, elapsed, .. } = &self.model.instances[after.instance];
+                times_come.iter().for_each(|times| self.read(*times));
+                elapsed.iter().for_each(|elapsed| {
+                    self.read(*elapsed);
+                    self.write(*elapsed);
+                });
+                self.int(&after.time);
             }
             Int::Shared(a) => self.int(a),
             Int::Binary(_, pair) | Int::Min(pair) | Int::Max(pair) => pair.iter().for_each(|a| self.int(a)),
@@ -227,8 +246,8 @@ fn commanded(machine: &Machine) -> Vec<Var> {
     }
     if let Some(route) = &machine.route {
         vars.extend([route.at, route.goal]);
+        vars.extend(route.shown);
     }
     vars.extend(machine.lane.as_ref().map(|lane| lane.motion));
     vars
 }
-        vars.extend(route.shown);

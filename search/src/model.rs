@@ -38,6 +38,7 @@ pub struct Model {
     pub grasps: Vec<f64>,
     /// Of each fault of the text whether its condition reads an input of a device.
     pub sensed: Vec<bool>,
+    pub scan_ms: u32,
     pub faults: Faults,
     pub watch: Watch,
     pub reductions: Reductions,
@@ -100,7 +101,6 @@ impl Model {
         Cells { owners, columns }
     }
 
-    /// Whether all orders are made.
     /// What devices show by themselves is open in the next scan, whatever it was.
     pub(crate) fn open_inputs(&self, state: &mut [u8]) {
         self.inputs.iter().for_each(|input| input.var.store(state, 0));
@@ -114,6 +114,7 @@ impl Model {
         }
     }
 
+    /// Whether all orders are made.
     pub fn is_made(&self, state: &[u8]) -> bool {
         self.orders.iter().all(|order| order.made.load(state) != 0)
     }

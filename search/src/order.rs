@@ -265,6 +265,7 @@ impl Expander<'_> {
             own: &mut self.own,
             observed: 0,
             stepping: 0,
+            not_passed: i32::MAX,
             noted: &mut self.noted,
             remarked: &mut self.remarked,
             story: self.tell.then_some(told),

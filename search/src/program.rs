@@ -21,8 +21,8 @@ pub enum Int {
     InputElement(Arc<[usize]>, Box<Int>),
     /// Number of the stop at which a vehicle stands, -1 between stops.
     AtStop(usize),
-    /// Holds or does not, anew each time.
-    Chance,
+    /// Whether a time of `after` that the layout does not fix has passed in the state of an instance.
+    After(Box<After>),
     Shared(Arc<Int>),
     Not(Box<Int>),
     Negate(Box<Int>),
@@ -76,6 +76,13 @@ pub enum PointValue {
 pub struct Elements {
     pub vars: Vec<Var>,
     pub low: i32,
+}
+
+#[derive(Clone, Debug)]
+pub struct After {
+    pub instance: usize,
+    /// ms.
+    pub time: Int,
 }
 
 #[derive(Clone, Debug)]
@@ -153,10 +160,16 @@ pub enum Update {
 pub struct Command {
     /// Index into [`crate::plant::Head::commands`].
     pub command: usize,
-    /// Outputs that it writes, if the state holds them.
-    pub outputs: Vec<Update>,
-    /// Its places, in the order of its arguments.
-    pub points: Vec<PointValue>,
+    /// In the order in which they are stored; each is evaluated once.
+    pub arguments: Vec<Argument>,
+}
+
+#[derive(Clone, Debug)]
+pub enum Argument {
+    /// An output that the state holds, or that may fault.
+    Output(Update),
+    /// Where the machine goes; stored like [`Update::Point`].
+    Place(Target, PointValue, Option<usize>),
 }
 
 #[derive(Clone, Debug)]
@@ -201,7 +214,8 @@ pub struct State {
     pub transitions: Vec<Transition>,
     /// What its guards read.
     pub reads: Cells,
-    /// Times of `after` in ascending order, ms; those that have come at the first test are left out.
+    /// Times of `after` in ascending order, in scans; those that have come at the first test are left out, and those that
+    /// come in the same scan are one.
     pub times: Vec<i32>,
     /// What is of no use here, and what it holds then.
     pub dead: Vec<(Var, i32)>,
@@ -236,6 +250,8 @@ pub struct Instance {
     pub stopped: Option<Var>,
     /// How many times of its state have come; none if none of its states waits for a time.
     pub times_come: Option<Var>,
+    /// So many scans of its state have begun at least, as far as an [`After`] has told; none if it has none.
+    pub elapsed: Option<Var>,
     pub states: Vec<State>,
     pub properties: Vec<Property>,
     /// As [`Property::reads_of_all`] of these.

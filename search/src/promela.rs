@@ -5,7 +5,7 @@ use crate::event;
 use crate::model::Model;
 use crate::plant::{Action, Faults, Machine, motion, sight, status};
 use crate::program::{
-    Clause, Command, Domain, Int, Operator, PointValue, Target, Transition, Unread, Update,
+    Argument, Clause, Command, Domain, Int, Operator, PointValue, Target, Transition, Unread, Update,
 };
 use crate::value::{Values, Var};
 use std::collections::HashMap;
@@ -282,7 +282,11 @@ impl Printer<'_> {
     fn command(&mut self, machine: usize, command: &Command) -> Result<(), String> {
         let plant = &self.model.machines[machine];
         let Some(head) = &plant.head else { return Ok(()) };
-        if !command.outputs.is_empty() {
+        let is_stored = |argument: &Argument| match argument {
+            Argument::Output(_) => true,
+            Argument::Place(target, _, fault) => !target.vars.is_empty() || fault.is_some(),
+        };
+        if command.arguments.iter().any(is_stored) {
             return Err("outputs that are read".into());
         }
         let (answer, number) = (self.name(head.status), self.name(head.command));
@@ -292,7 +296,7 @@ impl Printer<'_> {
             self.line(format!(
                 "if :: ({answer} == {under_way} && {at} != {goal}) -> if :: true :: {at} = {goal} fi :: else fi;"
             ));
-            let [PointValue::Constant(point)] = command.points[..] else {
+            let [Argument::Place(_, PointValue::Constant(point), _)] = command.arguments[..] else {
                 return Err("goals that the layout does not fix".into());
             };
             let stop = self.values.number_of_point(event::stop(&route.stops, route.tolerance, point));

@@ -5,9 +5,11 @@ use crate::decision::{Decisions, Question};
 use crate::model::{Model, Reductions};
 use crate::plant::status;
 use crate::postponed::{Postponed, Postponing};
-use crate::program::{Bounds, Cells, Clause, Command, Domain, Int, Key, Target, Transition, Update, bit};
+use crate::program::{
+    Argument, Bounds, Cells, Clause, Command, Domain, Int, Key, Target, Transition, Update, bit,
+};
 use crate::unread::Needed;
-use crate::value::{Values, Var};
+use crate::value::{Point, Values, Var};
 use crate::violation::Violation;
 
 /// A scan under way on the bytes of a state.
@@ -45,6 +47,8 @@ pub struct Scan<'a> {
     pub(crate) observed: u64,
     /// The instance that makes its step, as a bit.
     pub(crate) stepping: u64,
+    /// This time has not passed in its state in this scan, in scans.
+    pub(crate) not_passed: i32,
     /// Violations after which the line continues.
     pub(crate) noted: &'a mut Vec<Violation>,
     /// What is hardly meant.
@@ -110,11 +114,11 @@ impl Scan<'_> {
         self.step_if_due(instance, u64::MAX)?;
         self.properties(bit(instance))?;
         self.forget_answer(instance, &self.model.machines[instance]);
+        self.model.open_stops(self.bytes);
         self.forget();
         self.forget_starts();
         Ok(())
     }
-        self.model.open_stops(self.bytes);
 
     pub(crate) fn step_if_due(&mut self, instance: usize, touched: u64) -> Result<(), Violation> {
         let program = &self.model.instances[instance];
@@ -192,7 +196,7 @@ impl Scan<'_> {
             if target != state {
                 self.written.owners |= bit(instance);
             }
-            if let Some(times) = program.times_come {
+            for times in program.times_come.into_iter().chain(program.elapsed) {
                 times.store(self.bytes, 0);
             }
             program.states[target].dead.iter().for_each(|(var, value)| var.store(self.bytes, *value));
@@ -268,21 +272,11 @@ impl Scan<'_> {
             }
             Update::Real(target, value, fault) => {
                 let value = self.real(value);
-                if !value.is_finite() {
-                    return fault.map_or(Ok(()), |fault| Err(Fault(fault)));
-                }
-                let number = self.values.number_of_real(value);
-                self.store(target, number);
-                Ok(())
+                self.store_real(target, value, *fault)
             }
             Update::Point(target, value, fault) => {
                 let value = self.point(value);
-                if value.iter().any(|c| !c.is_finite()) {
-                    return fault.map_or(Ok(()), |fault| Err(Fault(fault)));
-                }
-                let number = self.values.number_of_point(value);
-                self.store(target, number);
-                Ok(())
+                self.store_point(target, value, *fault)
             }
             Update::Copy(updates) => self.copy(updates),
             Update::Command(command) => self.command(instance, command),
@@ -309,13 +303,11 @@ impl Scan<'_> {
                 (Update::Int(target, _, bounds), Read::Int(value)) => {
                     self.store_int(target, value, bounds)?
                 }
-                (Update::Real(target, ..), Read::Real(value)) => {
-                    let number = self.values.number_of_real(value);
-                    self.store(target, number);
+                (Update::Real(target, _, fault), Read::Real(value)) => {
+                    self.store_real(target, value, *fault)?
                 }
-                (Update::Point(target, ..), Read::Point(value)) => {
-                    let number = self.values.number_of_point(value);
-                    self.store(target, number);
+                (Update::Point(target, _, fault), Read::Point(value)) => {
+                    self.store_point(target, value, *fault)?
                 }
                 _ => {}
             }
@@ -329,6 +321,26 @@ impl Scan<'_> {
             Some(fault) if value < bounds.low || value > bounds.high => Err(Fault(fault)),
             _ => Ok(()),
         }
+    }
+
+    /// A number that is not finite is not stored.
+    fn store_real(&mut self, target: &Target, value: f64, fault: Option<usize>) -> Result<(), Fault> {
+        if !value.is_finite() {
+            return fault.map_or(Ok(()), |fault| Err(Fault(fault)));
+        }
+        let number = self.values.number_of_real(value);
+        self.store(target, number);
+        Ok(())
+    }
+
+    /// The same of a place of which a coordinate is not finite.
+    fn store_point(&mut self, target: &Target, value: Point, fault: Option<usize>) -> Result<(), Fault> {
+        if value.iter().any(|c| !c.is_finite()) {
+            return fault.map_or(Ok(()), |fault| Err(Fault(fault)));
+        }
+        let number = self.values.number_of_point(value);
+        self.store(target, number);
+        Ok(())
     }
 
     fn store(&mut self, target: &Target, value: i32) {
@@ -397,23 +409,19 @@ impl Scan<'_> {
     }
 
     fn command(&mut self, instance: usize, command: &Command) -> Result<(), Fault> {
-        for output in &command.outputs {
-            self.update(instance, output)?;
-        }
-        let mut points = [[0.0; 3]; 2];
-        for (place, point) in points.iter_mut().zip(&command.points) {
-            *place = self.point(point);
-            if place.iter().any(|c| !c.is_finite()) {
-                return Ok(());
+        let mut places = Vec::new();
+        for argument in &command.arguments {
+            match argument {
+                Argument::Output(output) => self.update(instance, output)?,
+                Argument::Place(target, value, fault) => {
+                    let place = self.point(value);
+                    self.store_point(target, place, *fault)?;
+                    places.push(place);
+                }
             }
         }
         let before = self.model.machines[instance].head.as_ref().map(|head| head.status.load(self.bytes));
-        self.begin(
-            instance,
-            command.command,
-            &points[..command.points.len().min(2)],
-            before == Some(status::UNDER_WAY),
-        );
+        self.begin(instance, command.command, &places, before == Some(status::UNDER_WAY));
         Ok(())
     }
 

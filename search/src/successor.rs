@@ -338,6 +338,7 @@ impl<'a> Expander<'a> {
             own: &mut self.own,
             observed: 0,
             stepping: 0,
+            not_passed: i32::MAX,
             noted: &mut self.noted,
             remarked: &mut self.remarked,
             story: self.tell.then_some(&mut self.told),

@@ -297,7 +297,9 @@ fn states(
         awaits: owners(system, arms, instance, &of_state.guards).into_iter().collect(),
         reads: of_state.reads.clone(),
         reads_while: of_state.reads_while.clone(),
-        timers: of_state.timers.as_ref().map(|times| times.iter().map(&mut time).collect()),
+        timers: of_state.timers.as_ref().map(|times| {
+            times.iter().filter(|time| reads::is_there(system, instance, time)).map(&mut time).collect()
+        }),
     };
     states.map(state).collect()
 }

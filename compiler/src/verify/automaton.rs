@@ -6,11 +6,14 @@ use super::memory::Memory;
 use super::plant::{Plant, Signal};
 use super::{Asked, Skipped};
 use crate::executor::Executor;
-use crate::ir::{self, Automaton, Expr, InterfaceId, Place, RoleId, Scalar, System, UpdateKind, Value};
-use crate::reads::{ReadCell, Reads, Whose, is_fixed};
+use crate::ir::{
+    self, Automaton, Expr, ExprKind, FaultId, InterfaceId, Place, RoleId, Scalar, System, UpdateKind, Value,
+};
+use crate::reads::{ReadCell, Reads, Whose, is_fixed, is_there};
 use autogen_search::plant::{Action, Machine, sight};
 use autogen_search::program::{
-    Bounds, Cells, Clause, Command, Int, Key, Operator, State, Target, Transition, Unread, Update,
+    After, Argument, Bounds, Cells, Clause, Command, Int, Key, Operator, State, Target, Transition, Unread,
+    Update,
 };
 use autogen_search::value::Var;
 use runtime_sim::device::Direction;
@@ -26,6 +29,8 @@ pub struct Line<'a> {
     pub plant: &'a runtime_sim::line::Line,
     /// Of each instance: the automaton's state, and how many times have come.
     pub states: Vec<(Var, Option<Var>)>,
+    /// Of each instance how long its state lasts, as far as times tell that the layout does not fix.
+    pub elapsed: Vec<Option<Var>>,
     /// Whether each is stopped by itself, if anything can stop it.
     pub stopped: Vec<Option<Var>>,
     pub locals: Vec<Vec<Vars>>,
@@ -45,7 +50,7 @@ pub struct Instance<'a> {
     pub line: &'a Line<'a>,
     pub number: usize,
     pub automaton: &'a Automaton,
-    /// Of the state whose expressions are read, ms, ascending.
+    /// Of the state whose expressions are read, in scans, ascending.
     times: Vec<i32>,
     defines: HashMap<usize, Arc<Int>>,
     /// Variables of quantifiers that stand for one value each, and how many copies of an expression that makes.
@@ -161,20 +166,29 @@ impl<'a> Instance<'a> {
         }
     }
 
-    /// A time that the layout fixes comes in its turn; another one comes or does not.
+    /// A time that the layout fixes comes in its turn; of another one it is asked when it is read whether it has passed.
     pub fn after(&mut self, time: &Expr) -> Int {
-        let Some(ms) = self.fixed(time) else { return Int::Chance };
-        if ms <= self.line.system.scan_ms {
+        let unfixed =
+            |this: &mut Self| Int::After(Box::new(After { instance: this.number, time: this.int(time) }));
+        let Some(ms) = self.fixed(time) else { return unfixed(self) };
+        let scans = self.scans(ms);
+        if scans <= 1 {
             return Int::Constant(1);
         }
-        let (Ok(rank), Some(come)) = (self.times.binary_search(&ms), self.line.states[self.number].1) else {
-            return Int::Chance;
+        let (Ok(rank), Some(come)) = (self.times.binary_search(&scans), self.line.states[self.number].1)
+        else {
+            return unfixed(self);
         };
         Int::Binary(Operator::GreaterEqual, Box::new([Int::Load(come, 0), Int::Constant(rank as i32 + 1)]))
     }
 
+    /// In the test of which number in its state a time has passed.
+    fn scans(&self, ms: i32) -> i32 {
+        ms.unsigned_abs().div_ceil(self.line.system.scan_ms.unsigned_abs()) as i32
+    }
+
     fn fixed(&self, time: &Expr) -> Option<i32> {
-        let value = is_fixed(self.automaton, time)
+        let value = (is_fixed(self.automaton, time) && is_there(self.line.system, self.number, time))
             .then(|| Executor::new(self.line.system).value(self.number, time))?;
         match value {
             Value::Int(ms) => Some(ms),
@@ -206,6 +220,7 @@ impl<'a> Instance<'a> {
             state,
             stopped: self.line.stopped[self.number],
             times_come,
+            elapsed: self.line.elapsed[self.number],
             states,
             property_reads: autogen_search::property::Property::reads_of_all(&properties),
             properties,
@@ -239,8 +254,8 @@ impl<'a> Instance<'a> {
     ) -> State {
         let automaton = self.automaton;
         let guards = Reads::of_guards(automaton, state);
-        let mut times: Vec<i32> = guards.timers.iter().filter_map(|time| self.fixed(time)).collect();
-        times.retain(|ms| *ms > self.line.system.scan_ms);
+        let times = guards.timers.iter().filter_map(|time| self.fixed(time));
+        let mut times: Vec<i32> = times.map(|ms| self.scans(ms)).filter(|scans| *scans > 1).collect();
         times.sort_unstable();
         times.dedup();
         self.times = times.clone();
@@ -282,16 +297,12 @@ impl<'a> Instance<'a> {
     fn update(&mut self, update: &UpdateKind) -> Option<Update> {
         match update {
             UpdateKind::Assign { target, value, check } => {
-                let (vars, index) = match self.target(&target.place) {
-                    Some(target) => target,
-                    None if check.is_some() => ((Vec::new(), 0), Int::Constant(0)),
-                    None => return None,
-                };
+                let (vars, index) = self.target(&target.place, *check)?;
                 let place = Target { vars: vars.0.into(), index };
                 Some(self.store(place, target.ty.scalar, value, vars.1, check.map(|fault| fault.0)))
             }
             UpdateKind::Fill { target, value, check } => {
-                let (vars, begin) = self.target(&target.place)?;
+                let (vars, begin) = self.target(&target.place, *check)?;
                 let (low, vars): (i32, Arc<[Var]>) = (vars.1, vars.0.into());
                 let elements = self.line.system.model.elements(target.ty.extent);
                 let updates = (0..elements).map(|element| {
@@ -301,13 +312,13 @@ impl<'a> Instance<'a> {
                 Some(Update::Copy(updates.collect()))
             }
             UpdateKind::Copy { target, source, check } => {
-                let (vars, begin) = self.target(&target.place)?;
+                let (vars, begin) = self.target(&target.place, *check)?;
                 let (low, vars): (i32, Arc<[Var]>) = (vars.1, vars.0.into());
                 let elements = self.line.system.model.elements(target.ty.extent);
                 let updates = (0..elements).map(|element| {
                     let place = Target { vars: vars.clone(), index: offset(&begin, element) };
                     let value =
-                        Expr { ty: target.ty.scalar, kind: ir::ExprKind::Read(with_index(source, element)) };
+                        Expr { ty: target.ty.scalar, kind: ExprKind::Read(with_index(source, element)) };
                     self.store(place, target.ty.scalar, &value, low, check.map(|fault| fault.0))
                 });
                 Some(Update::Copy(updates.collect()))
@@ -333,9 +344,11 @@ impl<'a> Instance<'a> {
         }
     }
 
-    fn target(&mut self, place: &Place) -> Option<(Vars, Int)> {
+    /// What nobody reads is evaluated all the same where it may fault.
+    fn target(&mut self, place: &Place, check: Option<FaultId>) -> Option<(Vars, Int)> {
         match self.stored(place) {
             (Stored::Vars(vars, low), index) => Some(((vars, low), index)),
+            _ if check.is_some() => Some(((Vec::new(), 0), Int::Constant(0))),
             _ => None,
         }
     }
@@ -346,23 +359,24 @@ impl<'a> Instance<'a> {
         let command = commands.iter().position(|command| command.number == verb).unwrap_or(0);
         let places = super::plant::places_of_commands(machine)[command];
         let ports = &self.automaton.device.ports;
-        let mut points = Vec::new();
-        let mut outputs = Vec::new();
-        for argument in arguments {
+        let mut left = places;
+        let arguments = arguments.iter().filter_map(|argument| {
             let ty = Scalar::from(ports[argument.port].ty);
-            if ty == Scalar::Point && points.len() < places {
-                points.push(self.point(&argument.value));
-            }
+            let is_place = ty == Scalar::Point && left > 0;
+            left -= usize::from(is_place);
             let (vars, low) = match self.port(argument.port) {
                 Stored::Vars(vars, low) => (vars, low),
-                _ if argument.check.is_some() => (Vec::new(), 0),
-                _ => continue,
+                _ if is_place || argument.check.is_some() => (Vec::new(), 0),
+                _ => return None,
             };
             let target = Target { vars: vars.into(), index: Int::Constant(0) };
             let fault = argument.check.map(|fault| fault.0);
-            outputs.push(self.store(target, ty, &argument.value, low, fault));
-        }
-        Update::Command(Command { command, outputs, points })
+            Some(match is_place {
+                true => Argument::Place(target, self.point(&argument.value), fault),
+                false => Argument::Output(self.store(target, ty, &argument.value, low, fault)),
+            })
+        });
+        Update::Command(Command { command, arguments: arguments.collect() })
     }
 }
 
@@ -378,7 +392,7 @@ fn with_index(place: &Place, element: usize) -> Place {
     let mut place = place.clone();
     let number = Expr {
         ty: Scalar::Int { lo: element as i32, hi: element as i32 },
-        kind: ir::ExprKind::Constant(Value::Int(element as i32)),
+        kind: ExprKind::Constant(Value::Int(element as i32)),
     };
     match &mut place {
         Place::Local { index, .. }

@@ -12,6 +12,7 @@ use crate::ir::{
     Asking, Automaton, Expr, ExprKind, InterfaceId, KeptBy, Place, Scalar, System, Type, UpdateKind, Value,
 };
 use crate::lower::Project;
+use crate::reads::{Reads, is_fixed};
 use autogen_search::model::{Model, NO_CELL, Reach, Reductions};
 use autogen_search::plant::{Order, Watch};
 use autogen_search::unread::Unread;
@@ -46,6 +47,7 @@ pub fn model(project: &Project, asked: &Asked) -> Result<Searched, Vec<Diagnosti
         system,
         plant: line,
         states: Vec::new(),
+        elapsed: Vec::new(),
         stopped: Vec::new(),
         locals: Vec::new(),
         cells: Vec::new(),
@@ -75,11 +77,14 @@ pub fn model(project: &Project, asked: &Asked) -> Result<Searched, Vec<Diagnosti
         let automaton = system.automaton_of(number);
         let name = &instance.name;
         let state = memory.number(number, format!("{name}.(state)"), automaton.states.len(), 0);
-        let waits = automaton
-            .states
-            .iter()
-            .any(|state| !crate::reads::Reads::of_guards(automaton, state).timers.is_empty());
-        let times = waits.then(|| memory.number(number, format!("{name}.(times)"), 255, 0));
+        let states = automaton.states.iter();
+        let timers: Vec<&Expr> = states.flat_map(|state| Reads::of_guards(automaton, state).timers).collect();
+        let times = (!timers.is_empty()).then(|| memory.number(number, format!("{name}.(times)"), 255, 0));
+        let elapsed = timers.iter().any(|time| !is_fixed(automaton, time)).then(|| {
+            let name = format!("{name}.(elapsed)");
+            memory.value(number, name, Scalar::Time, kept(Scalar::Time), Value::Int(0))
+        });
+        whole.elapsed.push(elapsed);
         let stopped =
             can_stop(automaton, asked).then(|| memory.number(number, format!("{name}.(stopped)"), 1, 0));
         whole.states.push((state, times));
@@ -179,6 +184,7 @@ pub fn model(project: &Project, asked: &Asked) -> Result<Searched, Vec<Diagnosti
         heights: line.kinds.iter().map(|kind| kind.height).collect(),
         grasps: line.kinds.iter().map(|kind| kind.grasp).collect(),
         sensed: sensed(system),
+        scan_ms: line.scan_ms,
         faults: asked.faults,
         watch: Watch::Everything,
         reductions: Reductions::All,
@@ -235,12 +241,6 @@ fn sideways(system: &System, number: usize) -> Diagnostic {
         .help("verify lines whose tools point down")
 }
 
-fn unbounded(system: &System, number: usize, port: &str) -> Diagnostic {
-    let automaton = system.automaton_of(number);
-    let name = &system.instances[number].name;
-    Diagnostic::new(
-        "E1001",
-        automaton.place,
 /// `several`: parts of which one alone can be searched.
 fn unsearched(system: &System, number: usize, several: &str) -> Diagnostic {
     let name = &system.instances[number].name;
@@ -249,6 +249,12 @@ fn unsearched(system: &System, number: usize, several: &str) -> Diagnostic {
         .help("verify lines whose machines have one of each, or make two machines of it")
 }
 
+fn unbounded(system: &System, number: usize, port: &str) -> Diagnostic {
+    let automaton = system.automaton_of(number);
+    let name = &system.instances[number].name;
+    Diagnostic::new(
+        "E1001",
+        automaton.place,
         format!("`{name}` cannot be searched: no contract says which values its input `{port}` may have"),
     )
     .help("verify lines whose automata read booleans, whole numbers of few values, and places that commands fix")

@@ -271,8 +271,6 @@ pub fn plant(
     Plant { inputs: signals.collect(), machine: found, outputs: levels }
 }
 
-/// Whether items may be somewhere that is not searched: on a conveyor without commands, or at such a place.
-pub fn hides_items(machine: &Machine) -> bool {
 fn is_commanded(machine: &Machine, part: usize) -> bool {
     machine.wiring.commands.iter().any(|command| command.part == part)
 }
@@ -294,6 +292,8 @@ pub fn several(machine: &Machine) -> Option<String> {
     found.map(|(what, names)| format!("several {what}: {}", names.join(", ")))
 }
 
+/// Whether items may be somewhere that is not searched: on a conveyor without commands, or at such a place.
+pub fn hides_items(machine: &Machine) -> bool {
     machine.parts.iter().enumerate().any(|(number, part)| match &part.primitive {
         Primitive::Lane(_) => !is_commanded(machine, number),
         Primitive::Place(place) => !is_known(machine, place),
@@ -364,6 +364,14 @@ fn levels(
     levels.collect()
 }
 
+/// The conveyor with commands over which a part is a field.
+fn field_over(machine: &Machine, part: usize) -> Option<usize> {
+    let Primitive::Zone(field) = &machine.parts[part].primitive else { return None };
+    let Primitive::Lane(lane) = &machine.parts[field.lane].primitive else { return None };
+    let is_over = is_commanded(machine, field.lane) && lane.centre_line.find(field.middle).is_some();
+    is_over.then_some(field.lane)
+}
+
 /// None for a field that is not over the lane.
 fn zone(
     line: &Line,
@@ -376,14 +384,6 @@ fn zone(
 ) -> Option<Zone> {
     let (middle, _) = lane.centre_line.find(field.middle)?;
     let corner = |along: f64, across: f64| lane.centre_line.point(middle + along, across);
-/// The conveyor with commands over which a part is a field.
-fn field_over(machine: &Machine, part: usize) -> Option<usize> {
-    let Primitive::Zone(field) = &machine.parts[part].primitive else { return None };
-    let Primitive::Lane(lane) = &machine.parts[field.lane].primitive else { return None };
-    let is_over = is_commanded(machine, field.lane) && lane.centre_line.find(field.middle).is_some();
-    is_over.then_some(field.lane)
-}
-
     let half = lane.width / 2.0;
     let corners = [
         corner(-field.half, -half),
@@ -456,6 +456,7 @@ fn signal(
     let Shown { part, signal, ty } = shown;
     let machine = &line.machines[number];
     let zone_of = || {
+        let (lane, own) = (found.lane.as_ref()?, field_over(machine, part)?);
         // The fields of the lane, in the order of the parts.
         let before = (0..part).filter(|other| field_over(machine, *other) == Some(own)).count();
         lane.zones.get(before)
@@ -468,7 +469,6 @@ fn signal(
         (("lane", "moves"), .., Some(lane)) if is_commanded(machine, part) => {
             return Signal::Moves(lane.motion);
         }
-        let (lane, own) = (found.lane.as_ref()?, field_over(machine, part)?);
         (("zone", "sees"), ..) => {
             if let Some(zone) = zone_of() {
                 return Signal::Free(zone.sees.iter().copied().flatten().collect());
