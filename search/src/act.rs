@@ -17,7 +17,7 @@ impl Scan<'_> {
         let plant = &self.model.machines[machine];
         let Some(head) = &plant.head else { return };
         let before = is_under_way.then(|| self.asked(plant));
-        self.keep_stop(machine);
+        self.keep_shown(machine);
         if is_under_way {
             self.ask_start(machine);
             self.interrupt(plant);
@@ -132,14 +132,18 @@ impl Scan<'_> {
         shown
     }
 
-    /// Properties see the stop that was shown before the command.
-    fn keep_stop(&mut self, machine: usize) {
-        let mut properties = self.model.instances[machine].properties.iter();
-        if let Some(route) = self.model.machines[machine].route.as_ref().filter(|route| route.shown.is_some())
-            && properties.any(|property| property.asks_inputs)
+    /// What is read in the scan of a command was shown before it.
+    fn keep_shown(&mut self, machine: usize) {
+        let Machine { route, lane, .. } = &self.model.machines[machine];
+        if let Some(route) = route.as_ref().filter(|route| route.shown.is_some()) {
+            let stop = self.at_stop(machine);
+            route.show(self.bytes, stop);
+        }
+        if let Some(lane) = lane
+            && let Some(shown) = lane.shown
         {
-            let shown = self.at_stop(machine);
-            route.show(self.bytes, shown);
+            let moves = lane.motion.load(self.bytes) != motion::STANDS;
+            shown.store(self.bytes, 1 + i32::from(moves));
         }
     }
 
@@ -164,7 +168,7 @@ impl Scan<'_> {
                 input.var.store(self.bytes, 0);
             }
         }
-        model.open_stops(self.bytes);
+        model.open_shown(self.bytes);
         if self.given == 0 || model.watch != Watch::Everything {
             return Ok(());
         }

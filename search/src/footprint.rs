@@ -248,6 +248,9 @@ fn commanded(machine: &Machine) -> Vec<Var> {
         vars.extend([route.at, route.goal]);
         vars.extend(route.shown);
     }
-    vars.extend(machine.lane.as_ref().map(|lane| lane.motion));
+    if let Some(lane) = &machine.lane {
+        vars.push(lane.motion);
+        vars.extend(lane.shown);
+    }
     vars
 }

@@ -104,13 +104,15 @@ impl Model {
     /// What devices show by themselves is open in the next scan, whatever it was.
     pub(crate) fn open_inputs(&self, state: &mut [u8]) {
         self.inputs.iter().for_each(|input| input.var.store(state, 0));
-        self.open_stops(state);
+        self.open_shown(state);
     }
 
-    /// Which stops vehicles show is open in the next scan.
-    pub(crate) fn open_stops(&self, state: &mut [u8]) {
-        for route in self.machines.iter().filter_map(|machine| machine.route.as_ref()) {
-            route.shown.iter().for_each(|shown| shown.store(state, 0));
+    /// What machines have shown in a scan is open in the next one.
+    pub(crate) fn open_shown(&self, state: &mut [u8]) {
+        for Machine { route, lane, .. } in &self.machines {
+            let shown = route.iter().filter_map(|route| route.shown);
+            let shown = shown.chain(lane.iter().filter_map(|lane| lane.shown));
+            shown.for_each(|shown| shown.store(state, 0));
         }
     }
 

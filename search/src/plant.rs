@@ -129,6 +129,8 @@ impl Route {
 pub struct Lane {
     /// One of [`motion`].
     pub motion: Var,
+    /// In the scan of a command one more than whether it was shown before to move, else 0; none: nobody reads it.
+    pub shown: Option<Var>,
     pub zones: Vec<Zone>,
 }
 

@@ -114,7 +114,7 @@ impl Scan<'_> {
         self.step_if_due(instance, u64::MAX)?;
         self.properties(bit(instance))?;
         self.forget_answer(instance, &self.model.machines[instance]);
-        self.model.open_stops(self.bytes);
+        self.model.open_shown(self.bytes);
         self.forget();
         self.forget_starts();
         Ok(())

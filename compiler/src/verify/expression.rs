@@ -238,8 +238,15 @@ impl Instance<'_> {
             (Signal::Is(var, value), _) => {
                 Int::Binary(Op::Equal, Box::new([Int::Load(var, 0), Int::Constant(value)]))
             }
-            (Signal::Moves(var), _) => {
-                Int::Binary(Op::NotEqual, Box::new([Int::Load(var, 0), Int::Constant(0)]))
+            (Signal::Moves(motion, shown), _) => {
+                let is = |operator, var, value| {
+                    Int::Binary(operator, Box::new([Int::Load(var, 0), Int::Constant(value)]))
+                };
+                let moves = is(Op::NotEqual, motion, 0);
+                let Some(shown) = shown else { return moves };
+                // The state behind a scan with a command does not tell what was shown in it.
+                self.asks_inputs = true;
+                any(vec![is(Op::Equal, shown, 2), all(vec![is(Op::Equal, shown, 0), moves])])
             }
             (Signal::AtStop, _) => {
                 self.asks_inputs = true;

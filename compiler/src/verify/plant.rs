@@ -34,8 +34,8 @@ pub enum Signal {
     Held(Var),
     /// Whether this is at its place in the state.
     Is(Var, i32),
-    /// Unlike 0.
-    Moves(Var),
+    /// Whether the first is not 0; in the scan of a command the second is one more than what was so before, else 0.
+    Moves(Var, Option<Var>),
     /// The number of the stop at which it stands.
     AtStop,
     /// Where items of each kind are found.
@@ -179,7 +179,7 @@ pub fn plant(
                     goal: memory.point(number, name("(goal)"), first),
                     stops: route.stops.iter().map(|stop| coordinates(*stop)).collect(),
                     tolerance: route.tolerance,
-                    shown: shows_stop(machine, ports, reads)
+                    shown: shows(machine, ports, reads, ("route", "at_stop"))
                         .then(|| memory.number(number, name("(shown stop)"), route.stops.len() + 1, 0)),
                 });
             }
@@ -201,8 +201,12 @@ pub fn plant(
                         _ => None,
                     });
                 let zones = zones.flatten().collect();
-                found.lane =
-                    Some(Lane { motion: memory.number(number, name("(motion)"), 3, motion::STANDS), zones });
+                let is_read = shows(machine, ports, reads, ("lane", "moves"));
+                found.lane = Some(Lane {
+                    motion: memory.number(number, name("(motion)"), 3, motion::STANDS),
+                    shown: is_read.then(|| memory.number(number, name("(shown motion)"), 2, 0)),
+                    zones,
+                });
             }
             Primitive::Place(place) if is_known(machine, place) => {
                 let count = if place.by_kind { line.kinds.len() } else { place.slots.len() };
@@ -331,13 +335,13 @@ fn watched(machine: &Machine, ports: &[Port], reads: &[bool]) -> Vec<bool> {
     watched
 }
 
-/// Whether its automaton reads at which stop a vehicle is.
-fn shows_stop(machine: &Machine, ports: &[Port], reads: &[bool]) -> bool {
+/// Whether its automaton reads this signal of one of its parts.
+fn shows(machine: &Machine, ports: &[Port], reads: &[bool], wanted: (&str, &str)) -> bool {
     let inputs = ports.iter().zip(reads).filter(|(port, _)| port.direction == Direction::Input);
     let mut inputs = inputs.zip(&machine.wiring.inputs);
     inputs.any(|((_, is_read), input)| {
-        let shows = |part, signal| signal_name(machine, part, signal) == ("route", "at_stop");
-        *is_read && matches!(input.source, Source::Signal { part, signal } if shows(part, signal))
+        let is_wanted = |part, signal| signal_name(machine, part, signal) == wanted;
+        *is_read && matches!(input.source, Source::Signal { part, signal } if is_wanted(part, signal))
     })
 }
 
@@ -467,7 +471,7 @@ fn signal(
         (("route", "position"), _, Some(route), _) => return Signal::At(route.at),
         (("route", "at_stop"), _, Some(_), _) => return Signal::AtStop,
         (("lane", "moves"), .., Some(lane)) if is_commanded(machine, part) => {
-            return Signal::Moves(lane.motion);
+            return Signal::Moves(lane.motion, lane.shown);
         }
         (("zone", "sees"), ..) => {
             if let Some(zone) = zone_of() {
