@@ -196,6 +196,7 @@ impl PartialEq for Motion {
 
 #[cfg(test)]
 mod tests {
+    use super::pieces::Piece;
     use super::*;
     use crate::kinematics::random::Random;
 
@@ -452,6 +453,33 @@ mod tests {
             }
             let (velocity, acceleration, _) = worst_of(motion, &limits(), end + 0.1, |_, _| {});
             assert!(velocity <= 1.0 + 1e-9 && acceleration <= 1.0 + 1e-6, "{velocity} {acceleration}");
+        }
+    }
+
+    fn check_pieces(motion: &Motion) {
+        for Piece { begin_s, end_s, joints } in motion.pieces() {
+            let passed = (end_s - begin_s) / 2.0;
+            let place = motion.at(begin_s + passed);
+            for (powers, joint) in joints.iter().zip(place.iter()) {
+                let sum = powers.iter().rev().fold(0.0, |sum, factor| sum * passed + factor);
+                assert!((sum - joint).abs() < 1e-9, "{sum}, not {joint}");
+            }
+        }
+    }
+
+    /// Near the end rounding brings the place past it.
+    #[test]
+    fn pieces_are_those_of_the_motion_whenever_it_is_held() {
+        let mut random = Random::new(23);
+        for number in 0..20_000 {
+            let mut motion = [long(), corner()][number % 2].clone();
+            for before in [0.3, 1e-6, 1e-6] {
+                let held = (motion.rests_at() - random.between(0.0, before)).max(motion.since);
+                motion.hold(held);
+                check_pieces(&motion);
+                motion.resume(held + random.between(0.0, before));
+                check_pieces(&motion);
+            }
         }
     }
 

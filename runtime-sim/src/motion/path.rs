@@ -202,7 +202,9 @@ impl Path {
         zones
     }
 
+    /// Of a place beyond an end that of the end.
     fn position(&self, place: f64) -> Position {
+        let place = place.clamp(0.0, 1.0);
         let after = self.places.partition_point(|knot| *knot <= place).clamp(1, self.rates.len());
         let line = after - 1;
         if place > self.places[after] - self.halves[after] {
