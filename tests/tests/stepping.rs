@@ -42,6 +42,7 @@ fn cases() -> Vec<Case> {
         line.io_delay = IoDelay::Random { max: 3, seed: 2 };
     }));
     cases.push(case("rack", own_line("rack"), |_| {}));
+    cases.push(case("a tank whose times are rounded", tank(), |_| {}));
     cases.push(case("order 5", Texts { order: Some(5), ..ariac("spaced") }.set("agv.capacity=3"), |_| {}));
     cases.push(case("losses of power", ariac("default"), |line| {
         let off = |at_scan| Pause { at_scan, scans: 1 + at_scan % 300 };
@@ -92,6 +93,30 @@ fn cases() -> Vec<Case> {
         }
     }
     cases
+}
+
+/// A tank that is full after 8.1 s. By the numbers of the simulator its level is 2e-16 m below the rim then.
+fn tank() -> Texts {
+    let device = "device tanker {
+            part vessel = tank { area: 2.1; height: 1.47; inflow: 0.21; outflow: 0.5; begins: 0.66; };
+            in is_empty: bool = vessel.is_empty;
+            in is_full: bool = vessel.is_full;
+            out fill: bool = vessel.fill;
+            out drain: bool = vessel.drain;
+        }
+        automaton Tanker on tanker {
+            initial -> Filling { fill := true; }
+            state Filling { when is_full -> Full {} }
+            state Full { when after 1 s -> Draining { fill := false; drain := true; } }
+            state Draining { when is_empty -> Empty { drain := false; } }
+            final state Empty;
+        }";
+    Texts {
+        layout: r#"{"robots": [{"name": "tanker", "type": "tanker", "pose": [0, 0, 0]}]}"#.into(),
+        specs: vec![device.into()],
+        scenario: Some(r#"{"time_limit_s": 60}"#.into()),
+        ..Texts::default()
+    }
 }
 
 /// Of a run of the short form.

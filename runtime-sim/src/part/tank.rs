@@ -63,6 +63,9 @@ impl Described for Tank {
 const FILL: usize = 0;
 const DRAIN: usize = 1;
 
+/// Times no farther apart are one, ms.
+const AT_ONCE: f64 = 1e-6;
+
 /// A tank at work.
 #[derive(Clone, Debug)]
 pub struct Filling {
@@ -94,13 +97,28 @@ impl Filling {
     }
 
     fn level_at(&self, ms: u64) -> f64 {
+        if self.ends_after(ms) == f64::INFINITY {
+            return self.end();
+        }
         (self.level + self.rate * (ms - self.since_ms) as f64 / 1000.0).clamp(0.0, self.tank.height)
     }
 
-    /// When it is full or empty if nothing changes, ms.
-    fn ends_ms(&self) -> f64 {
-        let left = if self.rate > 0.0 { self.tank.height - self.level } else { self.level };
-        if self.rate == 0.0 { f64::INFINITY } else { self.since_ms as f64 + 1000.0 * left / self.rate.abs() }
+    /// The level to which it goes, and stays there.
+    fn end(&self) -> f64 {
+        if self.rate > 0.0 {
+            self.tank.height
+        } else if self.rate < 0.0 {
+            0.0
+        } else {
+            self.level
+        }
+    }
+
+    /// When it is there if nothing changes, ms; infinity if it is at this time.
+    fn ends_after(&self, ms: u64) -> f64 {
+        let left = (self.end() - self.level).abs();
+        let ends_ms = self.since_ms as f64 + 1000.0 * left / self.rate.abs();
+        if ends_ms > ms as f64 + AT_ONCE { ends_ms } else { f64::INFINITY }
     }
 }
 
@@ -132,12 +150,11 @@ impl Running for Filling {
         if self.asked_rate() != self.rate {
             return now_ms as f64;
         }
-        let ends_ms = self.ends_ms();
-        if ends_ms >= now_ms as f64 { ends_ms } else { f64::INFINITY }
+        self.ends_after(now_ms)
     }
 
     fn flows(&self) -> bool {
-        self.asked_rate() != self.rate || self.ends_ms().is_finite() && self.ends_ms() > self.now_ms as f64
+        self.asked_rate() != self.rate || self.ends_after(self.now_ms).is_finite()
     }
 
     fn is_busy(&self, _see: &See) -> bool {
@@ -157,8 +174,42 @@ impl Running for Filling {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::kinematics::random::Random;
 
     const DRAIN_BY: usize = 3;
+
+    /// Its next change is never after the scan in which a signal changes, and there is one while it is neither full nor empty.
+    #[test]
+    fn it_says_when_it_is_full_or_empty() {
+        let mut random = Random::new(1);
+        let mut tenths = |most: f64| (1.0 + (most - 1.0) * random.between(0.0, 1.0)).round() / 100.0;
+        for number in 0..2000 {
+            let (height, begins) = (tenths(200.0), tenths(200.0));
+            let tank = Tank {
+                area: tenths(300.0),
+                height: height.max(begins),
+                inflow: tenths(100.0),
+                outflow: tenths(100.0),
+                begins: height.min(begins),
+            };
+            let mut filling = Filling::new(&tank);
+            filling.level([FILL, DRAIN][number % 2], &[1.0]);
+            (filling.rate, filling.since_ms, filling.now_ms) = (filling.asked_rate(), 20, 20);
+            let has_ended = |level: f64| [tank.height, 0.0][number % 2] == level;
+            let mut next_ms = filling.ends_after(20);
+            while !has_ended(filling.level_at(filling.now_ms)) {
+                assert!(filling.flows() && next_ms.is_finite(), "{tank:?} at {} ms", filling.now_ms);
+                filling.now_ms += 10;
+                if next_ms - AT_ONCE <= filling.now_ms as f64 {
+                    next_ms = filling.ends_after(filling.now_ms);
+                } else {
+                    assert!(!has_ended(filling.level_at(filling.now_ms)), "{tank:?}: {next_ms} ms");
+                }
+            }
+            assert_eq!(next_ms, f64::INFINITY, "{tank:?} at {} ms", filling.now_ms);
+            assert!(!filling.flows(), "{tank:?} at {} ms", filling.now_ms);
+        }
+    }
 
     #[test]
     fn it_fills_and_drains_at_its_rates() {
