@@ -4,6 +4,7 @@
 use autogen::executor::Executor;
 use autogen_tests::{Texts, is_full_campaign, on_all_processors, scenes};
 use runtime_sim::memory::Memory;
+use runtime_sim::point::Point;
 use runtime_sim::random::Random;
 use runtime_sim::report::Report;
 use runtime_sim::run::{Seen, Stepping, record, run_again};
@@ -155,7 +156,13 @@ fn scenes_that_are_built_wrong_are_stepped_right() {
     let rounds: u64 = if is_full_campaign() { 400 } else { 6 };
     let scenes = scenes();
     let is_long = |name: &str| matches!(name, "level_control" | "crossing_lights");
-    let cases: Vec<_> = scenes.iter().filter(|(name, _)| !is_long(name)).collect();
+    let mut cases: Vec<_> = scenes.into_iter().filter(|(name, _)| !is_long(name)).collect();
+    cases.extend([
+        ("diverter".into(), with_branch("diverter { of: bed; at: 1.05;", "1 s")),
+        ("pusher".into(), with_branch("pusher { of: bed; at: 0.95; width: 0.6;", "10 s")),
+        ("joint".into(), with_joint("1.51")),
+        ("source at a joint".into(), with_source_at_joint(4400)),
+    ]);
     let wrong = on_all_processors(&cases, |(name, texts)| {
         let round = |round: u64| {
             let mut random = Random::new(round);
@@ -247,5 +254,185 @@ fn recorded_paths_are_where_the_items_are() {
             }
         }
         assert!(compared > 1000 || recorded.paths.is_empty(), "{name}: {compared} places");
+    }
+}
+
+/// A line of these automata and devices.
+fn line(device: &str, robots: &str, scenario: &str) -> Texts {
+    Texts {
+        layout: format!(r#"{{"robots": [{robots}]}}"#),
+        specs: vec![device.into()],
+        scenario: Some(scenario.into()),
+        ..Texts::default()
+    }
+}
+
+/// Why the run ends, which is the same however it is stepped, and where the items on the line are at each scan.
+fn places(texts: &Texts) -> (String, Vec<Vec<Option<Point>>>) {
+    let project = texts.project();
+    let report = run(texts).expect("a line").expect("the same however it is stepped");
+    let mut places = Vec::new();
+    let mut observe = |scan: &Seen| {
+        let items = 0..scan.plant.items().all().len();
+        places.push(items.map(|item| scan.plant.place(item)).collect());
+    };
+    let (mut executor, mut memory) = (Executor::new(&project.system), Memory::default());
+    run_again(&project.plant, &mut executor, Stepping::EveryScan, &mut memory, &mut observe).expect("a run");
+    (report.reason, places)
+}
+
+/// Two boxes 0.2 m long, 0.3 m apart, that a diverter or a pusher brings onto a slower conveyor.
+fn with_branch(branch: &str, push: &str) -> Texts {
+    let device = format!(
+        "device rig {{
+            part bed = lane {{ from: origin * frame(0, 0, 0.7, 0); length: 2.0; width: 0.4; speed: 0.2; }};
+            part feed = source {{ on: bed; inset: 0.2; }};
+            part pin = cylinder {{ extend: 100 ms; retract: 100 ms; begins_out: true; }};
+            part gate = stopper {{ of: bed; at: 1.2; by: pin; }};
+            part arm = cylinder {{ extend: 300 ms; retract: 300 ms; }};
+            part side = lane {{
+                from: origin * frame(0.95, -0.2, 0.7, -90); length: 3.0; width: 0.4; speed: 0.1;
+            }};
+            part plate = {branch} by: arm; onto: side; }};
+            part bin = sink {{ of: side; inset: 0; }};
+            part end = sink {{ of: bed; inset: 0; }};
+            out run: bool = bed.run;
+            out run_side: bool = side.run;
+            out shut: bool = pin.extend;
+            out push: bool = arm.extend;
+        }}
+        automaton Rig on rig {{
+            initial -> Waiting {{ run := true; run_side := true; shut := true; }}
+            state Waiting {{ when after {push} -> Pushing {{ push := true; }} }}
+            state Pushing {{ when false -> Pushing {{}} }}
+        }}"
+    );
+    let scenario = r#"{
+        "kinds": [{"name": "box", "height": 0.1, "size": [0.2, 0.2]}],
+        "supply": {"items": ["box", "box"], "every_s": 1.5},
+        "goal": {"rig.bin": {"box": 2}}
+    }"#;
+    line(&device, r#"{"name": "rig", "type": "rig", "pose": [0, 0, 0]}"#, scenario)
+}
+
+/// The second box waits until the first one has cleared the beginning of the other conveyor, and goes then: they touch.
+#[test]
+fn what_waits_for_room_on_another_conveyor_goes_as_soon_as_there_is_room() {
+    for (branch, push) in
+        [("diverter { of: bed; at: 1.05;", "1 s"), ("pusher { of: bed; at: 0.95; width: 0.6;", "10 s")]
+    {
+        let (reason, places) = places(&with_branch(branch, push));
+        assert_eq!(reason, "all items collected", "{branch}");
+        let along = |place: Option<Point>| place.map(|place| -0.2 - place.y).filter(|along| *along > 0.02);
+        let pairs = places.iter().filter_map(|places| along(places[0]).zip(along(places[1])));
+        let gaps: Vec<f64> = pairs.map(|(first, second)| (first - second).abs()).collect();
+        assert!(gaps.len() > 1000, "{branch}: {} scans", gaps.len());
+        let off = gaps.iter().map(|gap| (gap - 0.2).abs()).fold(0.0, f64::max);
+        assert!(off < 1e-6, "{branch}: {off} m between them");
+    }
+}
+
+/// Boxes 0.3 m long on conveyors along x that meet at 0: what reaches over the joint is no farther than up to the next one.
+fn none_is_in_another(places: &[Vec<Option<Point>>]) {
+    for (scan, places) in places.iter().enumerate() {
+        let mut along: Vec<f64> =
+            places.iter().flatten().filter(|place| place.y.abs() < 1e-9).map(|place| place.x).collect();
+        along.sort_by(f64::total_cmp);
+        for pair in along.windows(2).filter(|pair| pair[0] + 0.15 > 1e-6) {
+            assert!(pair[1] - pair[0] > 0.3 - 1e-6, "scan {scan}: {along:?}");
+        }
+    }
+}
+
+/// A feeder with a conveyor 1 m long.
+const FEEDER: &str = "device feeder {
+        part belt = lane { from: origin * frame(0, 0, 0.7, 0); length: 1.0; width: 0.4; speed: 0.2; };
+        part feed = source { on: belt; inset: 0.2; };
+        out run: bool = belt.run;
+    }
+    automaton Feeder on feeder { initial -> Running { run := true; } state Running { when false -> Running {} } }";
+
+/// A conveyor leads over a joint onto another one, and a diverter brings boxes there from the side.
+fn with_joint(every: &str) -> Texts {
+    let rig = "device rig {
+            part a = lane { from: origin * frame(-1, 0, 0.7, 0); length: 1.0; width: 0.4; speed: 0.2; };
+            part feed = source { on: a; inset: 0.2; };
+            part c = lane { from: origin * frame(0, 0, 0.7, 0); length: 1.0; width: 0.4; speed: 0.2; };
+            part bin = sink { of: c; inset: 0; };
+            part m = lane { from: origin * frame(0, -1, 0.7, 90); length: 1.5; width: 0.4; speed: 0.2; };
+            part arm = cylinder { extend: 300 ms; retract: 300 ms; begins_out: true; };
+            part gate = diverter { of: m; at: 0.9; by: arm; onto: c; };
+            out run: bool = a.run;
+            out push: bool = arm.extend;
+        }
+        automaton Rig on rig {
+            initial -> Running { run := true; push := true; }
+            state Running { when false -> Running {} }
+        }";
+    let robots = r#"{"name": "rig", "type": "rig", "pose": [0, 0, 0]},
+        {"name": "feeder", "type": "feeder", "pose": [0, -2, 0, 90]}"#;
+    let boxes = r#"["box", "box", "box", "box", "box"]"#;
+    let scenario = format!(
+        r#"{{"kinds": [{{"name": "box", "height": 0.1, "size": [0.3, 0.2]}}],
+        "supply": {{"items": {{"rig": {boxes}, "feeder": {boxes}}}, "every_s": {every}}},
+        "goal": {{"rig.bin": {{"box": 10}}}}}}"#
+    );
+    line(&format!("{FEEDER} {rig}"), robots, &scenario)
+}
+
+#[test]
+fn what_a_diverter_brings_goes_between_what_comes_over_the_joint() {
+    for every in ["2.5", "1.7", "1.6", "1.51", "0.3"] {
+        let (reason, places) = places(&with_joint(every));
+        assert_eq!(reason, "all items collected", "every {every} s");
+        none_is_in_another(&places);
+    }
+}
+
+/// A conveyor with a source near its beginning, onto which another one leads. The first box of that comes to the joint after
+/// 4.27 s. A box from the source, which reaches 0.05 m behind the beginning, goes before it or after it.
+fn with_source_at_joint(release: u32) -> Texts {
+    let rig = format!(
+        "device rig {{
+                part a = lane {{ from: origin * frame(0, 0, 0.7, 0); length: 1.0; width: 0.4; speed: 0.2; }};
+                part feed = source {{ on: a; inset: 0.1; }};
+                part bin = sink {{ of: a; inset: 0; }};
+                out run: bool = a.run;
+                out release: bool = feed.release;
+            }}
+            automaton Rig on rig {{
+                initial -> Waiting {{ run := true; }}
+                state Waiting {{ when after {release} ms -> Released {{ release := true; }} }}
+                state Released {{ when false -> Released {{}} }}
+            }}"
+    );
+    let robots = r#"{"name": "rig", "type": "rig", "pose": [0, 0, 0]},
+        {"name": "feeder", "type": "feeder", "pose": [-1, 0, 0]}"#;
+    let scenario = r#"{"kinds": [{"name": "box", "height": 0.1, "size": [0.3, 0.3]}],
+        "supply": {"items": {"rig": ["box"], "feeder": ["box", "box"]}, "first_s": 1, "every_s": 1.6},
+        "goal": {"rig.bin": {"box": 3}}}"#;
+    line(&format!("{FEEDER} {rig}"), robots, scenario)
+}
+
+#[test]
+fn a_source_near_a_joint_puts_items_on_between_those_that_come() {
+    for release in (3800..7000).step_by(100) {
+        let (reason, places) = places(&with_source_at_joint(release));
+        assert_eq!(reason, "all items collected", "released after {release} ms");
+        none_is_in_another(&places);
+    }
+}
+
+/// It comes to the joint while the box from the source still reaches behind it, and goes on when that is over: they touch.
+#[test]
+fn what_waits_at_a_joint_for_a_source_goes_as_soon_as_there_is_room() {
+    for release in [4050, 4100, 4150, 4200] {
+        let (_, places) = places(&with_source_at_joint(release));
+        let gap = places.iter().find_map(|scan| match scan[..] {
+            [Some(a), Some(b), _] if b.x > 0.0 => Some(a.x - b.x),
+            _ => None,
+        });
+        let gap = gap.expect("both on the conveyor");
+        assert!((gap - 0.3).abs() < 1e-6, "released after {release} ms: {gap} m");
     }
 }

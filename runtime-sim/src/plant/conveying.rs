@@ -6,6 +6,7 @@
 mod ahead;
 mod branch;
 mod gap;
+mod spot;
 #[cfg(test)]
 mod tests;
 mod tracks;
@@ -20,6 +21,7 @@ use crate::item::Items;
 use crate::line::Line;
 use crate::part::lane::{Moving, Rider};
 use crate::point::Point;
+use spot::Spot;
 use tracks::Track;
 
 /// Places no farther apart are one, m; twice the rounding of the times at which they are reached.
@@ -165,8 +167,8 @@ impl Conveying {
                 break;
             }
         }
-        for track in &mut self.tracks {
-            track.appear(among, ms);
+        for track in 0..self.tracks.len() {
+            tracks::appear(&mut self.tracks, track, among, ms);
         }
         let next_ms = ahead::move_on(&self.tracks, among, ms);
         // Where it lands is looked at next, at the same time.
@@ -183,7 +185,7 @@ impl Conveying {
                 let goes = track.leaves(among, rider, place, ms).or_else(|| {
                     let mut branches = track.branches.iter();
                     let onto = branches.find_map(|branch| branch.takes(rider, place, ms))?;
-                    self.has_room(among, onto, rider.half, ms).then_some(Goes::Onto(onto))
+                    self.has_room(among, onto, rider, ms).then_some(Goes::Onto(onto))
                 });
                 if let Some(goes) = goes {
                     return Some((index, rider.item, goes));
@@ -194,10 +196,8 @@ impl Conveying {
     }
 
     /// At the beginning of a lane.
-    fn has_room(&self, among: &Among, track: usize, half: f64, ms: f64) -> bool {
-        let lane = among.lane(&self.tracks[track]);
-        let begin = lane.lane().centre_line.begin();
-        lane.riders.iter().all(|rider| lane.place_at(rider.motion, ms) + rider.half <= begin - half + SAME)
+    fn has_room(&self, among: &Among, track: usize, rider: &Rider, ms: f64) -> bool {
+        Spot::at_beginning(&self.tracks, among, track, rider).free_ms(&self.tracks, among, ms) <= ms
     }
 
     fn pass(&self, among: &mut Among, ms: f64, from: usize, item: usize, goes: Goes) {

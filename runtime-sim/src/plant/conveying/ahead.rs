@@ -1,6 +1,7 @@
 //! What is in the way of items, and how fast they go behind it.
 
-use super::tracks::Track;
+use super::spot::Spot;
+use super::tracks::{self, Track};
 use super::{AT_ONCE, Among, SAME};
 use crate::part::lane::{Motion, Moving};
 
@@ -175,21 +176,24 @@ fn next_ms(tracks: &[Track], among: &Among, entries: &[Entry], ms: f64) -> f64 {
         };
         comes_to(track.sink.map_or(lane.lane().centre_line.end(), |sink| sink.place));
         track.branches.iter().filter_map(|branch| branch.awaits(rider)).for_each(&mut comes_to);
-        let shares_joint = |onto: usize| tracks[onto].inputs.len() > 1;
-        if shares_joint(entry.track) {
+        // One that waits at the joint for this one, which has not come over it.
+        if tracks[entry.track].inputs.iter().any(|input| rider.from != Some(*input)) {
             comes_to(lane.lane().centre_line.begin() - rider.half);
         }
-        if track.onto.is_some_and(shares_joint) {
+        if track.onto.is_some_and(|onto| tracks[onto].inputs.len() > 1) {
             comes_to(lane.lane().centre_line.end() + rider.half);
+        }
+        if let Some(onto) = track.branches.iter().find_map(|branch| branch.takes(rider, entry.place, ms)) {
+            next = next.min(Spot::at_beginning(tracks, among, onto, rider).free_ms(tracks, among, ms));
         }
         for limit in &entry.limits {
             next = next.min(meets(entry, *limit, entries, lane, ms));
         }
     }
-    let others = tracks.iter().map(|track| {
+    let others = tracks.iter().enumerate().map(|(index, track)| {
         let carriages = track.branches.iter().map(|branch| &branch.stops).chain(&track.carried);
         let branches = carriages.map(|stops| stops.next_ms(ms));
-        let feed = track.feed_ms(among, ms);
+        let feed = tracks::feed_ms(tracks, index, among, ms);
         branches.fold(if feed > ms + AT_ONCE { feed } else { f64::INFINITY }, f64::min)
     });
     others.fold(next, f64::min)

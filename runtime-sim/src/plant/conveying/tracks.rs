@@ -2,6 +2,7 @@
 
 use super::super::working::Working;
 use super::branch::{Branch, Kind, Stops};
+use super::spot::Spot;
 use super::{AT_ONCE, Among, Goes, SAME};
 use crate::carrier::Carrier;
 use crate::line::Line;
@@ -279,46 +280,45 @@ impl Track {
             }
         })
     }
+}
 
-    /// Items appear whose time has come, as soon as there is room.
-    pub fn appear(&mut self, among: &mut Among, ms: f64) {
-        while self.feed_ms(among, ms) <= ms + AT_ONCE {
-            let lane = among.lane(self);
-            let (centre_line, machine, part) = (lane.lane().centre_line, self.machine, self.part);
-            let Some(feed) = &mut self.feed else { return };
-            let Some(item) = feed.supply.pop() else { return };
-            let due_ms = feed.spawn.at_ms(feed.spawned) as f64;
-            let is_late = feed.asked.is_some() || lane.travel_ms_at(ms) > due_ms + AT_ONCE;
-            let travel = if is_late { lane.travel_at(ms) } else { lane.lane().distance(due_ms) };
-            feed.spawned += 1;
-            let at = feed.place + travel;
-            let point = centre_line.point(at - lane.travel_at(ms), 0.0);
-            among.items.pass(item, Carrier::Lane { machine, part, at, across: 0.0 }, point);
-            self.adopt(among, ms);
-        }
+/// Items appear on a lane whose time has come, as soon as there is room.
+pub fn appear(tracks: &mut [Track], index: usize, among: &mut Among, ms: f64) {
+    while feed_ms(tracks, index, among, ms) <= ms + AT_ONCE {
+        let track = &mut tracks[index];
+        let lane = among.lane(track);
+        let (centre_line, machine, part) = (lane.lane().centre_line, track.machine, track.part);
+        let Some(feed) = &mut track.feed else { return };
+        let Some(item) = feed.supply.pop() else { return };
+        let due_ms = feed.spawn.at_ms(feed.spawned) as f64;
+        let is_late = feed.asked.is_some() || lane.travel_ms_at(ms) > due_ms + AT_ONCE;
+        let travel = if is_late { lane.travel_at(ms) } else { lane.lane().distance(due_ms) };
+        feed.spawned += 1;
+        let at = feed.place + travel;
+        let point = centre_line.point(at - lane.travel_at(ms), 0.0);
+        among.items.pass(item, Carrier::Lane { machine, part, at, across: 0.0 }, point);
+        track.adopt(among, ms);
     }
+}
 
-    /// When the next item appears, if all continues as it does, ms; infinity: never.
-    pub fn feed_ms(&self, among: &Among, ms: f64) -> f64 {
-        let Some(feed) = &self.feed else { return f64::INFINITY };
-        let Some(next) = feed.supply.last() else { return f64::INFINITY };
-        let lane = among.lane(self);
-        let is_asked_for = feed.asked.is_some_and(|asked| asked > feed.spawned);
-        if !is_asked_for && (feed.asked.is_some() || !lane.is_moving()) {
-            return f64::INFINITY;
-        }
-        let half = self.halves[among.items.all()[*next].kind];
-        let due_ms = match feed.asked {
-            Some(_) => ms,
-            None => ms + (feed.spawn.at_ms(feed.spawned) as f64 - lane.travel_ms_at(ms)).max(0.0),
-        };
-        let is_there =
-            |rider: &&Rider| (lane.place_at(rider.motion, ms) - feed.place).abs() < half + rider.half - SAME;
-        if due_ms > ms + AT_ONCE {
-            return due_ms;
-        }
-        let there = lane.riders.iter().filter(is_there);
-        let away = there.map(|rider| lane.comes_to(rider.motion, feed.place - half - rider.half, ms));
-        away.fold(due_ms, f64::max)
+/// When the next item appears on a lane, if all continues as it does, ms; infinity: never.
+pub fn feed_ms(tracks: &[Track], index: usize, among: &Among, ms: f64) -> f64 {
+    let track = &tracks[index];
+    let Some(feed) = &track.feed else { return f64::INFINITY };
+    let Some(next) = feed.supply.last() else { return f64::INFINITY };
+    let lane = among.lane(track);
+    let is_asked_for = feed.asked.is_some_and(|asked| asked > feed.spawned);
+    if !is_asked_for && (feed.asked.is_some() || !lane.is_moving()) {
+        return f64::INFINITY;
     }
+    let due_ms = match feed.asked {
+        Some(_) => ms,
+        None => ms + (feed.spawn.at_ms(feed.spawned) as f64 - lane.travel_ms_at(ms)).max(0.0),
+    };
+    if due_ms > ms + AT_ONCE {
+        return due_ms;
+    }
+    let half = track.halves[among.items.all()[*next].kind];
+    let spot = Spot { track: index, place: feed.place, item: *next, half };
+    spot.free_ms(tracks, among, ms).max(due_ms)
 }
