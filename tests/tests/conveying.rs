@@ -160,6 +160,7 @@ fn scenes_that_are_built_wrong_are_stepped_right() {
     cases.extend([
         ("diverter".into(), with_branch("diverter { of: bed; at: 1.05;", "1 s")),
         ("pusher".into(), with_branch("pusher { of: bed; at: 0.95; width: 0.6;", "10 s")),
+        ("narrow pusher".into(), with_pusher(8500, "8.802")),
         ("joint".into(), with_joint("1.51")),
         ("source at a joint".into(), with_source_at_joint(4400)),
     ]);
@@ -434,5 +435,52 @@ fn what_waits_at_a_joint_for_a_source_goes_as_soon_as_there_is_room() {
         });
         let gap = gap.expect("both on the conveyor");
         assert!((gap - 0.3).abs() < 1e-6, "released after {release} ms: {gap} m");
+    }
+}
+
+/// A box 0.3 m long has its middle before a pusher 9.02 s after the start, and its front 1.5 s earlier.
+fn with_pusher(push: u32, every: &str) -> Texts {
+    let device = format!(
+            "device rig {{
+                part bed = lane {{ from: origin * frame(0, 0, 0.7, 0); length: 3.0; width: 0.4; speed: 0.1; }};
+                part feed = source {{ on: bed; inset: 0.2; }};
+                part arm = cylinder {{ extend: 300 ms; retract: 300 ms; }};
+                part side = lane {{
+                    from: origin * frame(1.0, -0.2, 0.7, -90); length: 1.0; width: 0.4; speed: 0.1;
+                }};
+                part plate = pusher {{ of: bed; at: 1.0; width: 0.1; by: arm; onto: side; }};
+                part bin = sink {{ of: side; inset: 0; }};
+                part end = sink {{ of: bed; inset: 0; }};
+                out run: bool = bed.run;
+                out run_side: bool = side.run;
+                out push: bool = arm.extend;
+            }}
+            automaton Rig on rig {{
+                initial -> Filling {{ run := true; run_side := true; }}
+                state Filling {{ when after {push} ms -> Pushing {{ push := true; }} }}
+                state Pushing {{ when after 10 s -> Back {{ push := false; }} }}
+                state Back {{ when false -> Back {{}} }}
+            }}"
+        );
+    let scenario = format!(
+        r#"{{"kinds": [{{"name": "box", "height": 0.1, "size": [0.3, 0.2]}}],
+        "supply": {{"items": ["box", "box"], "first_s": 1.5, "every_s": {every}}}, "time_limit_s": 18}}"#
+    );
+    line(&device, r#"{"name": "rig", "type": "rig", "pose": [0, 0, 0]}"#, &scenario)
+}
+
+/// It stays there, and goes to the other conveyor as soon as the plate is out, whatever happens elsewhere.
+#[test]
+fn what_has_its_front_before_a_pusher_stays_when_its_middle_is_there() {
+    for (push, every, goes) in
+        [(8500, "8.802", 902), (8500, "8.1", 902), (8500, "30", 902), (8950, "8.802", 927), (8950, "30", 927)]
+    {
+        let (_, places) = places(&with_pusher(push, every));
+        let scan = places.iter().position(|places| places[0].is_some_and(|place| place.y < -0.1));
+        let scan = scan.unwrap_or_else(|| panic!("pushed at {push} ms, every {every} s: never"));
+        assert!(scan.abs_diff(goes) <= 2, "pushed at {push} ms, every {every} s: in scan {scan}");
+        let far = places[..scan].iter().filter_map(|places| places[0]).map(|place| place.x);
+        let far = far.fold(0.0, f64::max);
+        assert!(far < 0.95 + 1e-6, "pushed at {push} ms, every {every} s: {far}");
     }
 }

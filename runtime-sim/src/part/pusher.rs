@@ -5,7 +5,7 @@ use super::{Described, Schema};
 
 pub const SCHEMA: Schema = Schema::new(
     "pusher",
-    "Pushes items from a lane onto the beginning of another one. While its cylinder is not at its inner end, items with their middles in front of it stay there, and others stop before it. When the cylinder is at its outer end, the items in front of it move to the other lane as soon as there is room.",
+    "Pushes items from a lane onto the beginning of another one. While its cylinder is not at its inner end, items with their middles in front of it stay there, and others stop before it. If the front edge of an item is in front of it already, the item goes on until its middle is, and stays there. When the cylinder is at its outer end, the items in front of it move to the other lane as soon as there is room.",
     &[
         Setting::new("of", Form::Part(&["lane"]), "", "the lane"),
         Setting::new("at", Form::Number, "m", "from the lane's beginning to the middle of its plate"),

@@ -83,7 +83,7 @@ impl Branch {
             Kind::Stopper => None,
             Kind::Diverter { onto } => self.meets(rider, place, ms).then_some(onto),
             Kind::Pusher { onto, half } => {
-                (self.stops.is_at(OUT, ms) && (place - self.place).abs() <= half).then_some(onto)
+                (self.stops.is_at(OUT, ms) && (place - self.place).abs() <= half + SAME).then_some(onto)
             }
         }
     }
@@ -101,10 +101,12 @@ impl Branch {
             // It has not gone over: there is no room.
             Kind::Diverter { .. } if self.meets(rider, place, ms) => Some(place),
             Kind::Pusher { half, .. } if !self.stops.is_at(IN, ms) => {
-                if (place - self.place).abs() <= half {
+                let edge = self.place + half;
+                if (place - self.place).abs() <= half + SAME {
                     Some(place)
                 } else {
-                    front_at(self.place + half)
+                    // Too late to stop before it, it goes on until its middle is there.
+                    front_at(edge).or_else(|| (place > edge).then_some(edge))
                 }
             }
             _ => None,
