@@ -125,3 +125,48 @@ fn arms_are_asked_at_the_grip_points() {
     assert_eq!(low_gripped, low);
     assert!(high.0 != low.0 && high.1 != low.1);
 }
+
+/// Fingers that hold a piece 300 ms after they begin to close report this 1 s later; the arm lifts it in between. Told of it,
+/// the arm lets go.
+#[test]
+fn fingers_hold_before_they_report_it() {
+    let device = "device cell {
+            part infeed = lane { from: origin * frame(0, 0, 0.7, 0); length: 1.0; width: 0.2; speed: 0.25; };
+            part feeder = source { on: infeed; inset: 0.3; };
+            part slide = axis {
+                from: origin * frame(0.3, 0, 1.25, 0); along: x; range: [0, 1.2]; speed: 1.0; acceleration: 4.0;
+            };
+            part lift = axis { on: slide; along: z; range: [-0.4, 0]; speed: 0.6; acceleration: 4.0; };
+            part robot = chain { on: lift; tool_length: 0.1; rest: origin * point(0.5, 0, 1.0); };
+            part hand = grip { on: robot; closes: 300 ms; opens: 300 ms; sure_after: 1 s; near: 0.01; };
+            in attached: bool = hand.holds;
+            out grip: bool = hand.close;
+            out run: bool = infeed.run;
+            out release: bool = feeder.release;
+            out goal: point unit \"m\";
+            command 1 move(goal) = robot.joints(goal);
+            constant pick_at: point unit \"m\" = origin * point(0.3, 0, 0.7 + kind_grasps[0]);
+        }
+        automaton Cell on cell {
+            initial -> Releasing { release := true; }
+            state Releasing { when after 1 s -> Moving { move(pick_at); } }
+            state Moving { when done -> Closing { grip := true; } }
+            state Closing { when after 500 ms -> Lifting { move(pick_at + up(0.2)); } }
+            state Lifting { when attached -> Lifted { grip := false; } }
+            state Lifted { when false -> Lifted {} }
+        }";
+    let scenario = r#"{"kinds": [{"name": "blank", "height": 0.05, "size": [0.05, 0.05]}],
+        "supply": {"items": ["blank"]}, "time_limit_s": 20}"#;
+    let texts = Texts {
+        layout: r#"{"robots": [{"name": "cell", "type": "cell", "pose": [0, 0, 0]}]}"#.into(),
+        specs: vec![device.into()],
+        scenario: Some(scenario.into()),
+        ..Texts::default()
+    };
+    let mut highest = 0.0_f64;
+    run(&texts, |seen| highest = highest.max(seen.plant.place(0).map_or(0.0, |place| place.z)));
+    assert!((highest - 0.9).abs() < 1e-6, "{highest}");
+    let (_, hangs) = hangs(&texts);
+    // The scan in which it is told, and that in which it obeys.
+    assert!((100..=102).contains(&hangs.len()), "{} scans", hangs.len());
+}

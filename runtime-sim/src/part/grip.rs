@@ -54,9 +54,10 @@ pub enum Kind {
         period_ms: u64,
         looks: u32,
     },
-    /// From the beginning until it is known that an item is held, and until they are open.
+    /// From the beginning until an item is held, and from then until it is reported; until they are open.
     Fingers {
         closes_ms: u64,
+        sure_ms: u64,
         opens_ms: u64,
     },
 }
@@ -73,7 +74,8 @@ impl Described for Grip {
                 Kind::Vacuum { period_ms, looks: looks as u32 }
             }
             (0, 3) => Kind::Fingers {
-                closes_ms: settings.milliseconds("closes")? + settings.milliseconds("sure_after")?,
+                closes_ms: settings.milliseconds("closes")?,
+                sure_ms: settings.milliseconds("sure_after")?,
                 opens_ms: settings.milliseconds("opens")?,
             },
             _ => return Err("a gripper has period and looks, or closes, opens and sure_after".into()),
@@ -105,7 +107,7 @@ pub struct Gripping {
     loses_at_ms: Option<u64>,
 }
 
-/// The item number `pick`, from 1, falls so long after it was attached.
+/// The item number `pick`, from 1, falls so long after it was attached, or with fingers, after that was reported.
 #[derive(Clone, Copy, Debug)]
 pub struct Slip {
     pub pick: u32,
@@ -140,6 +142,22 @@ impl Gripping {
             Kind::Fingers { opens_ms, .. } => opens_ms,
         };
         self.since.1 == Close::Off && (self.since.0 == 0 || self.now_ms >= self.since.0 + opens_ms)
+    }
+
+    /// How long after an item is held this is reported, ms.
+    fn sure_ms(&self) -> u64 {
+        match self.grip.kind {
+            Kind::Vacuum { .. } => 0,
+            Kind::Fingers { sure_ms, .. } => sure_ms,
+        }
+    }
+
+    fn reports(&self) -> bool {
+        let is_sure = match self.grip.kind {
+            Kind::Vacuum { .. } => true,
+            Kind::Fingers { closes_ms, sure_ms, .. } => self.now_ms >= self.since.0 + closes_ms + sure_ms,
+        };
+        self.held.is_some() && is_sure
     }
 
     fn lose(&mut self) -> Option<usize> {
@@ -211,19 +229,23 @@ impl Running for Gripping {
         self.held = Some(item);
         self.picks = self.picks.saturating_add(1);
         let slip = self.slips.iter().find(|slip| slip.pick == self.picks);
-        self.loses_at_ms = slip.map(|slip| next_ms + slip.after_ms);
+        self.loses_at_ms = slip.map(|slip| next_ms + self.sure_ms() + slip.after_ms);
         self.held
     }
 
-    /// It loses an item.
+    /// It loses an item, or its fingers hold one, report it or are open.
     fn next_change(&self, _see: &See, now_ms: u64) -> f64 {
         let loses = self.loses_at_ms.map_or(f64::INFINITY, |ms| ms as f64);
-        let Kind::Fingers { closes_ms, opens_ms } = self.grip.kind else { return loses };
+        let Kind::Fingers { closes_ms, sure_ms, opens_ms } = self.grip.kind else { return loses };
         if self.since.1 != self.close {
             return now_ms as f64;
         }
-        let ends_ms = self.since.0 + if self.close == Close::On { closes_ms } else { opens_ms };
-        if ends_ms > now_ms { loses.min(ends_ms as f64) } else { loses }
+        let times = match self.close {
+            Close::On => [closes_ms, closes_ms + sure_ms],
+            Close::Off => [opens_ms; 2],
+        };
+        let ends = times.into_iter().map(|ms| self.since.0 + ms).filter(|ms| *ms > now_ms);
+        ends.map(|ms| ms as f64).fold(loses, f64::min)
     }
 
     fn looks(&self) -> Option<Looks> {
@@ -234,7 +256,7 @@ impl Running for Gripping {
     }
 
     fn signal(&self, signal: usize, _see: &See, out: &mut [f64]) {
-        let shown = if signal == 0 { self.held.is_some() } else { self.is_open() };
+        let shown = if signal == 0 { self.reports() } else { self.is_open() };
         out[0] = f64::from(u8::from(shown));
     }
 
