@@ -221,6 +221,39 @@ fn turned(arc: f64, moves: &str) -> Texts {
     }
 }
 
+/// Three boxes, the second and the third without a gap. The first one stands over a joint, until its conveyor starts again
+/// after so many milliseconds: about when the others come up to it.
+fn with_stop(wait: u32) -> Texts {
+    let device = format!(
+        "device twin {{
+            part inlet = lane {{ from: origin; length: 1.0; width: 0.2; speed: 0.299; }};
+            part outlet = lane {{ from: origin * frame(1, 0, 0, 0); length: 1.0; width: 0.2; speed: 0.3; }};
+            part magazine = source {{ on: inlet; inset: 0.1; }};
+            part box = sink {{ of: outlet; inset: 0.1; }};
+            out run_inlet: bool = inlet.run stop false;
+            out run_outlet: bool = outlet.run stop false;
+            out release: bool = magazine.release stop false;
+        }}
+        automaton Twin on twin {{
+            initial -> First {{ run_inlet := true; run_outlet := true; release := true; }}
+            state First {{ when after 1 s -> Between {{ release := false; }} }}
+            state Between {{ when after 20 ms -> Second {{ release := true; }} }}
+            state Second {{ when after 20 ms -> Again {{ release := false; }} }}
+            state Again {{ when after 20 ms -> Third {{ release := true; }} }}
+            state Third {{ when after 2040 ms -> Standing {{ run_outlet := false; }} }}
+            state Standing {{ when after {wait} ms -> Going {{ run_outlet := true; }} }}
+            state Going {{ when false -> Going {{}} }}
+        }}"
+    );
+    let robots = r#"{"name": "twin", "type": "twin", "pose": [0, 0, 0]}"#;
+    let kinds = r#""kinds": [{"name": "box", "height": 0.1, "size": [0.1, 0.1]}]"#;
+    line(
+        &device,
+        robots,
+        &format!(r#"{{{kinds}, "supply": {{"items": ["box"], "times": 3}}, "time_limit_s": 6}}"#),
+    )
+}
+
 /// At the start of each scan the recorded paths are where the simulator has the items.
 #[test]
 fn recorded_paths_are_where_the_items_are() {
@@ -231,6 +264,8 @@ fn recorded_paths_are_where_the_items_are() {
         lines.extend([slides, turns].map(|moves| (format!("{arc} {moves}"), turned(arc, moves))));
     }
     lines.extend(scenes());
+    // What comes to rest within a scan may go on in the next one.
+    lines.extend((600..800).step_by(10).map(|wait| (format!("a stop, {wait} ms"), with_stop(wait))));
     for (name, texts) in lines {
         let outcome = texts.compile();
         let project = outcome.project.unwrap_or_else(|| panic!("{name}: {:?}", outcome.diagnostics));

@@ -22,6 +22,8 @@ pub struct Recorder {
     conveyed: Vec<Option<Conveyed>>,
     /// The items that were.
     on_lanes: Vec<usize>,
+    /// When they were checked.
+    looked_ms: f64,
     /// Events that were checked.
     read: usize,
     paths: Vec<Path>,
@@ -35,6 +37,7 @@ impl Recorder {
             trajectories: vec![Trajectory::Rests; line.machines.len()],
             conveyed: vec![None; items],
             on_lanes: Vec::new(),
+            looked_ms: 0.0,
             read: 0,
             paths: vec![Path::default(); items],
         }
@@ -43,6 +46,7 @@ impl Recorder {
     /// Takes note of what has changed, when the plant has obeyed the outputs of a scan and nothing has moved yet.
     pub(crate) fn look(&mut self, plant: &Plant) {
         let now_ms = plant.now_ms() as f64;
+        let passed_s = (now_ms - std::mem::replace(&mut self.looked_ms, now_ms)) / 1000.0;
         let handed_over = self.take_events(plant);
         let mut changed = handed_over.clone();
         for (machine, last) in self.trajectories.iter_mut().enumerate() {
@@ -58,11 +62,21 @@ impl Recorder {
         for &item in &self.on_lanes {
             let (conveyed, last) = (plant.conveyed(item), &mut self.conveyed[item]);
             let is_as_before = match (last.as_ref(), conveyed.as_ref()) {
-                (Some(last), Some(conveyed)) => last.goes_on_as(conveyed),
+                (Some(last), Some(conveyed)) => last.goes_on_as(conveyed, passed_s),
                 (last, conveyed) => last.is_none() && conveyed.is_none(),
             };
             if !is_as_before {
                 changed.push(item);
+            }
+            if let (false, Some(last), Some(conveyed)) = (is_as_before, last.as_ref(), conveyed)
+                && let Some(stood_s) = last.stood_after(&conveyed, passed_s)
+            {
+                let carrier = plant.items().all()[item].carrier;
+                let begin_ms = now_ms + 1000.0 * (stood_s - passed_s);
+                let path = &mut self.paths[item];
+                path.cut(begin_ms);
+                let law = Law::Rests(conveyed.point(0.0));
+                path.push(Segment { begin_ms, end_ms: now_ms, carrier, law });
             }
             *last = conveyed;
         }

@@ -24,6 +24,8 @@ pub struct Conveyed {
 
 /// Places that differ by less are the same, m.
 const SAME: f64 = 1e-9;
+/// What is rounded of a place from one event to the next one, m.
+const ROUNDED: f64 = 1e-8;
 
 /// In the world at the beginning; metres and radians a second, turns to the left about the vertical.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -127,8 +129,22 @@ impl Conveyed {
         pieces.map(|(begin, end)| (begin, end, self.after(begin))).collect()
     }
 
-    /// Whether what is decided of it is the same at two times: where it is may differ.
-    pub fn goes_on_as(&self, other: &Self) -> bool {
+    /// Whether the other one continues it after so many seconds: what is decided of it is the same, and it is where this one
+    /// comes to.
+    pub fn goes_on_as(&self, other: &Self, seconds: f64) -> bool {
+        let is_there = (self.place_after(seconds) - other.place).abs() <= ROUNDED;
+        is_there && self.is_decided_as(other)
+    }
+
+    /// The seconds after which it came to where the other one is after more, if it has stood there since.
+    pub fn stood_after(&self, other: &Self, seconds: f64) -> Option<f64> {
+        let is_on_the_same = (self.centre_line, self.across) == (other.centre_line, other.across);
+        let stands = is_on_the_same && self.carried.is_none() && self.speed > 0.0;
+        let stood_s = (self.place - other.place) / self.speed;
+        (stands && (0.0..seconds).contains(&stood_s)).then_some(stood_s)
+    }
+
+    fn is_decided_as(&self, other: &Self) -> bool {
         let law = |conveyed: &Self| {
             let carried = conveyed.carried.map(|carried| (carried.stroke, carried.rate, carried.until));
             (conveyed.speed, conveyed.stops_at, carried)
