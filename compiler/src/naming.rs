@@ -5,107 +5,21 @@ pub mod st;
 
 use std::collections::BTreeSet;
 
-/// Keywords of Rust, reserved ones included, the names of its prelude, and the traits that generated code derives or
-/// writes: an import of the same name would hide them, or count as used where only they are.
-const RUST: &[&str] = &[
-    "abstract",
-    "as",
-    "async",
-    "await",
-    "become",
-    "box",
-    "break",
-    "const",
-    "continue",
-    "crate",
-    "do",
-    "dyn",
-    "else",
-    "enum",
-    "extern",
-    "false",
-    "final",
-    "fn",
-    "for",
-    "gen",
-    "if",
-    "impl",
-    "in",
-    "let",
-    "loop",
-    "macro",
-    "match",
-    "mod",
-    "move",
-    "mut",
-    "override",
-    "priv",
-    "pub",
-    "ref",
-    "return",
-    "self",
-    "static",
-    "struct",
-    "super",
-    "trait",
-    "true",
-    "try",
-    "type",
-    "typeof",
-    "unsafe",
-    "unsized",
-    "use",
-    "virtual",
-    "where",
-    "while",
-    "yield",
-    "Self",
-    "Some",
-    "None",
-    "Ok",
-    "Err",
-    "Option",
-    "Result",
-    "Default",
-    "Into",
-    "From",
-    "TryFrom",
-    "TryInto",
-    "Copy",
-    "Clone",
-    "Send",
-    "Sync",
-    "Sized",
-    "Drop",
-    "Fn",
-    "FnMut",
-    "FnOnce",
-    "AsyncFn",
-    "AsyncFnMut",
-    "AsyncFnOnce",
-    "AsRef",
-    "AsMut",
-    "PartialEq",
-    "Eq",
-    "PartialOrd",
-    "Ord",
-    "Hash",
-    "Debug",
-    "Display",
-    "Iterator",
-    "IntoIterator",
-    "FromIterator",
-    "DoubleEndedIterator",
-    "ExactSizeIterator",
-    "Extend",
-    "Future",
-    "IntoFuture",
-    "Box",
-    "Vec",
-    "String",
-    "ToString",
-    "ToOwned",
+/// Keywords of Rust, reserved ones included.
+const KEYWORDS: &[&str] = &[
+    "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate", "do", "dyn",
+    "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let", "loop",
+    "macro", "match", "mod", "move", "mut", "override", "priv", "pub", "ref", "return", "self", "static",
+    "struct", "super", "trait", "true", "try", "type", "typeof", "unsafe", "unsized", "use", "virtual",
+    "where", "while", "yield", "Self",
 ];
+
+/// The names of the prelude of Rust, and the traits that generated code derives or writes: an import of the same name would
+/// hide them, or count as used where only they are.
+const PRELUDE: &str = "AsMut AsRef AsyncFn AsyncFnMut AsyncFnOnce Box Clone Copy Debug Default Display \
+    DoubleEndedIterator Drop Eq Err ExactSizeIterator Extend Fn FnMut FnOnce From FromIterator Future Hash Into \
+    IntoFuture IntoIterator Iterator None Ok Option Ord PartialEq PartialOrd Result Send Sized Some String Sync \
+    ToOwned ToString TryFrom TryInto Vec";
 
 /// What SDF itself or every written world calls something else.
 const SDF: &[&str] = &["world", "ground_plane", "sun"];
@@ -126,7 +40,8 @@ pub struct Scope {
 impl Scope {
     /// A scope of Rust in which generated code has these names itself.
     pub fn rust(reserved: &[&'static str]) -> Self {
-        Self::new(&[RUST, reserved].concat())
+        let prelude: Vec<&str> = PRELUDE.split_whitespace().collect();
+        Self::new(&[KEYWORDS, &prelude, reserved].concat())
     }
 
     /// A scope in which these names have another meaning.

@@ -1,9 +1,8 @@
 //! What a state reads: the ports, cells and timers that decide whether a guard holds.
 
-use crate::executor::Executor;
 use crate::ir::{
     Action, Automaton, Binder, ByHand, Clause, Domain, Expr, ExprKind, InterfaceId, Operator, Place,
-    Property, State, System, Update, UpdateKind, Value,
+    Property, State, Update, UpdateKind,
 };
 use runtime_sim::device::{Direction, Extent, PortType};
 use runtime_sim::line::ReadWhile;
@@ -284,20 +283,4 @@ pub fn is_fixed(automaton: &Automaton, expr: &Expr) -> bool {
         | ExprKind::ToReal(_) => expr.parts().into_iter().all(|part| is_fixed(automaton, part)),
         _ => false,
     }
-}
-
-/// Whether all elements exist that a fixed expression reads for an instance: those of an expression that is never evaluated,
-/// because a condition before it does not hold, may not.
-pub fn is_there(system: &System, instance: usize, expr: &Expr) -> bool {
-    let is_there = |expr: &Expr| is_there(system, instance, expr);
-    expr.parts().into_iter().all(is_there)
-        && match &expr.kind {
-            ExprKind::Define(define) => is_there(&system.automaton_of(instance).defines[*define].value),
-            ExprKind::Read(Place::Parameter { parameter, index: Some(index) }) => {
-                let values = &system.instances[instance].parameters[*parameter];
-                let index = Executor::new(system).value(instance, index);
-                matches!(index, Value::Int(index) if (0..values.len() as i32).contains(&index))
-            }
-            _ => true,
-        }
 }

@@ -37,7 +37,7 @@ use upright::Upright;
 use working::{Shared, Working};
 
 /// A time is not distinguished from one that is so much later.
-const EARLY_MS: f64 = 1e-6;
+pub(crate) const EARLY_MS: f64 = 1e-6;
 
 /// The state of the plant at the start of a scan.
 #[derive(Clone, Debug)]

@@ -57,7 +57,8 @@ pub trait Controllers {
     /// For each machine, which number of the trace is the time in its present state, ms.
     fn stays(&self) -> Vec<usize>;
 
-    /// So many scans pass without power; then [`Self::power_up`] follows. Only who counts scans has to know.
+    /// So many scans pass without power; then [`Self::power_up`] follows, unless the run ends. Only who counts scans has to
+    /// know.
     fn lose_power(&mut self, _scans: u64) {}
 
     /// Power was lost after the last scan, and is back before the next: retained values are kept, all others are the initial ones.

@@ -79,7 +79,7 @@ impl Scan<'_> {
         let model = self.model;
         let program = &model.instances[*instance];
         let Some(elapsed) = program.elapsed else { return false };
-        let scans = self.int(time).unsigned_abs().div_ceil(model.scan_ms) as i32;
+        let scans = self.int(time).max(0).unsigned_abs().div_ceil(model.scan_ms) as i32;
         let times = &program.states[program.state.load(self.bytes) as usize].times;
         let come = program.times_come.map_or(0, |come| come.load(self.bytes)) as usize;
         // The first test of a state is one scan after its entry.

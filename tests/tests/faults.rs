@@ -263,19 +263,20 @@ fn a_jam_and_a_pause_overlap() {
 }
 
 /// An item of 0.1 m appears after 2 s, its front 0.5 m before the beam, at 0.1 m/s.
+const BELT: &str = "part belt = lane { from: origin; length: 2.0; width: 0.2; speed: 0.1; };
+    part feed = source { on: belt; inset: 0.1; };
+    part eye = beam { across: belt; at: 0.65; };
+    in sees: bool = eye.sees;";
+const BOX: &str = r#""kinds": [{"name": "box", "height": 0.1}], "supply": {"items": ["box"]}"#;
+
 #[test]
 fn a_conveyor_that_jams_stands_with_its_items() {
-    let device = "part belt = lane { from: origin; length: 2.0; width: 0.2; speed: 0.1; };
-        part feed = source { on: belt; inset: 0.1; };
-        part eye = beam { across: belt; at: 0.65; };
-        in sees: bool = eye.sees;
-        in moves: bool = belt.moves;";
+    let device = format!("{BELT} in moves: bool = belt.moves;");
     let automaton = "initial -> Waiting {}
         state Waiting { when sees -> Seen {} when not moves -> Standing {} }
         state Standing { when sees -> Seen {} when moves -> Waiting {} }
         final state Seen;";
-    let supply = r#""kinds": [{"name": "box", "height": 0.1}], "supply": {"items": ["box"]}"#;
-    let seen = |faults: &str| entries(&line(device, automaton, &format!("{supply}, {faults}")));
+    let seen = |faults: &str| entries(&line(&device, automaton, &format!("{BOX}, {faults}")));
     let usual = seen(r#""faults": {}"#);
     assert_eq!(usual, [(0, 0), (20, 1), (7000, 3)]);
     let jammed = seen(&jams(&[r#""part": "belt", "at_s": 3, "for_s": 4"#]));
@@ -288,17 +289,12 @@ fn a_conveyor_that_jams_stands_with_its_items() {
 /// The scan at 3 s is executed, that at 7 s again; in between the level is off, which has no stop value.
 #[test]
 fn a_conveyor_without_power_stands_whatever_its_level_was() {
-    let device = "part belt = lane { from: origin; length: 2.0; width: 0.2; speed: 0.1; };
-        part feed = source { on: belt; inset: 0.1; };
-        part eye = beam { across: belt; at: 0.65; };
-        in sees: bool = eye.sees;
-        out run: bool = belt.run;";
+    let device = format!("{BELT} out run: bool = belt.run;");
     let automaton = "retain all;
         initial -> Waiting { run := true; }
         resume state Waiting { when sees -> Seen {} }
         final state Seen;";
-    let supply = r#""kinds": [{"name": "box", "height": 0.1}], "supply": {"items": ["box"]}"#;
-    let seen = |faults: &str| entries(&line(device, automaton, &format!("{supply}, {faults}")));
+    let seen = |faults: &str| entries(&line(&device, automaton, &format!("{BOX}, {faults}")));
     assert_eq!(seen(r#""faults": {}"#), [(0, 0), (20, 1), (7020, 2)]);
     let off = seen(r#""faults": {"power_offs": [{"at_s": 3, "for_s": 4}]}"#);
     assert_eq!(off.last(), Some(&(7020 + 3990, 2)));

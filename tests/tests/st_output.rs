@@ -10,7 +10,7 @@ use autogen_st_judge::dead::dead;
 use autogen_st_judge::view::Section;
 use autogen_st_judge::{judge, listed};
 use autogen_tests::instances::instantiate;
-use autogen_tests::{LAYOUTS, ariac, root, text};
+use autogen_tests::{LAYOUTS, Texts, ariac, root, text};
 use tree_sitter::{Node, Parser};
 
 /// Names and texts of the fixtures, which show one construct each.
@@ -114,6 +114,38 @@ fn a_robot_has_one_number_in_all_texts() {
         let text = &rust[&format!("controllers/src/robots/{ty}.rs")];
         assert!(text.contains(&format!("/// `{name}`: number {number} in the order of the steps")), "{text}");
     }
+}
+
+/// Tables name all rows. What refers to a row names all of them as long as there are few.
+#[test]
+fn what_refers_to_a_row_of_many_names_some() {
+    let spec = "device unit { part button = button {}; in pressed: bool = button.on; }
+        automaton Unit on unit {
+            knows others: Unit[];
+            shared free: bool := false;
+            local other: Unit;
+            initial -> Waiting {}
+            state Waiting { when pressed, first o in others with o.free -> Waiting { other := o; } when other.free { free := true; } }
+        }";
+    let main = |count: usize| {
+        let robot = |i| format!(r#"{{"name": "u{i}", "type": "unit", "pose": [{i}, 0, 0]}}"#);
+        let robots = (0..count).map(robot).collect::<Vec<_>>().join(", ");
+        let texts = Texts {
+            layout: format!(r#"{{"robots": [{robots}]}}"#),
+            specs: vec![spec.into()],
+            scenario: Some(r#"{"time_limit_s": 9}"#.into()),
+            ..Texts::default()
+        };
+        let outcome = texts.compile();
+        let found = autogen_tests::plain(&outcome.sources, &outcome.diagnostics);
+        let project = outcome.project.unwrap_or_else(|| panic!("{found}"));
+        files(&project.system, &outcome.sources).remove("portable/main.st").expect("a text")
+    };
+    let all = |count: usize| (0..count).map(|i| format!("{i} u{i}")).collect::<Vec<_>>().join(", ");
+    assert!(main(50).contains(&format!("other : DINT; (* {} *)", all(50))));
+    let many = main(51);
+    assert!(many.contains(&format!("unit_free : ARRAY[0..50] OF BOOL; (* {} *)", all(51))), "{many}");
+    assert!(many.contains("other : DINT; (* 0 u0, 1 u1, 2 u2, ... 50 u50 *)"), "{many}");
 }
 
 #[test]

@@ -30,6 +30,23 @@ impl Executor<'_> {
         }
     }
 
+    /// Whether all elements exist that a fixed expression reads for an instance: those of one that is never evaluated,
+    /// because a condition before it does not hold, may not.
+    pub fn can_evaluate(&mut self, robot: usize, expr: &Expr) -> bool {
+        expr.parts().into_iter().all(|part| self.can_evaluate(robot, part))
+            && match &expr.kind {
+                ExprKind::Define(define) => {
+                    let system = self.system;
+                    self.can_evaluate(robot, &system.automaton_of(robot).defines[*define].value)
+                }
+                ExprKind::Read(Place::Parameter { parameter, index: Some(index) }) => {
+                    let count = self.system.instances[robot].parameters[*parameter].len();
+                    usize::try_from(self.int(robot, index)).is_ok_and(|index| index < count)
+                }
+                _ => true,
+            }
+    }
+
     /// What an expression is for an instance, in its state of now.
     pub fn value(&mut self, robot: usize, expr: &Expr) -> Value {
         match &expr.kind {

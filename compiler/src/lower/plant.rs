@@ -287,9 +287,11 @@ fn states(
     instance: usize,
 ) -> Vec<line::State> {
     let states = of_type.automaton.states.iter().zip(&of_type.states);
-    let mut time = |time: &&Expr| match executor.value(instance, time) {
-        Value::Int(ms) => ms.max(0) as u32,
-        other => unreachable!("a checked time is {other:?}"),
+    let mut time = |time: &&Expr| {
+        executor.can_evaluate(instance, time).then(|| match executor.value(instance, time) {
+            Value::Int(ms) => ms.max(0) as u32,
+            other => unreachable!("a checked time is {other:?}"),
+        })
     };
     let state = |(state, of_state): (&State, &OfState)| line::State {
         name: state.name.clone(),
@@ -297,9 +299,7 @@ fn states(
         awaits: owners(system, arms, instance, &of_state.guards).into_iter().collect(),
         reads: of_state.reads.clone(),
         reads_while: of_state.reads_while.clone(),
-        timers: of_state.timers.as_ref().map(|times| {
-            times.iter().filter(|time| reads::is_there(system, instance, time)).map(&mut time).collect()
-        }),
+        timers: of_state.timers.as_ref().map(|times| times.iter().filter_map(&mut time).collect()),
     };
     states.map(state).collect()
 }

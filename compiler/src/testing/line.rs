@@ -13,9 +13,7 @@ pub struct Watched<'c> {
     controllers: &'c mut dyn Controllers,
     machines: usize,
     scan_ms: u64,
-    scan: Option<u64>,
-    /// Scans that were left out since, or had no power.
-    skipped: u64,
+    next_scan: u64,
     states: Vec<Option<usize>>,
     /// By machine and state, ms.
     first: BTreeMap<(usize, usize), u64>,
@@ -33,8 +31,7 @@ impl<'c> Watched<'c> {
             controllers,
             machines,
             scan_ms: system.scan_ms as u64,
-            scan: None,
-            skipped: 0,
+            next_scan: 0,
             states: vec![None; machines],
             first: BTreeMap::new(),
             history: vec![Vec::new(); machines],
@@ -44,8 +41,8 @@ impl<'c> Watched<'c> {
 
 impl Controllers for Watched<'_> {
     fn scan(&mut self, system: SystemInputs, inputs: &[Vec<f64>], outputs: &mut [Vec<f64>]) -> SystemOutputs {
-        let scan = self.scan.map_or(0, |scan| scan + 1) + std::mem::take(&mut self.skipped);
-        self.scan = Some(scan);
+        let scan = self.next_scan;
+        self.next_scan += 1;
         let answer = self.controllers.scan(system, inputs, outputs);
         let ms = scan * self.scan_ms;
         for machine in 0..self.machines {
@@ -64,7 +61,7 @@ impl Controllers for Watched<'_> {
     }
 
     fn lose_power(&mut self, scans: u64) {
-        self.skipped += scans;
+        self.next_scan += scans;
     }
 
     fn power_up(&mut self) {
@@ -84,7 +81,7 @@ impl Controllers for Watched<'_> {
     }
 
     fn skip(&mut self, scans: u64) {
-        self.skipped += scans;
+        self.next_scan += scans;
         self.controllers.skip(scans);
     }
 }

@@ -9,7 +9,7 @@ use crate::executor::Executor;
 use crate::ir::{
     self, Automaton, Expr, ExprKind, FaultId, InterfaceId, Place, RoleId, Scalar, System, UpdateKind, Value,
 };
-use crate::reads::{ReadCell, Reads, Whose, is_fixed, is_there};
+use crate::reads::{ReadCell, Reads, Whose, is_fixed};
 use autogen_search::plant::{Action, Machine, sight};
 use autogen_search::program::{
     After, Argument, Bounds, Cells, Clause, Command, Int, Key, Operator, State, Target, Transition, Unread,
@@ -184,12 +184,15 @@ impl<'a> Instance<'a> {
 
     /// In the test of which number in its state a time has passed.
     fn scans(&self, ms: i32) -> i32 {
-        ms.unsigned_abs().div_ceil(self.line.system.scan_ms.unsigned_abs()) as i32
+        ms.max(0).unsigned_abs().div_ceil(self.line.system.scan_ms.unsigned_abs()) as i32
     }
 
     fn fixed(&self, time: &Expr) -> Option<i32> {
-        let value = (is_fixed(self.automaton, time) && is_there(self.line.system, self.number, time))
-            .then(|| Executor::new(self.line.system).value(self.number, time))?;
+        if !is_fixed(self.automaton, time) {
+            return None;
+        }
+        let mut executor = Executor::new(self.line.system);
+        let value = executor.can_evaluate(self.number, time).then(|| executor.value(self.number, time))?;
         match value {
             Value::Int(ms) => Some(ms),
             _ => None,

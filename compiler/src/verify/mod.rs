@@ -15,6 +15,7 @@ mod situation;
 pub mod story;
 mod strokes;
 mod unread;
+mod unsearched;
 
 pub use asked::{Asked, Remembered, Warnings};
 pub use model::{Searched, model};

@@ -2,10 +2,11 @@
 
 use super::automaton::{Instance, Line, Vars};
 use super::memory::{Kept, Memory, kept};
-use super::plant::{Known, carries_hidden_items, hides_items, plant, several};
+use super::plant::{Known, carries_hidden_items, hides_items, plant};
 use super::properties::{can_stop, read_by, searched};
 use super::strokes::Changing;
 use super::unread::unread;
+use super::unsearched;
 use super::{Asked, Remembered, Skipped};
 use crate::diagnostic::Diagnostic;
 use crate::ir::{
@@ -17,10 +18,7 @@ use autogen_search::model::{Model, NO_CELL, Reach, Reductions};
 use autogen_search::plant::{Order, Watch};
 use autogen_search::unread::Unread;
 use runtime_sim::device::{Direction, PortType};
-use runtime_sim::kinematics::facing::Facing;
-use runtime_sim::machine::Machine;
 use runtime_sim::point::Point;
-use runtime_sim::wiring::Command;
 use std::sync::Arc;
 
 /// A line as it is searched.
@@ -33,11 +31,8 @@ pub struct Searched {
 /// A line as it is searched; or why it cannot be.
 pub fn model(project: &Project, asked: &Asked) -> Result<Searched, Vec<Diagnostic>> {
     let Project { system, plant: line, .. } = project;
-    let unknown = (0..system.instances.len()).filter(|number| works_sideways(&line.machines[*number]));
-    let unknown = unknown.map(|number| sideways(system, number));
-    let refused = |(number, machine)| Some(unsearched(system, number, &several(machine)?));
-    let refused = line.machines.iter().enumerate().filter_map(refused);
-    let unknown: Vec<Diagnostic> = unknown.chain(refused).collect();
+    let machines = line.machines.iter().enumerate();
+    let unknown: Vec<_> = machines.flat_map(|of| unsearched::machine(system, of)).collect();
     if !unknown.is_empty() {
         return Err(unknown);
     }
@@ -156,7 +151,10 @@ pub fn model(project: &Project, asked: &Asked) -> Result<Searched, Vec<Diagnosti
     });
     let instances: Vec<_> = instances.collect();
     if !refused.is_empty() {
-        return Err(refused.into_iter().map(|(number, port)| unbounded(system, number, &port)).collect());
+        return Err(refused
+            .into_iter()
+            .map(|(number, port)| unsearched::unbounded(system, number, &port))
+            .collect());
     }
     memory.end();
     let columns = columns(&whole, memory.initial.len());
@@ -223,41 +221,6 @@ fn sensed(system: &System) -> Vec<bool> {
         }
     }
     sensed
-}
-
-fn works_sideways(machine: &Machine) -> bool {
-    let is_facing = |command: &Command| {
-        let schema = machine.parts[command.part].schema();
-        (schema.name, schema.actions[command.action].name) == ("chain", "facing")
-    };
-    machine.wiring.commands.iter().any(is_facing)
-        || machine.places().any(|place| place.facing != Facing::Down)
-}
-
-fn sideways(system: &System, number: usize) -> Diagnostic {
-    let name = &system.instances[number].name;
-    let message = format!("`{name}` cannot be searched: a tool comes from the side");
-    Diagnostic::new("E1001", system.automaton_of(number).place, message)
-        .help("verify lines whose tools point down")
-}
-
-/// `several`: parts of which one alone can be searched.
-fn unsearched(system: &System, number: usize, several: &str) -> Diagnostic {
-    let name = &system.instances[number].name;
-    let message = format!("`{name}` cannot be searched: it has {several}");
-    Diagnostic::new("E1001", system.automaton_of(number).place, message)
-        .help("verify lines whose machines have one of each, or make two machines of it")
-}
-
-fn unbounded(system: &System, number: usize, port: &str) -> Diagnostic {
-    let automaton = system.automaton_of(number);
-    let name = &system.instances[number].name;
-    Diagnostic::new(
-        "E1001",
-        automaton.place,
-        format!("`{name}` cannot be searched: no contract says which values its input `{port}` may have"),
-    )
-    .help("verify lines whose automata read booleans, whole numbers of few values, and places that commands fix")
 }
 
 fn reads_error(automaton: &Automaton, asked: &Asked) -> bool {

@@ -275,25 +275,8 @@ pub fn plant(
     Plant { inputs: signals.collect(), machine: found, outputs: levels }
 }
 
-fn is_commanded(machine: &Machine, part: usize) -> bool {
+pub fn is_commanded(machine: &Machine, part: usize) -> bool {
     machine.wiring.commands.iter().any(|command| command.part == part)
-}
-
-/// Parts of a machine of which one alone can be searched, if it has several.
-pub fn several(machine: &Machine) -> Option<String> {
-    let named = |is_one: &dyn Fn(usize, &Primitive) -> bool| -> Vec<&str> {
-        let parts = machine.parts.iter().enumerate();
-        parts
-            .filter(|(number, part)| is_one(*number, &part.primitive))
-            .map(|(_, part)| &part.name[..])
-            .collect()
-    };
-    let lanes = named(&|number, part| matches!(part, Primitive::Lane(_)) && is_commanded(machine, number));
-    let grips = named(&|_, part| matches!(part, Primitive::Grip(_)));
-    let desks = named(&|_, part| matches!(part, Primitive::Orders(_)));
-    let kinds = [("conveyors with commands", lanes), ("grippers", grips), ("terminals of orders", desks)];
-    let found = kinds.into_iter().find(|(_, names)| names.len() > 1);
-    found.map(|(what, names)| format!("several {what}: {}", names.join(", ")))
 }
 
 /// Whether items may be somewhere that is not searched: on a conveyor without commands, or at such a place.

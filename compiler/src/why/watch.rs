@@ -30,8 +30,7 @@ pub struct Watch<'a> {
     pub(super) fault: Option<Stopped>,
     /// After this scan the picture is taken.
     at: u64,
-    /// The last scan that was executed or left out, or had no power.
-    scan: Option<u64>,
+    next_scan: u64,
     picture: Option<Picture>,
     later: Option<Later>,
 }
@@ -42,7 +41,7 @@ impl<'a> Watch<'a> {
         let mut executor = Executor::new(system);
         executor.keep_journal();
         let last = HashMap::new();
-        Self { system, executor, last, fault: None, at, scan: None, picture: None, later: None }
+        Self { system, executor, last, fault: None, at, next_scan: 0, picture: None, later: None }
     }
 
     /// Also looks on, until each of these machines has left the state in which it is then.
@@ -60,7 +59,7 @@ impl<'a> Watch<'a> {
     pub fn finish(mut self, scans: u64) -> (Picture, Option<Later>) {
         let picture = self.picture.take().unwrap_or_else(|| {
             let end = self.at.min(scans.saturating_sub(1));
-            let passed = end.saturating_sub(self.scan.unwrap_or(0));
+            let passed = (end + 1).saturating_sub(self.next_scan);
             self.executor.skip(passed);
             guard::picture(&mut self, end)
         });
@@ -76,8 +75,9 @@ impl<'a> Watch<'a> {
         self.ms(self.at)
     }
 
-    fn next_scan(&self) -> u64 {
-        self.scan.map_or(0, |scan| scan + 1)
+    /// So many scans more, before the end of which it may have to look.
+    fn passes_its_time(&self, scans: u64) -> bool {
+        self.picture.is_none() && self.next_scan + scans > self.at
     }
 
     fn look(&mut self, scan: u64) {
@@ -92,9 +92,9 @@ impl<'a> Watch<'a> {
 
 impl Controllers for Watch<'_> {
     fn scan(&mut self, system: SystemInputs, inputs: &[Vec<f64>], outputs: &mut [Vec<f64>]) -> SystemOutputs {
-        let scan = self.next_scan();
+        let scan = self.next_scan;
         let answer = self.executor.scan(system, inputs, outputs);
-        self.scan = Some(scan);
+        self.next_scan += 1;
         let stopped = (answer.fault && self.fault.is_none()).then(|| Stopped {
             site: FaultId((answer.fault_code - 1) as usize),
             robot: answer.fault_robot as usize,
@@ -119,11 +119,10 @@ impl Controllers for Watch<'_> {
     }
 
     fn lose_power(&mut self, scans: u64) {
-        let next = self.next_scan();
-        if self.picture.is_none() && next + scans > self.at {
+        if self.passes_its_time(scans) {
             self.look(self.at);
         }
-        self.scan = (next + scans).checked_sub(1);
+        self.next_scan += scans;
     }
 
     fn power_up(&mut self) {
@@ -143,15 +142,14 @@ impl Controllers for Watch<'_> {
     }
 
     fn skip(&mut self, scans: u64) {
-        let next = self.next_scan();
         let mut left = scans;
-        if self.picture.is_none() && next + scans > self.at {
-            let first = (self.at + 1).saturating_sub(next);
+        if self.passes_its_time(scans) {
+            let first = (self.at + 1).saturating_sub(self.next_scan);
             self.executor.skip(first);
             self.look(self.at);
             left -= first;
         }
         self.executor.skip(left);
-        self.scan = (next + scans).checked_sub(1);
+        self.next_scan += scans;
     }
 }

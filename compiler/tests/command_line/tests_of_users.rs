@@ -169,14 +169,21 @@ fn the_compiled_controllers_and_the_text_pass_the_same_tests() {
     assert!(said(&output).contains("12 passed, 0 failed\n"), "{}", said(&output));
 }
 
+/// What the executor and the Structured Text say of the run of a small line.
+fn run_of(name: &str, spec: &str, robots: &str, scenario: &str, expected: &str) -> Output {
+    let folder = folder(name);
+    let write = |name: &str, text: &str| fs::write(folder.join(name), text).expect("a file");
+    write("types.aut", spec);
+    write("line.json", &format!(r#"{{"specs": "types.aut", "scenario": "run.json", "robots": [{robots}]}}"#));
+    write("run.json", scenario);
+    write("line.test", &format!("layout \"line.json\"; test \"run\" {{ {expected} }}"));
+    autogen(&folder, &["test", "line.test", "--on", "executor,st"])
+}
+
 /// Who waits has the same times on all engines, also over a loss of power.
 #[test]
 fn a_loss_of_power_has_the_same_times_on_all_engines() {
-    let folder = folder("test_power_times");
-    let write = |name: &str, text: &str| fs::write(folder.join(name), text).expect("a file");
-    write(
-        "unit.aut",
-        "device unit {
+    let spec = "device unit {
             part button = button {};
             part light = lamp { at: pose; colour: red; };
             in pressed: bool = button.on;
@@ -187,15 +194,10 @@ fn a_loss_of_power_has_the_same_times_on_all_engines() {
             initial -> Off {}
             resume state Off { when after 20 s -> On { on := true; } }
             state On { when pressed -> Off { on := false; } }
-        }",
-    );
-    write(
-        "line.json",
-        r#"{"specs": "unit.aut", "scenario": "off.json", "robots": [{"name": "unit", "type": "unit", "pose": [0, 0, 0]}]}"#,
-    );
-    write("off.json", r#"{"time_limit_s": 60, "faults": {"power_offs": [{"at_s": 5, "for_s": 20}]}}"#);
-    write("line.test", "layout \"line.json\"; test \"times\" { expect unit in On before 45 s; }");
-    let output = autogen(&folder, &["test", "line.test", "--on", "executor,st"]);
+        }";
+    let robots = r#"{"name": "unit", "type": "unit", "pose": [0, 0, 0]}"#;
+    let off = r#"{"time_limit_s": 60, "faults": {"power_offs": [{"at_s": 5, "for_s": 20}]}}"#;
+    let output = run_of("test_power_times", spec, robots, off, "expect unit in On before 45 s;");
     let at_45 = said(&output).matches("+             at 45 s\n").count();
     assert_eq!((status(&output), at_45), (3, 2), "{}{}", said(&output), errors(&output));
 }
@@ -203,11 +205,7 @@ fn a_loss_of_power_has_the_same_times_on_all_engines() {
 /// Two belts that wait for one another stand still on all engines, although times in states go on.
 #[test]
 fn a_deadlock_is_found_on_all_engines() {
-    let folder = folder("test_deadlock");
-    let write = |name: &str, text: &str| fs::write(folder.join(name), text).expect("a file");
-    write(
-        "feeder.aut",
-        "device feeder {
+    let spec = "device feeder {
             part belt = lane { from: origin * frame(0, 0, 0.8, 0); length: 1.0; width: 0.12; speed: 0.3; };
             part magazine = source { on: belt; inset: 0.1; };
             part box = sink { of: belt; inset: 0.1; };
@@ -218,23 +216,14 @@ fn a_deadlock_is_found_on_all_engines() {
             shared go: bool := false;
             initial state Wait { when exists o in others: o.go -> Run { run := true; go := true; } }
             state Run { when false -> Run {} }
-        }",
-    );
+        }";
     let robot =
         |name: &str, y: u32| format!(r#"{{"name": "{name}", "type": "feeder", "pose": [0, {y}, 0]}}"#);
     let robots = [robot("a", 0), robot("b", 2)].join(", ");
-    write(
-        "line.json",
-        &format!(r#"{{"specs": "feeder.aut", "scenario": "one.json", "robots": [{robots}]}}"#),
-    );
-    write(
-        "one.json",
-        r#"{"kinds": [{"name": "box", "height": 0.1}], "supply": {"items": {"a": ["box"], "b": ["box"]}},
-            "goal": {"a.box": {"box": 1}}, "time_limit_s": 300}"#,
-    );
+    let one = r#"{"kinds": [{"name": "box", "height": 0.1}], "supply": {"items": {"a": ["box"], "b": ["box"]}},
+        "goal": {"a.box": {"box": 1}}, "time_limit_s": 300}"#;
     let expected = "expect reason \"deadlock\"; expect simulated < 150;";
-    write("line.test", &format!("layout \"line.json\"; test \"they wait\" {{ {expected} }}"));
-    let output = autogen(&folder, &["test", "line.test", "--on", "executor,st"]);
+    let output = run_of("test_deadlock", spec, &robots, one, expected);
     assert_eq!(status(&output), 0, "{}{}", said(&output), errors(&output));
 }
 

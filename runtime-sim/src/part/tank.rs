@@ -3,6 +3,7 @@
 use super::settings::{Form, Setting, Settings};
 use super::{Described, Level, Progress, Running, Schema, See, Signal, Start, World};
 use crate::device::{Extent, PortType};
+use crate::plant::EARLY_MS;
 
 pub const SCHEMA: Schema = Schema {
     signals: &[
@@ -63,9 +64,6 @@ impl Described for Tank {
 const FILL: usize = 0;
 const DRAIN: usize = 1;
 
-/// Times no farther apart are one, ms.
-const AT_ONCE: f64 = 1e-6;
-
 /// A tank at work.
 #[derive(Clone, Debug)]
 pub struct Filling {
@@ -118,7 +116,7 @@ impl Filling {
     fn ends_after(&self, ms: u64) -> f64 {
         let left = (self.end() - self.level).abs();
         let ends_ms = self.since_ms as f64 + 1000.0 * left / self.rate.abs();
-        if ends_ms > ms as f64 + AT_ONCE { ends_ms } else { f64::INFINITY }
+        if ends_ms > ms as f64 + EARLY_MS { ends_ms } else { f64::INFINITY }
     }
 }
 
@@ -200,7 +198,7 @@ mod tests {
             while !has_ended(filling.level_at(filling.now_ms)) {
                 assert!(filling.flows() && next_ms.is_finite(), "{tank:?} at {} ms", filling.now_ms);
                 filling.now_ms += 10;
-                if next_ms - AT_ONCE <= filling.now_ms as f64 {
+                if next_ms - EARLY_MS <= filling.now_ms as f64 {
                     next_ms = filling.ends_after(filling.now_ms);
                 } else {
                     assert!(!has_ended(filling.level_at(filling.now_ms)), "{tank:?}: {next_ms} ms");

@@ -136,7 +136,7 @@ impl Conveyed {
         is_there && self.is_decided_as(other)
     }
 
-    /// The seconds after which it came to where the other one is after more, if it has stood there since.
+    /// When it came to where the other one is after so many seconds, if it has stood there since; in seconds from now.
     pub fn stood_after(&self, other: &Self, seconds: f64) -> Option<f64> {
         let is_on_the_same = (self.centre_line, self.across) == (other.centre_line, other.across);
         let stands = is_on_the_same && self.carried.is_none() && self.speed > 0.0;

@@ -52,9 +52,10 @@ pub fn terminals(system: &System, names: &Names) -> impl Iterator<Item = Termina
                     let mut terminal = terminal(&instance.name, port, part, variable, element);
                     if port.extent == Extent::PerKind {
                         let kind = &system.model.enums[KIND.0].members[element.unwrap_or(0)];
-                        let meaning = std::mem::take(&mut terminal.point.meaning);
-                        let said = [kind.as_str(), &meaning].into_iter().filter(|text| !text.is_empty());
-                        terminal.point.meaning = said.collect::<Vec<_>>().join(": ");
+                        terminal.point.meaning = match terminal.point.meaning.as_str() {
+                            "" => kind.clone(),
+                            meaning => format!("{kind}: {meaning}"),
+                        };
                     }
                     terminals.push(terminal);
                 }

@@ -121,8 +121,7 @@ fn run(
             .iter()
             .map(|i| common.contains(&format!("{}, in state", i.name)))
             .collect(),
-        scan: None,
-        skipped: 0,
+        next_scan: 0,
         states: vec![usize::MAX; project.system.instances.len()],
         to: Some(to),
     };
@@ -137,9 +136,7 @@ struct Side<'a> {
     executor: Executor<'a>,
     named: HashMap<Element, (&'a str, Scalar)>,
     machines: Vec<bool>,
-    scan: Option<u64>,
-    /// Scans that were left out since, or had no power.
-    skipped: u64,
+    next_scan: u64,
     states: Vec<usize>,
     /// None, once nobody asks any more.
     to: Option<SyncSender<Changes>>,
@@ -176,8 +173,8 @@ impl Side<'_> {
 
 impl Controllers for Side<'_> {
     fn scan(&mut self, system: SystemInputs, inputs: &[Vec<f64>], outputs: &mut [Vec<f64>]) -> SystemOutputs {
-        let scan = self.scan.map_or(0, |scan| scan + 1) + std::mem::take(&mut self.skipped);
-        self.scan = Some(scan);
+        let scan = self.next_scan;
+        self.next_scan += 1;
         let answer = self.executor.scan(system, inputs, outputs);
         match self.to {
             Some(_) => self.tell(scan),
@@ -187,7 +184,7 @@ impl Controllers for Side<'_> {
     }
 
     fn lose_power(&mut self, scans: u64) {
-        self.skipped += scans;
+        self.next_scan += scans;
     }
 
     fn power_up(&mut self) {
@@ -207,7 +204,7 @@ impl Controllers for Side<'_> {
     }
 
     fn skip(&mut self, scans: u64) {
-        self.skipped += scans;
+        self.next_scan += scans;
         self.executor.skip(scans);
     }
 }
